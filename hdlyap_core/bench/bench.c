@@ -1,0 +1,117 @@
+/** What a run costs: its four parts, and the whole as a ratio to the floor
+ *  F = 4 m n^2 flops at dgemm speed per ln(1e8) / (lambda_1 - lambda_n) of simulated time,
+ *  all measured in one run on one machine. Usage: hdlyap_bench [time units averaged, default 20] */
+#define _POSIX_C_SOURCE 199309L
+#include <cblas.h>
+#include <hdlyap/hdlyap.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+static double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void require(hd_status status, const char *what)
+{
+    if (status == HD_OK) return;
+    fprintf(stderr, "hdlyap_bench: %s: %s\n", what, hd_status_text(status));
+    exit(3);
+}
+
+/** Flops per second of dgemm on the shapes of the Gram matrix; median of five. */
+static double dgemm_rate(int m, int n)
+{
+    enum { TRIES = 5 };
+    double rate[TRIES];
+    double *a = calloc((size_t)m * (size_t)n, sizeof *a), *c = calloc((size_t)n * (size_t)n, sizeof *c);
+    if (!a || !c) exit(3);
+    for (size_t k = 0; k < (size_t)m * (size_t)n; k++) a[k] = 1.0 / (double)(k % 97 + 1);
+    for (int k = -1; k < TRIES; k++) { /* one to warm up */
+        const double start = seconds();
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n, n, m, 1.0, a, n, a, n, 0.0, c, n);
+        if (k >= 0) rate[k] = 2.0 * m * n * (double)n / (seconds() - start);
+    }
+    free(a);
+    free(c);
+    for (int k = 0; k < TRIES; k++)
+        for (int l = k + 1; l < TRIES; l++)
+            if (rate[l] < rate[k]) {
+                const double swap = rate[k];
+                rate[k] = rate[l];
+                rate[l] = swap;
+            }
+    return rate[TRIES / 2];
+}
+
+static void whole_run(double duration)
+{
+    hd_scene_def scene = hd_scene_def_default();
+    scene.equilibration = 20.0;
+    scene.warmup = 10.0;
+    scene.duration = duration;
+    hd_run *run;
+    require(hd_run_create(&run, &scene, NULL, 0), "780 disks");
+    while (hd_run_phase(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
+    const hd_cost before = hd_run_cost(run);
+    while (hd_run_phase(run) != HD_FINISHED) {
+        require(hd_run_step(run), "averaging");
+        fprintf(stderr, "\r%3.0f %%", 100.0 * hd_run_cost(run).progress);
+    }
+    const hd_cost after = hd_run_cost(run);
+    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    const int m = 4 * scene.disks, n = hd_run_vectors(run);
+    const double rate = dgemm_rate(m, n);
+    const double spread = hd_spectrum_exponent(spectrum, 0) - hd_spectrum_exponent(spectrum, n - 1);
+    const double floor = 4.0 * m * n * (double)n / rate * spread / log(1e8);
+    const double w = (after.wall - before.wall) / duration;
+    const double events = (after.events - before.events) / duration;
+    const double replay = (after.replay - before.replay) / duration;
+    const double ortho = (after.ortho - before.ortho) / duration;
+    printf("\r%d disks, %d vectors, %d threads, %s kernels, dgemm %.1f GF/s\n", scene.disks, n,
+           hd_run_threads(run), hd_blas_query().kernel, rate * 1e-9);
+    printf("seconds per time unit: whole run W %.4f = events %.4f + replay %.4f + factorisation %.4f + "
+           "rest %.4f\n", w, events, replay, ortho, w - events - replay - ortho);
+    printf("floor F %.4f   W/F %.2f   interval %.3g   condition %.2g   second passes %ld   repairs %ld\n",
+           floor, w / floor, after.interval, after.condition,
+           after.second_passes - before.second_passes, after.repairs - before.repairs);
+    hd_run_free(run);
+}
+
+static void events_alone(int disks, double density, double collisions)
+{
+    hd_scene_def scene = hd_scene_def_default();
+    scene.disks = disks;
+    scene.density = density;
+    scene.aspect = 1.0;
+    hd_trajectory *trajectory;
+    require(hd_trajectory_create(&trajectory, &scene), "trajectory");
+    const double length = collisions / hd_trajectory_collision_rate(trajectory);
+    require(hd_trajectory_advance(trajectory, NULL, length), "trajectory"); /* away from the lattice */
+    const double first = (double)hd_trajectory_collisions(trajectory), start = seconds();
+    require(hd_trajectory_advance(trajectory, NULL, 2.0 * length), "trajectory");
+    const double count = (double)hd_trajectory_collisions(trajectory) - first;
+    printf("%9d %9.2f %12.0f %22.2f\n", disks, density, count, count / (seconds() - start) * 1e-6);
+    hd_trajectory_free(trajectory);
+}
+
+int main(int argc, char **argv)
+{
+    hd_blas_restart_if_slow(argv);
+    const double duration = argc > 1 ? atof(argv[1]) : 20.0;
+    if (!(duration > 0 && duration < 1e6)) {
+        fprintf(stderr, "hdlyap_bench: time units = %s: must be above 0, below 1e6\n", argv[1]);
+        return 2;
+    }
+    whole_run(duration);
+    printf("\nEvents alone, one core:\n%9s %9s %12s %22s\n", "disks", "density", "collisions",
+           "million collisions / s");
+    events_alone(780, 0.7, 1e6);
+    events_alone(100000, 0.7, 1e6);
+    events_alone(780, 0.01, 1e5);
+    return 0;
+}

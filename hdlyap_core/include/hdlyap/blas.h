@@ -1,0 +1,34 @@
+/** Which linear algebra runs underneath, and whether it fits the processor. */
+#ifndef HDLYAP_BLAS_H
+#define HDLYAP_BLAS_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct hd_blas {
+    const char *library; /**< as it describes itself, e.g. "OpenBLAS 0.3.21 ..." */
+    const char *kernel;  /**< e.g. "SkylakeX" */
+    const char *threading; /**< "serial", "pthread" or "openmp" */
+    int threads;         /**< in use by it now */
+    int cores;           /**< processors this process may run on */
+} hd_blas;
+
+hd_blas hd_blas_query(void);
+
+/** The OPENBLAS_CORETYPE that a processor with these features wants instead of `kernel`,
+ *  or NULL if the kernel in use is as good as this program knows. Pure. */
+const char *hd_blas_better_kernel(const char *kernel, int has_avx2_fma, int has_avx512);
+
+/** Call first in main: where the library fell back to kernels older than the processor, or its idle
+ *  threads would spin against ours, starts this program once more with OPENBLAS_CORETYPE
+ *  (OMP_WAIT_POLICY) set. A value that the user has set is never changed. Returns when nothing is to
+ *  be done, or after a restart. Linux; elsewhere it does nothing. */
+void hd_blas_restart_if_slow(char **argv);
+
+void hd_blas_use_threads(int threads);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

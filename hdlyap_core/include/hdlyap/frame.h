@@ -1,0 +1,40 @@
+/** The tangent frame: 4N x n vectors, carried along by replaying an event log [T1]-[T4]. */
+#ifndef HDLYAP_FRAME_H
+#define HDLYAP_FRAME_H
+
+#include "hdlyap/trajectory.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Rows 4i .. 4i+3 are dq_x, dq_y, dp_x, dp_y of disk i; row-major with leading dimension
+ *  hd_frame_stride >= n, rows aligned to 64 bytes, columns beyond n zero. */
+typedef struct hd_frame hd_frame;
+
+/** vectors: 1 .. 4 disks. Random entries from the seed; orthonormalise before use. */
+HD_MUST_CHECK hd_status hd_frame_create(hd_frame **out, int disks, int vectors, uint64_t seed,
+                                        int threads);
+void hd_frame_free(hd_frame *frame);
+
+int hd_frame_rows(const hd_frame *frame);    /**< 4N */
+int hd_frame_vectors(const hd_frame *frame); /**< n */
+int hd_frame_stride(const hd_frame *frame);  /**< doubles from one row to the next */
+double *hd_frame_data(hd_frame *frame);      /**< current vectors; valid until the next replay */
+
+/** Carries the vectors from t_begin to t_end (times as in the log) through the logged events with
+ *  t_begin <= t < t_end, and keeps the vectors of t_begin for hd_frame_rewind. All cores; a block of
+ *  columns stays in cache. t_end = log->duration includes events at that very time.
+ *  HD_NO_MEMORY if the room for the maps could not grow. Cost about 40 n flops and 128 n bytes of cache traffic per pair event. */
+HD_MUST_CHECK hd_status hd_frame_replay(hd_frame *frame, const hd_event_log *log, double t_begin, double t_end);
+
+/** Undoes the last replay (once). */
+void hd_frame_rewind(hd_frame *frame);
+
+/** Per column: cosine of the angle between its dp and dq halves, and |dp| / |dq|; [n] each. */
+void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_ratio);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

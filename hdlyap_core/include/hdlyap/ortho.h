@@ -1,0 +1,44 @@
+/** V = Q R with diag(R) > 0, by Cholesky of the Gram matrix (BLAS-3), watched for its conditioning. */
+#ifndef HDLYAP_ORTHO_H
+#define HDLYAP_ORTHO_H
+
+#include "hdlyap/frame.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct hd_ortho hd_ortho;
+
+HD_MUST_CHECK hd_status hd_ortho_create(hd_ortho **out, int rows, int vectors);
+void hd_ortho_free(hd_ortho *ortho);
+
+/** What a step may accept. */
+typedef struct hd_ortho_limits {
+    double condition; /**< largest hd_ortho_condition, > 1 */
+    double defect;    /**< above this predicted loss of orthogonality a second pass is made, > 0 */
+} hd_ortho_limits;
+
+/** Replaces the frame's vectors by Q; ln diag R is then in hd_ortho_log_stretch. Spans and the sum of
+ *  logarithms are right to rounding whatever the defect of Q: it cancels with the next step's [T5].
+ *  HD_ILL_CONDITIONED (frame's contents undefined: rewind it) when the condition is above the limit, the
+ *  Gram matrix is numerically not positive definite, or an entry overflowed.
+ *  Cost per pass: 2 m n^2 + 2 n^3 / 3 flops. */
+HD_MUST_CHECK hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits);
+
+const double *hd_ortho_log_stretch(const hd_ortho *ortho); /**< [n], of the last step */
+/** max over l of sqrt(sum_k (R^-1)_kl^2 |V e_k|^2) >= 1: how much the rounding of V (relative to its
+ *  columns) is amplified in column l of Q. Rounding enters an exponent as eps * condition / interval
+ *  and the orthogonality of Q as eps * condition^2 [T6] [T7]. Of the last step's first pass. */
+double hd_ortho_condition(const hd_ortho *ortho);
+/** Predicted |Q^T Q - 1| after the last step [T7]. */
+double hd_ortho_defect(const hd_ortho *ortho);
+int hd_ortho_passes(const hd_ortho *ortho); /**< of the last step */
+
+/** Measured max |Q^T Q - 1|; costs a dsyrk. For tests and verification. */
+double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

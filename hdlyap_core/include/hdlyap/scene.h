@@ -1,0 +1,55 @@
+/** What is asked for: the box, the disks and how accurately the exponents are wanted.
+ *  Reduced units throughout: disk mass 1, diameter sigma = 1, kinetic energy per disk 1. */
+#ifndef HDLYAP_SCENE_H
+#define HDLYAP_SCENE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "hdlyap/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum hd_boundary { HD_PERIODIC, HD_REFLECTING } hd_boundary;
+
+/** Values of hd_scene_def.exponents that are not a plain number. */
+enum { HD_EXPONENTS_NONE = 0, HD_EXPONENTS_POSITIVE = -1, HD_EXPONENTS_ALL = -2 };
+
+typedef struct hd_scene_def {
+    int disks;               /**< N, 2 .. 1000000 */
+    double density;          /**< N sigma^2 / (Lx Ly), > 0, up to what the start lattice can hold */
+    double aspect;           /**< Ly / Lx, > 0 */
+    hd_boundary boundary[2]; /**< of x and y */
+    uint64_t seed;           /**< of positions, momenta and the first frame */
+    int exponents;           /**< number of leading ones, 1 .. 4N, or one of HD_EXPONENTS_* */
+    double equilibration;    /**< time units of trajectory alone, >= 0 */
+    double warmup;           /**< time units with the frame, before averaging, >= 0 */
+    double duration;         /**< time units averaged, >= 0; 0 = until stopped */
+    double target_std_error; /**< stop when the smallest exponents carried are known so well; 0 = off */
+    double interval;         /**< upper limit of the time between orthonormalisations; 0 = automatic */
+    double accuracy;         /**< largest tolerated deviation of an exponent, 1e-12 .. 1e-2 */
+    double report_interval;  /**< simulated time between reports, > 0 */
+    int threads;             /**< 0 = as many as the machine has and the work is worth */
+} hd_scene_def;
+
+/** The paper's periodic scene: 780 disks, density 0.8, aspect 0.867. */
+hd_scene_def hd_scene_def_default(void);
+
+/** HD_OK, or HD_REFUSED with one line in message: the parameter, its value, what is allowed. */
+HD_MUST_CHECK hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size);
+
+/** Box edges [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx. */
+void hd_scene_box(const hd_scene_def *def, double box[2]);
+
+/** Number of vanishing exponents: 6, 4 or 2 for both, one or no direction periodic. */
+int hd_scene_zero_exponents(const hd_scene_def *def);
+
+/** Number of tangent vectors carried, 0 .. 4N (the positive half is (4N - Z) / 2). */
+int hd_scene_vectors(const hd_scene_def *def);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,44 @@
+/** Outcome of every core call that can fail because of data, numbers or the machine.
+ *  Bugs of the caller are not statuses: they hit HD_ASSERT (see hd_assert_handler_replace). */
+#ifndef HDLYAP_STATUS_H
+#define HDLYAP_STATUS_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** name, text */
+#define HD_STATUS_LIST(X)                                                                          \
+    X(HD_OK, "ok")                                                                                 \
+    X(HD_REFUSED, "the scene was refused")                                                         \
+    X(HD_NO_MEMORY, "out of memory")                                                               \
+    X(HD_NOT_FINITE, "a result is not finite")                                                     \
+    X(HD_ILL_CONDITIONED, "the tangent frame became too ill-conditioned to be repaired")           \
+    X(HD_OVERLAP, "two disks overlap by more than rounding")                                       \
+    X(HD_FILE_FAULT, "a file could not be read or written")
+
+typedef enum hd_status {
+#define HD_STATUS_NAME(name, text) name,
+    HD_STATUS_LIST(HD_STATUS_NAME)
+#undef HD_STATUS_NAME
+} hd_status;
+
+#if defined(__GNUC__)
+#define HD_MUST_CHECK __attribute__((warn_unused_result))
+#else
+#define HD_MUST_CHECK
+#endif
+
+/** One line of English for a status; never NULL. */
+const char *hd_status_text(hd_status status);
+
+/** Called with the failed condition and its place when a caller breaks a contract. Must not return. */
+typedef void (*hd_assert_handler)(const char *condition, const char *file, int line);
+
+/** Replaces the handler (default: print to stderr and abort); NULL restores the default. */
+void hd_assert_handler_replace(hd_assert_handler handler);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

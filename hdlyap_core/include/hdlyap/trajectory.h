@@ -1,0 +1,72 @@
+/** The disks: exact event-driven motion, and the log of its events that everything else is built on. */
+#ifndef HDLYAP_TRAJECTORY_H
+#define HDLYAP_TRAJECTORY_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "hdlyap/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** hd_event.j of a wall event is HD_WALL_X or HD_WALL_Y (the direction of the wall's normal). */
+enum { HD_WALL_X = -1, HD_WALL_Y = -2 };
+
+/** One event; self-contained: with the disks' order in the log it fixes the tangent map [T3]. */
+typedef struct hd_event {
+    double t;    /**< since the start of the interval that was logged [time units] */
+    int32_t i;   /**< disk, 0-based; i < j for a pair */
+    int32_t j;   /**< other disk, or HD_WALL_* */
+    double n[2]; /**< unit vector from i to j at contact; for a wall its axis */
+    double p[2]; /**< p_j - p_i before the collision; for a wall the momentum before it */
+} hd_event;
+
+/** Events of one interval in their total order (t, kind, i, j). */
+typedef struct hd_event_log {
+    hd_event *event; /**< [count] */
+    size_t count, capacity;
+    double duration; /**< length of the interval [time units] */
+} hd_event_log;
+
+HD_MUST_CHECK hd_status hd_event_log_create(hd_event_log **out);
+void hd_event_log_free(hd_event_log *log);
+
+typedef struct hd_trajectory hd_trajectory;
+
+/** Lattice start, seeded momenta (zero total along periodic directions, kinetic energy N), time 0.
+ *  Fails with HD_REFUSED (message filled as by hd_scene_check) and HD_NO_MEMORY. Cost O(N log N). */
+HD_MUST_CHECK hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def);
+
+/** A prepared state: q[2N] inside the box (x0 y0 x1 y1 ..), p[2N]; nothing is rescaled.
+ *  HD_REFUSED for values not finite or outside the box, HD_OVERLAP for disks deeper than 1e-9. */
+HD_MUST_CHECK hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def,
+                                                  const double *q, const double *p);
+void hd_trajectory_free(hd_trajectory *trajectory);
+
+/** Moves the disks to simulated time t_end (>= now) and replaces the log's contents by the events on
+ *  the way; log may be NULL. The events do not depend on where the intervals are cut.
+ *  Fails with HD_OVERLAP, HD_NOT_FINITE, HD_NO_MEMORY. Cost O(1) per event. */
+HD_MUST_CHECK hd_status hd_trajectory_advance(hd_trajectory *trajectory, hd_event_log *log,
+                                              double t_end);
+
+double hd_trajectory_time(const hd_trajectory *trajectory);         /**< simulated time */
+int hd_trajectory_disks(const hd_trajectory *trajectory);           /**< N */
+void hd_trajectory_box(const hd_trajectory *trajectory, double box[2]);
+uint64_t hd_trajectory_collisions(const hd_trajectory *trajectory); /**< pair events so far */
+uint64_t hd_trajectory_wall_events(const hd_trajectory *trajectory);
+/** Seconds-free estimate: pair events per time unit, Enskog with Henderson's contact value [T2]. */
+double hd_trajectory_collision_rate(const hd_trajectory *trajectory);
+
+/** State now: q[2N] inside the box, p[2N]. Either may be NULL. Cost O(N). */
+void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p);
+
+double hd_trajectory_kinetic_energy(const hd_trajectory *trajectory); /**< sum p^2 / 2, = N */
+/** Deepest overlap of any pair now: max(0, 1 - distance) over all pairs and images. Cost O(N). */
+double hd_trajectory_overlap(const hd_trajectory *trajectory);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

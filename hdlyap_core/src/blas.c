@@ -1,0 +1,83 @@
+/** Identity of the linear algebra library, and the restart with kernels that fit the processor.
+ *  Works with any BLAS: what is OpenBLAS's own is looked up weakly. */
+#define _GNU_SOURCE /* sched_getaffinity */
+#include "hdlyap/blas.h"
+
+#include <omp.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+extern char *openblas_get_config(void) __attribute__((weak));
+extern char *openblas_get_corename(void) __attribute__((weak));
+extern int openblas_get_parallel(void) __attribute__((weak));
+extern int openblas_get_num_threads(void) __attribute__((weak));
+extern void openblas_set_num_threads(int threads) __attribute__((weak));
+
+enum { SERIAL, PTHREAD, OPENMP }; /* openblas_get_parallel */
+
+hd_blas hd_blas_query(void)
+{
+    static const char *const threading[] = {"serial", "pthread", "openmp"};
+    hd_blas blas = {"unknown BLAS", "unknown", "serial", 1, omp_get_num_procs()};
+    if (openblas_get_config) blas.library = openblas_get_config();
+    if (openblas_get_corename) blas.kernel = openblas_get_corename();
+    if (openblas_get_num_threads) blas.threads = openblas_get_num_threads();
+    const int kind = openblas_get_parallel ? openblas_get_parallel() : SERIAL;
+    if (kind == PTHREAD || kind == OPENMP) blas.threading = threading[kind];
+    return blas;
+}
+
+void hd_blas_use_threads(int threads)
+{
+    if (openblas_set_num_threads) openblas_set_num_threads(threads);
+}
+
+static bool is_one_of(const char *name, const char *const *list)
+{
+    for (; *list; list++)
+        if (strcmp(name, *list) == 0) return true;
+    return false;
+}
+
+const char *hd_blas_better_kernel(const char *kernel, int has_avx2_fma, int has_avx512)
+{
+    static const char *const avx512[] = {"SkylakeX", "Cooperlake", "SapphireRapids", NULL};
+    static const char *const avx2[] = {"Haswell", "Zen", "Excavator", NULL};
+    if (strcmp(kernel, "unknown") == 0) return NULL; /* not OpenBLAS, or not one that chooses */
+    if (has_avx512) return is_one_of(kernel, avx512) ? NULL : "SkylakeX";
+    if (has_avx2_fma) return is_one_of(kernel, avx2) || is_one_of(kernel, avx512) ? NULL : "Haswell";
+    return NULL;
+}
+
+static const char *better_kernel_here(void)
+{
+#if defined(__x86_64__)
+    const int avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+    const int avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    return hd_blas_better_kernel(hd_blas_query().kernel, avx2, avx512);
+#else
+    return NULL;
+#endif
+}
+
+void hd_blas_restart_if_slow(char **argv)
+{
+#if defined(__linux__)
+    static const char once[] = "HDLYAP_RESTARTED";
+    const char *kernel = getenv("OPENBLAS_CORETYPE") ? NULL : better_kernel_here();
+    const bool spins = strcmp(hd_blas_query().threading, "pthread") == 0 &&
+                       !getenv("OMP_WAIT_POLICY") && !getenv("GOMP_SPINCOUNT");
+    if (getenv(once) || (!kernel && !spins)) return;
+    setenv(once, "1", 1);
+    if (kernel) setenv("OPENBLAS_CORETYPE", kernel, 1);
+    if (spins) setenv("OMP_WAIT_POLICY", "passive", 1);
+    execv("/proc/self/exe", argv);
+    perror("hdlyap: could not restart with faster BLAS kernels"); /* go on with the slow ones */
+#else
+    (void)argv;
+#endif
+}

@@ -1,0 +1,91 @@
+/** Scene -> cells. Edge: a little over a diameter, or what holds about one disk if that is more. */
+#include "cells.h"
+
+#include <math.h>
+
+#include "check.h"
+#include "memory.h"
+
+/** A centre sits in the cell that it is booked in up to rounding only; this much more than a diameter
+ *  keeps every contact within neighbouring cells all the same. */
+static const double EDGE_MIN = 1.0 + 1e-6;
+static const double DISKS_PER_CELL = 0.75;
+
+static void line_fill(hd_cell_line *line, int32_t size, double length, hd_boundary boundary)
+{
+    for (int32_t c = 0; c < size; c++) {
+        hd_cell_line *l = &line[c];
+        l->low = length * c / size;
+        l->high = length * (c + 1) / size;
+        for (int32_t k = 0; k < 3; k++) {
+            const int32_t column = c + k - 1;
+            l->shift[k] = column < 0 ? -1 : column >= size;
+            l->near[k] = column - l->shift[k] * size;
+            if (boundary == HD_REFLECTING && l->shift[k] != 0) l->near[k] = -1;
+            if (boundary == HD_REFLECTING) l->shift[k] = 0;
+        }
+    }
+    if (boundary == HD_REFLECTING) {
+        line[0].low = 0.5;
+        line[size - 1].high = length - 0.5;
+    }
+}
+
+hd_status hd_cells_create(hd_cells *cells, const hd_scene_def *def)
+{
+    *cells = (hd_cells){.boundary = {def->boundary[0], def->boundary[1]}};
+    hd_scene_box(def, cells->box);
+    const double edge = fmax(EDGE_MIN, sqrt(DISKS_PER_CELL / def->density));
+    for (int d = 0; d < 2; d++) {
+        cells->size[d] = (int32_t)fmax(1.0, floor(cells->box[d] / edge));
+        cells->line[d] = hd_memory_alloc((size_t)cells->size[d], sizeof *cells->line[d]);
+        if (!cells->line[d]) return HD_NO_MEMORY;
+        line_fill(cells->line[d], cells->size[d], cells->box[d], cells->boundary[d]);
+    }
+    const size_t count = (size_t)cells->size[0] * (size_t)cells->size[1];
+    cells->first = hd_memory_alloc(count, sizeof *cells->first);
+    if (!cells->first) return HD_NO_MEMORY;
+    for (size_t c = 0; c < count; c++) cells->first[c] = -1;
+    return HD_OK;
+}
+
+void hd_cells_clear(hd_cells *cells)
+{
+    hd_memory_free(cells->line[0]);
+    hd_memory_free(cells->line[1]);
+    hd_memory_free(cells->first);
+    *cells = (hd_cells){0};
+}
+
+static int32_t *list_of(const hd_cells *cells, const hd_disk *disk)
+{
+    return &cells->first[disk->cell[1] * cells->size[0] + disk->cell[0]];
+}
+
+static void list_add(hd_cells *cells, hd_disk *disks, int32_t i)
+{
+    int32_t *list = list_of(cells, &disks[i]);
+    disks[i].next = *list;
+    *list = i;
+}
+
+void hd_cells_add(hd_cells *cells, hd_disk *disks, int32_t i)
+{
+    for (int d = 0; d < 2; d++) {
+        const int32_t c = (int32_t)(disks[i].q[d] / cells->box[d] * cells->size[d]);
+        disks[i].cell[d] = c >= cells->size[d] ? cells->size[d] - 1 : c;
+    }
+    list_add(cells, disks, i);
+}
+
+void hd_cells_cross(hd_cells *cells, hd_disk *disks, int32_t i, int d, int side)
+{
+    hd_disk *disk = &disks[i];
+    int32_t *link = list_of(cells, disk);
+    while (*link != i) link = &disks[*link].next;
+    *link = disk->next;
+    const hd_cell_line *line = &cells->line[d][disk->cell[d]];
+    disk->wrap[d] += line->shift[side];
+    disk->cell[d] = line->near[side];
+    list_add(cells, disks, i);
+}

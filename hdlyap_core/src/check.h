@@ -1,0 +1,21 @@
+/** Contract checks that never compile away, and the propagation of statuses. */
+#ifndef HD_CHECK_H
+#define HD_CHECK_H
+
+#include "hdlyap/status.h"
+
+void hd_assert_fail(const char *condition, const char *file, int line);
+
+#define HD_ASSERT(condition)                                                                       \
+    do {                                                                                           \
+        if (!(condition)) hd_assert_fail(#condition, __FILE__, __LINE__);                          \
+    } while (0)
+
+/** Returns from the calling function with the status of `call` unless it is HD_OK. */
+#define HD_TRY(call)                                                                               \
+    do {                                                                                           \
+        const hd_status hd_try_status = (call);                                                    \
+        if (hd_try_status != HD_OK) return hd_try_status;                                          \
+    } while (0)
+
+#endif

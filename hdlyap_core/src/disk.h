@@ -1,0 +1,19 @@
+/** The state of one disk between its events: one cache line. */
+#ifndef HD_DISK_H
+#define HD_DISK_H
+
+#include <stdint.h>
+
+/** q and p are those of time t (of the present epoch) and stay untouched until the disk's next
+ *  collision: what is predicted from them does not depend on when it is predicted. */
+typedef struct hd_disk {
+    double q[2];         /**< where it was at t; may have drifted out of the box since */
+    double p[2];
+    double t;
+    int32_t wrap[2];     /**< box edges to subtract from its present position to be in its cell */
+    int32_t cell[2];     /**< column, row */
+    uint32_t collisions; /**< changes whenever q, p, t do; tells stale predictions */
+    int32_t next;        /**< in the cell's list, -1 at its end */
+} hd_disk;
+
+#endif

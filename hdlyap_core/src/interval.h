@@ -1,0 +1,26 @@
+/** The time between orthonormalisations: as long as the measured conditioning allows, never longer. */
+#ifndef HD_INTERVAL_H
+#define HD_INTERVAL_H
+
+/** Adapts to ln(condition) per time unit as it is measured [T6]. */
+typedef struct hd_interval {
+    double limit;     /**< never longer [time units] */
+    double accuracy;  /**< of an exponent that rounding may spoil [1/time unit] */
+    double slope;     /**< ln(condition) per time unit: rises at once, falls slowly */
+    double stretch;   /**< largest |ln R_ll| per time unit, likewise */
+    double last;      /**< last interval measured, or the first guess */
+} hd_interval;
+
+hd_interval hd_interval_first(double first, double limit, double accuracy);
+
+/** Largest condition that leaves the exponents of an interval this long as accurate as asked, and
+ *  Cholesky far from breaking down. */
+double hd_interval_condition_max(const hd_interval *interval, double length);
+
+/** What an interval of `length` showed. */
+void hd_interval_learn(hd_interval *interval, double length, double condition, double stretch);
+
+/** The next interval: an equal share of `remaining`, as few shares as the conditioning allows. */
+double hd_interval_next(const hd_interval *interval, double remaining);
+
+#endif

@@ -1,0 +1,12 @@
+/** Hot loops are compiled for several processors; the loader picks the best one in an installed binary.
+ *  Off with sanitizers, whose run time is not ready when the loader asks. */
+#ifndef HD_MULTIVERSION_H
+#define HD_MULTIVERSION_H
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(HD_NO_MULTIVERSION)
+#define HD_MULTIVERSION __attribute__((target_clones("avx512f", "fma", "default")))
+#else
+#define HD_MULTIVERSION
+#endif
+
+#endif

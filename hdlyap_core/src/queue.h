@@ -1,0 +1,41 @@
+/** Which disk has the next event: buckets of time for one epoch, a heap for the present bucket.
+ *  Cost per change O(1), whatever the number of disks (G. Paul, J. Comput. Phys. 221, 615 (2007)). */
+#ifndef HD_QUEUE_H
+#define HD_QUEUE_H
+
+#include "hdlyap/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/** Total order of events: by time, then kind, then the disks. */
+typedef struct hd_queue_key {
+    double t;
+    int32_t kind, i, j;
+} hd_queue_key;
+
+typedef struct hd_queue {
+    double per_time;    /**< buckets per time unit */
+    int32_t buckets, now;
+    int32_t *first;     /**< [buckets], first disk in a later bucket or -1 */
+    hd_queue_key *key;  /**< [disks] */
+    int32_t *place;     /**< [disks]: bucket, IN_HEAP or NOWHERE */
+    int32_t *next, *before; /**< [disks]: neighbours in the bucket; before = position in the heap */
+    int32_t *heap;      /**< [heap_count] of at most `disks` */
+    int32_t heap_count, disks;
+} hd_queue;
+
+/** For events in [0, horizon). */
+HD_MUST_CHECK hd_status hd_queue_create(hd_queue *queue, int32_t disks, double horizon);
+void hd_queue_clear(hd_queue *queue);
+
+/** Back to time 0, no events. */
+void hd_queue_restart(hd_queue *queue);
+
+/** Sets the one event of a disk; from the horizon on it is forgotten. */
+void hd_queue_put(hd_queue *queue, int32_t disk, hd_queue_key key);
+
+/** Disk with the next event, or -1 if none is left before the horizon. */
+int32_t hd_queue_next(hd_queue *queue);
+
+#endif

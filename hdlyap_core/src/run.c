@@ -1,0 +1,298 @@
+/** Scene -> spectrum, one interval at a time.
+ *
+ *  Phases follow each other at fixed simulated times: equilibration (trajectory alone), warm-up of the
+ *  frame, averaging. A phase is cut into samples of equal length, a whole number of which make a report
+ *  interval; a sample into the intervals that the conditioning allows. At the end of a report interval
+ *  the frame is a measured state: orthonormal to DEFECT_MEASURED. */
+#include "hdlyap/run.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "check.h"
+#include "clock.h"
+#include "hdlyap/blas.h"
+#include "interval.h"
+#include "memory.h"
+
+/** Between measured states Q may be loosely conditioned, as the logarithms telescope [T5]. */
+static const double DEFECT_LOOSE = 0.1;
+/** At a measured state; the running mean errs by it over the averaged time. */
+static const double DEFECT_MEASURED = 1e-7;
+static const double COLLISIONS_PER_SAMPLE = 32.0; /* of one disk */
+static const double EVENTS_PER_STEP = 200000.0;   /* bounds memory, and the wait for an answer */
+enum { REPAIR_DEPTH = 4096, SMALLEST_EXPONENTS = 8 };
+
+struct hd_run {
+    hd_scene_def scene;
+    hd_trajectory *trajectory;
+    hd_event_log *log;
+    hd_frame *frame; /**< NULL without exponents, as the two below */
+    hd_ortho *ortho;
+    hd_spectrum *spectrum;
+    hd_interval interval;
+    int vectors, threads;
+    hd_phase phase;
+    double phase_start;  /**< simulated time */
+    double now;          /**< simulated time */
+    double sample_length;
+    long samples_per_report;
+    long samples;        /**< whole ones since phase_start */
+    bool report_due;
+    double created, frame_started, frame_start_time; /**< wall clock, and simulated time, for estimates */
+    hd_cost cost;
+};
+
+/* ---- creation --------------------------------------------------------------------------------- */
+
+/** More threads than the work is worth would cost: each pass over the frame should outlast a wake-up. */
+static int threads_for(int wanted, int rows, int vectors)
+{
+    const double entries_worth_a_thread = 2e5;
+    const int cores = hd_blas_query().cores;
+    if (wanted > 0) return wanted;
+    return (double)rows * vectors < entries_worth_a_thread ? 1 : cores;
+}
+
+static hd_status run_create_frame(hd_run *run)
+{
+    const int rows = 4 * run->scene.disks, n = run->vectors;
+    run->threads = threads_for(run->scene.threads, rows, n);
+    hd_blas_use_threads(run->threads);
+    HD_TRY(hd_event_log_create(&run->log));
+    HD_TRY(hd_frame_create(&run->frame, run->scene.disks, n, run->scene.seed, run->threads));
+    HD_TRY(hd_ortho_create(&run->ortho, rows, n));
+    HD_TRY(hd_spectrum_create(&run->spectrum, rows, n));
+    const hd_ortho_limits start = {1.0 / DBL_EPSILON, DBL_MIN}; /* always two passes */
+    HD_TRY(hd_ortho_step(run->ortho, run->frame, start));
+    return hd_ortho_step(run->ortho, run->frame, start);
+}
+
+static hd_status run_prepare(hd_run *run)
+{
+    const hd_scene_def *scene = &run->scene;
+    HD_TRY(hd_trajectory_create(&run->trajectory, scene));
+    run->vectors = hd_scene_vectors(scene);
+    run->threads = 1;
+    const double rate = hd_trajectory_collision_rate(run->trajectory);
+    const double per_disk = 2.0 * rate / scene->disks;
+    run->samples_per_report =
+        (long)fmax(1.0, ceil(scene->report_interval * per_disk / COLLISIONS_PER_SAMPLE));
+    run->sample_length = scene->report_interval / (double)run->samples_per_report;
+    const double limit = fmin(scene->interval > 0 ? scene->interval : INFINITY, EVENTS_PER_STEP / rate);
+    run->interval = hd_interval_first(1.0 / per_disk, limit, scene->accuracy);
+    return run->vectors > 0 ? run_create_frame(run) : HD_OK;
+}
+
+/** Enters the first phase at or after `phase` that has any length. */
+static void enter_phase(hd_run *run, hd_phase phase)
+{
+    const hd_scene_def *scene = &run->scene;
+    if (phase == HD_EQUILIBRATING && scene->equilibration == 0) phase = HD_WARMING_UP;
+    if (phase == HD_WARMING_UP && scene->warmup == 0) phase = HD_AVERAGING;
+    run->phase = phase;
+    run->phase_start = run->now;
+    run->samples = 0;
+    if (run->spectrum && phase == HD_AVERAGING) hd_spectrum_clear(run->spectrum);
+    if (phase == HD_AVERAGING) run->cost.error_bound = 0.0;
+    if (phase == HD_EQUILIBRATING || run->frame_started > 0) return;
+    run->frame_started = hd_clock_now();
+    run->frame_start_time = run->now;
+}
+
+hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, size_t size)
+{
+    *out = NULL;
+    HD_TRY(hd_scene_check(def, message, size));
+    hd_run *run = hd_memory_alloc(1, sizeof *run);
+    if (!run) return HD_NO_MEMORY;
+    run->scene = *def;
+    run->created = hd_clock_now();
+    const hd_status status = run_prepare(run);
+    if (status != HD_OK) {
+        hd_run_free(run);
+        return status;
+    }
+    enter_phase(run, HD_EQUILIBRATING);
+    *out = run;
+    return HD_OK;
+}
+
+void hd_run_free(hd_run *run)
+{
+    if (!run) return;
+    hd_trajectory_free(run->trajectory);
+    hd_event_log_free(run->log);
+    hd_frame_free(run->frame);
+    hd_ortho_free(run->ortho);
+    hd_spectrum_free(run->spectrum);
+    hd_memory_free(run);
+}
+
+/* ---- one interval ----------------------------------------------------------------------------- */
+
+/** End of the present phase; INFINITY for averaging without a duration. */
+static double phase_end(const hd_run *run)
+{
+    switch (run->phase) {
+    case HD_EQUILIBRATING: return run->phase_start + run->scene.equilibration;
+    case HD_WARMING_UP: return run->phase_start + run->scene.warmup;
+    default: break;
+    }
+    return run->scene.duration > 0 ? run->phase_start + run->scene.duration : INFINITY;
+}
+
+/** Ends of samples are products, not sums: rounding does not add up. */
+static double sample_end(const hd_run *run)
+{
+    const double end = run->phase_start + (double)(run->samples + 1) * run->sample_length;
+    const double last = phase_end(run);
+    return end < last - 1e-6 * run->sample_length ? end : last;
+}
+
+/** Carries the frame from t_begin to t_end of the log and orthonormalises it. */
+static hd_status frame_piece(hd_run *run, double t_begin, double t_end, double defect)
+{
+    const double start = hd_clock_now();
+    HD_TRY(hd_frame_replay(run->frame, run->log, t_begin, t_end));
+    const double replayed = hd_clock_now();
+    const double length = t_end - t_begin;
+    const hd_ortho_limits limits = {hd_interval_condition_max(&run->interval, length), defect};
+    const hd_status status = hd_ortho_step(run->ortho, run->frame, limits);
+    run->cost.replay += replayed - start;
+    run->cost.ortho += hd_clock_now() - replayed;
+    return status;
+}
+
+/** What an accepted orthonormalisation says about spectrum, interval and cost. */
+static void piece_accepted(hd_run *run, double length)
+{
+    const double start = hd_clock_now();
+    const double *stretch = hd_ortho_log_stretch(run->ortho);
+    const double condition = hd_ortho_condition(run->ortho);
+    double most = 0.0;
+    for (int col = 0; col < run->vectors; col++) most = fmax(most, fabs(stretch[col]));
+    hd_interval_learn(&run->interval, length, condition, most);
+    if (run->phase == HD_AVERAGING) hd_spectrum_add(run->spectrum, stretch, length);
+    hd_cost *cost = &run->cost;
+    cost->interval = length;
+    cost->condition = condition;
+    cost->defect = hd_ortho_defect(run->ortho);
+    cost->error_bound = fmax(cost->error_bound, DBL_EPSILON * condition / length);
+    cost->orthonormalisations++;
+    cost->second_passes += hd_ortho_passes(run->ortho) > 1;
+    cost->spectrum += hd_clock_now() - start;
+}
+
+/** The whole log; an interval that turned out too long is taken back and replayed in pieces. */
+static hd_status frame_interval(hd_run *run, bool measured)
+{
+    const double duration = run->log->duration, shortest = duration / REPAIR_DEPTH;
+    double begin = 0.0, end = duration;
+    while (begin < duration) {
+        const double defect = measured && end >= duration ? DEFECT_MEASURED : DEFECT_LOOSE;
+        const hd_status status = frame_piece(run, begin, end, defect);
+        if (status != HD_OK && status != HD_ILL_CONDITIONED) return status;
+        if (status == HD_OK) {
+            piece_accepted(run, end - begin);
+            const double next = fmin(duration, end + (end - begin));
+            begin = end;
+            end = next;
+            continue;
+        }
+        if (end - begin <= shortest) return HD_ILL_CONDITIONED;
+        run->cost.repairs += end >= duration && begin == 0.0;
+        hd_frame_rewind(run->frame);
+        end = begin + 0.5 * (end - begin);
+    }
+    return HD_OK;
+}
+
+/** True if the exponents nearest to zero are known as well as the scene asks. */
+static bool target_reached(const hd_run *run)
+{
+    if (run->scene.target_std_error == 0 || !run->spectrum) return false;
+    const int first = run->vectors > SMALLEST_EXPONENTS ? run->vectors - SMALLEST_EXPONENTS : 0;
+    for (int col = first; col < run->vectors; col++) {
+        const double error = hd_spectrum_std_error(run->spectrum, col);
+        if (error < 0 || error > run->scene.target_std_error) return false;
+    }
+    return true;
+}
+
+/** Bookkeeping at the end of a sample; moves on to the next phase when this one is over. */
+static void finish_sample(hd_run *run)
+{
+    const bool over = run->now >= phase_end(run);
+    const double length = run->now - (run->phase_start + (double)run->samples * run->sample_length);
+    run->samples++;
+    if (run->phase == HD_AVERAGING && run->spectrum && length > 0.999 * run->sample_length)
+        hd_spectrum_sample(run->spectrum);
+    run->report_due = over || run->samples % run->samples_per_report == 0;
+    if (run->phase == HD_AVERAGING && run->report_due && (over || target_reached(run)))
+        run->phase = HD_FINISHED;
+    else if (over)
+        enter_phase(run, run->phase + 1);
+}
+
+hd_status hd_run_step(hd_run *run)
+{
+    if (run->phase == HD_FINISHED) return HD_OK;
+    const bool with_frame = run->frame && run->phase != HD_EQUILIBRATING;
+    const double stop = sample_end(run), left = stop - run->now;
+    const double longest = EVENTS_PER_STEP / hd_trajectory_collision_rate(run->trajectory);
+    const double length = with_frame ? hd_interval_next(&run->interval, left) : fmin(left, longest);
+    const bool ends_sample = length >= left;
+    const bool measured = (run->samples + 1) % run->samples_per_report == 0 || stop >= phase_end(run);
+    const double start = hd_clock_now();
+    run->report_due = false;
+    run->now = ends_sample ? stop : run->now + length;
+    HD_TRY(hd_trajectory_advance(run->trajectory, with_frame ? run->log : NULL, run->now));
+    run->cost.events += hd_clock_now() - start;
+    if (with_frame) HD_TRY(frame_interval(run, ends_sample && measured));
+    if (ends_sample) finish_sample(run);
+    return HD_OK;
+}
+
+void hd_run_reset_average(hd_run *run)
+{
+    if (run->phase == HD_AVERAGING) enter_phase(run, HD_AVERAGING);
+}
+
+/* ---- what can be read ------------------------------------------------------------------------- */
+
+bool hd_run_report_due(const hd_run *run) { return run->report_due; }
+hd_phase hd_run_phase(const hd_run *run) { return run->phase; }
+double hd_run_time(const hd_run *run) { return run->now; }
+const hd_scene_def *hd_run_scene(const hd_run *run) { return &run->scene; }
+int hd_run_vectors(const hd_run *run) { return run->vectors; }
+int hd_run_threads(const hd_run *run) { return run->threads; }
+const hd_trajectory *hd_run_trajectory(const hd_run *run) { return run->trajectory; }
+const hd_frame *hd_run_frame(const hd_run *run) { return run->frame; }
+const hd_spectrum *hd_run_spectrum(const hd_run *run) { return run->spectrum; }
+
+/** Simulated time still to come; INFINITY for an endless run. */
+static double time_left(const hd_run *run)
+{
+    const hd_scene_def *scene = &run->scene;
+    if (run->phase == HD_FINISHED) return 0.0;
+    double left = phase_end(run) - run->now;
+    if (run->phase == HD_EQUILIBRATING) left += scene->warmup;
+    if (run->phase < HD_AVERAGING) left += scene->duration > 0 ? scene->duration : INFINITY;
+    return left;
+}
+
+hd_cost hd_run_cost(const hd_run *run)
+{
+    hd_cost cost = run->cost;
+    const double now = hd_clock_now(), left = time_left(run);
+    cost.wall = now - run->created;
+    cost.events_per_second =
+        cost.events > 0 ? (double)hd_trajectory_collisions(run->trajectory) / cost.events : 0.0;
+    cost.progress = left < INFINITY ? run->now / fmax(run->now + left, DBL_MIN) : 0.0;
+    if (run->phase == HD_FINISHED) cost.progress = 1.0;
+    const double carried = run->now - run->frame_start_time; /* equilibration is no measure of the rest */
+    const bool known = left == 0 || (run->frame_started > 0 && carried > 0 && left < INFINITY);
+    cost.remaining = !known ? -1.0 : left == 0 ? 0.0 : left * (now - run->frame_started) / carried;
+    return cost;
+}

@@ -1,0 +1,120 @@
+/** Defaults and checks of what is asked for. */
+#include "hdlyap/scene.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "lattice.h"
+
+enum { DISKS_MIN = 2, DISKS_MAX = 1000000, THREADS_MAX = 1024 };
+
+hd_scene_def hd_scene_def_default(void)
+{
+    return (hd_scene_def){
+        .disks = 780,
+        .density = 0.8,
+        .aspect = 0.867,
+        .boundary = {HD_PERIODIC, HD_PERIODIC},
+        .seed = 1,
+        .exponents = HD_EXPONENTS_POSITIVE,
+        .equilibration = 100.0,
+        .warmup = 50.0,
+        .duration = 0.0,
+        .target_std_error = 0.0,
+        .interval = 0.0,
+        .accuracy = 1e-8,
+        .report_interval = 1.0,
+        .threads = 0,
+    };
+}
+
+void hd_scene_box(const hd_scene_def *def, double box[2])
+{
+    box[0] = sqrt((double)def->disks / (def->density * def->aspect));
+    box[1] = def->aspect * box[0];
+}
+
+int hd_scene_zero_exponents(const hd_scene_def *def)
+{
+    return 2 + 2 * (def->boundary[0] == HD_PERIODIC) + 2 * (def->boundary[1] == HD_PERIODIC);
+}
+
+int hd_scene_vectors(const hd_scene_def *def)
+{
+    const int all = 4 * def->disks;
+    if (def->exponents == HD_EXPONENTS_ALL) return all;
+    if (def->exponents == HD_EXPONENTS_POSITIVE) return (all - hd_scene_zero_exponents(def)) / 2;
+    return def->exponents;
+}
+
+static hd_status refuse(char *message, size_t size, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    if (message && size > 0) vsnprintf(message, size, format, list);
+    va_end(list);
+    return HD_REFUSED;
+}
+
+typedef struct range {
+    const char *name, *allowed;
+    double value, min, max;
+    int min_excluded;
+} range;
+
+/** The negated comparisons refuse NaN too. */
+static hd_status check_ranges(const hd_scene_def *def, char *message, size_t size)
+{
+    const double huge = 1e12;
+    const range table[] = {
+        {"disks", "an integer from 2 to 1000000", def->disks, DISKS_MIN, DISKS_MAX, 0},
+        {"density", "above 0, at most 2/sqrt(3) = 1.1547", def->density, 0, 2.0 / sqrt(3.0), 1},
+        {"aspect", "from 1e-6 to 1e6", def->aspect, 1e-6, 1e6, 0},
+        {"boundary_x", "periodic or reflecting", def->boundary[0], HD_PERIODIC, HD_REFLECTING, 0},
+        {"boundary_y", "periodic or reflecting", def->boundary[1], HD_PERIODIC, HD_REFLECTING, 0},
+        {"equilibration", "from 0 to 1e12", def->equilibration, 0, huge, 0},
+        {"warmup", "from 0 to 1e12", def->warmup, 0, huge, 0},
+        {"duration", "from 0 (until stopped) to 1e12", def->duration, 0, huge, 0},
+        {"target_std_error", "from 0 (off) to 1e12", def->target_std_error, 0, huge, 0},
+        {"interval", "auto, or above 0 up to 1e12", def->interval, 0, huge, 0},
+        {"accuracy", "from 1e-12 to 1e-2", def->accuracy, 1e-12, 1e-2, 0},
+        {"report_interval", "from 1e-6 to 1e12", def->report_interval, 1e-6, huge, 0},
+        {"threads", "from 0 (all cores) to 1024", def->threads, 0, THREADS_MAX, 0},
+    };
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        const range *r = &table[k];
+        if (r->value >= r->min && r->value <= r->max && !(r->min_excluded && r->value == r->min))
+            continue;
+        return refuse(message, size, "%s = %.15g: must be %s", r->name, r->value, r->allowed);
+    }
+    return HD_OK;
+}
+
+static hd_status check_box(const hd_scene_def *def, char *message, size_t size)
+{
+    double box[2];
+    hd_scene_box(def, box);
+    for (int d = 0; d < 2; d++)
+        if (!(box[d] > 1.0))
+            return refuse(message, size,
+                          "density = %.15g with disks = %d, aspect = %.15g: the box edge L%c = %.15g "
+                          "must be above the disk diameter 1",
+                          def->density, def->disks, def->aspect, "xy"[d], box[d]);
+    if (hd_lattice_best(def->disks, box, def->boundary).distance < 1.0)
+        return refuse(message, size,
+                      "density = %.15g: must be at most %.6g with disks = %d, aspect = %.15g and "
+                      "these boundaries (densest start lattice)",
+                      def->density, hd_lattice_density_max(def), def->disks, def->aspect);
+    return HD_OK;
+}
+
+hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
+{
+    if (check_ranges(def, message, size) != HD_OK) return HD_REFUSED;
+    if (def->exponents < HD_EXPONENTS_ALL || def->exponents > 4 * def->disks)
+        return refuse(message, size,
+                      "exponents = %d: must be positive, all, none or from 1 to 4 disks = %d",
+                      def->exponents, 4 * def->disks);
+    return check_box(def, message, size);
+}

@@ -1,0 +1,31 @@
+/** What the core's tests share: cmocka, and comparisons that print both numbers and fail on NaN. */
+#ifndef HD_TESTING_H
+#define HD_TESTING_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "hdlyap/status.h"
+
+static inline void check_close(double got, double want, double tolerance, const char *what,
+                               const char *file, int line)
+{
+    if (fabs(got - want) <= tolerance) return;
+    print_error("%s: got %.17g, want %.17g +- %.3g, off by %.3g\n", what, got, want, tolerance,
+                got - want);
+    _fail(file, line);
+}
+
+/** |got - want| <= tolerance, false for NaN. */
+#define CHECK_CLOSE(got, want, tolerance)                                                          \
+    check_close((got), (want), (tolerance), #got, __FILE__, __LINE__)
+
+/** The call returned HD_OK. */
+#define CHECK_OK(call) assert_string_equal(hd_status_text(call), hd_status_text(HD_OK))
+
+#endif

@@ -1,0 +1,3 @@
+foreach(name)
+  hdlyap_core_test(${name})
+endforeach()
