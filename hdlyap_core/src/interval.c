@@ -20,7 +20,7 @@ hd_interval hd_interval_first(double first, double limit, double accuracy)
 
 double hd_interval_condition_max(const hd_interval *interval, double length)
 {
-    return fmax(2.0, fmin(CONDITION_CHOLESKY, interval->accuracy * length / DBL_EPSILON));
+    return fmax(2.0, fmin(CONDITION_CHOLESKY, interval->accuracy * fmax(length, interval->last) / DBL_EPSILON));
 }
 
 static double follow(double old, double seen)

@@ -13,7 +13,8 @@ typedef struct hd_interval {
 
 hd_interval hd_interval_first(double first, double limit, double accuracy);
 
-/** Largest condition that leaves the exponents of an interval this long as accurate as asked, and
+/** Largest condition that leaves the exponents as accurate as asked after an interval this long (or one as long as
+ *  usual, if that is longer: a rare short one with a grazing collision may use its share), and
  *  Cholesky far from breaking down. */
 double hd_interval_condition_max(const hd_interval *interval, double length);
 

@@ -3,7 +3,7 @@
  *  Phases follow each other at fixed simulated times: equilibration (trajectory alone), warm-up of the
  *  frame, averaging. A phase is cut into samples of equal length, a whole number of which make a report
  *  interval; a sample into the intervals that the conditioning allows. At the end of a report interval
- *  the frame is a measured state: orthonormal to DEFECT_MEASURED. */
+ *  the frame is a measured state: orthonormal as far as the accuracy asks. */
 #include "hdlyap/run.h"
 
 #include <float.h>
@@ -17,11 +17,13 @@
 
 /** Between measured states Q may be loosely conditioned, as the logarithms telescope [T5]. */
 static const double DEFECT_LOOSE = 0.1;
-/** At a measured state; the running mean errs by it over the averaged time. */
+/** At a measured state, for who looks at the vectors; see defect_max. */
 static const double DEFECT_MEASURED = 1e-7;
 static const double COLLISIONS_PER_SAMPLE = 32.0; /* of one disk */
 static const double EVENTS_PER_STEP = 200000.0;   /* bounds memory, and the wait for an answer */
-enum { REPAIR_DEPTH = 4096, SMALLEST_EXPONENTS = 8 };
+/** Householder reflections stay right to eps * condition: 1e-3 of one interval, once. */
+static const double CONDITION_STABLE = 1e13;
+enum { PIECES_MAX = 64, SMALLEST_EXPONENTS = 8 };
 
 struct hd_run {
     hd_scene_def scene;
@@ -40,6 +42,7 @@ struct hd_run {
     long samples;        /**< whole ones since phase_start */
     bool report_due;
     double created, frame_started, frame_start_time; /**< wall clock, and simulated time, for estimates */
+    double rounding;     /**< sum of eps * condition since phase_start of averaging */
     hd_cost cost;
 };
 
@@ -63,9 +66,7 @@ static hd_status run_create_frame(hd_run *run)
     HD_TRY(hd_frame_create(&run->frame, run->scene.disks, n, run->scene.seed, run->threads));
     HD_TRY(hd_ortho_create(&run->ortho, rows, n));
     HD_TRY(hd_spectrum_create(&run->spectrum, rows, n));
-    const hd_ortho_limits start = {1.0 / DBL_EPSILON, DBL_MIN}; /* always two passes */
-    HD_TRY(hd_ortho_step(run->ortho, run->frame, start));
-    return hd_ortho_step(run->ortho, run->frame, start);
+    return hd_ortho_step_stable(run->ortho, run->frame, 1.0 / DBL_EPSILON);
 }
 
 static hd_status run_prepare(hd_run *run)
@@ -94,7 +95,7 @@ static void enter_phase(hd_run *run, hd_phase phase)
     run->phase_start = run->now;
     run->samples = 0;
     if (run->spectrum && phase == HD_AVERAGING) hd_spectrum_clear(run->spectrum);
-    if (phase == HD_AVERAGING) run->cost.error_bound = 0.0;
+    if (phase == HD_AVERAGING) run->rounding = 0.0;
     if (phase == HD_EQUILIBRATING || run->frame_started > 0) return;
     run->frame_started = hd_clock_now();
     run->frame_start_time = run->now;
@@ -153,12 +154,13 @@ static double sample_end(const hd_run *run)
 /** Carries the frame from t_begin to t_end of the log and orthonormalises it. */
 static hd_status frame_piece(hd_run *run, double t_begin, double t_end, double defect)
 {
-    const double start = hd_clock_now();
+    const double start = hd_clock_now(), duration = run->log->duration;
     HD_TRY(hd_frame_replay(run->frame, run->log, t_begin, t_end));
     const double replayed = hd_clock_now();
-    const double length = t_end - t_begin;
-    const hd_ortho_limits limits = {hd_interval_condition_max(&run->interval, length), defect};
-    const hd_status status = hd_ortho_step(run->ortho, run->frame, limits);
+    const hd_ortho_limits limits = {hd_interval_condition_max(&run->interval, duration), defect};
+    const hd_status status = t_end - t_begin > duration / PIECES_MAX
+                                 ? hd_ortho_step(run->ortho, run->frame, limits)
+                                 : hd_ortho_step_stable(run->ortho, run->frame, CONDITION_STABLE);
     run->cost.replay += replayed - start;
     run->cost.ortho += hd_clock_now() - replayed;
     return status;
@@ -178,19 +180,29 @@ static void piece_accepted(hd_run *run, double length)
     cost->interval = length;
     cost->condition = condition;
     cost->defect = hd_ortho_defect(run->ortho);
-    cost->error_bound = fmax(cost->error_bound, DBL_EPSILON * condition / length);
+    run->rounding += DBL_EPSILON * condition;
     cost->orthonormalisations++;
     cost->second_passes += hd_ortho_passes(run->ortho) > 1;
     cost->spectrum += hd_clock_now() - start;
 }
 
-/** The whole log; an interval that turned out too long is taken back and replayed in pieces. */
+/** Loss of orthogonality allowed at the end of this interval. A running mean errs by that at the ends of
+ *  its time; so the state at which averaging starts is orthonormal to rounding. */
+static double defect_max(const hd_run *run, bool measured)
+{
+    if (!measured) return DEFECT_LOOSE;
+    if (run->phase != HD_AVERAGING) return run->now >= phase_end(run) ? DBL_EPSILON : DEFECT_MEASURED;
+    return fmin(DEFECT_MEASURED, 0.5 * run->scene.accuracy * (run->now - run->phase_start));
+}
+
+/** The whole log. An interval that turned out too long is taken back and replayed in pieces; a shortest
+ *  piece that is still too much holds a grazing collision and is factored by reflections. */
 static hd_status frame_interval(hd_run *run, bool measured)
 {
-    const double duration = run->log->duration, shortest = duration / REPAIR_DEPTH;
+    const double duration = run->log->duration;
     double begin = 0.0, end = duration;
     while (begin < duration) {
-        const double defect = measured && end >= duration ? DEFECT_MEASURED : DEFECT_LOOSE;
+        const double defect = defect_max(run, measured && end >= duration);
         const hd_status status = frame_piece(run, begin, end, defect);
         if (status != HD_OK && status != HD_ILL_CONDITIONED) return status;
         if (status == HD_OK) {
@@ -200,7 +212,7 @@ static hd_status frame_interval(hd_run *run, bool measured)
             end = next;
             continue;
         }
-        if (end - begin <= shortest) return HD_ILL_CONDITIONED;
+        if (end - begin <= duration / PIECES_MAX) return HD_ILL_CONDITIONED;
         run->cost.repairs += end >= duration && begin == 0.0;
         hd_frame_rewind(run->frame);
         end = begin + 0.5 * (end - begin);
@@ -287,6 +299,8 @@ hd_cost hd_run_cost(const hd_run *run)
     hd_cost cost = run->cost;
     const double now = hd_clock_now(), left = time_left(run);
     cost.wall = now - run->created;
+    if (run->phase >= HD_AVERAGING && run->now > run->phase_start)
+        cost.error_bound = (run->rounding + cost.defect) / (run->now - run->phase_start);
     cost.events_per_second =
         cost.events > 0 ? (double)hd_trajectory_collisions(run->trajectory) / cost.events : 0.0;
     cost.progress = left < INFINITY ? run->now / fmax(run->now + left, DBL_MIN) : 0.0;

@@ -24,7 +24,7 @@ typedef struct hd_cost {
     double interval;           /**< time units between orthonormalisations, last used */
     double condition;          /**< of the last orthonormalisation, see hd_ortho_condition */
     double defect;             /**< predicted loss of orthogonality of the last one */
-    double error_bound;        /**< eps * condition / interval, largest since the averages began */
+    double error_bound;         /**< (sum of eps * condition + defect) / averaged time: rounding in a mean */
     long orthonormalisations;  /**< number of them */
     long second_passes;        /**< how many needed a second pass */
     long repairs;              /**< intervals that turned out too long and were replayed in pieces */

@@ -1,0 +1,78 @@
+/** Which kernels are taken for which processor, and the restart. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "testing.h"
+
+#include "hdlyap/blas.h"
+
+static void old_kernels_are_noticed(void **state)
+{
+    (void)state;
+    assert_string_equal(hd_blas_better_kernel("Prescott", 1, 1), "SkylakeX");
+    assert_string_equal(hd_blas_better_kernel("Prescott", 1, 0), "Haswell");
+    assert_string_equal(hd_blas_better_kernel("Haswell", 1, 1), "SkylakeX");
+    assert_string_equal(hd_blas_better_kernel("Sandybridge", 1, 0), "Haswell");
+    assert_null(hd_blas_better_kernel("Prescott", 0, 0));
+    assert_null(hd_blas_better_kernel("SkylakeX", 1, 1));
+    assert_null(hd_blas_better_kernel("Cooperlake", 1, 1));
+    assert_null(hd_blas_better_kernel("Zen", 1, 0));
+    assert_null(hd_blas_better_kernel("Haswell", 1, 0));
+    assert_null(hd_blas_better_kernel("unknown", 1, 1)); /* not OpenBLAS */
+}
+
+static void the_library_says_what_it_is(void **state)
+{
+    (void)state;
+    const hd_blas blas = hd_blas_query();
+    assert_true(blas.cores >= 1 && blas.threads >= 1);
+    assert_non_null(blas.library);
+    assert_non_null(blas.kernel);
+    hd_blas_use_threads(1);
+    assert_int_equal(hd_blas_query().threads, 1);
+}
+
+/** The user's own choice stays: no restart, whatever kernels it means. Child of this test. */
+static int print_kernel(char **argv)
+{
+    hd_blas_restart_if_slow(argv);
+    printf("%s %s\n", hd_blas_query().kernel, getenv("HDLYAP_RESTARTED") ? "restarted" : "first");
+    return 0;
+}
+
+static char *self;
+
+static void run_child(const char *environment, char *line, int size)
+{
+    char command[4096];
+    snprintf(command, sizeof command, "env -u HDLYAP_RESTARTED %s OMP_WAIT_POLICY=passive '%s' kernel",
+             environment, self);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    assert_non_null(fgets(line, size, pipe));
+    assert_int_equal(pclose(pipe), 0);
+}
+
+static void a_users_choice_is_kept(void **state)
+{
+    (void)state;
+    char line[256];
+    if (strcmp(hd_blas_query().kernel, "unknown") == 0) skip();
+    run_child("OPENBLAS_CORETYPE=Prescott", line, sizeof line);
+    assert_string_equal(line, "Prescott first\n");
+    run_child("-u OPENBLAS_CORETYPE", line, sizeof line); /* once at most, and to something better */
+    assert_null(strstr(line, "Prescott restarted"));
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1 && strcmp(argv[1], "kernel") == 0) return print_kernel(argv);
+    self = argv[0];
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(old_kernels_are_noticed),
+        cmocka_unit_test(the_library_says_what_it_is),
+        cmocka_unit_test(a_users_choice_is_kept),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,87 @@
+/** The interval follows what the conditioning shows. */
+#include <float.h>
+
+#include "testing.h"
+
+#include "interval.h"
+
+/** A frame whose ln(condition) is rate * length, seen over `steps` intervals. */
+static double settled(hd_interval *interval, double rate, int steps)
+{
+    double length = 0.0;
+    for (int k = 0; k < steps; k++) {
+        length = hd_interval_next(interval, 1e9);
+        hd_interval_learn(interval, length, exp(rate * length), rate * length);
+    }
+    return length;
+}
+
+static void it_settles_where_the_condition_is_right(void **state)
+{
+    (void)state;
+    for (double rate = 0.01; rate < 50.0; rate *= 3.0) {
+        hd_interval interval = hd_interval_first(1e-3, INFINITY, 1e-8);
+        const double length = settled(&interval, rate, 200);
+        const double most = hd_interval_condition_max(&interval, length);
+        assert_true(exp(rate * length) < most / 2.0 && exp(rate * length) > most / 32.0);
+    }
+}
+
+static void it_shortens_at_once_and_grows_slowly(void **state)
+{
+    (void)state;
+    hd_interval interval = hd_interval_first(0.1, INFINITY, 1e-8);
+    const double before = settled(&interval, 5.0, 100);
+    hd_interval_learn(&interval, before, exp(10.0 * before), 10.0 * before);
+    const double after = hd_interval_next(&interval, 1e9);
+    CHECK_CLOSE(after, before / 2.0, 0.02 * before);
+    assert_true(settled(&interval, 5.0, 3) < 0.8 * before);
+    CHECK_CLOSE(settled(&interval, 5.0, 100), before, 0.02 * before);
+}
+
+static void limits_are_kept(void **state)
+{
+    (void)state;
+    hd_interval interval = hd_interval_first(1.0, 0.25, 1e-8);
+    for (int k = 0; k < 50; k++) {
+        const double length = hd_interval_next(&interval, 1.0);
+        assert_true(length <= 0.25);
+        hd_interval_learn(&interval, length, 1.0, 0.0);
+    }
+    hd_interval one = hd_interval_first(1.0, INFINITY, 1e-8); /* one vector: only overflow limits */
+    for (int k = 0; k < 100; k++) {
+        const double length = hd_interval_next(&one, 1e9);
+        assert_true(length * 2.0 < log(DBL_MAX) / 2.0);
+        hd_interval_learn(&one, length, 1.0, 2.0 * length);
+    }
+}
+
+static void shares_of_the_rest_are_equal(void **state)
+{
+    (void)state;
+    hd_interval interval = hd_interval_first(0.3, 0.3, 1e-8);
+    CHECK_CLOSE(hd_interval_next(&interval, 1.0), 0.25, DBL_EPSILON);
+    CHECK_CLOSE(hd_interval_next(&interval, 0.3), 0.3, 0.0);
+    CHECK_CLOSE(hd_interval_next(&interval, 0.1), 0.1, 0.0);
+}
+
+static void more_accuracy_allows_less_condition(void **state)
+{
+    (void)state;
+    const hd_interval tight = hd_interval_first(1.0, INFINITY, 1e-12);
+    const hd_interval loose = hd_interval_first(1.0, INFINITY, 1e-4);
+    CHECK_CLOSE(hd_interval_condition_max(&tight, 1.0), 1e-12 / DBL_EPSILON, 1e-6);
+    CHECK_CLOSE(hd_interval_condition_max(&loose, 1.0), 1e7, 0.0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(it_settles_where_the_condition_is_right),
+        cmocka_unit_test(it_shortens_at_once_and_grows_slowly),
+        cmocka_unit_test(limits_are_kept),
+        cmocka_unit_test(shares_of_the_rest_are_equal),
+        cmocka_unit_test(more_accuracy_allows_less_condition),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,67 @@
+/** Sums, samples and what is derived from them, on numbers small enough to do by hand. */
+#include "testing.h"
+
+#include "hdlyap/spectrum.h"
+
+static void means_are_weighted_by_time(void **state)
+{
+    (void)state;
+    hd_spectrum *s;
+    CHECK_OK(hd_spectrum_create(&s, 4, 2));
+    CHECK_CLOSE(hd_spectrum_exponent(s, 0), 0.0, 0.0);
+    hd_spectrum_add(s, (const double[]){2.0, -1.0}, 0.5);
+    hd_spectrum_add(s, (const double[]){4.0, 0.0}, 1.5);
+    CHECK_CLOSE(hd_spectrum_time(s), 2.0, 0.0);
+    CHECK_CLOSE(hd_spectrum_exponent(s, 0), 3.0, 0.0);
+    CHECK_CLOSE(hd_spectrum_exponent(s, 1), -0.5, 0.0);
+    CHECK_CLOSE(hd_spectrum_lambda_max(s), 3.0, 0.0);
+    CHECK_CLOSE(hd_spectrum_ks_entropy(s), 3.0, 0.0); /* the positive ones only */
+    CHECK_CLOSE(hd_spectrum_pairing_error(s), -1.0, 0.0);
+    assert_true(hd_spectrum_std_error(s, 0) < 0);
+    hd_spectrum_sample(s);
+    hd_spectrum_add(s, (const double[]){1.0, 1.0}, 2.0);
+    CHECK_CLOSE(hd_spectrum_local(s, 0), 3.0, 0.0);
+    hd_spectrum_sample(s);
+    CHECK_CLOSE(hd_spectrum_local(s, 0), 0.5, 0.0);
+    CHECK_CLOSE(hd_spectrum_exponent(s, 0), 7.0 / 4.0, 0.0);
+    hd_spectrum_clear(s);
+    CHECK_CLOSE(hd_spectrum_time(s) + hd_spectrum_exponent(s, 0) + hd_spectrum_local(s, 0), 0.0, 0.0);
+    hd_spectrum_free(s);
+}
+
+static void all_exponents_show_the_pairing_error(void **state)
+{
+    (void)state;
+    hd_spectrum *s;
+    CHECK_OK(hd_spectrum_create(&s, 4, 4));
+    hd_spectrum_add(s, (const double[]){3.0, 1.0, -1.25, -3.0}, 1.0);
+    CHECK_CLOSE(hd_spectrum_pairing_error(s), 0.25, 0.0);
+    CHECK_CLOSE(hd_spectrum_ks_entropy(s), 4.0, 0.0);
+    hd_spectrum_free(s);
+}
+
+/** Alternating series: mean and naive error known; the error must shrink, not the mean. */
+static void the_error_is_that_of_the_samples(void **state)
+{
+    (void)state;
+    hd_spectrum *s;
+    CHECK_OK(hd_spectrum_create(&s, 4, 1));
+    for (int k = 0; k < 64; k++) { /* de Bruijn-like: no memory at any length */
+        const double x = (k * 37 % 64) / 64.0;
+        hd_spectrum_add(s, &x, 0.5);
+        hd_spectrum_sample(s);
+    }
+    CHECK_CLOSE(hd_spectrum_exponent(s, 0), 63.0 / 64.0, 1e-14);
+    assert_true(hd_spectrum_std_error(s, 0) > 0 && hd_spectrum_std_error(s, 0) < 0.2);
+    hd_spectrum_free(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(means_are_weighted_by_time),
+        cmocka_unit_test(all_exponents_show_the_pairing_error),
+        cmocka_unit_test(the_error_is_that_of_the_samples),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
