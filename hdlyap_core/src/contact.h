@@ -22,17 +22,22 @@ static inline void hd_contact_separation(double r[2], const hd_disk *a, const hd
                hd_contact_position(a->q[d], a->p[d], t - a->t) + shift[d];
 }
 
-/** Wait until |r + p t| = 1, or INFINITY. With x = r x p and c = r^2 - 1 it is
+/** True if two disks that are r apart, with the relative momentum p, approach and will touch. */
+static inline int hd_contact_ahead(double rx, double ry, double px, double py)
+{
+    const double x = rx * py - ry * px;
+    return (rx * px + ry * py < 0) & (px * px + py * py - x * x > 0);
+}
+
+/** Wait until |r + p t| = 1 of disks with a contact ahead. With x = r x p and c = r^2 - 1 it is
  *  c / (sqrt(p^2 - x^2) - r.p): no difference of large numbers; two disks that touch within rounding
- *  while approaching meet at once. Free of branches, so that loops over it become vector code. */
+ *  while approaching meet at once. */
 static inline double hd_contact_wait(double rx, double ry, double px, double py)
 {
-    const double approach = rx * px + ry * py;
     const double x = rx * py - ry * px;
-    const double below = px * px + py * py - x * x;
     const double c = rx * rx + ry * ry - 1.0;
-    const double wait = (c > 0 ? c : 0.0) / (sqrt(below > 0 ? below : 0.0) - approach);
-    return approach < 0 && below > 0 ? wait : INFINITY;
+    const double below = px * px + py * py - x * x;
+    return c > 0 ? c / (sqrt(below) - (rx * px + ry * py)) : 0.0;
 }
 
 #endif

@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-/** Cholesky of the Gram matrix loses orthogonality as 4 eps condition^2: at 1e7 it is still 0.1. */
+/** Cholesky of the Gram matrix loses orthogonality as 16 eps condition^2: at 1e7 a second pass still heals it. */
 static const double CONDITION_CHOLESKY = 1e7;
 /** ln(condition) fluctuates by less than 2 between intervals: aim this factor below the maximum, so that
  *  repairs are rare. */

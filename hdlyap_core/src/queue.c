@@ -6,7 +6,7 @@
 #include "check.h"
 #include "memory.h"
 
-enum { IN_HEAP = -1, NOWHERE = -2, BUCKETS_PER_DISK = 8 };
+enum { BUCKETS_PER_DISK = 2 };
 
 hd_status hd_queue_create(hd_queue *queue, int32_t disks, double horizon)
 {
@@ -14,14 +14,9 @@ hd_status hd_queue_create(hd_queue *queue, int32_t disks, double horizon)
     *queue = (hd_queue){.disks = disks, .buckets = BUCKETS_PER_DISK * disks};
     queue->per_time = queue->buckets / horizon;
     queue->first = hd_memory_alloc((size_t)queue->buckets, sizeof *queue->first);
-    queue->key = hd_memory_alloc(n, sizeof *queue->key);
-    queue->place = hd_memory_alloc(n, sizeof *queue->place);
-    queue->next = hd_memory_alloc(n, sizeof *queue->next);
-    queue->before = hd_memory_alloc(n, sizeof *queue->before);
+    queue->entry = hd_memory_alloc(n, sizeof *queue->entry);
     queue->heap = hd_memory_alloc(n, sizeof *queue->heap);
-    if (!queue->first || !queue->key || !queue->place || !queue->next || !queue->before ||
-        !queue->heap)
-        return HD_NO_MEMORY;
+    if (!queue->first || !queue->entry || !queue->heap) return HD_NO_MEMORY;
     hd_queue_restart(queue);
     return HD_OK;
 }
@@ -29,10 +24,7 @@ hd_status hd_queue_create(hd_queue *queue, int32_t disks, double horizon)
 void hd_queue_clear(hd_queue *queue)
 {
     hd_memory_free(queue->first);
-    hd_memory_free(queue->key);
-    hd_memory_free(queue->place);
-    hd_memory_free(queue->next);
-    hd_memory_free(queue->before);
+    hd_memory_free(queue->entry);
     hd_memory_free(queue->heap);
     *queue = (hd_queue){0};
 }
@@ -42,7 +34,7 @@ void hd_queue_restart(hd_queue *queue)
     queue->now = 0;
     queue->heap_count = 0;
     for (int32_t b = 0; b < queue->buckets; b++) queue->first[b] = -1;
-    for (int32_t i = 0; i < queue->disks; i++) queue->place[i] = NOWHERE;
+    for (int32_t i = 0; i < queue->disks; i++) queue->entry[i].place = HD_QUEUE_NOWHERE;
 }
 
 static bool earlier(const hd_queue_key *a, const hd_queue_key *b)
@@ -56,7 +48,7 @@ static bool earlier(const hd_queue_key *a, const hd_queue_key *b)
 static void heap_set(hd_queue *queue, int32_t position, int32_t disk)
 {
     queue->heap[position] = disk;
-    queue->before[disk] = position;
+    queue->entry[disk].before = position;
 }
 
 /** Returns where the disk came to rest. */
@@ -64,7 +56,7 @@ static int32_t heap_up(hd_queue *queue, int32_t position, int32_t disk)
 {
     while (position > 0) {
         const int32_t parent = (position - 1) / 2;
-        if (!earlier(&queue->key[disk], &queue->key[queue->heap[parent]])) break;
+        if (!earlier(&queue->entry[disk].key, &queue->entry[queue->heap[parent]].key)) break;
         heap_set(queue, position, queue->heap[parent]);
         position = parent;
     }
@@ -76,9 +68,9 @@ static void heap_down(hd_queue *queue, int32_t position, int32_t disk)
 {
     for (int32_t child; (child = 2 * position + 1) < queue->heap_count; position = child) {
         if (child + 1 < queue->heap_count &&
-            earlier(&queue->key[queue->heap[child + 1]], &queue->key[queue->heap[child]]))
+            earlier(&queue->entry[queue->heap[child + 1]].key, &queue->entry[queue->heap[child]].key))
             child++;
-        if (!earlier(&queue->key[queue->heap[child]], &queue->key[disk])) break;
+        if (!earlier(&queue->entry[queue->heap[child]].key, &queue->entry[disk].key)) break;
         heap_set(queue, position, queue->heap[child]);
     }
     heap_set(queue, position, disk);
@@ -91,7 +83,7 @@ static void heap_place(hd_queue *queue, int32_t position, int32_t disk)
 
 static void heap_add(hd_queue *queue, int32_t disk)
 {
-    queue->place[disk] = IN_HEAP;
+    queue->entry[disk].place = HD_QUEUE_HEAP;
     heap_up(queue, queue->heap_count++, disk);
 }
 
@@ -104,19 +96,19 @@ static void heap_remove(hd_queue *queue, int32_t position)
 static void bucket_add(hd_queue *queue, int32_t bucket, int32_t disk)
 {
     const int32_t old = queue->first[bucket];
-    queue->place[disk] = bucket;
-    queue->next[disk] = old;
-    queue->before[disk] = -1;
-    if (old >= 0) queue->before[old] = disk;
+    queue->entry[disk].place = bucket;
+    queue->entry[disk].next = old;
+    queue->entry[disk].before = -1;
+    if (old >= 0) queue->entry[old].before = disk;
     queue->first[bucket] = disk;
 }
 
 static void bucket_remove(hd_queue *queue, int32_t disk)
 {
-    const int32_t before = queue->before[disk], after = queue->next[disk];
-    if (before >= 0) queue->next[before] = after;
-    else queue->first[queue->place[disk]] = after;
-    if (after >= 0) queue->before[after] = before;
+    const int32_t before = queue->entry[disk].before, after = queue->entry[disk].next;
+    if (before >= 0) queue->entry[before].next = after;
+    else queue->first[queue->entry[disk].place] = after;
+    if (after >= 0) queue->entry[after].before = before;
 }
 
 /** Bucket of a time; `buckets` from the horizon on. */
@@ -130,16 +122,16 @@ static int32_t bucket_of(const hd_queue *queue, double t)
 void hd_queue_put(hd_queue *queue, int32_t disk, hd_queue_key key)
 {
     const int32_t bucket = bucket_of(queue, key.t);
-    const int32_t place = queue->place[disk];
-    if (place == IN_HEAP && bucket == queue->now) {
-        queue->key[disk] = key;
-        heap_place(queue, queue->before[disk], disk);
+    const int32_t place = queue->entry[disk].place;
+    if (place == HD_QUEUE_HEAP && bucket == queue->now) {
+        queue->entry[disk].key = key;
+        heap_place(queue, queue->entry[disk].before, disk);
         return;
     }
-    if (place == IN_HEAP) heap_remove(queue, queue->before[disk]);
+    if (place == HD_QUEUE_HEAP) heap_remove(queue, queue->entry[disk].before);
     if (place >= 0) bucket_remove(queue, disk);
-    queue->key[disk] = key;
-    queue->place[disk] = NOWHERE;
+    queue->entry[disk].key = key;
+    queue->entry[disk].place = HD_QUEUE_NOWHERE;
     if (bucket == queue->now) heap_add(queue, disk);
     else if (bucket < queue->buckets) bucket_add(queue, bucket, disk);
 }
@@ -149,7 +141,7 @@ int32_t hd_queue_next(hd_queue *queue)
     while (queue->heap_count == 0) {
         if (queue->now + 1 >= queue->buckets) return -1;
         for (int32_t disk = queue->first[++queue->now], after; disk >= 0; disk = after) {
-            after = queue->next[disk];
+            after = queue->entry[disk].next;
             heap_add(queue, disk);
         }
         queue->first[queue->now] = -1;

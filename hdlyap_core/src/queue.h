@@ -14,14 +14,21 @@ typedef struct hd_queue_key {
     int32_t kind, i, j;
 } hd_queue_key;
 
+/** One disk's event and where it waits. */
+typedef struct hd_queue_entry {
+    hd_queue_key key;
+    int32_t place;        /**< bucket, or HD_QUEUE_HEAP, HD_QUEUE_NOWHERE */
+    int32_t next, before; /**< neighbours in the bucket; before = position in the heap */
+} hd_queue_entry;
+
+enum { HD_QUEUE_HEAP = -1, HD_QUEUE_NOWHERE = -2 };
+
 typedef struct hd_queue {
-    double per_time;    /**< buckets per time unit */
+    double per_time;       /**< buckets per time unit */
     int32_t buckets, now;
-    int32_t *first;     /**< [buckets], first disk in a later bucket or -1 */
-    hd_queue_key *key;  /**< [disks] */
-    int32_t *place;     /**< [disks]: bucket, IN_HEAP or NOWHERE */
-    int32_t *next, *before; /**< [disks]: neighbours in the bucket; before = position in the heap */
-    int32_t *heap;      /**< [heap_count] of at most `disks` */
+    int32_t *first;        /**< [buckets], first disk in a later bucket or -1 */
+    hd_queue_entry *entry; /**< [disks] */
+    int32_t *heap;         /**< [heap_count] of at most `disks`: the present bucket */
     int32_t heap_count, disks;
 } hd_queue;
 
@@ -37,5 +44,12 @@ void hd_queue_put(hd_queue *queue, int32_t disk, hd_queue_key key);
 
 /** Disk with the next event, or -1 if none is left before the horizon. */
 int32_t hd_queue_next(hd_queue *queue);
+
+/** First disk of the bucket that comes `ahead` (>= 1) after the present one, or -1; then entry[].next. */
+static inline int32_t hd_queue_coming(const hd_queue *queue, int32_t ahead)
+{
+    const int32_t bucket = queue->now + ahead;
+    return bucket < queue->buckets ? queue->first[bucket] : -1;
+}
 
 #endif

@@ -18,7 +18,7 @@
 /** Between measured states Q may be loosely conditioned, as the logarithms telescope [T5]. */
 static const double DEFECT_LOOSE = 0.1;
 /** At a measured state, for who looks at the vectors; see defect_max. */
-static const double DEFECT_MEASURED = 1e-7;
+static const double DEFECT_MEASURED = 1e-6;
 static const double COLLISIONS_PER_SAMPLE = 32.0; /* of one disk */
 static const double EVENTS_PER_STEP = 200000.0;   /* bounds memory, and the wait for an answer */
 /** Householder reflections stay right to eps * condition: 1e-3 of one interval, once. */

@@ -18,12 +18,14 @@
 #include "contact.h"
 #include "lattice.h"
 #include "memory.h"
-#include "multiversion.h"
 #include "queue.h"
 #include "random.h"
 
 /** Deeper than this [sigma], an overlap is a fault and not rounding. */
 static const double OVERLAP_MAX = 1e-9;
+
+/** From so many disks on the state outgrows the second-level cache. */
+enum { LOOK_AHEAD_DISKS = 4000 };
 
 enum { PAIR, WALL, EDGE };  /* kinds, in the order in which equal times are taken */
 enum { LOW = 0, HIGH = 2 }; /* sides of a cell, as in hd_cell_line */
@@ -52,66 +54,41 @@ struct hd_trajectory {
 
 /* ---- prediction ------------------------------------------------------------------------------- */
 
-/** Disks that one disk may meet, component by component so that the contact times vectorise. */
-enum { CANDIDATES_MAX = 32 };
-typedef struct candidates {
-    int32_t count;
-    int32_t id[CANDIDATES_MAX], image[2][CANDIDATES_MAX];
-    double q[2][CANDIDATES_MAX], p[2][CANDIDATES_MAX], t[CANDIDATES_MAX];
-    double contact[CANDIDATES_MAX];
-} candidates;
-
-HD_MULTIVERSION
-static void contact_times(candidates *c, const hd_disk *disk, const double box[2])
+/** Lowers the prediction of disk i by its contacts with a list of disks; `image` is what to add, less
+ *  the other disk's own wraps, to see it where disk i sees its cell. */
+static inline void predict_list(hd_trajectory *tr, int32_t i, int32_t j, const int32_t image[2])
 {
-    const double qx = disk->q[0], qy = disk->q[1], px = disk->p[0], py = disk->p[1], t = disk->t;
-    const double lx = box[0], ly = box[1];
-    const int32_t count = c->count;
-    for (int32_t k = 0; k < count; k++) {
-        const double now = t > c->t[k] ? t : c->t[k];
-        const double rx = hd_contact_position(c->q[0][k], c->p[0][k], now - c->t[k]) -
-                          hd_contact_position(qx, px, now - t) + c->image[0][k] * lx;
-        const double ry = hd_contact_position(c->q[1][k], c->p[1][k], now - c->t[k]) -
-                          hd_contact_position(qy, py, now - t) + c->image[1][k] * ly;
-        c->contact[k] = now + hd_contact_wait(rx, ry, c->p[0][k] - px, c->p[1][k] - py);
-    }
-}
-
-/** Lowers the prediction of disk i by the candidates, and empties their list. */
-static void predict_candidates(hd_trajectory *tr, int32_t i, candidates *c)
-{
+    const hd_disk *a = &tr->disk[i];
     prediction *best = &tr->predicted[i];
-    contact_times(c, &tr->disk[i], tr->cells.box);
-    for (int32_t k = 0; k < c->count; k++) {
-        const double t = c->contact[k];
-        if (t > best->contact || (t == best->contact && c->id[k] >= best->partner)) continue;
-        best->contact = t;
-        best->partner = c->id[k];
-        best->partner_collisions = tr->disk[best->partner].collisions;
-        best->image[0] = c->image[0][k];
-        best->image[1] = c->image[1][k];
+    for (const hd_disk *b; j >= 0; j = b->next) {
+        b = &tr->disk[j];
+        const int32_t edges[2] = {image[0] - b->wrap[0], image[1] - b->wrap[1]};
+        const double shift[2] = {edges[0] * tr->cells.box[0], edges[1] * tr->cells.box[1]};
+        const double t = a->t > b->t ? a->t : b->t;
+        const double px = b->p[0] - a->p[0], py = b->p[1] - a->p[1];
+        double r[2];
+        hd_contact_separation(r, a, b, shift, t);
+        if (!hd_contact_ahead(r[0], r[1], px, py)) continue; /* the disk itself never is: p = 0 */
+        const double contact = t + hd_contact_wait(r[0], r[1], px, py);
+        if (contact > best->contact || (contact == best->contact && j >= best->partner)) continue;
+        *best = (prediction){.contact = contact, .partner = j, .partner_collisions = b->collisions,
+                             .image = {edges[0], edges[1]}};
     }
-    c->count = 0;
 }
 
-/** Adds the disks of the cell to the given sides of disk i's own (0 low, 1 here, 2 high). */
-static void gather_cell(hd_trajectory *tr, int32_t i, candidates *c, int side_x, int side_y)
+/** The same for the cells at the given sides of its own, a rectangle of them (0 low, 1 here, 2 high). */
+static void predict_cells(hd_trajectory *tr, int32_t i, const int x[2], const int y[2])
 {
     const hd_disk *disk = &tr->disk[i];
-    const hd_cell_line *x = &tr->cells.line[0][disk->cell[0]];
-    const hd_cell_line *y = &tr->cells.line[1][disk->cell[1]];
-    if (x->near[side_x] < 0 || y->near[side_y] < 0) return;
-    int32_t j = hd_cells_first(&tr->cells, x->near[side_x], y->near[side_y]);
-    for (; j >= 0; j = tr->disk[j].next) {
-        const hd_disk *other = &tr->disk[j];
-        const int32_t k = c->count;
-        c->id[k] = j;
-        c->image[0][k] = x->shift[side_x] + disk->wrap[0] - other->wrap[0];
-        c->image[1][k] = y->shift[side_y] + disk->wrap[1] - other->wrap[1];
-        for (int d = 0; d < 2; d++) c->q[d][k] = other->q[d], c->p[d][k] = other->p[d];
-        c->t[k] = other->t;
-        c->count += j != i;
-        if (c->count == CANDIDATES_MAX) predict_candidates(tr, i, c);
+    const hd_cell_line *column = &tr->cells.line[0][disk->cell[0]];
+    const hd_cell_line *row = &tr->cells.line[1][disk->cell[1]];
+    for (int v = y[0]; v <= y[1]; v++) {
+        if (row->near[v] < 0) continue;
+        const int32_t *cells = tr->cells.first + row->near[v] * tr->cells.size[0];
+        for (int u = x[0]; u <= x[1]; u++) {
+            const int32_t image[2] = {column->shift[u] + disk->wrap[0], row->shift[v] + disk->wrap[1]};
+            if (column->near[u] >= 0) predict_list(tr, i, cells[column->near[u]], image);
+        }
     }
 }
 
@@ -151,13 +128,10 @@ static void schedule(hd_trajectory *tr, int32_t i)
 /** All that disk i can meet, from its present state. */
 static void predict(hd_trajectory *tr, int32_t i)
 {
-    candidates c;
-    c.count = 0;
+    static const int all[2] = {0, 2};
     tr->predicted[i].contact = INFINITY;
     tr->predicted[i].partner = -1;
-    for (int y = 0; y < 3; y++)
-        for (int x = 0; x < 3; x++) gather_cell(tr, i, &c, x, y);
-    predict_candidates(tr, i, &c);
+    predict_cells(tr, i, all, all);
     schedule(tr, i);
 }
 
@@ -279,18 +253,16 @@ static void cross(hd_trajectory *tr, int32_t i)
 {
     const int d = tr->predicted[i].direction;
     const int side = tr->predicted[i].side;
-    candidates c;
-    c.count = 0;
+    const int across[2] = {side, side}, along[2] = {0, 2};
     hd_cells_cross(&tr->cells, tr->disk, i, d, side);
-    for (int k = 0; k < 3; k++) gather_cell(tr, i, &c, d == 0 ? side : k, d == 0 ? k : side);
-    predict_candidates(tr, i, &c);
+    predict_cells(tr, i, d == 0 ? across : along, d == 0 ? along : across);
     schedule(tr, i);
 }
 
 /** The event at the head of the queue; log_start is the interval's start in this epoch's time. */
 static hd_status take_event(hd_trajectory *tr, hd_event_log *log, int32_t i, double log_start)
 {
-    const hd_queue_key key = tr->queue.key[i];
+    const hd_queue_key key = tr->queue.entry[i].key;
     hd_event event = {.t = key.t > log_start ? key.t - log_start : 0.0, .i = key.i, .j = key.j};
     switch (key.kind) {
     case WALL: return reflect(tr, log, &event, key.t);
@@ -321,6 +293,31 @@ static hd_status turn_epoch(hd_trajectory *tr)
     return HD_OK;
 }
 
+/** Fetches what the events of the next buckets will touch: where the state does not fit into the cache,
+ *  memory is waited for once and not at every step. Changes no result. */
+static void look_ahead(hd_trajectory *tr)
+{
+    const hd_queue *queue = &tr->queue;
+    const hd_cells *cells = &tr->cells;
+    for (int32_t i = hd_queue_coming(queue, 3); i >= 0; i = queue->entry[i].next) {
+        __builtin_prefetch(&tr->disk[i]);
+        __builtin_prefetch(&tr->predicted[i]);
+    }
+    for (int32_t i = hd_queue_coming(queue, 2); i >= 0; i = queue->entry[i].next)
+        for (int k = 0; k < 3; k++) {
+            const int32_t row = cells->line[1][tr->disk[i].cell[1]].near[k];
+            if (row >= 0) __builtin_prefetch(&cells->first[row * cells->size[0] + tr->disk[i].cell[0]]);
+        }
+    for (int32_t i = hd_queue_coming(queue, 1); i >= 0; i = queue->entry[i].next)
+        for (int k = 0; k < 9; k++) {
+            const int32_t row = cells->line[1][tr->disk[i].cell[1]].near[k / 3];
+            const int32_t column = cells->line[0][tr->disk[i].cell[0]].near[k % 3];
+            if (row < 0 || column < 0) continue;
+            const int32_t j = hd_cells_first(cells, column, row);
+            if (j >= 0) __builtin_prefetch(&tr->disk[j]), __builtin_prefetch(&queue->entry[j]);
+        }
+}
+
 hd_status hd_trajectory_advance(hd_trajectory *tr, hd_event_log *log, double t_end)
 {
     HD_ASSERT(t_end >= tr->now);
@@ -328,8 +325,9 @@ hd_status hd_trajectory_advance(hd_trajectory *tr, hd_event_log *log, double t_e
     if (log) log->count = 0, log->duration = t_end - t_begin;
     for (;;) {
         const double end = t_end - tr->epoch_start;
-        const int32_t i = hd_queue_next(&tr->queue);
-        if (i >= 0 && tr->queue.key[i].t < end && tr->queue.key[i].t < tr->epoch_length) {
+        const int32_t bucket = tr->queue.now, i = hd_queue_next(&tr->queue);
+        if (tr->queue.now != bucket && tr->count >= LOOK_AHEAD_DISKS) look_ahead(tr);
+        if (i >= 0 && tr->queue.entry[i].key.t < end && tr->queue.entry[i].key.t < tr->epoch_length) {
             HD_TRY(take_event(tr, log, i, t_begin - tr->epoch_start));
         } else if (end > tr->epoch_length) {
             HD_TRY(turn_epoch(tr));
