@@ -1,3 +1,27 @@
-foreach(name)
+foreach(name IN ITEMS
+    physics
+    run
+    blas
+    spectrum
+    interval
+    ortho
+    blocks
+    frame
+    trajectory
+    trajectory_twin
+    trajectory_ties
+    trajectory_pair
+    trajectory_conservation
+    trajectory_rates
+    golden
+    queue
+    cells
+    lattice
+    scene
+    random
+    memory
+    status
+)
   hdlyap_core_test(${name})
 endforeach()
+include(checks.cmake)

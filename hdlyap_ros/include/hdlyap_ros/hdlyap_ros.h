@@ -1,0 +1,10 @@
+/** A C API over roscpp: all that a C program needs to be a node that publishes hdlyap's messages. */
+#ifndef HDLYAP_ROS_HDLYAP_ROS_H
+#define HDLYAP_ROS_HDLYAP_ROS_H
+
+#include "hdlyap_ros/node.h"
+#include "hdlyap_ros/params.h"
+#include "hdlyap_ros/publisher.h"
+#include "hdlyap_ros/service.h"
+
+#endif

@@ -1,0 +1,46 @@
+/** Topics out: one typed advertise and one typed publish function per message. */
+#ifndef HDLYAP_ROS_PUBLISHER_H
+#define HDLYAP_ROS_PUBLISHER_H
+
+#include "hdlyap_ros/messages.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** A topic of one type. Used by one thread at a time. */
+typedef struct hdr_publisher hdr_publisher;
+
+/* Topic names: "~x" is private to the node. queue >= 1 is the number of messages kept for each
+ * subscriber that is behind; the oldest are dropped first. The publishers belong to the node and live
+ * as long as it does. Fail with HDR_FAULT. */
+
+/** Latched: who comes late gets the last message. */
+HDR_MUST_CHECK hdr_status hdr_run_info_advertise(hdr_publisher **out, hdr_node *node,
+                                                 const char *topic);
+HDR_MUST_CHECK hdr_status hdr_spectrum_advertise(hdr_publisher **out, hdr_node *node,
+                                                 const char *topic, int queue);
+HDR_MUST_CHECK hdr_status hdr_state_advertise(hdr_publisher **out, hdr_node *node,
+                                              const char *topic, int queue);
+HDR_MUST_CHECK hdr_status hdr_cost_advertise(hdr_publisher **out, hdr_node *node, const char *topic,
+                                             int queue);
+HDR_MUST_CHECK hdr_status hdr_diagnostic_advertise(hdr_publisher **out, hdr_node *node,
+                                                   const char *topic, int queue);
+
+/** Number of subscribers connected now. */
+int hdr_publisher_subscribers(const hdr_publisher *publisher);
+
+/* The view is serialised before these return and never waited for. Without a subscriber and without
+ * latching they do nothing. HDR_FAULT if the publisher is of another type. */
+
+HDR_MUST_CHECK hdr_status hdr_run_info_publish(hdr_publisher *publisher, const hdr_run_info *view);
+HDR_MUST_CHECK hdr_status hdr_spectrum_publish(hdr_publisher *publisher, const hdr_spectrum *view);
+HDR_MUST_CHECK hdr_status hdr_state_publish(hdr_publisher *publisher, const hdr_state *view);
+HDR_MUST_CHECK hdr_status hdr_cost_publish(hdr_publisher *publisher, const hdr_cost *view);
+HDR_MUST_CHECK hdr_status hdr_diagnostic_publish(hdr_publisher *publisher,
+                                                 const hdr_diagnostic *view);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,28 @@
+/** Outcome of every call of this C API over roscpp. No C++ exception ever leaves a function of it. */
+#ifndef HDLYAP_ROS_STATUS_H
+#define HDLYAP_ROS_STATUS_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum hdr_status {
+    HDR_OK,
+    HDR_MISSING,    /**< there is no such parameter */
+    HDR_WRONG_TYPE, /**< the parameter has another type */
+    HDR_FAULT       /**< roscpp refused; hdr_error_text says why */
+} hdr_status;
+
+#if defined(__GNUC__)
+#define HDR_MUST_CHECK __attribute__((warn_unused_result))
+#else
+#define HDR_MUST_CHECK
+#endif
+
+/** What the last HDR_FAULT of this thread was about; never NULL, valid until its next HDR_FAULT. */
+const char *hdr_error_text(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

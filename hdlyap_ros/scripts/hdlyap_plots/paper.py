@@ -1,0 +1,44 @@
+"""What Eckmann, Forster, Posch, Zabey, "Lyapunov modes in hard-disk systems", J. Stat. Phys.
+(2005), gives for its periodic scene: N = 780, density 0.8, aspect ratio 0.867."""
+
+from math import hypot, isclose, pi
+
+DISKS, DENSITY, ASPECT = 780, 0.8, 0.867
+FIT_ACCURACY = 0.03     # of the fitted slopes
+FITS = 'fits of Eckmann, Forster, Posch, Zabey 2005'
+STEPS = (('T', 1, 0, 1556, 1557), ('T', 0, 1, 1554, 1555), ('LP', 1, 0, 1550, 1553),
+         ('T', 1, 1, 1546, 1549), ('LP', 0, 1, 1542, 1545))
+
+
+class Step:
+    """Degenerate exponents of one wave vector, with the value of the fitted branch, c k."""
+
+    def __init__(self, info, kind, nx, ny, first, last):
+        slope = slope_t if kind == 'T' else slope_l
+        self.kind, self.first, self.last = kind, first, last
+        self.name = f'{kind}({nx},{ny})'
+        self.wave_number = 2 * pi * hypot(nx / info.box_x, ny / info.box_y)
+        self.fitted = slope(info.density) * self.wave_number
+
+
+def slope_t(density):
+    """c_T at N = 780, A = 0.867, density <= 0.8."""
+    return 0.902 + 1.050 * density - 0.053 * density ** 2 + 3.85 * density ** 4
+
+
+def slope_l(density):
+    """c_L at N = 780, A = 0.867, density <= 0.8."""
+    return 0.790 + 0.970 * density + 0.785 * density ** 2 + 6.24 * density ** 4
+
+
+def steps(info):
+    """The paper's smallest steps if the run is of the paper's periodic scene, else none."""
+    if not _is_periodic_scene(info):
+        return []
+    return [Step(info, *step) for step in STEPS]
+
+
+def _is_periodic_scene(info):
+    return (info.disks == DISKS and isclose(info.density, DENSITY, rel_tol=1e-6)
+            and isclose(info.aspect, ASPECT, rel_tol=1e-6)
+            and info.boundary_x == info.boundary_y == 'periodic')

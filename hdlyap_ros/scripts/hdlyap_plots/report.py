@@ -1,0 +1,90 @@
+"""Recording -> the text that plot_bag prints."""
+
+import numpy as np
+
+from . import paper
+from .recording import known
+
+TAIL = 64       # exponents in the table
+COLUMNS = 3
+
+
+def report(recording):
+    blocks = [_head(recording)]
+    if recording.spectrum is not None:
+        blocks += [_sums(recording), _tail(recording), *_paper_block(recording)]
+    return '\n\n'.join(blocks)
+
+
+def _head(recording):
+    info = recording.info
+    return (f'scene {info.scene}: N = {info.disks}, density {info.density:g}, '
+            f'box {info.box_x:.3f} x {info.box_y:.3f}, '
+            f'x {info.boundary_x}, y {info.boundary_y}\n'
+            f'seed {info.seed}, hdlyap {info.version}, run {info.run_id}')
+
+
+def _sums(recording):
+    spectrum, disks = recording.spectrum, recording.info.disks
+    lines = [f'averaged time   {spectrum.averaged_time:g}',
+             f'collisions      {spectrum.collisions}',
+             f'lambda_max      {spectrum.lambda_max:.6f}{_error(spectrum.std_errors[0])}']
+    if recording.last_index >= recording.positive_end:
+        lines += [f'h_KS            {spectrum.ks_entropy:.4f}',
+                  f'h_KS / N        {spectrum.ks_entropy / disks:.6f}']
+    else:
+        lines.append(f'sum of the {len(spectrum.exponents)} exponents carried '
+                     f'{spectrum.ks_entropy:.4f}')
+    if spectrum.pairing_error >= 0:
+        lines.append(f'pairing error   {spectrum.pairing_error:.2e}')
+    return '\n'.join(lines)
+
+
+def _error(error):
+    return f' +- {error:.6f}' if error >= 0 else ''
+
+
+def _tail(recording):
+    spectrum = recording.spectrum
+    end = min(recording.positive_end, recording.last_index)
+    first = max(spectrum.first_index, end - TAIL + 1)
+    what = 'before the zeros' if end == recording.positive_end else 'carried'
+    cells = []
+    for index in range(first, end + 1):
+        i = index - spectrum.first_index
+        error = f'{spectrum.std_errors[i]:.5f}' if spectrum.std_errors[i] >= 0 else '-'
+        cells.append(f'{index:6d} {spectrum.exponents[i]:9.5f} {error:>8}')
+    head = f'{"index":>6} {"exponent":>9} {"error":>8}'
+    return '\n'.join([f'the last {len(cells)} exponents {what} (standard errors)',
+                      *_in_columns(head, cells)])
+
+
+def _in_columns(head, cells):
+    """Reads down, then to the right."""
+    rows = -(-len(cells) // COLUMNS)
+    columns = [cells[start:start + rows] for start in range(0, len(cells), rows)]
+    yield '  '.join([head] * len(columns))
+    for row in range(rows):
+        yield '  '.join(column[row] for column in columns if row < len(column))
+
+
+def _paper_block(recording):
+    spectrum = recording.spectrum
+    steps = [step for step in paper.steps(recording.info)
+             if spectrum.first_index <= step.first and step.last <= recording.last_index]
+    if not steps:
+        return
+    yield '\n'.join(['steps beside the ' + paper.FITS + ' (+-3 %)',
+                     '  step     indices      k [1/sigma]  mean exponent      error    c k     '
+                     'deviation',
+                     *(_paper_line(spectrum, step) for step in steps)])
+
+
+def _paper_line(spectrum, step):
+    inside = slice(step.first - spectrum.first_index, step.last + 1 - spectrum.first_index)
+    mean = np.mean(spectrum.exponents[inside])
+    # the members of a step fluctuate together, so their errors do not average out
+    error = np.mean(known(spectrum.std_errors[inside]))
+    return (f'  {step.name:<8} {step.first}-{step.last}  {step.wave_number:11.5f}  '
+            f'{mean:13.5f}   {error:8.5f}  {step.fitted:6.4f}  '
+            f'{100 * (mean / step.fitted - 1):+8.2f} %')

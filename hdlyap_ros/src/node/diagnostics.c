@@ -1,0 +1,121 @@
+/** OK while it computes, WARN while intervals have to be repaired, ERROR once a fault has ended it. */
+#include "diagnostics.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "clock.h"
+
+static const double period = 1.0;
+/** How long a repair is worth a warning [s]. */
+static const double warn_seconds = 10.0;
+
+enum { KEYS = 9, TEXT_SIZE = 32 };
+
+/** Keys and the texts that they point to. */
+typedef struct key_list {
+    hdr_key_value value[KEYS];
+    char text[KEYS][TEXT_SIZE];
+    uint32_t count;
+} key_list;
+
+hdr_status diagnostics_advertise(diagnostics *d, hdr_node *ros, const char *run_id,
+                                 const char *blas_kernel)
+{
+    const double now = clock_seconds();
+    *d = (diagnostics){
+        .node_name = hdr_node_name(ros),
+        .run_id = run_id,
+        .blas_kernel = blas_kernel,
+        .next = now,
+        .measured = now,
+        .repaired = -HUGE_VAL,
+    };
+    return hdr_diagnostic_advertise(&d->publisher, ros, "/diagnostics", 10);
+}
+
+static void add_text(key_list *list, const char *key, const char *text)
+{
+    list->value[list->count++] = (hdr_key_value){key, text};
+}
+
+static void add_number(key_list *list, const char *key, double number)
+{
+    char *text = list->text[list->count];
+    snprintf(text, TEXT_SIZE, "%.6g", number);
+    add_text(list, key, text);
+}
+
+static const char *phase_name(const worker_state *state)
+{
+    static const char *const names[] = {"equilibrating", "warming up", "averaging", "finished"};
+    if (state->stage == WORKER_WAITING) return "waiting for subscribers";
+    if (state->stage == WORKER_PAUSED) return "paused";
+    return names[state->last.phase];
+}
+
+/** Since the last message, which this call makes the present one. */
+static double collision_rate(diagnostics *d, const progress *last, double now)
+{
+    const double seconds = now - d->measured;
+    const double collisions = (double)(last->collisions - d->collisions);
+    d->measured = now;
+    d->collisions = last->collisions;
+    return seconds > 0.0 ? collisions / seconds : 0.0;
+}
+
+static void fill_keys(diagnostics *d, key_list *list, const worker_state *state, double now)
+{
+    const hd_cost *cost = &state->last.cost;
+    add_text(list, "phase", phase_name(state));
+    add_number(list, "simulated time", state->last.time);
+    add_number(list, "progress", cost->progress);
+    add_number(list, "remaining seconds", cost->remaining);
+    add_number(list, "interval", cost->interval);
+    add_number(list, "condition", cost->condition);
+    add_number(list, "repairs", (double)cost->repairs);
+    add_number(list, "collisions per second", collision_rate(d, &state->last, now));
+    add_text(list, "blas kernel", d->blas_kernel);
+}
+
+static uint8_t level_of(diagnostics *d, const worker_state *state, double now)
+{
+    if (state->status != HD_OK) return HDR_DIAGNOSTIC_ERROR;
+    if (state->last.cost.repairs > d->repairs) d->repaired = now;
+    d->repairs = state->last.cost.repairs;
+    return now - d->repaired < warn_seconds ? HDR_DIAGNOSTIC_WARN : HDR_DIAGNOSTIC_OK;
+}
+
+static const char *message_of(uint8_t level, const worker_state *state)
+{
+    if (level == HDR_DIAGNOSTIC_ERROR) return hd_status_text(state->status);
+    if (level == HDR_DIAGNOSTIC_WARN) return "intervals were too long and had to be repaired";
+    return phase_name(state);
+}
+
+void diagnostics_publish(diagnostics *d, const worker_state *state)
+{
+    const double now = clock_seconds();
+    key_list list = {.count = 0};
+    fill_keys(d, &list, state, now);
+    const uint8_t level = level_of(d, state, now);
+    const hdr_diagnostic view = {
+        .header = {.stamp = hdr_time_now(), .frame_id = ""},
+        .level = level,
+        .name = d->node_name,
+        .message = message_of(level, state),
+        .hardware_id = d->run_id,
+        .values = list.value,
+        .count = list.count,
+    };
+    if (hdr_diagnostic_publish(d->publisher, &view) != HDR_OK)
+        hdr_log(HDR_ERROR, "diagnostics not sent: %s", hdr_error_text());
+}
+
+void diagnostics_update(diagnostics *d, const worker_state *state)
+{
+    const double now = clock_seconds();
+    if (now < d->next) return;
+    d->next = fmax(d->next + period, now);
+    diagnostics_publish(d, state);
+}

@@ -1,0 +1,28 @@
+/** The node's health: worker state -> /diagnostics, once per second. */
+#ifndef HDLYAP_DIAGNOSTICS_H
+#define HDLYAP_DIAGNOSTICS_H
+
+#include "hdlyap_ros/publisher.h"
+#include "worker.h"
+
+typedef struct diagnostics {
+    hdr_publisher *publisher;
+    const char *node_name, *run_id;
+    const char *blas_kernel;
+    double next;         /**< when to publish again [s of clock_seconds] */
+    double measured;     /**< when collisions was taken */
+    uint64_t collisions; /**< at the last message */
+    long repairs;        /**< as of the last change */
+    double repaired;     /**< when it last changed */
+} diagnostics;
+
+/** The strings must live as long as d. */
+HDR_MUST_CHECK hdr_status diagnostics_advertise(diagnostics *d, hdr_node *ros, const char *run_id,
+                                                const char *blas_kernel);
+
+/** Publishes if a second has passed since the last time. */
+void diagnostics_update(diagnostics *d, const worker_state *state);
+/** Publishes now. */
+void diagnostics_publish(diagnostics *d, const worker_state *state);
+
+#endif

@@ -1,0 +1,171 @@
+/** hdlyap_node: reads the parameters, starts the worker, looks after it until the end. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "diagnostics.h"
+#include "hdlyap/hdlyap.h"
+#include "report.h"
+#include "services.h"
+#include "settings.h"
+#include "worker.h"
+
+enum { EXIT_REFUSED = 2, EXIT_NUMERICAL_FAULT = 3, EXIT_FILE_FAULT = 4 };
+
+/** Seconds from a request to stop to the end of the process, whatever happens. */
+static const double stop_seconds = 0.9;
+/** Of them for the step that is under way. */
+static const double stop_step_seconds = 0.3;
+/** How long the last messages of a finished run may take to reach a slow subscriber. */
+static const double linger_seconds = 5.0;
+static const double poll_seconds = 0.02;
+
+/** Everything that the node owns, in the order of its making. */
+typedef struct app {
+    hdr_node *ros;
+    hdr_params *params;
+    settings set;
+    hd_run *run;
+    report *rep;
+    worker *work;
+    diagnostics diag;
+} app;
+
+static int refuse(const char *message)
+{
+    hdr_log(HDR_FATAL, "%s", message);
+    return EXIT_REFUSED;
+}
+
+static int refuse_argument(const char *argument)
+{
+    hdr_log(HDR_FATAL, "argument %s: must be _parameter:=value", argument);
+    return EXIT_REFUSED;
+}
+
+static int fault_status(hd_status status)
+{
+    if (status == HD_OK) return EXIT_SUCCESS;
+    if (status == HD_REFUSED) return EXIT_REFUSED;
+    return status == HD_FILE_FAULT ? EXIT_FILE_FAULT : EXIT_NUMERICAL_FAULT;
+}
+
+static int read_settings(app *a)
+{
+    char message[512] = "";
+    if (hdr_params_create(&a->params, a->ros) != HDR_OK) return refuse(hdr_error_text());
+    if (!settings_read(&a->set, a->params, message, sizeof message)) return refuse(message);
+    return EXIT_SUCCESS;
+}
+
+static int create_run(app *a)
+{
+    char message[512] = "";
+    const hd_status status = hd_run_create(&a->run, &a->set.def, message, sizeof message);
+    if (status != HD_OK) hdr_log(HDR_FATAL, "%s", *message ? message : hd_status_text(status));
+    return fault_status(status);
+}
+
+/** From here on the node can be seen by others. */
+static int advertise(app *a)
+{
+    char message[512] = "";
+    if (!report_create(&a->rep, a->ros, &a->set, a->run, message, sizeof message))
+        return refuse(message);
+    const char *kernel = hd_blas_query().kernel;
+    if (diagnostics_advertise(&a->diag, a->ros, report_run_id(a->rep), kernel) != HDR_OK)
+        return refuse(hdr_error_text());
+    if (report_run_info(a->rep, a->run) != HDR_OK) return refuse(hdr_error_text());
+    if (!worker_create(&a->work, a->run, a->rep, &a->set)) return refuse("no thread to compute in");
+    if (services_advertise(a->ros, a->work) != HDR_OK) return refuse(hdr_error_text());
+    return EXIT_SUCCESS;
+}
+
+static void log_start(const app *a)
+{
+    const hd_scene_def *def = &a->set.def;
+    const hd_blas blas = hd_blas_query();
+    double box[2];
+    hd_scene_box(def, box);
+    hdr_log(HDR_INFO,
+            "scene %s: %d disks in %.6g x %.6g, %d vectors, %d threads; %s, kernel %s, %d threads",
+            a->set.scene, def->disks, box[0], box[1], hd_run_vectors(a->run),
+            hd_run_threads(a->run), blas.library, blas.kernel, blas.threads);
+    if (a->set.awaited) hdr_log(HDR_INFO, "waiting for subscribers");
+}
+
+static void log_end(const worker_state *state)
+{
+    const progress *last = &state->last;
+    if (state->status != HD_OK)
+        hdr_log(HDR_FATAL, "ended by a fault at simulated time %.6g: %s", last->time,
+                hd_status_text(state->status));
+    else
+        hdr_log(HDR_INFO,
+                "%s at simulated time %.6g after %.1f s: %" PRIu64 " collisions, "
+                "%ld orthonormalisations, %ld repairs",
+                last->phase == HD_FINISHED ? "finished" : "stopped", last->time, last->cost.wall,
+                last->collisions, last->cost.orthonormalisations, last->cost.repairs);
+}
+
+/** Until the worker has ended or a stop was requested; true if the worker has ended. */
+static bool look_after(app *a)
+{
+    bool ended = false;
+    while (!ended && !hdr_stop_requested()) {
+        ended = worker_wait(a->work, poll_seconds);
+        const worker_state state = worker_state_now(a->work);
+        diagnostics_update(&a->diag, &state);
+    }
+    worker_stop(a->work);
+    return ended || worker_wait(a->work, stop_step_seconds);
+}
+
+/** A run at fault has no last message: its end is in the log and in the diagnostics. */
+static int finish(app *a)
+{
+    worker_state state = worker_state_now(a->work);
+    if (state.status == HD_OK) state.status = worker_finish(a->work);
+    diagnostics_publish(&a->diag, &state);
+    log_end(&state);
+    return fault_status(state.status);
+}
+
+/** The worker publishes through the node, whose services call the worker. */
+static void app_free(app *a)
+{
+    worker_end(a->work);
+    hdr_node_free(a->ros, linger_seconds);
+    worker_free(a->work);
+    report_free(a->rep);
+    hd_run_free(a->run);
+    hdr_params_free(a->params);
+}
+
+static int run(app *a)
+{
+    int status = read_settings(a);
+    if (status == EXIT_SUCCESS) status = create_run(a);
+    if (status != EXIT_SUCCESS) return status;
+    log_start(a);
+    status = advertise(a);
+    if (status != EXIT_SUCCESS) return status;
+    const bool ended = look_after(a);
+    status = finish(a);
+    if (ended) return status;
+    hdr_node_free(a->ros, linger_seconds); /* a step under way still uses everything else */
+    _exit(status);
+}
+
+int main(int argc, char **argv)
+{
+    app a = {.ros = NULL};
+    hd_blas_restart_if_slow(argv);
+    if (hdr_node_create(&a.ros, &argc, argv, "hdlyap", stop_seconds) != HDR_OK)
+        return refuse(hdr_error_text());
+    if (!a.ros) return EXIT_SUCCESS;
+    const int status = argc > 1 ? refuse_argument(argv[1]) : run(&a);
+    app_free(&a);
+    return status;
+}

@@ -1,0 +1,43 @@
+/** What is published of a run: its numbers -> messages. Owns the topics and the buffers that the
+ *  messages are written from; nothing is computed for a topic without a subscriber. */
+#ifndef HDLYAP_REPORT_H
+#define HDLYAP_REPORT_H
+
+#include "hdlyap/run.h"
+#include "hdlyap_ros/publisher.h"
+#include "settings.h"
+
+/** What other threads may know of the run: a copy as of its last finished step. */
+typedef struct progress {
+    hd_phase phase;
+    double time;         /**< simulated time since the start */
+    uint64_t collisions; /**< pairs, since the start */
+    hd_cost cost;
+} progress;
+
+progress progress_of(const hd_run *run);
+
+typedef struct report report;
+
+/** Advertises the topics that the settings ask for. Both live longer than the report.
+ *  False if out of memory or refused by ROS, with the reason in message. */
+bool report_create(report **out, hdr_node *ros, const settings *set, const hd_run *run,
+                   char *message, size_t size);
+void report_free(report *rep);
+
+const char *report_run_id(const report *rep);
+
+/** True if each topic of the set has a subscriber. */
+bool report_awaited_here(const report *rep, unsigned awaited);
+
+/** Publishes everything needed to repeat the run; latched. */
+HDR_MUST_CHECK hdr_status report_run_info(report *rep, const hd_run *run);
+
+/** Publishes spectrum, state and cost of a run that has a report due.
+ *  HD_NOT_FINITE, and nothing of the message concerned is published, if a number of it is not. */
+HD_MUST_CHECK hd_status report_publish(report *rep, const hd_run *run);
+
+/** Publishes the run's last message: the cost, with phase FINISHED. */
+HD_MUST_CHECK hd_status report_finish(report *rep, const progress *last);
+
+#endif

@@ -1,0 +1,38 @@
+/** Services in: answered on the callback thread, obeyed by the worker between two steps. */
+#include "services.h"
+
+#include <stdio.h>
+
+static bool on_pause(void *context, bool pause, char *message, size_t size)
+{
+    worker *w = context;
+    const worker_state state = worker_state_now(w);
+    if (state.stage == WORKER_ENDED) {
+        snprintf(message, size, "the run has ended");
+        return false;
+    }
+    worker_pause(w, pause);
+    snprintf(message, size, "%s after simulated time %.6g", pause ? "pauses" : "goes on",
+             state.last.time);
+    return true;
+}
+
+static bool on_reset_average(void *context, char *message, size_t size)
+{
+    worker *w = context;
+    const worker_state state = worker_state_now(w);
+    if (state.stage == WORKER_ENDED || state.last.phase != HD_AVERAGING) {
+        snprintf(message, size, "there are no averages now");
+        return false;
+    }
+    worker_reset_average(w);
+    snprintf(message, size, "averages start afresh after simulated time %.6g", state.last.time);
+    return true;
+}
+
+hdr_status services_advertise(hdr_node *ros, worker *w)
+{
+    const hdr_status status = hdr_service_set_bool(ros, "~pause", on_pause, w);
+    if (status != HDR_OK) return status;
+    return hdr_service_trigger(ros, "~reset_average", on_reset_average, w);
+}

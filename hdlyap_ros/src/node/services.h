@@ -1,0 +1,11 @@
+/** Services in: ~pause and ~reset_average -> requests to the worker. */
+#ifndef HDLYAP_SERVICES_H
+#define HDLYAP_SERVICES_H
+
+#include "hdlyap_ros/service.h"
+#include "worker.h"
+
+/** The worker must live as long as the node serves callbacks. HDR_FAULT if ROS refuses. */
+HDR_MUST_CHECK hdr_status services_advertise(hdr_node *ros, worker *w);
+
+#endif

@@ -1,0 +1,274 @@
+/** Private parameters -> settings. One table row per parameter; the ranges of the scene itself are
+ *  the core's, everything that only the node knows is checked here. */
+#include "settings.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "topic.h"
+
+enum { ALL_TOPICS = (1u << TOPICS) - 1 };
+
+/** One parameter on its way in. */
+typedef struct reader {
+    const hdr_params *params;
+    const char *name;
+    const char *missing_feature; /**< of parameters that only have their neutral value yet */
+    char *message;
+    size_t size;
+} reader;
+
+/** Reads into field of settings; a missing parameter leaves the default. False if refused. */
+typedef bool (*read_function)(const reader *r, void *field);
+
+static bool refuse(const reader *r, const char *allowed)
+{
+    snprintf(r->message, r->size, "%s = %s: must be %s", r->name,
+             hdr_param_text(r->params, r->name), allowed);
+    return false;
+}
+
+static bool accept(const reader *r, hdr_status status, const char *allowed)
+{
+    return status == HDR_OK || status == HDR_MISSING || refuse(r, allowed);
+}
+
+static bool read_int(const reader *r, void *field)
+{
+    return accept(r, hdr_param_int(r->params, r->name, field), "an integer");
+}
+
+static bool read_double(const reader *r, void *field)
+{
+    return accept(r, hdr_param_double(r->params, r->name, field), "a number");
+}
+
+static bool read_scene(const reader *r, void *field)
+{
+    const char **scene = field;
+    const hdr_status status = hdr_param_string(r->params, r->name, scene);
+    return accept(r, status, "a string") && (**scene || refuse(r, "a string that is not empty"));
+}
+
+static bool read_boundary(const reader *r, void *field)
+{
+    hd_boundary *boundary = field;
+    const char *text = NULL;
+    const hdr_status status = hdr_param_string(r->params, r->name, &text);
+    if (status == HDR_MISSING) return true;
+    if (status == HDR_OK && strcmp(text, "periodic") == 0) return *boundary = HD_PERIODIC, true;
+    if (status == HDR_OK && strcmp(text, "reflecting") == 0) return *boundary = HD_REFLECTING, true;
+    return refuse(r, "periodic or reflecting");
+}
+
+/** Decimal digits and nothing else, at most `max`. */
+static bool parse_unsigned(uint64_t *out, const char *text, uint64_t max)
+{
+    if (!*text || text[strspn(text, "0123456789")]) return false;
+    errno = 0;
+    const unsigned long long value = strtoull(text, NULL, 10);
+    if (errno || value > max) return false;
+    *out = value;
+    return true;
+}
+
+/** A string, because integers have 32 bits on the parameter server; short ones are taken too. */
+static bool read_seed(const reader *r, void *field)
+{
+    int number;
+    const char *text = hdr_param_text(r->params, r->name);
+    const hdr_status as_string = hdr_param_string(r->params, r->name, &text);
+    if (as_string == HDR_MISSING) return true;
+    const bool typed = as_string == HDR_OK || hdr_param_int(r->params, r->name, &number) == HDR_OK;
+    return (typed && parse_unsigned(field, text, UINT64_MAX)) ||
+           refuse(r, "a string of digits, from \"0\" to \"18446744073709551615\"");
+}
+
+static bool read_exponents(const reader *r, void *field)
+{
+    int *exponents = field;
+    const char *text = NULL;
+    uint64_t number = 0;
+    const hdr_status as_int = hdr_param_int(r->params, r->name, exponents);
+    if (as_int == HDR_MISSING || (as_int == HDR_OK && *exponents > 0)) return true;
+    if (as_int == HDR_WRONG_TYPE && hdr_param_string(r->params, r->name, &text) == HDR_OK) {
+        if (strcmp(text, "positive") == 0) return *exponents = HD_EXPONENTS_POSITIVE, true;
+        if (strcmp(text, "all") == 0) return *exponents = HD_EXPONENTS_ALL, true;
+        if (strcmp(text, "none") == 0) return *exponents = HD_EXPONENTS_NONE, true;
+        if (parse_unsigned(&number, text, INT32_MAX) && number > 0)
+            return *exponents = (int)number, true;
+    }
+    return refuse(r, "positive, all, none or a number from 1 to 4 disks");
+}
+
+static bool read_interval(const reader *r, void *field)
+{
+    double *interval = field;
+    const char *text = NULL;
+    if (hdr_param_string(r->params, r->name, &text) == HDR_OK && strcmp(text, "auto") == 0)
+        return *interval = 0.0, true;
+    const hdr_status status = hdr_param_double(r->params, r->name, interval);
+    if (status == HDR_MISSING || (status == HDR_OK && *interval > 0.0)) return true;
+    return refuse(r, "auto, or a number above 0");
+}
+
+/** A set of topics out of `allowed` ones. */
+static bool read_topics(const reader *r, unsigned *set, unsigned allowed, const char *allowed_text)
+{
+    const char *const *names = NULL;
+    int count = 0;
+    const hdr_status status = hdr_param_string_list(r->params, r->name, &names, &count);
+    if (status == HDR_MISSING) return true;
+    if (status != HDR_OK) return refuse(r, allowed_text);
+    *set = 0;
+    for (int k = 0; k < count; k++) {
+        const unsigned bit = topic_bit_of(names[k]);
+        if (!(bit & allowed)) return refuse(r, allowed_text);
+        *set |= bit;
+    }
+    return true;
+}
+
+static bool read_observables(const reader *r, void *field)
+{
+    return read_topics(r, field, topic_bit(TOPIC_SPECTRUM) | topic_bit(TOPIC_STATE),
+                       "a list out of spectrum, state (this version computes no modes, steps, "
+                       "lp_phases, fields, hydro or covariant)");
+}
+
+static bool read_awaited(const reader *r, void *field)
+{
+    unsigned *awaited = field;
+    const char *text = NULL;
+    if (hdr_param_string(r->params, r->name, &text) == HDR_OK && strcmp(text, "all") == 0)
+        return *awaited = ALL_TOPICS, true;
+    return read_topics(r, awaited, ALL_TOPICS,
+                       "all or a list out of run_info, spectrum, state, cost");
+}
+
+/** Neutral: "", 0 or false. */
+static bool read_neutral(const reader *r, void *field)
+{
+    bool flag = false;
+    double number = 0.0;
+    const char *text = "";
+    char allowed[64];
+    (void)field;
+    const bool known = hdr_param_double(r->params, r->name, &number) != HDR_WRONG_TYPE ||
+                       hdr_param_bool(r->params, r->name, &flag) == HDR_OK ||
+                       hdr_param_string(r->params, r->name, &text) == HDR_OK;
+    if (known && number == 0.0 && !flag && !*text) return true;
+    snprintf(allowed, sizeof allowed, "unset or empty (this version %s)", r->missing_feature);
+    return refuse(r, allowed);
+}
+
+#define NO_MODES "computes no modes"
+#define NO_FILES "writes no checkpoints"
+
+static const struct parameter {
+    const char *name;
+    read_function read;
+    size_t offset;
+    const char *missing_feature;
+} parameters[] = {
+    {"scene", read_scene, offsetof(settings, scene), NULL},
+    {"disks", read_int, offsetof(settings, def.disks), NULL},
+    {"density", read_double, offsetof(settings, def.density), NULL},
+    {"aspect", read_double, offsetof(settings, def.aspect), NULL},
+    {"boundary_x", read_boundary, offsetof(settings, def.boundary[0]), NULL},
+    {"boundary_y", read_boundary, offsetof(settings, def.boundary[1]), NULL},
+    {"seed", read_seed, offsetof(settings, def.seed), NULL},
+    {"exponents", read_exponents, offsetof(settings, def.exponents), NULL},
+    {"equilibration", read_double, offsetof(settings, def.equilibration), NULL},
+    {"warmup", read_double, offsetof(settings, def.warmup), NULL},
+    {"duration", read_double, offsetof(settings, def.duration), NULL},
+    {"target_std_error", read_double, offsetof(settings, def.target_std_error), NULL},
+    {"interval", read_interval, offsetof(settings, def.interval), NULL},
+    {"accuracy", read_double, offsetof(settings, def.accuracy), NULL},
+    {"report_interval", read_double, offsetof(settings, def.report_interval), NULL},
+    {"observables", read_observables, offsetof(settings, observables), NULL},
+    {"threads", read_int, offsetof(settings, def.threads), NULL},
+    {"wait_for_subscribers", read_awaited, offsetof(settings, awaited), NULL},
+    {"pace", read_double, offsetof(settings, pace), NULL},
+    {"max_wave_number", read_neutral, 0, NO_MODES},
+    {"max_node", read_neutral, 0, NO_MODES},
+    {"field_indices", read_neutral, 0, NO_MODES},
+    {"checkpoint", read_neutral, 0, NO_FILES},
+    {"checkpoint_interval", read_neutral, 0, NO_FILES},
+    {"resume", read_neutral, 0, NO_FILES},
+};
+
+enum { PARAMETERS = sizeof parameters / sizeof *parameters };
+
+static bool is_known(const char *name)
+{
+    for (size_t k = 0; k < PARAMETERS; k++)
+        if (strcmp(parameters[k].name, name) == 0) return true;
+    return false;
+}
+
+static bool check_names(reader *r)
+{
+    for (int k = 0; k < hdr_params_count(r->params); k++) {
+        r->name = hdr_params_name(r->params, k);
+        if (!is_known(r->name)) return refuse(r, "removed: there is no parameter of this name");
+    }
+    return true;
+}
+
+static bool read_all(settings *out, reader *r)
+{
+    for (size_t k = 0; k < PARAMETERS; k++) {
+        const struct parameter *p = &parameters[k];
+        r->name = p->name;
+        r->missing_feature = p->missing_feature;
+        if (!p->read(r, (char *)out + p->offset)) return false;
+    }
+    return true;
+}
+
+/** What cannot exist together, beyond the scene itself. */
+static bool check_together(settings *out, reader *r)
+{
+    const unsigned spectrum = topic_bit(TOPIC_SPECTRUM);
+    const double pace_max = 1e12;
+    r->name = "pace";
+    if (!(out->pace >= 0.0 && out->pace <= pace_max))
+        return refuse(r, "from 0 (as fast as it goes) to 1e12");
+    r->name = "observables";
+    if (out->def.exponents == HD_EXPONENTS_NONE && (out->observables & spectrum)) {
+        if (*hdr_param_text(r->params, r->name))
+            return refuse(r, "without spectrum when exponents = none");
+        out->observables &= ~spectrum;
+    }
+    r->name = "wait_for_subscribers";
+    const unsigned published = out->observables | topic_bit(TOPIC_RUN_INFO) | topic_bit(TOPIC_COST);
+    if (out->awaited == ALL_TOPICS) out->awaited = published;
+    return !(out->awaited & ~published) || refuse(r, "out of run_info, cost and the observables");
+}
+
+static void write_texts(settings *out)
+{
+    const int exponents = out->def.exponents;
+    snprintf(out->seed, sizeof out->seed, "%" PRIu64, out->def.seed);
+    snprintf(out->exponents, sizeof out->exponents, "%d", exponents);
+    if (exponents == HD_EXPONENTS_POSITIVE) strcpy(out->exponents, "positive");
+    if (exponents == HD_EXPONENTS_ALL) strcpy(out->exponents, "all");
+    if (exponents == HD_EXPONENTS_NONE) strcpy(out->exponents, "none");
+}
+
+bool settings_read(settings *out, const hdr_params *params, char *message, size_t size)
+{
+    reader r = {.params = params, .message = message, .size = size};
+    *out = (settings){
+        .def = hd_scene_def_default(),
+        .scene = "paper_periodic",
+        .observables = topic_bit(TOPIC_SPECTRUM) | topic_bit(TOPIC_STATE),
+    };
+    if (!check_names(&r) || !read_all(out, &r) || !check_together(out, &r)) return false;
+    write_texts(out);
+    return hd_scene_check(&out->def, message, size) == HD_OK;
+}

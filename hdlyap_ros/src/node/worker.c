@@ -1,0 +1,207 @@
+/** One thread that steps the run. Two locks: `lock` for what is asked and known, never held during
+ *  work; `publishing` around messages, so that nothing follows the last one. */
+#include "worker.h"
+
+#include <errno.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "clock.h"
+
+/** How often subscribers are looked for [s]. */
+static const double look_seconds = 0.01;
+
+struct worker {
+    hd_run *run;
+    report *rep;
+    const settings *set;
+    pthread_t thread;
+    double due; /**< wall time before which pace allows no further step; the thread's own */
+
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    bool stop, pause, reset; /**< asked for */
+    worker_state state;
+
+    pthread_mutex_t publishing;
+    bool closed; /**< the last message is out */
+};
+
+/** Waits for a change until a wall time; false once that has come. Lock held. */
+static bool wait_until(worker *w, double wall)
+{
+    const double whole = floor(wall);
+    const struct timespec until = {.tv_sec = (time_t)whole,
+                                   .tv_nsec = (long)(1e9 * (wall - whole))};
+    return pthread_cond_timedwait(&w->changed, &w->lock, &until) != ETIMEDOUT;
+}
+
+/** Lock held. */
+static void enter(worker *w, worker_stage stage)
+{
+    w->state.stage = stage;
+    pthread_cond_broadcast(&w->changed);
+}
+
+/** False if asked to stop. */
+static bool wait_for_subscribers(worker *w)
+{
+    pthread_mutex_lock(&w->lock);
+    while (!w->stop && !report_awaited_here(w->rep, w->set->awaited))
+        wait_until(w, clock_seconds() + look_seconds);
+    const bool go_on = !w->stop;
+    enter(w, go_on ? WORKER_RUNNING : WORKER_ENDED);
+    pthread_mutex_unlock(&w->lock);
+    return go_on;
+}
+
+/** Between two steps: pauses, keeps pace and resets as asked. False if asked to stop. */
+static bool obey(worker *w)
+{
+    pthread_mutex_lock(&w->lock);
+    while (!w->stop && (w->pause || clock_seconds() < w->due)) {
+        enter(w, w->pause ? WORKER_PAUSED : WORKER_RUNNING);
+        if (w->pause)
+            pthread_cond_wait(&w->changed, &w->lock);
+        else
+            wait_until(w, w->due);
+    }
+    w->state.stage = WORKER_RUNNING;
+    const bool reset = w->reset, go_on = !w->stop;
+    w->reset = false;
+    pthread_mutex_unlock(&w->lock);
+    if (reset) hd_run_reset_average(w->run);
+    return go_on;
+}
+
+static hd_status publish(worker *w)
+{
+    pthread_mutex_lock(&w->publishing);
+    const hd_status status = w->closed ? HD_OK : report_publish(w->rep, w->run);
+    pthread_mutex_unlock(&w->publishing);
+    return status;
+}
+
+static void keep_pace(worker *w, double begin, double simulated)
+{
+    if (w->set->pace > 0.0) w->due = fmax(w->due, begin) + simulated / w->set->pace;
+}
+
+static hd_status step(worker *w)
+{
+    const double begin = clock_seconds(), from = hd_run_time(w->run);
+    hd_status status = hd_run_step(w->run);
+    if (status != HD_OK) return status;
+    if (hd_run_report_due(w->run)) status = publish(w);
+    keep_pace(w, begin, hd_run_time(w->run) - from);
+    pthread_mutex_lock(&w->lock);
+    w->state.last = progress_of(w->run);
+    pthread_mutex_unlock(&w->lock);
+    return status;
+}
+
+static void *work(void *context)
+{
+    worker *w = context;
+    hd_status status = HD_OK;
+    if (!wait_for_subscribers(w)) return NULL;
+    while (status == HD_OK && hd_run_phase(w->run) != HD_FINISHED && obey(w)) status = step(w);
+    pthread_mutex_lock(&w->lock);
+    w->state.status = status;
+    enter(w, WORKER_ENDED);
+    pthread_mutex_unlock(&w->lock);
+    return NULL;
+}
+
+static void locks_create(worker *w)
+{
+    pthread_condattr_t monotonic;
+    pthread_condattr_init(&monotonic);
+    pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
+    pthread_cond_init(&w->changed, &monotonic);
+    pthread_condattr_destroy(&monotonic);
+    pthread_mutex_init(&w->lock, NULL);
+    pthread_mutex_init(&w->publishing, NULL);
+}
+
+static void locks_free(worker *w)
+{
+    pthread_cond_destroy(&w->changed);
+    pthread_mutex_destroy(&w->lock);
+    pthread_mutex_destroy(&w->publishing);
+}
+
+bool worker_create(worker **out, hd_run *run, report *rep, const settings *set)
+{
+    worker *w = *out = calloc(1, sizeof *w);
+    if (!w) return false;
+    w->run = run;
+    w->rep = rep;
+    w->set = set;
+    w->state.last = progress_of(run);
+    locks_create(w);
+    if (pthread_create(&w->thread, NULL, work, w) == 0) return true;
+    locks_free(w);
+    free(w);
+    *out = NULL;
+    return false;
+}
+
+void worker_end(worker *w)
+{
+    if (!w) return;
+    worker_stop(w);
+    pthread_join(w->thread, NULL);
+}
+
+void worker_free(worker *w)
+{
+    if (!w) return;
+    locks_free(w);
+    free(w);
+}
+
+worker_state worker_state_now(worker *w)
+{
+    pthread_mutex_lock(&w->lock);
+    const worker_state state = w->state;
+    pthread_mutex_unlock(&w->lock);
+    return state;
+}
+
+/** Sets a request and wakes the thread. */
+static void ask(worker *w, bool *request, bool value)
+{
+    pthread_mutex_lock(&w->lock);
+    *request = value;
+    pthread_cond_broadcast(&w->changed);
+    pthread_mutex_unlock(&w->lock);
+}
+
+void worker_pause(worker *w, bool pause) { ask(w, &w->pause, pause); }
+
+void worker_reset_average(worker *w) { ask(w, &w->reset, true); }
+
+void worker_stop(worker *w) { ask(w, &w->stop, true); }
+
+bool worker_wait(worker *w, double seconds)
+{
+    const double until = clock_seconds() + seconds;
+    pthread_mutex_lock(&w->lock);
+    while (w->state.stage != WORKER_ENDED && wait_until(w, until)) continue;
+    const bool ended = w->state.stage == WORKER_ENDED;
+    pthread_mutex_unlock(&w->lock);
+    return ended;
+}
+
+hd_status worker_finish(worker *w)
+{
+    const progress last = worker_state_now(w).last;
+    pthread_mutex_lock(&w->publishing);
+    w->closed = true;
+    const hd_status status = report_finish(w->rep, &last);
+    pthread_mutex_unlock(&w->publishing);
+    return status;
+}

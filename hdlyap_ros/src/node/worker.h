@@ -1,0 +1,45 @@
+/** The computation in a thread of its own: steps a run, reports when due, obeys pause and reset. */
+#ifndef HDLYAP_WORKER_H
+#define HDLYAP_WORKER_H
+
+#include "report.h"
+
+typedef enum worker_stage {
+    WORKER_WAITING, /**< for subscribers */
+    WORKER_RUNNING,
+    WORKER_PAUSED,
+    WORKER_ENDED /**< finished, stopped or at fault */
+} worker_stage;
+
+/** The worker seen from other threads, as of its last finished step. */
+typedef struct worker_state {
+    worker_stage stage;
+    hd_status status; /**< the fault that ended it, else HD_OK */
+    progress last;
+} worker_state;
+
+typedef struct worker worker;
+
+/** Starts the thread, which alone uses run and rep until worker_state says WORKER_ENDED.
+ *  False if the system has no thread for it. */
+bool worker_create(worker **out, hd_run *run, report *rep, const settings *set);
+/** Asks the thread to end and waits for the step that it is in. NULL is allowed. */
+void worker_end(worker *w);
+/** Only after worker_end. NULL is allowed. */
+void worker_free(worker *w);
+
+worker_state worker_state_now(worker *w);
+
+void worker_pause(worker *w, bool pause);
+/** Starts the averages afresh before the next step. */
+void worker_reset_average(worker *w);
+
+/** Waits at most that long for the end; true if it has come. */
+bool worker_wait(worker *w, double seconds);
+/** Asks the thread to end after the step that it is in. */
+void worker_stop(worker *w);
+/** Publishes the last message from the caller's thread; the worker publishes nothing after it, even if
+ *  it is still in a step. */
+HD_MUST_CHECK hd_status worker_finish(worker *w);
+
+#endif

@@ -1,0 +1,124 @@
+/** The node's life: roscpp started and left without its signal handlers, its clock and its log. */
+#include "node.hpp"
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+
+#include <ros/xmlrpc_manager.h>
+
+#include "guard.hpp"
+#include "stop.hpp"
+
+namespace
+{
+const double poll_seconds = 0.01;
+/** What is left for handing over last messages once a stop was requested. */
+const double linger_after_stop = 0.35;
+/** A subscriber that hears that we leave drops what it has not read from its socket yet. */
+const double reading_seconds = 0.1;
+
+/** False if a stop was requested first. */
+bool master_wait()
+{
+    bool said = false;
+    while (!ros::master::check() && !hdr_stop_requested()) {
+        if (!said) ROS_WARN("no ROS master at %s: waiting for it", ros::master::getURI().c_str());
+        said = true;
+        ros::WallDuration(10 * poll_seconds).sleep();
+    }
+    return !hdr_stop_requested();
+}
+
+/** roscpp's own answer leaves the graph at once, with messages still queued. */
+void on_rosnode_kill(XmlRpc::XmlRpcValue &, XmlRpc::XmlRpcValue &result)
+{
+    hdr_stop_request();
+    result = ros::xmlrpc::responseInt(1, "", 0);
+}
+
+hdr_node *node_start()
+{
+    if (!master_wait()) return nullptr;
+    ros::start();
+    ros::XMLRPCManager::instance()->unbind("shutdown");
+    ros::XMLRPCManager::instance()->bind("shutdown", on_rosnode_kill);
+    std::unique_ptr<hdr_node> node(new hdr_node);
+    node->name = ros::this_node::getName();
+    node->spinner.start();
+    return node.release();
+}
+
+bool drained(const hdr_node &node)
+{
+    return std::all_of(node.publishers.begin(), node.publishers.end(),
+                       [](const auto &publisher) { return publisher->newest.use_count() <= 1; });
+}
+
+bool has_subscribers(const hdr_node &node)
+{
+    return std::any_of(node.publishers.begin(), node.publishers.end(), [](const auto &publisher) {
+        return publisher->publisher.getNumSubscribers() > 0;
+    });
+}
+
+void drain(const hdr_node &node, double linger)
+{
+    double after_stop = linger_after_stop;
+    for (; linger > 0 && after_stop > 0 && !drained(node); linger -= poll_seconds) {
+        ros::WallDuration(poll_seconds).sleep();
+        if (hdr_stop_requested()) after_stop -= poll_seconds;
+    }
+    if (has_subscribers(node)) ros::WallDuration(reading_seconds).sleep();
+}
+} // namespace
+
+hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *name,
+                           double stop_seconds)
+{
+    *out = nullptr;
+    return hdr_guard([&] {
+        stop_handlers_install(stop_seconds);
+        ros::init(*argc, argv, name, ros::init_options::NoSigintHandler);
+        *out = node_start();
+    });
+}
+
+void hdr_node_free(hdr_node *node, double linger)
+{
+    if (!node) return;
+    const hdr_status status = hdr_guard([&] {
+        const std::unique_ptr<hdr_node> owned(node);
+        drain(*node, linger);
+        node->spinner.stop();
+        ros::shutdown();
+    });
+    if (status != HDR_OK) hdr_log(HDR_ERROR, "leaving the graph: %s", hdr_error_text());
+}
+
+const char *hdr_node_name(const hdr_node *node) { return node->name.c_str(); }
+
+hdr_time hdr_time_now(void)
+{
+    const ros::WallTime now = ros::WallTime::now();
+    return {now.sec, now.nsec};
+}
+
+void hdr_log(hdr_level level, const char *format, ...)
+{
+    char line[1024];
+    va_list list;
+    va_start(list, format);
+    std::vsnprintf(line, sizeof line, format, list);
+    va_end(list);
+    hdr_guard([&] {
+        switch (level) {
+        case HDR_DEBUG: ROS_DEBUG("%s", line); break;
+        case HDR_INFO: ROS_INFO("%s", line); break;
+        case HDR_WARN: ROS_WARN("%s", line); break;
+        case HDR_ERROR: ROS_ERROR("%s", line); break;
+        case HDR_FATAL: ROS_FATAL("%s", line); break;
+        }
+        std::fflush(stdout); /* a pipe keeps lines back */
+    });
+}

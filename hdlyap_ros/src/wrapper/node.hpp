@@ -1,0 +1,27 @@
+/** What a node and a publisher are made of; private to the wrapper. */
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <ros/ros.h>
+
+#include "hdlyap_ros/node.h"
+
+struct hdr_publisher {
+    ros::Publisher publisher;
+    std::string topic;
+    std::string datatype;
+    /** The newest message. Every queue and socket on its way holds a reference, so being the only
+     *  owner means that it, and with it all before it, has been handed to the kernel. */
+    boost::shared_array<uint8_t> newest;
+};
+
+struct hdr_node {
+    ros::NodeHandle handle;
+    ros::AsyncSpinner spinner{1};
+    std::string name;
+    std::vector<std::unique_ptr<hdr_publisher>> publishers;
+    std::vector<ros::ServiceServer> services;
+};

@@ -1,0 +1,163 @@
+/** Private parameters: the master's XML-RPC struct -> typed values. */
+#include "hdlyap_ros/params.h"
+
+#include <cstdlib>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include <ros/ros.h>
+
+#include "guard.hpp"
+
+using XmlRpc::XmlRpcValue;
+
+namespace
+{
+struct entry {
+    XmlRpcValue value;
+    std::string text;                 /**< of a string its contents, else as XmlRpc writes it */
+    std::vector<std::string> strings; /**< of a list of strings */
+    std::vector<const char *> list;   /**< pointers into strings */
+};
+
+bool is_string_list(XmlRpcValue &value)
+{
+    if (value.getType() != XmlRpcValue::TypeArray) return false;
+    for (int k = 0; k < value.size(); k++)
+        if (value[k].getType() != XmlRpcValue::TypeString) return false;
+    return true;
+}
+
+entry make_entry(XmlRpcValue &value)
+{
+    entry made;
+    made.value = value;
+    std::ostringstream text;
+    if (value.getType() == XmlRpcValue::TypeString)
+        text << static_cast<std::string &>(value);
+    else
+        value.write(text);
+    made.text = text.str();
+    for (int k = 0; is_string_list(value) && k < value.size(); k++)
+        made.strings.push_back(value[k]);
+    return made;
+}
+
+bool number_parse(const std::string &text, double *out)
+{
+    char *end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0') return false;
+    *out = number;
+    return true;
+}
+} // namespace
+
+struct hdr_params {
+    std::map<std::string, entry> entries;
+};
+
+namespace
+{
+const entry *find(const hdr_params *params, const char *name)
+{
+    const auto found = params->entries.find(name);
+    return found == params->entries.end() ? nullptr : &found->second;
+}
+
+/** The value if it has that type; T is what XmlRpc keeps it as. */
+template <class T>
+hdr_status read(const hdr_params *params, const char *name, XmlRpcValue::Type type, T *out)
+{
+    const entry *found = find(params, name);
+    if (!found) return HDR_MISSING;
+    if (found->value.getType() != type) return HDR_WRONG_TYPE;
+    *out = static_cast<T &>(const_cast<XmlRpcValue &>(found->value));
+    return HDR_OK;
+}
+
+std::unique_ptr<hdr_params> fetch(const std::string &name)
+{
+    std::unique_ptr<hdr_params> params(new hdr_params);
+    XmlRpcValue all;
+    if (!ros::param::get(name, all)) {
+        if (!ros::master::check()) throw std::runtime_error("the master went away");
+        return params;
+    }
+    if (all.getType() != XmlRpcValue::TypeStruct)
+        throw std::runtime_error("parameter " + name + " is not a namespace");
+    for (auto &member : all) params->entries[member.first] = make_entry(member.second);
+    for (auto &member : params->entries)
+        for (const std::string &item : member.second.strings)
+            member.second.list.push_back(item.c_str());
+    return params;
+}
+} // namespace
+
+hdr_status hdr_params_create(hdr_params **out, const hdr_node *node)
+{
+    *out = nullptr;
+    return hdr_guard([&] { *out = fetch(hdr_node_name(node)).release(); });
+}
+
+void hdr_params_free(hdr_params *params) { delete params; }
+
+int hdr_params_count(const hdr_params *params) { return static_cast<int>(params->entries.size()); }
+
+const char *hdr_params_name(const hdr_params *params, int k)
+{
+    if (k < 0 || k >= hdr_params_count(params)) return nullptr;
+    return std::next(params->entries.begin(), k)->first.c_str();
+}
+
+const char *hdr_param_text(const hdr_params *params, const char *name)
+{
+    const entry *found = find(params, name);
+    return found ? found->text.c_str() : "";
+}
+
+hdr_status hdr_param_bool(const hdr_params *params, const char *name, bool *out)
+{
+    return read(params, name, XmlRpcValue::TypeBoolean, out);
+}
+
+hdr_status hdr_param_int(const hdr_params *params, const char *name, int *out)
+{
+    return read(params, name, XmlRpcValue::TypeInt, out);
+}
+
+hdr_status hdr_param_double(const hdr_params *params, const char *name, double *out)
+{
+    int integer = 0;
+    const hdr_status status = read(params, name, XmlRpcValue::TypeDouble, out);
+    if (status != HDR_WRONG_TYPE) return status;
+    if (hdr_param_int(params, name, &integer) == HDR_OK) {
+        *out = integer;
+        return HDR_OK;
+    }
+    const entry *found = find(params, name);
+    const bool text = found->value.getType() == XmlRpcValue::TypeString;
+    return text && number_parse(found->text, out) ? HDR_OK : HDR_WRONG_TYPE;
+}
+
+hdr_status hdr_param_string(const hdr_params *params, const char *name, const char **out)
+{
+    const entry *found = find(params, name);
+    if (!found) return HDR_MISSING;
+    if (found->value.getType() != XmlRpcValue::TypeString) return HDR_WRONG_TYPE;
+    *out = found->text.c_str();
+    return HDR_OK;
+}
+
+hdr_status hdr_param_string_list(const hdr_params *params, const char *name,
+                                 const char *const **out, int *count)
+{
+    const entry *found = find(params, name);
+    if (!found) return HDR_MISSING;
+    if (!is_string_list(const_cast<XmlRpcValue &>(found->value))) return HDR_WRONG_TYPE;
+    *out = found->list.data();
+    *count = static_cast<int>(found->list.size());
+    return HDR_OK;
+}

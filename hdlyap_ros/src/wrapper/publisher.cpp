@@ -1,0 +1,119 @@
+/** Topics out: each C view is serialised once and handed to roscpp's queues. */
+#include "hdlyap_ros/publisher.h"
+
+#include <stdexcept>
+
+#include <ros/topic_manager.h>
+
+#include "guard.hpp"
+#include "node.hpp"
+#include "views.hpp"
+
+namespace
+{
+template <class View>
+hdr_status advertise(hdr_publisher **out, hdr_node *node, const char *topic, int queue, bool latch)
+{
+    using message = typename hdlyap_ros::message_of<View>::type;
+    *out = nullptr;
+    return hdr_guard([&] {
+        std::unique_ptr<hdr_publisher> made(new hdr_publisher);
+        made->topic = ros::names::resolve(topic);
+        made->datatype = ros::message_traits::datatype<message>();
+        made->publisher = node->handle.advertise<message>(made->topic, static_cast<uint32_t>(queue),
+                                                          latch);
+        node->publishers.push_back(std::move(made));
+        *out = node->publishers.back().get();
+    });
+}
+
+/** roscpp does not compare the types and would send the wrong bytes. */
+template <class View> void type_check(const hdr_publisher &publisher)
+{
+    const char *datatype = ros::message_traits::datatype<View>();
+    if (publisher.datatype != datatype)
+        throw std::invalid_argument(publisher.topic + " carries " + publisher.datatype + ", not " +
+                                    datatype);
+}
+
+/** Past ros::Publisher, which keeps what it has serialised to itself, but for latched topics, whose
+ *  last message only it can keep. */
+template <class View> void send(hdr_publisher &publisher, const View &view)
+{
+    if (publisher.publisher.isLatched()) {
+        publisher.publisher.publish(view);
+        return;
+    }
+    ros::SerializedMessage message;
+    const auto serialise = [&view] { return ros::serialization::serializeMessage(view); };
+    ros::TopicManager::instance()->publish(publisher.topic, serialise, message);
+    publisher.newest = message.buf;
+}
+
+template <class View> hdr_status publish(hdr_publisher *publisher, const View *view)
+{
+    return hdr_guard([&] {
+        type_check<View>(*publisher);
+        send(*publisher, *view);
+    });
+}
+} // namespace
+
+hdr_status hdr_run_info_advertise(hdr_publisher **out, hdr_node *node, const char *topic)
+{
+    return advertise<hdr_run_info>(out, node, topic, 1, true);
+}
+
+hdr_status hdr_spectrum_advertise(hdr_publisher **out, hdr_node *node, const char *topic, int queue)
+{
+    return advertise<hdr_spectrum>(out, node, topic, queue, false);
+}
+
+hdr_status hdr_state_advertise(hdr_publisher **out, hdr_node *node, const char *topic, int queue)
+{
+    return advertise<hdr_state>(out, node, topic, queue, false);
+}
+
+hdr_status hdr_cost_advertise(hdr_publisher **out, hdr_node *node, const char *topic, int queue)
+{
+    return advertise<hdr_cost>(out, node, topic, queue, false);
+}
+
+hdr_status hdr_diagnostic_advertise(hdr_publisher **out, hdr_node *node, const char *topic,
+                                    int queue)
+{
+    return advertise<hdr_diagnostic>(out, node, topic, queue, false);
+}
+
+int hdr_publisher_subscribers(const hdr_publisher *publisher)
+{
+    int subscribers = 0;
+    const hdr_status status = hdr_guard(
+        [&] { subscribers = static_cast<int>(publisher->publisher.getNumSubscribers()); });
+    return status == HDR_OK ? subscribers : 0;
+}
+
+hdr_status hdr_run_info_publish(hdr_publisher *publisher, const hdr_run_info *view)
+{
+    return publish(publisher, view);
+}
+
+hdr_status hdr_spectrum_publish(hdr_publisher *publisher, const hdr_spectrum *view)
+{
+    return publish(publisher, view);
+}
+
+hdr_status hdr_state_publish(hdr_publisher *publisher, const hdr_state *view)
+{
+    return publish(publisher, view);
+}
+
+hdr_status hdr_cost_publish(hdr_publisher *publisher, const hdr_cost *view)
+{
+    return publish(publisher, view);
+}
+
+hdr_status hdr_diagnostic_publish(hdr_publisher *publisher, const hdr_diagnostic *view)
+{
+    return publish(publisher, view);
+}

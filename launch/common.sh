@@ -1,0 +1,116 @@
+# Shell functions shared by demo.sh, install.sh and tests/run.sh. Sourced, never run.
+# shellcheck shell=bash
+
+ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+readonly ROOT
+readonly NOETIC=/opt/ros/noetic
+
+say() { printf '== %s\n' "$*"; }
+
+# die MESSAGE [STATUS]
+die() {
+    printf '%s: %s\n' "$(basename "$0")" "$1" >&2
+    exit "${2:-1}"
+}
+
+# source_setup FILE: catkin's setup files read unset variables.
+source_setup() {
+    set +u
+    # shellcheck source=/dev/null
+    source "$1"
+    set -u
+}
+
+# own_environment DIR: the system's python and ROS, a master of our own, and every file that
+# ROS, python or matplotlib writes under DIR.
+own_environment() {
+    unset PYTHONPATH PYTHONHOME ROS_IP ROS_IPV6 ROS_NAMESPACE ROS_PACKAGE_PATH CMAKE_PREFIX_PATH
+    export PATH=/usr/bin:/bin:$PATH
+    [[ ! -f $NOETIC/setup.bash ]] || source_setup "$NOETIC/setup.bash"
+    export ROS_HOSTNAME=localhost
+    ROS_MASTER_URI=http://localhost:$(free_port)
+    export ROS_MASTER_URI
+    mkdir -p "$1"
+    export ROS_HOME=$1/ros ROS_LOG_DIR=$1/ros/log MPLCONFIGDIR=$1/matplotlib
+    export PYTHONDONTWRITEBYTECODE=1
+}
+
+free_port() {
+    /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])'
+}
+
+# build DIR [CMAKE OPTION]...: configures once, then builds what has changed. A tree of another
+# place (a clone that was moved) or that was left half configured is configured afresh.
+build() {
+    local dir=$1
+    shift
+    if ! is_configured "$dir"; then
+        rm -rf "$dir/CMakeCache.txt" "$dir/CMakeFiles" "$dir/devel"
+        cmake -S "$ROOT" -B "$dir" -G "Unix Makefiles" -DPYTHON_EXECUTABLE=/usr/bin/python3 "$@"
+    fi
+    cmake --build "$dir" -- -j "$(nproc)"
+}
+
+is_configured() {
+    [[ -f $1/Makefile ]] && grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$ROOT" "$1/CMakeCache.txt"
+}
+
+CHILDREN=() # what start() began and finish() has not seen end
+
+# start COMMAND...: in the background, in a process group of its own; its id is then in CHILD.
+start() {
+    set -m
+    "$@" </dev/null &
+    set +m
+    CHILD=$!
+    CHILDREN+=("$CHILD")
+}
+
+# finish PID: waits for it; its exit status.
+finish() {
+    local status=0 pid
+    local -a others=()
+    wait "$1" || status=$?
+    for pid in "${CHILDREN[@]}"; do
+        [[ $pid == "$1" ]] || others+=("$pid")
+    done
+    CHILDREN=("${others[@]}")
+    return "$status"
+}
+
+# run COMMAND...: like the command alone, but a signal to this script reaches it at once.
+run() {
+    start "$@"
+    finish "$CHILD"
+}
+
+# stop PID: asks as Ctrl-C does, and after roslaunch's own patience of 17 s insists.
+stop() {
+    local pid deadline=$((SECONDS + 20))
+    local -a tree
+    mapfile -t tree < <(descendants "$1")
+    kill -INT -- "-$1" 2>/dev/null || true
+    for pid in "${tree[@]}"; do
+        while is_running "$pid" && ((SECONDS < deadline)); do sleep 0.1; done
+        kill -KILL "$pid" 2>/dev/null || true
+    done
+}
+
+is_running() { kill -0 "$1" 2>/dev/null; }
+
+# descendants PID: it and all below it. roslaunch gives each node a session of its own.
+descendants() {
+    local child
+    echo "$1"
+    for child in $(pgrep -P "$1"); do
+        descendants "$child"
+    done
+}
+
+# stop_at_exit: however this script ends, what it started ends with it.
+stop_at_exit() {
+    trap 'for child in "${CHILDREN[@]}"; do stop "$child"; done' EXIT
+    trap 'exit 129' HUP
+    trap 'exit 130' INT
+    trap 'exit 143' TERM
+}

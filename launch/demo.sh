@@ -1,0 +1,98 @@
+#!/usr/bin/env bash
+# One command from a clean clone to a recorded run with its table and figures.
+set -euo pipefail
+# shellcheck source=launch/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+usage() {
+    cat <<END
+usage: demo.sh [--scene NAME] [--duration T] [--out DIR] [--no-install]
+Installs what is missing, builds, runs a scene under a ROS master of its own, records a bag and
+draws the figures.
+  --scene NAME    one of: $(scenes)
+                  (default: paper_periodic)
+  --duration T    time units to average over (default: 200)
+  --out DIR       folder of the bag and the figures (default: build/demo/NAME)
+  --no-install    do not install packages
+END
+}
+
+scenes() {
+    local -a names=("$ROOT"/launch/scenes/*.yaml)
+    names=("${names[@]##*/}")
+    echo "${names[@]%.yaml}"
+}
+
+parse() {
+    scene=paper_periodic duration=200 out='' install=yes
+    while (($#)); do
+        case $1 in
+            --scene | --duration | --out)
+                (($# > 1)) || die "$1 needs a value; --help lists the options" 2
+                printf -v "${1#--}" %s "$2"
+                shift 2
+                ;;
+            --no-install) install=no && shift ;;
+            --help) usage && exit 0 ;;
+            *) die "unknown option $1; --help lists the options" 2 ;;
+        esac
+    done
+    [[ -f $ROOT/launch/scenes/$scene.yaml ]] || die "unknown scene '$scene', choose from: $(scenes)" 2
+    [[ $duration =~ ^[0-9]+(\.[0-9]+)?$ && $duration =~ [1-9] ]] ||
+        die "--duration is '$duration', must be a positive number of time units" 2
+    out=$(realpath -m -- "${out:-$BUILD/demo/$scene}")
+}
+
+# Ends with the log's last words if the node or its recorder did not end well.
+check_run() {
+    local died
+    died=$(grep -a 'process has died' "$LOG" | head -n 1) || true
+    [[ -z $died && -f $out/run.bag ]] && return
+    grep -aE 'FATAL|ERROR|died|Exception' "$LOG" | tail -n 5 >&2 || true
+    die "the run failed; everything it said is in $LOG"
+}
+
+run_scene() {
+    local launch follow seen=0
+    rm -f "$out/run.bag" "$out/run.bag.active"
+    start roslaunch hdlyap run.launch "scene:=$scene" "duration:=$duration" \
+        record:=true "bag:=$out/run.bag" >"$LOG" 2>&1
+    launch=$CHILD
+    start rosrun hdlyap follow
+    follow=$CHILD
+    while is_running "$launch" && is_running "$follow"; do sleep 0.2; done
+    finish_soon "$follow" || seen=$?
+    ((seen != 1)) || stop "$launch"     # no node has come up
+    finish "$launch" || true
+    check_run
+}
+
+# finish_soon PID: a follower sees by itself that its node has gone, given a few seconds.
+finish_soon() {
+    local waited
+    for ((waited = 0; waited < 80; waited++)); do
+        is_running "$1" || break
+        sleep 0.1
+    done
+    stop "$1"
+    finish "$1"
+}
+
+BUILD=$ROOT/build
+parse "$@"
+LOG=$BUILD/log/demo_$scene.log
+mkdir -p "$BUILD/log" "$out"
+stop_at_exit
+
+[[ $install == no ]] || "$ROOT/launch/install.sh" run
+own_environment "$BUILD/home"
+say "building in $BUILD"
+run build "$BUILD" -DCATKIN_ENABLE_TESTING=OFF -DHDLYAP_CORE_TESTS=OFF >"$BUILD/log/build.log" 2>&1 ||
+    die "the build failed; its log is $BUILD/log/build.log:
+$(tail -n 20 "$BUILD/log/build.log")"
+source_setup "$BUILD/devel/setup.bash"
+
+say "running scene $scene, $duration time units"
+run_scene
+run rosrun hdlyap plot_bag "$out/run.bag" --out "$out"
+say "bag and figures are in $out"

@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# The one list of the system packages of hdlyap. Installs those that are missing.
+#   install.sh run|test      what building and running needs; test: what the tests need on top
+set -euo pipefail
+# shellcheck source=launch/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+run_packages() {
+    echo build-essential cmake pkg-config procps libopenblas-openmp-dev liblapacke-dev \
+        python3-numpy python3-matplotlib
+    case $1 in
+        debian)
+            echo catkin ros-message-generation ros-message-runtime libroscpp-dev \
+                ros-std-msgs libstd-msgs-dev python3-std-msgs \
+                ros-std-srvs libstd-srvs-dev python3-std-srvs \
+                ros-diagnostic-msgs libdiagnostic-msgs-dev python3-diagnostic-msgs \
+                python3-rospy python3-rosbag python3-roslaunch rosbash
+            ;;
+        noetic)
+            printf 'ros-noetic-%s\n' catkin message-generation message-runtime roscpp \
+                std-msgs std-srvs diagnostic-msgs rospy rosbag roslaunch rosbash
+            ;;
+    esac
+}
+
+test_packages() {
+    echo libcmocka-dev libgtest-dev shellcheck
+    case $1 in
+        debian)
+            echo librostest-dev python3-rostest python3-rostopic python3-rosnode \
+                python3-rosservice catkin-lint
+            ;;
+        noetic)
+            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice
+            echo python3-catkin-lint
+            ;;
+    esac
+}
+
+ros_flavour() {
+    if [[ -d $NOETIC ]]; then
+        echo noetic
+    elif grep -qx 'ID=debian' /etc/os-release; then
+        echo debian
+    else
+        die "neither Debian nor $NOETIC: install ROS 1 by hand and use --no-install"
+    fi
+}
+
+is_installed() {
+    [[ $(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+}
+
+as_root() {
+    if ((EUID == 0)); then
+        "$@"
+    elif command -v sudo >/dev/null; then
+        sudo "$@"
+    else
+        die "needs root or sudo to install ${missing[*]}"
+    fi
+}
+
+[[ ${1:-} == run || ${1:-} == test ]] || die "usage: install.sh run|test" 2
+flavour=$(ros_flavour)
+wanted=$(run_packages "$flavour")
+[[ $1 == run ]] || wanted+=" $(test_packages "$flavour")"
+missing=()
+for package in $wanted; do
+    is_installed "$package" || missing+=("$package")
+done
+((${#missing[@]})) || exit 0
+
+say "installing ${missing[*]}"
+as_root apt-get update -q
+as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -q --no-install-recommends "${missing[@]}"

@@ -1,0 +1,65 @@
+/** Scenes -> golden hashes (golden.h). */
+#include "golden.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "scenes.h"
+
+typedef struct golden {
+    hd_scene_def def;
+    double pair_events; /**< expected ones; how long to run */
+    uint64_t hash;
+} golden;
+
+static golden golden_scene(int scene)
+{
+    const hd_boundary p = HD_PERIODIC, r = HD_REFLECTING;
+    const golden all[GOLDEN_SCENES] = {
+        {hd_scene_def_default(), 30000, 0x1e6d333450645800u},
+        {scene_of(2, 0.3, 1.0, p, p, 1), 5000, 0x6203032da614f440u},
+        {scene_of(16, 0.7, 0.866, r, r, 2), 20000, 0x414194b11b9ec0fdu},
+        {scene_of(100, 0.05, 0.2, p, r, 12345678901234567890u), 10000, 0xf10f5c4e2bfa6645u},
+        {scene_in_box(9, 12.0, 1.0 + 1e-6, p, p, 4), 10000, 0x0cf1b5884e03e11eu},
+        {scene_in_box(6, 1.4, 9.0, p, r, 5), 10000, 0x036efe86482d7328u},
+        {scene_of(64, 1.1, 0.8660254, p, p, 6), 10000, 0x04072dec68dbfaecu},
+    };
+    return all[scene];
+}
+
+static uint64_t hash_bytes(uint64_t hash, const void *data, size_t size)
+{
+    const unsigned char *byte = data;
+    for (size_t k = 0; k < size; k++) hash = (hash ^ byte[k]) * 0x100000001b3u;
+    return hash;
+}
+
+static uint64_t hash_log(const hd_event_log *log)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t k = 0; k < log->count; k++) {
+        const hd_event *e = &log->event[k];
+        const int32_t disks[] = {e->i, e->j};
+        hash = hash_bytes(hash, disks, sizeof disks);
+        hash = hash_bytes(hash, e->n, sizeof e->n);
+        hash = hash_bytes(hash, e->p, sizeof e->p);
+    }
+    return hash;
+}
+
+uint64_t golden_hash(int scene)
+{
+    const golden g = golden_scene(scene);
+    hd_trajectory *tr = NULL;
+    hd_event_log *log = NULL;
+    uint64_t hash = 0;
+    if (hd_event_log_create(&log) == HD_OK && hd_trajectory_create(&tr, &g.def) == HD_OK) {
+        const double t_end = g.pair_events / hd_trajectory_collision_rate(tr);
+        if (hd_trajectory_advance(tr, log, t_end) == HD_OK && log->count > 1000) hash = hash_log(log);
+    }
+    hd_trajectory_free(tr);
+    hd_event_log_free(log);
+    return hash;
+}
+
+uint64_t golden_stored(int scene) { return golden_scene(scene).hash; }

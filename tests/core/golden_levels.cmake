@@ -1,0 +1,45 @@
+# cmake -DCORE=<hdlyap_core> -DWORK=<folder> -P golden_levels.cmake
+# Compiles the trajectory's sources with each compiler that is there, at each level of optimisation, and
+# expects the same events of every program.
+cmake_minimum_required(VERSION 3.16)
+
+set(SOURCES trajectory cells queue lattice scene random memory status event_log)
+list(TRANSFORM SOURCES PREPEND ${CORE}/src/)
+list(TRANSFORM SOURCES APPEND .c)
+set(TESTS ${CMAKE_CURRENT_LIST_DIR})
+set(EXACT -std=c11 -ffp-contract=off -fno-math-errno -fno-trapping-math)
+set(LEVELS "-O0" "-O2" "-O3 -march=native")
+file(MAKE_DIRECTORY ${WORK})
+
+function(expect_golden compiler level)
+  string(REPLACE " " ";" flags ${level})
+  get_filename_component(name ${compiler} NAME)
+  string(MAKE_C_IDENTIFIER "golden_${name}${level}" program)
+  execute_process(RESULT_VARIABLE failed
+    COMMAND ${compiler} ${EXACT} ${flags} -I${CORE}/include -I${CORE}/src -I${TESTS} ${SOURCES}
+      ${TESTS}/golden.c ${TESTS}/golden_main.c -o ${WORK}/${program} -lm)
+  if(failed)
+    message(FATAL_ERROR "${compiler} ${level}: does not compile")
+  endif()
+  execute_process(COMMAND ${WORK}/${program} RESULT_VARIABLE failed OUTPUT_VARIABLE hashes)
+  if(failed)
+    message(FATAL_ERROR "${compiler} ${level}:\n${hashes}")
+  endif()
+  message("${compiler} ${level}: as stored")
+endfunction()
+
+set(COMPILERS "")
+foreach(name gcc clang)
+  find_program(GOLDEN_${name} ${name})
+  if(GOLDEN_${name})
+    list(APPEND COMPILERS ${GOLDEN_${name}})
+  endif()
+endforeach()
+if(NOT COMPILERS)
+  message(FATAL_ERROR "neither gcc nor clang was found")
+endif()
+foreach(compiler IN LISTS COMPILERS)
+  foreach(level IN LISTS LEVELS)
+    expect_golden(${compiler} ${level})
+  endforeach()
+endforeach()

@@ -1,0 +1,16 @@
+// One function of each public header from C++: fails to link where extern "C" is missing.
+#include "hdlyap/hdlyap.h"
+
+int main()
+{
+    hd_scene_def def = hd_scene_def_default();
+    def.disks = 4;
+    hd_trajectory *trajectory = nullptr;
+    if (hd_trajectory_create(&trajectory, &def) != HD_OK) return 1;
+    hd_trajectory_free(trajectory);
+    hd_frame_free(nullptr);
+    hd_ortho_free(nullptr);
+    hd_spectrum_free(nullptr);
+    hd_run_free(nullptr);
+    return hd_status_text(HD_OK) == nullptr || hd_blas_query().threads < 0;
+}

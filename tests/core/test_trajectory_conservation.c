@@ -1,0 +1,115 @@
+/** Trajectory over long times: energy, momentum, no overlap, nobody outside the walls. */
+#include <float.h>
+#include <stdlib.h>
+
+#include "scenes.h"
+#include "testing.h"
+
+/** What the project promises over 10^7 collisions. */
+static const double ENERGY_DRIFT = 1e-11, MOMENTUM_DRIFT = 1e-10;
+static const double LONG_RUN = HD_SANITIZED ? 2e5 : 1e7, MEDIUM_RUN = HD_SANITIZED ? 1e5 : 5e5;
+enum { SAMPLES = 200 };
+
+/** Two coordinates of size L, each with four roundings (motion, folding) of at most eps L / 2. */
+static double overlap_rounding(const double box[2])
+{
+    return 4.0 * DBL_EPSILON * fmax(box[0], box[1]);
+}
+
+static void momentum_of(const hd_trajectory *tr, double *p, double sum[2])
+{
+    sum[0] = sum[1] = 0;
+    hd_trajectory_state(tr, NULL, p);
+    for (int k = 0; k < 2 * hd_trajectory_disks(tr); k++) sum[k % 2] += p[k];
+}
+
+static void check_inside(const hd_trajectory *tr, const hd_scene_def *def, double *q)
+{
+    double box[2];
+    hd_trajectory_box(tr, box);
+    hd_trajectory_state(tr, q, NULL);
+    for (int k = 0; k < 2 * def->disks; k++) {
+        const double reach = def->boundary[k % 2] == HD_REFLECTING ? 0.5 : 0.0;
+        const double slack = DBL_EPSILON * box[k % 2]; /* on its way to a wall, just before the event */
+        assert_true(q[k] >= reach - slack && q[k] <= box[k % 2] - reach + slack);
+    }
+}
+
+static void check_run(const hd_scene_def *def, double collisions)
+{
+    hd_trajectory *tr;
+    double *work = calloc(2 * (size_t)def->disks, sizeof *work), box[2], sum[2];
+    assert_non_null(work);
+    CHECK_OK(hd_trajectory_create(&tr, def));
+    hd_trajectory_box(tr, box);
+    CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def->disks, ENERGY_DRIFT * def->disks);
+    double t = 0;
+    while (t == 0 || (double)hd_trajectory_collisions(tr) < collisions) {
+        t += collisions / SAMPLES / hd_trajectory_collision_rate(tr);
+        CHECK_OK(hd_trajectory_advance(tr, NULL, t));
+        CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def->disks, ENERGY_DRIFT * def->disks);
+        CHECK_CLOSE(hd_trajectory_overlap(tr), 0.0, overlap_rounding(box));
+        check_inside(tr, def, work);
+        momentum_of(tr, work, sum);
+        for (int d = 0; d < 2; d++)
+            if (def->boundary[d] == HD_PERIODIC) CHECK_CLOSE(sum[d], 0.0, MOMENTUM_DRIFT);
+    }
+    hd_trajectory_free(tr);
+    free(work);
+}
+
+static void ten_million_collisions(void **state)
+{
+    (void)state;
+    const hd_scene_def def = scene_of(10, 0.5, 0.8, HD_PERIODIC, HD_PERIODIC, 11);
+    check_run(&def, LONG_RUN);
+}
+
+static void ten_disks_each_boundary(void **state)
+{
+    (void)state;
+    for (int b = 1; b < 4; b++) {
+        const hd_scene_def def =
+            scene_of(10, 0.5, 0.8, b & 1 ? HD_REFLECTING : HD_PERIODIC,
+                     b & 2 ? HD_REFLECTING : HD_PERIODIC, 11);
+        check_run(&def, 0.3 * MEDIUM_RUN);
+    }
+}
+
+static void the_papers_disks(void **state)
+{
+    (void)state;
+    const hd_scene_def periodic = hd_scene_def_default();
+    const hd_scene_def walls = scene_of(780, 0.8, 0.867, HD_REFLECTING, HD_REFLECTING, 5);
+    check_run(&periodic, MEDIUM_RUN);
+    check_run(&walls, MEDIUM_RUN);
+}
+
+static void dense_and_narrow(void **state)
+{
+    (void)state;
+    const hd_scene_def dense = scene_of(90, 1.1, 0.8660254, HD_PERIODIC, HD_PERIODIC, 5);
+    const hd_scene_def narrow = scene_in_box(12, 20.0, 1.1, HD_PERIODIC, HD_PERIODIC, 5);
+    const hd_scene_def channel = scene_in_box(12, 20.0, 1.1, HD_PERIODIC, HD_REFLECTING, 5);
+    check_run(&dense, 0.3 * MEDIUM_RUN);
+    check_run(&narrow, 0.3 * MEDIUM_RUN);
+    check_run(&channel, 0.1 * MEDIUM_RUN);
+}
+
+/** A long chain: coordinates a thousand diameters large. */
+static void large_coordinates(void **state)
+{
+    (void)state;
+    const hd_scene_def def = scene_in_box(500, 4000.0, 1.5, HD_PERIODIC, HD_REFLECTING, 5);
+    check_run(&def, 0.1 * MEDIUM_RUN);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ten_million_collisions), cmocka_unit_test(ten_disks_each_boundary),
+        cmocka_unit_test(the_papers_disks),       cmocka_unit_test(dense_and_narrow),
+        cmocka_unit_test(large_coordinates),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# Tests launch/demo.sh as a user meets it, on the scene that takes seconds.
+#   demo.sh WORK_FOLDER
+set -euo pipefail
+# shellcheck source=launch/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
+
+readonly WORK=$1
+FAILED=0
+mkdir -p "$WORK/home" "$WORK/foreign"
+# another python3 first on PATH, as pyenv and conda have it, that knows no ROS
+printf '#!/bin/sh\necho "foreign python3" >&2\nexit 97\n' >"$WORK/foreign/python3"
+chmod +x "$WORK/foreign/python3"
+
+readonly DEMO=(env "HOME=$WORK/home" "PATH=$WORK/foreign:$PATH" "$ROOT/launch/demo.sh" --no-install)
+
+# check NAME COMMAND...
+check() {
+    local name=$1
+    shift
+    if "$@"; then
+        echo "ok $name"
+    else
+        cat "$LOG"
+        echo "FAILED $name"
+        FAILED=1
+    fi
+}
+
+gives_status() {
+    local wanted=$1 status=0
+    shift
+    "$@" || status=$?
+    [[ $status == "$wanted" ]]
+}
+
+demo() { "${DEMO[@]}" "$@" >"$LOG" 2>&1; }
+
+# No process of a demo is left; they are known by the folder that ROS was given.
+none_is_left() {
+    [[ -z $(grep -lzs "^ROS_HOME=$ROOT/build/home/" /proc/[0-9]*/environ || true) ]]
+}
+
+is_complete() {
+    local name
+    for name in run.bag {spectrum,convergence,cost}.{png,svg}; do
+        [[ -s $1/$name ]] || return 1
+    done
+}
+
+# interrupted SIGNAL: the exit status of a demo that gets the signal while its node runs.
+interrupted() {
+    local waited
+    start "${DEMO[@]}" --scene quick --duration 100000 --out "$WORK/interrupted" >"$LOG" 2>&1
+    for ((waited = 0; waited < 600; waited++)); do
+        grep -qs averaging "$LOG" && break
+        sleep 0.1
+    done
+    kill "-$1" "$CHILD"
+    finish "$CHILD"
+}
+
+stop_at_exit
+LOG=$WORK/first.log
+check runs gives_status 0 demo --scene quick --duration 20 --out "$WORK/out"
+check writes_all_files is_complete "$WORK/out"
+check prints_the_table grep -q '^lambda_max' "$LOG"
+LOG=$WORK/second.log
+check runs_again gives_status 0 demo --scene quick --duration 20 --out "$WORK/out"
+check builds_once gives_status 1 grep -E 'Building|Linking' "$ROOT/build/log/build.log"
+check leaves_home_alone test -z "$(ls -A "$WORK/home")"
+LOG=$WORK/refused.log
+check refuses_a_scene gives_status 2 demo --scene nowhere
+check refuses_an_option gives_status 2 demo --bogus
+LOG=$WORK/int.log
+check ends_on_int gives_status 130 interrupted INT
+check leaves_nothing_after_int none_is_left
+LOG=$WORK/term.log
+check ends_on_term gives_status 143 interrupted TERM
+check leaves_nothing_after_term none_is_left
+exit "$FAILED"

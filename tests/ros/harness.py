@@ -1,0 +1,122 @@
+"""Starts hdlyap_node as a process of its own, as a user would, and sees what it does."""
+
+import os
+import signal
+import socket
+import subprocess
+import tempfile
+import threading
+import time
+
+import roslib.packages
+import rosgraph
+import rospy
+
+from hdlyap.msg import Cost, RunInfo, Spectrum, State
+
+NODE = 'hdlyap'
+# a run of a fraction of a second
+SHORT = dict(disks=20, density=0.7, aspect=1.0, equilibration=1.0, warmup=1.0, duration=2.0)
+TYPES = dict(run_info=RunInfo, spectrum=Spectrum, state=State, cost=Cost)
+PATIENCE = 60.0     # seconds, for what has no bound of its own
+
+
+def executable():
+    return roslib.packages.find_node('hdlyap', 'hdlyap_node')[0]
+
+
+def probe_library():
+    """Is built beside the node."""
+    return os.path.join(os.path.dirname(executable()), 'hdlyap_probe.so')
+
+
+def free_port():
+    with socket.socket() as s:
+        s.bind(('', 0))
+        return s.getsockname()[1]
+
+
+def wait_until(condition, seconds=PATIENCE):
+    """The condition's value, as soon as it is true, at the latest after so many seconds."""
+    end = time.monotonic() + seconds
+    while not condition() and time.monotonic() < end:
+        time.sleep(0.01)
+    return condition()
+
+
+class Process:
+    """A process whose output is kept; stopped at the latest by stop()."""
+
+    def __init__(self, command, **env):
+        self.output = tempfile.TemporaryFile('w+')
+        self.process = subprocess.Popen(command, stdout=self.output, stderr=subprocess.STDOUT,
+                                        env=dict(os.environ, **env))
+
+    def send(self, number):
+        self.process.send_signal(number)
+
+    def wait(self, seconds=PATIENCE):
+        """Exit status; raises subprocess.TimeoutExpired."""
+        return self.process.wait(seconds)
+
+    def running(self):
+        return self.process.poll() is None
+
+    def text(self):
+        self.output.seek(0)
+        return self.output.read()
+
+    def lines(self, word):
+        return [line for line in self.text().splitlines() if word in line]
+
+    def stop(self):
+        if self.running():
+            self.send(signal.SIGKILL)
+            self.wait()
+
+
+class Master(Process):
+    """A ROS master that can be killed."""
+
+    def __init__(self, port=None):
+        port = port or free_port()
+        self.uri = 'http://localhost:%d' % port
+        super().__init__(['rosmaster', '--core', '-p', str(port)])
+        assert wait_until(lambda: rosgraph.is_master_online(self.uri))
+
+
+def start(params, name=NODE, probe=None, args=(), **env):
+    """hdlyap_node with exactly these private parameters; probe: what probe.c is asked for."""
+    master = rosgraph.Master('/harness', env.get('ROS_MASTER_URI'))
+    if master.hasParam('/' + name):
+        master.deleteParam('/' + name)
+    for key, value in params.items():
+        master.setParam('/%s/%s' % (name, key), value)
+    if probe is not None:
+        env.update(probe, LD_PRELOAD=probe_library())
+    return Process([executable(), '__name:=' + name, *args], **env)
+
+
+class Listener:
+    """All messages of one of the node's topics, in the order of their arrival."""
+
+    def __init__(self, topic, delay=0.0):
+        self.messages = []
+        self.delay = delay
+        self.arrived = threading.Condition()
+        self.subscriber = rospy.Subscriber('/%s/%s' % (NODE, topic), TYPES[topic], self.keep,
+                                           queue_size=None)
+
+    def keep(self, message):
+        time.sleep(self.delay)
+        with self.arrived:
+            self.messages.append(message)
+            self.arrived.notify_all()
+
+    def wait_for(self, condition, seconds=PATIENCE):
+        """True once a message fulfils the condition."""
+        with self.arrived:
+            return self.arrived.wait_for(lambda: any(map(condition, self.messages)), seconds)
+
+    def close(self):
+        self.subscriber.unregister()

@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+"""A recorder misses nothing, and nobody who listens, or does not, holds a run up."""
+
+import os
+import signal
+import tempfile
+import unittest
+
+import rosbag
+import rospy
+import rostest
+
+import harness
+from harness import SHORT, Cost, Process, TYPES
+
+# some hundred messages of each topic, in less than a second
+MANY = dict(SHORT, disks=100, duration=100.0, report_interval=0.25, wait_for_subscribers='all')
+REPORTS, AVERAGED_REPORTS = 408, 400
+
+
+class Delivery(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.bag = os.path.join(folder.name, 'run.bag')
+
+    def process(self, command, **env):
+        process = Process(command, **env)
+        self.addCleanup(process.stop)
+        return process
+
+    def start(self, params, **kw):
+        node = harness.start(params, **kw)
+        self.addCleanup(node.stop)
+        return node
+
+    def listen(self, topic, **kw):
+        listener = harness.Listener(topic, **kw)
+        self.addCleanup(listener.close)
+        return listener
+
+    def record(self, **env):
+        topics = ['/hdlyap/' + topic for topic in TYPES]
+        return self.process(['rosbag', 'record', '-O', self.bag, '--buffsize=0'] + topics, **env)
+
+    def recorded(self, recorder):
+        """Messages by topic, and connections, of a recorder that is asked to end."""
+        recorder.send(signal.SIGINT)
+        recorder.wait()
+        messages = {topic: [] for topic in TYPES}
+        with rosbag.Bag(self.bag) as bag:
+            connections = list(bag._get_connections())
+            for topic, message, _ in bag.read_messages():
+                messages[topic.rsplit('/', 1)[1]].append(message)
+        return messages, connections
+
+    def check_recording(self, messages):
+        self.assertEqual({topic: len(kept) for topic, kept in messages.items()},
+                         dict(run_info=1, spectrum=AVERAGED_REPORTS, state=REPORTS, cost=REPORTS))
+        grid = [0.25 * (k + 1) for k in range(REPORTS)]
+        for topic, times in (('state', grid), ('cost', grid), ('spectrum', grid[8:])):
+            self.assertEqual([message.sim_time for message in messages[topic]], times)
+        self.assertEqual([cost.phase for cost in messages['cost']].count(Cost.FINISHED), 1)
+        self.assertEqual(messages['cost'][-1].phase, Cost.FINISHED)
+        self.assertEqual(messages['cost'][-1].progress, 1.0)
+        run_ids = {message.run_id for kept in messages.values() for message in kept}
+        self.assertEqual(len(run_ids), 1)
+
+    def test_recorder_misses_nothing(self):
+        recorder = self.record()
+        node = self.start(MANY)
+        self.assertEqual(node.wait(), 0, node.text())
+        messages, connections = self.recorded(recorder)
+        self.check_recording(messages)
+        self.assertEqual(len(connections), 4)
+        for connection in connections:
+            kind = TYPES[connection.topic.rsplit('/', 1)[1]]
+            self.assertEqual(connection.datatype, kind._type)
+            self.assertEqual(connection.md5sum, kind._md5sum)
+            self.assertEqual(connection.msg_def.strip(), kind._full_text.strip())
+
+    def test_master_dies(self):
+        master = harness.Master()
+        self.addCleanup(master.stop)
+        recorder = self.record(ROS_MASTER_URI=master.uri)
+        node = self.start(MANY, ROS_MASTER_URI=master.uri,
+                          probe={'PROBE_STEP_SECONDS': '0.005'})
+        self.assertTrue(harness.wait_until(lambda: os.path.exists(self.bag + '.active') and
+                                           os.path.getsize(self.bag + '.active') > 0))
+        rospy.sleep(0.3)
+        self.assertTrue(node.running())
+        master.stop()
+        self.assertEqual(node.wait(), 0, node.text())
+        self.check_recording(self.recorded(recorder)[0])
+
+    def test_slow_subscriber(self):
+        slow = self.listen('state', delay=0.2)
+        cost = self.listen('cost')
+        node = self.start(dict(MANY, wait_for_subscribers=['state', 'cost']))
+        self.assertTrue(cost.wait_for(lambda message: message.sim_time == 90))
+        self.assertLess(len(slow.messages), 100)
+        self.assertEqual(node.wait(), 0, node.text())
+        self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
+        slow.delay = 0.0
+        self.assertTrue(slow.wait_for(lambda message: message.sim_time == 102))
+        self.assertEqual(len(slow.messages), REPORTS)
+
+    def test_stopped_subscriber(self):
+        # more than what queue and sockets hold
+        stopped = self.process(['rostopic', 'echo', '-p', '/hdlyap/state'])
+        cost = self.listen('cost')
+        node = self.start(dict(MANY, disks=5000, exponents='none', duration=200.0,
+                               wait_for_subscribers=['state', 'cost']))
+        self.assertTrue(cost.wait_for(lambda message: True))
+        stopped.send(signal.SIGSTOP)
+        self.assertEqual(node.wait(), 0, node.text())
+        self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
+        self.assertEqual(len(cost.messages), 808)
+
+    def test_waits_for_subscribers(self):
+        info = self.listen('run_info')
+        state = self.listen('state')
+        node = self.start(dict(SHORT, wait_for_subscribers=['state', 'spectrum']))
+        self.assertTrue(info.wait_for(lambda message: True))
+        rospy.sleep(0.3)
+        self.assertTrue(node.running())
+        self.assertEqual(state.messages, [])
+        spectrum = self.listen('spectrum')
+        self.assertEqual(node.wait(), 0, node.text())
+        self.assertEqual((len(state.messages), len(spectrum.messages)), (4, 2))
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_delivery')
+    rostest.rosrun('hdlyap', 'delivery', Delivery)

@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""Scene and launch files: every scene runs as it is written, launching records whole runs."""
+
+import os
+import signal
+import tempfile
+import unittest
+
+import rosbag
+import rospkg
+import rospy
+import rostest
+import yaml
+
+import harness
+from harness import Cost, Process
+
+LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
+SCENES = sorted(name[:-5] for name in os.listdir(os.path.join(LAUNCH, 'scenes')))
+
+
+def load(scene):
+    with open(os.path.join(LAUNCH, 'scenes', scene + '.yaml')) as file:
+        return yaml.safe_load(file)
+
+
+class Launch(unittest.TestCase):
+    def test_scenes(self):
+        for scene in SCENES:
+            with self.subTest(scene=scene):
+                self.check_scene(scene, load(scene))
+
+    def check_scene(self, scene, params):
+        listener = harness.Listener('run_info')
+        self.addCleanup(listener.close)
+        node = harness.start(params)
+        self.addCleanup(node.stop)
+        self.assertTrue(listener.wait_for(lambda message: True), node.text())
+        node.send(signal.SIGINT)
+        self.assertEqual(node.wait(), 0, node.text())
+        listener.close()
+        info = listener.messages[0]
+        self.assertEqual(info.scene, scene)
+        params = dict(params, exponents=str(params['exponents']))
+        self.assertEqual(params.pop('interval'), 'auto')
+        self.assertIn(params.pop('threads'), (0, info.threads))
+        self.assertEqual(params.pop('wait_for_subscribers'), [])
+        for name, value in params.items():
+            self.assertEqual(getattr(info, name), value, name)
+
+    def test_scenes_name_every_parameter(self):
+        names = set(load('paper_periodic'))
+        for scene in SCENES:
+            self.assertEqual(set(load(scene)), names, scene)
+
+    def roslaunch(self, folder, *args):
+        process = Process(['roslaunch', 'hdlyap', *args], PWD=folder)
+        self.addCleanup(process.stop)
+        return process
+
+    def test_record_and_replay(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run = self.roslaunch(folder, 'run.launch', 'scene:=quick', 'duration:=30',
+                                 'seed:=18446744073709551615', 'record:=true', 'bag:=q.bag')
+            self.assertEqual(run.wait(), 0, run.text())
+            bag = os.path.join(folder, 'q.bag')
+            self.check_bag(bag)
+            cost = harness.Listener('cost')
+            self.addCleanup(cost.close)
+            replay = self.roslaunch(folder, 'replay.launch', 'bag:=' + bag, 'rate:=10')
+            self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
+            self.assertEqual(replay.wait(), 0, replay.text())
+
+    def check_bag(self, path):
+        with rosbag.Bag(path) as bag:
+            messages = [(topic, message) for topic, message, _ in bag.read_messages()]
+        count = {name: sum(topic == '/hdlyap/' + name for topic, _ in messages)
+                 for name in harness.TYPES}
+        self.assertEqual(count, dict(run_info=1, spectrum=30, state=70, cost=70))
+        info = next(message for topic, message in messages if topic == '/hdlyap/run_info')
+        self.assertEqual((info.seed, info.duration, info.disks), ('18446744073709551615', 30.0, 100))
+
+    def test_refused_scene_ends_the_launch(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run = self.roslaunch(folder, 'run.launch', 'scene:=quick', 'duration:=-1')
+            run.wait()
+            self.assertEqual(len(run.lines('FATAL')), 1, run.text())
+            self.assertEqual(len(run.lines('exit code 2')), 1, run.text())
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_launch')
+    rostest.rosrun('hdlyap', 'launch', Launch)

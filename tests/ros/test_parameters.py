@@ -1,0 +1,156 @@
+#!/usr/bin/env python3
+"""Every parameter: what is refused, with which words, and what is taken."""
+
+import re
+import unittest
+
+import rosgraph
+import rospy
+import rostest
+
+import harness
+from harness import SHORT
+
+NAN, INFINITY = float('nan'), float('inf')
+AT_ONCE = 8    # nodes: they spend most of their short life waiting
+TIME = [-1, -1e-9, 2e12, 'x', '', [1.0], True, NAN, INFINITY]
+
+# values that are refused whatever the other parameters are
+BAD = dict(
+    scene=[5, '', ['quick']],
+    disks=['780', 780.0, 1, 0, -3, 1000001, True],
+    density=['x', 0, -0.1, 1.1548, NAN, INFINITY, [0.8], False],
+    aspect=['x', 0, -1, 1e7, NAN, INFINITY],
+    boundary_x=['open', '', 1, 'Periodic'],
+    boundary_y=['open', '', 1, ['periodic']],
+    seed=['', '-1', '+1', ' 1', '1.5', '0x1', 'x', '18446744073709551616', 1.0, -1, True],
+    exponents=['some', '', '0', '-1', '1.0', 0, -1, -2, 2.0, 81, '81', '99999999999', ['all']],
+    equilibration=TIME,
+    warmup=TIME,
+    duration=TIME,
+    target_std_error=TIME,
+    interval=[0, 0.0, -1, 2e12, 'never', '', NAN, INFINITY, True],
+    accuracy=[0, 0.9e-12, 1.1e-2, 'x', NAN, INFINITY],
+    report_interval=[0, -1, 2e12, 'x', NAN, INFINITY],
+    observables=[['modes'], ['steps'], ['lp_phases'], ['fields'], ['hydro'], ['covariant'],
+                 ['spectrum', 'modes'], ['spectra'], [''], 'spectrum', 5, [1], True],
+    threads=[-1, 1025, 1.0, '2'],
+    wait_for_subscribers=[['nothing'], ['spectrum', ''], 'spectrum', 5, [1]],
+    pace=[-1, 2e12, 'x', NAN, INFINITY],
+    max_wave_number=[3.0, 'x', [1]],
+    max_node=[2],
+    field_indices=['steps', [1, 2]],
+    checkpoint=['file'],
+    checkpoint_interval=[60.0],
+    resume=['file', True],
+    densty=[0.8],
+    Disks=[100],
+)
+
+# values that are refused together: the name that the line begins with, and the parameters
+BAD_TOGETHER = [
+    ('density', dict(density=1.1)),
+    ('density', dict(disks=100, aspect=0.0001)),
+    ('density', dict(disks=2, density=1.01)),
+    ('exponents', dict(disks=5, exponents=21)),
+    ('observables', dict(exponents='none', observables=['spectrum'])),
+    ('wait_for_subscribers', dict(observables=['state'], wait_for_subscribers=['spectrum'])),
+    ('wait_for_subscribers', dict(exponents='none', wait_for_subscribers=['spectrum'])),
+]
+
+# values that are taken, with the field of run_info that shows them
+GOOD = [
+    (dict(duration='1.5'), dict(duration=1.5)),
+    (dict(duration='1e0', accuracy='1e-6'), dict(duration=1.0, accuracy=1e-6)),
+    (dict(duration=1), dict(duration=1.0)),
+    (dict(exponents='5'), dict(exponents='5', vectors=5)),
+    (dict(exponents=5), dict(exponents='5', vectors=5)),
+    (dict(exponents='all'), dict(exponents='all', vectors=80)),
+    (dict(exponents='none'), dict(exponents='none', vectors=0, observables=['state'])),
+    (dict(seed=7), dict(seed='7')),
+    (dict(seed='18446744073709551615'), dict(seed='18446744073709551615')),
+    (dict(observables=[]), dict(observables=[])),
+    (dict(observables=['state', 'spectrum']), dict(observables=['spectrum', 'state'])),
+    (dict(interval='auto'), dict(interval=0.0)),
+    (dict(interval=0.25, threads=1), dict(interval=0.25, threads=1)),
+    (dict(boundary_x='reflecting'), dict(boundary_x='reflecting', zero_exponents=4)),
+    (dict(max_wave_number=0, max_node='', field_indices='', checkpoint='', checkpoint_interval=0.0,
+          resume=False), dict(scene='paper_periodic')),
+]
+
+
+class Parameters(unittest.TestCase):
+    def check_refused(self, cases):
+        """cases: (what the line begins with, what is in it, parameters, arguments)."""
+        for first in range(0, len(cases), AT_ONCE):
+            some = cases[first:first + AT_ONCE]
+            nodes = [harness.start(params, 'refused_%d' % k, args=args)
+                     for k, (_, _, params, args) in enumerate(some)]
+            for node, (begin, value, params, _) in zip(nodes, some):
+                self.addCleanup(node.stop)
+                with self.subTest(params=params):
+                    self.refused(node, begin, value)
+        self.assert_nothing_seen()
+
+    def refused(self, node, begin, value):
+        self.assertEqual(node.wait(), 2, node.text())
+        self.assertEqual(len(node.text().splitlines()), 1, node.text())
+        self.assertRegex(node.text(), r'\[FATAL\] \[[0-9.]+\]: %s.*must be ' % re.escape(begin))
+        self.assertIn(value, node.text())
+
+    def assert_nothing_seen(self):
+        # the master remembers the type of every topic that was ever advertised
+        types = dict(rosgraph.Master('/test').getTopicTypes())
+        self.assertEqual([topic for topic in types if topic.startswith('/refused')], [])
+
+    def test_refused(self):
+        self.check_refused([(name + ' = ', shown(value), dict(SHORT, **{name: value}), [])
+                            for name, values in BAD.items() for value in values])
+
+    def test_refused_together(self):
+        self.check_refused([(name + ' = ', '', dict(SHORT, **params), [])
+                            for name, params in BAD_TOGETHER])
+
+    def test_refused_argument(self):
+        self.check_refused([('argument disks=5', '', SHORT, ['disks=5'])])
+
+    def test_taken(self):
+        for params, shows in GOOD:
+            with self.subTest(params=params):
+                self.taken(params, shows)
+
+    def taken(self, params, shows):
+        listener = harness.Listener('run_info')
+        self.addCleanup(listener.close)
+        node = harness.start(dict(SHORT, wait_for_subscribers=['run_info'], **params))
+        self.addCleanup(node.stop)
+        self.assertEqual(node.wait(), 0, node.text())
+        self.assertTrue(listener.wait_for(lambda info: True))
+        for field, value in shows.items():
+            self.assertEqual(getattr(listener.messages[0], field), value)
+        listener.close()
+
+    def test_defaults(self):
+        listener = harness.Listener('run_info')
+        self.addCleanup(listener.close)
+        node = harness.start({})
+        self.addCleanup(node.stop)
+        self.assertTrue(listener.wait_for(lambda info: True), node.text())
+        info = listener.messages[0]
+        want = dict(scene='paper_periodic', disks=780, density=0.8, aspect=0.867, seed='1',
+                    boundary_x='periodic', boundary_y='periodic', exponents='positive',
+                    vectors=1557, zero_exponents=6, duration=0.0, target_std_error=0.0,
+                    interval=0.0, accuracy=1e-8, report_interval=1.0, pace=0.0,
+                    observables=['spectrum', 'state'])
+        for field, value in want.items():
+            self.assertEqual(getattr(info, field), value)
+
+
+def shown(value):
+    """As the node shows it: not every number as python does."""
+    return value if isinstance(value, str) else ''
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_parameters')
+    rostest.rosrun('hdlyap', 'parameters', Parameters)

@@ -1,0 +1,199 @@
+#!/usr/bin/env python3
+"""A run seen from outside: topics, services, diagnostics, faults, and what is not computed."""
+
+import os
+import re
+import tempfile
+import unittest
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+import rospy
+import rostest
+from std_srvs.srv import SetBool, Trigger
+
+import harness
+from harness import SHORT, Cost
+
+ENDLESS = dict(SHORT, duration=0.0, pace=20.0, report_interval=0.5)
+
+
+class Run(unittest.TestCase):
+    def listen(self, topic):
+        listener = harness.Listener(topic)
+        self.addCleanup(listener.close)
+        return listener
+
+    def start(self, params, **kw):
+        node = harness.start(params, **kw)
+        self.addCleanup(node.stop)
+        return node
+
+    def service(self, name, kind):
+        full = '/%s/%s' % (harness.NODE, name)
+        rospy.wait_for_service(full, harness.PATIENCE)
+        return rospy.ServiceProxy(full, kind)
+
+    def assert_finished(self, node):
+        self.assertEqual(node.wait(), 0, node.text())
+
+    def test_messages_agree(self):
+        listeners = {topic: self.listen(topic) for topic in harness.TYPES}
+        node = self.start(dict(SHORT, wait_for_subscribers='all', exponents='all'))
+        self.assert_finished(node)
+        self.assertTrue(listeners['cost'].wait_for(lambda cost: cost.phase == Cost.FINISHED))
+        info = listeners['run_info'].messages[0]
+        spectrum = listeners['spectrum'].messages[-1]
+        state = listeners['state'].messages[-1]
+        cost = listeners['cost'].messages[-1]
+        self.assertEqual([len(l.messages) for l in listeners.values()], [1, 2, 4, 4])
+        self.assertRegex(info.run_id, r'^\d{8}T\d{6}\.\d{6}Z-%d-1$' % node.process.pid)
+        for message in (spectrum, state, cost):
+            self.assertEqual(message.run_id, info.run_id)
+            self.assertEqual(message.sim_time, 4.0)
+            self.assertEqual(message.header.frame_id, 'box')
+            self.assertLess(abs(message.header.stamp - rospy.Time.now()), rospy.Duration(60))
+        self.check_spectrum(spectrum, info)
+        self.check_state(state, info)
+        self.assertEqual(cost.progress, 1.0)
+        self.assertEqual(cost.remaining_seconds, 0.0)
+
+    def check_spectrum(self, spectrum, info):
+        self.assertEqual(info.vectors, 80)
+        for array in (spectrum.exponents, spectrum.std_errors, spectrum.local_exponents,
+                      spectrum.cos_theta, spectrum.dp_dq_ratio):
+            self.assertEqual(len(array), info.vectors)
+        self.assertEqual(spectrum.first_index, 1)
+        self.assertEqual(spectrum.lambda_max, spectrum.exponents[0])
+        positive = sum(e for e in spectrum.exponents if e > 0)
+        self.assertAlmostEqual(spectrum.ks_entropy, positive, delta=1e-12 * positive)
+        pairs = zip(spectrum.exponents, reversed(spectrum.exponents))
+        self.assertAlmostEqual(spectrum.pairing_error, max(abs(a + b) for a, b in pairs),
+                               delta=1e-12)
+        self.assertEqual(spectrum.averaged_time, 2.0)
+        self.assertGreater(spectrum.collisions, 100)
+
+    def check_state(self, state, info):
+        for array, edge in ((state.x, info.box_x), (state.y, info.box_y)):
+            self.assertEqual(len(array), 20)
+            self.assertGreaterEqual(min(array), 0.0)
+            self.assertLessEqual(max(array), edge)
+        kinetic = sum(p * p for p in state.px + state.py) / 2
+        self.assertAlmostEqual(kinetic, state.kinetic_energy, delta=1e-12 * kinetic)
+        self.assertAlmostEqual(kinetic, 20.0, delta=1e-9)
+        self.assertAlmostEqual(sum(state.px), 0.0, delta=1e-9)
+        self.assertAlmostEqual(sum(state.py), 0.0, delta=1e-9)
+
+    def test_same_seed_same_run(self):
+        last = []
+        for _ in range(2):
+            listener = self.listen('spectrum')
+            self.assert_finished(self.start(dict(SHORT, wait_for_subscribers=['spectrum'])))
+            self.assertTrue(listener.wait_for(lambda spectrum: spectrum.sim_time == 4.0))
+            last.append(listener.messages[-1])
+            listener.close()
+        self.assertEqual(last[0].collisions, last[1].collisions)
+        self.assertEqual(last[0].exponents, last[1].exponents)
+        self.assertNotEqual(last[0].run_id, last[1].run_id)
+
+    def test_pause(self):
+        cost = self.listen('cost')
+        node = self.start(ENDLESS)
+        pause = self.service('pause', SetBool)
+        self.assertTrue(cost.wait_for(lambda message: True))
+        self.assertTrue(pause(True).success)
+        self.assertTrue(harness.wait_until(lambda: self.diagnostic().message == 'paused'))
+        before = len(cost.messages)
+        rospy.sleep(0.3)    # at this pace six messages
+        self.assertEqual(len(cost.messages), before)
+        self.assertTrue(pause(False).success)
+        time = cost.messages[-1].sim_time
+        self.assertTrue(cost.wait_for(lambda message: message.sim_time > time + 1))
+        self.assertTrue(node.running())
+
+    def test_reset_average(self):
+        spectrum = self.listen('spectrum')
+        self.start(ENDLESS)
+        self.assertTrue(spectrum.wait_for(lambda message: message.averaged_time >= 2))
+        self.assertTrue(self.service('reset_average', Trigger)().success)
+        time = spectrum.messages[-1].averaged_time
+        self.assertTrue(spectrum.wait_for(
+            lambda message: message.averaged_time < time and message.sim_time > 2 + time))
+
+    def test_reset_average_without_averages(self):
+        self.start(dict(ENDLESS, equilibration=1e6))
+        self.assertFalse(self.service('reset_average', Trigger)().success)
+
+    def diagnostic(self):
+        return rospy.wait_for_message('/diagnostics', DiagnosticArray, harness.PATIENCE).status[0]
+
+    def test_diagnostics(self):
+        info = self.listen('run_info')
+        self.start(ENDLESS)
+        self.assertTrue(info.wait_for(lambda message: True))
+        status = self.diagnostic()
+        self.assertEqual(status.level, DiagnosticStatus.OK)
+        self.assertEqual(status.name, '/hdlyap')
+        self.assertEqual(status.hardware_id, info.messages[0].run_id)
+        values = {pair.key: pair.value for pair in status.values}
+        self.assertEqual(values['blas kernel'], info.messages[0].blas_kernel)
+        self.assertEqual(values['repairs'], '0')
+        for key in ('phase', 'progress', 'interval', 'condition', 'collisions per second'):
+            self.assertIn(key, values)
+
+    def test_diagnostics_once_per_second(self):
+        stamps = []
+        rospy.Subscriber('/diagnostics', DiagnosticArray, stamps.append)
+        self.start(ENDLESS)
+        self.assertTrue(harness.wait_until(lambda: len(stamps) >= 4))
+        times = [message.header.stamp.to_sec() for message in stamps[1:4]]
+        # a late message does not make the next one early, but a busy machine may be late
+        self.assertGreater(times[2] - times[0], 1.8)
+
+    def calls(self, params):
+        """Of hd_trajectory_state and hd_frame_halves by the end of a run."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, 'counts')
+            self.assert_finished(self.start(params, probe={'PROBE_COUNTS': path}))
+            with open(path) as file:
+                return [int(word) for word in file.read().split()]
+
+    def test_nothing_computed_without_subscribers(self):
+        self.assertEqual(self.calls(SHORT), [0, 0])
+
+    def test_computed_for_subscribers(self):
+        self.listen('state')
+        self.assertEqual(self.calls(dict(SHORT, wait_for_subscribers=['state'])), [4, 0])
+
+    def fault(self, **probe):
+        self.listen('state')
+        cost = self.listen('cost')
+        node = self.start(dict(SHORT, wait_for_subscribers='all', observables=['state']),
+                          probe=probe)
+        self.listen('run_info')
+        self.assertEqual(node.wait(), 3, node.text())
+        fatal = node.lines('FATAL')
+        self.assertEqual(len(fatal), 1, node.text())
+        self.assertNotIn(Cost.FINISHED, [message.phase for message in cost.messages])
+        return fatal[0]
+
+    def test_numerical_fault(self):
+        self.assertIn('too ill-conditioned', self.fault(PROBE_FAULT_AFTER='3'))
+
+    def test_no_nan_is_published(self):
+        state = self.listen('state')
+        self.assertIn('not finite', self.fault(PROBE_NAN='1'))
+        self.assertEqual(state.messages, [])
+
+    def test_fault_in_diagnostics(self):
+        errors = []
+        rospy.Subscriber('/diagnostics', DiagnosticArray, errors.append)
+        node = self.start(dict(ENDLESS), probe={'PROBE_FAULT_AFTER': '30'})
+        self.assertEqual(node.wait(), 3)
+        self.assertTrue(harness.wait_until(
+            lambda: errors and errors[-1].status[0].level == DiagnosticStatus.ERROR))
+        self.assertTrue(re.search('ill-conditioned', errors[-1].status[0].message))
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_run')
+    rostest.rosrun('hdlyap', 'run', Run)

@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""Asked to stop, the node ends within a second, whatever it is doing, and with its last message."""
+
+import signal
+import subprocess
+import time
+import unittest
+
+import rospy
+import rostest
+
+import harness
+from harness import SHORT, Cost
+
+BOUND = 1.0     # seconds, the contract
+ENDLESS = dict(SHORT, disks=100, duration=0.0)
+
+
+class Stop(unittest.TestCase):
+    def listen(self, topic):
+        listener = harness.Listener(topic)
+        self.addCleanup(listener.close)
+        return listener
+
+    def start(self, params, **kw):
+        node = harness.start(params, **kw)
+        self.addCleanup(node.stop)
+        return node
+
+    def stop(self, node, ask=None):
+        begin = time.monotonic()
+        (ask or (lambda: node.send(signal.SIGINT)))()
+        self.assertEqual(node.wait(), 0, node.text())
+        self.assertLess(time.monotonic() - begin, BOUND)
+
+    def check_stopped(self, cost, spectrum):
+        """Nothing is missing up to the last message."""
+        self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
+        self.assertEqual(cost.messages[-1].phase, Cost.FINISHED)
+        times = [int(message.sim_time) for message in cost.messages]
+        self.assertEqual(times[:-1], list(range(times[0], times[0] + len(times) - 1)))
+        averaged = [int(message.sim_time) for message in spectrum.messages]
+        self.assertEqual(averaged, list(range(averaged[0], times[-2] + 1)))
+
+    def stops_with_last_message(self, ask):
+        cost, spectrum = self.listen('cost'), self.listen('spectrum')
+        node = self.start(dict(ENDLESS, wait_for_subscribers=['cost', 'spectrum']))
+        self.assertTrue(spectrum.wait_for(lambda message: True))
+        self.stop(node, lambda: ask(node))
+        self.check_stopped(cost, spectrum)
+        self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())
+
+    def test_interrupt(self):
+        self.stops_with_last_message(lambda node: node.send(signal.SIGINT))
+
+    def test_terminate(self):
+        self.stops_with_last_message(lambda node: node.send(signal.SIGTERM))
+
+    def test_rosnode_kill(self):
+        kill = 'import rosnode; rosnode.kill_nodes(["/hdlyap"])'
+        self.stops_with_last_message(lambda node: subprocess.Popen(['python3', '-c', kill]).wait())
+
+    def test_twice(self):
+        node = self.start(ENDLESS)
+        cost = self.listen('cost')
+        self.assertTrue(cost.wait_for(lambda message: True))
+        node.send(signal.SIGINT)
+        self.stop(node)
+
+    def test_during_a_step(self):
+        cost = self.listen('cost')
+        node = self.start(dict(ENDLESS, wait_for_subscribers=['cost']),
+                          probe={'PROBE_STEP_SECONDS': '2.5'})
+        self.assertTrue(cost.wait_for(lambda message: True))
+        before = cost.messages[-1]
+        self.stop(node)
+        self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
+        self.assertEqual(cost.messages[-1].sim_time, before.sim_time)
+
+    def test_during_creation(self):
+        node = self.start(dict(disks=1000, exponents='all', threads=1))
+        time.sleep(0.7)
+        self.assertEqual(node.text(), '')
+        self.stop(node)
+
+    def test_while_paused_recorder_listens(self):
+        echo = harness.Process(['rostopic', 'echo', '/hdlyap/state'])
+        self.addCleanup(echo.stop)
+        cost = self.listen('cost')
+        node = self.start(dict(ENDLESS, disks=5000, exponents='none',
+                               wait_for_subscribers=['state', 'cost']))
+        self.assertTrue(cost.wait_for(lambda message: True))
+        echo.send(signal.SIGSTOP)
+        self.assertTrue(cost.wait_for(lambda message: message.sim_time > 60))
+        self.stop(node)
+        self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
+
+    def test_while_waiting_for_subscribers(self):
+        node = self.start(dict(SHORT, wait_for_subscribers=['state']))
+        self.assertTrue(harness.wait_until(lambda: node.lines('waiting for subscribers')))
+        self.stop(node)
+
+    def test_while_keeping_pace(self):
+        cost = self.listen('cost')
+        node = self.start(dict(ENDLESS, pace=0.1, report_interval=0.01,
+                               wait_for_subscribers=['cost']))
+        self.assertTrue(cost.wait_for(lambda message: True))
+        self.stop(node)
+
+    def test_without_master(self):
+        uri = 'http://localhost:%d' % harness.free_port()
+        for args in ([], ['_disks:=100']):
+            with self.subTest(args=args):
+                node = harness.Process([harness.executable(), *args], ROS_MASTER_URI=uri)
+                self.addCleanup(node.stop)
+                self.assertTrue(harness.wait_until(lambda: node.lines('master at')), node.text())
+                self.stop(node)
+
+    def test_master_comes_later(self):
+        port = harness.free_port()
+        node = harness.Process([harness.executable()],
+                               ROS_MASTER_URI='http://localhost:%d' % port)
+        self.addCleanup(node.stop)
+        self.assertTrue(harness.wait_until(lambda: node.lines('waiting for it')), node.text())
+        master = harness.Master(port)
+        self.addCleanup(master.stop)
+        self.assertTrue(harness.wait_until(lambda: node.lines('scene paper_periodic')))
+        self.stop(node)
+
+    def test_with_stopped_master(self):
+        master = harness.Master()
+        self.addCleanup(master.stop)
+        node = self.start(ENDLESS, ROS_MASTER_URI=master.uri)
+        self.assertTrue(harness.wait_until(lambda: node.lines('scene paper_periodic')))
+        time.sleep(0.3)
+        master.send(signal.SIGSTOP)
+        self.stop(node)
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_stop')
+    rostest.rosrun('hdlyap', 'stop', Stop)

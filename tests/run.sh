@@ -1,0 +1,138 @@
+#!/usr/bin/env bash
+# Every test of hdlyap, built afresh below build/check. Its last line is 'N passed, N failed'.
+#   run.sh [--no-install]
+set -euo pipefail
+# shellcheck source=launch/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
+
+readonly WORK=$ROOT/build/check # not build/tests: cmake puts the folder tests there
+readonly LOGS=$WORK/log
+PASSED=0
+FAILED=0
+
+# ---- the stages ------------------------------------------------------------------------------
+
+shell_scripts() {
+    cd "$ROOT"
+    shellcheck -x --exclude=SC2317 launch/*.sh tests/*.sh tests/install/*.sh .ci/run
+}
+
+# without_ros COMMAND...: as on a machine that has no ROS.
+without_ros() { env -i HOME="$HOME" PATH=/usr/bin:/bin LC_ALL=C.UTF-8 "$@"; }
+
+core_build() {
+    without_ros cmake -S "$ROOT" -B "$WORK/core" -DHDLYAP_ROS=OFF \
+        -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_INSTALL_PREFIX="$WORK/prefix" "$@"
+    without_ros cmake --build "$WORK/core" -- -j "$(nproc)"
+}
+
+core_install() {
+    without_ros cmake --install "$WORK/core"
+    without_ros "$ROOT/tests/install/check.sh" "$WORK/prefix" "$WORK/install"
+}
+
+sanitizers_build() {
+    without_ros cmake -S "$ROOT/hdlyap_core" -B "$WORK/sanitizers" -DHDLYAP_SANITIZE=ON
+    without_ros cmake --build "$WORK/sanitizers" -- -j "$(nproc)"
+}
+
+run_ctest() {
+    cd "$1"
+    ctest --output-on-failure
+}
+
+ros_build() {
+    build "$WORK/ros" -DCATKIN_ENABLE_TESTING=ON -DHDLYAP_CORE_TESTS=OFF
+    cmake --build "$WORK/ros" --target tests -- -j "$(nproc)"
+}
+
+ros_tests() {
+    source_setup "$WORK/ros/devel/setup.bash"
+    cmake --build "$WORK/ros" --target run_tests
+    catkin_test_results --verbose "$WORK/ros/test_results"
+}
+
+plot_tests() {
+    source_setup "$WORK/ros/devel/setup.bash"
+    cd "$ROOT/tests/ros"
+    python3 -m unittest -v test_plot_bag
+}
+
+lint() {
+    # the folder of a clone may have any name
+    catkin_lint --offline --strict -W2 --ignore package_path_name "$ROOT"
+}
+
+warnings() {
+    ! grep -n 'warning:' "$LOGS"/*_build.log
+}
+
+# ---- how many tests a log reports: total and failed ------------------------------------------
+
+count_one() { echo 1 0; }
+
+count_ctest() { sed -nE 's/.* ([0-9]+) tests? failed out of ([0-9]+).*/\2 \1/p' "$1"; }
+
+# a test that was skipped has not passed
+count_catkin() {
+    sed -nE 's/^Summary: ([0-9]+) tests, ([0-9]+) errors, ([0-9]+) failures, ([0-9]+) skipped.*/\1 \2 \3 \4/p' \
+        "$1" | awk '{ print $1, $2 + $3 + $4 }'
+}
+
+count_unittest() {
+    awk '/^Ran / { total = $2 } /\.\.\. (FAIL|ERROR|skipped)/ { failed++ }
+         END { print total + 0, failed + 0 }' "$1"
+}
+
+count_checks() {
+    awk '/^ok / { ok++ } /^FAILED / { failed++ } END { print ok + failed + 0, failed + 0 }' "$1"
+}
+
+# stage NAME COUNTER COMMAND...
+stage() {
+    local name=$1 counter=$2 log=$LOGS/$1.log status=0 total=0 failed=0 began=$SECONDS
+    shift 2
+    run "$@" >"$log" 2>&1 || status=$?
+    read -r total failed < <("count_$counter" "$log") || true
+    # neither a crash behind the last test nor a run without tests is a success
+    if ((total == 0 || status != 0 && failed == 0)); then
+        failed=1
+        total=$((total > 0 ? total : 1))
+    fi
+    report "$name" $((total - failed)) "$failed" $((SECONDS - began))
+    if ((failed)); then
+        tail -n 60 "$log"
+        say "all of it is in $log"
+    fi
+}
+
+report() {
+    PASSED=$((PASSED + $2)) FAILED=$((FAILED + $3))
+    printf '%-18s %4d passed %4d failed %5d s\n' "$@"
+}
+
+case ${1:-} in
+    --no-install) ;;
+    '') "$ROOT/launch/install.sh" test ;;
+    *) die "usage: run.sh [--no-install]" 2 ;;
+esac
+stop_at_exit
+rm -rf "$WORK"
+mkdir -p "$LOGS"
+own_environment "$WORK/home"
+
+stage shell_scripts one shell_scripts
+stage core_build one core_build
+stage core_tests ctest run_ctest "$WORK/core"
+stage core_install checks core_install
+stage sanitizers_build one sanitizers_build
+stage sanitizers_tests ctest run_ctest "$WORK/sanitizers"
+stage ros_build one ros_build
+stage ros_tests catkin ros_tests
+stage plot_tests unittest plot_tests
+stage lint one lint
+stage demo checks "$ROOT/tests/demo.sh" "$WORK/demo"
+stage warnings one warnings
+
+printf '%d passed, %d failed\n' "$PASSED" "$FAILED"
+((FAILED == 0))
