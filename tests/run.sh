@@ -44,6 +44,8 @@ run_ctest() {
 ros_build() {
     build "$WORK/ros" -DCATKIN_ENABLE_TESTING=ON -DHDLYAP_CORE_TESTS=OFF
     cmake --build "$WORK/ros" --target tests -- -j "$(nproc)"
+    # catkin keeps the environment of the tests as it is when configured: devel was empty then
+    cmake "$WORK/ros"
 }
 
 ros_tests() {

@@ -54,42 +54,47 @@ struct hd_trajectory {
 
 /* ---- prediction ------------------------------------------------------------------------------- */
 
-/** Lowers the prediction of disk i by its contacts with a list of disks; `image` is what to add, less
- *  the other disk's own wraps, to see it where disk i sees its cell. */
-static inline void predict_list(hd_trajectory *tr, int32_t i, int32_t j, const int32_t image[2])
+/** Lowers `best`, the prediction of disk a, by its contacts with the list that starts at j; `image` is what
+ *  to add, less the other disk's own wraps, to see it where a sees its cell. All in registers: the
+ *  compiler cannot know that nothing here changes a disk. */
+static inline prediction predict_list(const hd_trajectory *tr, prediction best, hd_disk a, int32_t j,
+                                      int32_t image_x, int32_t image_y)
 {
-    const hd_disk *a = &tr->disk[i];
-    prediction *best = &tr->predicted[i];
+    const hd_disk *const disks = tr->disk;
+    const hd_pair box = hd_pair_load(tr->cells.box);
     for (const hd_disk *b; j >= 0; j = b->next) {
-        b = &tr->disk[j];
-        const int32_t edges[2] = {image[0] - b->wrap[0], image[1] - b->wrap[1]};
-        const double shift[2] = {edges[0] * tr->cells.box[0], edges[1] * tr->cells.box[1]};
-        const double t = a->t > b->t ? a->t : b->t;
-        const double px = b->p[0] - a->p[0], py = b->p[1] - a->p[1];
-        double r[2];
-        hd_contact_separation(r, a, b, shift, t);
-        if (!hd_contact_ahead(r[0], r[1], px, py)) continue; /* the disk itself never is: p = 0 */
-        const double contact = t + hd_contact_wait(r[0], r[1], px, py);
-        if (contact > best->contact || (contact == best->contact && j >= best->partner)) continue;
-        *best = (prediction){.contact = contact, .partner = j, .partner_collisions = b->collisions,
-                             .image = {edges[0], edges[1]}};
+        b = &disks[j];
+        const int32_t edges[2] = {image_x - b->wrap[0], image_y - b->wrap[1]};
+        const double t = a.t > b->t ? a.t : b->t;
+        const hd_pair p = hd_pair_load(b->p) - hd_pair_load(a.p);
+        const hd_pair r = hd_contact_separation(&a, b, (hd_pair){edges[0], edges[1]} * box, t);
+        if (!hd_contact_ahead(r, p)) continue; /* the disk itself never is: p = 0 */
+        const double contact = t + hd_contact_wait(r, p);
+        if (contact > best.contact || (contact == best.contact && j >= best.partner)) continue;
+        best.contact = contact;
+        best.partner = j;
+        best.partner_collisions = b->collisions;
+        best.image[0] = edges[0];
+        best.image[1] = edges[1];
     }
+    return best;
 }
 
 /** The same for the cells at the given sides of its own, a rectangle of them (0 low, 1 here, 2 high). */
 static void predict_cells(hd_trajectory *tr, int32_t i, const int x[2], const int y[2])
 {
-    const hd_disk *disk = &tr->disk[i];
-    const hd_cell_line *column = &tr->cells.line[0][disk->cell[0]];
-    const hd_cell_line *row = &tr->cells.line[1][disk->cell[1]];
+    const hd_disk disk = tr->disk[i];
+    const hd_cell_line column = tr->cells.line[0][disk.cell[0]], row = tr->cells.line[1][disk.cell[1]];
+    prediction best = tr->predicted[i];
     for (int v = y[0]; v <= y[1]; v++) {
-        if (row->near[v] < 0) continue;
-        const int32_t *cells = tr->cells.first + row->near[v] * tr->cells.size[0];
-        for (int u = x[0]; u <= x[1]; u++) {
-            const int32_t image[2] = {column->shift[u] + disk->wrap[0], row->shift[v] + disk->wrap[1]};
-            if (column->near[u] >= 0) predict_list(tr, i, cells[column->near[u]], image);
-        }
+        if (row.near[v] < 0) continue;
+        const int32_t *cells = tr->cells.first + row.near[v] * tr->cells.size[0];
+        for (int u = x[0]; u <= x[1]; u++)
+            if (column.near[u] >= 0)
+                best = predict_list(tr, best, disk, cells[column.near[u]],
+                                    column.shift[u] + disk.wrap[0], row.shift[v] + disk.wrap[1]);
     }
+    tr->predicted[i] = best;
 }
 
 /** Time at which the disk reaches the edge of its cell (or the wall) in direction d. */
@@ -171,7 +176,7 @@ static hd_status log_append(hd_event_log *log, const hd_event *event)
 }
 
 /** r.r - 1 to twice the working precision (Dekker's product, Knuth's sum). */
-static double square_minus_one(const double r[2])
+static double square_minus_one(hd_pair r)
 {
     const double splitter = 134217729.0; /* 2^27 + 1 */
     double product[2], error[2];
@@ -193,13 +198,12 @@ static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *c
     hd_disk *a = &tr->disk[event.i], *b = &tr->disk[event.j];
     const prediction *how = &tr->predicted[found_by];
     const double sign = found_by == event.i ? 1.0 : -1.0; /* the image is seen from the finder */
-    const double shift[2] = {sign * how->image[0] * tr->cells.box[0],
-                             sign * how->image[1] * tr->cells.box[1]};
-    double r[2];
+    const hd_pair shift = {sign * how->image[0] * tr->cells.box[0],
+                           sign * how->image[1] * tr->cells.box[1]};
     move_to(a, t);
     move_to(b, t);
-    hd_contact_separation(r, a, b, shift, t);
-    const double distance = sqrt(r[0] * r[0] + r[1] * r[1]);
+    const hd_pair r = hd_contact_separation(a, b, shift, t);
+    const double distance = sqrt(hd_contact_dot(r, r));
     double approach = 0;
     for (int d = 0; d < 2; d++) {
         event.n[d] = r[d] / distance;
@@ -494,13 +498,12 @@ static double nearest_in_cell(const hd_trajectory *tr, int32_t i, int32_t x, int
     int32_t j = hd_cells_first(&tr->cells, lx->near[x], ly->near[y]);
     for (; j >= 0; j = tr->disk[j].next) {
         const hd_disk *other = &tr->disk[j];
-        const double shift[2] = {
+        const hd_pair shift = {
             (lx->shift[x] + disk->wrap[0] - other->wrap[0]) * tr->cells.box[0],
             (ly->shift[y] + disk->wrap[1] - other->wrap[1]) * tr->cells.box[1]};
-        double r[2];
         if (j == i) continue;
-        hd_contact_separation(r, disk, other, shift, tr->now - tr->epoch_start);
-        least = fmin(least, r[0] * r[0] + r[1] * r[1]);
+        const hd_pair r = hd_contact_separation(disk, other, shift, tr->now - tr->epoch_start);
+        least = fmin(least, hd_contact_dot(r, r));
     }
     return least;
 }

@@ -39,13 +39,11 @@ typedef struct candidate {
 static contact contact_through(const twin *t, int i, int j, int32_t mx, int32_t my)
 {
     const hd_disk *a = &t->disk[i], *b = &t->disk[j];
-    const double shift[2] = {mx * t->box[0], my * t->box[1]};
     const double now = fmax(a->t, b->t);
-    double r[2];
-    hd_contact_separation(r, a, b, shift, now);
-    const double px = b->p[0] - a->p[0], py = b->p[1] - a->p[1];
-    if (!hd_contact_ahead(r[0], r[1], px, py)) return (contact){.t = INFINITY};
-    return (contact){now + hd_contact_wait(r[0], r[1], px, py), {mx, my}};
+    const hd_pair r = hd_contact_separation(a, b, (hd_pair){mx * t->box[0], my * t->box[1]}, now);
+    const hd_pair p = {b->p[0] - a->p[0], b->p[1] - a->p[1]};
+    if (!hd_contact_ahead(r, p)) return (contact){.t = INFINITY};
+    return (contact){now + hd_contact_wait(r, p), {mx, my}};
 }
 
 static bool sooner(const contact *a, const contact *b)
@@ -87,11 +85,10 @@ static void touching_window(double window[2], double r, double p, double length)
 static void predict_pair(twin *t, int i, int j)
 {
     const hd_disk *a = &t->disk[i], *b = &t->disk[j];
-    const double now = fmax(a->t, b->t), length = t->epoch_length - now, none[2] = {0, 0};
-    double r[2];
+    const double now = fmax(a->t, b->t), length = t->epoch_length - now;
     contact *best = &t->pair[i * t->n + j];
     *best = (contact){.t = INFINITY};
-    hd_contact_separation(r, a, b, none, now);
+    const hd_pair r = hd_contact_separation(a, b, (hd_pair){0, 0}, now);
     const line x = {r[0], b->p[0] - a->p[0], 0, length, t->box[0], t->boundary[0]};
     int32_t mx[2], my[2];
     image_range(mx, &x);
@@ -156,7 +153,7 @@ static candidate earliest(const twin *t)
 static void move(hd_disk *disk, double to)
 {
     for (int d = 0; d < 2; d++)
-        disk->q[d] = hd_contact_position(disk->q[d], disk->p[d], to - disk->t);
+        disk->q[d] += disk->p[d] * (to - disk->t);
     disk->t = to;
 }
 
@@ -168,7 +165,7 @@ static void fold(const twin *t, hd_disk *disk)
 }
 
 /** r.r - 1 as a double and the correction lost in it, added last. */
-static double excess_of(const double r[2])
+static double excess_of(hd_pair r)
 {
     const double xx = r[0] * r[0], yy = r[1] * r[1], sum = xx + yy, back = sum - xx;
     const double lost = (xx - (sum - back)) + (yy - back);
@@ -180,11 +177,10 @@ static bool collide(twin *t, hd_event *event, const candidate *c)
 {
     hd_disk *a = &t->disk[c->i], *b = &t->disk[c->j];
     const contact *how = &t->pair[c->i * t->n + c->j];
-    const double shift[2] = {how->image[0] * t->box[0], how->image[1] * t->box[1]};
-    double r[2];
+    const hd_pair shift = {how->image[0] * t->box[0], how->image[1] * t->box[1]};
     move(a, c->t);
     move(b, c->t);
-    hd_contact_separation(r, a, b, shift, c->t);
+    const hd_pair r = hd_contact_separation(a, b, shift, c->t);
     const double distance = sqrt(r[0] * r[0] + r[1] * r[1]);
     for (int d = 0; d < 2; d++) {
         event->n[d] = r[d] / distance;

@@ -2,10 +2,11 @@
 """Asked to stop, the node ends within a second, whatever it is doing, and with its last message."""
 
 import signal
-import subprocess
 import time
 import unittest
+import xmlrpc.client
 
+import rosgraph
 import rospy
 import rostest
 
@@ -57,8 +58,11 @@ class Stop(unittest.TestCase):
         self.stops_with_last_message(lambda node: node.send(signal.SIGTERM))
 
     def test_rosnode_kill(self):
-        kill = 'import rosnode; rosnode.kill_nodes(["/hdlyap"])'
-        self.stops_with_last_message(lambda node: subprocess.Popen(['python3', '-c', kill]).wait())
+        def kill(node):
+            uri = rosgraph.Master('/test').lookupNode('/' + harness.NODE)
+            xmlrpc.client.ServerProxy(uri).shutdown('/test', 'killed by a test')
+
+        self.stops_with_last_message(kill)
 
     def test_twice(self):
         node = self.start(ENDLESS)

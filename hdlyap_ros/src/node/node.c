@@ -14,9 +14,9 @@
 enum { EXIT_REFUSED = 2, EXIT_NUMERICAL_FAULT = 3, EXIT_FILE_FAULT = 4 };
 
 /** Seconds from a request to stop to the end of the process, whatever happens. */
-static const double stop_seconds = 0.9;
+static const double stop_seconds = 0.8;
 /** Of them for the step that is under way. */
-static const double stop_step_seconds = 0.3;
+static const double stop_step_seconds = 0.25;
 /** How long the last messages of a finished run may take to reach a slow subscriber. */
 static const double linger_seconds = 5.0;
 static const double poll_seconds = 0.02;

@@ -14,7 +14,7 @@ namespace
 {
 const double poll_seconds = 0.01;
 /** What is left for handing over last messages once a stop was requested. */
-const double linger_after_stop = 0.35;
+const double linger_after_stop = 0.25;
 /** A subscriber that hears that we leave drops what it has not read from its socket yet. */
 const double reading_seconds = 0.1;
 
