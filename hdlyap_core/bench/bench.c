@@ -28,7 +28,8 @@ static double dgemm_rate(int m, int n)
 {
     enum { TRIES = 5 };
     double rate[TRIES];
-    double *a = calloc((size_t)m * (size_t)n, sizeof *a), *c = calloc((size_t)n * (size_t)n, sizeof *c);
+    double *a = calloc((size_t)m * (size_t)n, sizeof *a),
+           *c = calloc((size_t)n * (size_t)n, sizeof *c);
     if (!a || !c) exit(3);
     for (size_t k = 0; k < (size_t)m * (size_t)n; k++) a[k] = 1.0 / (double)(k % 97 + 1);
     for (int k = -1; k < TRIES; k++) { /* one to warm up */
@@ -74,9 +75,12 @@ static void whole_run(double duration)
     const double ortho = (after.ortho - before.ortho) / duration;
     printf("\r%d disks, %d vectors, %d threads, %s kernels, dgemm %.1f GF/s\n", scene.disks, n,
            hd_run_threads(run), hd_blas_query().kernel, rate * 1e-9);
-    printf("seconds per time unit: whole run W %.4f = events %.4f + replay %.4f + factorisation %.4f + "
-           "rest %.4f\n", w, events, replay, ortho, w - events - replay - ortho);
-    printf("floor F %.4f   W/F %.2f   interval %.3g   condition %.2g   second passes %ld   repairs %ld\n",
+    printf("seconds per time unit: whole run W %.4f = events %.4f + replay %.4f + factorisation "
+           "%.4f + "
+           "rest %.4f\n",
+           w, events, replay, ortho, w - events - replay - ortho);
+    printf("floor F %.4f   W/F %.2f   interval %.3g   condition %.2g   second passes %ld   repairs "
+           "%ld\n",
            floor, w / floor, after.interval, after.condition,
            after.second_passes - before.second_passes, after.repairs - before.repairs);
     hd_run_free(run);
@@ -91,7 +95,8 @@ static void events_alone(int disks, double density, double collisions)
     hd_trajectory *trajectory;
     require(hd_trajectory_create(&trajectory, &scene), "trajectory");
     const double length = collisions / hd_trajectory_collision_rate(trajectory);
-    require(hd_trajectory_advance(trajectory, NULL, length), "trajectory"); /* away from the lattice */
+    require(hd_trajectory_advance(trajectory, NULL, length),
+            "trajectory"); /* away from the lattice */
     const double first = (double)hd_trajectory_collisions(trajectory), start = seconds();
     require(hd_trajectory_advance(trajectory, NULL, 2.0 * length), "trajectory");
     const double count = (double)hd_trajectory_collisions(trajectory) - first;

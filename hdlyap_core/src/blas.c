@@ -48,7 +48,8 @@ const char *hd_blas_better_kernel(const char *kernel, int has_avx2_fma, int has_
     static const char *const avx2[] = {"Haswell", "Zen", "Excavator", NULL};
     if (strcmp(kernel, "unknown") == 0) return NULL; /* not OpenBLAS, or not one that chooses */
     if (has_avx512) return is_one_of(kernel, avx512) ? NULL : "SkylakeX";
-    if (has_avx2_fma) return is_one_of(kernel, avx2) || is_one_of(kernel, avx512) ? NULL : "Haswell";
+    if (has_avx2_fma)
+        return is_one_of(kernel, avx2) || is_one_of(kernel, avx512) ? NULL : "Haswell";
     return NULL;
 }
 

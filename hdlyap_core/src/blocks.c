@@ -81,7 +81,8 @@ double hd_blocks_std_error(const hd_blocks *blocks, int series)
     for (int level = 0; level < HD_BLOCKS_LEVELS && blocks->count[level] >= BLOCKS_MIN; level++) {
         const double error = level_error(blocks, level, series), ratio = error / naive;
         const double length = ldexp(1.0, level);
-        if (length * length * length > 2.0 * (double)blocks->samples * pow(ratio, 4.0)) return error;
+        if (length * length * length > 2.0 * (double)blocks->samples * pow(ratio, 4.0))
+            return error;
         largest = fmax(largest, error);
         noise = 1.0 / sqrt(2.0 * (double)(blocks->count[level] - 1));
     }

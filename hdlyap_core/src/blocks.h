@@ -10,8 +10,9 @@ enum { HD_BLOCKS_LEVELS = 32 };
 typedef struct hd_blocks {
     int series;
     long samples;
-    double *mean, *square; /**< [levels][series]: running mean and sum of squared deviations of blocks */
-    double *half;          /**< [levels][series]: first half of the next block */
+    double *mean,
+        *square;  /**< [levels][series]: running mean and sum of squared deviations of blocks */
+    double *half; /**< [levels][series]: first half of the next block */
     long count[HD_BLOCKS_LEVELS]; /**< whole blocks of 2^level samples */
 } hd_blocks;
 

@@ -7,17 +7,17 @@
 
 /** Where the cells next to a column (or row) lie; both ends of a line, both directions. */
 typedef struct hd_cell_line {
-    double low, high;     /**< bounds of the disks' centres; a wall's position where there is one */
-    int32_t near[3];      /**< columns to the left, here, to the right; -1 beyond a wall */
-    int32_t shift[3];     /**< box edges to add to the positions there (-1, 0, 1) */
+    double low, high; /**< bounds of the disks' centres; a wall's position where there is one */
+    int32_t near[3];  /**< columns to the left, here, to the right; -1 beyond a wall */
+    int32_t shift[3]; /**< box edges to add to the positions there (-1, 0, 1) */
 } hd_cell_line;
 
 typedef struct hd_cells {
     double box[2];
     hd_boundary boundary[2];
-    int32_t size[2];        /**< columns, rows */
-    hd_cell_line *line[2];  /**< [size[d]] */
-    int32_t *first;         /**< [size[0] * size[1]], first disk of the cell's list or -1 */
+    int32_t size[2];       /**< columns, rows */
+    hd_cell_line *line[2]; /**< [size[d]] */
+    int32_t *first;        /**< [size[0] * size[1]], first disk of the cell's list or -1 */
 } hd_cells;
 
 HD_MUST_CHECK hd_status hd_cells_create(hd_cells *cells, const hd_scene_def *def);

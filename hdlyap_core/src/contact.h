@@ -19,7 +19,8 @@ static inline hd_pair hd_pair_load(const double *x)
 }
 
 /** From disk a to the image of disk b that is `shift` away, both moved to time t. */
-static inline hd_pair hd_contact_separation(const hd_disk *a, const hd_disk *b, hd_pair shift, double t)
+static inline hd_pair hd_contact_separation(const hd_disk *a, const hd_disk *b, hd_pair shift,
+                                            double t)
 {
     return hd_pair_load(b->q) + hd_pair_load(b->p) * (t - b->t) -
            (hd_pair_load(a->q) + hd_pair_load(a->p) * (t - a->t)) + shift;

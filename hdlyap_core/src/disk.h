@@ -7,7 +7,7 @@
 /** q and p are those of time t (of the present epoch) and stay untouched until the disk's next
  *  collision: what is predicted from them does not depend on when it is predicted. */
 typedef struct hd_disk {
-    double q[2];         /**< where it was at t; may have drifted out of the box since */
+    double q[2]; /**< where it was at t; may have drifted out of the box since */
     double p[2];
     double t;
     int32_t wrap[2];     /**< box edges to subtract from its present position to be in its cell */

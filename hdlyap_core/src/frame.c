@@ -24,23 +24,23 @@ enum { BLOCK_BYTES = 512 * 1024, BLOCK_WIDTH_MAX = 64 };
 
 /** Tangent map of one event: free flights of its disks since their last events, then the collision. */
 typedef struct tangent_map {
-    int32_t i, j;         /**< as in hd_event */
-    double flight[2];     /**< of i, of j */
+    int32_t i, j;     /**< as in hd_event */
+    double flight[2]; /**< of i, of j */
     double n[2];
-    double normal;        /**< b = p.n < 0 */
-    double tangential;    /**< p_t = p.t, t = n turned by +90 degrees */
-    double ratio;         /**< p_t / b */
+    double normal;     /**< b = p.n < 0 */
+    double tangential; /**< p_t = p.t, t = n turned by +90 degrees */
+    double ratio;      /**< p_t / b */
 } tangent_map;
 
 struct hd_frame {
     int disks, rows, vectors, stride, threads;
-    int width;            /**< of a block: 1, 2, 4, 8, 16, 32 or 64 columns */
-    double *copy[2];      /**< [rows * stride] */
+    int width;       /**< of a block: 1, 2, 4, 8, 16, 32 or 64 columns */
+    double *copy[2]; /**< [rows * stride] */
     int current;
-    double *buffer;       /**< [threads][rows * width] */
-    tangent_map *map;     /**< [map_capacity], of the interval being replayed */
+    double *buffer;   /**< [threads][rows * width] */
+    tangent_map *map; /**< [map_capacity], of the interval being replayed */
     size_t map_capacity;
-    double *since;        /**< [disks], time of each disk's last event, then its last flight */
+    double *since; /**< [disks], time of each disk's last event, then its last flight */
 };
 
 /* ---- creation --------------------------------------------------------------------------------- */
@@ -92,8 +92,8 @@ hd_status hd_frame_create(hd_frame **out, int disks, int vectors, uint64_t seed,
     hd_random random = hd_random_seeded(seed, 1);
     for (int row = 0; row < frame->rows; row++)
         for (int col = 0; col < vectors; col++)
-            frame->copy[0][(size_t)row * (size_t)frame->stride + (size_t)col] =
-                hd_random_symmetric(&random);
+            frame->copy[0][(size_t)row * (size_t)frame->stride + (size_t)col] = hd_random_symmetric(
+                &random);
     *out = frame;
     return HD_OK;
 }
@@ -169,8 +169,8 @@ static inline __attribute__((always_inline)) void fly(double *restrict v, double
 }
 
 /** [T3] with the free flights before it; only the tangential part s of the displacement turns n. */
-static inline __attribute__((always_inline)) void
-collide(double *restrict vi, double *restrict vj, const tangent_map *map, int width)
+static inline __attribute__((always_inline)) void collide(double *restrict vi, double *restrict vj,
+                                                          const tangent_map *map, int width)
 {
     const double nx = map->n[0], ny = map->n[1], ti = map->flight[0], tj = map->flight[1];
     const double b = map->normal, pt = map->tangential, ratio = map->ratio;
@@ -181,9 +181,9 @@ collide(double *restrict vi, double *restrict vj, const tangent_map *map, int wi
         const double qjx = qj[0] + tj * pj[0], qjy = qj[width] + tj * pj[width];
         const double qx = qjx - qix, qy = qjy - qiy;
         const double px = pj[0] - pi[0], py = pj[width] - pi[width];
-        const double a = qx * nx + qy * ny;                       /* dq.n */
-        const double s = qy * nx - qx * ny - ratio * a;           /* dq.t - (p_t / b) a */
-        const double u = px * nx + py * ny + pt * s, w = b * s;   /* d + p_t s, b s */
+        const double a = qx * nx + qy * ny;                     /* dq.n */
+        const double s = qy * nx - qx * ny - ratio * a;         /* dq.t - (p_t / b) a */
+        const double u = px * nx + py * ny + pt * s, w = b * s; /* d + p_t s, b s */
         const double ux = u * nx - w * ny, uy = u * ny + w * nx;
         qi[0] = qix + a * nx, qi[width] = qiy + a * ny;
         qj[0] = qjx - a * nx, qj[width] = qjy - a * ny;
@@ -193,8 +193,8 @@ collide(double *restrict vi, double *restrict vj, const tangent_map *map, int wi
 }
 
 /** [T4] */
-static inline __attribute__((always_inline)) void reflect(double *restrict v, const tangent_map *map,
-                                                          int width)
+static inline __attribute__((always_inline)) void reflect(double *restrict v,
+                                                          const tangent_map *map, int width)
 {
     const int d = map->j == HD_WALL_Y;
     fly(v, map->flight[0], width);
@@ -204,14 +204,16 @@ static inline __attribute__((always_inline)) void reflect(double *restrict v, co
     }
 }
 
-static inline __attribute__((always_inline)) void replay_width(double *buffer, const tangent_map *map,
-                                                               size_t count, int width)
+static inline __attribute__((always_inline)) void
+replay_width(double *buffer, const tangent_map *map, size_t count, int width)
 {
     const size_t disk = 4 * (size_t)width;
     for (size_t e = 0; e < count; e++) {
         double *vi = buffer + disk * (size_t)map[e].i;
-        if (map[e].j >= 0) collide(vi, buffer + disk * (size_t)map[e].j, &map[e], width);
-        else reflect(vi, &map[e], width);
+        if (map[e].j >= 0)
+            collide(vi, buffer + disk * (size_t)map[e].j, &map[e], width);
+        else
+            reflect(vi, &map[e], width);
     }
 }
 
@@ -266,20 +268,19 @@ hd_status hd_frame_replay(hd_frame *frame, const hd_event_log *log, double t_beg
     const size_t block_size = (size_t)frame->rows * (size_t)frame->width;
 #pragma omp parallel for schedule(dynamic) num_threads(frame->threads) if (frame->threads > 1)
     for (int block = 0; block < blocks; block++)
-        block_replay(frame, frame->buffer + block_size * (size_t)omp_get_thread_num(), count, block);
+        block_replay(frame, frame->buffer + block_size * (size_t)omp_get_thread_num(), count,
+                     block);
     frame->current = 1 - frame->current;
     return HD_OK;
 }
 
-void hd_frame_rewind(hd_frame *frame)
-{
-    frame->current = 1 - frame->current;
-}
+void hd_frame_rewind(hd_frame *frame) { frame->current = 1 - frame->current; }
 
 /* ---- what can be read ------------------------------------------------------------------------- */
 
 /** Sums over all disks of dq.dq, dp.dp and dq.dp for columns [col, col + count), count <= 64. */
-static void halves_of_columns(const hd_frame *frame, double sum[3][BLOCK_WIDTH_MAX], int col, int count)
+static void halves_of_columns(const hd_frame *frame, double sum[3][BLOCK_WIDTH_MAX], int col,
+                              int count)
 {
     memset(sum, 0, 3 * sizeof *sum);
     for (int row = 0; row < frame->rows; row += 4)

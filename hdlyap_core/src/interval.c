@@ -20,17 +20,16 @@ hd_interval hd_interval_first(double first, double limit, double accuracy)
 
 double hd_interval_condition_max(const hd_interval *interval, double length)
 {
-    return fmax(2.0, fmin(CONDITION_CHOLESKY, interval->accuracy * fmax(length, interval->last) / DBL_EPSILON));
+    return fmax(2.0, fmin(CONDITION_CHOLESKY,
+                          interval->accuracy * fmax(length, interval->last) / DBL_EPSILON));
 }
 
-static double follow(double old, double seen)
-{
-    return fmax(seen, old + FORGET * (seen - old));
-}
+static double follow(double old, double seen) { return fmax(seen, old + FORGET * (seen - old)); }
 
 void hd_interval_learn(hd_interval *interval, double length, double condition, double stretch)
 {
-    const double slope = log(condition) / length; /* falls with the length: a short one tells little */
+    const double slope = log(condition) /
+                         length; /* falls with the length: a short one tells little */
     interval->slope = length > 1.1 * interval->last ? slope : follow(interval->slope, slope);
     interval->stretch = follow(interval->stretch, stretch / length);
     interval->last = length;

@@ -4,11 +4,11 @@
 
 /** Adapts to ln(condition) per time unit as it is measured [T6]. */
 typedef struct hd_interval {
-    double limit;     /**< never longer [time units] */
-    double accuracy;  /**< of an exponent that rounding may spoil [1/time unit] */
-    double slope;     /**< ln(condition) per time unit: rises at once, falls slowly */
-    double stretch;   /**< largest |ln R_ll| per time unit, likewise */
-    double last;      /**< last interval measured, or the first guess */
+    double limit;    /**< never longer [time units] */
+    double accuracy; /**< of an exponent that rounding may spoil [1/time unit] */
+    double slope;    /**< ln(condition) per time unit: rises at once, falls slowly */
+    double stretch;  /**< largest |ln R_ll| per time unit, likewise */
+    double last;     /**< last interval measured, or the first guess */
 } hd_interval;
 
 hd_interval hd_interval_first(double first, double limit, double accuracy);

@@ -26,12 +26,13 @@ static double smallest_distance(const hd_lattice *l, hd_boundary across)
     const double shift = l->staggered ? 0.5 * l->column : 0.0;
     d = fmin(d, sqrt(shift * shift + l->row * l->row));
     if (l->rows > 2) d = fmin(d, 2.0 * l->row);
-    if (across == HD_PERIODIC && l->rows % 2 == 1) d = fmin(d, l->row); /* last row meets the first */
+    if (across == HD_PERIODIC && l->rows % 2 == 1)
+        d = fmin(d, l->row); /* last row meets the first */
     return d;
 }
 
-static void try_rows(hd_lattice *best, int disks, int rows, int along, int kind, const double box[2],
-                     const hd_boundary boundary[2])
+static void try_rows(hd_lattice *best, int disks, int rows, int along, int kind,
+                     const double box[2], const hd_boundary boundary[2])
 {
     const hd_boundary in_row = boundary[along], across = boundary[1 - along];
     hd_lattice l = {.along = along, .rows = rows, .staggered = kind > 0, .odd_short = kind == 2};
@@ -66,7 +67,8 @@ static void place(const hd_lattice *l, double q[2], int row, int column, const d
     q[along] = boundary[along] == HD_PERIODIC ? in_row + 0.25 * l->column : 0.5 + in_row;
     q[across] = boundary[across] == HD_PERIODIC ? off_row + 0.5 * l->row : 0.5 + off_row;
     for (int d = 0; d < 2; d++)
-        if (boundary[d] == HD_REFLECTING) q[d] = fmin(q[d], box[d] - 0.5); /* rounding of the last */
+        if (boundary[d] == HD_REFLECTING)
+            q[d] = fmin(q[d], box[d] - 0.5); /* rounding of the last */
 }
 
 void hd_lattice_fill(const hd_lattice *lattice, double *q, int disks, const double box[2],
@@ -94,7 +96,8 @@ double hd_lattice_density_max(const hd_scene_def *def)
         trial.density = 0.5 * (low + high);
         hd_scene_box(&trial, box);
         const int fits = box[0] > 1.0 && box[1] > 1.0 &&
-                         hd_lattice_best(trial.disks, box, trial.boundary).distance >= 1.0;
+                         hd_lattice_best(trial.disks, box, trial.boundary).distance >=
+                             HD_LATTICE_DISTANCE_MIN;
         *(fits ? &low : &high) = trial.density;
     }
     return low;

@@ -4,14 +4,17 @@
 
 #include "hdlyap/scene.h"
 
+/** Least distance of two start positions: disks that all touch can never move. */
+#define HD_LATTICE_DISTANCE_MIN (1.0 + 1e-9)
+
 /** Rows along direction `along` (0 = x, 1 = y). */
 typedef struct hd_lattice {
     int along;
-    int rows, columns;    /**< sites per row; odd rows have one less if odd_short */
-    int staggered;        /**< odd rows shifted by half a column */
+    int rows, columns; /**< sites per row; odd rows have one less if odd_short */
+    int staggered;     /**< odd rows shifted by half a column */
     int odd_short;
-    double column, row;   /**< spacings [sigma] */
-    double distance;      /**< smallest between two sites, images included; >= 1 fits */
+    double column, row; /**< spacings [sigma] */
+    double distance;    /**< smallest between two sites, images included */
 } hd_lattice;
 
 /** The lattice with at least N sites and the largest smallest distance. Cost O(N). */

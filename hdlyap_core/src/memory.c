@@ -31,12 +31,6 @@ void *hd_memory_alloc(size_t count, size_t size)
     return block;
 }
 
-void hd_memory_free(void *block)
-{
-    free(block);
-}
+void hd_memory_free(void *block) { free(block); }
 
-size_t hd_memory_allocations(void)
-{
-    return atomic_load(&allocations);
-}
+size_t hd_memory_allocations(void) { return atomic_load(&allocations); }

@@ -20,11 +20,11 @@
 static const double DEFECT_PER_CONDITION2 = 16.0;
 
 struct hd_ortho {
-    int rows, vectors, stride; /**< stride of the Gram matrix */
-    double *gram;              /**< [vectors * stride], column-major, lower triangle */
-    double *norm2;             /**< [vectors], diag(G) before it is factored */
-    double *row_sum;           /**< [vectors], workspace */
-    double *log_stretch;       /**< [vectors] */
+    int rows, vectors, stride;     /**< stride of the Gram matrix */
+    double *gram;                  /**< [vectors * stride], column-major, lower triangle */
+    double *norm2;                 /**< [vectors], diag(G) before it is factored */
+    double *row_sum;               /**< [vectors], workspace */
+    double *log_stretch;           /**< [vectors] */
     double *reflector, *workspace; /**< [vectors], [lwork]: of the stable step */
     int lwork;
     double condition, defect;
@@ -36,8 +36,8 @@ static int stable_workspace(int rows, int vectors, int stride)
 {
     double lq = 0.0, q = 0.0, unused = 0.0;
     (void)LAPACKE_dgelqf_work(LAPACK_COL_MAJOR, vectors, rows, &unused, stride, &unused, &lq, -1);
-    (void)LAPACKE_dorglq_work(LAPACK_COL_MAJOR, vectors, rows, vectors, &unused, stride, &unused, &q,
-                              -1);
+    (void)LAPACKE_dorglq_work(LAPACK_COL_MAJOR, vectors, rows, vectors, &unused, stride, &unused,
+                              &q, -1);
     return (int)fmax(fmax(lq, q), vectors);
 }
 
@@ -63,8 +63,10 @@ hd_status hd_ortho_create(hd_ortho **out, int rows, int vectors)
     ortho->vectors = vectors;
     ortho->stride = (vectors + 7) / 8 * 8;
     const hd_status status = ortho_allocate(ortho);
-    if (status == HD_OK) *out = ortho;
-    else hd_ortho_free(ortho);
+    if (status == HD_OK)
+        *out = ortho;
+    else
+        hd_ortho_free(ortho);
     return status;
 }
 
@@ -130,13 +132,14 @@ static hd_status pass(hd_ortho *ortho, hd_frame *frame, double condition_max)
     gram_fill(ortho, frame);
     for (int col = 0; col < n; col++) {
         ortho->norm2[col] = ortho->gram[diagonal(ortho, col)];
-        if (!(ortho->norm2[col] < INFINITY)) return HD_ILL_CONDITIONED; /* keeps NaN out of LAPACK */
+        if (!(ortho->norm2[col] < INFINITY))
+            return HD_ILL_CONDITIONED; /* keeps NaN out of LAPACK */
     }
     if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, ortho->gram, ortho->stride) != 0)
         return HD_ILL_CONDITIONED;
     HD_TRY(examine(ortho, condition_max));
-    cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, ortho->rows, 1.0,
-                ortho->gram, ortho->stride, hd_frame_data(frame), hd_frame_stride(frame));
+    cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, ortho->rows,
+                1.0, ortho->gram, ortho->stride, hd_frame_data(frame), hd_frame_stride(frame));
     ortho->passes++;
     return HD_OK;
 }

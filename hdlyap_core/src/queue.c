@@ -67,8 +67,8 @@ static int32_t heap_up(hd_queue *queue, int32_t position, int32_t disk)
 static void heap_down(hd_queue *queue, int32_t position, int32_t disk)
 {
     for (int32_t child; (child = 2 * position + 1) < queue->heap_count; position = child) {
-        if (child + 1 < queue->heap_count &&
-            earlier(&queue->entry[queue->heap[child + 1]].key, &queue->entry[queue->heap[child]].key))
+        if (child + 1 < queue->heap_count && earlier(&queue->entry[queue->heap[child + 1]].key,
+                                                     &queue->entry[queue->heap[child]].key))
             child++;
         if (!earlier(&queue->entry[queue->heap[child]].key, &queue->entry[disk].key)) break;
         heap_set(queue, position, queue->heap[child]);
@@ -106,8 +106,10 @@ static void bucket_add(hd_queue *queue, int32_t bucket, int32_t disk)
 static void bucket_remove(hd_queue *queue, int32_t disk)
 {
     const int32_t before = queue->entry[disk].before, after = queue->entry[disk].next;
-    if (before >= 0) queue->entry[before].next = after;
-    else queue->first[queue->entry[disk].place] = after;
+    if (before >= 0)
+        queue->entry[before].next = after;
+    else
+        queue->first[queue->entry[disk].place] = after;
     if (after >= 0) queue->entry[after].before = before;
 }
 
@@ -132,8 +134,10 @@ void hd_queue_put(hd_queue *queue, int32_t disk, hd_queue_key key)
     if (place >= 0) bucket_remove(queue, disk);
     queue->entry[disk].key = key;
     queue->entry[disk].place = HD_QUEUE_NOWHERE;
-    if (bucket == queue->now) heap_add(queue, disk);
-    else if (bucket < queue->buckets) bucket_add(queue, bucket, disk);
+    if (bucket == queue->now)
+        heap_add(queue, disk);
+    else if (bucket < queue->buckets)
+        bucket_add(queue, bucket, disk);
 }
 
 int32_t hd_queue_next(hd_queue *queue)

@@ -24,7 +24,7 @@ typedef struct hd_queue_entry {
 enum { HD_QUEUE_HEAP = -1, HD_QUEUE_NOWHERE = -2 };
 
 typedef struct hd_queue {
-    double per_time;       /**< buckets per time unit */
+    double per_time; /**< buckets per time unit */
     int32_t buckets, now;
     int32_t *first;        /**< [buckets], first disk in a later bucket or -1 */
     hd_queue_entry *entry; /**< [disks] */

@@ -18,10 +18,7 @@ hd_random hd_random_seeded(uint64_t seed, uint64_t stream)
     return random;
 }
 
-static uint64_t rotate(uint64_t x, int k)
-{
-    return (x << k) | (x >> (64 - k));
-}
+static uint64_t rotate(uint64_t x, int k) { return (x << k) | (x >> (64 - k)); }
 
 static uint64_t next(hd_random *random)
 {

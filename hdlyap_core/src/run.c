@@ -35,14 +35,15 @@ struct hd_run {
     hd_interval interval;
     int vectors, threads;
     hd_phase phase;
-    double phase_start;  /**< simulated time */
-    double now;          /**< simulated time */
+    double phase_start; /**< simulated time */
+    double now;         /**< simulated time */
     double sample_length;
     long samples_per_report;
-    long samples;        /**< whole ones since phase_start */
+    long samples; /**< whole ones since phase_start */
     bool report_due;
-    double created, frame_started, frame_start_time; /**< wall clock, and simulated time, for estimates */
-    double rounding;     /**< sum of eps * condition since phase_start of averaging */
+    double created, frame_started,
+        frame_start_time; /**< wall clock, and simulated time, for estimates */
+    double rounding;      /**< sum of eps * condition since phase_start of averaging */
     hd_cost cost;
 };
 
@@ -77,10 +78,11 @@ static hd_status run_prepare(hd_run *run)
     run->threads = 1;
     const double rate = hd_trajectory_collision_rate(run->trajectory);
     const double per_disk = 2.0 * rate / scene->disks;
-    run->samples_per_report =
-        (long)fmax(1.0, ceil(scene->report_interval * per_disk / COLLISIONS_PER_SAMPLE));
+    run->samples_per_report = (long)fmax(
+        1.0, ceil(scene->report_interval * per_disk / COLLISIONS_PER_SAMPLE));
     run->sample_length = scene->report_interval / (double)run->samples_per_report;
-    const double limit = fmin(scene->interval > 0 ? scene->interval : INFINITY, EVENTS_PER_STEP / rate);
+    const double limit = fmin(scene->interval > 0 ? scene->interval : INFINITY,
+                              EVENTS_PER_STEP / rate);
     run->interval = hd_interval_first(1.0 / per_disk, limit, scene->accuracy);
     return run->vectors > 0 ? run_create_frame(run) : HD_OK;
 }
@@ -191,7 +193,8 @@ static void piece_accepted(hd_run *run, double length)
 static double defect_max(const hd_run *run, bool measured)
 {
     if (!measured) return DEFECT_LOOSE;
-    if (run->phase != HD_AVERAGING) return run->now >= phase_end(run) ? DBL_EPSILON : DEFECT_MEASURED;
+    if (run->phase != HD_AVERAGING)
+        return run->now >= phase_end(run) ? DBL_EPSILON : DEFECT_MEASURED;
     return fmin(DEFECT_MEASURED, 0.5 * run->scene.accuracy * (run->now - run->phase_start));
 }
 
@@ -255,12 +258,15 @@ hd_status hd_run_step(hd_run *run)
     const double longest = EVENTS_PER_STEP / hd_trajectory_collision_rate(run->trajectory);
     const double length = with_frame ? hd_interval_next(&run->interval, left) : fmin(left, longest);
     const bool ends_sample = length >= left;
-    const bool measured = (run->samples + 1) % run->samples_per_report == 0 || stop >= phase_end(run);
+    const bool measured = (run->samples + 1) % run->samples_per_report == 0 ||
+                          stop >= phase_end(run);
     const double start = hd_clock_now();
     run->report_due = false;
     run->now = ends_sample ? stop : run->now + length;
     HD_TRY(hd_trajectory_advance(run->trajectory, with_frame ? run->log : NULL, run->now));
     run->cost.events += hd_clock_now() - start;
+    if (with_frame)
+        hd_blas_use_threads(run->threads); /* with OpenMP it holds for the calling thread */
     if (with_frame) HD_TRY(frame_interval(run, ends_sample && measured));
     if (ends_sample) finish_sample(run);
     return HD_OK;
@@ -301,11 +307,13 @@ hd_cost hd_run_cost(const hd_run *run)
     cost.wall = now - run->created;
     if (run->phase >= HD_AVERAGING && run->now > run->phase_start)
         cost.error_bound = (run->rounding + cost.defect) / (run->now - run->phase_start);
-    cost.events_per_second =
-        cost.events > 0 ? (double)hd_trajectory_collisions(run->trajectory) / cost.events : 0.0;
+    cost.events_per_second = cost.events > 0
+                                 ? (double)hd_trajectory_collisions(run->trajectory) / cost.events
+                                 : 0.0;
     cost.progress = left < INFINITY ? run->now / fmax(run->now + left, DBL_MIN) : 0.0;
     if (run->phase == HD_FINISHED) cost.progress = 1.0;
-    const double carried = run->now - run->frame_start_time; /* equilibration is no measure of the rest */
+    const double carried = run->now -
+                           run->frame_start_time; /* equilibration is no measure of the rest */
     const bool known = left == 0 || (run->frame_started > 0 && carried > 0 && left < INFINITY);
     cost.remaining = !known ? -1.0 : left == 0 ? 0.0 : left * (now - run->frame_started) / carried;
     return cost;

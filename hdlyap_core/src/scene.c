@@ -97,11 +97,12 @@ static hd_status check_box(const hd_scene_def *def, char *message, size_t size)
     hd_scene_box(def, box);
     for (int d = 0; d < 2; d++)
         if (!(box[d] > 1.0))
-            return refuse(message, size,
-                          "density = %.15g with disks = %d, aspect = %.15g: the box edge L%c = %.15g "
-                          "must be above the disk diameter 1",
-                          def->density, def->disks, def->aspect, "xy"[d], box[d]);
-    if (hd_lattice_best(def->disks, box, def->boundary).distance < 1.0)
+            return refuse(
+                message, size,
+                "density = %.15g with disks = %d, aspect = %.15g: the box edge L%c = %.15g "
+                "must be above the disk diameter 1",
+                def->density, def->disks, def->aspect, "xy"[d], box[d]);
+    if (hd_lattice_best(def->disks, box, def->boundary).distance < HD_LATTICE_DISTANCE_MIN)
         return refuse(message, size,
                       "density = %.15g: must be at most %.6g with disks = %d, aspect = %.15g and "
                       "these boundaries (densest start lattice)",

@@ -10,10 +10,10 @@
 
 struct hd_spectrum {
     int rows, vectors;
-    double *sum;         /**< [vectors], of ln R_ll */
-    double *sample_sum;  /**< [vectors], since the last sample */
-    double *local;       /**< [vectors], means over the last sample */
-    double *work;        /**< [vectors] */
+    double *sum;        /**< [vectors], of ln R_ll */
+    double *sample_sum; /**< [vectors], since the last sample */
+    double *local;      /**< [vectors], means over the last sample */
+    double *work;       /**< [vectors] */
     double time, sample_time;
     hd_blocks blocks;
 };
@@ -37,8 +37,10 @@ hd_status hd_spectrum_create(hd_spectrum **out, int rows, int vectors)
     spectrum->rows = rows;
     spectrum->vectors = vectors;
     const hd_status status = spectrum_allocate(spectrum);
-    if (status == HD_OK) *out = spectrum;
-    else hd_spectrum_free(spectrum);
+    if (status == HD_OK)
+        *out = spectrum;
+    else
+        hd_spectrum_free(spectrum);
     return status;
 }
 

@@ -31,12 +31,12 @@ enum { PAIR, WALL, EDGE };  /* kinds, in the order in which equal times are take
 enum { LOW = 0, HIGH = 2 }; /* sides of a cell, as in hd_cell_line */
 
 typedef struct prediction {
-    double contact;             /**< time of the earliest known contact, or INFINITY */
+    double contact; /**< time of the earliest known contact, or INFINITY */
     int32_t partner;
-    uint32_t partner_collisions;/**< when it was predicted */
-    int32_t image[2];           /**< box edges to add to the partner's position */
-    double edge;                /**< time at the next cell edge or wall */
-    int32_t direction, side;    /**< of that edge */
+    uint32_t partner_collisions; /**< when it was predicted */
+    int32_t image[2];            /**< box edges to add to the partner's position */
+    double edge;                 /**< time at the next cell edge or wall */
+    int32_t direction, side;     /**< of that edge */
 } prediction;
 
 struct hd_trajectory {
@@ -45,7 +45,7 @@ struct hd_trajectory {
     prediction *predicted;
     hd_cells cells;
     hd_queue queue;
-    double rate;        /**< expected pair events per time unit */
+    double rate; /**< expected pair events per time unit */
     double epoch_length;
     double epoch_start; /**< simulated time, a multiple of epoch_length */
     double now;         /**< simulated time */
@@ -57,8 +57,8 @@ struct hd_trajectory {
 /** Lowers `best`, the prediction of disk a, by its contacts with the list that starts at j; `image` is what
  *  to add, less the other disk's own wraps, to see it where a sees its cell. All in registers: the
  *  compiler cannot know that nothing here changes a disk. */
-static inline prediction predict_list(const hd_trajectory *tr, prediction best, hd_disk a, int32_t j,
-                                      int32_t image_x, int32_t image_y)
+static inline prediction predict_list(const hd_trajectory *tr, prediction best, hd_disk a,
+                                      int32_t j, int32_t image_x, int32_t image_y)
 {
     const hd_disk *const disks = tr->disk;
     const hd_pair box = hd_pair_load(tr->cells.box);
@@ -84,7 +84,8 @@ static inline prediction predict_list(const hd_trajectory *tr, prediction best, 
 static void predict_cells(hd_trajectory *tr, int32_t i, const int x[2], const int y[2])
 {
     const hd_disk disk = tr->disk[i];
-    const hd_cell_line column = tr->cells.line[0][disk.cell[0]], row = tr->cells.line[1][disk.cell[1]];
+    const hd_cell_line column = tr->cells.line[0][disk.cell[0]],
+                       row = tr->cells.line[1][disk.cell[1]];
     prediction best = tr->predicted[i];
     for (int v = y[0]; v <= y[1]; v++) {
         if (row.near[v] < 0) continue;
@@ -102,7 +103,8 @@ static double edge_time(const hd_trajectory *tr, const hd_disk *disk, int d)
 {
     const hd_cell_line *line = &tr->cells.line[d][disk->cell[d]];
     if (disk->p[d] == 0) return INFINITY;
-    const double edge = (disk->p[d] > 0 ? line->high : line->low) + disk->wrap[d] * tr->cells.box[d];
+    const double edge = (disk->p[d] > 0 ? line->high : line->low) +
+                        disk->wrap[d] * tr->cells.box[d];
     const double wait = (edge - disk->q[d]) / disk->p[d];
     return wait > 0 ? disk->t + wait : disk->t; /* already there within rounding */
 }
@@ -191,8 +193,8 @@ static double square_minus_one(hd_pair r)
 }
 
 /** Pair contact [T3]: moves both disks to the contact and exchanges their normal momenta. */
-static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *contact, int32_t found_by,
-                         double t)
+static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *contact,
+                         int32_t found_by, double t)
 {
     hd_event event = *contact;
     hd_disk *a = &tr->disk[event.i], *b = &tr->disk[event.j];
@@ -310,7 +312,8 @@ static void look_ahead(hd_trajectory *tr)
     for (int32_t i = hd_queue_coming(queue, 2); i >= 0; i = queue->entry[i].next)
         for (int k = 0; k < 3; k++) {
             const int32_t row = cells->line[1][tr->disk[i].cell[1]].near[k];
-            if (row >= 0) __builtin_prefetch(&cells->first[row * cells->size[0] + tr->disk[i].cell[0]]);
+            if (row >= 0)
+                __builtin_prefetch(&cells->first[row * cells->size[0] + tr->disk[i].cell[0]]);
         }
     for (int32_t i = hd_queue_coming(queue, 1); i >= 0; i = queue->entry[i].next)
         for (int k = 0; k < 9; k++) {
@@ -331,7 +334,8 @@ hd_status hd_trajectory_advance(hd_trajectory *tr, hd_event_log *log, double t_e
         const double end = t_end - tr->epoch_start;
         const int32_t bucket = tr->queue.now, i = hd_queue_next(&tr->queue);
         if (tr->queue.now != bucket && tr->count >= LOOK_AHEAD_DISKS) look_ahead(tr);
-        if (i >= 0 && tr->queue.entry[i].key.t < end && tr->queue.entry[i].key.t < tr->epoch_length) {
+        if (i >= 0 && tr->queue.entry[i].key.t < end &&
+            tr->queue.entry[i].key.t < tr->epoch_length) {
             HD_TRY(take_event(tr, log, i, t_begin - tr->epoch_start));
         } else if (end > tr->epoch_length) {
             HD_TRY(turn_epoch(tr));
@@ -417,8 +421,10 @@ hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def
     if (!tr) return HD_NO_MEMORY;
     hd_status status = trajectory_prepare(tr, def);
     if (status == HD_OK) status = trajectory_start(tr, q, p);
-    if (status == HD_OK) *out = tr;
-    else hd_trajectory_free(tr);
+    if (status == HD_OK)
+        *out = tr;
+    else
+        hd_trajectory_free(tr);
     return status;
 }
 
@@ -498,9 +504,8 @@ static double nearest_in_cell(const hd_trajectory *tr, int32_t i, int32_t x, int
     int32_t j = hd_cells_first(&tr->cells, lx->near[x], ly->near[y]);
     for (; j >= 0; j = tr->disk[j].next) {
         const hd_disk *other = &tr->disk[j];
-        const hd_pair shift = {
-            (lx->shift[x] + disk->wrap[0] - other->wrap[0]) * tr->cells.box[0],
-            (ly->shift[y] + disk->wrap[1] - other->wrap[1]) * tr->cells.box[1]};
+        const hd_pair shift = {(lx->shift[x] + disk->wrap[0] - other->wrap[0]) * tr->cells.box[0],
+                               (ly->shift[y] + disk->wrap[1] - other->wrap[1]) * tr->cells.box[1]};
         if (j == i) continue;
         const hd_pair r = hd_contact_separation(disk, other, shift, tr->now - tr->epoch_start);
         least = fmin(least, hd_contact_dot(r, r));

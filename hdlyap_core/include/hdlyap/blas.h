@@ -7,11 +7,11 @@ extern "C" {
 #endif
 
 typedef struct hd_blas {
-    const char *library; /**< as it describes itself, e.g. "OpenBLAS 0.3.21 ..." */
-    const char *kernel;  /**< e.g. "SkylakeX" */
+    const char *library;   /**< as it describes itself, e.g. "OpenBLAS 0.3.21 ..." */
+    const char *kernel;    /**< e.g. "SkylakeX" */
     const char *threading; /**< "serial", "pthread" or "openmp" */
-    int threads;         /**< in use by it now */
-    int cores;           /**< processors this process may run on */
+    int threads;           /**< in use by it now */
+    int cores;             /**< processors this process may run on */
 } hd_blas;
 
 hd_blas hd_blas_query(void);

@@ -26,7 +26,8 @@ double *hd_frame_data(hd_frame *frame);      /**< current vectors; valid until t
  *  t_begin <= t < t_end, and keeps the vectors of t_begin for hd_frame_rewind. All cores; a block of
  *  columns stays in cache. t_end = log->duration includes events at that very time.
  *  HD_NO_MEMORY if the room for the maps could not grow. Cost about 40 n flops and 128 n bytes of cache traffic per pair event. */
-HD_MUST_CHECK hd_status hd_frame_replay(hd_frame *frame, const hd_event_log *log, double t_begin, double t_end);
+HD_MUST_CHECK hd_status hd_frame_replay(hd_frame *frame, const hd_event_log *log, double t_begin,
+                                        double t_end);
 
 /** Undoes the last replay (once). */
 void hd_frame_rewind(hd_frame *frame);

@@ -29,7 +29,8 @@ HD_MUST_CHECK hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho
 /** The same by Householder reflections: orthonormal whatever the conditioning, several times slower.
  *  For the single event (a grazing collision) that no shorter interval can tame. HD_ILL_CONDITIONED when
  *  the condition is above the limit, which may go to 1 / DBL_EPSILON. */
-HD_MUST_CHECK hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame, double condition_max);
+HD_MUST_CHECK hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame,
+                                             double condition_max);
 
 const double *hd_ortho_log_stretch(const hd_ortho *ortho); /**< [n], of the last step */
 /** max over l of sqrt(sum_k (R^-1)_kl^2 |V e_k|^2) >= 1: how much the rounding of V (relative to its

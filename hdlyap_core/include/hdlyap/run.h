@@ -15,21 +15,22 @@ typedef enum hd_phase { HD_EQUILIBRATING, HD_WARMING_UP, HD_AVERAGING, HD_FINISH
 
 /** What the run pays for, since its start unless said otherwise. */
 typedef struct hd_cost {
-    double wall;               /**< seconds */
-    double events;             /**< seconds in the trajectory */
-    double replay;             /**< seconds in the tangent frame */
-    double ortho;              /**< seconds in the factorisation */
-    double spectrum;           /**< seconds in averages */
-    double events_per_second;  /**< pair events over seconds in the trajectory */
-    double interval;           /**< time units between orthonormalisations, last used */
-    double condition;          /**< of the last orthonormalisation, see hd_ortho_condition */
-    double defect;             /**< predicted loss of orthogonality of the last one */
-    double error_bound;         /**< (sum of eps * condition + defect) / averaged time: rounding in a mean */
-    long orthonormalisations;  /**< number of them */
-    long second_passes;        /**< how many needed a second pass */
-    long repairs;              /**< intervals that turned out too long and were replayed in pieces */
-    double progress;           /**< 0 .. 1 of the time asked for; 0 for an endless run */
-    double remaining;          /**< predicted wall seconds to the end; negative if unknown */
+    double wall;              /**< seconds */
+    double events;            /**< seconds in the trajectory */
+    double replay;            /**< seconds in the tangent frame */
+    double ortho;             /**< seconds in the factorisation */
+    double spectrum;          /**< seconds in averages */
+    double events_per_second; /**< pair events over seconds in the trajectory */
+    double interval;          /**< time units between orthonormalisations, last used */
+    double condition;         /**< of the last orthonormalisation, see hd_ortho_condition */
+    double defect;            /**< predicted loss of orthogonality of the last one */
+    double
+        error_bound; /**< (sum of eps * condition + defect) / averaged time: rounding in a mean */
+    long orthonormalisations; /**< number of them */
+    long second_passes;       /**< how many needed a second pass */
+    long repairs;             /**< intervals that turned out too long and were replayed in pieces */
+    double progress;          /**< 0 .. 1 of the time asked for; 0 for an endless run */
+    double remaining;         /**< predicted wall seconds to the end; negative if unknown */
 } hd_cost;
 
 typedef struct hd_run hd_run;
@@ -50,10 +51,10 @@ bool hd_run_report_due(const hd_run *run);
 void hd_run_reset_average(hd_run *run);
 
 hd_phase hd_run_phase(const hd_run *run);
-double hd_run_time(const hd_run *run);                /**< simulated time since the start */
+double hd_run_time(const hd_run *run); /**< simulated time since the start */
 const hd_scene_def *hd_run_scene(const hd_run *run);
-int hd_run_vectors(const hd_run *run);                /**< n, 0 without exponents */
-int hd_run_threads(const hd_run *run);                /**< in use */
+int hd_run_vectors(const hd_run *run); /**< n, 0 without exponents */
+int hd_run_threads(const hd_run *run); /**< in use */
 const hd_trajectory *hd_run_trajectory(const hd_run *run);
 const hd_frame *hd_run_frame(const hd_run *run);       /**< NULL without exponents */
 const hd_spectrum *hd_run_spectrum(const hd_run *run); /**< NULL without exponents */

@@ -27,11 +27,12 @@ typedef struct hd_scene_def {
     double equilibration;    /**< time units of trajectory alone, >= 0 */
     double warmup;           /**< time units with the frame, before averaging, >= 0 */
     double duration;         /**< time units averaged, >= 0; 0 = until stopped */
-    double target_std_error; /**< stop when the smallest exponents carried are known so well; 0 = off */
-    double interval;         /**< upper limit of the time between orthonormalisations; 0 = automatic */
-    double accuracy;         /**< largest tolerated deviation of an exponent, 1e-12 .. 1e-2 */
-    double report_interval;  /**< simulated time between reports, > 0 */
-    int threads;             /**< 0 = as many as the machine has and the work is worth */
+    double
+        target_std_error; /**< stop when the smallest exponents carried are known so well; 0 = off */
+    double interval;      /**< upper limit of the time between orthonormalisations; 0 = automatic */
+    double accuracy;      /**< largest tolerated deviation of an exponent, 1e-12 .. 1e-2 */
+    double report_interval; /**< simulated time between reports, > 0 */
+    int threads;            /**< 0 = as many as the machine has and the work is worth */
 } hd_scene_def;
 
 /** The paper's periodic scene: 780 disks, density 0.8, aspect 0.867. */

@@ -20,15 +20,16 @@ void hd_spectrum_add(hd_spectrum *spectrum, const double *log_stretch, double dt
 /** Ends a sample of the block averages: all that was added since the last call, at equal spacing. */
 void hd_spectrum_sample(hd_spectrum *spectrum);
 
-double hd_spectrum_time(const hd_spectrum *spectrum);             /**< averaged time */
-int hd_spectrum_vectors(const hd_spectrum *spectrum);             /**< n */
-double hd_spectrum_exponent(const hd_spectrum *spectrum, int col);/**< running mean of ln R_ll / t */
+double hd_spectrum_time(const hd_spectrum *spectrum); /**< averaged time */
+int hd_spectrum_vectors(const hd_spectrum *spectrum); /**< n */
+double hd_spectrum_exponent(const hd_spectrum *spectrum,
+                            int col); /**< running mean of ln R_ll / t */
 /** Standard error of the mean from blocks long against the correlation time [T8]; negative while
  *  there are fewer than HD_SPECTRUM_MIN_SAMPLES samples. */
 double hd_spectrum_std_error(const hd_spectrum *spectrum, int col);
-double hd_spectrum_local(const hd_spectrum *spectrum, int col);   /**< of the last sample */
-double hd_spectrum_lambda_max(const hd_spectrum *spectrum);       /**< exponent of col 0 */
-double hd_spectrum_ks_entropy(const hd_spectrum *spectrum);       /**< sum of the positive ones carried */
+double hd_spectrum_local(const hd_spectrum *spectrum, int col); /**< of the last sample */
+double hd_spectrum_lambda_max(const hd_spectrum *spectrum);     /**< exponent of col 0 */
+double hd_spectrum_ks_entropy(const hd_spectrum *spectrum); /**< sum of the positive ones carried */
 /** max over pairs of |lambda_l + lambda_(4N+1-l)|; negative unless all 4N are carried. */
 double hd_spectrum_pairing_error(const hd_spectrum *spectrum);
 

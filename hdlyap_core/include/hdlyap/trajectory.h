@@ -51,8 +51,8 @@ void hd_trajectory_free(hd_trajectory *trajectory);
 HD_MUST_CHECK hd_status hd_trajectory_advance(hd_trajectory *trajectory, hd_event_log *log,
                                               double t_end);
 
-double hd_trajectory_time(const hd_trajectory *trajectory);         /**< simulated time */
-int hd_trajectory_disks(const hd_trajectory *trajectory);           /**< N */
+double hd_trajectory_time(const hd_trajectory *trajectory); /**< simulated time */
+int hd_trajectory_disks(const hd_trajectory *trajectory);   /**< N */
 void hd_trajectory_box(const hd_trajectory *trajectory, double box[2]);
 uint64_t hd_trajectory_collisions(const hd_trajectory *trajectory); /**< pair events so far */
 uint64_t hd_trajectory_wall_events(const hd_trajectory *trajectory);

@@ -107,7 +107,6 @@ static void *work(void *context)
 {
     worker *w = context;
     hd_status status = HD_OK;
-    hd_blas_use_threads(hd_run_threads(w->run)); /* OpenMP counts for each thread by itself */
     if (!wait_for_subscribers(w)) return NULL;
     while (status == HD_OK && hd_run_phase(w->run) != HD_FINISHED && obey(w)) status = step(w);
     pthread_mutex_lock(&w->lock);
