@@ -58,19 +58,31 @@ static int threads_for(int wanted, int rows, int vectors)
     return (double)rows * vectors < entries_worth_a_thread ? 1 : cores;
 }
 
-static hd_status run_create_frame(hd_run *run)
+/** A random frame, orthonormal. Random vectors are hardly ever dependent: then reflections. */
+static hd_status create_frame(hd_run *run)
+{
+    const hd_scene_def *scene = &run->scene;
+    const hd_ortho_limits twice = {1e7, DBL_EPSILON};
+    HD_TRY(hd_frame_create(&run->frame, scene->disks, run->vectors, scene->seed, run->threads));
+    if (hd_ortho_step(run->ortho, run->frame, twice) == HD_OK) return HD_OK;
+    hd_frame_free(run->frame);
+    run->frame = NULL;
+    HD_TRY(hd_frame_create(&run->frame, scene->disks, run->vectors, scene->seed, run->threads));
+    return hd_ortho_step_stable(run->ortho, run->frame, 1.0 / DBL_EPSILON);
+}
+
+static hd_status prepare_frame(hd_run *run)
 {
     const int rows = 4 * run->scene.disks, n = run->vectors;
     run->threads = threads_for(run->scene.threads, rows, n);
     hd_blas_use_threads(run->threads);
     HD_TRY(hd_event_log_create(&run->log));
-    HD_TRY(hd_frame_create(&run->frame, run->scene.disks, n, run->scene.seed, run->threads));
     HD_TRY(hd_ortho_create(&run->ortho, rows, n));
     HD_TRY(hd_spectrum_create(&run->spectrum, rows, n));
-    return hd_ortho_step_stable(run->ortho, run->frame, 1.0 / DBL_EPSILON);
+    return create_frame(run);
 }
 
-static hd_status run_prepare(hd_run *run)
+static hd_status prepare(hd_run *run)
 {
     const hd_scene_def *scene = &run->scene;
     HD_TRY(hd_trajectory_create(&run->trajectory, scene));
@@ -84,7 +96,7 @@ static hd_status run_prepare(hd_run *run)
     const double limit = fmin(scene->interval > 0 ? scene->interval : INFINITY,
                               EVENTS_PER_STEP / rate);
     run->interval = hd_interval_first(1.0 / per_disk, limit, scene->accuracy);
-    return run->vectors > 0 ? run_create_frame(run) : HD_OK;
+    return run->vectors > 0 ? prepare_frame(run) : HD_OK;
 }
 
 /** Enters the first phase at or after `phase` that has any length. */
@@ -111,7 +123,7 @@ hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, si
     if (!run) return HD_NO_MEMORY;
     run->scene = *def;
     run->created = hd_clock_now();
-    const hd_status status = run_prepare(run);
+    const hd_status status = prepare(run);
     if (status != HD_OK) {
         hd_run_free(run);
         return status;

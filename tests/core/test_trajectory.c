@@ -129,7 +129,7 @@ static void intervals_of_equal_length(void **state)
     }
 }
 
-/** An event at the very end of an interval belongs to the next one, and none is lost or doubled. */
+/** None is lost or doubled. */
 static void intervals_cut_at_events(void **state)
 {
     (void)state;
@@ -149,6 +149,24 @@ static void intervals_cut_at_events(void **state)
         free(cut);
         whole_free(&w);
     }
+}
+
+static void event_at_the_end_belongs_to_the_next_interval(void **state)
+{
+    (void)state;
+    const hd_scene_def def = scene_in_box(2, 8.0, 8.0, HD_PERIODIC, HD_PERIODIC, 1);
+    const double q[] = {2.0, 2.0, 5.0, 2.0}, p[] = {1, 0, -1, 0};
+    hd_trajectory *tr;
+    hd_event_log *log = new_log();
+    CHECK_OK(hd_trajectory_create_from(&tr, &def, q, p));
+    CHECK_OK(hd_trajectory_advance(tr, log, 1.0));
+    assert_int_equal(log->count, 0);
+    CHECK_OK(hd_trajectory_advance(tr, log, 1.0));
+    assert_true(log->count == 0 && log->duration == 0);
+    CHECK_OK(hd_trajectory_advance(tr, log, 1.5));
+    assert_true(log->count == 1 && log->event[0].t == 0);
+    hd_event_log_free(log);
+    hd_trajectory_free(tr);
 }
 
 /** Epochs are a power of two long: cuts at all multiples of every candidate, and a bit around them. */
@@ -393,6 +411,7 @@ int main(void)
         cmocka_unit_test(intervals_of_equal_length),   cmocka_unit_test(intervals_cut_at_events),
         cmocka_unit_test(intervals_cut_at_epochs),     cmocka_unit_test(log_may_be_left_out),
         cmocka_unit_test(log_times_never_fall),        cmocka_unit_test(late_intervals_lose_nothing),
+        cmocka_unit_test(event_at_the_end_belongs_to_the_next_interval),
         cmocka_unit_test(events_are_approaching_unit_contacts),
         cmocka_unit_test(starts_at_rest_of_the_centre), cmocka_unit_test(seeds_differ_and_repeat),
         cmocka_unit_test(prepared_states_are_checked), cmocka_unit_test(overlap_is_refused),
