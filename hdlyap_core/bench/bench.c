@@ -23,30 +23,67 @@ static void require(hd_status status, const char *what)
     exit(3);
 }
 
-/** Flops per second of dgemm on the shapes of the Gram matrix; median of five. */
-static double dgemm_rate(int m, int n)
+/** dgemm on the shape of the Gram matrix, measured in between the run's steps: the machine's speed at
+ *  the time, whatever else it is doing. */
+typedef struct gemm {
+    int m, n;
+    double *a, *c;
+    double rate[1000]; /**< flops per second, ascending when read */
+    int count;
+} gemm;
+
+static gemm *gemm_create(int m, int n)
 {
-    enum { TRIES = 5 };
-    double rate[TRIES];
-    double *a = calloc((size_t)m * (size_t)n, sizeof *a),
-           *c = calloc((size_t)n * (size_t)n, sizeof *c);
-    if (!a || !c) exit(3);
-    for (size_t k = 0; k < (size_t)m * (size_t)n; k++) a[k] = 1.0 / (double)(k % 97 + 1);
-    for (int k = -1; k < TRIES; k++) { /* one to warm up */
-        const double start = seconds();
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n, n, m, 1.0, a, n, a, n, 0.0, c, n);
-        if (k >= 0) rate[k] = 2.0 * m * n * (double)n / (seconds() - start);
+    gemm *g = calloc(1, sizeof *g);
+    if (g) *g = (gemm){.m = m, .n = n, .a = calloc((size_t)m * (size_t)n, sizeof(double))};
+    if (g) g->c = calloc((size_t)n * (size_t)n, sizeof(double));
+    if (!g || !g->a || !g->c) require(HD_NO_MEMORY, "dgemm");
+    for (size_t k = 0; k < (size_t)m * (size_t)n; k++) g->a[k] = 1.0 / (double)(k % 97 + 1);
+    return g;
+}
+
+static void gemm_free(gemm *g)
+{
+    free(g->a);
+    free(g->c);
+    free(g);
+}
+
+/** One more measurement; returns the seconds that it took. */
+static double gemm_measure(gemm *g)
+{
+    const double start = seconds();
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, g->n, g->n, g->m, 1.0, g->a, g->n, g->a,
+                g->n, 0.0, g->c, g->n);
+    const double taken = seconds() - start;
+    if (g->count < 1000) g->rate[g->count++] = 2.0 * g->m * g->n * (double)g->n / taken;
+    return taken;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double gemm_rate(gemm *g)
+{
+    qsort(g->rate, (size_t)g->count, sizeof *g->rate, ascending);
+    return g->rate[g->count / 2];
+}
+
+/** Averages for `duration`; the wall seconds of it, dgemm's own left out. */
+static double average(hd_run *run, gemm *g)
+{
+    const double start = seconds();
+    double measuring = 0.0;
+    for (int step = 0; hd_run_phase(run) != HD_FINISHED; step++) {
+        require(hd_run_step(run), "averaging");
+        if (step % 2 == 0) measuring += gemm_measure(g);
+        fprintf(stderr, "\r%3.0f %%", 100.0 * hd_run_cost(run).progress);
     }
-    free(a);
-    free(c);
-    for (int k = 0; k < TRIES; k++)
-        for (int l = k + 1; l < TRIES; l++)
-            if (rate[l] < rate[k]) {
-                const double swap = rate[k];
-                rate[k] = rate[l];
-                rate[l] = swap;
-            }
-    return rate[TRIES / 2];
+    fprintf(stderr, "\r");
+    return seconds() - start - measuring;
 }
 
 static void whole_run(double duration)
@@ -58,31 +95,27 @@ static void whole_run(double duration)
     hd_run *run;
     require(hd_run_create(&run, &scene, NULL, 0), "780 disks");
     while (hd_run_phase(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
+    const int m = 4 * scene.disks, n = hd_run_vectors(run);
+    gemm *g = gemm_create(m, n);
     const hd_cost before = hd_run_cost(run);
-    while (hd_run_phase(run) != HD_FINISHED) {
-        require(hd_run_step(run), "averaging");
-        fprintf(stderr, "\r%3.0f %%", 100.0 * hd_run_cost(run).progress);
-    }
+    const double w = average(run, g) / duration, rate = gemm_rate(g);
     const hd_cost after = hd_run_cost(run);
     const hd_spectrum *spectrum = hd_run_spectrum(run);
-    const int m = 4 * scene.disks, n = hd_run_vectors(run);
-    const double rate = dgemm_rate(m, n);
     const double spread = hd_spectrum_exponent(spectrum, 0) - hd_spectrum_exponent(spectrum, n - 1);
     const double floor = 4.0 * m * n * (double)n / rate * spread / log(1e8);
-    const double w = (after.wall - before.wall) / duration;
     const double events = (after.events - before.events) / duration;
     const double replay = (after.replay - before.replay) / duration;
     const double ortho = (after.ortho - before.ortho) / duration;
-    printf("\r%d disks, %d vectors, %d threads, %s kernels, dgemm %.1f GF/s\n", scene.disks, n,
+    printf("%d disks, %d vectors, %d threads, %s kernels, dgemm %.1f GF/s\n", scene.disks, n,
            hd_run_threads(run), hd_blas_query().kernel, rate * 1e-9);
-    printf("seconds per time unit: whole run W %.4f = events %.4f + replay %.4f + factorisation "
-           "%.4f + "
-           "rest %.4f\n",
-           w, events, replay, ortho, w - events - replay - ortho);
+    printf("seconds per time unit: whole run W %.4f\n", w);
+    printf("    = events %.4f + replay %.4f + factorisation %.4f + rest %.4f\n", events, replay,
+           ortho, w - events - replay - ortho);
     printf("floor F %.4f   W/F %.2f   interval %.3g   condition %.2g   second passes %ld   repairs "
            "%ld\n",
            floor, w / floor, after.interval, after.condition,
            after.second_passes - before.second_passes, after.repairs - before.repairs);
+    gemm_free(g);
     hd_run_free(run);
 }
 
