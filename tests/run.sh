@@ -134,6 +134,7 @@ stage ros_tests catkin ros_tests
 stage plot_tests unittest plot_tests
 stage lint one lint
 stage demo checks "$ROOT/tests/demo.sh" "$WORK/demo"
+stage readme checks "$ROOT/tests/readme.sh" "$WORK/readme" "$WORK/ros/devel/setup.bash"
 stage warnings one warnings
 
 printf '%d passed, %d failed\n' "$PASSED" "$FAILED"

@@ -58,7 +58,8 @@ static double check_lattice(const hd_scene_def *def)
     const double distance = smallest_distance(q, def->disks, box, def->boundary);
     if (!(distance >= best.distance - position_rounding(box)))
         fail_msg("N %d boundary %d %d density %.17g: distance %.17g promised %.17g", def->disks,
-                 (int)def->boundary[0], (int)def->boundary[1], def->density, distance, best.distance);
+                 (int)def->boundary[0], (int)def->boundary[1], def->density, distance,
+                 best.distance);
     free(q);
     return best.distance;
 }
@@ -81,8 +82,8 @@ static void any_count_up_to_a_few_hundred(void **state)
     (void)state;
     for (int n = 2; n < 300; n++)
         for (int b = 0; b < 4; b++) {
-            const hd_scene_def def =
-                scene_of(n, 0.5, 0.6, (hd_boundary)(b & 1), (hd_boundary)(b >> 1), 1);
+            const hd_scene_def def = scene_of(n, 0.5, 0.6, (hd_boundary)(b & 1),
+                                              (hd_boundary)(b >> 1), 1);
             check_lattice(&def);
         }
 }
@@ -107,6 +108,20 @@ static void maximum_is_where_disks_touch(void **state)
         }
 }
 
+/** Rows go along either direction: x and y may be exchanged. */
+static void maximum_is_the_same_lying_and_standing(void **state)
+{
+    (void)state;
+    const double aspect[] = {0.1, 0.5, 0.867, 3.0}, close = 1e-8;
+    for (int n = 2; n < 60; n++)
+        for (int k = 0; k < 16; k++) {
+            const hd_boundary x = (hd_boundary)(k & 1), y = (hd_boundary)(k >> 1 & 1);
+            const hd_scene_def lying = scene_of(n, 0.1, aspect[k / 4], x, y, 1);
+            const hd_scene_def standing = scene_of(n, 0.1, 1.0 / aspect[k / 4], y, x, 1);
+            CHECK_CLOSE(hd_lattice_density_max(&standing), hd_lattice_density_max(&lying), close);
+        }
+}
+
 /** Commensurate boxes hold closest packing; 8 x 8 in a square holds the square lattice at least. */
 static void known_packings(void **state)
 {
@@ -127,8 +142,8 @@ static void papers_scenes_fit(void **state)
 {
     (void)state;
     for (int b = 0; b < 4; b++) {
-        const hd_scene_def def =
-            scene_of(780, 0.8, 0.867, (hd_boundary)(b & 1), (hd_boundary)(b >> 1), 1);
+        const hd_scene_def def = scene_of(780, 0.8, 0.867, (hd_boundary)(b & 1),
+                                          (hd_boundary)(b >> 1), 1);
         assert_true(check_lattice(&def) > 1.0);
         assert_true(hd_lattice_density_max(&def) > 1.0);
     }
@@ -151,9 +166,13 @@ static void spare_sites_are_spread(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sites_keep_their_distance), cmocka_unit_test(any_count_up_to_a_few_hundred),
-        cmocka_unit_test(maximum_is_where_disks_touch), cmocka_unit_test(known_packings),
-        cmocka_unit_test(papers_scenes_fit),         cmocka_unit_test(spare_sites_are_spread),
+        cmocka_unit_test(sites_keep_their_distance),
+        cmocka_unit_test(any_count_up_to_a_few_hundred),
+        cmocka_unit_test(maximum_is_where_disks_touch),
+        cmocka_unit_test(maximum_is_the_same_lying_and_standing),
+        cmocka_unit_test(known_packings),
+        cmocka_unit_test(papers_scenes_fit),
+        cmocka_unit_test(spare_sites_are_spread),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

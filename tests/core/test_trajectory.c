@@ -225,8 +225,11 @@ static void check_unit_vectors(const hd_event *e)
 {
     const double unit = 4.0 * DBL_EPSILON; /* sqrt, two quotients, squares */
     CHECK_CLOSE(e->n[0] * e->n[0] + e->n[1] * e->n[1], 1.0, unit);
-    if (e->j >= 0) assert_true(e->i < e->j && e->n[0] * e->p[0] + e->n[1] * e->p[1] < 0);
-    else assert_true(e->j == HD_WALL_X ? e->n[0] == 1 && e->p[0] != 0 : e->n[1] == 1 && e->p[1] != 0);
+    if (e->j >= 0)
+        assert_true(e->i < e->j && e->n[0] * e->p[0] + e->n[1] * e->p[1] < 0);
+    else
+        assert_true(e->j == HD_WALL_X ? e->n[0] == 1 && e->p[0] != 0
+                                      : e->n[1] == 1 && e->p[1] != 0);
 }
 
 static void events_are_approaching_unit_contacts(void **state)
@@ -331,7 +334,8 @@ static void overlap_is_refused(void **state)
 {
     (void)state;
     const double p[4] = {0}, allowed = 1e-9;
-    const double touching[] = {2.0, 2.0, 3.0, 2.0}, shallow[] = {2.0, 2.0, 3.0 - 0.9 * allowed, 2.0};
+    const double touching[] = {2.0, 2.0, 3.0, 2.0},
+                 shallow[] = {2.0, 2.0, 3.0 - 0.9 * allowed, 2.0};
     const double deep[] = {2.0, 2.0, 3.0 - 1.1 * allowed, 2.0}, same[] = {2.0, 2.0, 2.0, 2.0};
     const double over_edge[] = {0.25, 2.0, 7.5, 2.0}, over_corner[] = {0.25, 0.25, 7.75, 7.75};
     assert_int_equal(start(HD_PERIODIC, touching, p), HD_OK);
@@ -408,15 +412,22 @@ static void a_million_disks(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(intervals_of_equal_length),   cmocka_unit_test(intervals_cut_at_events),
-        cmocka_unit_test(intervals_cut_at_epochs),     cmocka_unit_test(log_may_be_left_out),
-        cmocka_unit_test(log_times_never_fall),        cmocka_unit_test(late_intervals_lose_nothing),
+        cmocka_unit_test(intervals_of_equal_length),
+        cmocka_unit_test(intervals_cut_at_events),
+        cmocka_unit_test(intervals_cut_at_epochs),
+        cmocka_unit_test(log_may_be_left_out),
+        cmocka_unit_test(log_times_never_fall),
+        cmocka_unit_test(late_intervals_lose_nothing),
         cmocka_unit_test(event_at_the_end_belongs_to_the_next_interval),
         cmocka_unit_test(events_are_approaching_unit_contacts),
-        cmocka_unit_test(starts_at_rest_of_the_centre), cmocka_unit_test(seeds_differ_and_repeat),
-        cmocka_unit_test(prepared_states_are_checked), cmocka_unit_test(overlap_is_refused),
-        cmocka_unit_test(refused_scenes_give_nothing), cmocka_unit_test(resting_disks_rest),
-        cmocka_unit_test(warm_log_allocates_nothing),  cmocka_unit_test(a_million_disks),
+        cmocka_unit_test(starts_at_rest_of_the_centre),
+        cmocka_unit_test(seeds_differ_and_repeat),
+        cmocka_unit_test(prepared_states_are_checked),
+        cmocka_unit_test(overlap_is_refused),
+        cmocka_unit_test(refused_scenes_give_nothing),
+        cmocka_unit_test(resting_disks_rest),
+        cmocka_unit_test(warm_log_allocates_nothing),
+        cmocka_unit_test(a_million_disks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -89,7 +89,7 @@ static void independent_codes(void **state)
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
         const hd_scene_def def = scene_of(table[k].disks, table[k].density, 0.8660, HD_PERIODIC,
                                           HD_PERIODIC, 22);
-        const estimate rate = rate_per_disk(&def, HD_SANITIZED ? 2e5 : 2e6);
+        const estimate rate = rate_per_disk(&def, HD_SANITIZED ? 2e5 : 1e6);
         const double error = sqrt(rate.error * rate.error + table[k].error * table[k].error);
         assert_true(error < 3e-3 * table[k].rate); /* a wrong rate would be seen */
         CHECK_CLOSE(rate.mean, table[k].rate, Z * error);
@@ -101,7 +101,8 @@ static void independent_codes(void **state)
 static double exact_mean_impact(int disks)
 {
     const double radius = sqrt(2.0 * disks), dimensions = 2.0 * disks - 2.0;
-    return sqrt(2.0) * radius * sqrt(PI) / dimensions * exp(lgamma(disks - 0.5) - lgamma(disks - 1.0));
+    return sqrt(2.0) * radius * sqrt(PI) / dimensions *
+           exp(lgamma(disks - 0.5) - lgamma(disks - 1.0));
 }
 
 static estimate mean_impact(const hd_scene_def *def, double pair_events)
@@ -115,7 +116,8 @@ static estimate mean_impact(const hd_scene_def *def, double pair_events)
         CHECK_OK(hd_trajectory_advance(tr, log, hd_trajectory_time(tr) + piece));
         double sum = 0;
         for (size_t e = 0; e < log->count; e++)
-            sum -= log->event[e].n[0] * log->event[e].p[0] + log->event[e].n[1] * log->event[e].p[1];
+            sum -= log->event[e].n[0] * log->event[e].p[0] +
+                   log->event[e].n[1] * log->event[e].p[1];
         block[k] = sum / (double)log->count;
     }
     hd_event_log_free(log);
@@ -130,7 +132,7 @@ static void impact_is_exact(void **state)
     const double density[] = {0.7, 0.5, 0.05, 0.3};
     for (size_t k = 0; k < 4; k++) {
         const hd_scene_def def = scene_of(disks[k], density[k], 1.0, HD_PERIODIC, HD_PERIODIC, 23);
-        const estimate impact = mean_impact(&def, HD_SANITIZED ? 1e5 : 1e6);
+        const estimate impact = mean_impact(&def, HD_SANITIZED ? 1e5 : 5e5);
         assert_true(impact.error < 5e-3 * impact.mean);
         CHECK_CLOSE(impact.mean, exact_mean_impact(disks[k]), Z * impact.error);
     }

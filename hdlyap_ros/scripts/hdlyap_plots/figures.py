@@ -146,7 +146,7 @@ def _draw_step(axes, step):
     axes.fill_between([step.first - 1.2, step.last + 1.2], low, high, color=colour, alpha=0.2,
                       linewidth=0)
     axes.annotate(step.name, (step.first - 1.2, step.fitted), xytext=(-3, 0),
-                  textcoords='offset points', color=colour, fontsize=8, ha='right', va='center')
+                  textcoords='offset points', color=colour, fontsize=7, ha='right', va='center')
 
 
 def _step_legend(axes):
@@ -242,6 +242,6 @@ def _cost_shares(axes, cost):
     axes.set_yticklabels(STAGE_LABELS.values())
     axes.tick_params(axis='y', length=0)
     axes.invert_yaxis()
-    axes.set_xlim(0, 1.7 * max(seconds))
+    axes.set_xlim(0, 1.9 * max(seconds))
     axes.set_xlabel('wall time  [s]')
     axes.set_title('(b) whole run', loc='left')

@@ -32,7 +32,7 @@ def _sums(recording):
     if recording.last_index >= recording.positive_end:
         lines += [f'h_KS            {spectrum.ks_entropy:.4f}',
                   f'h_KS / N        {spectrum.ks_entropy / disks:.6f}']
-    else:
+    elif len(spectrum.exponents) > 1:
         lines.append(f'sum of the {len(spectrum.exponents)} exponents carried '
                      f'{spectrum.ks_entropy:.4f}')
     if spectrum.pairing_error >= 0:
@@ -55,7 +55,8 @@ def _tail(recording):
         error = f'{spectrum.std_errors[i]:.5f}' if spectrum.std_errors[i] >= 0 else '-'
         cells.append(f'{index:6d} {spectrum.exponents[i]:9.5f} {error:>8}')
     head = f'{"index":>6} {"exponent":>9} {"error":>8}'
-    return '\n'.join([f'the last {len(cells)} exponents {what} (standard errors)',
+    number = 'exponent' if len(cells) == 1 else f'last {len(cells)} exponents'
+    return '\n'.join([f'the {number} {what} (standard errors)',
                       *_in_columns(head, cells)])
 
 

@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# Runs what README.md shows: every command of its shell blocks and both of its programs. The two commands
+# at its top are this suite itself and tests/demo.sh.
+#   readme.sh WORK_FOLDER DEVEL_SETUP
+set -euo pipefail
+# shellcheck source=launch/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
+
+readonly WORK=$1 SETUP=$2
+FAILED=0
+
+# blocks LANGUAGE: the contents of README's fenced blocks of that language.
+blocks() { awk -v fence="\`\`\`$1" '$0 == "```" { on = 0 } on { print } $0 == fence { on = 1 }' "$ROOT/README.md"; }
+
+# check NAME COMMAND...
+check() {
+    local log=$WORK/log
+    if "${@:2}" >"$log" 2>&1; then
+        echo "ok $1"
+    else
+        tail -n 30 "$log"
+        echo "FAILED $1"
+        FAILED=1
+    fi
+}
+
+# A command of README as a user would type it, in the folder of the clone's copy.
+type_in() {
+    case $1 in
+        launch/demo.sh* | tests/run.sh*) return ;; # tested elsewhere
+        source*) return ;;                         # done below, for another folder
+        'rosrun hdlyap hdlyap_node') run timeout --preserve-status -s INT 8 rosrun hdlyap hdlyap_node ;;
+        *follow* | rostopic*) beside_a_node bash -ec "timeout 60 $1" ;;
+        *) run bash -ec "$1" ;;
+    esac
+}
+
+beside_a_node() {
+    local node status=0
+    start rosrun hdlyap hdlyap_node _disks:=100 _density:=0.7 _aspect:=1.0 _duration:=2000 _pace:=300
+    node=$CHILD
+    run "$@" || status=$?
+    stop "$node"
+    finish "$node" || true
+    return "$status"
+}
+
+python_program() {
+    blocks python >"$WORK/watch.py"
+    beside_a_node timeout -s INT 15 python3 "$WORK/watch.py" || true # it spins until it is stopped
+    grep -qE 'lambda_1 = [0-9.]+\([0-9]+\), lambda_197 = [0-9.]+' "$WORK/log"
+}
+
+c_program_prints_all_exponents() { (($(./spectrum | grep -cE '^ *[0-9]+ +[0-9.]+ \+- [0-9.]+$') == 197)); }
+
+stop_at_exit
+mkdir -p "$WORK/clone"
+cd "$WORK/clone" # a copy, so that README's build folder is not the clone's
+cp -r "$ROOT"/{CMakeLists.txt,package.xml,hdlyap_core,msg,tests} .
+blocks c >spectrum.c
+source_setup "$SETUP"
+start roscore >"$WORK/roscore.log" 2>&1
+until rostopic list >/dev/null 2>&1; do sleep 0.2; done
+PKG_CONFIG_PATH=$WORK/clone/build/local/lib/pkgconfig:$WORK/clone/build/local/lib/$(gcc -print-multiarch)/pkgconfig
+LD_LIBRARY_PATH=$WORK/clone/build/local/lib:$WORK/clone/build/local/lib/$(gcc -print-multiarch):${LD_LIBRARY_PATH:-}
+export PKG_CONFIG_PATH LD_LIBRARY_PATH
+while read -r line; do
+    line=${line%%#*}
+    line=${line%"${line##*[! ]}"}
+    [[ -z $line ]] || check "$line" type_in "$line"
+done < <(blocks bash)
+check c_program c_program_prints_all_exponents
+check python_program python_program
+exit "$FAILED"
