@@ -59,7 +59,7 @@ cd "$WORK/clone" # a copy, so that README's build folder is not the clone's
 cp -r "$ROOT"/{CMakeLists.txt,package.xml,hdlyap_core,msg,tests} .
 blocks c >spectrum.c
 source_setup "$SETUP"
-start roscore >"$WORK/roscore.log" 2>&1
+start roscore -p "${ROS_MASTER_URI##*:}" >"$WORK/roscore.log" 2>&1
 until rostopic list >/dev/null 2>&1; do sleep 0.2; done
 PKG_CONFIG_PATH=$WORK/clone/build/local/lib/pkgconfig:$WORK/clone/build/local/lib/$(gcc -print-multiarch)/pkgconfig
 LD_LIBRARY_PATH=$WORK/clone/build/local/lib:$WORK/clone/build/local/lib/$(gcc -print-multiarch):${LD_LIBRARY_PATH:-}

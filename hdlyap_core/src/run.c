@@ -33,6 +33,7 @@ struct hd_run {
     hd_ortho *ortho;
     hd_spectrum *spectrum;
     hd_interval interval;
+    double step_max; /**< longest step that keeps to EVENTS_PER_STEP, as far as events are known */
     int vectors, threads;
     hd_phase phase;
     double phase_start; /**< simulated time */
@@ -93,8 +94,8 @@ static hd_status prepare(hd_run *run)
     run->samples_per_report = (long)fmax(
         1.0, ceil(scene->report_interval * per_disk / COLLISIONS_PER_SAMPLE));
     run->sample_length = scene->report_interval / (double)run->samples_per_report;
-    const double limit = fmin(scene->interval > 0 ? scene->interval : INFINITY,
-                              EVENTS_PER_STEP / rate);
+    const double limit = scene->interval > 0 ? scene->interval : INFINITY;
+    run->step_max = 1e-3 / per_disk;
     run->interval = hd_interval_first(1.0 / per_disk, limit, scene->accuracy);
     return run->vectors > 0 ? prepare_frame(run) : HD_OK;
 }
@@ -262,24 +263,43 @@ static void finish_sample(hd_run *run)
         enter_phase(run, run->phase + 1);
 }
 
+static uint64_t events_so_far(const hd_run *run)
+{
+    return hd_trajectory_collisions(run->trajectory) + hd_trajectory_wall_events(run->trajectory);
+}
+
+/** Moves the disks on by `length`, and learns how long a step may be: a channel of hardly more than a
+ *  disk's width can have 1e9 wall events in a time unit. */
+static hd_status advance_disks(hd_run *run, hd_event_log *log, double length, double end)
+{
+    const double start = hd_clock_now();
+    const uint64_t before = events_so_far(run);
+    HD_TRY(hd_trajectory_advance(run->trajectory, log, end));
+    run->now = end;
+    const double events = fmax(1.0, (double)(events_so_far(run) - before));
+    run->step_max = fmin(4.0 * fmax(length, run->step_max / 4.0),
+                         length * EVENTS_PER_STEP / events);
+    run->cost.events += hd_clock_now() - start;
+    return HD_OK;
+}
+
 hd_status hd_run_step(hd_run *run)
 {
+    run->report_due = false;
     if (run->phase == HD_FINISHED) return HD_OK;
     const bool with_frame = run->frame && run->phase != HD_EQUILIBRATING;
     const double stop = sample_end(run), left = stop - run->now;
-    const double longest = EVENTS_PER_STEP / hd_trajectory_collision_rate(run->trajectory);
-    const double length = with_frame ? hd_interval_next(&run->interval, left) : fmin(left, longest);
+    const double wanted = with_frame ? hd_interval_next(&run->interval, left) : left;
+    const double length = wanted <= run->step_max ? wanted : left / ceil(left / run->step_max);
     const bool ends_sample = length >= left;
     const bool measured = (run->samples + 1) % run->samples_per_report == 0 ||
                           stop >= phase_end(run);
-    const double start = hd_clock_now();
-    run->report_due = false;
-    run->now = ends_sample ? stop : run->now + length;
-    HD_TRY(hd_trajectory_advance(run->trajectory, with_frame ? run->log : NULL, run->now));
-    run->cost.events += hd_clock_now() - start;
-    if (with_frame)
+    HD_TRY(advance_disks(run, with_frame ? run->log : NULL, length,
+                         ends_sample ? stop : run->now + length));
+    if (with_frame) {
         hd_blas_use_threads(run->threads); /* with OpenMP it holds for the calling thread */
-    if (with_frame) HD_TRY(frame_interval(run, ends_sample && measured));
+        HD_TRY(frame_interval(run, ends_sample && measured));
+    }
     if (ends_sample) finish_sample(run);
     return HD_OK;
 }

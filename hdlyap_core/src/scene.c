@@ -5,7 +5,9 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "check.h"
 #include "lattice.h"
+#include "scene_box.h"
 
 enum { DISKS_MIN = 2, DISKS_MAX = 1000000, THREADS_MAX = 1024 };
 
@@ -60,7 +62,6 @@ static hd_status refuse(char *message, size_t size, const char *format, ...)
 typedef struct range {
     const char *name, *allowed;
     double value, min, max;
-    int min_excluded;
 } range;
 
 /** The negated comparisons refuse NaN too. */
@@ -68,32 +69,32 @@ static hd_status check_ranges(const hd_scene_def *def, char *message, size_t siz
 {
     const double huge = 1e12;
     const range table[] = {
-        {"disks", "an integer from 2 to 1000000", def->disks, DISKS_MIN, DISKS_MAX, 0},
-        {"density", "above 0, at most 2/sqrt(3) = 1.1547", def->density, 0, 2.0 / sqrt(3.0), 1},
-        {"aspect", "from 1e-6 to 1e6", def->aspect, 1e-6, 1e6, 0},
-        {"boundary_x", "periodic or reflecting", def->boundary[0], HD_PERIODIC, HD_REFLECTING, 0},
-        {"boundary_y", "periodic or reflecting", def->boundary[1], HD_PERIODIC, HD_REFLECTING, 0},
-        {"equilibration", "from 0 to 1e12", def->equilibration, 0, huge, 0},
-        {"warmup", "from 0 to 1e12", def->warmup, 0, huge, 0},
-        {"duration", "from 0 (until stopped) to 1e12", def->duration, 0, huge, 0},
-        {"target_std_error", "from 0 (off) to 1e12", def->target_std_error, 0, huge, 0},
-        {"interval", "auto, or above 0 up to 1e12", def->interval, 0, huge, 0},
-        {"accuracy", "from 1e-12 to 1e-2", def->accuracy, 1e-12, 1e-2, 0},
-        {"report_interval", "from 1e-6 to 1e12", def->report_interval, 1e-6, huge, 0},
-        {"threads", "from 0 (all cores) to 1024", def->threads, 0, THREADS_MAX, 0},
+        {"disks", "an integer from 2 to 1000000", def->disks, DISKS_MIN, DISKS_MAX},
+        {"density", "from 1e-6 to 2/sqrt(3) = 1.1547", def->density, 1e-6, 2.0 / sqrt(3.0)},
+        {"aspect", "from 1e-6 to 1e6", def->aspect, 1e-6, 1e6},
+        {"boundary_x", "periodic or reflecting", def->boundary[0], HD_PERIODIC, HD_REFLECTING},
+        {"boundary_y", "periodic or reflecting", def->boundary[1], HD_PERIODIC, HD_REFLECTING},
+        {"equilibration", "from 0 to 1e12", def->equilibration, 0, huge},
+        {"warmup", "from 0 to 1e12", def->warmup, 0, huge},
+        {"duration", "from 0 (until stopped) to 1e12", def->duration, 0, huge},
+        {"target_std_error", "from 0 (off) to 1e12", def->target_std_error, 0, huge},
+        {"interval", "auto, or above 0 up to 1e12", def->interval, 0, huge},
+        {"accuracy", "from 1e-12 to 1e-2", def->accuracy, 1e-12, 1e-2},
+        {"report_interval", "from 1e-6 to 1e12", def->report_interval, 1e-6, huge},
+        {"threads", "from 0 (all cores) to 1024", def->threads, 0, THREADS_MAX},
     };
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
         const range *r = &table[k];
-        if (r->value >= r->min && r->value <= r->max && !(r->min_excluded && r->value == r->min))
-            continue;
+        if (r->value >= r->min && r->value <= r->max) continue;
         return refuse(message, size, "%s = %.15g: must be %s", r->name, r->value, r->allowed);
     }
     return HD_OK;
 }
 
-static hd_status check_box(const hd_scene_def *def, char *message, size_t size)
+hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size)
 {
     double box[2];
+    HD_TRY(check_ranges(def, message, size));
     hd_scene_box(def, box);
     for (int d = 0; d < 2; d++)
         if (!(box[d] > 1.0))
@@ -102,20 +103,22 @@ static hd_status check_box(const hd_scene_def *def, char *message, size_t size)
                 "density = %.15g with disks = %d, aspect = %.15g: the box edge L%c = %.15g "
                 "must be above the disk diameter 1",
                 def->density, def->disks, def->aspect, "xy"[d], box[d]);
+    return HD_OK;
+}
+
+hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
+{
+    double box[2];
+    HD_TRY(hd_scene_check_box(def, message, size));
+    hd_scene_box(def, box);
+    if (def->exponents < HD_EXPONENTS_ALL || def->exponents > 4 * def->disks)
+        return refuse(message, size,
+                      "exponents = %d: must be positive, all, none or from 1 to 4 disks = %d",
+                      def->exponents, 4 * def->disks);
     if (hd_lattice_best(def->disks, box, def->boundary).distance < HD_LATTICE_DISTANCE_MIN)
         return refuse(message, size,
                       "density = %.15g: must be at most %.6g with disks = %d, aspect = %.15g and "
                       "these boundaries (densest start lattice)",
                       def->density, hd_lattice_density_max(def), def->disks, def->aspect);
     return HD_OK;
-}
-
-hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
-{
-    if (check_ranges(def, message, size) != HD_OK) return HD_REFUSED;
-    if (def->exponents < HD_EXPONENTS_ALL || def->exponents > 4 * def->disks)
-        return refuse(message, size,
-                      "exponents = %d: must be positive, all, none or from 1 to 4 disks = %d",
-                      def->exponents, 4 * def->disks);
-    return check_box(def, message, size);
 }

@@ -11,6 +11,7 @@
 #include "hdlyap/trajectory.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "cells.h"
@@ -20,9 +21,13 @@
 #include "memory.h"
 #include "queue.h"
 #include "random.h"
+#include "scene_box.h"
 
 /** Deeper than this [sigma], an overlap is a fault and not rounding. */
 static const double OVERLAP_MAX = 1e-9;
+
+/** Faster disks would lose the positions' digits within one epoch. */
+static const double MOMENTUM_MAX = 1e6;
 
 /** From so many disks on the state outgrows the second-level cache. */
 enum { LOOK_AHEAD_DISKS = 4000 };
@@ -54,11 +59,21 @@ struct hd_trajectory {
 
 /* ---- prediction ------------------------------------------------------------------------------- */
 
-/** Lowers `best`, the prediction of disk a, by its contacts with the list that starts at j; `image` is what
+/** The order of two contacts of disk i at the same time: by partner, then by image as seen from the disk
+ *  with the lower number. */
+static bool comes_first(int32_t i, int32_t j, const int32_t image[2], const prediction *other)
+{
+    if (j != other->partner) return j < other->partner;
+    const int32_t sign = i < j ? 1 : -1;
+    if (image[1] != other->image[1]) return sign * image[1] < sign * other->image[1];
+    return sign * image[0] < sign * other->image[0];
+}
+
+/** Lowers `best`, the prediction of disk i (a copy of it: a), by its contacts with the list that starts at j; `image` is what
  *  to add, less the other disk's own wraps, to see it where a sees its cell. All in registers: the
  *  compiler cannot know that nothing here changes a disk. */
-static inline prediction predict_list(const hd_trajectory *tr, prediction best, hd_disk a,
-                                      int32_t j, int32_t image_x, int32_t image_y)
+static inline prediction predict_list(const hd_trajectory *tr, prediction best, int32_t i,
+                                      hd_disk a, int32_t j, int32_t image_x, int32_t image_y)
 {
     const hd_disk *const disks = tr->disk;
     const hd_pair box = hd_pair_load(tr->cells.box);
@@ -70,7 +85,8 @@ static inline prediction predict_list(const hd_trajectory *tr, prediction best, 
         const hd_pair r = hd_contact_separation(&a, b, (hd_pair){edges[0], edges[1]} * box, t);
         if (!hd_contact_ahead(r, p)) continue; /* the disk itself never is: p = 0 */
         const double contact = t + hd_contact_wait(r, p);
-        if (contact > best.contact || (contact == best.contact && j >= best.partner)) continue;
+        if (contact > best.contact) continue;
+        if (contact == best.contact && !comes_first(i, j, edges, &best)) continue;
         best.contact = contact;
         best.partner = j;
         best.partner_collisions = b->collisions;
@@ -92,7 +108,7 @@ static void predict_cells(hd_trajectory *tr, int32_t i, const int x[2], const in
         const int32_t *cells = tr->cells.first + row.near[v] * tr->cells.size[0];
         for (int u = x[0]; u <= x[1]; u++)
             if (column.near[u] >= 0)
-                best = predict_list(tr, best, disk, cells[column.near[u]],
+                best = predict_list(tr, best, i, disk, cells[column.near[u]],
                                     column.shift[u] + disk.wrap[0], row.shift[v] + disk.wrap[1]);
     }
     tr->predicted[i] = best;
@@ -120,11 +136,12 @@ static void schedule(hd_trajectory *tr, int32_t i)
     const hd_disk *disk = &tr->disk[i];
     prediction *next = &tr->predicted[i];
     const double edge[2] = {edge_time(tr, disk, 0), edge_time(tr, disk, 1)};
-    next->direction = edge[1] < edge[0];
-    next->side = disk->p[next->direction] > 0 ? HIGH : LOW;
+    const int32_t side[2] = {disk->p[0] > 0 ? HIGH : LOW, disk->p[1] > 0 ? HIGH : LOW};
+    const bool wall[2] = {is_wall(tr, disk, 0, side[0]), is_wall(tr, disk, 1, side[1])};
+    next->direction = edge[1] < edge[0] || (edge[1] == edge[0] && wall[1] && !wall[0]);
+    next->side = side[next->direction];
     next->edge = edge[next->direction];
-    hd_queue_key key = {next->edge, EDGE, i, -1 - next->direction};
-    if (is_wall(tr, disk, next->direction, next->side)) key.kind = WALL;
+    hd_queue_key key = {next->edge, wall[next->direction] ? WALL : EDGE, i, -1 - next->direction};
     if (next->contact < INFINITY && next->contact <= next->edge) {
         const int32_t j = next->partner;
         key = (hd_queue_key){next->contact, PAIR, i < j ? i : j, i < j ? j : i};
@@ -358,10 +375,11 @@ static double enskog_rate(const hd_scene_def *def)
     return sqrt(pi) * def->density * contact * def->disks;
 }
 
-/** A power of two that holds about 32 to 64 collisions of a disk. */
+/** A power of two that holds about 32 to 64 collisions of a disk; in a thin gas less, so that no flight
+ *  is so long that its rounding comes near OVERLAP_MAX. */
 static double epoch_for(double rate_per_disk)
 {
-    const double wanted = 32.0 / rate_per_disk;
+    const double wanted = fmin(32.0 / rate_per_disk, 16384.0);
     double length = 1.0;
     while (length < wanted) length *= 2.0;
     while (length * 0.5 >= wanted) length *= 0.5;
@@ -388,7 +406,7 @@ static hd_status trajectory_start(hd_trajectory *tr, const double *q, const doub
             const double reach = tr->cells.boundary[d] == HD_REFLECTING ? 0.5 : 0.0;
             disk->q[d] = q[2 * i + d];
             disk->p[d] = p[2 * i + d];
-            if (!isfinite(disk->p[d])) return HD_REFUSED;
+            if (!(fabs(disk->p[d]) <= MOMENTUM_MAX)) return HD_REFUSED;
             if (!(disk->q[d] >= reach && disk->q[d] <= tr->cells.box[d] - reach)) return HD_REFUSED;
         }
         hd_cells_add(&tr->cells, tr->disk, i);
@@ -416,8 +434,9 @@ static void momenta_fill(double *p, const hd_scene_def *def)
 hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def, const double *q,
                                     const double *p)
 {
-    hd_trajectory *tr = hd_memory_alloc(1, sizeof *tr);
     *out = NULL;
+    HD_TRY(hd_scene_check_box(def, NULL, 0));
+    hd_trajectory *tr = hd_memory_alloc(1, sizeof *tr);
     if (!tr) return HD_NO_MEMORY;
     hd_status status = trajectory_prepare(tr, def);
     if (status == HD_OK) status = trajectory_start(tr, q, p);

@@ -48,7 +48,7 @@ typedef struct field {
 
 #define OFFSET(member) offsetof(hd_scene_def, member)
 static const field FIELDS[] = {
-    {"density", "above 0", OFFSET(density), 1e-6, 1.1, 0.0, 1.1548},
+    {"density", "from 1e-6", OFFSET(density), 1e-6, 1.1, 0.99e-6, 1.1548},
     {"aspect", "from 1e-6 to 1e6", OFFSET(aspect), 0.01, 100.0, 0.99e-6, 1.01e6},
     {"equilibration", "from 0 to 1e12", OFFSET(equilibration), 0.0, 1e12, -1e-9, 1.1e12},
     {"warmup", "from 0 to 1e12", OFFSET(warmup), 0.0, 1e12, -1e-9, 1.1e12},

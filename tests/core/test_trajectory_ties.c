@@ -223,8 +223,7 @@ static void pair_goes_before_wall(void **state)
     twin_compare(started(&def, q, p), &def, 30);
 }
 
-/** Half a narrow box apart: contact through two images at the same instant. The order (t, kind, i, j)
- *  does not say which goes first, so there is no twin to ask. */
+/** Half a narrow box apart: contact through two images at the same instant. */
 static void two_images_at_once(void **state)
 {
     (void)state;
@@ -232,6 +231,30 @@ static void two_images_at_once(void **state)
     const double q[] = {1.0, 0.25, 4.0, 1.0}, p[] = {1, 0, -1, 0};
     check_conserved(&def, q, p, 50.0);
     check_repeats(&def, q, p, 50.0);
+    twin_compare(started(&def, q, p), &def, 4);
+}
+
+/** The edge of a cell in x and a wall in y at the same instant: cells leave no trace in the order. */
+static void wall_at_a_cell_edge(void **state)
+{
+    (void)state;
+    const hd_scene_def def = scene_in_box(3, 8.0, 8.0, HD_REFLECTING, HD_REFLECTING, 1);
+    const double q[] = {3.0, 6.5, 6.0, 6.5, 2.0, 2.0}, p[] = {1, 1, 0, 1, 0, 0};
+    twin_compare(started(&def, q, p), &def, 2);
+}
+
+/** What only a broken state can show: it is named. */
+static void a_broken_state_is_refused(void **state)
+{
+    (void)state;
+    hd_scene_def def = scene_in_box(2, 8.0, 8.0, HD_PERIODIC, HD_PERIODIC, 1);
+    const double q[] = {2.0, 2.0, 2.5, 2.0}, p[] = {1, 0, -1, 0}, fast[] = {1e7, 0, 0, 0};
+    const double apart[] = {2.0, 2.0, 5.0, 2.0};
+    hd_trajectory *tr;
+    assert_int_equal(hd_trajectory_create_from(&tr, &def, q, p), HD_OVERLAP);
+    assert_int_equal(hd_trajectory_create_from(&tr, &def, apart, fast), HD_REFUSED);
+    def.density = 0.0;
+    assert_int_equal(hd_trajectory_create_from(&tr, &def, apart, p), HD_REFUSED);
 }
 
 int main(void)
@@ -240,7 +263,8 @@ int main(void)
         cmocka_unit_test(square_lattices),  cmocka_unit_test(touching_columns),
         cmocka_unit_test(three_meet_at_once), cmocka_unit_test(ties_go_by_index),
         cmocka_unit_test(disk_in_a_corner), cmocka_unit_test(pair_goes_before_wall),
-        cmocka_unit_test(two_images_at_once),
+        cmocka_unit_test(two_images_at_once), cmocka_unit_test(wall_at_a_cell_edge),
+        cmocka_unit_test(a_broken_state_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -249,7 +249,8 @@ static double epoch_for(const hd_scene_def *def)
     const double pi = 3.14159265358979323846, eta = fmin(pi * def->density / 4.0, 0.9);
     const double at_contact = (1.0 - 7.0 * eta / 16.0) / ((1.0 - eta) * (1.0 - eta));
     int exponent;
-    const double part = frexp(32.0 / (2.0 * sqrt(pi) * def->density * at_contact), &exponent);
+    const double collisions = 32.0 / (2.0 * sqrt(pi) * def->density * at_contact);
+    const double part = frexp(fmin(collisions, 16384.0), &exponent); /* a thin gas: shorter epochs */
     return ldexp(1.0, part == 0.5 ? exponent - 1 : exponent);
 }
 

@@ -18,9 +18,9 @@ typedef enum hd_boundary { HD_PERIODIC, HD_REFLECTING } hd_boundary;
 enum { HD_EXPONENTS_NONE = 0, HD_EXPONENTS_POSITIVE = -1, HD_EXPONENTS_ALL = -2 };
 
 typedef struct hd_scene_def {
-    int disks;               /**< N, 2 .. 1000000 */
-    double density;          /**< N sigma^2 / (Lx Ly), > 0, up to what the start lattice can hold */
-    double aspect;           /**< Ly / Lx, > 0 */
+    int disks;      /**< N, 2 .. 1000000 */
+    double density; /**< N sigma^2 / (Lx Ly), from 1e-6 up to what the start lattice can hold */
+    double aspect;  /**< Ly / Lx, > 0 */
     hd_boundary boundary[2]; /**< of x and y */
     uint64_t seed;           /**< of positions, momenta and the first frame */
     int exponents;           /**< number of leading ones, 1 .. 4N, or one of HD_EXPONENTS_* */

@@ -23,7 +23,8 @@ typedef struct hd_event {
     double p[2]; /**< p_j - p_i before the collision; for a wall the momentum before it */
 } hd_event;
 
-/** Events of one interval in their total order (t, kind, i, j). */
+/** Events of one interval in their total order: time, pairs before walls, i, j; in a corner the x wall
+ *  before the y wall; one pair through two images at once: the lower image in y, then in x. */
 typedef struct hd_event_log {
     hd_event *event; /**< [count] */
     size_t count, capacity;
@@ -40,7 +41,7 @@ typedef struct hd_trajectory hd_trajectory;
 HD_MUST_CHECK hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def);
 
 /** A prepared state: q[2N] inside the box (x0 y0 x1 y1 ..), p[2N]; nothing is rescaled.
- *  HD_REFUSED for values not finite or outside the box, HD_OVERLAP for disks deeper than 1e-9. */
+ *  HD_REFUSED for a box that hd_scene_check refuses, positions outside it, |p| above 1e6; HD_OVERLAP for disks deeper than 1e-9. */
 HD_MUST_CHECK hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def,
                                                   const double *q, const double *p);
 void hd_trajectory_free(hd_trajectory *trajectory);
