@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs what README.md shows: every command of its shell blocks and both of its programs. The two commands
 # at its top are this suite itself and tests/demo.sh.
-#   readme.sh WORK_FOLDER DEVEL_SETUP
+#   readme.sh WORK_FOLDER INSTALLED_SETUP
 set -euo pipefail
 # shellcheck source=launch/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
