@@ -54,7 +54,7 @@ check_run() {
 
 build_and_install() {
     build "$BUILD" -DCATKIN_ENABLE_TESTING=OFF -DHDLYAP_CORE_TESTS=OFF \
-        "-DCMAKE_INSTALL_PREFIX=$BUILD/install" && cmake --install "$BUILD"
+        "-DCMAKE_INSTALL_PREFIX=$BUILD/.install" && cmake --install "$BUILD"
 }
 
 run_scene() {
@@ -92,11 +92,13 @@ stop_at_exit
 [[ $install == no ]] || "$ROOT/launch/install.sh" run
 own_environment "$BUILD/home"
 say "building in $BUILD"
-# installed, because rosrun sees no program in a folder build/ of the package itself
+# installed, because rosrun sees no program in a folder build/ of the package itself; into a hidden
+# folder, because roslaunch would find each launch file twice
 run build_and_install >"$BUILD/log/build.log" 2>&1 ||
     die "the build failed; its log is $BUILD/log/build.log:
 $(tail -n 20 "$BUILD/log/build.log")"
-source_setup "$BUILD/install/setup.bash"
+echo "source \"\$(dirname \"\${BASH_SOURCE[0]}\")/.install/setup.bash\"" >"$BUILD/setup.bash"
+source_setup "$BUILD/setup.bash"
 
 say "running scene $scene, $duration time units"
 run_scene

@@ -43,7 +43,7 @@ run_ctest() {
 
 ros_build() {
     build "$WORK/ros" -DCATKIN_ENABLE_TESTING=ON -DHDLYAP_CORE_TESTS=OFF \
-        "-DCMAKE_INSTALL_PREFIX=$WORK/ros/install"
+        "-DCMAKE_INSTALL_PREFIX=$WORK/ros/.install"
     cmake --build "$WORK/ros" --target tests -- -j "$(nproc)"
     cmake --install "$WORK/ros"
     # catkin keeps the environment of the tests as it is when configured: devel was empty then
@@ -136,7 +136,7 @@ stage ros_tests catkin ros_tests
 stage plot_tests unittest plot_tests
 stage lint one lint
 stage demo checks "$ROOT/tests/demo.sh" "$WORK/demo"
-stage readme checks "$ROOT/tests/readme.sh" "$WORK/readme" "$WORK/ros/install/setup.bash"
+stage readme checks "$ROOT/tests/readme.sh" "$WORK/readme" "$WORK/ros/.install/setup.bash"
 stage warnings one warnings
 
 printf '%d passed, %d failed\n' "$PASSED" "$FAILED"
