@@ -41,7 +41,8 @@ class Delivery(unittest.TestCase):
 
     def record(self, **env):
         topics = ['/hdlyap/' + topic for topic in TYPES]
-        return self.process(['rosbag', 'record', '-O', self.bag, '--buffsize=0'] + topics, **env)
+        # not `rosbag record`: that wrapper may end before its recorder has closed the bag
+        return self.process(['rosrun', 'rosbag', 'record', '-O', self.bag, '--buffsize=0'] + topics, **env)
 
     def recorded(self, recorder):
         """Messages by topic, and connections, of a recorder that is asked to end."""
