@@ -222,7 +222,9 @@ double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame)
     for (int col = 0; col < ortho->vectors; col++)
         for (int row = col; row < ortho->vectors; row++) {
             const double g = ortho->gram[(size_t)col * (size_t)ortho->stride + (size_t)row];
-            worst = fmax(worst, fabs(g - (row == col)));
+            const double off = fabs(g - (row == col));
+            if (!(off <= worst)) worst = off; /* NaN stays */
+            if (isnan(worst)) return worst;
         }
     return worst;
 }

@@ -35,9 +35,12 @@ static double deviation(const hd_run *a, const hd_run *b)
 {
     double worst = 0.0;
     assert_int_equal(a->vectors, b->vectors);
-    for (int col = 0; col < a->vectors; col++)
-        worst = fmax(worst, fabs(hd_spectrum_exponent(a->spectrum, col) -
-                                 hd_spectrum_exponent(b->spectrum, col)));
+    for (int col = 0; col < a->vectors; col++) {
+        const double off = fabs(hd_spectrum_exponent(a->spectrum, col) -
+                                hd_spectrum_exponent(b->spectrum, col));
+        assert_true(isfinite(off));
+        worst = fmax(worst, off);
+    }
     return worst;
 }
 

@@ -57,7 +57,7 @@ int hd_trajectory_disks(const hd_trajectory *trajectory);   /**< N */
 void hd_trajectory_box(const hd_trajectory *trajectory, double box[2]);
 uint64_t hd_trajectory_collisions(const hd_trajectory *trajectory); /**< pair events so far */
 uint64_t hd_trajectory_wall_events(const hd_trajectory *trajectory);
-/** Seconds-free estimate: pair events per time unit, Enskog with Henderson's contact value [T2]. */
+/** Estimate of the pair events per time unit, Enskog with Henderson's contact value [T2]. */
 double hd_trajectory_collision_rate(const hd_trajectory *trajectory);
 
 /** State now: q[2N] inside the box, p[2N]. Either may be NULL. Cost O(N). */
