@@ -88,3 +88,16 @@ double hd_blocks_std_error(const hd_blocks *blocks, int series)
     }
     return largest * (1.0 + noise);
 }
+
+double hd_blocks_mean(const hd_blocks *blocks, int series)
+{
+    return blocks->samples > 0 ? blocks->mean[series] : 0.0;
+}
+
+double hd_blocks_long_error(const hd_blocks *blocks, int series)
+{
+    if (blocks->samples < SAMPLES_MIN) return -1.0;
+    int level = 0;
+    while (level + 1 < HD_BLOCKS_LEVELS && blocks->count[level + 1] >= SAMPLES_MIN) level++;
+    return level_error(blocks, level, series);
+}

@@ -26,4 +26,11 @@ void hd_blocks_add(hd_blocks *blocks, double *sample);
 /** Standard error of the mean of one series [T8]; negative below 16 samples. */
 double hd_blocks_std_error(const hd_blocks *blocks, int series);
 
+/** Running mean of one series; 0 without samples. */
+double hd_blocks_mean(const hd_blocks *blocks, int series);
+
+/** Standard error of the mean from the longest blocks of which there are 16; negative below 16 samples. For
+ *  the increments of a bounded or diffusing quantity, whose errors fall with the length of the blocks. */
+double hd_blocks_long_error(const hd_blocks *blocks, int series);
+
 #endif

@@ -113,6 +113,7 @@ int hd_frame_rows(const hd_frame *frame) { return frame->rows; }
 int hd_frame_vectors(const hd_frame *frame) { return frame->vectors; }
 int hd_frame_stride(const hd_frame *frame) { return frame->stride; }
 double *hd_frame_data(hd_frame *frame) { return frame->copy[frame->current]; }
+const double *hd_frame_read(const hd_frame *frame) { return frame->copy[frame->current]; }
 
 /* ---- the log as tangent maps ------------------------------------------------------------------ */
 

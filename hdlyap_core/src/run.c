@@ -32,6 +32,13 @@ struct hd_run {
     hd_frame *frame; /**< NULL without exponents, as the two below */
     hd_ortho *ortho;
     hd_spectrum *spectrum;
+    hd_modes *modes; /**< NULL unless observed, as the next two */
+    hd_steps *steps;
+    hd_phases *phases;
+    double *q, *p;    /**< [2N], state of a snapshot */
+    unsigned observe; /**< stages needed now */
+    int pieces;       /**< of a sample, at whose ends the phases are followed */
+    int piece;        /**< whole ones since the sample began */
     hd_interval interval;
     double step_max; /**< longest step that keeps to EVENTS_PER_STEP, as far as events are known */
     int vectors, threads;
@@ -83,6 +90,20 @@ static hd_status prepare_frame(hd_run *run)
     return create_frame(run);
 }
 
+/** Kinds of modes need steps; only phases cost more. */
+static hd_status prepare_modes(hd_run *run)
+{
+    const hd_scene_def *scene = &run->scene;
+    const size_t size = 2 * (size_t)scene->disks;
+    run->observe = scene->observe;
+    run->q = hd_memory_alloc(size, sizeof(double));
+    run->p = hd_memory_alloc(size, sizeof(double));
+    if (!run->q || !run->p) return HD_NO_MEMORY;
+    HD_TRY(hd_modes_create(&run->modes, scene, run->vectors, run->threads));
+    HD_TRY(hd_steps_create(&run->steps, scene, run->modes));
+    return scene->observe & HD_OBSERVE_PHASES ? hd_phases_create(&run->phases, run->steps) : HD_OK;
+}
+
 static hd_status prepare(hd_run *run)
 {
     const hd_scene_def *scene = &run->scene;
@@ -97,7 +118,18 @@ static hd_status prepare(hd_run *run)
     const double limit = scene->interval > 0 ? scene->interval : INFINITY;
     run->step_max = 1e-3 / per_disk;
     run->interval = hd_interval_first(1.0 / per_disk, limit, scene->accuracy);
-    return run->vectors > 0 ? prepare_frame(run) : HD_OK;
+    run->pieces = 1;
+    if (run->vectors == 0) return HD_OK;
+    HD_TRY(prepare_frame(run));
+    return scene->observe ? prepare_modes(run) : HD_OK;
+}
+
+static void averages_clear(hd_run *run)
+{
+    hd_spectrum_clear(run->spectrum);
+    if (run->modes) hd_modes_clear(run->modes);
+    if (run->steps) hd_steps_clear(run->steps);
+    if (run->phases) hd_phases_clear(run->phases);
 }
 
 /** Enters the first phase at or after `phase` that has any length. */
@@ -109,7 +141,8 @@ static void enter_phase(hd_run *run, hd_phase phase)
     run->phase = phase;
     run->phase_start = run->now;
     run->samples = 0;
-    if (run->spectrum && phase == HD_AVERAGING) hd_spectrum_clear(run->spectrum);
+    run->piece = 0;
+    if (run->spectrum && phase == HD_AVERAGING) averages_clear(run);
     if (phase == HD_AVERAGING) run->rounding = 0.0;
     if (phase == HD_EQUILIBRATING || run->frame_started > 0) return;
     run->frame_started = hd_clock_now();
@@ -142,6 +175,11 @@ void hd_run_free(hd_run *run)
     hd_frame_free(run->frame);
     hd_ortho_free(run->ortho);
     hd_spectrum_free(run->spectrum);
+    hd_phases_free(run->phases);
+    hd_steps_free(run->steps);
+    hd_modes_free(run->modes);
+    hd_memory_free(run->q);
+    hd_memory_free(run->p);
     hd_memory_free(run);
 }
 
@@ -158,10 +196,11 @@ static double phase_end(const hd_run *run)
     return run->scene.duration > 0 ? run->phase_start + run->scene.duration : INFINITY;
 }
 
-/** Ends of samples are products, not sums: rounding does not add up. */
-static double sample_end(const hd_run *run)
+/** Ends of samples, and of their pieces, are products, not sums: rounding does not add up. */
+static double piece_end(const hd_run *run)
 {
-    const double end = run->phase_start + (double)(run->samples + 1) * run->sample_length;
+    const double done = (double)(run->piece + 1) / run->pieces; /* exactly 1 for the last */
+    const double end = run->phase_start + ((double)run->samples + done) * run->sample_length;
     const double last = phase_end(run);
     return end < last - 1e-6 * run->sample_length ? end : last;
 }
@@ -254,8 +293,11 @@ static void finish_sample(hd_run *run)
     const bool over = run->now >= phase_end(run);
     const double length = run->now - (run->phase_start + (double)run->samples * run->sample_length);
     run->samples++;
-    if (run->phase == HD_AVERAGING && run->spectrum && length > 0.999 * run->sample_length)
+    run->piece = 0;
+    if (run->phase == HD_AVERAGING && run->spectrum && length > 0.999 * run->sample_length) {
         hd_spectrum_sample(run->spectrum);
+        if (run->steps) hd_steps_sample(run->steps, run->spectrum, length);
+    }
     run->report_due = over || run->samples % run->samples_per_report == 0;
     if (run->phase == HD_AVERAGING && run->report_due && (over || target_reached(run)))
         run->phase = HD_FINISHED;
@@ -283,26 +325,68 @@ static hd_status advance_disks(hd_run *run, hd_event_log *log, double length, do
     return HD_OK;
 }
 
+/** Longest time between two looks at the phases; INFINITY if nobody looks. */
+static double phases_due(const hd_run *run)
+{
+    return run->observe & HD_OBSERVE_PHASES ? hd_phases_sampling(run->steps) : INFINITY;
+}
+
+/** The frame is measured at the end of a report interval, and where the phases would turn too far until
+ *  then. */
+static bool ends_measured(const hd_run *run, bool ends_sample)
+{
+    if (run->scene.report_interval > phases_due(run)) return true;
+    return ends_sample && ((run->samples + 1) % run->samples_per_report == 0 ||
+                           piece_end(run) >= phase_end(run));
+}
+
+/** Modes, steps and phases of a measured state; what is asked for is enough for each. */
+static hd_status observe(hd_run *run)
+{
+    const double start = hd_clock_now();
+    if (!run->observe || hd_spectrum_time(run->spectrum) == 0) return HD_OK;
+    hd_trajectory_state(run->trajectory, run->q, run->p);
+    HD_TRY(hd_modes_measure(run->modes, run->frame, run->q, run->p));
+    if (run->report_due) {
+        hd_modes_add(run->modes);
+        hd_steps_find(run->steps, run->spectrum);
+    }
+    if (run->observe & HD_OBSERVE_PHASES) hd_phases_add(run->phases, run->steps, run->now);
+    run->cost.modes += hd_clock_now() - start;
+    return HD_OK;
+}
+
+/** At the end of a piece that is no end of a sample, or of a sample: pieces are chosen anew. */
+static hd_status finish_piece(hd_run *run, bool measured)
+{
+    const bool averaging = run->phase == HD_AVERAGING;
+    if (++run->piece == run->pieces || run->now >= phase_end(run)) finish_sample(run);
+    if (measured && averaging && run->modes) HD_TRY(observe(run));
+    if (run->piece == 0) run->pieces = (int)fmax(1.0, ceil(run->sample_length / phases_due(run)));
+    return HD_OK;
+}
+
 hd_status hd_run_step(hd_run *run)
 {
     run->report_due = false;
     if (run->phase == HD_FINISHED) return HD_OK;
     const bool with_frame = run->frame && run->phase != HD_EQUILIBRATING;
-    const double stop = sample_end(run), left = stop - run->now;
+    const double stop = piece_end(run), left = stop - run->now;
     const double wanted = with_frame ? hd_interval_next(&run->interval, left) : left;
     const double length = wanted <= run->step_max ? wanted : left / ceil(left / run->step_max);
-    const bool ends_sample = length >= left;
-    const bool measured = (run->samples + 1) % run->samples_per_report == 0 ||
-                          stop >= phase_end(run);
+    const bool ends_piece = length >= left;
+    const bool ends_sample = run->piece + 1 == run->pieces || stop >= phase_end(run);
+    const bool measured = ends_piece && ends_measured(run, ends_sample);
     HD_TRY(advance_disks(run, with_frame ? run->log : NULL, length,
-                         ends_sample ? stop : run->now + length));
+                         ends_piece ? stop : run->now + length));
     if (with_frame) {
         hd_blas_use_threads(run->threads); /* with OpenMP it holds for the calling thread */
-        HD_TRY(frame_interval(run, ends_sample && measured));
+        HD_TRY(frame_interval(run, measured));
     }
-    if (ends_sample) finish_sample(run);
-    return HD_OK;
+    return ends_piece ? finish_piece(run, measured) : HD_OK;
 }
+
+void hd_run_observe(hd_run *run, unsigned stages) { run->observe = stages & run->scene.observe; }
 
 void hd_run_reset_average(hd_run *run)
 {
@@ -320,6 +404,15 @@ int hd_run_threads(const hd_run *run) { return run->threads; }
 const hd_trajectory *hd_run_trajectory(const hd_run *run) { return run->trajectory; }
 const hd_frame *hd_run_frame(const hd_run *run) { return run->frame; }
 const hd_spectrum *hd_run_spectrum(const hd_run *run) { return run->spectrum; }
+const hd_modes *hd_run_modes(const hd_run *run) { return run->modes; }
+const hd_steps *hd_run_steps(const hd_run *run) { return run->steps; }
+const hd_phases *hd_run_phases(const hd_run *run) { return run->phases; }
+
+int hd_run_samples_per_report(const hd_run *run)
+{
+    const bool often = run->scene.report_interval > phases_due(run);
+    return often ? run->pieces * (int)run->samples_per_report : 1;
+}
 
 /** Simulated time still to come; INFINITY for an endless run. */
 static double time_left(const hd_run *run)

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "check.h"
+#include "hdlyap/wave.h"
 #include "lattice.h"
 #include "scene_box.h"
 
@@ -27,6 +28,9 @@ hd_scene_def hd_scene_def_default(void)
         .interval = 0.0,
         .accuracy = 1e-8,
         .report_interval = 1.0,
+        .observe = 0,
+        .max_wave_number = 0.0,
+        .max_node = 0,
         .threads = 0,
     };
 }
@@ -81,6 +85,8 @@ static hd_status check_ranges(const hd_scene_def *def, char *message, size_t siz
         {"interval", "auto, or above 0 up to 1e12", def->interval, 0, huge},
         {"accuracy", "from 1e-12 to 1e-2", def->accuracy, 1e-12, 1e-2},
         {"report_interval", "from 1e-6 to 1e12", def->report_interval, 1e-6, huge},
+        {"max_wave_number", "0 (by max_node) or above", def->max_wave_number, 0, huge},
+        {"max_node", "from 0 (automatic) to 1000000", def->max_node, 0, DISKS_MAX},
         {"threads", "from 0 (all cores) to 1024", def->threads, 0, THREADS_MAX},
     };
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
@@ -106,6 +112,28 @@ hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size
     return HD_OK;
 }
 
+/** Waves that the disks do not sample have no fields. */
+static hd_status check_waves(const hd_scene_def *def, char *message, size_t size)
+{
+    const hd_wave_limits limits = hd_wave_limits_of(def);
+    if (def->max_wave_number > 0 && def->max_node > 0)
+        return refuse(message, size, "max_node = %d: must be 0 when max_wave_number = %.15g is given",
+                      def->max_node, def->max_wave_number);
+    if (def->max_node > limits.node)
+        return refuse(message, size,
+                      "max_node = %d: must be at most %d with disks = %d, density = %.15g, aspect = "
+                      "%.15g and these boundaries: a shorter wave than two mean distances, "
+                      "2 / sqrt(density), is not sampled",
+                      def->max_node, limits.node, def->disks, def->density, def->aspect);
+    const double k = def->max_wave_number;
+    if (k > 0 && !(k >= limits.smallest && k <= limits.largest))
+        return refuse(message, size,
+                      "max_wave_number = %.15g: must be from %.6g, the longest wave of this box, to %.6g: "
+                      "a shorter one than two mean distances, 2 / sqrt(density), is not sampled",
+                      k, limits.smallest, limits.largest);
+    return HD_OK;
+}
+
 hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
 {
     double box[2];
@@ -115,6 +143,7 @@ hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
         return refuse(message, size,
                       "exponents = %d: must be positive, all, none or from 1 to 4 disks = %d",
                       def->exponents, 4 * def->disks);
+    HD_TRY(check_waves(def, message, size));
     if (hd_lattice_best(def->disks, box, def->boundary).distance < HD_LATTICE_DISTANCE_MIN)
         return refuse(message, size,
                       "density = %.15g: must be at most %.6g with disks = %d, aspect = %.15g and "

@@ -1,20 +1,23 @@
 # cmake -DCORE=<hdlyap_core> -P includes.cmake
-# The include rule: data flows scene -> trajectory (with its event log) -> frame -> ortho -> spectrum -> run,
+# The include rule: data flows scene -> trajectory (with its event log) -> frame -> ortho -> spectrum -> modes -> steps -> phases -> run,
 # and a source includes only what stands left of it; linear algebra where it lives; never ROS.
 cmake_minimum_required(VERSION 3.16)
 
 # Of no stage: these may be included everywhere and include nothing but each other.
 set(STAGE_0 status check memory multiversion random clock blocks blas)
-set(STAGE_1 scene scene_box lattice)
+set(STAGE_1 scene scene_box lattice wave)
 set(STAGE_2 trajectory event_log disk contact cells queue prediction)
 set(STAGE_3 frame)
 set(STAGE_4 ortho)
 set(STAGE_5 spectrum)
-set(STAGE_6 run interval hdlyap)
-set(LINEAR_ALGEBRA "ortho;blas")
+set(STAGE_6 fields modes)
+set(STAGE_7 steps dispersion)
+set(STAGE_8 phases pmode hydro)
+set(STAGE_9 run interval hdlyap)
+set(LINEAR_ALGEBRA "ortho;blas;modes;pmode")
 
 function(stage_of out name)
-  foreach(stage RANGE 6)
+  foreach(stage RANGE 9)
     if(name IN_LIST STAGE_${stage})
       set(${out} ${stage} PARENT_SCOPE)
       return()

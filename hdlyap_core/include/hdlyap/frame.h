@@ -21,6 +21,7 @@ int hd_frame_rows(const hd_frame *frame);    /**< 4N */
 int hd_frame_vectors(const hd_frame *frame); /**< n */
 int hd_frame_stride(const hd_frame *frame);  /**< doubles from one row to the next */
 double *hd_frame_data(hd_frame *frame);      /**< current vectors; valid until the next replay */
+const double *hd_frame_read(const hd_frame *frame); /**< the same, to look at */
 
 /** Carries the vectors from t_begin to t_end (times as in the log) through the logged events with
  *  t_begin <= t < t_end, and keeps the vectors of t_begin for hd_frame_rewind. All cores; a block of

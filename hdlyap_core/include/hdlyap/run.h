@@ -5,7 +5,9 @@
 #include <stdbool.h>
 
 #include "hdlyap/ortho.h"
+#include "hdlyap/phases.h"
 #include "hdlyap/spectrum.h"
+#include "hdlyap/steps.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -20,6 +22,7 @@ typedef struct hd_cost {
     double replay;            /**< seconds in the tangent frame */
     double ortho;             /**< seconds in the factorisation */
     double spectrum;          /**< seconds in averages */
+    double modes;             /**< seconds in classification, steps and phases */
     double events_per_second; /**< pair events over seconds in the trajectory */
     double interval;          /**< time units between orthonormalisations, last used */
     double condition;         /**< of the last orthonormalisation, see hd_ortho_condition */
@@ -47,6 +50,10 @@ HD_MUST_CHECK hd_status hd_run_step(hd_run *run);
 /** True if the last step ended at a multiple of the report interval, with a measured state. */
 bool hd_run_report_due(const hd_run *run);
 
+/** Which of the stages that the scene asks for (HD_OBSERVE_*) are needed from now on; at first all. A
+ *  stage that nobody looks at is skipped, its averages miss that time. Before the step that it holds for. */
+void hd_run_observe(hd_run *run, unsigned stages);
+
 /** Starts the averages afresh at the present time. */
 void hd_run_reset_average(hd_run *run);
 
@@ -58,6 +65,10 @@ int hd_run_threads(const hd_run *run); /**< in use */
 const hd_trajectory *hd_run_trajectory(const hd_run *run);
 const hd_frame *hd_run_frame(const hd_run *run);       /**< NULL without exponents */
 const hd_spectrum *hd_run_spectrum(const hd_run *run); /**< NULL without exponents */
+const hd_modes *hd_run_modes(const hd_run *run);       /**< NULL unless observed, as the two below */
+const hd_steps *hd_run_steps(const hd_run *run);
+const hd_phases *hd_run_phases(const hd_run *run);
+int hd_run_samples_per_report(const hd_run *run); /**< times that phases are followed at per report */
 hd_cost hd_run_cost(const hd_run *run);
 
 #ifdef __cplusplus

@@ -17,6 +17,15 @@ typedef enum hd_boundary { HD_PERIODIC, HD_REFLECTING } hd_boundary;
 /** Values of hd_scene_def.exponents that are not a plain number. */
 enum { HD_EXPONENTS_NONE = 0, HD_EXPONENTS_POSITIVE = -1, HD_EXPONENTS_ALL = -2 };
 
+/** hd_scene_def.observe; phases, fields and hydro need steps, which need modes: these come with them. */
+enum {
+    HD_OBSERVE_MODES = 1,  /**< weights of every vector */
+    HD_OBSERVE_STEPS = 2,  /**< degenerate sets, dispersion */
+    HD_OBSERVE_PHASES = 4, /**< of the LP pairs */
+    HD_OBSERVE_FIELDS = 8, /**< reconstructed P modes */
+    HD_OBSERVE_HYDRO = 16  /**< hydrodynamic response */
+};
+
 typedef struct hd_scene_def {
     int disks;      /**< N, 2 .. 1000000 */
     double density; /**< N sigma^2 / (Lx Ly), from 1e-6 up to what the start lattice can hold */
@@ -32,6 +41,9 @@ typedef struct hd_scene_def {
     double interval;      /**< upper limit of the time between orthonormalisations; 0 = automatic */
     double accuracy;      /**< largest tolerated deviation of an exponent, 1e-12 .. 1e-2 */
     double report_interval; /**< simulated time between reports, > 0 */
+    unsigned observe; /**< stages beyond the exponents: a set of HD_OBSERVE_*, 0 = none */
+    double max_wave_number; /**< wave vectors up to this |k| are classified; 0 = by max_node [1/sigma] */
+    int max_node; /**< wave vectors of up to so many nodes per direction; 0 = 2, or as sampled */
     int threads;            /**< 0 = as many as the machine has and the work is worth */
 } hd_scene_def;
 

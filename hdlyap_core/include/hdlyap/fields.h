@@ -1,0 +1,49 @@
+/** The T, L and P fields of every wave vector, sampled at the disks [T10]. */
+#ifndef HDLYAP_FIELDS_H
+#define HDLYAP_FIELDS_H
+
+#include "hdlyap/wave.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum hd_mode_kind { HD_MODE_NONE, HD_MODE_ZERO, HD_MODE_T, HD_MODE_LP } hd_mode_kind;
+
+/** The fields of one kind at one wave vector: columns [column, column + dimension). Of an LP subspace the
+ *  first half are the L fields, the second half the P fields of the same modulations. */
+typedef struct hd_subspace {
+    hd_mode_kind kind; /**< HD_MODE_T or HD_MODE_LP */
+    hd_wave wave;
+    hd_modulations modulations;
+    int column, dimension; /**< dimension = expected multiplicity of the step */
+} hd_subspace;
+
+typedef struct hd_fields hd_fields;
+
+/** HD_NO_MEMORY. Columns: those of all subspaces, in ascending k, T before LP; then the
+ *  null fields. */
+HD_MUST_CHECK hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def);
+void hd_fields_free(hd_fields *fields);
+
+/** Samples every field at q[2N], p[2N]; each column gets norm 1 (or stays zero). Cost O(N * columns). */
+void hd_fields_sample(hd_fields *fields, const double *q, const double *p);
+
+int hd_fields_columns(const hd_fields *fields); /**< all */
+int hd_fields_stride(const hd_fields *fields);  /**< doubles from one row to the next */
+/** Row-major, rows 2j, 2j+1 = x, y component at disk j. */
+const double *hd_fields_data(const hd_fields *fields);
+
+/** Norm of a column before it was made 1. */
+double hd_fields_norm(const hd_fields *fields, int column);
+
+int hd_fields_subspaces(const hd_fields *fields);
+const hd_subspace *hd_fields_subspace(const hd_fields *fields, int s);
+
+/** Null fields, the last HD_NULLS columns: uniform along x, along y (zero columns unless periodic), momenta. */
+enum { HD_NULL_X, HD_NULL_Y, HD_NULL_P, HD_NULLS };
+
+#ifdef __cplusplus
+}
+#endif
+#endif

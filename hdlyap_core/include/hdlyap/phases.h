@@ -1,0 +1,57 @@
+/** LP dynamics: how the vectors of an LP step rotate between the L and the P field of each pair [T13]. */
+#ifndef HDLYAP_PHASES_H
+#define HDLYAP_PHASES_H
+
+#include "hdlyap/steps.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum hd_lp_state {
+    HD_LP_UNRESOLVED, /**< the step is not resolved: nothing else is known */
+    HD_LP_WEAK,       /**< a^2 + b^2 too small for a phase at this time */
+    HD_LP_COARSE,     /**< turns by more than about 3 rad between samples: the phase is not unwrapped */
+    HD_LP_TRACKED     /**< all is known */
+} hd_lp_state;
+
+/** One pair (L, P) of one modulation, and one vector of its step. */
+typedef struct hd_lp_phase {
+    int step;                 /**< of hd_steps */
+    unsigned char modulation; /**< HD_SIN_X | HD_SIN_Y */
+    int col;                  /**< the vector followed; it changes where vectors change places; -1 */
+    hd_lp_state state;
+    double a, b;        /**< least-squares coefficients on the normalised L and P field */
+    double phase;       /**< atan2(b, a), unwrapped since the tracking began [rad] */
+    double omega;       /**< its slope by regression [rad/time unit] */
+    double omega_error; /**< standard error; negative if not yet known */
+    double time;        /**< tracked for so long [time units] */
+} hd_lp_phase;
+
+typedef struct hd_phases hd_phases;
+
+HD_MUST_CHECK hd_status hd_phases_create(hd_phases **out, const hd_steps *steps);
+void hd_phases_free(hd_phases *phases);
+void hd_phases_clear(hd_phases *phases);
+
+/** Goes on to the snapshot in the steps' modes, taken at simulated time `time`. */
+void hd_phases_add(hd_phases *phases, const hd_steps *steps, double time);
+
+/** 2 d^2 for each LP subspace with d pairs, in the order of the steps: vectors outside, pairs inside. Constant. */
+int hd_phases_count(const hd_phases *phases);
+const hd_lp_phase *hd_phases_phase(const hd_phases *phases, int index);
+
+/** |omega| / k of the tracked phases, weighted with their errors [sigma/time unit]. */
+typedef struct hd_velocity {
+    int phases; /**< tracked phases that went into it; 0: nothing known */
+    double v, v_error; /**< error negative if unknown */
+} hd_velocity;
+hd_velocity hd_phases_velocity(const hd_phases *phases);
+
+/** Longest time between samples that unwraps every resolved step safely; INFINITY without one. */
+double hd_phases_sampling(const hd_steps *steps);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

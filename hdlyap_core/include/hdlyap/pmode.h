@@ -1,0 +1,42 @@
+/** The L and P modes of a step, reconstructed from its measured vectors, as the paper does [T14]. */
+#ifndef HDLYAP_PMODE_H
+#define HDLYAP_PMODE_H
+
+#include "hdlyap/steps.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct hd_pmode hd_pmode;
+
+/** For N disks. HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_pmode_create(hd_pmode **out, int disks);
+void hd_pmode_free(hd_pmode *pmode);
+
+/** Best combinations of the normalised dq halves psi of the step's set for its normalised fields:
+ *  (phi_L, phi_P) = psi Q by least squares. False if the step is no resolved LP step of its own (shares its set). */
+bool hd_pmode_reconstruct(hd_pmode *pmode, const hd_step *step, const hd_modes *modes,
+                          const hd_frame *frame);
+
+int hd_pmode_pairs(const hd_pmode *pmode); /**< d */
+/** phi_L of pair c for c < d, phi_P of pair c - d beyond; [2N]: x0 y0 x1 y1 .. */
+const double *hd_pmode_field(const hd_pmode *pmode, int c);
+/** |phi - field|: distance of field c from what the vectors span, 0 .. 1. */
+double hd_pmode_residual(const hd_pmode *pmode, int c);
+/** Q, 2d x 2d, row-major: rows vectors, columns fields as above. */
+const double *hd_pmode_rotation(const hd_pmode *pmode);
+/** Largest deviation of a singular value of Q from 1: its distance from a rotation. */
+double hd_pmode_rotation_distance(const hd_pmode *pmode);
+
+/** P field divided by the momenta, phi p / (p^2 + eps) component by component, p[2N]: both components are
+ *  the modulation A itself, of amplitude 1. out[2N]. */
+void hd_pmode_divide(const hd_pmode *pmode, double *out, int c, const double *p);
+
+/** eps in units of the mean square of a momentum component. */
+#define HD_PMODE_EPSILON 1e-2
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,73 @@
+/** Degenerate sets of exponents with the waves that they belong to, and the dispersion relation [T12]. */
+#ifndef HDLYAP_STEPS_H
+#define HDLYAP_STEPS_H
+
+#include "hdlyap/modes.h"
+#include "hdlyap/spectrum.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** One kind of field at one wave vector, with the vectors that were found for it; or the zero modes. */
+typedef struct hd_step {
+    hd_mode_kind kind;    /**< HD_MODE_T, HD_MODE_LP or HD_MODE_ZERO */
+    hd_wave wave;         /**< zero for the zero modes */
+    int subspace;         /**< of hd_fields; -1 for the zero modes */
+    int expected;         /**< multiplicity that the boundaries prescribe */
+    bool conjugate;       /**< of the negative half of the spectrum */
+    bool resolved;        /**< what follows is zero (col -1) unless it is true */
+    int col, count;       /**< the vectors of its set: columns [col, col + count) */
+    int set, members;     /**< number of the set, and of the steps that share it: 1, or more where steps
+                               coincide and only the common subspace has a meaning */
+    double multiplicity;  /**< measured: trace of the projection onto its fields over its set */
+    double exponent;      /**< mean over the set, each vector by its share in this step [1/time unit] */
+    double std_error;     /**< of it; negative if not yet known */
+} hd_step;
+
+/** lambda = c k + c2 k^2, least squares weighted with the errors of the resolved steps; errors are
+ *  those of the fit, raised where it scatters more than they allow. */
+typedef struct hd_dispersion {
+    int points;             /**< distinct wave numbers; below 2 c2 is 0, below 1 also c */
+    double c, c_error;      /**< error negative if unknown [sigma/time unit] */
+    double c2, c2_error;    /**< [sigma^2/time unit] */
+} hd_dispersion;
+
+/** A set is resolved if of each of its steps at least this part of the expected multiplicity is found. */
+#define HD_STEP_THRESHOLD 0.5
+
+/** Larger sets are not resolved. */
+enum { HD_STEP_VECTORS_MAX = 64 };
+
+typedef struct hd_steps hd_steps;
+
+/** For the fields of `modes`, which lives longer. HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def,
+                                        const hd_modes *modes);
+void hd_steps_free(hd_steps *steps);
+void hd_steps_clear(hd_steps *steps);
+
+/** Adds the last sample of the spectrum, of so many time units, to the error of each step's mean. */
+void hd_steps_sample(hd_steps *steps, const hd_spectrum *spectrum, double length);
+/** Finds the sets from running averages of weights and exponents. Cost O(n subspaces). */
+void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum);
+/** Counts the finds that changed any set: what was followed over a change is to be begun anew. */
+long hd_steps_changes(const hd_steps *steps);
+
+/** Steps of all subspaces in their order, the zero modes, and with all 4N vectors the conjugate steps in
+ *  the same order; resolved or not: the number is constant. */
+int hd_steps_count(const hd_steps *steps);
+const hd_modes *hd_steps_modes(const hd_steps *steps); /**< as at creation */
+const hd_step *hd_steps_step(const hd_steps *steps, int index);
+
+/** Step to which a vector belongs: the one of its set with the largest average weight; -1 if none: outside all
+ *  sets, or with less than HD_STEP_THRESHOLD of it in its set. */
+int hd_steps_of_vector(const hd_steps *steps, int col);
+
+/** kind: HD_MODE_T or HD_MODE_LP. */
+hd_dispersion hd_steps_dispersion(const hd_steps *steps, hd_mode_kind kind);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

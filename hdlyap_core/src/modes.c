@@ -1,0 +1,300 @@
+/** Frame -> weights of every vector in every subspace [T11].
+ *
+ *  With B (2N x D, row-major) the sampled fields of all subspaces and U (2N x n) the dq halves, the
+ *  overlaps B^T U are two dgemms, over the x and the y rows of the frame where they lie. Least squares on one subspace:
+ *  its Gram matrix G = E L E^T (dsyev), coefficients c = G^+ B^T u, weight = |L^(-1/2) E^T B^T u|^2; directions
+ *  that the disks do not sample (L below RANK) are left out. The vectors stay in columns throughout. */
+#include "hdlyap/modes.h"
+
+#include <cblas.h>
+#include <float.h>
+#include <lapacke.h>
+#include <math.h>
+#include <string.h>
+
+#include "check.h"
+#include "memory.h"
+
+/** Eigenvalues of a Gram matrix of unit fields below this are unsampled directions, not small ones. */
+static const double RANK = 1e-6;
+
+enum { DIMENSION_MAX = 2 * HD_MODULATIONS_MAX, BLOCK = 128 };
+
+struct hd_modes {
+    hd_fields *fields;
+    int disks, vectors, threads;
+    size_t stride;       /**< of every array over the vectors */
+    double *gram;        /**< [columns * columns] */
+    double *coefficient; /**< [columns][stride]: overlaps, then coefficients */
+    double *work;        /**< [DIMENSION_MAX][stride] */
+    double *dq_norm;     /**< [stride] */
+    double *null_dp;     /**< [HD_NULLS][stride]: overlaps of the dp halves with the null fields */
+    double *snapshot;    /**< [subspaces * HD_WEIGHTS + HD_NULLS][stride] */
+    double *average;     /**< same, over samples */
+    long samples;
+};
+
+/* ---- creation --------------------------------------------------------------------------------- */
+
+static size_t weight_rows(const hd_modes *modes)
+{
+    return (size_t)hd_fields_subspaces(modes->fields) * HD_WEIGHTS + HD_NULLS;
+}
+
+static hd_status modes_allocate(hd_modes *modes, const hd_scene_def *def)
+{
+    HD_TRY(hd_fields_create(&modes->fields, def));
+    const size_t columns = (size_t)hd_fields_columns(modes->fields), rows = weight_rows(modes);
+    const size_t n = modes->stride;
+    struct {
+        double **array;
+        size_t size;
+    } wanted[] = {{&modes->gram, columns * columns},    {&modes->coefficient, columns * n},
+                  {&modes->work, DIMENSION_MAX * n},    {&modes->dq_norm, n},
+                  {&modes->null_dp, HD_NULLS * n},      {&modes->snapshot, rows * n},
+                  {&modes->average, rows * n}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
+        if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
+            return HD_NO_MEMORY;
+    return HD_OK;
+}
+
+hd_status hd_modes_create(hd_modes **out, const hd_scene_def *def, int vectors, int threads)
+{
+    HD_ASSERT(vectors >= 1 && threads >= 1);
+    hd_modes *modes = hd_memory_alloc(1, sizeof *modes);
+    *out = NULL;
+    if (!modes) return HD_NO_MEMORY;
+    modes->disks = def->disks;
+    modes->vectors = vectors;
+    modes->threads = threads;
+    modes->stride = (size_t)(vectors + 7) / 8 * 8;
+    const hd_status status = modes_allocate(modes, def);
+    if (status == HD_OK)
+        *out = modes;
+    else
+        hd_modes_free(modes);
+    return status;
+}
+
+void hd_modes_free(hd_modes *modes)
+{
+    if (!modes) return;
+    hd_fields_free(modes->fields);
+    hd_memory_free(modes->gram);
+    hd_memory_free(modes->coefficient);
+    hd_memory_free(modes->work);
+    hd_memory_free(modes->dq_norm);
+    hd_memory_free(modes->null_dp);
+    hd_memory_free(modes->snapshot);
+    hd_memory_free(modes->average);
+    hd_memory_free(modes);
+}
+
+/* ---- one snapshot ----------------------------------------------------------------------------- */
+
+/** out[count][stride] = (fields from `column` on)^T times the dq (half 0) or dp (half 2) rows. */
+static void overlaps(const hd_modes *modes, const hd_frame *frame, int half, int column, int count,
+                     double *out)
+{
+    const int stride = hd_frame_stride(frame), fields = hd_fields_stride(modes->fields);
+    for (int d = 0; d < 2; d++)
+        cblas_dgemm(CblasRowMajor, CblasTrans, CblasNoTrans, count, modes->vectors, modes->disks,
+                    1.0, hd_fields_data(modes->fields) + (size_t)d * (size_t)fields + column,
+                    2 * fields, hd_frame_read(frame) + (size_t)(half + d) * (size_t)stride,
+                    4 * stride, d, out, (int)modes->stride);
+}
+
+static void gram_fill(hd_modes *modes)
+{
+    const int columns = hd_fields_columns(modes->fields);
+    cblas_dsyrk(CblasRowMajor, CblasUpper, CblasTrans, columns, 2 * modes->disks, 1.0,
+                hd_fields_data(modes->fields), hd_fields_stride(modes->fields), 0.0, modes->gram,
+                columns);
+}
+
+static void dq_norms(hd_modes *modes, const hd_frame *frame)
+{
+    const size_t stride = (size_t)hd_frame_stride(frame);
+    const double *v = hd_frame_read(frame);
+    const int n = modes->vectors, rows = 4 * modes->disks;
+#pragma omp parallel for schedule(static) num_threads(modes->threads) if (modes->threads > 1)
+    for (int col = 0; col < n; col += BLOCK) {
+        const int end = col + BLOCK < n ? col + BLOCK : n;
+        double *sum = modes->dq_norm;
+        for (int l = col; l < end; l++) sum[l] = 0.0;
+        for (int row = 0; row < rows; row += row % 4 == 0 ? 1 : 3)
+            for (int l = col; l < end; l++) {
+                const double dq = v[(size_t)row * stride + (size_t)l];
+                sum[l] += dq * dq;
+            }
+        for (int l = col; l < end; l++) sum[l] = sqrt(sum[l]);
+    }
+}
+
+static double *row_of(double *rows, size_t row, const hd_modes *modes)
+{
+    return rows + row * modes->stride;
+}
+
+static void add_squares(double *sum, const double *row, int n)
+{
+    for (int l = 0; l < n; l++) sum[l] += row[l] * row[l];
+}
+
+/** Whole vectors are orthonormal, and so are the null fields: plain overlaps. */
+static void measure_null(hd_modes *modes)
+{
+    const size_t from = (size_t)(hd_fields_columns(modes->fields) - HD_NULLS);
+    for (size_t k = 0; k < HD_NULLS; k++) {
+        double *out = row_of(modes->snapshot, weight_rows(modes) - HD_NULLS + k, modes);
+        memset(out, 0, modes->stride * sizeof *out);
+        add_squares(out, row_of(modes->coefficient, from + k, modes), modes->vectors);
+        add_squares(out, row_of(modes->null_dp, k, modes), modes->vectors);
+    }
+}
+
+/** whiten[d * d] = E L^(-1/2), d x d row-major, zero columns for unsampled directions. */
+static void whitening(const hd_modes *modes, const hd_subspace *s, double *whiten)
+{
+    const int d = s->dimension, columns = hd_fields_columns(modes->fields);
+    double value[DIMENSION_MAX], vectors[DIMENSION_MAX * DIMENSION_MAX];
+    double work[64 * DIMENSION_MAX];
+    for (int a = 0; a < d; a++)
+        for (int b = a; b < d; b++) /* column-major lower = row-major upper */
+            vectors[a * d + b] = modes->gram[(s->column + a) * columns + s->column + b];
+    const int failed = LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'L', d, vectors, d, value, work,
+                                          (int)(sizeof work / sizeof *work));
+    HD_ASSERT(failed == 0);
+    for (int e = 0; e < d; e++) {
+        const double scale = value[e] > RANK ? 1.0 / sqrt(value[e]) : 0.0;
+        for (int a = 0; a < d; a++) whiten[a * d + e] = vectors[e * d + a] * scale;
+    }
+}
+
+/** Squared norm of the part of the projection that columns [from, to) of s make up. */
+static void part_weight(const hd_modes *modes, const hd_subspace *s, int from, int to, double *out)
+{
+    const int columns = hd_fields_columns(modes->fields);
+    memset(out, 0, modes->stride * sizeof *out);
+    for (int a = from; a < to; a++)
+        for (int b = a; b < to; b++) {
+            const double g = modes->gram[(s->column + a) * columns + s->column + b] *
+                             (a == b ? 1.0 : 2.0);
+            const double *x = hd_modes_coefficients(modes, s->column + a);
+            const double *y = hd_modes_coefficients(modes, s->column + b);
+            for (int l = 0; l < modes->vectors; l++) out[l] += g * x[l] * y[l];
+        }
+}
+
+static void measure_subspace(hd_modes *modes, int index)
+{
+    const hd_subspace *s = hd_fields_subspace(modes->fields, index);
+    const int d = s->dimension, n = modes->vectors, stride = (int)modes->stride;
+    double whiten[DIMENSION_MAX * DIMENSION_MAX];
+    double *overlap = row_of(modes->coefficient, (size_t)s->column, modes);
+    double *out = row_of(modes->snapshot, (size_t)index * HD_WEIGHTS, modes);
+    whitening(modes, s, whiten);
+    cblas_dgemm(CblasRowMajor, CblasTrans, CblasNoTrans, d, n, d, 1.0, whiten, d, overlap, stride,
+                0.0, modes->work, stride);
+    memset(out, 0, modes->stride * sizeof *out);
+    for (int e = 0; e < d; e++) add_squares(out, row_of(modes->work, (size_t)e, modes), n);
+    cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, d, n, d, 1.0, whiten, d, modes->work,
+                stride, 0.0, overlap, stride);
+    if (s->kind != HD_MODE_LP) return;
+    part_weight(modes, s, 0, d / 2, out + HD_WEIGHT_L * modes->stride);
+    part_weight(modes, s, d / 2, d, out + HD_WEIGHT_P * modes->stride);
+}
+
+/** Overlaps with the fields of all subspaces, of normalised dq halves. A vector without a dq half has no weights. */
+static void normalise(hd_modes *modes)
+{
+    const size_t columns = (size_t)(hd_fields_columns(modes->fields) - HD_NULLS);
+    for (size_t c = 0; c < columns; c++) {
+        double *row = row_of(modes->coefficient, c, modes);
+        for (int l = 0; l < modes->vectors; l++) row[l] /= fmax(modes->dq_norm[l], DBL_MIN);
+    }
+}
+
+static hd_status check_finite(const hd_modes *modes)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < weight_rows(modes) * modes->stride; k++) sum += modes->snapshot[k];
+    return isfinite(sum) ? HD_OK : HD_NOT_FINITE;
+}
+
+hd_status hd_modes_measure(hd_modes *modes, const hd_frame *frame, const double *q, const double *p)
+{
+    HD_ASSERT(hd_frame_vectors(frame) == modes->vectors);
+    const int columns = hd_fields_columns(modes->fields);
+    hd_fields_sample(modes->fields, q, p);
+    gram_fill(modes);
+    dq_norms(modes, frame);
+    overlaps(modes, frame, 0, 0, columns, modes->coefficient);
+    overlaps(modes, frame, 2, columns - HD_NULLS, HD_NULLS, modes->null_dp);
+    measure_null(modes);
+    normalise(modes);
+    for (int s = 0; s < hd_fields_subspaces(modes->fields); s++) measure_subspace(modes, s);
+    return check_finite(modes);
+}
+
+/* ---- averages --------------------------------------------------------------------------------- */
+
+void hd_modes_add(hd_modes *modes)
+{
+    const size_t size = weight_rows(modes) * modes->stride;
+    modes->samples++;
+    for (size_t k = 0; k < size; k++)
+        modes->average[k] += (modes->snapshot[k] - modes->average[k]) / (double)modes->samples;
+}
+
+void hd_modes_clear(hd_modes *modes)
+{
+    modes->samples = 0;
+    memset(modes->average, 0, weight_rows(modes) * modes->stride * sizeof *modes->average);
+}
+
+/* ---- what can be read ------------------------------------------------------------------------- */
+
+static const double *weight_of(const hd_modes *modes, const double *rows, int s, hd_weight which)
+{
+    HD_ASSERT(s >= 0 && s < hd_fields_subspaces(modes->fields) && which < HD_WEIGHTS);
+    return rows + ((size_t)s * HD_WEIGHTS + (size_t)which) * modes->stride;
+}
+
+static const double *null_of(const hd_modes *modes, const double *rows, int null)
+{
+    HD_ASSERT(null >= 0 && null < HD_NULLS);
+    return rows + (weight_rows(modes) - HD_NULLS + (size_t)null) * modes->stride;
+}
+
+long hd_modes_samples(const hd_modes *modes) { return modes->samples; }
+int hd_modes_vectors(const hd_modes *modes) { return modes->vectors; }
+const hd_fields *hd_modes_fields(const hd_modes *modes) { return modes->fields; }
+const double *hd_modes_dq_norm(const hd_modes *modes) { return modes->dq_norm; }
+
+const double *hd_modes_snapshot(const hd_modes *modes, int s, hd_weight which)
+{
+    return weight_of(modes, modes->snapshot, s, which);
+}
+
+const double *hd_modes_average(const hd_modes *modes, int s, hd_weight which)
+{
+    return weight_of(modes, modes->average, s, which);
+}
+
+const double *hd_modes_null_snapshot(const hd_modes *modes, int null)
+{
+    return null_of(modes, modes->snapshot, null);
+}
+
+const double *hd_modes_null_average(const hd_modes *modes, int null)
+{
+    return null_of(modes, modes->average, null);
+}
+
+const double *hd_modes_coefficients(const hd_modes *modes, int column)
+{
+    HD_ASSERT(column >= 0 && column < hd_fields_columns(modes->fields));
+    return modes->coefficient + (size_t)column * modes->stride;
+}
