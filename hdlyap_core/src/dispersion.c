@@ -56,7 +56,8 @@ static fit sums_of(const hd_steps *steps, hd_mode_kind kind)
 }
 
 /** Factor on the errors: scatter over what the weights allow, at least 1; negative if unknown. */
-static double scatter(const hd_steps *steps, hd_mode_kind kind, const fit *f, const hd_dispersion *d)
+static double scatter(const hd_steps *steps, hd_mode_kind kind, const fit *f,
+                      const hd_dispersion *d)
 {
     const int freedom = f->points - (f->wave_numbers > 1 ? 2 : 1);
     double chi2 = 0.0;

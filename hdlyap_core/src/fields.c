@@ -14,8 +14,8 @@
 typedef struct table {
     double offset; /**< of the coordinate: 1/2 behind a wall */
     int nodes;
-    double k;          /**< of one node */
-    double *value;     /**< [2 (nodes + 1)]: cosine, sine of each node */
+    double k;           /**< of one node */
+    double *value;      /**< [2 (nodes + 1)]: cosine, sine of each node */
     double *derivative; /**< same */
 } table;
 

@@ -107,8 +107,9 @@ static unsigned transverse_bits(const hd_hydro *hydro, unsigned bits)
 }
 
 /** sum[RESPONSES][HD_STEP_VECTORS_MAX]: of the vectors of a step at one modulation. */
-static void measure(const hd_hydro *hydro, double sum[RESPONSES][HD_STEP_VECTORS_MAX], const hd_step *step,
-                    unsigned bits, const hd_frame *frame, const double *q, const double *p)
+static void measure(const hd_hydro *hydro, double sum[RESPONSES][HD_STEP_VECTORS_MAX],
+                    const hd_step *step, unsigned bits, const hd_frame *frame, const double *q,
+                    const double *p)
 {
     const size_t stride = (size_t)hd_frame_stride(frame);
     memset(sum, 0, RESPONSES * sizeof *sum);
@@ -139,9 +140,13 @@ static void step_measure(hd_hydro *hydro, hd_hydro_response *out, const hd_steps
         measure(hydro, sum, step, m.bits[c], frame, q, p);
         for (int v = 0; v < step->count && vectors < step->expected; v++) {
             if (hd_steps_of_vector(steps, step->col + v) != index) continue;
-            out[vectors++ * m.count + c] = (hd_hydro_response){
-                index,         step->col + v, m.bits[c], scale * sum[0][v], scale * sum[1][v],
-                scale * sum[2][v], scale * sum[3][v]};
+            out[vectors++ * m.count + c] = (hd_hydro_response){index,
+                                                               step->col + v,
+                                                               m.bits[c],
+                                                               scale * sum[0][v],
+                                                               scale * sum[1][v],
+                                                               scale * sum[2][v],
+                                                               scale * sum[3][v]};
         }
     }
 }

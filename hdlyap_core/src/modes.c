@@ -49,9 +49,9 @@ static hd_status modes_allocate(hd_modes *modes, const hd_scene_def *def)
     struct {
         double **array;
         size_t size;
-    } wanted[] = {{&modes->gram, columns * columns},    {&modes->coefficient, columns * n},
-                  {&modes->work, DIMENSION_MAX * n},    {&modes->dq_norm, n},
-                  {&modes->null_dp, HD_NULLS * n},      {&modes->snapshot, rows * n},
+    } wanted[] = {{&modes->gram, columns * columns}, {&modes->coefficient, columns * n},
+                  {&modes->work, DIMENSION_MAX * n}, {&modes->dq_norm, n},
+                  {&modes->null_dp, HD_NULLS * n},   {&modes->snapshot, rows * n},
                   {&modes->average, rows * n}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
         if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))

@@ -40,9 +40,9 @@ typedef struct track {
 typedef struct rotor {
     int step, column, pairs, slots; /**< column: of the first L field */
     double wave_number;
-    track *track;    /**< [slots][pairs] */
-    int col, count;  /**< the set followed; col -1: none */
-    long samples;    /**< since the set was taken up */
+    track *track;   /**< [slots][pairs] */
+    int col, count; /**< the set followed; col -1: none */
+    long samples;   /**< since the set was taken up */
     int slot_col[SLOTS_MAX];
     double sign[SLOTS_MAX]; /**< of the vector in a slot against the one it began with */
     double complex z[SLOTS_MAX][PAIRS_MAX]; /**< at the last sample, times sign */
@@ -61,10 +61,14 @@ struct hd_phases {
 
 static hd_status rotor_create(rotor *r, track *tracks, const hd_step *step, int index, int column)
 {
-    *r = (rotor){.step = index, .column = column, .pairs = step->expected / 2,
-                 .slots = step->expected, .wave_number = step->wave.number, .track = tracks, .col = -1};
-    for (int t = 0; t < r->slots * r->pairs; t++)
-        HD_TRY(hd_blocks_create(&tracks[t].rate, 1));
+    *r = (rotor){.step = index,
+                 .column = column,
+                 .pairs = step->expected / 2,
+                 .slots = step->expected,
+                 .wave_number = step->wave.number,
+                 .track = tracks,
+                 .col = -1};
+    for (int t = 0; t < r->slots * r->pairs; t++) HD_TRY(hd_blocks_create(&tracks[t].rate, 1));
     return hd_blocks_create(&r->rate, 1);
 }
 
@@ -80,8 +84,10 @@ static hd_status rotors_create(hd_phases *phases, const hd_steps *steps)
         HD_TRY(rotor_create(r, phases->track + t, step, k, s->column));
         for (int v = 0; v < r->slots; v++)
             for (int c = 0; c < r->pairs; c++)
-                phases->track[t++].out = (hd_lp_phase){
-                    .step = k, .modulation = s->modulations.bits[c], .col = -1, .omega_error = -1.0};
+                phases->track[t++].out = (hd_lp_phase){.step = k,
+                                                       .modulation = s->modulations.bits[c],
+                                                       .col = -1,
+                                                       .omega_error = -1.0};
     }
     return HD_OK;
 }
@@ -125,8 +131,11 @@ void hd_phases_free(hd_phases *phases)
 static void track_restart(track *t, hd_lp_state state)
 {
     const hd_lp_phase out = t->out;
-    t->out = (hd_lp_phase){.step = out.step, .modulation = out.modulation, .col = -1,
-                           .state = state, .omega_error = -1.0};
+    t->out = (hd_lp_phase){.step = out.step,
+                           .modulation = out.modulation,
+                           .col = -1,
+                           .state = state,
+                           .omega_error = -1.0};
     t->count = 0;
     hd_blocks_restart(&t->rate);
 }

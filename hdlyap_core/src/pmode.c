@@ -70,8 +70,7 @@ static void psi_load(hd_pmode *pmode, const hd_frame *frame, int col)
         double *psi = row_of(pmode->psi, m, pmode);
         const double *v = hd_frame_read(frame) + col + m;
         for (int j = 0; j < pmode->disks; j++)
-            for (int d = 0; d < 2; d++)
-                psi[2 * j + d] = v[(size_t)(4 * j + d) * stride];
+            for (int d = 0; d < 2; d++) psi[2 * j + d] = v[(size_t)(4 * j + d) * stride];
         const double scale = 1.0 / fmax(sqrt(dot(psi, psi, 2 * pmode->disks)), DBL_MIN);
         for (int k = 0; k < 2 * pmode->disks; k++) psi[k] *= scale;
     }
@@ -105,8 +104,7 @@ static void combine(hd_pmode *pmode, int c)
     double *field = row_of(pmode->field, c, pmode), distance2 = 0.0;
     for (int k = 0; k < rows; k++) {
         double sum = 0.0;
-        for (int m = 0; m < n; m++)
-            sum += pmode->q[c * n + m] * row_of(pmode->psi, m, pmode)[k];
+        for (int m = 0; m < n; m++) sum += pmode->q[c * n + m] * row_of(pmode->psi, m, pmode)[k];
         distance2 += (field[k] - sum) * (field[k] - sum);
         field[k] = sum;
     }
@@ -168,6 +166,5 @@ void hd_pmode_divide(const hd_pmode *pmode, double *out, int c, const double *p)
     const int rows = 2 * pmode->disks;
     const double *field = hd_pmode_field(pmode, c);
     const double eps = HD_PMODE_EPSILON * dot(p, p, rows) / rows;
-    for (int k = 0; k < rows; k++)
-        out[k] = pmode->norm[c] * field[k] * p[k] / (p[k] * p[k] + eps);
+    for (int k = 0; k < rows; k++) out[k] = pmode->norm[c] * field[k] * p[k] / (p[k] * p[k] + eps);
 }

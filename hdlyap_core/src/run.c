@@ -336,8 +336,8 @@ static double phases_due(const hd_run *run)
 static bool ends_measured(const hd_run *run, bool ends_sample)
 {
     if (run->scene.report_interval > phases_due(run)) return true;
-    return ends_sample && ((run->samples + 1) % run->samples_per_report == 0 ||
-                           piece_end(run) >= phase_end(run));
+    return ends_sample &&
+           ((run->samples + 1) % run->samples_per_report == 0 || piece_end(run) >= phase_end(run));
 }
 
 /** Modes, steps and phases of a measured state; what is asked for is enough for each. */

@@ -117,20 +117,23 @@ static hd_status check_waves(const hd_scene_def *def, char *message, size_t size
 {
     const hd_wave_limits limits = hd_wave_limits_of(def);
     if (def->max_wave_number > 0 && def->max_node > 0)
-        return refuse(message, size, "max_node = %d: must be 0 when max_wave_number = %.15g is given",
+        return refuse(message, size,
+                      "max_node = %d: must be 0 when max_wave_number = %.15g is given",
                       def->max_node, def->max_wave_number);
     if (def->max_node > limits.node)
-        return refuse(message, size,
-                      "max_node = %d: must be at most %d with disks = %d, density = %.15g, aspect = "
-                      "%.15g and these boundaries: a shorter wave than two mean distances, "
-                      "2 / sqrt(density), is not sampled",
-                      def->max_node, limits.node, def->disks, def->density, def->aspect);
+        return refuse(
+            message, size,
+            "max_node = %d: must be at most %d with disks = %d, density = %.15g, aspect = "
+            "%.15g and these boundaries: a shorter wave than two mean distances, "
+            "2 / sqrt(density), is not sampled",
+            def->max_node, limits.node, def->disks, def->density, def->aspect);
     const double k = def->max_wave_number;
     if (k > 0 && !(k >= limits.smallest && k <= limits.largest))
-        return refuse(message, size,
-                      "max_wave_number = %.15g: must be from %.6g, the longest wave of this box, to %.6g: "
-                      "a shorter one than two mean distances, 2 / sqrt(density), is not sampled",
-                      k, limits.smallest, limits.largest);
+        return refuse(
+            message, size,
+            "max_wave_number = %.15g: must be from %.6g, the longest wave of this box, to %.6g: "
+            "a shorter one than two mean distances, 2 / sqrt(density), is not sampled",
+            k, limits.smallest, limits.largest);
     return HD_OK;
 }
 

@@ -44,7 +44,7 @@ struct hd_steps {
     double *sample;   /**< [count] */
     hd_blocks blocks; /**< of the means of all steps */
     double blocks_time;
-    long *identity;   /**< [count], of which vectors each step consisted */
+    long *identity; /**< [count], of which vectors each step consisted */
     long changes;
 };
 
@@ -53,8 +53,11 @@ struct hd_steps {
 static void step_define(hd_step *step, const hd_fields *fields, int s, bool conjugate)
 {
     const hd_subspace *subspace = hd_fields_subspace(fields, s);
-    *step = (hd_step){.kind = subspace->kind, .wave = subspace->wave, .subspace = s,
-                      .expected = subspace->dimension, .conjugate = conjugate};
+    *step = (hd_step){.kind = subspace->kind,
+                      .wave = subspace->wave,
+                      .subspace = s,
+                      .expected = subspace->dimension,
+                      .conjugate = conjugate};
 }
 
 static hd_status steps_allocate(hd_steps *steps)
@@ -299,8 +302,8 @@ static bool is_resolved(const hd_steps *steps, const hd_spectrum *spectrum, int 
 }
 
 /** Mean of values over the set of a step, each vector by its share. */
-static double shared_mean(const hd_steps *steps, int k,
-                          double (*value)(const hd_spectrum *, int), const hd_spectrum *spectrum)
+static double shared_mean(const hd_steps *steps, int k, double (*value)(const hd_spectrum *, int),
+                          const hd_spectrum *spectrum)
 {
     const double *share = steps->share + (size_t)k * HD_STEP_VECTORS_MAX;
     double sum = 0.0, weight = 0.0;
@@ -340,8 +343,8 @@ static void step_fill(hd_steps *steps, int k, int s, int set)
         const double share = weight[col] / fmax(steps->work[col], 1e-300);
         steps->share[(size_t)k * HD_STEP_VECTORS_MAX + (size_t)v] = share;
         if (steps->work[col] < HD_STEP_THRESHOLD) continue;
-        if (now < 0 || weight[col] > hd_modes_average(steps->modes, steps->step[now].subspace,
-                                                      HD_WEIGHT)[col])
+        if (now < 0 ||
+            weight[col] > hd_modes_average(steps->modes, steps->step[now].subspace, HD_WEIGHT)[col])
             steps->of_vector[col] = k;
     }
 }

@@ -11,15 +11,15 @@ extern "C" {
 typedef enum hd_lp_state {
     HD_LP_UNRESOLVED, /**< the step is not resolved: nothing else is known */
     HD_LP_WEAK,       /**< a^2 + b^2 too small for a phase at this time */
-    HD_LP_COARSE,     /**< turns by more than about 3 rad between samples: the phase is not unwrapped */
-    HD_LP_TRACKED     /**< all is known */
+    HD_LP_COARSE, /**< turns by more than about 3 rad between samples: the phase is not unwrapped */
+    HD_LP_TRACKED /**< all is known */
 } hd_lp_state;
 
 /** One pair (L, P) of one modulation, and one vector of its step. */
 typedef struct hd_lp_phase {
     int step;                 /**< of hd_steps */
     unsigned char modulation; /**< HD_SIN_X | HD_SIN_Y */
-    int col;                  /**< the vector followed; it changes where vectors change places; -1 */
+    int col; /**< the vector followed; it changes where vectors change places; -1 */
     hd_lp_state state;
     double a, b;        /**< least-squares coefficients on the normalised L and P field */
     double phase;       /**< atan2(b, a), unwrapped since the tracking began [rad] */
@@ -43,7 +43,7 @@ const hd_lp_phase *hd_phases_phase(const hd_phases *phases, int index);
 
 /** |omega| / k of the tracked phases, weighted with their errors [sigma/time unit]. */
 typedef struct hd_velocity {
-    int phases; /**< tracked phases that went into it; 0: nothing known */
+    int phases;        /**< tracked phases that went into it; 0: nothing known */
     double v, v_error; /**< error negative if unknown */
 } hd_velocity;
 hd_velocity hd_phases_velocity(const hd_phases *phases);

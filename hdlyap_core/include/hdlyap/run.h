@@ -65,10 +65,11 @@ int hd_run_threads(const hd_run *run); /**< in use */
 const hd_trajectory *hd_run_trajectory(const hd_run *run);
 const hd_frame *hd_run_frame(const hd_run *run);       /**< NULL without exponents */
 const hd_spectrum *hd_run_spectrum(const hd_run *run); /**< NULL without exponents */
-const hd_modes *hd_run_modes(const hd_run *run);       /**< NULL unless observed, as the two below */
+const hd_modes *hd_run_modes(const hd_run *run); /**< NULL unless observed, as the two below */
 const hd_steps *hd_run_steps(const hd_run *run);
 const hd_phases *hd_run_phases(const hd_run *run);
-int hd_run_samples_per_report(const hd_run *run); /**< times that phases are followed at per report */
+int hd_run_samples_per_report(
+    const hd_run *run); /**< times that phases are followed at per report */
 hd_cost hd_run_cost(const hd_run *run);
 
 #ifdef __cplusplus

@@ -41,10 +41,11 @@ typedef struct hd_scene_def {
     double interval;      /**< upper limit of the time between orthonormalisations; 0 = automatic */
     double accuracy;      /**< largest tolerated deviation of an exponent, 1e-12 .. 1e-2 */
     double report_interval; /**< simulated time between reports, > 0 */
-    unsigned observe; /**< stages beyond the exponents: a set of HD_OBSERVE_*, 0 = none */
-    double max_wave_number; /**< wave vectors up to this |k| are classified; 0 = by max_node [1/sigma] */
+    unsigned observe;       /**< stages beyond the exponents: a set of HD_OBSERVE_*, 0 = none */
+    double
+        max_wave_number; /**< wave vectors up to this |k| are classified; 0 = by max_node [1/sigma] */
     int max_node; /**< wave vectors of up to so many nodes per direction; 0 = 2, or as sampled */
-    int threads;            /**< 0 = as many as the machine has and the work is worth */
+    int threads;  /**< 0 = as many as the machine has and the work is worth */
 } hd_scene_def;
 
 /** The paper's periodic scene: 780 disks, density 0.8, aspect 0.867. */

@@ -11,26 +11,26 @@ extern "C" {
 
 /** One kind of field at one wave vector, with the vectors that were found for it; or the zero modes. */
 typedef struct hd_step {
-    hd_mode_kind kind;    /**< HD_MODE_T, HD_MODE_LP or HD_MODE_ZERO */
-    hd_wave wave;         /**< zero for the zero modes */
-    int subspace;         /**< of hd_fields; -1 for the zero modes */
-    int expected;         /**< multiplicity that the boundaries prescribe */
-    bool conjugate;       /**< of the negative half of the spectrum */
-    bool resolved;        /**< what follows is zero (col -1) unless it is true */
-    int col, count;       /**< the vectors of its set: columns [col, col + count) */
-    int set, members;     /**< number of the set, and of the steps that share it: 1, or more where steps
+    hd_mode_kind kind; /**< HD_MODE_T, HD_MODE_LP or HD_MODE_ZERO */
+    hd_wave wave;      /**< zero for the zero modes */
+    int subspace;      /**< of hd_fields; -1 for the zero modes */
+    int expected;      /**< multiplicity that the boundaries prescribe */
+    bool conjugate;    /**< of the negative half of the spectrum */
+    bool resolved;     /**< what follows is zero (col -1) unless it is true */
+    int col, count;    /**< the vectors of its set: columns [col, col + count) */
+    int set, members; /**< number of the set, and of the steps that share it: 1, or more where steps
                                coincide and only the common subspace has a meaning */
-    double multiplicity;  /**< measured: trace of the projection onto its fields over its set */
-    double exponent;      /**< mean over the set, each vector by its share in this step [1/time unit] */
-    double std_error;     /**< of it; negative if not yet known */
+    double multiplicity; /**< measured: trace of the projection onto its fields over its set */
+    double exponent;  /**< mean over the set, each vector by its share in this step [1/time unit] */
+    double std_error; /**< of it; negative if not yet known */
 } hd_step;
 
 /** lambda = c k + c2 k^2, least squares weighted with the errors of the resolved steps; errors are
  *  those of the fit, raised where it scatters more than they allow. */
 typedef struct hd_dispersion {
-    int points;             /**< distinct wave numbers; below 2 c2 is 0, below 1 also c */
-    double c, c_error;      /**< error negative if unknown [sigma/time unit] */
-    double c2, c2_error;    /**< [sigma^2/time unit] */
+    int points;          /**< distinct wave numbers; below 2 c2 is 0, below 1 also c */
+    double c, c_error;   /**< error negative if unknown [sigma/time unit] */
+    double c2, c2_error; /**< [sigma^2/time unit] */
 } hd_dispersion;
 
 /** A set is resolved if of each of its steps at least this part of the expected multiplicity is found. */

@@ -38,10 +38,11 @@ double hd_wave_component(const hd_scene_def *def, int d, int n);
 
 /** What a scene may ask for. */
 typedef struct hd_wave_limits {
-    double smallest; /**< wave number of the longest wave in the box; above largest if there is none */
-    double largest;  /**< wave number that the disks still sample: wave length two mean distances,
+    double
+        smallest; /**< wave number of the longest wave in the box; above largest if there is none */
+    double largest; /**< wave number that the disks still sample: wave length two mean distances,
                           pi sqrt(density) */
-    int node;        /**< largest number of nodes along a direction within that; 0 if there is no wave */
+    int node; /**< largest number of nodes along a direction within that; 0 if there is no wave */
 } hd_wave_limits;
 hd_wave_limits hd_wave_limits_of(const hd_scene_def *def);
 
