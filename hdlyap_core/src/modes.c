@@ -216,11 +216,11 @@ static void normalise(hd_modes *modes)
     }
 }
 
-static hd_status check_finite(const hd_modes *modes)
+static bool all_finite(const double *x, size_t count)
 {
     double sum = 0.0;
-    for (size_t k = 0; k < weight_rows(modes) * modes->stride; k++) sum += modes->snapshot[k];
-    return isfinite(sum) ? HD_OK : HD_NOT_FINITE;
+    for (size_t k = 0; k < count; k++) sum += x[k];
+    return isfinite(sum);
 }
 
 hd_status hd_modes_measure(hd_modes *modes, const hd_frame *frame, const double *q, const double *p)
@@ -229,13 +229,14 @@ hd_status hd_modes_measure(hd_modes *modes, const hd_frame *frame, const double 
     const int columns = hd_fields_columns(modes->fields);
     hd_fields_sample(modes->fields, q, p);
     gram_fill(modes);
+    if (!all_finite(modes->gram, (size_t)columns * (size_t)columns)) return HD_NOT_FINITE;
     dq_norms(modes, frame);
     overlaps(modes, frame, 0, 0, columns, modes->coefficient);
     overlaps(modes, frame, 2, columns - HD_NULLS, HD_NULLS, modes->null_dp);
     measure_null(modes);
     normalise(modes);
     for (int s = 0; s < hd_fields_subspaces(modes->fields); s++) measure_subspace(modes, s);
-    return check_finite(modes);
+    return all_finite(modes->snapshot, weight_rows(modes) * modes->stride) ? HD_OK : HD_NOT_FINITE;
 }
 
 /* ---- averages --------------------------------------------------------------------------------- */

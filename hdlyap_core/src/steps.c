@@ -35,6 +35,7 @@ struct hd_steps {
     half positive, negative;
     int zero_first, zero_end; /**< columns of the zero modes carried */
     int subspaces, count, vectors;
+    int rows;         /**< 4N */
     hd_step *step;    /**< [count] */
     window *set;      /**< [subspaces], scratch: of the sets */
     int *set_of;      /**< [subspaces], scratch: set of each subspace, -1 */
@@ -98,6 +99,7 @@ hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def, const hd_mode
     const hd_fields *fields = hd_modes_fields(modes);
     steps->modes = modes;
     steps->vectors = hd_modes_vectors(modes);
+    steps->rows = 4 * def->disks;
     steps->subspaces = hd_fields_subspaces(fields);
     const bool all = steps->vectors == 4 * def->disks;
     steps->count = steps->subspaces * (all ? 2 : 1) + 1;
@@ -270,6 +272,14 @@ static void sets_merge(hd_steps *steps, const hd_spectrum *spectrum, half h)
 
 /* ---- steps ------------------------------------------------------------------------------------ */
 
+/** Least weight that counts as found in d dimensions: random vectors have chance = d / 2N on average, of the
+ *  rest HD_STEP_THRESHOLD is asked. Fields that fill half of the space tell nothing. */
+static double threshold(const hd_steps *steps, int d)
+{
+    const double chance = d / (0.5 * steps->rows);
+    return chance > 0.5 ? INFINITY : chance + HD_STEP_THRESHOLD * (1.0 - chance);
+}
+
 static bool is_flat(const hd_spectrum *spectrum, const window *w)
 {
     const double mean = mean_exponent(spectrum, w);
@@ -296,7 +306,7 @@ static bool is_resolved(const hd_steps *steps, const hd_spectrum *spectrum, int 
     for (int s = 0; s < steps->subspaces; s++) {
         if (steps->set_of[s] != set) continue;
         const int d = hd_fields_subspace(hd_modes_fields(steps->modes), s)->dimension;
-        if (trace_in(steps, s, w) < HD_STEP_THRESHOLD * d) return false;
+        if (!(trace_in(steps, s, w) >= threshold(steps, d) * d)) return false;
     }
     return true;
 }
@@ -342,7 +352,7 @@ static void step_fill(hd_steps *steps, int k, int s, int set)
         const int col = w->col + v, now = steps->of_vector[col];
         const double share = weight[col] / fmax(steps->work[col], 1e-300);
         steps->share[(size_t)k * HD_STEP_VECTORS_MAX + (size_t)v] = share;
-        if (steps->work[col] < HD_STEP_THRESHOLD) continue;
+        if (!(steps->work[col] >= threshold(steps, w->count))) continue;
         if (now < 0 ||
             weight[col] > hd_modes_average(steps->modes, steps->step[now].subspace, HD_WEIGHT)[col])
             steps->of_vector[col] = k;
@@ -381,7 +391,9 @@ static void zero_find(hd_steps *steps, int *sets)
     double trace = 0.0;
     for (int col = steps->zero_first; col < steps->zero_end; col++)
         trace += null_weight(steps, col);
-    if (count == 0 || trace < HD_STEP_THRESHOLD * count) return;
+    const double chance = (double)step->expected / steps->rows;
+    const double least = chance + HD_STEP_THRESHOLD * (1.0 - chance);
+    if (count == 0 || !(trace >= least * count)) return;
     step->resolved = true;
     step->col = steps->zero_first;
     step->count = count;
@@ -390,8 +402,7 @@ static void zero_find(hd_steps *steps, int *sets)
     step->multiplicity = trace;
     for (int v = 0; v < count; v++) {
         steps->share[(size_t)k * HD_STEP_VECTORS_MAX + (size_t)v] = 1.0;
-        if (null_weight(steps, step->col + v) >= HD_STEP_THRESHOLD)
-            steps->of_vector[step->col + v] = k;
+        if (null_weight(steps, step->col + v) >= least) steps->of_vector[step->col + v] = k;
     }
 }
 

@@ -12,12 +12,17 @@ import roslib.packages
 import rosgraph
 import rospy
 
-from hdlyap.msg import Cost, RunInfo, Spectrum, State
+from hdlyap.msg import (Cost, Hydro, LpPhases, Mode, ModeField, Modes, RunInfo, Spectrum, State,
+                        Steps)
 
 NODE = 'hdlyap'
 # a run of a fraction of a second
 SHORT = dict(disks=20, density=0.7, aspect=1.0, equilibration=1.0, warmup=1.0, duration=2.0)
-TYPES = dict(run_info=RunInfo, spectrum=Spectrum, state=State, cost=Cost)
+# a box so long that its steps are found within a second
+MODES = dict(disks=60, density=0.8, aspect=0.06, equilibration=10.0, warmup=60.0, duration=20.0)
+TYPES = dict(run_info=RunInfo, spectrum=Spectrum, modes=Modes, steps=Steps, lp_phases=LpPhases,
+             fields=ModeField, hydro=Hydro, state=State, cost=Cost)
+OBSERVABLES = [topic for topic in TYPES if topic not in ('run_info', 'cost')]
 PATIENCE = 60.0     # seconds, for what has no bound of its own
 
 
@@ -95,6 +100,26 @@ def start(params, name=NODE, probe=None, args=(), **env):
     if probe is not None:
         env.update(probe, LD_PRELOAD=probe_library())
     return Process([executable(), '__name:=' + name, *args], **env)
+
+
+def calls(test, params):
+    """Of functions of the core, by name without hd_, in a run that ends by itself."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'counts')
+        node = start(params, probe={'PROBE_COUNTS': path})
+        test.addCleanup(node.stop)
+        test.assertEqual(node.wait(), 0, node.text())
+        with open(path) as file:
+            return {name: int(count) for name, count in map(str.split, file)}
+
+
+def examples(steps):
+    """Numbers of those of which a field is published: found, in the positive half, the first of its set."""
+    first = {}
+    for number, step in enumerate(steps):
+        if step.resolved and not step.conjugate and step.kind != Mode.ZERO:
+            first.setdefault(step.set, number)
+    return list(first.values())
 
 
 class Listener:

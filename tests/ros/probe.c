@@ -9,9 +9,11 @@
 #include <string.h>
 #include <time.h>
 
+#include "hdlyap/hydro.h"
+#include "hdlyap/pmode.h"
 #include "hdlyap/run.h"
 
-static atomic_long steps, states, halves;
+static atomic_long steps, states, halves, measures, phases, pmodes, hydros;
 
 /** The core's own function of that name, into the pointer that `function` is the address of. */
 static void next(void *function, const char *name)
@@ -58,12 +60,55 @@ void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_rat
     atomic_fetch_add(&halves, 1);
 }
 
-/** PROBE_COUNTS: file for the numbers of calls. */
+hd_status hd_modes_measure(hd_modes *modes, const hd_frame *frame, const double *q, const double *p)
+{
+    hd_status (*real)(hd_modes *, const hd_frame *, const double *, const double *);
+    next(&real, "hd_modes_measure");
+    atomic_fetch_add(&measures, 1);
+    return real(modes, frame, q, p);
+}
+
+void hd_phases_add(hd_phases *followed, const hd_steps *found, double time)
+{
+    void (*real)(hd_phases *, const hd_steps *, double);
+    next(&real, "hd_phases_add");
+    atomic_fetch_add(&phases, 1);
+    real(followed, found, time);
+}
+
+bool hd_pmode_reconstruct(hd_pmode *pmode, const hd_step *step, const hd_modes *modes,
+                          const hd_frame *frame)
+{
+    bool (*real)(hd_pmode *, const hd_step *, const hd_modes *, const hd_frame *);
+    next(&real, "hd_pmode_reconstruct");
+    atomic_fetch_add(&pmodes, 1);
+    return real(pmode, step, modes, frame);
+}
+
+void hd_hydro_measure(hd_hydro *hydro, const hd_steps *found, const hd_frame *frame,
+                      const double *q, const double *p)
+{
+    void (*real)(hd_hydro *, const hd_steps *, const hd_frame *, const double *, const double *);
+    next(&real, "hd_hydro_measure");
+    atomic_fetch_add(&hydros, 1);
+    real(hydro, found, frame, q, p);
+}
+
+/** PROBE_COUNTS: file for the numbers of calls, one to a line with its name. */
 __attribute__((destructor)) static void write_counts(void)
 {
+    const struct {
+        const char *name;
+        long calls;
+    } counts[] = {
+        {"trajectory_state", atomic_load(&states)},  {"frame_halves", atomic_load(&halves)},
+        {"modes_measure", atomic_load(&measures)},   {"phases_add", atomic_load(&phases)},
+        {"pmode_reconstruct", atomic_load(&pmodes)}, {"hydro_measure", atomic_load(&hydros)},
+    };
     const char *path = getenv("PROBE_COUNTS");
     FILE *file = path ? fopen(path, "w") : NULL;
     if (!file) return;
-    fprintf(file, "%ld %ld\n", atomic_load(&states), atomic_load(&halves));
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++)
+        fprintf(file, "%s %ld\n", counts[k].name, counts[k].calls);
     fclose(file);
 }

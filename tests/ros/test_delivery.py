@@ -11,11 +11,14 @@ import rospy
 import rostest
 
 import harness
-from harness import SHORT, Cost, Process, TYPES
+from harness import MODES, OBSERVABLES, SHORT, TYPES, Cost, Process
 
 # some hundred messages of each topic, in less than a second
-MANY = dict(SHORT, disks=100, duration=100.0, report_interval=0.25, wait_for_subscribers='all')
+MANY = dict(MODES, equilibration=1.0, warmup=1.0, duration=100.0, report_interval=0.25,
+            observables=OBSERVABLES, wait_for_subscribers='all')
 REPORTS, AVERAGED_REPORTS = 408, 400
+# rosbag keeps 100 messages of a topic that it has not looked at: a third of a second of fields
+RECORDED = dict(MANY, pace=25.0)
 
 
 class Delivery(unittest.TestCase):
@@ -56,11 +59,16 @@ class Delivery(unittest.TestCase):
         return messages, connections
 
     def check_recording(self, messages):
-        self.assertEqual({topic: len(kept) for topic, kept in messages.items()},
-                         dict(run_info=1, spectrum=AVERAGED_REPORTS, state=REPORTS, cost=REPORTS))
+        self.assertEqual(len(messages['run_info']), 1)
         grid = [0.25 * (k + 1) for k in range(REPORTS)]
-        for topic, times in (('state', grid), ('cost', grid), ('spectrum', grid[8:])):
-            self.assertEqual([message.sim_time for message in messages[topic]], times)
+        for topic in ('state', 'cost'):
+            self.assertEqual([message.sim_time for message in messages[topic]], grid, topic)
+        for topic in ('spectrum', 'modes', 'steps', 'lp_phases', 'hydro'):
+            self.assertEqual([message.sim_time for message in messages[topic]],
+                             grid[-AVERAGED_REPORTS:], topic)
+        self.assertEqual([field.sim_time for field in messages['fields']],
+                         [message.sim_time for message in messages['steps']
+                          for _ in harness.examples(message.steps)])
         self.assertEqual([cost.phase for cost in messages['cost']].count(Cost.FINISHED), 1)
         self.assertEqual(messages['cost'][-1].phase, Cost.FINISHED)
         self.assertEqual(messages['cost'][-1].progress, 1.0)
@@ -69,11 +77,11 @@ class Delivery(unittest.TestCase):
 
     def test_recorder_misses_nothing(self):
         recorder = self.record()
-        node = self.start(MANY)
+        node = self.start(RECORDED)
         self.assertEqual(node.wait(), 0, node.text())
         messages, connections = self.recorded(recorder)
         self.check_recording(messages)
-        self.assertEqual(len(connections), 4)
+        self.assertEqual(len(connections), len(TYPES))
         for connection in connections:
             kind = TYPES[connection.topic.rsplit('/', 1)[1]]
             self.assertEqual(connection.datatype, kind._type)
@@ -84,8 +92,7 @@ class Delivery(unittest.TestCase):
         master = harness.Master()
         self.addCleanup(master.stop)
         recorder = self.record(ROS_MASTER_URI=master.uri)
-        node = self.start(MANY, ROS_MASTER_URI=master.uri,
-                          probe={'PROBE_STEP_SECONDS': '0.005'})
+        node = self.start(RECORDED, ROS_MASTER_URI=master.uri)
         self.assertTrue(harness.wait_until(lambda: os.path.exists(self.bag + '.active') and
                                            os.path.getsize(self.bag + '.active') > 0))
         rospy.sleep(0.3)
@@ -110,7 +117,8 @@ class Delivery(unittest.TestCase):
         # more than what queue and sockets hold
         stopped = self.process(['rostopic', 'echo', '-p', '/hdlyap/state'])
         cost = self.listen('cost')
-        node = self.start(dict(MANY, disks=5000, exponents='none', duration=200.0,
+        node = self.start(dict(MANY, disks=5000, exponents='none', observables=['state'],
+                               duration=200.0,
                                wait_for_subscribers=['state', 'cost']))
         self.assertTrue(cost.wait_for(lambda message: True))
         stopped.send(signal.SIGSTOP)

@@ -76,7 +76,10 @@ class Launch(unittest.TestCase):
             messages = [(topic, message) for topic, message, _ in bag.read_messages()]
         count = {name: sum(topic == '/hdlyap/' + name for topic, _ in messages)
                  for name in harness.TYPES}
-        self.assertEqual(count, dict(run_info=1, spectrum=30, state=70, cost=70))
+        fields = sum(len(harness.examples(message.steps)) for topic, message in messages
+                     if topic == '/hdlyap/steps')
+        self.assertEqual(count, dict(run_info=1, spectrum=30, modes=30, steps=30, lp_phases=30,
+                                     fields=fields, hydro=0, state=70, cost=70))
         info = next(message for topic, message in messages if topic == '/hdlyap/run_info')
         self.assertEqual((info.seed, info.duration, info.disks), ('18446744073709551615', 30.0, 100))
 

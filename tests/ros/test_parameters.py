@@ -32,14 +32,14 @@ BAD = dict(
     interval=[0, 0.0, -1, 2e12, 'never', '', NAN, INFINITY, True],
     accuracy=[0, 0.9e-12, 1.1e-2, 'x', NAN, INFINITY],
     report_interval=[0, -1, 2e12, 'x', NAN, INFINITY],
-    observables=[['modes'], ['steps'], ['lp_phases'], ['fields'], ['hydro'], ['covariant'],
-                 ['spectrum', 'modes'], ['spectra'], [''], 'spectrum', 5, [1], True],
+    observables=[['covariant'], ['modes', 'covariant'], ['run_info'], ['cost'], ['spectra'], [''], 'spectrum', 5, [1], True],
     threads=[-1, 1025, 1.0, '2'],
     wait_for_subscribers=[['nothing'], ['spectrum', ''], 'spectrum', 5, [1]],
     pace=[-1, 2e12, 'x', NAN, INFINITY],
-    max_wave_number=[3.0, 'x', [1]],
-    max_node=[2],
-    field_indices=['steps', [1, 2]],
+    max_wave_number=[-1, 1.1, 2.7, 2e12, 'x', '', [1], NAN, INFINITY, True],
+    max_node=[-1, 3, 1000001, 1.0, '2', '', [2], False],
+    field_indices=['', 'all', 'Steps', 5, 1.0, [], ['1'], [1.0], [1, 'steps'], [True], [[1]], [0], [-1],
+                   [38], [1, 2, 1000000]],
     checkpoint=['file'],
     checkpoint_interval=[60.0],
     resume=['file', True],
@@ -54,6 +54,16 @@ BAD_TOGETHER = [
     ('density', dict(disks=2, density=1.01)),
     ('exponents', dict(disks=5, exponents=21)),
     ('observables', dict(exponents='none', observables=['spectrum'])),
+    ('observables', dict(exponents='none', observables=['state', 'modes'])),
+    ('observables', dict(exponents='none', observables=['hydro'])),
+    ('max_node', dict(max_node=1, max_wave_number=1.5)),
+    ('max_node', dict(max_node=3, disks=20, aspect=0.9)),
+    ('max_node', dict(max_node=1, observables=['spectrum', 'state'])),
+    ('max_node', dict(max_node=1, exponents='none')),
+    ('max_wave_number', dict(max_wave_number=1.5, observables=[])),
+    ('field_indices', dict(field_indices=[1], observables=['modes', 'steps'])),
+    ('field_indices', dict(field_indices=[1], exponents='none')),
+    ('field_indices', dict(field_indices=[3], exponents=2)),
     ('wait_for_subscribers', dict(observables=['state'], wait_for_subscribers=['spectrum'])),
     ('wait_for_subscribers', dict(exponents='none', wait_for_subscribers=['spectrum'])),
 ]
@@ -74,8 +84,15 @@ GOOD = [
     (dict(interval='auto'), dict(interval=0.0)),
     (dict(interval=0.25, threads=1), dict(interval=0.25, threads=1)),
     (dict(boundary_x='reflecting'), dict(boundary_x='reflecting', zero_exponents=4)),
-    (dict(max_wave_number=0, max_node='', field_indices='', checkpoint='', checkpoint_interval=0.0,
-          resume=False), dict(scene='paper_periodic')),
+    (dict(max_node=1), dict(max_node=1, wave_nx=(1, 0, 1), wave_ny=(0, 1, 1))),
+    (dict(max_wave_number='1.2'), dict(max_wave_number=1.2, wave_nx=(1, 0), wave_ny=(0, 1))),
+    (dict(max_wave_number=0, max_node=0, observables=['spectrum']),
+     dict(max_wave_number=0.0, max_node=0, wave_nx=(), wave_ny=())),
+    (dict(field_indices='steps'), dict(field_indices='steps')),
+    (dict(field_indices='steps', exponents='none'), dict(field_indices='steps', wave_nx=())),
+    (dict(field_indices=[37, 1]), dict(field_indices='[37, 1]')),
+    (dict(observables=['hydro', 'steps']), dict(observables=['steps', 'hydro'])),
+    (dict(checkpoint='', checkpoint_interval=0.0, resume=False), dict(scene='paper_periodic')),
 ]
 
 
@@ -141,7 +158,9 @@ class Parameters(unittest.TestCase):
                     boundary_x='periodic', boundary_y='periodic', exponents='positive',
                     vectors=1557, zero_exponents=6, duration=0.0, target_std_error=0.0,
                     interval=0.0, accuracy=1e-8, report_interval=1.0, pace=0.0,
-                    observables=['spectrum', 'state'])
+                    observables=['spectrum', 'modes', 'steps', 'lp_phases', 'fields', 'state'],
+                    max_node=0, max_wave_number=0.0, field_indices='steps',
+                    wave_nx=(1, 0, 1, 2, 0, 2, 1, 2), wave_ny=(0, 1, 1, 0, 2, 1, 2, 2))
         for field, value in want.items():
             self.assertEqual(getattr(info, field), value)
 

@@ -45,6 +45,7 @@ template <class View, class Message> void expect_same(const View &view, const Me
 TEST(views, run_info)
 {
     const char *const observables[] = {"spectrum", "state"};
+    const uint32_t nodes[] = {1, 0, 4294967295};
     const hdr_run_info view = {header,
                                "id",
                                "0.1.0",
@@ -68,6 +69,11 @@ TEST(views, run_info)
                                6,
                                7,
                                {observables, 2},
+                               0.25,
+                               9,
+                               {nodes, 3},
+                               {nodes + 1, 2},
+                               "[1, 5]",
                                8.5,
                                2,
                                1,
@@ -98,6 +104,11 @@ TEST(views, run_info)
     message.accuracy = 6;
     message.report_interval = 7;
     message.observables = {"spectrum", "state"};
+    message.max_wave_number = 0.25;
+    message.max_node = 9;
+    message.wave_nx = {1, 0, 4294967295};
+    message.wave_ny = {0, 4294967295};
+    message.field_indices = "[1, 5]";
     message.pace = 8.5;
     message.threads = 2;
     message.blas_threads = 1;
@@ -129,6 +140,185 @@ TEST(views, spectrum)
     expect_same(view, message);
 }
 
+TEST(views, modes)
+{
+    const hdr_mode modes[] = {{1, 1.5, HDR_MODE_NONE, 0, 0, 0, 0, 0, 0, 2, 3, 4, -1},
+                              {2, -1.5, HDR_MODE_LP, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}};
+    hdlyap::Modes message;
+    fill_header(message);
+    message.run_id = "id";
+    message.sim_time = 1.5;
+    message.averaged_time = 2.5;
+    message.samples = 3;
+    message.modes.resize(2);
+    message.modes[0].index = 1;
+    message.modes[0].exponent = 1.5;
+    message.modes[0].null_x = 2;
+    message.modes[0].null_y = 3;
+    message.modes[0].null_p = 4;
+    message.modes[0].step = -1;
+    hdlyap::Mode &lp = message.modes[1];
+    lp.index = 2;
+    lp.exponent = -1.5;
+    lp.kind = hdlyap::Mode::LP;
+    lp.nx = 1;
+    lp.ny = 2;
+    lp.wave_number = 3;
+    lp.weight = 4;
+    lp.weight_l = 5;
+    lp.weight_p = 6;
+    lp.null_x = 7;
+    lp.null_y = 8;
+    lp.null_p = 9;
+    lp.step = 10;
+    expect_same(hdr_modes{header, "id", 1.5, 2.5, 3, modes, 2}, message);
+    message.modes.clear();
+    expect_same(hdr_modes{header, "id", 1.5, 2.5, 3, nullptr, 0}, message);
+}
+
+TEST(views, steps)
+{
+    const hdr_step step = {HDR_MODE_T, 1, 2, 3.5, true, false, 4, 5, 6, 7.5, -1, 8, 9.5, 10.5};
+    hdlyap::Steps message;
+    fill_header(message);
+    message.run_id = "id";
+    message.sim_time = 1.5;
+    message.averaged_time = 2.5;
+    message.threshold = 0.5;
+    message.steps.resize(1);
+    hdlyap::Step &want = message.steps[0];
+    want.kind = hdlyap::Step::T;
+    want.nx = 1;
+    want.ny = 2;
+    want.wave_number = 3.5;
+    want.conjugate = true;
+    want.resolved = false;
+    want.expected = 4;
+    want.first_index = 5;
+    want.last_index = 6;
+    want.multiplicity = 7.5;
+    want.set = -1;
+    want.members = 8;
+    want.exponent = 9.5;
+    want.std_error = 10.5;
+    message.t_points = 1;
+    message.c_t = 2;
+    message.c_t_error = 3;
+    message.c_t2 = 4;
+    message.c_t2_error = 5;
+    message.l_points = 6;
+    message.c_l = 7;
+    message.c_l_error = 8;
+    message.c_l2 = 9;
+    message.c_l2_error = 10;
+    message.v_phases = 11;
+    message.v = 12;
+    message.v_error = 13;
+    const hdr_fit t = {1, 2, 3, 4, 5}, l = {6, 7, 8, 9, 10};
+    expect_same(hdr_steps{header, "id", 1.5, 2.5, 0.5, &step, 1, t, l, 11, 12, 13}, message);
+    message.steps.clear();
+    expect_same(hdr_steps{header, "id", 1.5, 2.5, 0.5, nullptr, 0, t, l, 11, 12, 13}, message);
+}
+
+TEST(views, lp_phases)
+{
+    const hdr_lp_phase phase = {1, 2, 3, 3, 4, HDR_LP_COARSE, 5, 6, 7, 8, 9, 10, 11};
+    hdlyap::LpPhases message;
+    fill_header(message);
+    message.run_id = "id";
+    message.sim_time = 1.5;
+    message.samples_per_report = 2;
+    message.phases.resize(1);
+    hdlyap::LpPhase &want = message.phases[0];
+    want.step = 1;
+    want.nx = 2;
+    want.ny = 3;
+    want.modulation = hdlyap::LpPhase::SIN_SIN;
+    want.index = 4;
+    want.state = hdlyap::LpPhase::COARSE;
+    want.a = 5;
+    want.b = 6;
+    want.phase = 7;
+    want.omega = 8;
+    want.omega_error = 9;
+    want.velocity = 10;
+    want.tracked_time = 11;
+    expect_same(hdr_lp_phases{header, "id", 1.5, 2, &phase, 1}, message);
+    message.phases.clear();
+    expect_same(hdr_lp_phases{header, "id", 1.5, 2, nullptr, 0}, message);
+}
+
+TEST(views, mode_field)
+{
+    const uint8_t modulation[] = {0, 3};
+    const hdr_doubles one = every(1), even = every(2), odd = every(2, 1), third = every(3);
+    const hdr_mode_field view = {
+        header, "id",  1.5, 2, HDR_MODE_LP,     3,    4,   5.5, 6.5,  even, odd,   even, odd, one,
+        odd,    third, one, 2, {modulation, 2}, even, odd, 7.5, even, odd,  third, one,  odd, even};
+    hdlyap::ModeField message;
+    fill_header(message);
+    message.run_id = "id";
+    message.sim_time = 1.5;
+    message.index = 2;
+    message.kind = hdlyap::Mode::LP;
+    message.nx = 3;
+    message.ny = 4;
+    message.wave_number = 5.5;
+    message.exponent = 6.5;
+    message.x = message.px = copy(even);
+    message.y = message.py = copy(odd);
+    message.dqx = message.dpy = copy(one);
+    message.dqy = copy(odd);
+    message.dpx = copy(third);
+    message.pairs = 2;
+    message.modulation = {0, 3};
+    message.residual_l = copy(even);
+    message.residual_p = copy(odd);
+    message.rotation_distance = 7.5;
+    message.l_x = message.p_over_py = copy(even);
+    message.l_y = message.p_over_px = copy(odd);
+    message.p_x = copy(third);
+    message.p_y = copy(one);
+    expect_same(view, message);
+}
+
+TEST(views, mode_field_without_pairs)
+{
+    hdr_mode_field view = {};
+    view.header = header;
+    view.run_id = "id";
+    view.x = every(2);
+    hdlyap::ModeField message;
+    fill_header(message);
+    message.run_id = "id";
+    message.x = copy(view.x);
+    expect_same(view, message);
+}
+
+TEST(views, hydro)
+{
+    const hdr_hydro_mode response = {1, 2, HDR_MODE_T, 3, 4, 2, 5, 6, 7, 8};
+    hdlyap::Hydro message;
+    fill_header(message);
+    message.run_id = "id";
+    message.sim_time = 1.5;
+    message.responses.resize(1);
+    hdlyap::HydroMode &want = message.responses[0];
+    want.step = 1;
+    want.index = 2;
+    want.kind = hdlyap::Mode::T;
+    want.nx = 3;
+    want.ny = 4;
+    want.modulation = hdlyap::LpPhase::COS_SIN;
+    want.density = 5;
+    want.along = 6;
+    want.across = 7;
+    want.energy = 8;
+    expect_same(hdr_hydro{header, "id", 1.5, &response, 1}, message);
+    message.responses.clear();
+    expect_same(hdr_hydro{header, "id", 1.5, nullptr, 0}, message);
+}
+
 TEST(views, state)
 {
     const hdr_state view = {header, "", 1.5, 3, every(2, 0), every(2, 1), every(2, 0), every(2, 1)};
@@ -157,7 +347,7 @@ TEST(views, state_without_disks)
 
 TEST(views, cost)
 {
-    const hdr_cost view = {header, "id", 1.5, HDR_AVERAGING, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12,
+    const hdr_cost view = {header, "id", 1.5, HDR_AVERAGING, 2, 3, 4, 5, 6, 16, 7, 8, 9, 10, 11, 12,
                            13,     14,   15,  0.5,           -1};
     hdlyap::Cost message;
     fill_header(message);
@@ -169,6 +359,7 @@ TEST(views, cost)
     message.replay_seconds = 4;
     message.ortho_seconds = 5;
     message.spectrum_seconds = 6;
+    message.modes_seconds = 16;
     message.publish_seconds = 7;
     message.events_per_second = 8;
     message.interval = 9;

@@ -33,7 +33,8 @@ typedef struct hd_dispersion {
     double c2, c2_error; /**< [sigma^2/time unit] */
 } hd_dispersion;
 
-/** A set is resolved if of each of its steps at least this part of the expected multiplicity is found. */
+/** A set is resolved if of each of its steps at least this part of the expected multiplicity is found, beyond
+ *  what random vectors would show. */
 #define HD_STEP_THRESHOLD 0.5
 
 /** Larger sets are not resolved. */
@@ -61,7 +62,7 @@ const hd_modes *hd_steps_modes(const hd_steps *steps); /**< as at creation */
 const hd_step *hd_steps_step(const hd_steps *steps, int index);
 
 /** Step to which a vector belongs: the one of its set with the largest average weight; -1 if none: outside all
- *  sets, or with less than HD_STEP_THRESHOLD of it in its set. */
+ *  sets, or with less than that part of it in its set. */
 int hd_steps_of_vector(const hd_steps *steps, int col);
 
 /** kind: HD_MODE_T or HD_MODE_LP. */

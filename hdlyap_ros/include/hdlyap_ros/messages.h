@@ -3,6 +3,7 @@
 #ifndef HDLYAP_ROS_MESSAGES_H
 #define HDLYAP_ROS_MESSAGES_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "hdlyap_ros/node.h"
@@ -17,6 +18,18 @@ typedef struct hdr_doubles {
     uint32_t count;
     uint32_t stride; /**< in doubles, >= 1 */
 } hdr_doubles;
+
+/** uint32[] */
+typedef struct hdr_uints {
+    const uint32_t *data;
+    uint32_t count;
+} hdr_uints;
+
+/** uint8[] */
+typedef struct hdr_bytes {
+    const uint8_t *data;
+    uint32_t count;
+} hdr_bytes;
 
 /** string[] */
 typedef struct hdr_strings {
@@ -41,6 +54,10 @@ typedef struct hdr_run_info {
     double equilibration, warmup, duration, target_std_error;
     double interval, accuracy, report_interval;
     hdr_strings observables;
+    double max_wave_number;
+    uint32_t max_node;
+    hdr_uints wave_nx, wave_ny;
+    const char *field_indices;
     double pace;
     uint32_t threads, blas_threads;
     const char *blas_library, *blas_kernel, *blas_threading;
@@ -56,6 +73,118 @@ typedef struct hdr_spectrum {
     uint32_t first_index;
     hdr_doubles exponents, std_errors, local_exponents, cos_theta, dp_dq_ratio;
 } hdr_spectrum;
+
+/** kind of a vector, of a step */
+enum { HDR_MODE_NONE, HDR_MODE_ZERO, HDR_MODE_T, HDR_MODE_LP };
+
+/** hdlyap/Mode */
+typedef struct hdr_mode {
+    uint32_t index;
+    double exponent;
+    uint8_t kind;
+    uint32_t nx, ny;
+    double wave_number, weight, weight_l, weight_p, null_x, null_y, null_p;
+    int32_t step;
+} hdr_mode;
+
+/** hdlyap/Modes */
+typedef struct hdr_modes {
+    hdr_header header;
+    const char *run_id;
+    double sim_time, averaged_time;
+    uint32_t samples;
+    const hdr_mode *modes;
+    uint32_t count;
+} hdr_modes;
+
+/** hdlyap/Step */
+typedef struct hdr_step {
+    uint8_t kind;
+    uint32_t nx, ny;
+    double wave_number;
+    bool conjugate, resolved;
+    uint32_t expected, first_index, last_index;
+    double multiplicity;
+    int32_t set;
+    uint32_t members;
+    double exponent, std_error;
+} hdr_step;
+
+/** One of the two fits of hdlyap/Steps. */
+typedef struct hdr_fit {
+    uint32_t points;
+    double c, c_error, c2, c2_error;
+} hdr_fit;
+
+/** hdlyap/Steps */
+typedef struct hdr_steps {
+    hdr_header header;
+    const char *run_id;
+    double sim_time, averaged_time, threshold;
+    const hdr_step *steps;
+    uint32_t count;
+    hdr_fit t, l;
+    uint32_t v_phases;
+    double v, v_error;
+} hdr_steps;
+
+/** hdr_lp_phase.state */
+enum { HDR_LP_UNRESOLVED, HDR_LP_WEAK, HDR_LP_COARSE, HDR_LP_TRACKED };
+
+/** hdlyap/LpPhase */
+typedef struct hdr_lp_phase {
+    uint32_t step, nx, ny;
+    uint8_t modulation;
+    uint32_t index;
+    uint8_t state;
+    double a, b, phase, omega, omega_error, velocity, tracked_time;
+} hdr_lp_phase;
+
+/** hdlyap/LpPhases */
+typedef struct hdr_lp_phases {
+    hdr_header header;
+    const char *run_id;
+    double sim_time;
+    uint32_t samples_per_report;
+    const hdr_lp_phase *phases;
+    uint32_t count;
+} hdr_lp_phases;
+
+/** hdlyap/ModeField */
+typedef struct hdr_mode_field {
+    hdr_header header;
+    const char *run_id;
+    double sim_time;
+    uint32_t index;
+    uint8_t kind;
+    uint32_t nx, ny;
+    double wave_number, exponent;
+    hdr_doubles x, y, px, py;
+    hdr_doubles dqx, dqy, dpx, dpy;
+    uint32_t pairs;
+    hdr_bytes modulation;
+    hdr_doubles residual_l, residual_p;
+    double rotation_distance;
+    hdr_doubles l_x, l_y, p_x, p_y, p_over_px, p_over_py;
+} hdr_mode_field;
+
+/** hdlyap/HydroMode */
+typedef struct hdr_hydro_mode {
+    uint32_t step, index;
+    uint8_t kind;
+    uint32_t nx, ny;
+    uint8_t modulation;
+    double density, along, across, energy;
+} hdr_hydro_mode;
+
+/** hdlyap/Hydro */
+typedef struct hdr_hydro {
+    hdr_header header;
+    const char *run_id;
+    double sim_time;
+    const hdr_hydro_mode *responses;
+    uint32_t count;
+} hdr_hydro;
 
 /** hdlyap/State */
 typedef struct hdr_state {
@@ -75,7 +204,7 @@ typedef struct hdr_cost {
     double sim_time;
     uint8_t phase;
     double wall_seconds, events_seconds, replay_seconds, ortho_seconds, spectrum_seconds;
-    double publish_seconds, events_per_second;
+    double modes_seconds, publish_seconds, events_per_second;
     double interval, condition, orthogonality_defect, error_bound;
     uint64_t orthonormalisations, second_passes, repairs;
     double progress, remaining_seconds;

@@ -33,6 +33,8 @@ hdr_status hdr_param_double(const hdr_params *params, const char *name, double *
 hdr_status hdr_param_string(const hdr_params *params, const char *name, const char **out);
 hdr_status hdr_param_string_list(const hdr_params *params, const char *name,
                                  const char *const **out, int *count);
+hdr_status hdr_param_int_list(const hdr_params *params, const char *name, const int **out,
+                              int *count);
 
 #ifdef __cplusplus
 }

@@ -20,6 +20,16 @@ HDR_MUST_CHECK hdr_status hdr_run_info_advertise(hdr_publisher **out, hdr_node *
                                                  const char *topic);
 HDR_MUST_CHECK hdr_status hdr_spectrum_advertise(hdr_publisher **out, hdr_node *node,
                                                  const char *topic, int queue);
+HDR_MUST_CHECK hdr_status hdr_modes_advertise(hdr_publisher **out, hdr_node *node,
+                                              const char *topic, int queue);
+HDR_MUST_CHECK hdr_status hdr_steps_advertise(hdr_publisher **out, hdr_node *node,
+                                              const char *topic, int queue);
+HDR_MUST_CHECK hdr_status hdr_lp_phases_advertise(hdr_publisher **out, hdr_node *node,
+                                                  const char *topic, int queue);
+HDR_MUST_CHECK hdr_status hdr_mode_field_advertise(hdr_publisher **out, hdr_node *node,
+                                                   const char *topic, int queue);
+HDR_MUST_CHECK hdr_status hdr_hydro_advertise(hdr_publisher **out, hdr_node *node,
+                                              const char *topic, int queue);
 HDR_MUST_CHECK hdr_status hdr_state_advertise(hdr_publisher **out, hdr_node *node,
                                               const char *topic, int queue);
 HDR_MUST_CHECK hdr_status hdr_cost_advertise(hdr_publisher **out, hdr_node *node, const char *topic,
@@ -35,6 +45,13 @@ int hdr_publisher_subscribers(const hdr_publisher *publisher);
 
 HDR_MUST_CHECK hdr_status hdr_run_info_publish(hdr_publisher *publisher, const hdr_run_info *view);
 HDR_MUST_CHECK hdr_status hdr_spectrum_publish(hdr_publisher *publisher, const hdr_spectrum *view);
+HDR_MUST_CHECK hdr_status hdr_modes_publish(hdr_publisher *publisher, const hdr_modes *view);
+HDR_MUST_CHECK hdr_status hdr_steps_publish(hdr_publisher *publisher, const hdr_steps *view);
+HDR_MUST_CHECK hdr_status hdr_lp_phases_publish(hdr_publisher *publisher,
+                                                const hdr_lp_phases *view);
+HDR_MUST_CHECK hdr_status hdr_mode_field_publish(hdr_publisher *publisher,
+                                                 const hdr_mode_field *view);
+HDR_MUST_CHECK hdr_status hdr_hydro_publish(hdr_publisher *publisher, const hdr_hydro *view);
 HDR_MUST_CHECK hdr_status hdr_state_publish(hdr_publisher *publisher, const hdr_state *view);
 HDR_MUST_CHECK hdr_status hdr_cost_publish(hdr_publisher *publisher, const hdr_cost *view);
 HDR_MUST_CHECK hdr_status hdr_diagnostic_publish(hdr_publisher *publisher,

@@ -10,7 +10,7 @@ static const double period = 1.0;
 /** How long a repair is worth a warning [s]. */
 static const double warn_seconds = 10.0;
 
-enum { KEYS = 9, TEXT_SIZE = 32 };
+enum { KEYS = 10, TEXT_SIZE = 32 };
 
 /** Keys and the texts that they point to. */
 typedef struct key_list {
@@ -76,6 +76,8 @@ static void fill_keys(diagnostics *d, key_list *list, const worker_state *state,
     add_number(list, "repairs", (double)cost->repairs);
     add_number(list, "collisions per second", collision_rate(d, &state->last, now));
     add_text(list, "blas kernel", d->blas_kernel);
+    if (state->last.resolved_steps >= 0)
+        add_number(list, "resolved steps", state->last.resolved_steps);
 }
 
 static uint8_t level_of(diagnostics *d, const worker_state *state, double now)

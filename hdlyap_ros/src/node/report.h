@@ -13,6 +13,7 @@ typedef struct progress {
     double time;         /**< simulated time since the start */
     uint64_t collisions; /**< pairs, since the start */
     hd_cost cost;
+    int resolved_steps; /**< -1 while nobody looks at them */
 } progress;
 
 progress progress_of(const hd_run *run);
@@ -33,7 +34,11 @@ bool report_awaited_here(const report *rep, unsigned awaited);
 /** Publishes everything needed to repeat the run; latched. */
 HDR_MUST_CHECK hdr_status report_run_info(report *rep, const hd_run *run);
 
-/** Publishes spectrum, state and cost of a run that has a report due.
+/** Stages of the core (HD_OBSERVE_*) that somebody listens to now: of the modes, what the next step does
+ *  not measure is not published after it. */
+unsigned report_demand(report *rep);
+
+/** Publishes what has a subscriber of a run that has a report due.
  *  HD_NOT_FINITE, and nothing of the message concerned is published, if a number of it is not. */
 HD_MUST_CHECK hd_status report_publish(report *rep, const hd_run *run);
 

@@ -10,7 +10,13 @@
 
 #include "topic.h"
 
-enum { ALL_TOPICS = (1u << TOPICS) - 1 };
+enum {
+    OF_EXPONENTS = 1u << TOPIC_SPECTRUM | TOPICS_OF_MODES,
+    ALL_PUBLISHED = 1u << TOPICS /**< in a set of topics: whatever the others are */
+};
+
+#define OF_MODES_TEXT "modes, steps, lp_phases, fields, hydro"
+#define OBSERVABLES_TEXT "spectrum, " OF_MODES_TEXT ", state"
 
 /** One parameter on its way in. */
 typedef struct reader {
@@ -26,7 +32,7 @@ typedef bool (*read_function)(const reader *r, void *field);
 
 static bool refuse(const reader *r, const char *allowed)
 {
-    snprintf(r->message, r->size, "%s = %s: must be %s", r->name,
+    snprintf(r->message, r->size, "%s = %.150s: must be %s", r->name,
              hdr_param_text(r->params, r->name), allowed);
     return false;
 }
@@ -134,9 +140,8 @@ static bool read_topics(const reader *r, unsigned *set, unsigned allowed, const 
 
 static bool read_observables(const reader *r, void *field)
 {
-    return read_topics(r, field, topic_bit(TOPIC_SPECTRUM) | topic_bit(TOPIC_STATE),
-                       "a list out of spectrum, state (this version computes no modes, steps, "
-                       "lp_phases, fields, hydro or covariant)");
+    return read_topics(r, field, TOPICS_OBSERVABLE,
+                       "a list out of " OBSERVABLES_TEXT " (this version computes no covariant)");
 }
 
 static bool read_awaited(const reader *r, void *field)
@@ -144,9 +149,24 @@ static bool read_awaited(const reader *r, void *field)
     unsigned *awaited = field;
     const char *text = NULL;
     if (hdr_param_string(r->params, r->name, &text) == HDR_OK && strcmp(text, "all") == 0)
-        return *awaited = ALL_TOPICS, true;
-    return read_topics(r, awaited, ALL_TOPICS,
-                       "all or a list out of run_info, spectrum, state, cost");
+        return *awaited = ALL_PUBLISHED, true;
+    return read_topics(r, awaited, TOPICS_OBSERVABLE | TOPICS_ALWAYS,
+                       "all or a list out of run_info, " OBSERVABLES_TEXT ", cost");
+}
+
+/** The range is known only with the scene. */
+static bool read_field_indices(const reader *r, void *field)
+{
+    field_choice *choice = field;
+    const char *text = NULL;
+    if (hdr_param_string(r->params, r->name, &text) == HDR_OK && strcmp(text, "steps") == 0)
+        return true;
+    const hdr_status status = hdr_param_int_list(r->params, r->name, &choice->index,
+                                                 &choice->count);
+    if (status == HDR_MISSING) return true;
+    choice->text = hdr_param_text(r->params, r->name);
+    return (status == HDR_OK && choice->count > 0) ||
+           refuse(r, "steps or a list of integers from 1");
 }
 
 /** Neutral: "", 0 or false. */
@@ -165,7 +185,6 @@ static bool read_neutral(const reader *r, void *field)
     return refuse(r, allowed);
 }
 
-#define NO_MODES "computes no modes"
 #define NO_FILES "writes no checkpoints"
 
 static const struct parameter {
@@ -189,13 +208,13 @@ static const struct parameter {
     {"interval", read_interval, offsetof(settings, def.interval), NULL},
     {"accuracy", read_double, offsetof(settings, def.accuracy), NULL},
     {"report_interval", read_double, offsetof(settings, def.report_interval), NULL},
+    {"max_wave_number", read_double, offsetof(settings, def.max_wave_number), NULL},
+    {"max_node", read_int, offsetof(settings, def.max_node), NULL},
+    {"field_indices", read_field_indices, offsetof(settings, fields), NULL},
     {"observables", read_observables, offsetof(settings, observables), NULL},
     {"threads", read_int, offsetof(settings, def.threads), NULL},
     {"wait_for_subscribers", read_awaited, offsetof(settings, awaited), NULL},
     {"pace", read_double, offsetof(settings, pace), NULL},
-    {"max_wave_number", read_neutral, 0, NO_MODES},
-    {"max_node", read_neutral, 0, NO_MODES},
-    {"field_indices", read_neutral, 0, NO_MODES},
     {"checkpoint", read_neutral, 0, NO_FILES},
     {"checkpoint_interval", read_neutral, 0, NO_FILES},
     {"resume", read_neutral, 0, NO_FILES},
@@ -230,24 +249,60 @@ static bool read_all(settings *out, reader *r)
     return true;
 }
 
-/** What cannot exist together, beyond the scene itself. */
-static bool check_together(settings *out, reader *r)
+static bool check_pace(const settings *set, reader *r)
 {
-    const unsigned spectrum = topic_bit(TOPIC_SPECTRUM);
     const double pace_max = 1e12;
     r->name = "pace";
-    if (!(out->pace >= 0.0 && out->pace <= pace_max))
-        return refuse(r, "from 0 (as fast as it goes) to 1e12");
+    return (set->pace >= 0.0 && set->pace <= pace_max) ||
+           refuse(r, "from 0 (as fast as it goes) to 1e12");
+}
+
+/** Without exponents the defaults that need them go silently. */
+static bool check_observables(settings *set, reader *r)
+{
     r->name = "observables";
-    if (out->def.exponents == HD_EXPONENTS_NONE && (out->observables & spectrum)) {
+    if (set->def.exponents == HD_EXPONENTS_NONE && (set->observables & OF_EXPONENTS)) {
         if (*hdr_param_text(r->params, r->name))
-            return refuse(r, "without spectrum when exponents = none");
-        out->observables &= ~spectrum;
+            return refuse(r, "[state] or [] when exponents = none");
+        set->observables &= ~(unsigned)OF_EXPONENTS;
     }
+    set->def.observe = topic_stages(set->observables);
+    return true;
+}
+
+static bool check_awaited(settings *set, reader *r)
+{
+    const unsigned published = set->observables | TOPICS_ALWAYS;
     r->name = "wait_for_subscribers";
-    const unsigned published = out->observables | topic_bit(TOPIC_RUN_INFO) | topic_bit(TOPIC_COST);
-    if (out->awaited == ALL_TOPICS) out->awaited = published;
-    return !(out->awaited & ~published) || refuse(r, "out of run_info, cost and the observables");
+    if (set->awaited == ALL_PUBLISHED) set->awaited = published;
+    return !(set->awaited & ~published) || refuse(r, "out of run_info, cost and the observables");
+}
+
+/** What is asked for of modes that nobody observes. */
+static bool check_modes(const settings *set, reader *r)
+{
+    const char *const allowed = "0 without an observable out of " OF_MODES_TEXT;
+    const bool observed = set->observables & TOPICS_OF_MODES;
+    r->name = "max_wave_number";
+    if (set->def.max_wave_number != 0.0 && !observed) return refuse(r, allowed);
+    r->name = "max_node";
+    if (set->def.max_node != 0 && !observed) return refuse(r, allowed);
+    r->name = "field_indices";
+    return set->fields.count == 0 || (set->observables & topic_bit(TOPIC_FIELDS)) ||
+           refuse(r, "steps unless fields is an observable");
+}
+
+/** Of a scene that is right. */
+static bool check_field_indices(const settings *set, reader *r)
+{
+    const int vectors = hd_scene_vectors(&set->def);
+    char allowed[80];
+    r->name = "field_indices";
+    snprintf(allowed, sizeof allowed,
+             "steps or a list of integers from 1 to %d, the vectors carried", vectors);
+    for (int k = 0; k < set->fields.count; k++)
+        if (set->fields.index[k] < 1 || set->fields.index[k] > vectors) return refuse(r, allowed);
+    return true;
 }
 
 static void write_texts(settings *out)
@@ -266,9 +321,13 @@ bool settings_read(settings *out, const hdr_params *params, char *message, size_
     *out = (settings){
         .def = hd_scene_def_default(),
         .scene = "paper_periodic",
-        .observables = topic_bit(TOPIC_SPECTRUM) | topic_bit(TOPIC_STATE),
+        .observables = TOPICS_OBSERVABLE & ~topic_bit(TOPIC_HYDRO),
+        .fields = {.text = "steps"},
     };
-    if (!check_names(&r) || !read_all(out, &r) || !check_together(out, &r)) return false;
+    if (!check_names(&r) || !read_all(out, &r)) return false;
+    if (!check_pace(out, &r) || !check_observables(out, &r) || !check_awaited(out, &r))
+        return false;
+    if (!check_modes(out, &r)) return false;
     write_texts(out);
-    return hd_scene_check(&out->def, message, size) == HD_OK;
+    return hd_scene_check(&out->def, message, size) == HD_OK && check_field_indices(out, &r);
 }

@@ -2,7 +2,26 @@
 #ifndef HDLYAP_TOPIC_H
 #define HDLYAP_TOPIC_H
 
-typedef enum topic { TOPIC_RUN_INFO, TOPIC_SPECTRUM, TOPIC_STATE, TOPIC_COST, TOPICS } topic;
+typedef enum topic {
+    TOPIC_RUN_INFO,
+    TOPIC_SPECTRUM,
+    TOPIC_MODES,
+    TOPIC_STEPS,
+    TOPIC_LP_PHASES,
+    TOPIC_FIELDS,
+    TOPIC_HYDRO,
+    TOPIC_STATE,
+    TOPIC_COST,
+    TOPICS
+} topic;
+
+/** Sets of topics: always there; whatever else can be asked for; what is made of the modes. */
+enum {
+    TOPICS_ALWAYS = 1u << TOPIC_RUN_INFO | 1u << TOPIC_COST,
+    TOPICS_OBSERVABLE = ((1u << TOPICS) - 1) ^ TOPICS_ALWAYS,
+    TOPICS_OF_MODES = 1u << TOPIC_MODES | 1u << TOPIC_STEPS | 1u << TOPIC_LP_PHASES |
+                      1u << TOPIC_FIELDS | 1u << TOPIC_HYDRO
+};
 
 /** As in `observables` and `wait_for_subscribers`; the topic is "~" and this. */
 const char *topic_name(topic t);
@@ -12,5 +31,8 @@ static inline unsigned topic_bit(topic t) { return 1u << t; }
 
 /** The set's bit for a name; 0 if there is no such topic. */
 unsigned topic_bit_of(const char *name);
+
+/** Stages of the core (HD_OBSERVE_*) behind a set of topics; what these need comes by itself. */
+unsigned topic_stages(unsigned set);
 
 #endif

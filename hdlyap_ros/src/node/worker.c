@@ -93,6 +93,7 @@ static void keep_pace(worker *w, double begin, double simulated)
 static hd_status step(worker *w)
 {
     const double begin = clock_seconds(), from = hd_run_time(w->run);
+    hd_run_observe(w->run, report_demand(w->rep));
     hd_status status = hd_run_step(w->run);
     if (status != HD_OK) return status;
     if (hd_run_report_due(w->run)) status = publish(w);

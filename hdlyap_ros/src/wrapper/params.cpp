@@ -17,31 +17,38 @@ namespace
 {
 struct entry {
     XmlRpcValue value;
-    std::string text;                 /**< of a string its contents, else as XmlRpc writes it */
+    std::string text;                 /**< of a string its contents, of a list as YAML has it */
     std::vector<std::string> strings; /**< of a list of strings */
     std::vector<const char *> list;   /**< pointers into strings */
+    std::vector<int> integers;        /**< of a list of integers */
 };
 
-bool is_string_list(XmlRpcValue &value)
+bool is_list(XmlRpcValue &value, XmlRpcValue::Type type)
 {
     if (value.getType() != XmlRpcValue::TypeArray) return false;
     for (int k = 0; k < value.size(); k++)
-        if (value[k].getType() != XmlRpcValue::TypeString) return false;
+        if (value[k].getType() != type) return false;
     return true;
+}
+
+std::string text_of(XmlRpcValue &value)
+{
+    std::ostringstream text;
+    if (value.getType() == XmlRpcValue::TypeString) return value;
+    if (value.getType() != XmlRpcValue::TypeArray) return value.write(text), text.str();
+    for (int k = 0; k < value.size(); k++) text << (k ? ", " : "") << text_of(value[k]);
+    return "[" + text.str() + "]";
 }
 
 entry make_entry(XmlRpcValue &value)
 {
     entry made;
     made.value = value;
-    std::ostringstream text;
-    if (value.getType() == XmlRpcValue::TypeString)
-        text << static_cast<std::string &>(value);
-    else
-        value.write(text);
-    made.text = text.str();
-    for (int k = 0; is_string_list(value) && k < value.size(); k++)
-        made.strings.push_back(value[k]);
+    made.text = text_of(value);
+    if (is_list(value, XmlRpcValue::TypeString))
+        for (int k = 0; k < value.size(); k++) made.strings.push_back(value[k]);
+    if (is_list(value, XmlRpcValue::TypeInt))
+        for (int k = 0; k < value.size(); k++) made.integers.push_back(value[k]);
     return made;
 }
 
@@ -75,6 +82,19 @@ hdr_status read(const hdr_params *params, const char *name, XmlRpcValue::Type ty
     if (!found) return HDR_MISSING;
     if (found->value.getType() != type) return HDR_WRONG_TYPE;
     *out = static_cast<T &>(const_cast<XmlRpcValue &>(found->value));
+    return HDR_OK;
+}
+
+/** The member that a list of items of that type is kept in. */
+template <class Item> hdr_status read_list(const hdr_params *params, const char *name,
+                                           XmlRpcValue::Type type, std::vector<Item> entry::*list,
+                                           const Item **out, int *count)
+{
+    const entry *found = find(params, name);
+    if (!found) return HDR_MISSING;
+    if (!is_list(const_cast<XmlRpcValue &>(found->value), type)) return HDR_WRONG_TYPE;
+    *out = (found->*list).data();
+    *count = static_cast<int>((found->*list).size());
     return HDR_OK;
 }
 
@@ -154,10 +174,11 @@ hdr_status hdr_param_string(const hdr_params *params, const char *name, const ch
 hdr_status hdr_param_string_list(const hdr_params *params, const char *name,
                                  const char *const **out, int *count)
 {
-    const entry *found = find(params, name);
-    if (!found) return HDR_MISSING;
-    if (!is_string_list(const_cast<XmlRpcValue &>(found->value))) return HDR_WRONG_TYPE;
-    *out = found->list.data();
-    *count = static_cast<int>(found->list.size());
-    return HDR_OK;
+    return read_list(params, name, XmlRpcValue::TypeString, &entry::list, out, count);
+}
+
+hdr_status hdr_param_int_list(const hdr_params *params, const char *name, const int **out,
+                              int *count)
+{
+    return read_list(params, name, XmlRpcValue::TypeInt, &entry::integers, out, count);
 }

@@ -64,26 +64,30 @@ hdr_status hdr_run_info_advertise(hdr_publisher **out, hdr_node *node, const cha
     return advertise<hdr_run_info>(out, node, topic, 1, true);
 }
 
-hdr_status hdr_spectrum_advertise(hdr_publisher **out, hdr_node *node, const char *topic, int queue)
-{
-    return advertise<hdr_spectrum>(out, node, topic, queue, false);
-}
-
-hdr_status hdr_state_advertise(hdr_publisher **out, hdr_node *node, const char *topic, int queue)
-{
-    return advertise<hdr_state>(out, node, topic, queue, false);
-}
-
-hdr_status hdr_cost_advertise(hdr_publisher **out, hdr_node *node, const char *topic, int queue)
-{
-    return advertise<hdr_cost>(out, node, topic, queue, false);
-}
-
-hdr_status hdr_diagnostic_advertise(hdr_publisher **out, hdr_node *node, const char *topic,
-                                    int queue)
-{
-    return advertise<hdr_diagnostic>(out, node, topic, queue, false);
-}
+/* One function per message, so that C checks the type of the view. */
+#define HDR_PUBLISH(view)                                                                          \
+    hdr_status view##_publish(hdr_publisher *publisher, const view *message)                       \
+    {                                                                                              \
+        return publish(publisher, message);                                                        \
+    }
+#define HDR_TOPIC(view)                                                                            \
+    hdr_status view##_advertise(hdr_publisher **out, hdr_node *node, const char *topic, int queue) \
+    {                                                                                              \
+        return advertise<view>(out, node, topic, queue, false);                                    \
+    }                                                                                              \
+    HDR_PUBLISH(view)
+HDR_PUBLISH(hdr_run_info)
+HDR_TOPIC(hdr_spectrum)
+HDR_TOPIC(hdr_modes)
+HDR_TOPIC(hdr_steps)
+HDR_TOPIC(hdr_lp_phases)
+HDR_TOPIC(hdr_mode_field)
+HDR_TOPIC(hdr_hydro)
+HDR_TOPIC(hdr_state)
+HDR_TOPIC(hdr_cost)
+HDR_TOPIC(hdr_diagnostic)
+#undef HDR_TOPIC
+#undef HDR_PUBLISH
 
 int hdr_publisher_subscribers(const hdr_publisher *publisher)
 {
@@ -91,29 +95,4 @@ int hdr_publisher_subscribers(const hdr_publisher *publisher)
     const hdr_status status = hdr_guard(
         [&] { subscribers = static_cast<int>(publisher->publisher.getNumSubscribers()); });
     return status == HDR_OK ? subscribers : 0;
-}
-
-hdr_status hdr_run_info_publish(hdr_publisher *publisher, const hdr_run_info *view)
-{
-    return publish(publisher, view);
-}
-
-hdr_status hdr_spectrum_publish(hdr_publisher *publisher, const hdr_spectrum *view)
-{
-    return publish(publisher, view);
-}
-
-hdr_status hdr_state_publish(hdr_publisher *publisher, const hdr_state *view)
-{
-    return publish(publisher, view);
-}
-
-hdr_status hdr_cost_publish(hdr_publisher *publisher, const hdr_cost *view)
-{
-    return publish(publisher, view);
-}
-
-hdr_status hdr_diagnostic_publish(hdr_publisher *publisher, const hdr_diagnostic *view)
-{
-    return publish(publisher, view);
 }

@@ -7,21 +7,30 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <hdlyap/Cost.h>
+#include <hdlyap/Hydro.h>
+#include <hdlyap/LpPhases.h>
+#include <hdlyap/ModeField.h>
+#include <hdlyap/Modes.h>
 #include <hdlyap/RunInfo.h>
 #include <hdlyap/Spectrum.h>
 #include <hdlyap/State.h>
+#include <hdlyap/Steps.h>
 #include <ros/serialization.h>
 
 #include "hdlyap_ros/messages.h"
 
 static_assert(int(HDR_FINISHED) == int(hdlyap::Cost::FINISHED), "phases as in Cost.msg");
+static_assert(int(HDR_MODE_LP) == int(hdlyap::Mode::LP), "kinds as in Mode.msg");
+static_assert(int(HDR_MODE_LP) == int(hdlyap::Step::LP), "kinds as in Step.msg");
+static_assert(int(HDR_LP_TRACKED) == int(hdlyap::LpPhase::TRACKED), "states as in LpPhase.msg");
 static_assert(int(HDR_DIAGNOSTIC_ERROR) == int(diagnostic_msgs::DiagnosticStatus::ERROR),
               "levels as in DiagnosticStatus.msg");
 
 namespace hdlyap_ros
 {
 
-/** The generated message that a view stands for. */
+/** What a view stands for: the generated message, unless it is a part of another one only, and how it is
+ *  written. */
 template <class View> struct message_of;
 
 template <class Stream> void put(Stream &stream, const char *text)
@@ -61,9 +70,45 @@ inline void put(ros::serialization::OStream &stream, const hdr_doubles &array)
 }
 
 template <class Stream> void put(Stream &stream, double value) { stream.next(value); }
+template <class Stream> void put(Stream &stream, bool value) { stream.next(uint8_t(value)); }
 template <class Stream> void put(Stream &stream, uint8_t value) { stream.next(value); }
+template <class Stream> void put(Stream &stream, int32_t value) { stream.next(value); }
 template <class Stream> void put(Stream &stream, uint32_t value) { stream.next(value); }
 template <class Stream> void put(Stream &stream, uint64_t value) { stream.next(value); }
+
+/** An array of parts of a message. */
+template <class Item> struct items {
+    const Item *data;
+    uint32_t count;
+};
+
+template <class Item> items<Item> items_of(const Item *data, uint32_t count)
+{
+    return {data, count};
+}
+
+template <class Stream, class Item> void put(Stream &stream, const items<Item> &list)
+{
+    stream.next(list.count);
+    for (uint32_t k = 0; k < list.count; k++) message_of<Item>::write(stream, list.data[k]);
+}
+
+template <class Stream, class Number>
+void put_numbers(Stream &stream, const Number *data, uint32_t count)
+{
+    stream.next(count);
+    for (uint32_t k = 0; k < count; k++) stream.next(data[k]);
+}
+
+template <class Stream> void put(Stream &stream, const hdr_uints &list)
+{
+    put_numbers(stream, list.data, list.count);
+}
+
+template <class Stream> void put(Stream &stream, const hdr_bytes &list)
+{
+    put_numbers(stream, list.data, list.count);
+}
 
 template <class Stream, class First, class Second, class... Rest>
 void put(Stream &stream, const First &first, const Second &second, const Rest &...rest)
@@ -79,8 +124,9 @@ template <> struct message_of<hdr_run_info> {
         put(s, v.header, v.run_id, v.version, v.scene, v.disks, v.density, v.aspect, v.box_x,
             v.box_y, v.boundary_x, v.boundary_y, v.seed, v.exponents, v.vectors, v.zero_exponents,
             v.equilibration, v.warmup, v.duration, v.target_std_error, v.interval, v.accuracy,
-            v.report_interval, v.observables, v.pace, v.threads, v.blas_threads, v.blas_library,
-            v.blas_kernel, v.blas_threading);
+            v.report_interval, v.observables, v.max_wave_number, v.max_node, v.wave_nx, v.wave_ny,
+            v.field_indices, v.pace, v.threads, v.blas_threads, v.blas_library, v.blas_kernel,
+            v.blas_threading);
     }
 };
 
@@ -91,6 +137,86 @@ template <> struct message_of<hdr_spectrum> {
         put(s, v.header, v.run_id, v.sim_time, v.averaged_time, v.collisions, v.lambda_max,
             v.ks_entropy, v.pairing_error, v.first_index, v.exponents, v.std_errors,
             v.local_exponents, v.cos_theta, v.dp_dq_ratio);
+    }
+};
+
+template <> struct message_of<hdr_mode> {
+    template <class Stream> static void write(Stream &s, const hdr_mode &v)
+    {
+        put(s, v.index, v.exponent, v.kind, v.nx, v.ny, v.wave_number, v.weight, v.weight_l,
+            v.weight_p, v.null_x, v.null_y, v.null_p, v.step);
+    }
+};
+
+template <> struct message_of<hdr_modes> {
+    using type = hdlyap::Modes;
+    template <class Stream> static void write(Stream &s, const hdr_modes &v)
+    {
+        put(s, v.header, v.run_id, v.sim_time, v.averaged_time, v.samples,
+            items_of(v.modes, v.count));
+    }
+};
+
+template <> struct message_of<hdr_step> {
+    template <class Stream> static void write(Stream &s, const hdr_step &v)
+    {
+        put(s, v.kind, v.nx, v.ny, v.wave_number, v.conjugate, v.resolved, v.expected,
+            v.first_index, v.last_index, v.multiplicity, v.set, v.members, v.exponent, v.std_error);
+    }
+};
+
+template <> struct message_of<hdr_steps> {
+    using type = hdlyap::Steps;
+    template <class Stream> static void write(Stream &s, const hdr_steps &v)
+    {
+        put(s, v.header, v.run_id, v.sim_time, v.averaged_time, v.threshold,
+            items_of(v.steps, v.count));
+        for (const hdr_fit &fit : {v.t, v.l})
+            put(s, fit.points, fit.c, fit.c_error, fit.c2, fit.c2_error);
+        put(s, v.v_phases, v.v, v.v_error);
+    }
+};
+
+template <> struct message_of<hdr_lp_phase> {
+    template <class Stream> static void write(Stream &s, const hdr_lp_phase &v)
+    {
+        put(s, v.step, v.nx, v.ny, v.modulation, v.index, v.state, v.a, v.b, v.phase, v.omega,
+            v.omega_error, v.velocity, v.tracked_time);
+    }
+};
+
+template <> struct message_of<hdr_lp_phases> {
+    using type = hdlyap::LpPhases;
+    template <class Stream> static void write(Stream &s, const hdr_lp_phases &v)
+    {
+        put(s, v.header, v.run_id, v.sim_time, v.samples_per_report, items_of(v.phases, v.count));
+    }
+};
+
+template <> struct message_of<hdr_mode_field> {
+    using type = hdlyap::ModeField;
+    template <class Stream> static void write(Stream &s, const hdr_mode_field &v)
+    {
+        put(s, v.header, v.run_id, v.sim_time, v.index, v.kind, v.nx, v.ny, v.wave_number,
+            v.exponent, v.x, v.y, v.px, v.py, v.dqx, v.dqy, v.dpx, v.dpy, v.pairs, v.modulation,
+            v.residual_l, v.residual_p, v.rotation_distance, v.l_x, v.l_y, v.p_x, v.p_y,
+            v.p_over_px, v.p_over_py);
+    }
+};
+
+template <> struct message_of<hdr_hydro_mode> {
+    template <class Stream> static void write(Stream &s, const hdr_hydro_mode &v)
+    {
+        put(s, v.step, v.index, v.kind, v.nx, v.ny, v.modulation, v.density, v.along, v.across,
+            v.energy);
+    }
+};
+
+template <> struct message_of<hdr_hydro> {
+    using type = hdlyap::Hydro;
+    template <class Stream> static void write(Stream &s, const hdr_hydro &v)
+    {
+        put(s, v.header, v.run_id, v.sim_time, items_of(v.responses, v.count));
     }
 };
 
@@ -107,9 +233,17 @@ template <> struct message_of<hdr_cost> {
     template <class Stream> static void write(Stream &s, const hdr_cost &v)
     {
         put(s, v.header, v.run_id, v.sim_time, v.phase, v.wall_seconds, v.events_seconds,
-            v.replay_seconds, v.ortho_seconds, v.spectrum_seconds, v.publish_seconds,
-            v.events_per_second, v.interval, v.condition, v.orthogonality_defect, v.error_bound,
-            v.orthonormalisations, v.second_passes, v.repairs, v.progress, v.remaining_seconds);
+            v.replay_seconds, v.ortho_seconds, v.spectrum_seconds, v.modes_seconds,
+            v.publish_seconds, v.events_per_second, v.interval, v.condition, v.orthogonality_defect,
+            v.error_bound, v.orthonormalisations, v.second_passes, v.repairs, v.progress,
+            v.remaining_seconds);
+    }
+};
+
+template <> struct message_of<hdr_key_value> {
+    template <class Stream> static void write(Stream &s, const hdr_key_value &v)
+    {
+        put(s, v.key, v.value);
     }
 };
 
@@ -118,8 +252,8 @@ template <> struct message_of<hdr_diagnostic> {
     template <class Stream> static void write(Stream &s, const hdr_diagnostic &v)
     {
         const uint32_t statuses = 1;
-        put(s, v.header, statuses, v.level, v.name, v.message, v.hardware_id, v.count);
-        for (uint32_t k = 0; k < v.count; k++) put(s, v.values[k].key, v.values[k].value);
+        put(s, v.header, statuses, v.level, v.name, v.message, v.hardware_id,
+            items_of(v.values, v.count));
     }
 };
 
@@ -141,6 +275,11 @@ namespace message_traits
     HDR_VIEW_TRAIT(Definition, view)
 HDR_VIEW_TRAITS(hdr_run_info)
 HDR_VIEW_TRAITS(hdr_spectrum)
+HDR_VIEW_TRAITS(hdr_modes)
+HDR_VIEW_TRAITS(hdr_steps)
+HDR_VIEW_TRAITS(hdr_lp_phases)
+HDR_VIEW_TRAITS(hdr_mode_field)
+HDR_VIEW_TRAITS(hdr_hydro)
 HDR_VIEW_TRAITS(hdr_state)
 HDR_VIEW_TRAITS(hdr_cost)
 HDR_VIEW_TRAITS(hdr_diagnostic)
@@ -165,6 +304,16 @@ template <class View> struct ViewSerializer {
 template <> struct Serializer<hdr_run_info> : ViewSerializer<hdr_run_info> {
 };
 template <> struct Serializer<hdr_spectrum> : ViewSerializer<hdr_spectrum> {
+};
+template <> struct Serializer<hdr_modes> : ViewSerializer<hdr_modes> {
+};
+template <> struct Serializer<hdr_steps> : ViewSerializer<hdr_steps> {
+};
+template <> struct Serializer<hdr_lp_phases> : ViewSerializer<hdr_lp_phases> {
+};
+template <> struct Serializer<hdr_mode_field> : ViewSerializer<hdr_mode_field> {
+};
+template <> struct Serializer<hdr_hydro> : ViewSerializer<hdr_hydro> {
 };
 template <> struct Serializer<hdr_state> : ViewSerializer<hdr_state> {
 };

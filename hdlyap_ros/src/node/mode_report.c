@@ -1,0 +1,279 @@
+/** Modes, steps, phases and responses of the core -> messages, element by element. */
+#include "mode_report.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "hdlyap/hydro.h"
+
+_Static_assert((int)HD_MODE_LP == (int)HDR_MODE_LP, "kinds as in the core");
+_Static_assert((int)HD_LP_TRACKED == (int)HDR_LP_TRACKED, "states as in the core");
+
+struct mode_report {
+    const outlets *to;
+    uint32_t vectors, steps, phases, responses; /**< lengths of the arrays below */
+    hdr_mode *mode;
+    hdr_step *step;
+    hdr_lp_phase *phase;
+    hdr_hydro_mode *response;
+    hd_hydro *hydro; /**< NULL unless hydro is asked for */
+};
+
+static bool arrays_create(mode_report *m)
+{
+    m->mode = malloc((m->vectors + 1) * sizeof *m->mode);
+    m->step = malloc((m->steps + 1) * sizeof *m->step);
+    m->phase = malloc((m->phases + 1) * sizeof *m->phase);
+    m->response = malloc((m->responses + 1) * sizeof *m->response);
+    return m->mode && m->step && m->phase && m->response;
+}
+
+static bool parts_create(mode_report *m, const hd_run *run, unsigned set)
+{
+    const hd_steps *steps = hd_run_steps(run);
+    const hd_phases *phases = hd_run_phases(run);
+    m->vectors = (uint32_t)hd_run_vectors(run);
+    m->steps = (uint32_t)hd_steps_count(steps);
+    m->phases = phases ? (uint32_t)hd_phases_count(phases) : 0;
+    if (set & topic_bit(TOPIC_HYDRO)) {
+        if (hd_hydro_create(&m->hydro, hd_run_scene(run), steps) != HD_OK) return false;
+        m->responses = (uint32_t)hd_hydro_count(m->hydro);
+    }
+    return arrays_create(m);
+}
+
+bool mode_report_create(mode_report **out, const outlets *to, const hd_run *run, unsigned set)
+{
+    mode_report *m = *out = calloc(1, sizeof *m);
+    if (!m) return false;
+    m->to = to;
+    if (parts_create(m, run, set)) return true;
+    mode_report_free(m);
+    *out = NULL;
+    return false;
+}
+
+void mode_report_free(mode_report *m)
+{
+    if (!m) return;
+    hd_hydro_free(m->hydro);
+    free(m->mode);
+    free(m->step);
+    free(m->phase);
+    free(m->response);
+    free(m);
+}
+
+void mode_report_sizes(const mode_report *m, double *doubles)
+{
+    doubles[TOPIC_MODES] = 11.0 * m->vectors;
+    doubles[TOPIC_STEPS] = 9.0 * m->steps;
+    doubles[TOPIC_LP_PHASES] = 10.0 * m->phases;
+    doubles[TOPIC_HYDRO] = 7.0 * m->responses;
+}
+
+/** An error that is not known has one value. */
+static double error_of(double error) { return error < 0.0 ? -1.0 : error; }
+
+/** Weights in the fields of its step. */
+static void fill_kind(hdr_mode *mode, const hd_modes *modes, const hd_step *step)
+{
+    const int col = (int)mode->index - 1;
+    mode->kind = (uint8_t)step->kind;
+    mode->nx = (uint32_t)step->wave.n[0];
+    mode->ny = (uint32_t)step->wave.n[1];
+    mode->wave_number = step->wave.number;
+    if (step->kind == HD_MODE_ZERO)
+        mode->weight = mode->null_x + mode->null_y + mode->null_p;
+    else
+        mode->weight = hd_modes_average(modes, step->subspace, HD_WEIGHT)[col];
+    if (step->kind != HD_MODE_LP) return;
+    mode->weight_l = hd_modes_average(modes, step->subspace, HD_WEIGHT_L)[col];
+    mode->weight_p = hd_modes_average(modes, step->subspace, HD_WEIGHT_P)[col];
+}
+
+/* What is not finite stays so in a sum: these return false then. */
+
+static bool fill_mode(hdr_mode *mode, const hd_run *run, int col)
+{
+    const hd_modes *modes = hd_run_modes(run);
+    const int s = hd_steps_of_vector(hd_run_steps(run), col);
+    *mode = (hdr_mode){
+        .index = (uint32_t)col + 1,
+        .exponent = hd_spectrum_exponent(hd_run_spectrum(run), col),
+        .null_x = hd_modes_null_average(modes, HD_NULL_X)[col],
+        .null_y = hd_modes_null_average(modes, HD_NULL_Y)[col],
+        .null_p = hd_modes_null_average(modes, HD_NULL_P)[col],
+        .step = s,
+    };
+    if (s >= 0) fill_kind(mode, modes, hd_steps_step(hd_run_steps(run), s));
+    return isfinite(mode->exponent + mode->weight + mode->weight_l + mode->weight_p + mode->null_x +
+                    mode->null_y + mode->null_p);
+}
+
+static bool fill_step(hdr_step *out, const hd_step *step)
+{
+    *out = (hdr_step){
+        .kind = (uint8_t)step->kind,
+        .nx = (uint32_t)step->wave.n[0],
+        .ny = (uint32_t)step->wave.n[1],
+        .wave_number = step->wave.number,
+        .conjugate = step->conjugate,
+        .resolved = step->resolved,
+        .expected = (uint32_t)step->expected,
+        .set = -1,
+    };
+    if (!step->resolved) return true;
+    out->first_index = (uint32_t)step->col + 1;
+    out->last_index = (uint32_t)(step->col + step->count);
+    out->multiplicity = step->multiplicity;
+    out->set = step->set;
+    out->members = (uint32_t)step->members;
+    out->exponent = step->exponent;
+    out->std_error = error_of(step->std_error);
+    return isfinite(step->multiplicity + step->exponent + step->std_error);
+}
+
+static bool fill_phase(hdr_lp_phase *out, const hd_lp_phase *phase, const hd_steps *steps)
+{
+    const hd_step *step = hd_steps_step(steps, phase->step);
+    *out = (hdr_lp_phase){
+        .step = (uint32_t)phase->step,
+        .nx = (uint32_t)step->wave.n[0],
+        .ny = (uint32_t)step->wave.n[1],
+        .modulation = phase->modulation,
+        .state = (uint8_t)phase->state,
+    };
+    if (phase->state == HD_LP_UNRESOLVED) return true;
+    out->index = (uint32_t)phase->col + 1;
+    out->a = phase->a;
+    out->b = phase->b;
+    out->phase = phase->phase;
+    out->omega = phase->omega;
+    out->omega_error = error_of(phase->omega_error);
+    out->velocity = fabs(phase->omega) / step->wave.number;
+    out->tracked_time = phase->time;
+    return isfinite(out->a + out->b + out->phase + out->omega + out->omega_error + out->velocity +
+                    out->tracked_time);
+}
+
+static bool fill_response(hdr_hydro_mode *out, const hd_hydro_response *response,
+                          const hd_steps *steps)
+{
+    const hd_step *step = hd_steps_step(steps, response->step);
+    *out = (hdr_hydro_mode){
+        .step = (uint32_t)response->step,
+        .index = (uint32_t)(response->col + 1),
+        .kind = (uint8_t)step->kind,
+        .nx = (uint32_t)step->wave.n[0],
+        .ny = (uint32_t)step->wave.n[1],
+        .modulation = response->modulation,
+        .density = response->density,
+        .along = response->along,
+        .across = response->across,
+        .energy = response->energy,
+    };
+    return isfinite(out->density + out->along + out->across + out->energy);
+}
+
+static bool fill_fit(hdr_fit *out, hd_dispersion fit)
+{
+    *out = (hdr_fit){
+        .points = (uint32_t)fit.points,
+        .c = fit.c,
+        .c_error = error_of(fit.c_error),
+        .c2 = fit.c2,
+        .c2_error = error_of(fit.c2_error),
+    };
+    return isfinite(fit.c + fit.c_error + fit.c2 + fit.c2_error);
+}
+
+static hd_status publish_modes(mode_report *m, const snapshot *now)
+{
+    const hd_run *run = now->run;
+    const hdr_modes view = {
+        .header = outlets_header(),
+        .run_id = m->to->run_id,
+        .sim_time = hd_run_time(run),
+        .averaged_time = hd_spectrum_time(hd_run_spectrum(run)),
+        .samples = (uint32_t)hd_modes_samples(hd_run_modes(run)),
+        .modes = m->mode,
+        .count = m->vectors,
+    };
+    for (uint32_t k = 0; k < m->vectors; k++)
+        if (!fill_mode(&m->mode[k], run, (int)k)) return HD_NOT_FINITE;
+    return outlets_sent(hdr_modes_publish(m->to->publisher[TOPIC_MODES], &view), TOPIC_MODES);
+}
+
+static hd_status publish_steps(mode_report *m, const snapshot *now)
+{
+    const hd_run *run = now->run;
+    const hd_steps *steps = hd_run_steps(run);
+    const hd_phases *phases = hd_run_phases(run);
+    const hd_velocity none = {.v_error = -1.0}, v = phases ? hd_phases_velocity(phases) : none;
+    hdr_steps view = {
+        .header = outlets_header(),
+        .run_id = m->to->run_id,
+        .sim_time = hd_run_time(run),
+        .averaged_time = hd_spectrum_time(hd_run_spectrum(run)),
+        .threshold = HD_STEP_THRESHOLD,
+        .steps = m->step,
+        .count = m->steps,
+        .v_phases = (uint32_t)v.phases,
+        .v = v.v,
+        .v_error = error_of(v.v_error),
+    };
+    bool finite = isfinite(v.v + v.v_error) &&
+                  fill_fit(&view.t, hd_steps_dispersion(steps, HD_MODE_T)) &&
+                  fill_fit(&view.l, hd_steps_dispersion(steps, HD_MODE_LP));
+    for (uint32_t k = 0; k < m->steps && finite; k++)
+        finite = fill_step(&m->step[k], hd_steps_step(steps, (int)k));
+    if (!finite) return HD_NOT_FINITE;
+    return outlets_sent(hdr_steps_publish(m->to->publisher[TOPIC_STEPS], &view), TOPIC_STEPS);
+}
+
+static hd_status publish_phases(mode_report *m, const snapshot *now)
+{
+    const hd_run *run = now->run;
+    const hdr_lp_phases view = {
+        .header = outlets_header(),
+        .run_id = m->to->run_id,
+        .sim_time = hd_run_time(run),
+        .samples_per_report = (uint32_t)hd_run_samples_per_report(run),
+        .phases = m->phase,
+        .count = m->phases,
+    };
+    for (uint32_t k = 0; k < m->phases; k++) {
+        const hd_lp_phase *phase = hd_phases_phase(hd_run_phases(run), (int)k);
+        if (!fill_phase(&m->phase[k], phase, hd_run_steps(run))) return HD_NOT_FINITE;
+    }
+    return outlets_sent(hdr_lp_phases_publish(m->to->publisher[TOPIC_LP_PHASES], &view),
+                        TOPIC_LP_PHASES);
+}
+
+static hd_status publish_hydro(mode_report *m, const snapshot *now)
+{
+    const hd_steps *steps = hd_run_steps(now->run);
+    const hdr_hydro view = {
+        .header = outlets_header(),
+        .run_id = m->to->run_id,
+        .sim_time = hd_run_time(now->run),
+        .responses = m->response,
+        .count = m->responses,
+    };
+    hd_hydro_measure(m->hydro, steps, hd_run_frame(now->run), now->q, now->p);
+    for (uint32_t k = 0; k < m->responses; k++)
+        if (!fill_response(&m->response[k], hd_hydro_at(m->hydro, (int)k), steps))
+            return HD_NOT_FINITE;
+    return outlets_sent(hdr_hydro_publish(m->to->publisher[TOPIC_HYDRO], &view), TOPIC_HYDRO);
+}
+
+hd_status mode_report_publish(mode_report *m, const snapshot *now, unsigned set)
+{
+    hd_status status = HD_OK;
+    if (set & topic_bit(TOPIC_MODES)) status = publish_modes(m, now);
+    if (status == HD_OK && (set & topic_bit(TOPIC_STEPS))) status = publish_steps(m, now);
+    if (status == HD_OK && (set & topic_bit(TOPIC_LP_PHASES))) status = publish_phases(m, now);
+    if (status == HD_OK && (set & topic_bit(TOPIC_HYDRO))) status = publish_hydro(m, now);
+    return status;
+}

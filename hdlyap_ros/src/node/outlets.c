@@ -1,0 +1,93 @@
+/** The node's topics out. */
+#include "outlets.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { QUEUE_MIN = 8, QUEUE_MAX = 1000 };
+/** For each subscriber that is behind. */
+static const double queue_bytes = 128e6;
+
+/** The frame that positions are in. */
+static const char *const frame_id = "box";
+
+typedef hdr_status (*advertise_function)(hdr_publisher **, hdr_node *, const char *, int);
+
+/** run_info is latched: it needs no queue. */
+static hdr_status run_info_advertise(hdr_publisher **out, hdr_node *ros, const char *name,
+                                     int queue)
+{
+    (void)queue;
+    return hdr_run_info_advertise(out, ros, name);
+}
+
+static const advertise_function advertise[TOPICS] = {
+    [TOPIC_RUN_INFO] = run_info_advertise,       [TOPIC_SPECTRUM] = hdr_spectrum_advertise,
+    [TOPIC_MODES] = hdr_modes_advertise,         [TOPIC_STEPS] = hdr_steps_advertise,
+    [TOPIC_LP_PHASES] = hdr_lp_phases_advertise, [TOPIC_FIELDS] = hdr_mode_field_advertise,
+    [TOPIC_HYDRO] = hdr_hydro_advertise,         [TOPIC_STATE] = hdr_state_advertise,
+    [TOPIC_COST] = hdr_cost_advertise,
+};
+
+/** Start, process, seed: no two runs share all three. */
+static void run_id_write(char *run_id, size_t size, const char *seed)
+{
+    struct timespec now;
+    struct tm utc;
+    char date[32];
+    clock_gettime(CLOCK_REALTIME, &now);
+    gmtime_r(&now.tv_sec, &utc);
+    strftime(date, sizeof date, "%Y%m%dT%H%M%S", &utc);
+    snprintf(run_id, size, "%s.%06ldZ-%ld-%s", date, now.tv_nsec / 1000, (long)getpid(), seed);
+}
+
+/** Messages of that many doubles that a queue may keep. */
+static int queue_length(double doubles)
+{
+    const double messages = queue_bytes / (8.0 * doubles + 1000.0);
+    return (int)fmax(QUEUE_MIN, fmin(QUEUE_MAX, messages));
+}
+
+hdr_status outlets_advertise(outlets *out, hdr_node *ros, unsigned set,
+                             const double doubles[TOPICS], const char *seed)
+{
+    hdr_status status = HDR_OK;
+    *out = (outlets){.publisher = {NULL}};
+    run_id_write(out->run_id, sizeof out->run_id, seed);
+    for (topic t = 0; t < TOPICS && status == HDR_OK; t++) {
+        char name[32];
+        snprintf(name, sizeof name, "~%s", topic_name(t));
+        if (set & topic_bit(t))
+            status = advertise[t](&out->publisher[t], ros, name, queue_length(doubles[t]));
+    }
+    return status;
+}
+
+unsigned outlets_subscribed(const outlets *out)
+{
+    unsigned set = 0;
+    for (topic t = 0; t < TOPICS; t++)
+        if (out->publisher[t] && hdr_publisher_subscribers(out->publisher[t]) > 0)
+            set |= topic_bit(t);
+    return set;
+}
+
+hdr_header outlets_header(void)
+{
+    return (hdr_header){.stamp = hdr_time_now(), .frame_id = frame_id};
+}
+
+hd_status outlets_sent(hdr_status status, topic t)
+{
+    if (status != HDR_OK) hdr_log(HDR_ERROR, "%s not sent: %s", topic_name(t), hdr_error_text());
+    return HD_OK;
+}
+
+bool outlets_finite(const double *x, size_t count)
+{
+    for (size_t k = 0; k < count; k++)
+        if (!isfinite(x[k])) return false;
+    return true;
+}

@@ -1,0 +1,105 @@
+/** Settings and run -> run_info. */
+#include "run_info.h"
+
+#include <stdlib.h>
+
+#include "hdlyap/hdlyap.h"
+
+static const char *boundary_name(hd_boundary boundary)
+{
+    return boundary == HD_PERIODIC ? "periodic" : "reflecting";
+}
+
+/** [count] names of a set of topics. */
+static uint32_t names_of(const char *names[TOPICS], unsigned set)
+{
+    uint32_t count = 0;
+    for (topic t = 0; t < TOPICS; t++)
+        if (set & topic_bit(t)) names[count++] = topic_name(t);
+    return count;
+}
+
+/** Nodes of the wave vectors that are classified; none without modes. */
+typedef struct wave_list {
+    uint32_t count;
+    uint32_t *nx, *ny; /**< in one block at nx; NULL if out of memory */
+} wave_list;
+
+static wave_list waves_create(const hd_scene_def *def)
+{
+    const int count = def->observe ? hd_waves(def, NULL, 0) : 0;
+    hd_wave *waves = malloc(((size_t)count + 1) * sizeof *waves);
+    wave_list list = {.nx = malloc((2 * (size_t)count + 1) * sizeof *list.nx)};
+    if (waves && list.nx) {
+        list.count = (uint32_t)count;
+        list.ny = list.nx + count;
+        hd_waves(def, waves, count);
+        for (int k = 0; k < count; k++) {
+            list.nx[k] = (uint32_t)waves[k].n[0];
+            list.ny[k] = (uint32_t)waves[k].n[1];
+        }
+    }
+    free(waves);
+    return list;
+}
+
+/** What the scene says. */
+static void fill_scene(hdr_run_info *info, const settings *set)
+{
+    const hd_scene_def *def = &set->def;
+    double box[2];
+    hd_scene_box(def, box);
+    info->scene = set->scene;
+    info->disks = (uint32_t)def->disks;
+    info->density = def->density;
+    info->aspect = def->aspect;
+    info->box_x = box[0];
+    info->box_y = box[1];
+    info->boundary_x = boundary_name(def->boundary[0]);
+    info->boundary_y = boundary_name(def->boundary[1]);
+    info->seed = set->seed;
+    info->exponents = set->exponents;
+    info->zero_exponents = (uint32_t)hd_scene_zero_exponents(def);
+    info->equilibration = def->equilibration;
+    info->warmup = def->warmup;
+    info->duration = def->duration;
+    info->target_std_error = def->target_std_error;
+    info->interval = def->interval;
+    info->accuracy = def->accuracy;
+    info->report_interval = def->report_interval;
+    info->max_wave_number = def->max_wave_number;
+    info->max_node = (uint32_t)def->max_node;
+}
+
+/** What it runs on. */
+static void fill_machine(hdr_run_info *info, const hd_run *run)
+{
+    const hd_blas blas = hd_blas_query();
+    info->version = HDLYAP_VERSION;
+    info->vectors = (uint32_t)hd_run_vectors(run);
+    info->threads = (uint32_t)hd_run_threads(run);
+    info->blas_threads = (uint32_t)blas.threads;
+    info->blas_library = blas.library;
+    info->blas_kernel = blas.kernel;
+    info->blas_threading = blas.threading;
+}
+
+hdr_status run_info_publish(const outlets *out, const settings *set, const hd_run *run)
+{
+    const char *names[TOPICS];
+    const wave_list waves = waves_create(&set->def);
+    hdr_run_info info = {
+        .header = outlets_header(),
+        .run_id = out->run_id,
+        .observables = {.data = names, .count = names_of(names, set->observables)},
+        .wave_nx = {.data = waves.nx, .count = waves.count},
+        .wave_ny = {.data = waves.ny, .count = waves.count},
+        .field_indices = set->fields.text,
+        .pace = set->pace,
+    };
+    fill_scene(&info, set);
+    fill_machine(&info, run);
+    const hdr_status status = hdr_run_info_publish(out->publisher[TOPIC_RUN_INFO], &info);
+    free(waves.nx);
+    return status;
+}

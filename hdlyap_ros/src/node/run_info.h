@@ -1,0 +1,13 @@
+/** What is needed to repeat a run -> the latched message run_info. */
+#ifndef HDLYAP_RUN_INFO_H
+#define HDLYAP_RUN_INFO_H
+
+#include "hdlyap/run.h"
+#include "outlets.h"
+#include "settings.h"
+
+/** Allocates, as it is sent once. HDR_FAULT if ROS refuses. */
+HDR_MUST_CHECK hdr_status run_info_publish(const outlets *out, const settings *set,
+                                           const hd_run *run);
+
+#endif

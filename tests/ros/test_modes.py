@@ -1,0 +1,347 @@
+#!/usr/bin/env python3
+"""What a run says of its modes: the topics agree with each other, and cost nothing unless heard."""
+
+import math
+import unittest
+
+from diagnostic_msgs.msg import DiagnosticArray
+import rospy
+import rostest
+
+import harness
+from harness import MODES, OBSERVABLES, Cost
+from hdlyap.msg import LpPhase, Mode
+
+REPORTS = 20    # of MODES, while averaging
+ROUNDING = 1e-9
+
+
+class Agreement(unittest.TestCase):
+    """Of all topics of one run, with all 4N vectors."""
+
+    @classmethod
+    def setUpClass(cls):
+        listeners = {topic: harness.Listener(topic) for topic in harness.TYPES}
+        node = harness.start(dict(MODES, exponents='all', observables=OBSERVABLES,
+                                  wait_for_subscribers='all'))
+        try:
+            status = node.wait()
+            listeners['cost'].wait_for(lambda cost: cost.phase == Cost.FINISHED)
+        finally:
+            node.stop()
+            for listener in listeners.values():
+                listener.close()
+        assert status == 0, node.text()
+        cls.messages = {topic: listener.messages for topic, listener in listeners.items()}
+        cls.info = cls.messages['run_info'][0]
+
+    def last(self, topic):
+        return self.messages[topic][-1]
+
+    def test_one_run(self):
+        counts = {topic: len(messages) for topic, messages in self.messages.items()}
+        for topic in ('spectrum', 'modes', 'steps', 'lp_phases', 'hydro'):
+            self.assertEqual(counts[topic], REPORTS, topic)
+        times = [message.sim_time for message in self.messages['spectrum']]
+        for topic in ('modes', 'steps', 'lp_phases', 'hydro'):
+            self.assertEqual([message.sim_time for message in self.messages[topic]], times, topic)
+        for topic, messages in self.messages.items():
+            self.assertEqual({message.run_id for message in messages}, {self.info.run_id}, topic)
+        self.assertGreater(self.last('cost').modes_seconds, 0.0)
+
+    def test_lengths_are_constant(self):
+        steps, pairs = self.last('steps').steps, 2      # periodic: sine and cosine along x
+        lengths = dict(modes=('modes', 240), steps=('steps', len(steps)),
+                       lp_phases=('phases', sum(2 * pairs**2 for s in steps if s.kind == Mode.LP)),
+                       hydro=('responses', sum(pairs * s.expected for s in steps if s.kind != Mode.ZERO)))
+        for topic, (field, length) in lengths.items():
+            self.assertEqual({len(getattr(message, field)) for message in self.messages[topic]},
+                             {length}, topic)
+
+    def test_wave_vectors(self):
+        self.assertEqual(list(zip(self.info.wave_nx, self.info.wave_ny)), [(1, 0), (2, 0)])
+        self.assertEqual((self.info.max_node, self.info.max_wave_number), (0, 0.0))
+        half = [(Mode.T, 1, 2), (Mode.LP, 1, 4), (Mode.T, 2, 2), (Mode.LP, 2, 4)]
+        self.assertEqual([(s.kind, s.nx, s.expected, s.conjugate) for s in self.last('steps').steps],
+                         [(*of, False) for of in half] + [(Mode.ZERO, 0, 6, False)] +
+                         [(*of, True) for of in half])
+        for step in self.last('steps').steps:
+            self.assertAlmostEqual(step.wave_number, 2 * math.pi * step.nx / self.info.box_x)
+
+    def test_steps(self):
+        """At least the longest waves of either kind are found."""
+        message = self.last('steps')
+        found = {(s.kind, s.nx, s.conjugate): s for s in message.steps if s.resolved}
+        for key in ((Mode.T, 1, False), (Mode.LP, 1, False), (Mode.T, 1, True), (Mode.ZERO, 0, False)):
+            self.assertIn(key, found)
+        zero = found[Mode.ZERO, 0, False]
+        self.assertEqual((zero.first_index, zero.last_index), (118, 123))
+        self.assertAlmostEqual(zero.multiplicity, 6.0, delta=0.01)
+        for (_, _, conjugate), step in found.items():
+            self.assertEqual(step.last_index - step.first_index + 1, step.expected)    # no step shares
+            self.assertEqual(step.members, 1)
+            self.assertGreaterEqual(step.multiplicity, message.threshold * step.expected)
+            self.assertLessEqual(step.multiplicity, step.expected + ROUNDING)
+            self.assertEqual(step.exponent < -0.1, conjugate)
+        self.assertEqual(len({s.set for s in found.values()}), len(found))
+        t, conjugate = found[Mode.T, 1, False], found[Mode.T, 1, True]
+        self.assertEqual(t.first_index + conjugate.last_index, 241)
+        self.assertAlmostEqual(t.exponent, -conjugate.exponent, delta=1e-3)
+        self.assertGreaterEqual(message.t_points, 1)
+        self.assertAlmostEqual(message.c_t * t.wave_number + message.c_t2 * t.wave_number**2, t.exponent,
+                               delta=0.1)
+
+    def test_unresolved_steps_are_empty(self):
+        for message in self.messages['steps']:
+            for step in message.steps:
+                if not step.resolved:
+                    self.assertEqual((step.set, step.first_index, step.last_index, step.multiplicity),
+                                     (-1, 0, 0, 0.0))
+
+    def test_modes(self):
+        for modes, steps, spectrum in zip(*(self.messages[t] for t in ('modes', 'steps', 'spectrum'))):
+            self.assertEqual([mode.index for mode in modes.modes], list(range(1, 241)))
+            self.assertEqual([mode.exponent for mode in modes.modes], list(spectrum.exponents))
+            self.assertEqual(modes.averaged_time, spectrum.averaged_time)
+            self.assertEqual(steps.averaged_time, spectrum.averaged_time)
+            self.assertEqual(modes.samples, modes.averaged_time)    # one at every report
+            for mode in modes.modes:
+                self.check_mode(mode, steps.steps)
+
+    def check_mode(self, mode, steps):
+        for weight in (mode.weight, mode.weight_l, mode.weight_p, mode.null_x, mode.null_y, mode.null_p):
+            self.assertGreaterEqual(weight, 0.0)
+            self.assertLessEqual(weight, 1.0 + ROUNDING)
+        if mode.step < 0:
+            self.assertEqual((mode.kind, mode.nx, mode.ny, mode.wave_number, mode.weight),
+                             (Mode.NONE, 0, 0, 0.0, 0.0))
+            return
+        step = steps[mode.step]
+        self.assertTrue(step.resolved)
+        self.assertEqual((mode.kind, mode.nx, mode.ny, mode.wave_number),
+                         (step.kind, step.nx, step.ny, step.wave_number))
+        self.assertLessEqual(step.first_index, mode.index)
+        self.assertLessEqual(mode.index, step.last_index)
+        self.assertEqual(mode.weight_l > 0.0, mode.kind == Mode.LP)
+        self.assertEqual(mode.weight_p > 0.0, mode.kind == Mode.LP)
+
+    def test_modes_add_up_to_steps(self):
+        modes = self.last('modes').modes
+        for s, step in enumerate(self.last('steps').steps):
+            if not step.resolved:
+                continue
+            own = modes[step.first_index - 1:step.last_index]
+            self.assertEqual({mode.step for mode in own}, {s})
+            self.assertAlmostEqual(sum(mode.weight for mode in own), step.multiplicity, delta=1e-6)
+            self.assertAlmostEqual(sum(mode.exponent for mode in own) / len(own), step.exponent,
+                                   delta=0.01 * abs(step.exponent) + 1e-6)
+
+    def test_lp_phases(self):
+        for message, steps in zip(self.messages['lp_phases'], self.messages['steps']):
+            self.assertGreaterEqual(message.samples_per_report, 1)
+            for phase in message.phases:
+                self.check_phase(phase, steps.steps[phase.step])
+        tracked = [p for p in self.last('lp_phases').phases if p.state == LpPhase.TRACKED]
+        velocities = [p.velocity for p in tracked]
+        steps = self.last('steps')
+        self.assertGreater(len(tracked), 0)
+        self.assertGreater(steps.v_phases, 0)
+        self.assertLessEqual(min(velocities), steps.v)
+        self.assertLessEqual(steps.v, max(velocities))
+
+    def check_phase(self, phase, step):
+        self.assertEqual((step.kind, step.nx, step.ny), (Mode.LP, phase.nx, phase.ny))
+        self.assertIn(phase.modulation, (LpPhase.COS_COS, LpPhase.SIN_COS))
+        if phase.state == LpPhase.UNRESOLVED:
+            self.assertEqual((phase.index, phase.a, phase.b, phase.omega), (0, 0.0, 0.0, 0.0))
+            return
+        self.assertTrue(step.resolved)
+        self.assertLessEqual(step.first_index, phase.index)
+        self.assertLessEqual(phase.index, step.last_index)
+        self.assertAlmostEqual(phase.velocity, abs(phase.omega) / step.wave_number)
+        if phase.state == LpPhase.TRACKED:
+            turn = (phase.phase - math.atan2(phase.b, phase.a)) / (2 * math.pi)
+            self.assertAlmostEqual(turn, round(turn))
+
+    def test_fields_follow_the_steps(self):
+        got = [(field.sim_time, field.index) for field in self.messages['fields']]
+        want = [(steps.sim_time, example(modes.modes, number, steps.steps[number]))
+                for modes, steps in zip(self.messages['modes'], self.messages['steps'])
+                for number in harness.examples(steps.steps)]
+        self.assertEqual(got, want)
+        self.assertGreaterEqual(len(got), 2 * REPORTS)
+
+    def test_fields(self):
+        states = {state.sim_time: state for state in self.messages['state']}
+        modes = {message.sim_time: message.modes for message in self.messages['modes']}
+        for field in self.messages['fields']:
+            state, mode = states[field.sim_time], modes[field.sim_time][field.index - 1]
+            for name in ('x', 'y', 'px', 'py'):
+                self.assertEqual(getattr(field, name), getattr(state, name))
+            for name in ('exponent', 'kind', 'nx', 'ny', 'wave_number'):
+                self.assertEqual(getattr(field, name), getattr(mode, name))
+            norm = sum(sum(v * v for v in part) for part in (field.dqx, field.dqy, field.dpx, field.dpy))
+            self.assertAlmostEqual(norm, 1.0, delta=1e-5)
+            self.check_pairs(field)
+
+    def check_pairs(self, field):
+        pairs = 2 if field.kind == Mode.LP else 0
+        self.assertEqual((field.pairs, list(field.modulation)), (pairs, list(range(pairs))))
+        for name in ('residual_l', 'residual_p'):
+            self.assertEqual(len(getattr(field, name)), pairs)
+        for name in ('l_x', 'l_y', 'p_x', 'p_y', 'p_over_px', 'p_over_py'):
+            self.assertEqual(len(getattr(field, name)), pairs * 60, name)
+        for c in range(pairs):
+            self.check_modulation(field, c)
+
+    def check_modulation(self, field, c):
+        """The P field divided by the momenta is the pair's own modulation, as far as it spans it."""
+        wave = math.sin if field.modulation[c] & 1 else math.cos
+        a = [wave(field.wave_number * x) for x in field.x]
+        for ratio in (field.p_over_px, field.p_over_py):
+            part = ratio[60 * c:60 * (c + 1)]
+            overlap = sum(u * v for u, v in zip(a, part))
+            cosine = overlap / math.sqrt(sum(u * u for u in a) * sum(v * v for v in part))
+            self.assertGreater(cosine, 0.3)
+
+    def test_hydro(self):
+        for message, steps in zip(self.messages['hydro'], self.messages['steps']):
+            for response in message.responses:
+                step = steps.steps[response.step]
+                self.assertEqual((response.kind, response.nx, response.ny), (step.kind, step.nx, step.ny))
+                if response.index:
+                    self.assertTrue(step.resolved)
+                    self.assertLessEqual(step.first_index, response.index)
+                    self.assertLessEqual(response.index, step.last_index)
+                else:
+                    self.assertEqual((response.density, response.along, response.across,
+                                      response.energy), (0.0, 0.0, 0.0, 0.0))
+            indices = {response.index for response in message.responses} - {0}
+            self.assertEqual(indices, {index for step in steps.steps
+                                       if step.resolved and step.kind != Mode.ZERO
+                                       for index in range(step.first_index, step.last_index + 1)})
+
+    def test_hydro_is_that_of_the_fields(self):
+        responses = {(message.sim_time, r.index, r.modulation): r
+                     for message in self.messages['hydro'] for r in message.responses}
+        for field in self.messages['fields']:
+            for modulation in (LpPhase.COS_COS, LpPhase.SIN_COS):
+                got = responses[field.sim_time, field.index, modulation]
+                density, energy = responses_of(field, modulation)
+                self.assertAlmostEqual(got.density, density)
+                self.assertAlmostEqual(got.energy, energy)
+
+
+def example(modes, number, step):
+    """Index of the first vector of its set that belongs to a step, else of the first."""
+    own = [mode.index for mode in modes[step.first_index - 1:step.last_index] if mode.step == number]
+    return own[0] if own else step.first_index
+
+
+def responses_of(field, modulation):
+    """Of density over k and of energy at a wave vector along x, over sqrt(N/2)."""
+    k, density, energy = field.wave_number, 0.0, 0.0
+    for x, px, py, dqx, dpx, dpy in zip(field.x, field.px, field.py, field.dqx, field.dpx, field.dpy):
+        cosine, sine = math.cos(k * x), math.sin(k * x)
+        a, slope = (sine, k * cosine) if modulation & 1 else (cosine, -k * sine)
+        density += dqx * slope / k
+        energy += 2 * (px * dpx + py * dpy) * a + (px**2 + py**2) * dqx * slope
+    scale = math.sqrt(len(field.x) / 2)
+    return density / scale, energy / scale
+
+
+class Demand(unittest.TestCase):
+    """Calls of the core by the end of a run, by who listens."""
+
+    def calls(self, topics=(), **params):
+        listeners = [harness.Listener(topic) for topic in topics]
+        for listener in listeners:
+            self.addCleanup(listener.close)
+        return harness.calls(self, dict(MODES, wait_for_subscribers=list(topics), **params))
+
+    def check(self, calls, measures, phases=0, pmodes=0, hydros=0):
+        """How many times a state is measured, and what of the rest is done at all."""
+        self.assertEqual(calls['modes_measure'], measures)
+        self.assertEqual((calls['phases_add'] > 0, calls['pmode_reconstruct'] > 0,
+                          calls['hydro_measure'] > 0), (bool(phases), bool(pmodes), bool(hydros)))
+
+    def test_nobody(self):
+        self.check(self.calls(observables=OBSERVABLES), 0)
+
+    def test_spectrum(self):
+        self.check(self.calls(['spectrum'], observables=OBSERVABLES), 0)
+
+    def test_modes(self):
+        self.check(self.calls(['modes'], observables=OBSERVABLES), REPORTS)
+
+    def test_steps_with_their_velocity(self):
+        calls = self.calls(['steps'], observables=OBSERVABLES)
+        self.check(calls, calls['phases_add'], phases=True)
+
+    def test_steps_alone(self):
+        self.check(self.calls(['steps'], observables=['steps']), REPORTS)
+
+    def test_lp_phases(self):
+        calls = self.calls(['lp_phases'], observables=['lp_phases'])
+        self.check(calls, calls['phases_add'], phases=True)
+
+    def test_fields(self):
+        self.check(self.calls(['fields'], observables=OBSERVABLES), REPORTS, pmodes=True)
+
+    def test_hydro(self):
+        calls = self.calls(['hydro'], observables=['hydro'])
+        self.check(calls, REPORTS, hydros=True)
+        self.assertEqual(calls['hydro_measure'], REPORTS)
+
+    def test_who_comes_late(self):
+        """Is told of what is measured from then on."""
+        cost = harness.Listener('cost')
+        self.addCleanup(cost.close)
+        node = harness.start(dict(MODES, warmup=0.0, duration=0.0, pace=50.0))
+        self.addCleanup(node.stop)
+        self.assertTrue(cost.wait_for(lambda message: message.sim_time >= 15))
+        modes = harness.Listener('modes')
+        self.addCleanup(modes.close)
+        self.assertTrue(modes.wait_for(lambda message: True))
+        first = modes.messages[0]
+        self.assertEqual(first.samples, 1)
+        self.assertGreater(first.averaged_time, 5.0)
+        keys = [pair.key for pair in rospy.wait_for_message('/diagnostics', DiagnosticArray).status[0].values]
+        self.assertIn('resolved steps', keys)
+
+
+class Fields(unittest.TestCase):
+    def fields(self, **params):
+        listeners = {topic: harness.Listener(topic) for topic in ('fields', 'modes', 'cost', 'run_info')}
+        for listener in listeners.values():
+            self.addCleanup(listener.close)
+        node = harness.start(dict(MODES, duration=2.0, wait_for_subscribers=list(listeners), **params))
+        self.addCleanup(node.stop)
+        self.assertEqual(node.wait(), 0, node.text())
+        self.assertTrue(listeners['cost'].wait_for(lambda cost: cost.phase == Cost.FINISHED))
+        return {topic: listener.messages for topic, listener in listeners.items()}
+
+    def test_of_single_vectors(self):
+        messages = self.fields(field_indices=[117, 1, 113])
+        self.assertEqual(messages['run_info'][0].field_indices, '[117, 1, 113]')
+        self.assertEqual([field.index for field in messages['fields']], 2 * [117, 1, 113])
+        modes = messages['modes'][-1].modes
+        for field in messages['fields'][-3:]:
+            mode = modes[field.index - 1]
+            self.assertEqual((field.kind, field.nx, field.exponent), (mode.kind, mode.nx, mode.exponent))
+        self.assertEqual(messages['fields'][1].kind, Mode.NONE)
+        self.assertEqual(messages['fields'][1].pairs, 0)
+
+    def test_no_nan_is_published(self):
+        fields = harness.Listener('fields')
+        self.addCleanup(fields.close)
+        node = harness.start(dict(MODES, wait_for_subscribers=['fields']), probe={'PROBE_NAN': '1'})
+        self.addCleanup(node.stop)
+        self.assertEqual(node.wait(), 3, node.text())
+        self.assertEqual(len(node.lines('not finite')), 1, node.text())
+        self.assertEqual(fields.messages, [])
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_modes')
+    rostest.rosrun('hdlyap', 'modes', 'test_modes')
