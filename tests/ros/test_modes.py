@@ -109,7 +109,8 @@ class Agreement(unittest.TestCase):
                 self.check_mode(mode, steps.steps)
 
     def check_mode(self, mode, steps):
-        for weight in (mode.weight, mode.weight_l, mode.weight_p, mode.null_x, mode.null_y, mode.null_p):
+        for weight in (mode.weight, mode.weight_l, mode.weight_p, mode.weight_now, mode.null_x,
+                       mode.null_y, mode.null_p):
             self.assertGreaterEqual(weight, 0.0)
             self.assertLessEqual(weight, 1.0 + ROUNDING)
         if mode.step < 0:
@@ -124,6 +125,17 @@ class Agreement(unittest.TestCase):
         self.assertLessEqual(mode.index, step.last_index)
         self.assertEqual(mode.weight_l > 0.0, mode.kind == Mode.LP)
         self.assertEqual(mode.weight_p > 0.0, mode.kind == Mode.LP)
+
+    def test_weights_are_means_of_snapshots(self):
+        messages = [m.modes for m in self.messages['modes']]
+        checked = 0
+        for i in range(len(messages[-1])):
+            own = [modes[i] for modes in messages]
+            if own[0].step >= 0 and len({mode.step for mode in own}) == 1:
+                mean = sum(mode.weight_now for mode in own) / len(own)
+                self.assertAlmostEqual(own[-1].weight, mean, delta=ROUNDING)
+                checked += 1
+        self.assertGreater(checked, 0)
 
     def test_modes_add_up_to_steps(self):
         modes = self.last('modes').modes

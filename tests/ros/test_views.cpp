@@ -142,8 +142,8 @@ TEST(views, spectrum)
 
 TEST(views, modes)
 {
-    const hdr_mode modes[] = {{1, 1.5, HDR_MODE_NONE, 0, 0, 0, 0, 0, 0, 2, 3, 4, -1},
-                              {2, -1.5, HDR_MODE_LP, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}};
+    const hdr_mode modes[] = {{1, 1.5, HDR_MODE_NONE, 0, 0, 0, 0, 0, 0, 0, 2, 3, 4, -1},
+                              {2, -1.5, HDR_MODE_LP, 1, 2, 3, 4, 5, 6, 6.5, 7, 8, 9, 10}};
     hdlyap::Modes message;
     fill_header(message);
     message.run_id = "id";
@@ -167,6 +167,7 @@ TEST(views, modes)
     lp.weight = 4;
     lp.weight_l = 5;
     lp.weight_p = 6;
+    lp.weight_now = 6.5;
     lp.null_x = 7;
     lp.null_y = 8;
     lp.null_p = 9;

@@ -83,7 +83,7 @@ typedef struct hdr_mode {
     double exponent;
     uint8_t kind;
     uint32_t nx, ny;
-    double wave_number, weight, weight_l, weight_p, null_x, null_y, null_p;
+    double wave_number, weight, weight_l, weight_p, weight_now, null_x, null_y, null_p;
     int32_t step;
 } hdr_mode;
 

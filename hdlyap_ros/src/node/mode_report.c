@@ -83,10 +83,14 @@ static void fill_kind(hdr_mode *mode, const hd_modes *modes, const hd_step *step
     mode->nx = (uint32_t)step->wave.n[0];
     mode->ny = (uint32_t)step->wave.n[1];
     mode->wave_number = step->wave.number;
-    if (step->kind == HD_MODE_ZERO)
+    if (step->kind == HD_MODE_ZERO) {
         mode->weight = mode->null_x + mode->null_y + mode->null_p;
-    else
-        mode->weight = hd_modes_average(modes, step->subspace, HD_WEIGHT)[col];
+        for (int k = 0; k < HD_NULLS; k++)
+            mode->weight_now += hd_modes_null_snapshot(modes, k)[col];
+        return;
+    }
+    mode->weight = hd_modes_average(modes, step->subspace, HD_WEIGHT)[col];
+    mode->weight_now = hd_modes_snapshot(modes, step->subspace, HD_WEIGHT)[col];
     if (step->kind != HD_MODE_LP) return;
     mode->weight_l = hd_modes_average(modes, step->subspace, HD_WEIGHT_L)[col];
     mode->weight_p = hd_modes_average(modes, step->subspace, HD_WEIGHT_P)[col];
@@ -107,8 +111,8 @@ static bool fill_mode(hdr_mode *mode, const hd_run *run, int col)
         .step = s,
     };
     if (s >= 0) fill_kind(mode, modes, hd_steps_step(hd_run_steps(run), s));
-    return isfinite(mode->exponent + mode->weight + mode->weight_l + mode->weight_p + mode->null_x +
-                    mode->null_y + mode->null_p);
+    return isfinite(mode->exponent + mode->weight + mode->weight_l + mode->weight_p +
+                    mode->weight_now + mode->null_x + mode->null_y + mode->null_p);
 }
 
 static bool fill_step(hdr_step *out, const hd_step *step)

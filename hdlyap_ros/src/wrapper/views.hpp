@@ -144,7 +144,7 @@ template <> struct message_of<hdr_mode> {
     template <class Stream> static void write(Stream &s, const hdr_mode &v)
     {
         put(s, v.index, v.exponent, v.kind, v.nx, v.ny, v.wave_number, v.weight, v.weight_l,
-            v.weight_p, v.null_x, v.null_y, v.null_p, v.step);
+            v.weight_p, v.weight_now, v.null_x, v.null_y, v.null_p, v.step);
     }
 };
 
