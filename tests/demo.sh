@@ -41,11 +41,18 @@ none_is_left() {
     [[ -z $(grep -lzs "^ROS_HOME=$ROOT/build/home/" /proc/[0-9]*/environ || true) ]]
 }
 
+# is_complete FOLDER FIGURE...
 is_complete() {
-    local name
-    for name in run.bag {spectrum,convergence,cost}.{png,svg}; do
-        [[ -s $1/$name ]] || return 1
+    local folder=$1 name
+    shift
+    for name in run.bag "${@/%/.png}" "${@/%/.svg}"; do
+        [[ -s $folder/$name ]] || return 1
     done
+}
+
+# has_step PATTERN: in the table, with wave number, multiplicities and exponent with its error.
+has_step() {
+    grep -qE "^ +$1 .* [0-9.]+ +[0-9]+ +[0-9.]+ +[0-9.]+\([0-9.]+\)" "$LOG"
 }
 
 # interrupted SIGNAL: the exit status of a demo that gets the signal while its node runs.
@@ -62,11 +69,16 @@ interrupted() {
 
 stop_at_exit
 LOG=$WORK/first.log
-check runs gives_status 0 demo --scene quick --duration 20 --out "$WORK/out"
-check writes_all_files is_complete "$WORK/out"
+check runs gives_status 0 demo --scene quick --duration 100 --out "$WORK/out"
+check writes_all_files is_complete "$WORK/out" spectrum convergence dispersion modes cost
 check prints_the_table grep -q '^lambda_max' "$LOG"
+check names_a_step has_step 'T\(1,0\)'
+LOG=$WORK/channel.log
+check runs_a_channel gives_status 0 demo --scene narrow --duration 200 --out "$WORK/channel"
+check names_an_lp_step has_step 'LP\(1,0\)'
+check writes_lp_figures is_complete "$WORK/channel" spectrum dispersion modes p_mode phases
 LOG=$WORK/second.log
-check runs_again gives_status 0 demo --scene quick --duration 20 --out "$WORK/out"
+check runs_again gives_status 0 demo --scene quick --duration 100 --out "$WORK/out"
 check builds_once gives_status 1 grep -E 'Building|Linking' "$ROOT/build/log/build.log"
 check leaves_home_alone test -z "$(ls -A "$WORK/home")"
 LOG=$WORK/refused.log

@@ -212,6 +212,17 @@ static double complex coefficient(const rotor *r, const hd_modes *modes, int col
            I * hd_modes_coefficients(modes, r->column + r->pairs + c)[col];
 }
 
+/** a^2 + b^2 of a vector over all pairs. */
+static double strength_of(const rotor *r, const hd_modes *modes, int col)
+{
+    double sum = 0.0;
+    for (int c = 0; c < r->pairs; c++) {
+        const double complex z = coefficient(r, modes, col, c);
+        sum += creal(z * conj(z));
+    }
+    return sum;
+}
+
 /** Each slot takes a vector of the set; of a set shared with other steps the ones most of this one. */
 static void slots_fill(rotor *r, const hd_step *step, const hd_modes *modes)
 {
@@ -244,7 +255,7 @@ static double continuation(const rotor *r, const hd_modes *modes, int v, int col
 }
 
 /** Vectors of a degenerate step can change places: best continuations first; a vector that goes on by itself
- *  is not asked. */
+ *  is not asked, one that is something else for a while keeps its sign. */
 static void slots_match(rotor *r, const hd_step *step, const hd_modes *modes, double dt)
 {
     const double GOES_ON = 0.7;
@@ -267,36 +278,45 @@ static void slots_match(rotor *r, const hd_step *step, const hd_modes *modes, do
             }
         taken[column] = done[slot] = true;
         r->slot_col[slot] = step->col + column;
-        r->sign[slot] = score < 0 ? -1.0 : 1.0;
+        if (strength_of(r, modes, r->slot_col[slot]) >= WEAK)
+            r->sign[slot] = score < 0 ? -1.0 : 1.0;
     }
 }
 
-/** Turn of the whole step since the last sample, and from it the mean rate. */
+/** Turn of the whole step since the last sample, and from it the mean rate; from the vectors that are there. */
 static void rotor_turn(rotor *r, const hd_modes *modes, double dt)
 {
     double complex sum = 0.0;
-    for (int v = 0; v < r->slots; v++)
+    for (int v = 0; v < r->slots; v++) {
+        if (strength_of(r, modes, r->slot_col[v]) < WEAK) continue;
         for (int c = 0; c < r->pairs; c++)
             sum += conj(r->z[v][c]) * r->sign[v] * coefficient(r, modes, r->slot_col[v], c);
+    }
+    if (sum == 0.0) return;
     double rate = carg(sum) / dt;
     if (r->samples > LEARN) rate = unwrapped(carg(sum), r->omega * dt) / dt;
     hd_blocks_add(&r->rate, &rate);
     r->omega = hd_blocks_mean(&r->rate, 0);
 }
 
-/** Takes over the snapshot as the last sample. */
+/** Takes over the snapshot as the last sample. A vector that is something else for a while goes on as
+ *  predicted: it is recognised when it comes back. */
 static void rotor_store(rotor *r, const hd_modes *modes, double time)
 {
-    for (int v = 0; v < r->slots; v++)
+    const double complex turn = cexp(I * r->omega * (time - r->time));
+    for (int v = 0; v < r->slots; v++) {
+        const int col = r->slot_col[v];
+        const bool away = r->samples > 0 && strength_of(r, modes, col) < WEAK;
         for (int c = 0; c < r->pairs; c++) {
             track *t = &r->track[v * r->pairs + c];
-            const double complex z = coefficient(r, modes, r->slot_col[v], c);
-            r->z[v][c] = r->sign[v] * z;
-            t->out.col = r->slot_col[v];
+            const double complex z = coefficient(r, modes, col, c);
+            r->z[v][c] = away ? r->z[v][c] * turn : r->sign[v] * z;
+            track_add(t, r, r->sign[v] * z, time);
+            t->out.col = col;
             t->out.a = creal(z);
             t->out.b = cimag(z);
-            track_add(t, r, r->z[v][c], time);
         }
+    }
     r->time = time;
     r->samples++;
 }
@@ -304,6 +324,15 @@ static void rotor_store(rotor *r, const hd_modes *modes, double time)
 static double safe_sampling(const hd_step *step)
 {
     return SAFE * PI / (RATE_PER_EXPONENT * fabs(step->exponent));
+}
+
+/** Follows the vectors of the step from here on. */
+static void rotor_take_up(rotor *r, const hd_step *step, const hd_modes *modes)
+{
+    rotor_restart(r, HD_LP_WEAK);
+    r->col = step->col;
+    r->count = step->count;
+    slots_fill(r, step, modes);
 }
 
 static void rotor_add(rotor *r, const hd_step *step, const hd_modes *modes, double time)
@@ -314,20 +343,16 @@ static void rotor_add(rotor *r, const hd_step *step, const hd_modes *modes, doub
         return;
     }
     const bool same = r->col == step->col && r->count == step->count;
-    if (!same || (r->samples > 1 && dt > 1.5 * r->dt)) {
-        rotor_restart(r, HD_LP_WEAK);
-        r->col = step->col;
-        r->count = step->count;
-        slots_fill(r, step, modes);
-    } else if (dt * SAFE > safe_sampling(step)) {
-        rotor_restart(r, HD_LP_COARSE);
-        return;
+    const bool coarse = same && dt * SAFE > safe_sampling(step);
+    if (!same || coarse || (r->samples > 1 && dt > 1.5 * r->dt)) {
+        rotor_take_up(r, step, modes);
     } else {
         if (r->samples > LEARN) slots_match(r, step, modes, dt);
         rotor_turn(r, modes, dt);
         r->dt = dt;
     }
     rotor_store(r, modes, time);
+    for (int t = 0; coarse && t < r->slots * r->pairs; t++) r->track[t].out.state = HD_LP_COARSE;
 }
 
 void hd_phases_add(hd_phases *phases, const hd_steps *steps, double time)

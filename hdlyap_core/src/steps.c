@@ -15,8 +15,8 @@
 
 /** Below this part of its multiplicity a subspace is nowhere. */
 static const double CANDIDATE = 0.25;
-/** Part of a set's weight that lies in another's window, from which on they mix. */
-static const double LEAK = 0.25;
+/** Weight of a set in another's window, over that in its own, from which on they mix. */
+static const double LEAK = 0.5;
 /** Largest deviation of an exponent from the mean of its set, beside 3 standard errors. */
 static const double FLAT = 0.1;
 
@@ -224,7 +224,7 @@ static int partner(const hd_steps *steps, const hd_spectrum *spectrum, int a)
         if (b == a || other->count == 0) continue;
         const double here = mean_exponent(spectrum, own), there = mean_exponent(spectrum, other);
         const bool near = fabs(here - there) <= FLAT * fabs(here);
-        if (overlap(own, other) || (near && leak(steps, a, b) > LEAK * own->count)) return b;
+        if (overlap(own, other) || (near && leak(steps, a, b) > LEAK * own->trace)) return b;
     }
     return -1;
 }

@@ -1,72 +1,60 @@
 """plot_bag against bags that are made here: what it prints, what it writes, what it refuses."""
 
+import itertools
 import os
 import subprocess
 import sys
 import tempfile
+import tracemalloc
 import unittest
 
 import numpy as np
 import rosbag
 import rospy
 
-from hdlyap.msg import Cost, RunInfo, Spectrum
+from hdlyap.msg import LpPhases, ModeField, Steps
 from std_msgs.msg import String
 
-SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../hdlyap_ros/scripts')
-sys.path.insert(0, SCRIPTS)
-from hdlyap_plots import paper, recording   # noqa: E402
-
-SPECTRUM_FILES = ['convergence.png', 'convergence.svg', 'spectrum.png', 'spectrum.svg']
-COST_FILES = ['cost.png', 'cost.svg']
-
-
-def run_info(**fields):
-    info = RunInfo(run_id='one', version='0.1.0', scene='made', disks=20, density=0.5, aspect=1.0,
-                   box_x=40 ** 0.5, box_y=40 ** 0.5, boundary_x='periodic', boundary_y='periodic',
-                   seed='1', exponents='positive', zero_exponents=6)
-    for name, value in fields.items():
-        setattr(info, name, value)
-    return info
+import made
+from made import LP, SCRIPTS, T
+from hdlyap_plots import paper, recording, report, waves
+from hdlyap_plots.course import LIMIT, Course
+from hdlyap_plots.figures import modes, p_mode, phases, plt
+from hdlyap_plots.numbers import with_error
 
 
-def spectrum(exponents, averaged_time, run_id='one', error=0.01, pairing_error=-1.0):
-    n = len(exponents)
-    return Spectrum(run_id=run_id, sim_time=100 + averaged_time, averaged_time=averaged_time,
-                    collisions=1000, lambda_max=exponents[0], pairing_error=pairing_error,
-                    ks_entropy=sum(e for e in exponents if e > 0), first_index=1,
-                    exponents=exponents, std_errors=[error] * n, local_exponents=exponents,
-                    cos_theta=[1.0] * n, dp_dq_ratio=[1.0] * n)
+def files(*names):
+    return [f'{name}.{suffix}' for name in names for suffix in ('png', 'svg')]
 
 
-def cost(sim_time, run_id='one'):
-    return Cost(run_id=run_id, sim_time=sim_time, phase=Cost.AVERAGING, wall_seconds=sim_time,
-                events_seconds=0.1 * sim_time, replay_seconds=0.2 * sim_time,
-                ortho_seconds=0.6 * sim_time)
+SPECTRUM_FILES = files('convergence', 'spectrum')
+COST_FILES = files('cost')
+MODES_FILES = files('dispersion', 'modes', 'p_mode', 'phases')
 
 
-class PlotBag(unittest.TestCase):
+class Bags(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.path = os.path.join(folder.name, 'run.bag')
         self.out = os.path.join(folder.name, 'out')
 
-    def write(self, messages, node='/hdlyap', mode='w'):
-        topics = {RunInfo: 'run_info', Spectrum: 'spectrum', Cost: 'cost'}
-        with rosbag.Bag(self.path, mode) as bag:
-            for second, message in enumerate(messages, start=1):
-                bag.write(f'{node}/{topics[type(message)]}', message, rospy.Time(second))
+    def write(self, messages, **where):
+        made.write(self.path, messages, **where)
+
+    def recorded(self, *messages):
+        self.write(messages)
+        return recording.read(self.path)
 
     def plot(self, *arguments):
         return subprocess.run([sys.executable, os.path.join(SCRIPTS, 'plot_bag'), self.path,
                                '--out', self.out, *arguments], universal_newlines=True,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
-    def succeeds(self, files, *arguments):
+    def succeeds(self, names, *arguments):
         done = self.plot(*arguments)
         self.assertEqual((done.returncode, done.stderr), (0, ''))
-        self.assertEqual(sorted(os.listdir(self.out)), sorted(files))
+        self.assertEqual(sorted(os.listdir(self.out)), sorted(names))
         return done.stdout
 
     def refuses(self, reason, *arguments):
@@ -76,63 +64,410 @@ class PlotBag(unittest.TestCase):
         self.assertIn(reason, done.stderr)
         self.assertFalse(os.path.exists(self.out))
 
+
+class Exponents(Bags):
     def test_positive_half(self):
         exponents = np.linspace(3, 1, 37)
-        self.write([run_info(), cost(1), *(spectrum(exponents, t) for t in range(1, 30)), cost(2)])
+        self.write([made.run_info(), made.cost(1),
+                    *(made.spectrum(exponents, t) for t in range(1, 30)), made.cost(2)])
         text = self.succeeds(SPECTRUM_FILES + COST_FILES)
         self.assertIn('the last 37 exponents before the zeros', text)
         self.assertIn('    37   1.00000  0.01000', text)
         self.assertIn('h_KS / N        3.7', text)
         self.assertNotIn('pairing', text)
+        self.assertNotIn('steps', text)
 
     def test_all_exponents(self):
         half = np.linspace(3, 1, 37)
         exponents = [*half, 0, 0, 0, 0, 0, 0, *-half[::-1]]
-        self.write([run_info(), spectrum(exponents, 1.0, pairing_error=2e-5), cost(1)])
+        self.write([made.run_info(), made.spectrum(exponents, 1.0, pairing_error=2e-5),
+                    made.cost(1)])
         text = self.succeeds(SPECTRUM_FILES + COST_FILES)
         self.assertIn('the last 37 exponents before the zeros', text)
         self.assertIn('pairing error   2.00e-05', text)
 
     def test_one_exponent_without_known_error(self):
-        self.write([run_info(), spectrum([3.5], 1.0, error=-1.0)])
+        self.write([made.run_info(), made.spectrum([3.5], 1.0, error=-1.0)])
         text = self.succeeds(SPECTRUM_FILES)
         self.assertIn('     1   3.50000        -', text)
         self.assertNotIn('h_KS', text)
 
     def test_trajectory_only(self):
-        self.write([run_info(), cost(1), cost(2)])
+        self.write([made.run_info(), made.cost(1), made.cost(2)])
         self.assertIn('no averaged spectrum', self.succeeds(COST_FILES))
 
-    def test_paper_scene(self):
-        info = run_info(disks=780, density=0.8, aspect=0.867, box_x=33.535, box_y=29.074)
+    def test_paper_scene_without_steps(self):
+        info = made.paper_info()
         exponents = np.linspace(6.8, 1.0, 1557)
         for step in paper.steps(info):
             exponents[step.first - 1:step.last] = 1.01 * step.fitted
-        self.write([info, spectrum(exponents, 10.0)])
+        self.write([info, made.spectrum(exponents, 10.0)])
         text = self.succeeds(SPECTRUM_FILES)
-        self.assertRegex(text, r'T\(1,0\) +1556-1557 +0\.18736 +0\.62\d+ +0\.01000 +0\.61\d\d +\+1\.00 %')
+        self.assertRegex(text, r'T\(1,0\) +1556-1557 +0\.18736 +0\.62\d+ +0\.01000 +0\.61\d\d '
+                               r'+\+1\.00 %')
         self.assertEqual(text.count('+1.00 %'), 5)
 
     def test_averages_start_afresh_after_a_reset(self):
-        times = [1, 2, 3, 1, 2]
-        self.write([run_info(), *(spectrum([3.0, 2.0], t) for t in times)])
-        self.assertEqual(list(recording.read(self.path).course()['time']), [1, 2])
+        run = self.recorded(made.run_info(),
+                            *(made.spectrum([3.0, 2.0], t) for t in [1, 2, 3, 1, 2]))
+        self.assertEqual(list(run.course()['time']), [1, 2])
 
     def test_last_of_two_runs(self):
-        self.write([run_info(), spectrum([9.0], 5.0), run_info(run_id='two'),
-                    spectrum([3.0], 1.0, run_id='two')])
-        run = recording.read(self.path)
+        info = made.run_info()
+        step = made.step(info, LP, 1, 0, 34, 37)
+        run = self.recorded(info, made.spectrum([9.0], 5.0), made.steps([step]),
+                            made.lp_phases(info, [step], 5.0), made.mode_field(info, step),
+                            made.run_info(run_id='two'), made.steps([step]),    # late
+                            made.spectrum([3.0], 1.0, run_id='two'))
         self.assertEqual((run.info.run_id, run.spectrum.lambda_max), ('two', 3.0))
+        self.assertEqual((run.steps, list(run.fields()), run.phases.last), (None, [], None))
 
+
+class Table(Bags):
+    """Made steps: c = 1.4 and 1.5, c2 = 0.1 and 0.5, in a box of 6.3246 x 6.3246: k = 0.99346."""
+
+    def lines(self, *messages):
+        """The text as {first word of a line: rest of its words}, and the text."""
+        text = report.report(self.recorded(*messages))
+        return {words[0]: words[1:] for words in map(str.split, text.splitlines()) if words}, text
+
+    def run_with(self, *known, info=None, **fields):
+        info = info or made.run_info()
+        message = made.steps(list(known))
+        for name, value in fields.items():
+            setattr(message, name, value)
+        return self.lines(info, made.spectrum(np.linspace(3, 1, 37), 50.0), message)
+
+    def test_steps(self):
+        info = made.run_info()
+        lines, text = self.run_with(made.step(info, T, 1, 0, 36, 37),
+                                    made.step(info, LP, 1, 0, 32, 35, std_error=-1.0),
+                                    made.zero_modes())
+        self.assertIn('at least 50 % of the expected multiplicity', text)
+        self.assertEqual(lines['T(1,0)'], ['36-37', '1.98', '2', '0.99346', '1.4895(20)'])
+        self.assertEqual(lines['LP(1,0)'], ['32-35', '3.96', '4', '0.99346', '1.98367'])
+        self.assertIn('zero modes not carried', text)
+        self.assertNotIn('resolved (', text)
+        self.assertNotIn('Eckmann', text)
+
+    def test_lowest_step_comes_first(self):
+        info = made.run_info()
+        _, text = self.run_with(made.step(info, LP, 1, 0, 32, 35), made.step(info, T, 1, 0, 36, 37))
+        self.assertLess(text.index('T(1,0)'), text.index('LP(1,0)'))
+
+    def test_steps_that_share_a_set(self):
+        info = made.run_info()
+        shared = {'set': 7, 'members': 2}
+        lines, text = self.run_with(
+            made.step(info, T, 1, 1, 26, 33, expected=4, multiplicity=3.9, **shared),
+            made.step(info, LP, 0, 1, 26, 33, expected=4, multiplicity=3.5, **shared))
+        self.assertEqual(lines['LP(0,1)+T(1,1)'], ['26-33', '7.40', '8'])
+        self.assertEqual(lines['T(1,1)'], ['3.90', '4', '1.40496', '2.1643(20)'])
+        self.assertEqual(lines['LP(0,1)'], ['3.50', '4', '0.99346', '1.9837(20)'])
+        self.assertIn('\n    T(1,1) ', text)
+
+    def test_unresolved_steps_in_one_line(self):
+        info = made.run_info()
+        _, text = self.run_with(made.step(info, T, 1, 0, 36, 37),
+                                made.unresolved(info, LP, 2, 2, 8),
+                                made.unresolved(info, T, 2, 2, 4), made.zero_modes())
+        self.assertIn('\n  not resolved (2): LP(2,2) T(2,2)\n', text)
+        _, text = self.run_with(*(made.unresolved(info, T, n, 10, 4) for n in range(100)))
+        line = next(line for line in text.splitlines() if 'not resolved (' in line)
+        self.assertRegex(line, r'^  not resolved \(100\): T\(0,10\) .* and \d+ more$')
+        self.assertLessEqual(len(line), 104)
+        self.assertEqual(line.count('T(') + int(line.split()[-2]), 100)
+
+    def test_zero_modes(self):
+        info = made.run_info()
+        text = report.report(self.recorded(info, made.spectrum(np.linspace(3, 0, 43), 50.0),
+                                           made.steps([made.zero_modes(38)])))
+        self.assertRegex(text, r'zero modes +38-43 +6\.00 +6 +0\.000100\(30\)')
+        text = report.report(self.recorded(info, made.spectrum(np.linspace(3, 0, 43), 50.0),
+                                           made.steps([made.zero_modes()])))
+        self.assertIn('zero modes not found', text)
+
+    def test_conjugate_half_in_one_line(self):
+        info = made.run_info()
+        step = made.step(info, T, 1, 0, 36, 37)
+        mirrored = made.step(info, T, 1, 0, 44, 45, conjugate=True,
+                             exponent=-step.exponent + 3e-6)
+        lost = made.unresolved(info, LP, 1, 0, 4)
+        lost.conjugate = True
+        _, text = self.run_with(step, mirrored, lost)
+        self.assertIn('half: 1 of 2 resolved, largest |sum with its partner| 3.0e-06', text)
+        self.assertEqual(text.count('T(1,0)'), 1)
+
+    def test_fits(self):
+        lines, text = self.run_with(made.step(made.run_info(), T, 1, 0, 36, 37))
+        self.assertEqual(lines['c_T'], ['1.400(12)', '3', 'wave', 'numbers'])
+        self.assertEqual(lines['c_T2'], ['0.100(34)'])
+        self.assertEqual(lines['c_L'], ['1.500(20)', '2', 'wave', 'numbers'])
+        self.assertEqual(lines['c_L2'], ['0.50(10)'])
+        self.assertEqual(lines['v'][:1], ['1.612(23)'])
+        self.assertIn('|omega| / k of 8 LP phases', text)
+
+    def test_fits_with_too_little(self):
+        lines, text = self.run_with(t_points=1, l_points=0, v_phases=0)
+        self.assertEqual(lines['c_T'], ['1.400(12)', '1', 'wave', 'number'])
+        self.assertNotIn('c_T2', lines)
+        self.assertIn('c_L   not known: no step resolved', text)
+        self.assertNotIn('c_L2', lines)
+        self.assertEqual(lines['v'], ['not', 'known'])
+
+    def test_paper_values_beside_the_fits(self):
+        slopes = (r'c_T .*2005, c k alone: 2\.535 \+-3 %', r'c_L .* alone: 3\.352 \+-3 %')
+        curves = (r'c_T .*: 1\.412\n', r'c_T2 .*: 0\.086\n', r'c_L .*: 1\.422\n',
+                  r'c_L2 .*: 0\.550\n')
+        for density, disks, there in ((0.7, 400, slopes), (0.4, 780, curves), (0.7, 399, ()),
+                                      (0.81, 780, ())):
+            _, text = self.run_with(info=made.run_info(disks=disks, density=density))
+            self.assertEqual(text.count('Eckmann'), len(there), (density, disks))
+            for pattern in there:
+                self.assertRegex(text, pattern)
+
+    def test_paper_scene(self):
+        info = made.paper_info()
+        known = [made.step(info, kind, nx, ny, first, last)
+                 for kind, nx, ny, first, last in ((T, 1, 0, 1556, 1557), (LP, 1, 0, 1550, 1553))]
+        for step, fitted in zip(known, (paper.slope_t(0.8), paper.slope_l(0.8))):
+            step.exponent = 0.99 * fitted * step.wave_number
+        lines, _ = self.lines(info, made.spectrum(np.linspace(6, 1, 1557), 50.0),
+                              made.steps(known))
+        self.assertEqual(lines['T(1,0)'], ['1556-1557', '1.98', '2', '0.18736', '0.6093(20)',
+                                           '0.6155', '-1.00', '%'])
+        self.assertEqual(lines['LP(1,0)'][-3:], ['0.8664', '-1.00', '%'])
+
+    def test_lp_dynamics(self):
+        info = made.run_info()
+        step = made.step(info, LP, 1, 0, 32, 35)
+        message = made.lp_phases(info, [made.zero_modes(), step], 150.0)
+        for phase, (omega, error, state) in zip(message.phases, (
+                (1.50, 0.01, 3), (-1.60, 0.02, 3), (9.0, 0.01, 1), (9.0, 0.01, 2),
+                (1.52, -1.0, 3), (9.0, 0.01, 1), (9.0, 0.01, 1), (9.0, 0.01, 0))):
+            phase.omega, phase.omega_error, phase.state = omega, error, state
+        lines, text = self.lines(info, made.spectrum(np.linspace(3, 1, 37), 50.0),
+                                 made.steps([made.zero_modes(), step]), message)
+        # weights 4 : 1; the error is that of one phase: 0.01 / sqrt(5/4 / 2)
+        self.assertRegex(text, r'LP\(1,0\) +1\.520\(13\) +1\.530\(13\) +3 of 8')
+
+    def test_lp_step_without_a_tracked_phase(self):
+        info = made.run_info()
+        step = made.step(info, LP, 1, 0, 32, 35)
+        message = made.lp_phases(info, [step], 150.0)
+        for phase in message.phases:
+            phase.state = phase.WEAK
+        _, text = self.lines(info, made.spectrum([3.0], 50.0), made.steps([step]), message)
+        self.assertRegex(text, r'LP\(1,0\) +- +- +0 of 8')
+
+    def test_without_phases(self):
+        _, text = self.run_with(made.step(made.run_info(), LP, 1, 0, 32, 35))
+        self.assertNotIn('LP dynamics', text)
+
+    def test_cost_of_classification(self):
+        _, text = self.lines(made.run_info(), made.spectrum([3.0], 50.0), made.steps([]),
+                             made.cost(200.0))
+        self.assertIn('took 5.0 % of the run (10.0 s of 200.0 s)', text)
+
+    def test_steps_before_any_average(self):
+        info = made.run_info()
+        _, text = self.lines(info, made.spectrum([3.0], 50.0),
+                             made.steps([made.step(info, T, 1, 0, 36, 37)], averaged_time=0.0))
+        self.assertNotIn('steps', text)
+
+
+class Figures(Bags):
+    def test_everything(self):
+        self.write(made.small_run())
+        text = self.succeeds(SPECTRUM_FILES + COST_FILES + MODES_FILES)
+        self.assertRegex(text, r'T\(1,0\) +36-37 +1\.98')
+        for name in os.listdir(self.out):
+            path = os.path.join(self.out, name)
+            self.assertIn(path, text)
+            if name.endswith('.png'):
+                self.assertGreater(np.std(plt.imread(path)), 0.01, name)
+            else:
+                with open(path) as file:
+                    self.assertIn('</svg>', file.read()[-10:])
+
+    def test_each_topic_may_be_missing(self):
+        everything = made.small_run()
+        for left_out, gone in ((Steps, MODES_FILES), (LpPhases, files('phases')),
+                               (ModeField, files('modes', 'p_mode'))):
+            self.out += '_'
+            self.write([one for one in everything if not isinstance(one, left_out)])
+            self.succeeds(sorted(set(SPECTRUM_FILES + COST_FILES + MODES_FILES) - set(gone)))
+
+    def test_channel(self):
+        info = made.run_info(disks=20, aspect=0.0375, box_x=40.0, box_y=1.5,
+                             boundary_y='reflecting', zero_exponents=4)
+        step = made.step(info, LP, 1, 0, 35, 38)
+        self.write([info, made.spectrum(np.linspace(3, 1, 38), 1.0), made.steps([step]),
+                    made.mode_field(info, step)])
+        self.succeeds(SPECTRUM_FILES + files('dispersion', 'modes', 'p_mode'))
+
+    def test_steps_without_one_resolved(self):
+        info = made.run_info()
+        self.write([info, made.spectrum(np.linspace(3, 1, 37), 1.0),
+                    made.steps([made.unresolved(info, LP, 1, 0, 4), made.zero_modes()])])
+        self.assertIn('not resolved (1): LP(1,0)', self.succeeds(SPECTRUM_FILES))
+
+    def test_both_halves(self):
+        info = made.run_info()
+        half = np.linspace(3, 1, 37)
+        step = made.step(info, T, 1, 0, 36, 37)
+        mirrored = made.step(info, T, 1, 0, 44, 45, conjugate=True, exponent=-step.exponent)
+        self.write([info, made.spectrum([*half, *[0.0] * 6, *-half[::-1]], 1.0),
+                    made.steps([step, mirrored, made.zero_modes(38)])])
+        self.succeeds(SPECTRUM_FILES + files('dispersion'))
+
+    def test_panels_are_the_last_fields_of_the_steps(self):
+        info = made.run_info()
+        low, high = made.step(info, T, 1, 0, 36, 37), made.step(info, LP, 1, 0, 32, 35)
+        run = self.recorded(info, made.steps([high, low]),
+                            made.mode_field(info, low, 149.0, index=37),
+                            made.mode_field(info, low, 150.0, index=36),
+                            made.mode_field(info, high, 150.0, index=35),
+                            made.mode_field(info, high, 90.0, index=12))
+        panels = modes.chosen(run)
+        self.assertEqual([(panel.name, panel.field.index) for panel in panels],
+                         [('T(1,0)', 36), ('LP(1,0)', 35)])
+        run.info.field_indices = '36 35 12'
+        self.assertEqual([panel.name for panel in modes.chosen(run)],
+                         ['T(1,0)', 'LP(1,0)', 'no step'])
+
+    def test_p_mode_is_what_the_field_says(self):
+        info = made.run_info()
+        along = made.step(info, LP, 0, 1, 28, 31)
+        diagonal = made.step(info, LP, 1, 1, 30, 37, exponent=1.0)
+        run = self.recorded(info, made.steps([diagonal, along]),
+                            made.mode_field(info, diagonal, modulations=(0, 1, 2, 3)),
+                            made.mode_field(info, along, modulations=(0, 2)))
+        field = p_mode.chosen(run)
+        self.assertEqual((field.nx, field.ny, field.pairs), (0, 1, 2))
+        mode = p_mode.PMode(field, 1, info)
+        self.assertEqual((mode.along, mode.formula), ('y', r'$\sin k_y y$'))
+        a = np.sin(2 * np.pi * np.array(field.y) / info.box_y)
+        for part in mode.divided:
+            self.assertGreater(np.corrcoef(part, a)[0, 1], 0.9)
+
+    def test_p_mode_of_a_diagonal_wave(self):
+        info = made.run_info()
+        step = made.step(info, LP, 1, 1, 30, 37)
+        self.write([info, made.spectrum(np.linspace(3, 1, 37), 1.0), made.steps([step]),
+                    made.mode_field(info, step, modulations=(0, 1, 2, 3))])
+        self.succeeds(SPECTRUM_FILES + files('dispersion', 'modes', 'p_mode'))
+
+
+class Phases(Bags):
+    """Phases turn by v k = 1.5895 rad per time unit."""
+
+    def course(self, *times_and_beginnings, lost=()):
+        info = made.run_info()
+        step = made.step(info, LP, 1, 0, 32, 35)
+        messages = [made.lp_phases(info, [step], time, began=began)
+                    for time, began in times_and_beginnings]
+        for message in messages:
+            if message.sim_time in lost:
+                for phase in message.phases:
+                    phase.state, phase.phase = phase.WEAK, 0.0
+        return self.recorded(info, made.steps([step]), *messages)
+
+    def curves(self, run, number=0):
+        return [list(time) for time, _ in run.phases.curves(number)]
+
+    def test_one_curve(self):
+        run = self.course(*((float(t), 100.0) for t in range(101, 106)))
+        (time, phase), = run.phases.curves(0)
+        self.assertEqual(list(time), [101, 102, 103, 104, 105])
+        self.assertTrue(np.allclose(np.diff(phase), -made.VELOCITY * 0.993459))
+        # another vector and another pair
+        self.assertEqual(phases.chosen(run), [(0, [0, 3])])
+
+    def test_lost_for_a_while(self):
+        run = self.course(*((float(t), 100.0) for t in range(101, 108)), lost=(104.0,))
+        self.assertEqual(self.curves(run), [[101, 102, 103], [105, 106, 107]])
+
+    def test_begun_anew(self):
+        run = self.course(*((float(t), 100.0) for t in range(101, 104)),
+                          *((float(t), 103.5) for t in range(104, 107)))
+        self.assertEqual(self.curves(run), [[101, 102, 103], [104, 105, 106]])
+
+    def test_never_tracked(self):
+        run = self.course(*((float(t), 100.0) for t in range(101, 104)), lost=(101, 102, 103))
+        self.assertEqual((self.curves(run), phases.chosen(run)), ([], []))
+
+
+class LongBags(Bags):
+    def test_course_is_thinned_evenly_and_ends_with_the_last_row(self):
+        course = Course()
+        self.assertIsNone(course.table())
+        for count in (1, 2, LIMIT, LIMIT + 1, 3 * LIMIT + 2, 10 * LIMIT):
+            course.clear()
+            for row in range(count):
+                course.add((row, -row))
+            kept = course.table()[:, 0]
+            self.assertEqual((kept[0], kept[-1]), (0, count - 1))
+            self.assertLessEqual(len(kept), LIMIT + 1)
+            self.assertGreaterEqual(len(kept), min(count, LIMIT // 2))
+            self.assertEqual(len(set(np.diff(kept[:-1]))), 0 if len(kept) < 3 else 1)
+
+    def test_restart_is_seen_in_a_thinned_course(self):
+        info = made.run_info()
+        step = made.step(info, LP, 1, 0, 37, 37)
+        run = recording.Recording(info)
+        for t in range(3 * LIMIT):
+            run.phases.add(made.lp_phases(info, [step], float(t), modulations=(0,),
+                                          began=0.0 if t < LIMIT else LIMIT - 0.5))
+        begins = [time[0] for time, _ in run.phases.curves(0)]
+        self.assertEqual(begins, [0, LIMIT])
+
+    def test_memory(self):
+        info = made.run_info(disks=2000, box_x=63.2, box_y=63.2)
+        step = made.step(info, LP, 1, 0, 3994, 3997)
+        field = made.mode_field(info, step)
+        one = 8 * 20 * info.disks   # bytes: vectors and two pairs
+        self.write(itertools.chain([info], itertools.repeat(field, 100),
+                                   itertools.repeat(made.steps([step]), 1000)))
+        self.assertGreater(os.path.getsize(self.path), 100 * one)
+        tracemalloc.start()
+        try:
+            run = recording.read(self.path)
+            _, peak = tracemalloc.get_traced_memory()
+        finally:
+            tracemalloc.stop()
+        self.assertEqual(len(list(run.fields())), 1)
+        self.assertLess(peak, 20 * one)
+
+
+class Numbers(unittest.TestCase):
+    def test_with_error(self):
+        for value, error, text in ((0.612524, 0.00067, '0.61252(67)'),
+                                   (0.9, 0.0996, '0.90(10)'), (1.0, 0.00996, '1.000(10)'),
+                                   (-2.34567, 0.5, '-2.35(50)'), (12.345, 1.46, '12.3(1.5)'),
+                                   (1234.5, 23.4, '1234(23)'), (12345.6, 234.0, '12350(230)'),
+                                   (3.76e-16, 2.1e-17, '3.8e-16'), (0.5, -1.0, '0.50000'),
+                                   (0.5, float('nan'), '0.50000'),
+                                   (0.5, 0.0, '0.50000')):
+            self.assertEqual(with_error(value, error), text)
+
+    def test_modulation(self):
+        info = made.run_info(box_x=10.0, box_y=6.0, boundary_y='reflecting')
+        a = waves.modulation(info, 1, 2, waves.SIN_X, 1.0, 2.0)
+        self.assertAlmostEqual(a, np.sin(2 * np.pi / 10) * np.cos(2 * np.pi / 5 * 1.5))
+        self.assertEqual(waves.formula(1, 2, waves.SIN_X), r'$\sin k_x x\,\cos k_y y$')
+
+
+class Refusals(Bags):
     def test_several_nodes(self):
-        self.write([run_info(), spectrum([3.0], 1.0)], node='/hdlyap')
-        self.write([run_info(), spectrum([4.0], 1.0)], node='/far/away', mode='a')
+        self.write([made.run_info(), made.spectrum([3.0], 1.0)], node='/hdlyap')
+        self.write([made.run_info(), made.spectrum([4.0], 1.0)], node='/far/away', mode='a')
         self.refuses('choose one with --node: /far/away, /hdlyap')
         self.refuses('no node other in it', '--node', 'other')
         self.assertIn('lambda_max      4.0', self.succeeds(SPECTRUM_FILES, '--node', 'far/away'))
 
     def test_bag_without_run_info(self):
-        self.write([spectrum([3.0], 1.0)])
+        self.write([made.spectrum([3.0], 1.0), made.steps([])])
         self.refuses('no run_info')
 
     def test_foreign_bag(self):
@@ -151,7 +486,7 @@ class PlotBag(unittest.TestCase):
 
     def test_unindexed_bag(self):
         bag = rosbag.Bag(self.path, 'w')
-        bag.write('/hdlyap/run_info', run_info(), rospy.Time(1))
+        bag.write('/hdlyap/run_info', made.run_info(), rospy.Time(1))
         bag.flush()
         with open(self.path, 'rb') as file:
             content = file.read()

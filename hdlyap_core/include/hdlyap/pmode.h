@@ -30,7 +30,7 @@ const double *hd_pmode_rotation(const hd_pmode *pmode);
 double hd_pmode_rotation_distance(const hd_pmode *pmode);
 
 /** P field divided by the momenta, phi p / (p^2 + eps) component by component, p[2N]: both components are
- *  the modulation A itself, of amplitude 1. out[2N]. */
+ *  the modulation A itself, of amplitude 1 but for what the residual and eps take away. out[2N]. */
 void hd_pmode_divide(const hd_pmode *pmode, double *out, int c, const double *p);
 
 /** eps in units of the mean square of a momentum component. */

@@ -1,6 +1,8 @@
 """What Eckmann, Forster, Posch, Zabey, "Lyapunov modes in hard-disk systems", J. Stat. Phys.
-(2005), gives for its periodic scene: N = 780, density 0.8, aspect ratio 0.867."""
+(2005), gives: steps of its periodic scene (N = 780, density 0.8, aspect ratio 0.867), slopes of the
+branches, and at density 0.4 their curvature."""
 
+from collections import namedtuple
 from math import hypot, isclose, pi
 
 DISKS, DENSITY, ASPECT = 780, 0.8, 0.867
@@ -8,6 +10,10 @@ FIT_ACCURACY = 0.03     # of the fitted slopes
 FITS = 'fits of Eckmann, Forster, Posch, Zabey 2005'
 STEPS = (('T', 1, 0, 1556, 1557), ('T', 0, 1, 1554, 1555), ('LP', 1, 0, 1550, 1553),
          ('T', 1, 1, 1546, 1549), ('LP', 0, 1, 1542, 1545))
+# lambda = c k + c2 k^2; c2 is None where only a slope is given
+Branch = namedtuple('Branch', 'c c2')
+CURVES = {'T': Branch(1.412, 0.086), 'LP': Branch(1.422, 0.55)}
+CURVES_DENSITY = 0.4
 
 
 class Step:
@@ -15,7 +21,7 @@ class Step:
 
     def __init__(self, info, kind, nx, ny, first, last):
         slope = slope_t if kind == 'T' else slope_l
-        self.kind, self.first, self.last = kind, first, last
+        self.kind, self.nx, self.ny, self.first, self.last = kind, nx, ny, first, last
         self.name = f'{kind}({nx},{ny})'
         self.wave_number = 2 * pi * hypot(nx / info.box_x, ny / info.box_y)
         self.fitted = slope(info.density) * self.wave_number
@@ -36,6 +42,16 @@ def steps(info):
     if not _is_periodic_scene(info):
         return []
     return [Step(info, *step) for step in STEPS]
+
+
+def branches(info):
+    """{kind: Branch} where the paper's fits hold for the run, else none."""
+    if isclose(info.density, CURVES_DENSITY, rel_tol=1e-6) and 400 <= info.disks <= 800:
+        return CURVES
+    if info.density <= DENSITY * (1 + 1e-6) and info.disks >= 400:
+        return {'T': Branch(slope_t(info.density), None),
+                'LP': Branch(slope_l(info.density), None)}
+    return {}
 
 
 def _is_periodic_scene(info):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from . import paper
+from . import paper, step_table
 from .recording import known
 
 TAIL = 64       # exponents in the table
@@ -12,7 +12,9 @@ COLUMNS = 3
 def report(recording):
     blocks = [_head(recording)]
     if recording.spectrum is not None:
-        blocks += [_sums(recording), _tail(recording), *_paper_block(recording)]
+        blocks += [_sums(recording), _tail(recording)]
+        blocks += (_paper_block(recording) if recording.steps is None
+                   else step_table.blocks(recording))
     return '\n\n'.join(blocks)
 
 
@@ -70,6 +72,7 @@ def _in_columns(head, cells):
 
 
 def _paper_block(recording):
+    """Of a run that did not look for steps, those that the paper has at the same indices."""
     spectrum = recording.spectrum
     steps = [step for step in paper.steps(recording.info)
              if spectrum.first_index <= step.first and step.last <= recording.last_index]

@@ -1,0 +1,51 @@
+"""Running means and their standard errors against the averaged time."""
+
+from matplotlib import ticker
+import numpy as np
+
+from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, plt, thinned
+
+
+def draw(recording):
+    if recording.spectrum is None:
+        return None
+    figure, (top, middle, bottom) = plt.subplots(3, 1, figsize=(5.2, 6.6), sharex=True,
+                                                 constrained_layout=True)
+    course = recording.course()
+    kept = thinned(len(course['time']))
+    time = course['time'][kept]
+    _with_error(top, time, course['lambda_max'][kept], course['lambda_max_error'][kept], INK)
+    top.set_ylabel(r'$\lambda_{\max}$  [1/time unit]')
+    for column, (index, colour) in enumerate(zip(recording.smallest,
+                                                 (SKY, BLUE, ORANGE, VERMILION))):
+        _with_error(middle, time, course['small'][kept, column],
+                    course['small_errors'][kept, column], colour, rf'$\ell={index}$')
+    middle.set_ylabel(r'$\lambda_\ell$  [1/time unit]')
+    middle.legend(ncol=2)
+    _largest_error(bottom, time, course['largest_error'][kept])
+    bottom.set_ylabel('standard error  [1/time unit]')
+    bottom.set_xlabel('averaged time  [time units]')
+    bottom.set_xscale('log')
+    for axes, name in zip((top, middle, bottom), 'abc'):
+        axes.set_title(f'({name})', loc='left')
+    return figure
+
+
+def _with_error(axes, time, mean, error, colour, label=None):
+    if np.isfinite(error).any():
+        axes.fill_between(time, mean - error, mean + error, color=colour, alpha=0.25, linewidth=0)
+    axes.plot(time, mean, color=colour, label=label)
+
+
+def _largest_error(axes, time, error):
+    measured = np.isfinite(error)
+    if not measured.any():
+        axes.annotate('not yet known', (0.5, 0.5), xycoords='axes fraction', ha='center')
+        return
+    axes.loglog(time[measured], error[measured], color=INK, label='largest standard error')
+    axes.loglog(time[measured], error[measured][-1] * np.sqrt(time[-1] / time[measured]), '--',
+                color=GREY, label=r'$\propto 1/\sqrt{t}$')
+    axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+    axes.yaxis.set_major_formatter(ticker.FormatStrFormatter('%g'))
+    axes.yaxis.set_minor_formatter(ticker.NullFormatter())
+    axes.legend()

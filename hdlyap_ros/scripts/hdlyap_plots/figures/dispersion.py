@@ -1,0 +1,114 @@
+"""Exponents of the steps against the wave number, with the fitted branches."""
+
+import numpy as np
+
+from .. import paper, steps
+from ..numbers import with_error
+from .style import GREY, KIND_COLOURS, bars, plt, scene
+
+MARKERS = {'T': 'o', 'LP': 's'}
+CLOSE = 0.028       # of the width of the axes: nearer names stand behind one another
+NAMES = 3           # that stand behind one another
+MARGIN = 1.08
+PUBLISHED_UP_TO = 0.3   # wave numbers for which slopes without curvature are meant
+
+
+def draw(recording):
+    message = recording.steps
+    points = [(block, step) for block in steps.blocks(message) for step in block.steps]
+    if not points:
+        return None
+    figure, axes = plt.subplots(figsize=(5.2, 4.4), constrained_layout=True)
+    end = MARGIN * max(step.wave_number for _, step in points)
+    for kind, letter, count in (('LP', 'l', message.l_points), ('T', 't', message.t_points)):
+        _branch(axes, recording, kind, letter, count, end)
+    for block, step in points:
+        _point(axes, step, alone=len(block.steps) == 1)
+    axes.set_xlim(0, end)
+    axes.set_ylim(0, MARGIN * max(step.exponent for _, step in points))
+    axes.set_xlabel(r'wave number $k$  [1/$\sigma$]')
+    axes.set_ylabel(r'$\lambda$  [1/time unit]')
+    _wave_axis(axes, [step for _, step in points], end)
+    _legend(axes, [block for block, _ in points])
+    figure.suptitle(scene(recording.info), fontsize=9)
+    return figure
+
+
+def _point(axes, step, alone):
+    """Open where the step shares its vectors with another."""
+    kind = steps.NAMES[step.kind]
+    colour = KIND_COLOURS[kind]
+    axes.errorbar(step.wave_number, step.exponent, bars(step.std_error), fmt=MARKERS[kind],
+                  color=colour, markerfacecolor=colour if alone else 'white', markersize=4.5,
+                  elinewidth=0.9, capsize=2, zorder=3)
+
+
+def _branch(axes, recording, kind, letter, count, end):
+    """The fit of the run, and thin the paper's where it holds."""
+    message, colour = recording.steps, KIND_COLOURS[kind]
+    if count:
+        c, c2 = getattr(message, 'c_' + letter), getattr(message, f'c_{letter}2')
+        k = np.linspace(0, end, 100)
+        axes.plot(k, c * k + c2 * k ** 2, color=colour,
+                  label=_fit_label(message, kind, letter, count))
+    published = paper.branches(recording.info).get(kind)
+    if published is not None:
+        k = np.linspace(0, end if published.c2 else min(end, PUBLISHED_UP_TO), 100)
+        axes.plot(k, published.c * k + (published.c2 or 0) * k ** 2, color=colour, linewidth=0.8,
+                  dashes=(2, 2), label='_published')
+
+
+def _fit_label(message, kind, letter, count):
+    symbol = kind[0]
+    label = f'$c_{symbol}={_value(message, "c_" + letter)}$'
+    if count > 1:
+        label += f', $c_{{{symbol}2}}={_value(message, f"c_{letter}2")}$'
+    return f'{kind}: ' + label
+
+
+def _value(message, name):
+    return with_error(getattr(message, name), getattr(message, name + '_error'), decimals=3)
+
+
+def _wave_axis(axes, points, end):
+    """Nodes of the waves along the upper edge, each over its wave number; names that would
+    overlap are put together."""
+    groups = []
+    for step in sorted(points, key=lambda step: step.wave_number):
+        name = f'({step.nx},{step.ny})'
+        if groups and step.wave_number - groups[-1][0] < CLOSE * end:
+            groups[-1][1].setdefault(name)
+        else:
+            groups.append((step.wave_number, {name: None}))
+        axes.vlines(step.wave_number, step.exponent, axes.get_ylim()[1], color=GREY, linewidth=0.4,
+                    alpha=0.4, zorder=0)
+    axes.tick_params(top=False)
+    upper = axes.twiny()
+    upper.set_xlim(axes.get_xlim())
+    upper.set_xticks([k for k, _ in groups])
+    upper.set_xticklabels([_joined(list(names)) for _, names in groups], rotation=90, fontsize=7)
+    upper.set_xlabel(r'nodes $(n_x,n_y)$', fontsize=8)
+
+
+def _joined(names):
+    return ' '.join(names[:NAMES]) + (' ..' if len(names) > NAMES else '')
+
+
+def _legend(axes, blocks):
+    handles, labels = axes.get_legend_handles_labels()
+    for kind in ('LP', 'T'):
+        if any(steps.NAMES[step.kind] == kind for block in blocks for step in block.steps):
+            handles.append(_marker(kind, KIND_COLOURS[kind]))
+            labels.append(f'{kind} steps')
+    if any(len(block.steps) > 1 for block in blocks):
+        handles.append(_marker('LP', 'white'))
+        labels.append('steps that coincide')
+    if any(line.get_label() == '_published' for line in axes.get_lines()):
+        handles.append(plt.Line2D([], [], color=GREY, linewidth=0.8, dashes=(2, 2)))
+        labels.append('Eckmann et al. 2005')
+    axes.legend(handles, labels, loc='lower right')     # below the branches
+
+
+def _marker(kind, face):
+    return plt.Line2D([], [], linestyle='', marker=MARKERS[kind], markersize=4.5,
+                      color=KIND_COLOURS[kind] if face != 'white' else GREY, markerfacecolor=face)

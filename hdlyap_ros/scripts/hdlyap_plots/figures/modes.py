@@ -1,0 +1,124 @@
+"""Vector fields of the modes with the smallest exponents, one of each step, at the disks."""
+
+import numpy as np
+from matplotlib.collections import PatchCollection
+
+from .. import steps
+from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, plt, scene
+
+PANELS = 6
+WIDTH = 7.2         # of the figure [inch]
+TALLEST = 9.0
+LONG = 26           # names do not fit over a panel in the usual size
+ARROW = 1.3         # root mean square length of the arrows [sigma]
+CHANNEL = 2.0       # a box narrower than this, in sigma, has no room for arrows
+
+
+class Panel:
+    """One vector and the set that it belongs to; no set for a vector outside every step."""
+
+    def __init__(self, field, block=None):
+        self.field, self.block = field, block
+
+    @property
+    def name(self):
+        return self.block.name if self.block else 'no step'
+
+    @property
+    def title(self):
+        return (f'{self.name}, $\\ell={self.field.index}$, '
+                f'$\\lambda={self.field.exponent:.4f}$')
+
+    @property
+    def colour(self):
+        return kind_colour(self.block.kind) if self.block else GREY
+
+
+def draw(recording):
+    panels = chosen(recording)
+    if not panels:
+        return None
+    info = recording.info
+    if min(info.box_x, info.box_y) < CHANNEL:
+        figure = _channel(panels, info)
+    else:
+        figure = _fields(panels, info)
+    figure.suptitle(scene(info) + f', $t={panels[0].field.sim_time:g}$', fontsize=9)
+    return figure
+
+
+def chosen(recording):
+    """The latest field of each set, smallest exponents first; then what the user asked for by
+    index and belongs to none."""
+    latest, others = {}, []
+    blocks = steps.blocks(recording.steps)
+    for field in recording.fields():
+        block = next((block for block in blocks if block.first <= field.index <= block.last), None)
+        if block is None:
+            others.append(Panel(field))
+        elif block.first not in latest or field.sim_time > latest[block.first].field.sim_time:
+            latest[block.first] = Panel(field, block)
+    panels = [latest[block.first] for block in blocks if block.first in latest]
+    # with one field of each step, a vector without one had a step only for a while
+    if recording.info.field_indices != 'steps':
+        panels += [panel for panel in others if panel.field.index <= recording.positive_end]
+    return panels[:PANELS]
+
+
+def _fields(panels, info):
+    columns = _columns(len(panels), info)
+    rows = -(-len(panels) // columns)
+    height = rows * (WIDTH / columns * info.box_y / info.box_x + 0.3) + 0.3
+    figure, grid = plt.subplots(rows, columns, figsize=(WIDTH, min(height, TALLEST)),
+                                squeeze=False, constrained_layout=True)
+    for axes, panel in zip(grid.flat, panels):
+        _arrows(axes, panel, info)
+    for axes in grid.flat[len(panels):]:
+        axes.set_axis_off()
+    return figure
+
+
+def _columns(count, info):
+    """As many as make the panels as large as possible on the page."""
+    def size(columns):
+        rows = -(-count // columns)
+        return min(WIDTH / columns / info.box_x, TALLEST / rows / info.box_y)
+    return max(range(1, min(count, 3) + 1), key=lambda columns: (size(columns), columns))
+
+
+def _arrows(axes, panel, info):
+    field = panel.field
+    dq = np.array([field.dqx, field.dqy])
+    dq = dq * ARROW / np.sqrt(np.mean(np.sum(dq ** 2, axis=0)))
+    axes.add_collection(PatchCollection([plt.Circle(q, 0.5) for q in zip(field.x, field.y)],
+                                        facecolors='none', edgecolors=LIGHT, linewidths=0.4))
+    axes.quiver(field.x, field.y, *dq, angles='xy', scale_units='xy', scale=1, units='xy',
+                width=0.13, headwidth=3.5, headlength=4, headaxislength=3.5, minlength=0,
+                color=panel.colour, zorder=3)
+    axes.set_aspect('equal')
+    axes.set_xlim(0, info.box_x)
+    axes.set_ylim(0, info.box_y)
+    axes.set_title(panel.title, fontsize=8 if len(panel.name) < LONG else 6)
+    axes.tick_params(labelsize=6, length=2)
+
+
+def _channel(panels, info):
+    """In a channel: both components along it, normalised to a mean square of one."""
+    figure, rows = plt.subplots(len(panels), 1, figsize=(WIDTH, 1.35 * len(panels) + 0.6),
+                                sharex=True, sharey=True, squeeze=False, constrained_layout=True)
+    along = 'x' if info.box_x >= info.box_y else 'y'
+    for axes, panel in zip(rows.flat, panels):
+        field = panel.field
+        dq = np.array([field.dqx, field.dqy]) * np.sqrt(len(field.x) / np.sum(
+            np.square([field.dqx, field.dqy])))
+        place = getattr(field, along)
+        for component, axis, colour, marker in zip(dq, 'xy', MEMBER_COLOURS, 'os'):
+            axes.plot(place, component, marker, markersize=3, color=colour,
+                      label=rf'$\delta q_{axis}$')
+        axes.axhline(0, color=GREY, linewidth=0.5)
+        axes.set_title(panel.title, fontsize=8)
+        axes.set_xlim(0, max(info.box_x, info.box_y))
+    rows.flat[0].legend(ncol=2, loc='lower right', bbox_to_anchor=(1, 0.97), borderpad=0,
+                        handletextpad=0.2, columnspacing=1)
+    rows.flat[-1].set_xlabel(rf'${along}$  [$\sigma$]')
+    return figure

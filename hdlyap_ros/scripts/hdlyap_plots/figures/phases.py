@@ -1,0 +1,79 @@
+"""Phases of LP pairs against time, and how far they are from turning evenly."""
+
+import numpy as np
+
+from .. import steps
+from ..phases import regression
+from ..numbers import with_error
+from ..step_table import mean_omega
+from .style import MEMBER_COLOURS, plt, scene, thinned
+
+STEPS = 4           # are shown
+PER_STEP = 2        # phases of each: more would hide one another
+
+
+def draw(recording):
+    shown = chosen(recording)
+    if not shown:
+        return None
+    figure, (top, bottom) = plt.subplots(2, 1, figsize=(5.6, 5.6), sharex=True,
+                                         constrained_layout=True)
+    for (step, numbers), colour in zip(shown, MEMBER_COLOURS):
+        for number in numbers:
+            for time, phase in recording.phases.curves(number):
+                _curve(top, bottom, time, phase, colour)
+        top.plot([], [], color=colour, label=_label(recording, step))
+    top.set_ylabel(r'phase $\varphi / 2\pi$')
+    top.legend(loc='lower right', bbox_to_anchor=(1, 1), ncol=2)
+    bottom.set_ylabel(r'deviation from even turning  [% of $2\pi$]')
+    bottom.set_xlabel('simulated time  [time units]')
+    for axes, name in zip((top, bottom), 'ab'):
+        axes.set_title(f'({name})', loc='left')
+    figure.suptitle(scene(recording.info), fontsize=9)
+    return figure
+
+
+def chosen(recording):
+    """[(number of a step, numbers of its phases)]: lowest resolved steps first, and of each the
+    phases of different vectors and pairs that were tracked longest."""
+    if recording.phases.last is None or recording.steps is None:
+        return []
+    shown = []
+    for number, _ in steps.resolved_lp(recording.steps):
+        tracked = {phase: _tracked(recording, phase) for phase in recording.phases.of_step(number)}
+        ranked = sorted((phase for phase in tracked if tracked[phase] > 0),
+                        key=lambda phase: (-tracked[phase], phase))
+        if ranked:
+            shown.append((number, _apart(recording.phases.last.phases, ranked)))
+    return shown[:STEPS]
+
+
+def _apart(phases, ranked):
+    """The first ones that have neither vector nor pair in common."""
+    apart = []
+    for number in ranked:
+        if all(phases[number].index != phases[other].index
+               and phases[number].modulation != phases[other].modulation for other in apart):
+            apart.append(number)
+    return apart[:PER_STEP]
+
+
+def _tracked(recording, number):
+    """Time in all."""
+    return sum(time[-1] - time[0] for time, _ in recording.phases.curves(number))
+
+
+def _curve(top, bottom, time, phase, colour):
+    kept = thinned(len(time))
+    top.plot(time[kept], phase[kept] / (2 * np.pi), color=colour)
+    off = 100 * (phase - regression(time, phase)) / (2 * np.pi)
+    bottom.plot(time[kept], off[kept], color=colour, linewidth=0.8, alpha=0.8)
+
+
+def _label(recording, number):
+    step = recording.steps.steps[number]
+    phases = [recording.phases.last.phases[i] for i in recording.phases.of_step(number)]
+    omega, error, tracked = mean_omega(phases)
+    k = step.wave_number
+    speed = f': $v = {with_error(omega / k, error / k, decimals=3)}$' if tracked else ''
+    return steps.name(step) + speed

@@ -1,0 +1,63 @@
+"""How the figures look, and how they get into their files."""
+
+import os
+
+import matplotlib
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt     # noqa: E402
+import numpy as np                  # noqa: E402
+
+from ..recording import known       # noqa: E402
+from .. import steps                # noqa: E402
+
+POINTS = 2000       # of a curve; more cannot be seen
+# Okabe and Ito's palette, safe for colour-blind readers
+BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = (
+    '#0072B2', '#E69F00', '#009E73', '#D55E00', '#CC79A7', '#56B4E9')
+GREY, LIGHT, INK = '#8C8C8C', '#C8C8C8', '#1A1A1A'
+KIND_COLOURS = {'T': BLUE, 'LP': VERMILION}
+MIXED = PURPLE      # vectors that T and LP steps share
+ZERO = GREEN
+MEMBER_COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY)
+STYLE = {'font.size': 9, 'axes.titlesize': 9, 'axes.labelsize': 9, 'legend.fontsize': 8,
+         'xtick.labelsize': 8, 'ytick.labelsize': 8, 'xtick.direction': 'in',
+         'ytick.direction': 'in', 'xtick.top': True, 'ytick.right': True, 'axes.linewidth': 0.7,
+         'lines.linewidth': 1.2, 'legend.frameon': False, 'mathtext.fontset': 'dejavusans',
+         'svg.hashsalt': 'hdlyap'}
+
+
+def save(figure, folder, name):
+    """Complete files only: a good older one is replaced in one step."""
+    files = []
+    for suffix, options in (('png', {'dpi': 250}), ('svg', {'metadata': {'Date': None}})):
+        path = os.path.join(folder, f'{name}.{suffix}')
+        unfinished = os.path.join(folder, f'.{name}.{os.getpid()}.{suffix}')
+        try:
+            figure.savefig(unfinished, **options)
+            os.replace(unfinished, path)
+        finally:
+            if os.path.exists(unfinished):
+                os.remove(unfinished)
+        files.append(path)
+    plt.close(figure)
+    return files
+
+
+def scene(info):
+    return (f'{info.scene}: $N={info.disks}$, $\\rho={info.density:g}$, '
+            f'$L_y/L_x={info.aspect:g}$')
+
+
+def bars(std_errors):
+    """Lengths of error bars; None if not one is known."""
+    errors = known(std_errors)
+    return errors if np.isfinite(errors).any() else None
+
+
+def thinned(count):
+    return np.unique(np.linspace(0, count - 1, min(count, POINTS)).astype(int))
+
+
+def kind_colour(kind):
+    """Of a step's kind, or of None for a set with both kinds."""
+    return KIND_COLOURS.get(steps.NAMES.get(kind), MIXED)

@@ -1,0 +1,21 @@
+"""Numbers as a physicist prints them."""
+
+from math import floor, isfinite, log10
+
+PLACES = 9      # with more, only the size of a number can be read
+
+
+def with_error(value, error, decimals=5):
+    """0.61252(67): the error in units of the last digits, two of them; the value alone, to so
+    many decimals, while its error is not known."""
+    if not (isfinite(error) and error > 0):
+        return f'{value:.{decimals}f}'
+    # as rounded: 0.00996 has its two digits one place further to the left
+    places = 1 - floor(log10(float(f'{error:.1e}')))
+    if places > PLACES:
+        return f'{value:.1e}'
+    if places <= 0:
+        return f'{round(value, places):.0f}({round(error, places):.0f})'
+    digits = f'{error:.{places}f}'
+    # an error of one unit or more keeps its point: 12.3(1.5)
+    return f'{value:.{places}f}({digits if error >= 1 else digits.lstrip("0.")})'

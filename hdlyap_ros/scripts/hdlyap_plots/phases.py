@@ -1,0 +1,45 @@
+"""LpPhases messages -> the course of every phase, as curves without gaps."""
+
+import numpy as np
+
+from .course import Course
+
+SHORTEST = 3    # points of a curve
+
+
+class PhaseCourse:
+    """What the last message says, and phase and tracked time of every phase at every report."""
+
+    def __init__(self):
+        self.last = None
+        self._course = Course()
+
+    def add(self, msg):
+        self.last = msg
+        tracked = [phase.state == phase.TRACKED for phase in msg.phases]
+        self._course.add((msg.sim_time,
+                          *(phase.phase if on else np.nan
+                            for phase, on in zip(msg.phases, tracked)),
+                          *(phase.tracked_time for phase in msg.phases)))
+
+    def of_step(self, step):
+        """Numbers of the phases of an element of Steps.steps."""
+        return [number for number, phase in enumerate(self.last.phases) if phase.step == step]
+
+    def curves(self, number):
+        """(times, phases) of each stretch that was tracked without a break."""
+        table = self._course.table()
+        time, phase = table[:, 0], table[:, 1 + number]
+        tracked = table[:, 1 + len(self.last.phases) + number]
+        on = np.isfinite(phase)
+        # tracking that began anew knows a shorter time than has gone by since the last report
+        goes_on = on[1:] & on[:-1] & (np.diff(tracked) > 0.5 * np.diff(time))
+        for piece in np.split(np.arange(len(time)), 1 + np.flatnonzero(~goes_on)):
+            if len(piece) >= SHORTEST and on[piece[0]]:
+                yield time[piece], phase[piece]
+
+
+def regression(time, phase):
+    """Values of the straight line through the phases."""
+    slope, start = np.polyfit(time - time[0], phase, 1)
+    return start + slope * (time - time[0])

@@ -1,0 +1,182 @@
+"""Recording -> the table of steps: what they are, their exponents, fits, LP dynamics, cost."""
+
+import numpy as np
+
+from . import paper, steps
+from .numbers import with_error
+from .recording import known
+
+WIDTH = 100     # of a line with a list of names
+COLUMNS = (('indices', '<10'), ('measured', '>8'), ('of', '>3'), ('k [1/sigma]', '>12'),
+           ('exponent', '>13'))
+PAPER_COLUMNS = (('c k', '>8'), ('deviation', '>11'))
+FITS = (('T', 't', 't_points'), ('LP', 'l', 'l_points'))
+
+
+def blocks(recording):
+    """The parts of the table; recording.steps is there."""
+    yield _steps(recording)
+    yield _fits(recording)
+    yield from _lp_dynamics(recording)
+    yield from _cost(recording)
+
+
+def _steps(recording):
+    message = recording.steps
+    fitted = {step.name: step.fitted for step in paper.steps(recording.info)}
+    title = (f'steps: at least {100 * message.threshold:.0f} % of the expected multiplicity found '
+             '(standard errors)')
+    rows = [_zero_cells(recording)]
+    for block in steps.blocks(message):
+        if len(block.steps) > 1:
+            rows.append(_shared_cells(block))
+        rows += [_cells(block, step, fitted) for step in block.steps]
+    if fitted:
+        title += f'\nc k: {paper.FITS} (+-3 %)'
+    return '\n'.join([title, *_layout(rows, bool(fitted)), *_remarks(message)])
+
+
+def _layout(rows, beside_paper):
+    columns = COLUMNS + (PAPER_COLUMNS if beside_paper else ())
+    width = max(len(row[0]) for row in rows)
+    for row in [['step'] + [title for title, _ in columns]] + rows:
+        cells = (f'{cell:{form}}' for cell, (_, form) in zip(row[1:], columns))
+        yield '  ' + ' '.join([f'{row[0]:<{width}}', *cells]).rstrip()
+
+
+def _zero_cells(recording):
+    zero = steps.zero_modes(recording.steps)
+    if zero is None or not zero.resolved:
+        carried = recording.last_index > recording.positive_end
+        return ['zero modes', 'not found' if carried else 'not carried']
+    return ['zero modes', steps.Block([zero]).indices, f'{zero.multiplicity:.2f}',
+            str(zero.expected), '', with_error(zero.exponent, zero.std_error)]
+
+
+def _shared_cells(block):
+    return [block.name, block.indices, f'{block.multiplicity:.2f}', str(block.expected)]
+
+
+def _cells(block, step, fitted):
+    """A step that shares its set is indented below the names of all."""
+    shared = len(block.steps) > 1
+    name = steps.name(step)
+    cells = ['  ' + name if shared else name, '' if shared else block.indices,
+             f'{step.multiplicity:.2f}', str(step.expected), f'{step.wave_number:.5f}',
+             with_error(step.exponent, step.std_error)]
+    if name in fitted:
+        cells += [f'{fitted[name]:.4f}', f'{100 * (step.exponent / fitted[name] - 1):+.2f} %']
+    return cells
+
+
+def _remarks(message):
+    """What is not in the table."""
+    missing = steps.unresolved(message)
+    if missing:
+        yield '  ' + _names(f'not resolved ({len(missing)}): ', missing)
+    half = [step for step in message.steps if step.conjugate]
+    if half:
+        yield '  ' + _conjugates(message, half)
+
+
+def _names(start, missing):
+    """As many names as fit into a line."""
+    text = start
+    for count, step in enumerate(missing):
+        name = steps.name(step) + ' '
+        if len(text + name) > WIDTH - len('and 999 more'):
+            return f'{text}and {len(missing) - count} more'
+        text += name
+    return text.rstrip()
+
+
+def _conjugates(message, half):
+    """The negative half in a line: found as often, and how far it is from a mirror image."""
+    found = [step for step in half if step.resolved]
+    line = f'conjugate steps of the negative half: {len(found)} of {len(half)} resolved'
+    mirror = {steps.name(step): step.exponent for step in message.steps
+              if step.resolved and not step.conjugate}
+    sums = [abs(step.exponent + mirror[steps.name(step)]) for step in found
+            if steps.name(step) in mirror]
+    return line + (f', largest |sum with its partner| {max(sums):.1e}' if sums else '')
+
+
+def _fits(recording):
+    message = recording.steps
+    lines = ['fits lambda = c k + c2 k^2 over the resolved steps [sigma/time unit, '
+             'sigma^2/time unit]']
+    for kind, letter, points in FITS:
+        lines += _fit_lines(message, letter, getattr(message, points),
+                            paper.branches(recording.info).get(kind))
+    velocity = (with_error(message.v, message.v_error) if message.v_phases else 'not known')
+    lines.append(f'  v     {velocity:<15}' + (f'|omega| / k of {message.v_phases} LP phases'
+                                              if message.v_phases else ''))
+    return '\n'.join(line.rstrip() for line in lines)
+
+
+def _fit_lines(message, letter, points, branch):
+    """c and c2 of one branch, as far as there are wave numbers for them."""
+    if not points:
+        return [f'  c_{letter.upper()}   not known: no step resolved']
+    waves = f'{points} wave number' + ('s' if points > 1 else '')
+    lines = []
+    for suffix, published in (('', branch and branch.c), ('2', branch and branch.c2)):
+        if suffix and points < 2:
+            continue
+        name = f'c_{letter}{suffix}'
+        value = with_error(getattr(message, name), getattr(message, name + '_error'))
+        lines.append(f'  {"c_" + letter.upper() + suffix:<5} {value:<15}{waves:<17}'
+                     + _published(published, branch))
+        waves = ''
+    return lines
+
+
+def _published(value, branch):
+    if not value:
+        return ''
+    if branch.c2 is None:
+        return f'Eckmann et al. 2005, c k alone: {value:.3f} +-{100 * paper.FIT_ACCURACY:.0f} %'
+    return f'Eckmann et al. 2005: {value:.3f}'
+
+
+def _lp_dynamics(recording):
+    """One line for each resolved LP step; nothing if phases were not recorded."""
+    if recording.phases.last is None:
+        return
+    lines = ['LP dynamics: rotation of the vectors between L and P [rad/time unit, '
+             'sigma/time unit]',
+             f'  {"step":<14} {"omega":<15} {"v = omega / k":<15} phases tracked']
+    for number, step in steps.resolved_lp(recording.steps):
+        phases = [recording.phases.last.phases[i] for i in recording.phases.of_step(number)]
+        omega, error, tracked = mean_omega(phases)
+        if not tracked:
+            lines.append(f'  {steps.name(step):<14} {"-":<15} {"-":<15} 0 of {len(phases)}')
+            continue
+        k = step.wave_number
+        lines.append(f'  {steps.name(step):<14} {with_error(omega, error):<15} '
+                     f'{with_error(omega / k, error / k):<15} {tracked} of {len(phases)}')
+    if len(lines) > 2:
+        yield '\n'.join(lines)
+
+
+def mean_omega(phases):
+    """(|omega|, its error, number) over the tracked phases of one step, weighted with their
+    errors. The vectors of a step move together, so their errors do not average out."""
+    omega = np.array([[abs(phase.omega), phase.omega_error] for phase in phases
+                      if phase.state == phase.TRACKED]).reshape(-1, 2)
+    if not len(omega):
+        return np.nan, np.nan, 0
+    errors = known(omega[:, 1])
+    if not (errors > 0).any():
+        return omega[:, 0].mean(), np.nan, len(omega)
+    trusted = errors > 0
+    mean, total = np.average(omega[trusted, 0], weights=errors[trusted] ** -2, returned=True)
+    return mean, np.sqrt(trusted.sum() / total), len(omega)
+
+
+def _cost(recording):
+    cost = recording.cost()
+    if cost is not None and cost['wall'][-1] > 0:
+        spent, wall = cost['modes'][-1], cost['wall'][-1]
+        yield (f'classification, steps and phases took {100 * spent / wall:.1f} % of the run '
+               f'({spent:.1f} s of {wall:.1f} s)')

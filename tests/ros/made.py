@@ -1,0 +1,182 @@
+"""Messages of hdlyap_node made up for tests: a run whose modes are known exactly."""
+
+import itertools
+import os
+import sys
+
+import numpy as np
+import rosbag
+import rospy
+
+from hdlyap.msg import (Cost, LpPhase, LpPhases, ModeField, RunInfo, Spectrum, Step, Steps)
+
+SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../hdlyap_ros/scripts')
+sys.path.insert(0, SCRIPTS)
+from hdlyap_plots import waves      # noqa: E402
+
+T, LP, ZERO = Step.T, Step.LP, Step.ZERO
+CURVES = {T: (1.4, 0.1), LP: (1.5, 0.5)}    # c, c2
+ERROR = 0.002           # of the exponents of steps
+VELOCITY = 1.6
+TOPICS = {RunInfo: 'run_info', Spectrum: 'spectrum', Cost: 'cost', Steps: 'steps',
+          LpPhases: 'lp_phases', ModeField: 'fields'}
+
+
+def write(path, messages, node='/hdlyap', mode='w'):
+    """A bag with one message a second."""
+    with rosbag.Bag(path, mode) as bag:
+        for second, message in enumerate(messages, start=1):
+            bag.write(f'{node}/{TOPICS[type(message)]}', message, rospy.Time(second))
+
+
+def run_info(**fields):
+    info = RunInfo(run_id='one', version='0.1.0', scene='made', disks=20, density=0.5, aspect=1.0,
+                   box_x=40 ** 0.5, box_y=40 ** 0.5, boundary_x='periodic', boundary_y='periodic',
+                   seed='1', exponents='positive', zero_exponents=6, field_indices='steps')
+    for name, value in fields.items():
+        setattr(info, name, value)
+    return info
+
+
+def spectrum(exponents, averaged_time, run_id='one', error=0.01, pairing_error=-1.0):
+    n = len(exponents)
+    return Spectrum(run_id=run_id, sim_time=100 + averaged_time, averaged_time=averaged_time,
+                    collisions=1000, lambda_max=exponents[0], pairing_error=pairing_error,
+                    ks_entropy=sum(e for e in exponents if e > 0), first_index=1,
+                    exponents=exponents, std_errors=[error] * n, local_exponents=exponents,
+                    cos_theta=[1.0] * n, dp_dq_ratio=[1.0] * n)
+
+
+def cost(sim_time, run_id='one'):
+    return Cost(run_id=run_id, sim_time=sim_time, phase=Cost.AVERAGING, wall_seconds=sim_time,
+                events_seconds=0.1 * sim_time, replay_seconds=0.2 * sim_time,
+                ortho_seconds=0.55 * sim_time, modes_seconds=0.05 * sim_time)
+
+
+def wave_number(info, nx, ny):
+    return float(np.hypot(*waves.wave_vector(info, nx, ny)))
+
+
+def exponent(info, kind, nx, ny):
+    c, c2 = CURVES[kind]
+    k = wave_number(info, nx, ny)
+    return c * k + c2 * k * k
+
+
+def step(info, kind, nx, ny, first, last, **fields):
+    """A resolved step of its own, whose fields are all found."""
+    made = Step(kind=kind, nx=nx, ny=ny, wave_number=wave_number(info, nx, ny), resolved=True,
+                expected=last - first + 1, first_index=first, last_index=last,
+                multiplicity=0.99 * (last - first + 1), set=first, members=1,
+                exponent=exponent(info, kind, nx, ny), std_error=ERROR)
+    for name, value in fields.items():
+        setattr(made, name, value)
+    return made
+
+
+def unresolved(info, kind, nx, ny, expected):
+    return Step(kind=kind, nx=nx, ny=ny, wave_number=wave_number(info, nx, ny), expected=expected,
+                set=-1, std_error=-1.0)
+
+
+def zero_modes(first=None):
+    """Not carried, or six from an index on."""
+    if first is None:
+        return Step(kind=ZERO, expected=6, set=-1, std_error=-1.0)
+    return Step(kind=ZERO, expected=6, resolved=True, first_index=first, last_index=first + 5,
+                multiplicity=6.0, set=first, members=1, exponent=1e-4, std_error=3e-5)
+
+
+def steps(made, averaged_time=50.0, run_id='one'):
+    return Steps(run_id=run_id, sim_time=100 + averaged_time, averaged_time=averaged_time,
+                 threshold=0.5, steps=made, t_points=3, c_t=1.4, c_t_error=0.012, c_t2=0.1,
+                 c_t2_error=0.034, l_points=2, c_l=1.5, c_l_error=0.02, c_l2=0.5, c_l2_error=0.1,
+                 v_phases=8, v=1.612, v_error=0.023)
+
+
+def lp_phases(info, made, sim_time, modulations=(0, 1), began=0.0, rng=None, run_id='one'):
+    """Vectors and pairs of every resolved LP step turn by v k, half of them backwards."""
+    phases = []
+    for number, one in enumerate(made):
+        if one.kind != LP:
+            continue
+        omega = VELOCITY * one.wave_number
+        vectors = range(one.first_index, one.last_index + 1) if one.resolved else (0,)
+        for index, bits in itertools.product(vectors, modulations):
+            sign = 1 if index % 2 else -1
+            noise = 0.1 * rng.normal() if rng else 0.0
+            turned = sign * omega * (sim_time - began) + noise
+            phases.append(LpPhase(
+                step=number, nx=one.nx, ny=one.ny, modulation=bits, index=index,
+                state=LpPhase.TRACKED if one.resolved else LpPhase.UNRESOLVED,
+                a=np.cos(turned), b=np.sin(turned), phase=turned, omega=sign * omega,
+                omega_error=0.01 * omega, velocity=VELOCITY, tracked_time=sim_time - began))
+    return LpPhases(run_id=run_id, sim_time=sim_time, samples_per_report=1, phases=phases)
+
+
+def disks(info, seed=1):
+    """Positions on a shaken lattice and thermal momenta: x, y, px, py."""
+    rng = np.random.default_rng(seed)
+    columns = max(1, round(np.sqrt(info.disks * info.box_x / info.box_y)))
+    place = np.arange(info.disks)
+    rows = -(-info.disks // columns)
+    x = (place % columns + 0.5 + rng.uniform(-0.3, 0.3, info.disks)) * info.box_x / columns
+    y = (place // columns + 0.5 + rng.uniform(-0.3, 0.3, info.disks)) * info.box_y / rows
+    return [x, y, *rng.normal(size=(2, info.disks))]
+
+
+def mode_field(info, one, sim_time=150.0, modulations=(0, 1), noise=0.3, index=None, **fields):
+    """A vector of the step: its last modulation with noise, and of an LP step its P modes."""
+    rng = np.random.default_rng(2)
+    x, y, px, py = disks(info)
+    a, shape = _fields(info, one, modulations, x, y)
+    dq = np.array(shape) / np.sqrt(np.mean(np.square(shape)))
+    dq = (dq + noise * rng.normal(size=dq.shape)) / np.sqrt(2 * info.disks)
+    p_mode = [[modulation * p for p in (px, py)] for modulation in a]
+    over = [[modulation * p * p / (p * p + 0.01) + 0.2 * rng.normal(size=p.size)
+             for p in (px, py)] for modulation in a]
+    made = ModeField(run_id='one', sim_time=sim_time, index=index or one.last_index, kind=one.kind,
+                     nx=one.nx, ny=one.ny, wave_number=one.wave_number, exponent=one.exponent,
+                     x=x, y=y, px=px, py=py, dqx=dq[0], dqy=dq[1], dpx=dq[0], dpy=dq[1])
+    if one.kind == LP:
+        made.pairs, made.modulation = len(modulations), bytes(modulations)
+        made.residual_l = made.residual_p = [0.1] * len(modulations)
+        made.l_x, made.l_y = np.tile(dq[0], len(a)), np.tile(dq[1], len(a))
+        made.p_x, made.p_y = (np.concatenate(part) / np.sqrt(info.disks) for part in zip(*p_mode))
+        made.p_over_px, made.p_over_py = (np.concatenate(part) for part in zip(*over))
+    for name, value in fields.items():
+        setattr(made, name, value)
+    return made
+
+
+def _fields(info, one, modulations, x, y):
+    """The modulations at the disks, and the T or L field of the last by small differences."""
+    def a(bits, dx=0.0, dy=0.0):
+        return waves.modulation(info, one.nx, one.ny, bits, x + dx, y + dy) * np.ones_like(x)
+    h = 1e-4
+    last = modulations[-1]
+    along_x, along_y = ((a(last, **{d: h}) - a(last, **{d: -h})) / (2 * h) for d in ('dx', 'dy'))
+    shape = (along_y, -along_x) if one.kind == T else (along_x, along_y)
+    return [a(bits) for bits in modulations], shape
+
+
+def paper_info():
+    return run_info(scene='paper_periodic', disks=780, density=0.8, aspect=0.867, box_x=33.535,
+                    box_y=29.074)
+
+
+def small_run():
+    """Every kind of message, of 20 disks: 37 positive exponents, the last twelve in steps."""
+    info = run_info()
+    found = [step(info, T, 1, 0, 36, 37), step(info, LP, 1, 0, 32, 35),
+             step(info, T, 0, 1, 30, 31), step(info, LP, 0, 1, 26, 29)]
+    exponents = np.linspace(9, 3, 37)
+    for one in found:
+        exponents[one.first_index - 1:one.last_index] = one.exponent
+    rng = np.random.default_rng(3)
+    course = [message for t in range(1, 20)
+              for message in (spectrum(exponents, t), steps([*found, zero_modes()], t),
+                              cost(100 + t),
+                              lp_phases(info, found, 100 + t, began=100, rng=rng))]
+    fields = [mode_field(info, one, modulations=(0, 1) if one.nx else (0, 2)) for one in found]
+    return [info, *course, *fields]
