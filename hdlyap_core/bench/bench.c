@@ -1,4 +1,4 @@
-/** What a run costs: its four parts, and the whole as a ratio to the floor
+/** What a run costs: its parts, and the whole as a ratio to the floor
  *  F = 4 m n^2 flops at dgemm speed per ln(1e8) / (lambda_1 - lambda_n) of simulated time,
  *  all measured in one run on one machine. Usage: hdlyap_bench [time units averaged, default 20] */
 #define _POSIX_C_SOURCE 199309L
@@ -92,6 +92,7 @@ static void whole_run(double duration)
     scene.equilibration = 20.0;
     scene.warmup = 10.0;
     scene.duration = duration;
+    scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
     hd_run *run;
     require(hd_run_create(&run, &scene, NULL, 0), "780 disks");
     while (hd_run_phase(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
@@ -106,11 +107,14 @@ static void whole_run(double duration)
     const double events = (after.events - before.events) / duration;
     const double replay = (after.replay - before.replay) / duration;
     const double ortho = (after.ortho - before.ortho) / duration;
+    const double modes = (after.modes - before.modes) / duration;
     printf("%d disks, %d vectors, %d threads, %s kernels, dgemm %.1f GF/s\n", scene.disks, n,
            hd_run_threads(run), hd_blas_query().kernel, rate * 1e-9);
     printf("seconds per time unit: whole run W %.4f\n", w);
-    printf("    = events %.4f + replay %.4f + factorisation %.4f + rest %.4f\n", events, replay,
-           ortho, w - events - replay - ortho);
+    printf("    = events %.4f + replay %.4f + factorisation %.4f + modes, steps and phases %.4f + "
+           "rest "
+           "%.4f\n",
+           events, replay, ortho, modes, w - events - replay - ortho - modes);
     printf("floor F %.4f   W/F %.2f   interval %.3g   condition %.2g   second passes %ld   repairs "
            "%ld\n",
            floor, w / floor, after.interval, after.condition,

@@ -2,7 +2,7 @@
  *
  *  With B (2N x D, row-major) the sampled fields of all subspaces and U (2N x n) the dq halves, the
  *  overlaps B^T U are two dgemms, over the x and the y rows of the frame where they lie. Least squares on one subspace:
- *  its Gram matrix G = E L E^T (dsyev), coefficients c = G^+ B^T u, weight = |L^(-1/2) E^T B^T u|^2; directions
+ *  its Gram matrix G = E L E^T (dgesvd), coefficients c = G^+ B^T u, weight = |L^(-1/2) E^T B^T u|^2; directions
  *  that the disks do not sample (L below RANK) are left out. The vectors stay in columns throughout. */
 #include "hdlyap/modes.h"
 
@@ -154,17 +154,20 @@ static void measure_null(hd_modes *modes)
     }
 }
 
-/** whiten[d * d] = E L^(-1/2), d x d row-major, zero columns for unsampled directions. */
+/** whiten[d * d] = E L^(-1/2), d x d row-major, zero columns for unsampled directions. The singular values of G
+ *  are its eigenvalues; dsyev would ask all of OpenBLAS's threads for every product with a vector of 8. */
 static void whitening(const hd_modes *modes, const hd_subspace *s, double *whiten)
 {
     const int d = s->dimension, columns = hd_fields_columns(modes->fields);
-    double value[DIMENSION_MAX], vectors[DIMENSION_MAX * DIMENSION_MAX];
-    double work[64 * DIMENSION_MAX];
+    double gram[DIMENSION_MAX * DIMENSION_MAX], vectors[DIMENSION_MAX * DIMENSION_MAX];
+    double value[DIMENSION_MAX], work[64 * DIMENSION_MAX], none;
     for (int a = 0; a < d; a++)
-        for (int b = a; b < d; b++) /* column-major lower = row-major upper */
-            vectors[a * d + b] = modes->gram[(s->column + a) * columns + s->column + b];
-    const int failed = LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'L', d, vectors, d, value, work,
-                                          (int)(sizeof work / sizeof *work));
+        for (int b = a; b < d; b++)
+            gram[a * d + b] = gram[b * d + a] =
+                modes->gram[(s->column + a) * columns + s->column + b];
+    const int failed = LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'A', 'N', d, d, gram, d, value,
+                                           vectors, d, &none, 1, work,
+                                           (int)(sizeof work / sizeof *work));
     HD_ASSERT(failed == 0);
     for (int e = 0; e < d; e++) {
         const double scale = value[e] > RANK ? 1.0 / sqrt(value[e]) : 0.0;
