@@ -255,7 +255,7 @@ static double continuation(const rotor *r, const hd_modes *modes, int v, int col
 }
 
 /** Vectors of a degenerate step can change places: best continuations first; a vector that goes on by itself
- *  is not asked, one that is something else for a while keeps its sign. */
+ *  is not asked. */
 static void slots_match(rotor *r, const hd_step *step, const hd_modes *modes, double dt)
 {
     const double GOES_ON = 0.7;
@@ -278,8 +278,7 @@ static void slots_match(rotor *r, const hd_step *step, const hd_modes *modes, do
             }
         taken[column] = done[slot] = true;
         r->slot_col[slot] = step->col + column;
-        if (strength_of(r, modes, r->slot_col[slot]) >= WEAK)
-            r->sign[slot] = score < 0 ? -1.0 : 1.0;
+        r->sign[slot] = score < 0 ? -1.0 : 1.0;
     }
 }
 

@@ -1,45 +1,23 @@
-/** Average weights and exponents -> steps and dispersion relation [T12].
- *
- *  A set starts as the window of columns, as long as the expected multiplicity, with the largest trace of one
- *  subspace. Sets whose windows overlap, or which have much of their weight in each other's windows, are merged:
- *  there the steps coincide and the vectors mix. A set is resolved if every member is found in its
- *  window to HD_STEP_THRESHOLD and its exponents are flat. */
+/** Resolved sets -> steps: exponents with errors, labels of the vectors, zero modes [T12]. */
 #include "hdlyap/steps.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "blocks.h"
 #include "check.h"
 #include "memory.h"
-
-/** Below this part of its multiplicity a subspace is nowhere. */
-static const double CANDIDATE = 0.25;
-/** Weight of a set in another's window, over that in its own, from which on they mix. */
-static const double LEAK = 0.5;
-/** Largest deviation of an exponent from the mean of its set, beside 3 standard errors. */
-static const double FLAT = 0.1;
-
-/** Columns [first, end) of one half of the spectrum. */
-typedef struct half {
-    int first, end;
-} half;
-
-typedef struct window {
-    int col, count;
-    double trace;
-} window;
+#include "sets.h"
 
 struct hd_steps {
     const hd_modes *modes;
-    half positive, negative;
+    hd_half positive, negative;
+    hd_sets sets;
     int zero_first, zero_end; /**< columns of the zero modes carried */
     int subspaces, count, vectors;
     int rows;         /**< 4N */
     hd_step *step;    /**< [count] */
-    window *set;      /**< [subspaces], scratch: of the sets */
-    int *set_of;      /**< [subspaces], scratch: set of each subspace, -1 */
-    double *work;     /**< [vectors]: weight in a set */
     int *of_vector;   /**< [vectors] */
     double *share;    /**< [count][HD_STEP_VECTORS_MAX]: of each vector of the set in this step */
     double *sample;   /**< [count] */
@@ -65,16 +43,13 @@ static hd_status steps_allocate(hd_steps *steps)
 {
     const size_t count = (size_t)steps->count, n = (size_t)steps->vectors;
     steps->step = hd_memory_alloc(count, sizeof *steps->step);
-    steps->set = hd_memory_alloc(count, sizeof *steps->set);
-    steps->set_of = hd_memory_alloc(count, sizeof *steps->set_of);
-    steps->work = hd_memory_alloc(n, sizeof *steps->work);
     steps->of_vector = hd_memory_alloc(n, sizeof *steps->of_vector);
     steps->share = hd_memory_alloc(count * HD_STEP_VECTORS_MAX, sizeof *steps->share);
     steps->sample = hd_memory_alloc(count, sizeof *steps->sample);
     steps->identity = hd_memory_alloc(count, sizeof *steps->identity);
-    if (!steps->step || !steps->set || !steps->set_of || !steps->work || !steps->of_vector ||
-        !steps->share || !steps->sample || !steps->identity)
+    if (!steps->step || !steps->of_vector || !steps->share || !steps->sample || !steps->identity)
         return HD_NO_MEMORY;
+    HD_TRY(hd_sets_create(&steps->sets, steps->modes, steps->rows));
     return hd_blocks_create(&steps->blocks, steps->count);
 }
 
@@ -85,10 +60,10 @@ static void place(hd_steps *steps, const hd_scene_def *def)
 {
     const int n = steps->vectors, all = 4 * def->disks;
     const int positive = (all - hd_scene_zero_exponents(def)) / 2;
-    steps->positive = (half){0, smaller(n, positive)};
+    steps->positive = (hd_half){0, smaller(n, positive)};
     steps->zero_first = smaller(n, positive);
     steps->zero_end = smaller(n, all - positive);
-    steps->negative = (half){all - positive, all};
+    steps->negative = (hd_half){all - positive, all};
 }
 
 hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def, const hd_modes *modes)
@@ -124,9 +99,7 @@ void hd_steps_free(hd_steps *steps)
 {
     if (!steps) return;
     hd_memory_free(steps->step);
-    hd_memory_free(steps->set);
-    hd_memory_free(steps->set_of);
-    hd_memory_free(steps->work);
+    hd_sets_clear(&steps->sets);
     hd_memory_free(steps->of_vector);
     hd_memory_free(steps->share);
     hd_memory_free(steps->sample);
@@ -163,153 +136,7 @@ void hd_steps_clear(hd_steps *steps)
     steps->changes++;
 }
 
-/* ---- sets of one half ------------------------------------------------------------------------- */
-
-/** steps->work[col] = average weight of every vector in all members of a set. */
-static void weigh(hd_steps *steps, int set, half h)
-{
-    for (int col = h.first; col < h.end; col++) steps->work[col] = 0.0;
-    for (int s = 0; s < steps->subspaces; s++) {
-        if (steps->set_of[s] != set) continue;
-        const double *weight = hd_modes_average(steps->modes, s, HD_WEIGHT);
-        for (int col = h.first; col < h.end; col++) steps->work[col] += weight[col];
-    }
-}
-
-/** Window of `count` columns with the largest sum of work. */
-static window best_window(const double *work, half h, int count)
-{
-    window best = {h.first, count, -1.0};
-    double trace = 0.0;
-    for (int col = h.first; col < h.end; col++) {
-        trace += work[col];
-        if (col - count >= h.first) trace -= work[col - count];
-        if (col - count + 1 >= h.first && trace > best.trace)
-            best = (window){col - count + 1, count, trace};
-    }
-    return best;
-}
-
-static bool inside(const window *w, int col) { return col >= w->col && col < w->col + w->count; }
-
-/** Weight of set a (in work) within the window of b but outside its own. */
-static double leak(const hd_steps *steps, int a, int b)
-{
-    double sum = 0.0;
-    for (int k = 0; k < steps->set[b].count; k++) {
-        const int col = steps->set[b].col + k;
-        if (!inside(&steps->set[a], col)) sum += steps->work[col];
-    }
-    return sum;
-}
-
-static bool overlap(const window *a, const window *b)
-{
-    return a->col < b->col + b->count && b->col < a->col + a->count;
-}
-
-static double mean_exponent(const hd_spectrum *spectrum, const window *w)
-{
-    double sum = 0.0;
-    for (int k = 0; k < w->count; k++) sum += hd_spectrum_exponent(spectrum, w->col + k);
-    return sum / w->count;
-}
-
-/** The set that set a mixes with, -1 if none. The weights of a are in work. */
-static int partner(const hd_steps *steps, const hd_spectrum *spectrum, int a)
-{
-    const window *own = &steps->set[a];
-    for (int b = 0; b < steps->subspaces; b++) {
-        const window *other = &steps->set[b];
-        if (b == a || other->count == 0) continue;
-        const double here = mean_exponent(spectrum, own), there = mean_exponent(spectrum, other);
-        const bool near = fabs(here - there) <= FLAT * fabs(here);
-        if (overlap(own, other) || (near && leak(steps, a, b) > LEAK * own->trace)) return b;
-    }
-    return -1;
-}
-
-/** Set b takes in set a and moves to its new window; more vectors than there are cannot be named. */
-static void absorb(hd_steps *steps, half h, int a, int b)
-{
-    for (int s = 0; s < steps->subspaces; s++)
-        if (steps->set_of[s] == a) steps->set_of[s] = b;
-    const int count = steps->set[a].count + steps->set[b].count;
-    steps->set[a].count = 0;
-    weigh(steps, b, h);
-    steps->set[b] = count <= h.end - h.first ? best_window(steps->work, h, count) : (window){0};
-}
-
-/** One set per subspace that is somewhere, numbered like it. */
-static void sets_begin(hd_steps *steps, half h)
-{
-    for (int s = 0; s < steps->subspaces; s++) {
-        const hd_subspace *subspace = hd_fields_subspace(hd_modes_fields(steps->modes), s);
-        const int d = subspace->dimension;
-        steps->set[s] = (window){0};
-        steps->set_of[s] = -1;
-        if (d > h.end - h.first) continue;
-        const double *weight = hd_modes_average(steps->modes, s, HD_WEIGHT);
-        const window w = best_window(weight, h, d);
-        if (w.trace < CANDIDATE * d) continue;
-        steps->set[s] = w;
-        steps->set_of[s] = s;
-    }
-}
-
-/** Merges until no set mixes with another. */
-static void sets_merge(hd_steps *steps, const hd_spectrum *spectrum, half h)
-{
-    for (int a = 0; a < steps->subspaces; a++) {
-        if (steps->set[a].count == 0) continue;
-        weigh(steps, a, h);
-        const int b = partner(steps, spectrum, a);
-        if (b < 0) continue;
-        absorb(steps, h, a, b);
-        a = -1; /* once more from the first */
-    }
-}
-
 /* ---- steps ------------------------------------------------------------------------------------ */
-
-/** Least weight that counts as found in d dimensions: random vectors have chance = d / 2N on average, of the
- *  rest HD_STEP_THRESHOLD is asked. Fields that fill half of the space tell nothing. */
-static double threshold(const hd_steps *steps, int d)
-{
-    const double chance = d / (0.5 * steps->rows);
-    return chance > 0.5 ? INFINITY : chance + HD_STEP_THRESHOLD * (1.0 - chance);
-}
-
-static bool is_flat(const hd_spectrum *spectrum, const window *w)
-{
-    const double mean = mean_exponent(spectrum, w);
-    for (int col = w->col; col < w->col + w->count; col++) {
-        const double error = fmax(hd_spectrum_std_error(spectrum, col), 0.0);
-        if (!(fabs(hd_spectrum_exponent(spectrum, col) - mean) <= FLAT * fabs(mean) + 3.0 * error))
-            return false;
-    }
-    return true;
-}
-
-static double trace_in(const hd_steps *steps, int s, const window *w)
-{
-    const double *weight = hd_modes_average(steps->modes, s, HD_WEIGHT);
-    double trace = 0.0;
-    for (int k = 0; k < w->count; k++) trace += weight[w->col + k];
-    return trace;
-}
-
-static bool is_resolved(const hd_steps *steps, const hd_spectrum *spectrum, int set)
-{
-    const window *w = &steps->set[set];
-    if (w->count == 0 || w->count > HD_STEP_VECTORS_MAX || !is_flat(spectrum, w)) return false;
-    for (int s = 0; s < steps->subspaces; s++) {
-        if (steps->set_of[s] != set) continue;
-        const int d = hd_fields_subspace(hd_modes_fields(steps->modes), s)->dimension;
-        if (!(trace_in(steps, s, w) >= threshold(steps, d) * d)) return false;
-    }
-    return true;
-}
 
 /** Mean of values over the set of a step, each vector by its share. */
 static double shared_mean(const hd_steps *steps, int k, double (*value)(const hd_spectrum *, int),
@@ -335,44 +162,53 @@ static double step_error(const hd_steps *steps, int k, const hd_spectrum *spectr
     return shared_mean(steps, k, hd_spectrum_std_error, spectrum);
 }
 
-/** Fills step k, of subspace s in a resolved set; steps->work holds the weights in the set. */
+/** A vector takes the label of the member that it is most of. */
+static void label(hd_steps *steps, int col, int k, const double *weight)
+{
+    const int now = steps->of_vector[col];
+    if (now >= 0) {
+        const double *before = hd_modes_average(steps->modes, steps->step[now].subspace, HD_WEIGHT);
+        if (before[col] >= weight[col]) return;
+    }
+    steps->of_vector[col] = k;
+}
+
+/** Fills step k, of subspace s in a resolved set, which is weighed. */
 static void step_fill(hd_steps *steps, int k, int s, int set)
 {
-    const window *w = &steps->set[set];
+    const hd_set *w = &steps->sets.set[set];
     const double *weight = hd_modes_average(steps->modes, s, HD_WEIGHT);
+    const double least = hd_sets_threshold(steps->rows, w->count);
     hd_step *step = &steps->step[k];
     step->resolved = true;
     step->col = w->col;
     step->count = w->count;
-    step->members = 0;
     for (int other = 0; other < steps->subspaces; other++)
-        step->members += steps->set_of[other] == set;
-    step->multiplicity = trace_in(steps, s, w);
+        step->members += steps->sets.of[other] == set;
+    step->multiplicity = hd_sets_trace(&steps->sets, s, w);
     for (int v = 0; v < w->count; v++) {
-        const int col = w->col + v, now = steps->of_vector[col];
-        const double share = weight[col] / fmax(steps->work[col], 1e-300);
-        steps->share[(size_t)k * HD_STEP_VECTORS_MAX + (size_t)v] = share;
-        if (!(steps->work[col] >= threshold(steps, w->count))) continue;
-        if (now < 0 ||
-            weight[col] > hd_modes_average(steps->modes, steps->step[now].subspace, HD_WEIGHT)[col])
-            steps->of_vector[col] = k;
+        const double whole = steps->sets.weight[w->col + v];
+        steps->share[(size_t)k * HD_STEP_VECTORS_MAX + (size_t)v] = weight[w->col + v] /
+                                                                    fmax(whole, DBL_MIN);
+        if (whole >= least) label(steps, w->col + v, k, weight);
     }
 }
 
 /** offset: of the half's steps among all. */
-static void half_find(hd_steps *steps, const hd_spectrum *spectrum, half h, int offset, int *sets)
+static void half_find(hd_steps *steps, const hd_spectrum *spectrum, hd_half half, int offset,
+                      int *number)
 {
-    sets_begin(steps, h);
-    sets_merge(steps, spectrum, h);
+    hd_sets *sets = &steps->sets;
+    hd_sets_find(sets, spectrum, half);
     for (int set = 0; set < steps->subspaces; set++) {
-        if (!is_resolved(steps, spectrum, set)) continue;
-        weigh(steps, set, h);
+        if (sets->set[set].count == 0) continue;
+        hd_sets_weigh(sets, set, half);
         for (int s = 0; s < steps->subspaces; s++) {
-            if (steps->set_of[s] != set) continue;
+            if (sets->of[s] != set) continue;
             step_fill(steps, offset + s, s, set);
-            steps->step[offset + s].set = *sets;
+            steps->step[offset + s].set = *number;
         }
-        ++*sets;
+        ++*number;
     }
 }
 
