@@ -79,12 +79,99 @@ static void a_constant_has_error_zero(void **state)
     hd_blocks_clear(&blocks);
 }
 
+static void means_are_those_of_all_samples(void **state)
+{
+    (void)state;
+    hd_blocks blocks;
+    CHECK_OK(hd_blocks_create(&blocks, 2));
+    CHECK_CLOSE(hd_blocks_mean(&blocks, 1), 0.0, 0.0);
+    for (int k = 1; k <= 37; k++) {
+        hd_blocks_add(&blocks, (double[]){k, -2.0});
+        CHECK_CLOSE(hd_blocks_mean(&blocks, 0), (k + 1) / 2.0, 1e-14 * k);
+        CHECK_CLOSE(hd_blocks_mean(&blocks, 1), -2.0, 0.0);
+    }
+    hd_blocks_restart(&blocks);
+    CHECK_CLOSE(hd_blocks_mean(&blocks, 0), 0.0, 0.0);
+    hd_blocks_add(&blocks, (double[]){5.0, 1.0});
+    CHECK_CLOSE(hd_blocks_mean(&blocks, 0), 5.0, 0.0);
+    hd_blocks_clear(&blocks);
+}
+
+/** Of a series +1, -1, ..: single samples have an error, pairs none; 16 pairs need 32 samples. */
+static void the_longest_blocks_of_16_are_asked(void **state)
+{
+    (void)state;
+    hd_blocks blocks;
+    CHECK_OK(hd_blocks_create(&blocks, 1));
+    for (int k = 1; k <= 64; k++) {
+        hd_blocks_add(&blocks, (double[]){k % 2 ? 1.0 : -1.0});
+        const double error = hd_blocks_long_error(&blocks, 0);
+        const double mean = k % 2 ? 1.0 / k : 0.0;
+        if (k < 16)
+            assert_true(error < 0);
+        else if (k < 32)
+            CHECK_CLOSE(error, sqrt((1.0 - mean * mean) / (k - 1)), 1e-14);
+        else
+            CHECK_CLOSE(error, 0.0, 0.0);
+    }
+    hd_blocks_clear(&blocks);
+}
+
+/** Increments of something: white numbers of which each moves on by the next (1), or that only tremble (0).
+ *  Root mean squares of the deviation of the mean, and of the error stated. */
+static void increments(double out[2], double diffusing, int samples, uint64_t seed)
+{
+    static double before[SERIES], sample[SERIES];
+    hd_random random = hd_random_seeded(seed, 0);
+    hd_blocks blocks;
+    CHECK_OK(hd_blocks_create(&blocks, SERIES));
+    for (int k = 0; k < SERIES; k++) before[k] = hd_random_symmetric(&random);
+    for (int t = 0; t < samples; t++) {
+        for (int k = 0; k < SERIES; k++) {
+            const double now = hd_random_symmetric(&random);
+            sample[k] = now - (1.0 - diffusing) * before[k];
+            before[k] = now;
+        }
+        hd_blocks_add(&blocks, sample);
+    }
+    out[0] = out[1] = 0.0;
+    for (int k = 0; k < SERIES; k++) {
+        out[0] += pow(hd_blocks_mean(&blocks, k), 2.0) / SERIES;
+        out[1] += pow(hd_blocks_long_error(&blocks, k), 2.0) / SERIES;
+    }
+    out[0] = sqrt(out[0]);
+    out[1] = sqrt(out[1]);
+    hd_blocks_clear(&blocks);
+}
+
+/** Numbers of variance 1/3. Diffusing: sqrt(1/3n), and so it is stated. Trembling: the mean is off by
+ *  sqrt(2/3) / n; stated is sqrt(blocks) of that, which falls like 1/n too. 2000 series know each to 2 %; blocks
+ *  beyond a whole number of the longest are not asked (samples are powers of two). */
+static void long_errors_fall_as_fast_as_the_increments_allow(void **state)
+{
+    (void)state;
+    const double KNOWN_TO = 0.06;
+    for (int samples = 64; samples <= 1024; samples *= 4) {
+        double got[2];
+        increments(got, 1.0, samples, 3);
+        const double diffusing = sqrt(1.0 / 3.0 / samples), trembling = sqrt(2.0 / 3.0) / samples;
+        CHECK_CLOSE(got[0], diffusing, KNOWN_TO * diffusing);
+        CHECK_CLOSE(got[1], diffusing, KNOWN_TO * diffusing);
+        increments(got, 0.0, samples, 4);
+        CHECK_CLOSE(got[0], trembling, KNOWN_TO * trembling);
+        CHECK_CLOSE(got[1], 4.0 * trembling, KNOWN_TO * 4.0 * trembling); /* 16 blocks */
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(errors_see_the_correlation_time),
         cmocka_unit_test(few_samples_give_no_error),
         cmocka_unit_test(a_constant_has_error_zero),
+        cmocka_unit_test(means_are_those_of_all_samples),
+        cmocka_unit_test(the_longest_blocks_of_16_are_asked),
+        cmocka_unit_test(long_errors_fall_as_fast_as_the_increments_allow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

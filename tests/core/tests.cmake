@@ -1,5 +1,16 @@
 foreach(name IN ITEMS
+    wave
+    fields
+    modes
+    sets
+    steps
+    dispersion
+    phases
+    phases_tracks
+    pmode
+    hydro
     physics
+    observe
     run
     blas
     spectrum

@@ -1,0 +1,49 @@
+/** Vectors of one LP step that turn between their L and P fields at a known rate. */
+#ifndef HD_ROTATING_H
+#define HD_ROTATING_H
+
+#include "hdlyap/phases.h"
+#include "synthetic.h"
+
+enum { VECTORS_MAX = 8, PAIRS_MAX = 4, ROWS_MAX = 800 };
+
+/** Phases from least squares on overlaps of 2N terms, of tracks with |z|^2 >= 0.05; summed over some hundred
+ *  samples. */
+#define ROUNDING 1e-11
+/** a^2 + b^2 below which there is no phase [T13]. */
+#define WEAK 0.05
+
+/** One LP step, alone in its frame. z[m][c]: of vector m and pair c at time 0; rows are orthonormal. */
+typedef struct rotating {
+    world w;
+    hd_phases *phases;
+    const hd_step *step;
+    int d, first; /**< pairs; index of the first phase */
+    double re[VECTORS_MAX][PAIRS_MAX], im[VECTORS_MAX][PAIRS_MAX];
+    double angle[VECTORS_MAX][PAIRS_MAX]; /**< turned since then */
+    int column[VECTORS_MAX];              /**< in which a vector lies now */
+    double sign[VECTORS_MAX];             /**< with which it does */
+    double strength[VECTORS_MAX];         /**< 0: it is something else */
+    double time, dt;
+} rotating;
+
+/** LP(nx, ny) of this scene in the last columns of a frame of `vectors`; drawn and shown. */
+rotating rotating_create(const hd_scene_def *def, int nx, int ny, int vectors, double exponent);
+/** 1, 2 or 4 pairs. The exponent allows turns up to 0.95 pi. */
+rotating pairs_of(int d, int disks);
+rotating pairs(int d);
+void rotating_free(rotating *r);
+
+/** Draws new vectors, at time 0. */
+void begin(rotating *r);
+/** Everything turns by omega dt; then a look, without adding to the averages. */
+void turn(rotating *r, double omega);
+/** Exponents all alike, and the steps anew. */
+void find(rotating *r, double exponent);
+
+const hd_lp_phase *phase_of(const rotating *r, int slot, int c);
+double strength_of(const hd_lp_phase *phase);
+/** Every strong track turned by `angle` in all, tracked for so long. Returns how many there are. */
+int check_tracks(const rotating *r, double angle, double time, double tolerance);
+
+#endif
