@@ -65,17 +65,27 @@ static const char *better_kernel_here(void)
 #endif
 }
 
+/** Sets how idle threads wait, unless the user did: on a busy machine threads that spin wait for each other's time
+ *  slices, and a factorisation took up to thirty times longer. With two pools, OpenBLAS's pthreads and
+ *  OpenMP's, they must not spin at all; one pool may for some microseconds. False if nothing was set. */
+static bool calm_threads(void)
+{
+    const char *threading = hd_blas_query().threading;
+    if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT")) return false;
+    if (strcmp(threading, "pthread") == 0) return setenv("OMP_WAIT_POLICY", "passive", 1) == 0;
+    return setenv("GOMP_SPINCOUNT", "2000", 1) == 0;
+}
+
 void hd_blas_restart_if_slow(char **argv)
 {
 #if defined(__linux__)
     static const char once[] = "HDLYAP_RESTARTED";
+    if (getenv(once)) return;
     const char *kernel = getenv("OPENBLAS_CORETYPE") ? NULL : better_kernel_here();
-    const bool spins = strcmp(hd_blas_query().threading, "pthread") == 0 &&
-                       !getenv("OMP_WAIT_POLICY") && !getenv("GOMP_SPINCOUNT");
-    if (getenv(once) || (!kernel && !spins)) return;
+    const bool calmed = calm_threads();
+    if (!kernel && !calmed) return;
     setenv(once, "1", 1);
     if (kernel) setenv("OPENBLAS_CORETYPE", kernel, 1);
-    if (spins) setenv("OMP_WAIT_POLICY", "passive", 1);
     execv("/proc/self/exe", argv);
     perror("hdlyap: could not restart with faster BLAS kernels"); /* go on with the slow ones */
 #else

@@ -258,7 +258,7 @@ static double continuation(const rotor *r, const hd_modes *modes, int v, int col
  *  is not asked. */
 static void slots_match(rotor *r, const hd_step *step, const hd_modes *modes, double dt)
 {
-    const double GOES_ON = 0.7;
+    const double GOES_ON = 0.7, PREFERENCE = 0.3; /* for staying */
     bool taken[HD_STEP_VECTORS_MAX] = {false}, done[SLOTS_MAX] = {false};
     int left = r->slots;
     for (int v = 0; v < r->slots; v++) {
@@ -268,17 +268,19 @@ static void slots_match(rotor *r, const hd_step *step, const hd_modes *modes, do
         left--;
     }
     while (left-- > 0) {
-        double best = -1.0, score = 0.0;
+        double best = -1.0, sign = 1.0;
         int slot = -1, column = -1;
         for (int v = 0; v < r->slots; v++)
             for (int m = 0; m < step->count && !done[v]; m++) {
                 if (taken[m]) continue;
                 const double s = continuation(r, modes, v, step->col + m, dt);
-                if (fabs(s) > best) best = fabs(s), score = s, slot = v, column = m;
+                const bool stays = step->col + m == r->slot_col[v] && r->sign[v] * s > 0;
+                const double score = fabs(s) + (stays ? PREFERENCE : 0.0);
+                if (score > best) best = score, sign = s, slot = v, column = m;
             }
         taken[column] = done[slot] = true;
         r->slot_col[slot] = step->col + column;
-        r->sign[slot] = score < 0 ? -1.0 : 1.0;
+        r->sign[slot] = sign < 0 ? -1.0 : 1.0;
     }
 }
 

@@ -10,20 +10,24 @@
 #include "memory.h"
 #include "sets.h"
 
+/** What the error of one step's mean is known from. */
+typedef struct record {
+    hd_blocks blocks; /**< one series: the mean, sample by sample */
+    double time;      /**< that they cover */
+    long identity;    /**< of which vectors and members the set consisted */
+} record;
+
 struct hd_steps {
     const hd_modes *modes;
     hd_half positive, negative;
     hd_sets sets;
     int zero_first, zero_end; /**< columns of the zero modes carried */
     int subspaces, count, vectors;
-    int rows;         /**< 4N */
-    hd_step *step;    /**< [count] */
-    int *of_vector;   /**< [vectors] */
-    double *share;    /**< [count][HD_STEP_VECTORS_MAX]: of each vector of the set in this step */
-    double *sample;   /**< [count] */
-    hd_blocks blocks; /**< of the means of all steps */
-    double blocks_time;
-    long *identity; /**< [count], of which vectors each step consisted */
+    int rows;       /**< 4N */
+    hd_step *step;  /**< [count] */
+    int *of_vector; /**< [vectors] */
+    double *share;  /**< [count][HD_STEP_VECTORS_MAX]: of each vector of the set in this step */
+    record *record; /**< [count] */
     long changes;
 };
 
@@ -45,12 +49,10 @@ static hd_status steps_allocate(hd_steps *steps)
     steps->step = hd_memory_alloc(count, sizeof *steps->step);
     steps->of_vector = hd_memory_alloc(n, sizeof *steps->of_vector);
     steps->share = hd_memory_alloc(count * HD_STEP_VECTORS_MAX, sizeof *steps->share);
-    steps->sample = hd_memory_alloc(count, sizeof *steps->sample);
-    steps->identity = hd_memory_alloc(count, sizeof *steps->identity);
-    if (!steps->step || !steps->of_vector || !steps->share || !steps->sample || !steps->identity)
-        return HD_NO_MEMORY;
-    HD_TRY(hd_sets_create(&steps->sets, steps->modes, steps->rows));
-    return hd_blocks_create(&steps->blocks, steps->count);
+    steps->record = hd_memory_alloc(count, sizeof *steps->record);
+    if (!steps->step || !steps->of_vector || !steps->share || !steps->record) return HD_NO_MEMORY;
+    for (size_t k = 0; k < count; k++) HD_TRY(hd_blocks_create(&steps->record[k].blocks, 1));
+    return hd_sets_create(&steps->sets, steps->modes, steps->rows);
 }
 
 static int smaller(int a, int b) { return a < b ? a : b; }
@@ -100,11 +102,11 @@ void hd_steps_free(hd_steps *steps)
     if (!steps) return;
     hd_memory_free(steps->step);
     hd_sets_clear(&steps->sets);
+    for (int k = 0; steps->record && k < steps->count; k++)
+        hd_blocks_clear(&steps->record[k].blocks);
+    hd_memory_free(steps->record);
     hd_memory_free(steps->of_vector);
     hd_memory_free(steps->share);
-    hd_memory_free(steps->sample);
-    hd_memory_free(steps->identity);
-    hd_blocks_clear(&steps->blocks);
     hd_memory_free(steps);
 }
 
@@ -123,16 +125,16 @@ static void steps_forget(hd_steps *steps)
     for (int col = 0; col < steps->vectors; col++) steps->of_vector[col] = -1;
 }
 
-static void errors_restart(hd_steps *steps)
+static void record_restart(record *r)
 {
-    hd_blocks_restart(&steps->blocks);
-    steps->blocks_time = 0.0;
+    hd_blocks_restart(&r->blocks);
+    r->time = 0.0;
 }
 
 void hd_steps_clear(hd_steps *steps)
 {
     steps_forget(steps);
-    errors_restart(steps);
+    for (int k = 0; k < steps->count; k++) record_restart(&steps->record[k]);
     steps->changes++;
 }
 
@@ -155,8 +157,8 @@ static double shared_mean(const hd_steps *steps, int k, double (*value)(const hd
  *  together, scaled to the whole time if the set is younger; until then as if all went together. */
 static double step_error(const hd_steps *steps, int k, const hd_spectrum *spectrum)
 {
-    const double error = hd_blocks_std_error(&steps->blocks, k);
-    if (error >= 0) return error * sqrt(steps->blocks_time / hd_spectrum_time(spectrum));
+    const double error = hd_blocks_std_error(&steps->record[k].blocks, 0);
+    if (error >= 0) return error * sqrt(steps->record[k].time / hd_spectrum_time(spectrum));
     for (int v = 0; v < steps->step[k].count; v++)
         if (hd_spectrum_std_error(spectrum, steps->step[k].col + v) < 0) return -1.0;
     return shared_mean(steps, k, hd_spectrum_std_error, spectrum);
@@ -242,14 +244,26 @@ static void zero_find(hd_steps *steps, int *sets)
     }
 }
 
-/** True if any step consists of other vectors than the last time. */
-static bool sets_changed(hd_steps *steps)
+/** Of which vectors a step consists, and with which others it shares them. */
+static long identity_of(const hd_steps *steps, const hd_step *step)
+{
+    long identity = step->col * 1000L + step->count;
+    for (int k = 0; k < steps->count; k++)
+        if (step->set >= 0 && steps->step[k].set == step->set) identity = 31 * identity + k;
+    return identity;
+}
+
+/** Begins the records anew of those steps that are not what they were the last time. */
+static bool records_follow(hd_steps *steps)
 {
     bool changed = false;
     for (int k = 0; k < steps->count; k++) {
-        const long identity = steps->step[k].col * 1000L + steps->step[k].count;
-        changed |= identity != steps->identity[k];
-        steps->identity[k] = identity;
+        record *r = &steps->record[k];
+        const long identity = identity_of(steps, &steps->step[k]);
+        if (identity == r->identity) continue;
+        r->identity = identity;
+        record_restart(r);
+        changed = true;
     }
     return changed;
 }
@@ -263,10 +277,7 @@ void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum)
     zero_find(steps, &sets);
     if (steps->count > steps->subspaces + 1)
         half_find(steps, spectrum, steps->negative, steps->subspaces + 1, &sets);
-    if (sets_changed(steps)) {
-        errors_restart(steps);
-        steps->changes++;
-    }
+    steps->changes += records_follow(steps);
     for (int k = 0; k < steps->count; k++) {
         hd_step *step = &steps->step[k];
         if (!step->resolved) continue;
@@ -277,12 +288,12 @@ void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum)
 
 void hd_steps_sample(hd_steps *steps, const hd_spectrum *spectrum, double length)
 {
-    for (int k = 0; k < steps->count; k++)
-        steps->sample[k] = steps->step[k].resolved
-                               ? shared_mean(steps, k, hd_spectrum_local, spectrum)
-                               : 0.0;
-    hd_blocks_add(&steps->blocks, steps->sample);
-    steps->blocks_time += length;
+    for (int k = 0; k < steps->count; k++) {
+        if (!steps->step[k].resolved) continue;
+        double mean = shared_mean(steps, k, hd_spectrum_local, spectrum);
+        hd_blocks_add(&steps->record[k].blocks, &mean);
+        steps->record[k].time += length;
+    }
 }
 
 int hd_steps_count(const hd_steps *steps) { return steps->count; }

@@ -67,6 +67,24 @@ static rotating interrupted(int d, double omega, int samples)
     return r;
 }
 
+/** All vectors jump by 0.85 rad now and then: further from where they were than from each other. */
+static void jumps_are_no_exchanges(void **state)
+{
+    (void)state;
+    for (int d = 1; d <= 4; d *= 2) {
+        rotating r = pairs(d);
+        double angle = 0.0;
+        for (int t = 0; t < 120; t++) {
+            const double jump = t < 10 ? 0.0 : t % 8 == 0 ? 0.85 : t % 8 == 4 ? -0.85 : 0.0;
+            angle += 0.7 + jump;
+            turn(&r, 0.7 + jump);
+            check_columns(&r);
+        }
+        assert_true(check_tracks(&r, angle, 120.0, 120.0 * ROUNDING) >= 2 * d);
+        rotating_free(&r);
+    }
+}
+
 static void short_absences_keep_the_count_of_turns(void **state)
 {
     (void)state;
@@ -231,6 +249,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exchanges_do_not_break_the_tracks),
+        cmocka_unit_test(jumps_are_no_exchanges),
         cmocka_unit_test(short_absences_keep_the_count_of_turns),
         cmocka_unit_test(long_absences_begin_anew),
         cmocka_unit_test(absence_of_all_vectors_is_survived),
