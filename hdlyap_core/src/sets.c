@@ -15,7 +15,7 @@
 /** Below this part of its multiplicity a subspace is nowhere. */
 static const double CANDIDATE = 0.25;
 /** Weight of a set in another's window, over that in its own, from which on they mix. */
-static const double LEAK = 0.5;
+static const double LEAK = 0.25;
 /** Largest deviation of an exponent from the mean of its set, beside 3 standard errors. */
 static const double FLAT = 0.1;
 
