@@ -3,19 +3,23 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 
 /** Cholesky of the Gram matrix loses orthogonality as 16 eps condition^2: at 1e7 a second pass still heals it. */
 static const double CONDITION_CHOLESKY = 1e7;
-/** ln(condition) fluctuates by less than 2 between intervals: aim this factor below the maximum, so that
- *  repairs are rare. */
-static const double HEADROOM = 8.0;
+/** Standard deviations of ln(condition) kept free below the maximum: few intervals are then repaired,
+ *  which costs less than shorter intervals would. At least a factor of 2. */
+static const double MARGIN = 2.0, HEADROOM_MIN = 0.7;
 /** A column may grow to e^150 before its square comes near overflow. */
 static const double STRETCH_MAX = 150.0;
-static const double GROW_MAX = 2.0, FORGET = 0.1;
+static const double GROW_MAX = 2.0, FORGET = 0.1, VARIANCE_FIRST = 1.0;
 
 hd_interval hd_interval_first(double first, double limit, double accuracy)
 {
-    return (hd_interval){.limit = limit, .accuracy = accuracy, .last = fmin(first, limit)};
+    return (hd_interval){.limit = limit,
+                         .accuracy = accuracy,
+                         .last = fmin(first, limit),
+                         .variance = VARIANCE_FIRST};
 }
 
 double hd_interval_condition_max(const hd_interval *interval, double length)
@@ -26,20 +30,32 @@ double hd_interval_condition_max(const hd_interval *interval, double length)
 
 static double follow(double old, double seen) { return fmax(seen, old + FORGET * (seen - old)); }
 
+/** The condition grows exponentially but for a factor that grazing collisions make: that scatters alike at
+ *  all lengths, so it is kept apart. The first interval, and a much longer one, start the mean anew. */
 void hd_interval_learn(hd_interval *interval, double length, double condition, double stretch)
 {
-    const double slope = log(condition) /
-                         length; /* falls with the length: a short one tells little */
-    interval->slope = length > 1.1 * interval->last ? slope : follow(interval->slope, slope);
+    const double seen = log(condition), slope = seen / length;
+    const bool afresh = interval->slope == 0 || length > 1.5 * interval->last;
+    const double off = afresh ? 0.0 : seen - interval->slope * length;
+    interval->slope = afresh ? slope : interval->slope + FORGET * off / length;
+    interval->variance += FORGET * (off * off - interval->variance);
     interval->stretch = follow(interval->stretch, stretch / length);
     interval->last = length;
 }
 
+/** As if it had been seen at the maximum. */
+void hd_interval_failed(hd_interval *interval, double length)
+{
+    const double off = log(hd_interval_condition_max(interval, length)) - interval->slope * length;
+    if (off > 0) interval->slope += FORGET * off / length;
+}
+
 double hd_interval_next(const hd_interval *interval, double remaining)
 {
-    const double aim = fmax(hd_interval_condition_max(interval, interval->last) / HEADROOM, 2.0);
+    const double most = log(hd_interval_condition_max(interval, interval->last));
+    const double aim = fmax(most - fmax(MARGIN * sqrt(interval->variance), HEADROOM_MIN), 0.3);
     double length = fmin(interval->limit, GROW_MAX * interval->last);
-    if (interval->slope > 0) length = fmin(length, log(aim) / interval->slope);
+    if (interval->slope > 0) length = fmin(length, aim / interval->slope);
     if (interval->stretch > 0) length = fmin(length, STRETCH_MAX / interval->stretch);
     if (length >= remaining) return remaining;
     return remaining / ceil(remaining / length);

@@ -6,8 +6,9 @@
 typedef struct hd_interval {
     double limit;    /**< never longer [time units] */
     double accuracy; /**< of an exponent that rounding may spoil [1/time unit] */
-    double slope;    /**< ln(condition) per time unit: rises at once, falls slowly */
-    double stretch;  /**< largest |ln R_ll| per time unit, likewise */
+    double slope;    /**< ln(condition) per time unit, mean of the last ones */
+    double variance; /**< of ln(condition) about slope * length, likewise */
+    double stretch;  /**< largest |ln R_ll| per time unit: rises at once, falls slowly */
     double last;     /**< last interval measured, or the first guess */
 } hd_interval;
 
@@ -20,6 +21,9 @@ double hd_interval_condition_max(const hd_interval *interval, double length);
 
 /** What an interval of `length` showed. */
 void hd_interval_learn(hd_interval *interval, double length, double condition, double stretch);
+
+/** An interval of `length` turned out too long: its condition was not even measured. */
+void hd_interval_failed(hd_interval *interval, double length);
 
 /** The next interval: an equal share of `remaining`, as few shares as the conditioning allows. */
 double hd_interval_next(const hd_interval *interval, double remaining);

@@ -269,22 +269,30 @@ static hd_status frame_interval(hd_run *run, bool measured)
         }
         if (end - begin <= duration / PIECES_MAX) return HD_ILL_CONDITIONED;
         run->cost.repairs += end >= duration && begin == 0.0;
+        hd_interval_failed(&run->interval, end - begin);
         hd_frame_rewind(run->frame);
         end = begin + 0.5 * (end - begin);
     }
     return HD_OK;
 }
 
-/** True if the exponents nearest to zero are known as well as the scene asks. */
-static bool target_reached(const hd_run *run)
+/** Largest standard error of the exponents nearest to zero; INFINITY while one is unknown. */
+static double smallest_error(const hd_run *run)
 {
-    if (run->scene.target_std_error == 0 || !run->spectrum) return false;
+    double worst = 0.0;
     const int first = run->vectors > SMALLEST_EXPONENTS ? run->vectors - SMALLEST_EXPONENTS : 0;
     for (int col = first; col < run->vectors; col++) {
         const double error = hd_spectrum_std_error(run->spectrum, col);
-        if (error < 0 || error > run->scene.target_std_error) return false;
+        worst = error < 0 ? INFINITY : fmax(worst, error);
     }
-    return true;
+    return worst;
+}
+
+/** True if the exponents nearest to zero are known as well as the scene asks. */
+static bool target_reached(const hd_run *run)
+{
+    return run->scene.target_std_error > 0 && run->spectrum &&
+           smallest_error(run) <= run->scene.target_std_error;
 }
 
 /** Bookkeeping at the end of a sample; moves on to the next phase when this one is over. */
@@ -414,12 +422,22 @@ int hd_run_samples_per_report(const hd_run *run)
     return often ? run->pieces * (int)run->samples_per_report : 1;
 }
 
+/** Simulated time until the target is reached, as errors fall with the root of the time; INFINITY if it is none,
+ *  or not yet known. */
+static double target_left(const hd_run *run)
+{
+    if (run->scene.target_std_error == 0 || run->phase != HD_AVERAGING || !run->spectrum)
+        return INFINITY;
+    const double ratio = smallest_error(run) / run->scene.target_std_error;
+    return hd_spectrum_time(run->spectrum) * fmax(ratio * ratio - 1.0, 0.0);
+}
+
 /** Simulated time still to come; INFINITY for an endless run. */
 static double time_left(const hd_run *run)
 {
     const hd_scene_def *scene = &run->scene;
     if (run->phase == HD_FINISHED) return 0.0;
-    double left = phase_end(run) - run->now;
+    double left = fmin(phase_end(run) - run->now, target_left(run));
     if (run->phase == HD_EQUILIBRATING) left += scene->warmup;
     if (run->phase < HD_AVERAGING) left += scene->duration > 0 ? scene->duration : INFINITY;
     return left;

@@ -27,16 +27,53 @@ static void it_settles_where_the_condition_is_right(void **state)
     }
 }
 
-static void it_shortens_at_once_and_grows_slowly(void **state)
+/** Rate doubled for good: it follows in some twenty intervals, the first of them repaired. */
+static void it_follows_a_change(void **state)
 {
     (void)state;
     hd_interval interval = hd_interval_first(0.1, INFINITY, 1e-8);
     const double before = settled(&interval, 5.0, 100);
     hd_interval_learn(&interval, before, exp(10.0 * before), 10.0 * before);
-    const double after = hd_interval_next(&interval, 1e9);
-    CHECK_CLOSE(after, before / 2.0, 0.02 * before);
-    assert_true(settled(&interval, 5.0, 3) < 0.8 * before);
-    CHECK_CLOSE(settled(&interval, 5.0, 100), before, 0.02 * before);
+    assert_true(hd_interval_next(&interval, 1e9) < 0.95 * before);
+    CHECK_CLOSE(settled(&interval, 10.0, 300), before / 2.0, 0.05 * before);
+    CHECK_CLOSE(settled(&interval, 5.0, 300), before, 0.05 * before);
+}
+
+static void failures_shorten_it(void **state)
+{
+    (void)state;
+    hd_interval interval = hd_interval_first(0.1, INFINITY, 1e-8);
+    const double before = settled(&interval, 5.0, 100);
+    for (int k = 0; k < 10; k++) hd_interval_failed(&interval, 1.5 * before);
+    assert_true(hd_interval_next(&interval, 1e9) <= before);
+    for (int k = 0; k < 10; k++) hd_interval_failed(&interval, before);
+    assert_true(hd_interval_next(&interval, 1e9) < 0.99 * before);
+}
+
+/** ln(condition) = rate * length + scatter, the scatter the same at all lengths: kept free above the mean, so
+ *  that few intervals are repaired, and not multiplied with the length. */
+static void scatter_is_kept_free_once(void **state)
+{
+    (void)state;
+    hd_interval interval = hd_interval_first(0.1, INFINITY, 1e-8);
+    const double rate = 6.5, scatter = 1.0;
+    int repaired = 0;
+    double sum = 0.0;
+    for (int k = 0; k < 2000; k++) {
+        const double length = hd_interval_next(&interval, 1e9);
+        const double most = hd_interval_condition_max(&interval, length);
+        const double seen = exp(rate * length + scatter * sqrt(2.0) * cos(k * k * 0.7));
+        repaired += seen > most;
+        sum += length;
+        if (seen > most)
+            hd_interval_failed(&interval, length);
+        else
+            hd_interval_learn(&interval, length, fmax(seen, 1.0), rate * length);
+    }
+    const double mean = sum / 2000, ideal = log(1e7) / rate;
+    print_message("mean length %.2f of %.2f, %.1f %% repaired\n", mean, ideal, repaired / 20.0);
+    assert_true(mean > 0.75 * ideal && mean < ideal);
+    assert_true(repaired < 0.1 * 2000);
 }
 
 static void limits_are_kept(void **state)
@@ -78,7 +115,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_settles_where_the_condition_is_right),
-        cmocka_unit_test(it_shortens_at_once_and_grows_slowly),
+        cmocka_unit_test(it_follows_a_change),
+        cmocka_unit_test(failures_shorten_it),
+        cmocka_unit_test(scatter_is_kept_free_once),
         cmocka_unit_test(limits_are_kept),
         cmocka_unit_test(shares_of_the_rest_are_equal),
         cmocka_unit_test(more_accuracy_allows_less_condition),

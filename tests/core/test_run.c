@@ -105,7 +105,8 @@ static void any_interval_gives_the_same_spectrum(void **state)
             const double off = deviation(run, exact);
             if (k % 6 == 4)
                 print_message("interval 8, accuracy %.0e: %.3f used, deviation %.1e, bound %.1e\n",
-                              scene.accuracy, run->cost.interval, off, hd_run_cost(run).error_bound);
+                              scene.accuracy, run->cost.interval, off,
+                              hd_run_cost(run).error_bound);
             assert_true(off <= scene.accuracy);
             hd_run_free(run);
         }
@@ -162,7 +163,8 @@ static void the_loop_allocates_nothing(void **state)
     while (hd_run_time(run) < 120.0) CHECK_OK(hd_run_step(run)); /* the log has grown to its size */
     const size_t before = hd_memory_allocations();
     until(run, HD_FINISHED);
-    assert_true(hd_memory_allocations() - before <= 2); /* a still longer log: itself and its maps */
+    assert_true(hd_memory_allocations() - before <=
+                2); /* a still longer log: itself and its maps */
     hd_run_free(run);
 }
 
@@ -196,6 +198,44 @@ static void the_target_error_ends_the_run(void **state)
     hd_run_free(run);
 }
 
+/** What was predicted after a tenth of the averaged time, over what it took. */
+static double predicted_over_taken(uint64_t seed)
+{
+    static double averaged[20000], total[20000];
+    hd_scene_def scene = scene_of(16, HD_EXPONENTS_POSITIVE);
+    scene.warmup = 50.0;
+    scene.duration = 0.0;
+    scene.target_std_error = 0.005;
+    scene.seed = seed;
+    hd_run *run = until(created(&scene), HD_AVERAGING);
+    int count = 0, tenth = 0;
+    while (hd_run_phase(run) != HD_FINISHED) {
+        CHECK_OK(hd_run_step(run));
+        if (!hd_run_report_due(run) || count == 20000) continue;
+        averaged[count] = hd_spectrum_time(run->spectrum);
+        const double progress = hd_run_cost(run).progress;
+        total[count++] = progress > 0 ? hd_run_time(run) / progress : 0.0; /* 0: not yet known */
+    }
+    const double taken = hd_run_time(run);
+    while (averaged[tenth] < 0.1 * averaged[count - 1]) tenth++;
+    hd_run_free(run);
+    return total[tenth] / taken;
+}
+
+/** Errors are known to some ten percent after a tenth of the time, so the time to some twenty: three of
+ *  four runs end within 30 % of what was said. */
+static void the_time_to_the_target_is_predicted(void **state)
+{
+    (void)state;
+    int right = 0;
+    for (uint64_t seed = 1; seed <= 4; seed++) {
+        const double ratio = predicted_over_taken(seed);
+        print_message("predicted after a tenth: %.2f of what it took\n", ratio);
+        right += fabs(ratio - 1.0) <= 0.3;
+    }
+    assert_true(right >= 3);
+}
+
 static void progress_and_cost_add_up(void **state)
 {
     (void)state;
@@ -226,7 +266,8 @@ static void what_is_impossible_is_refused_by_name(void **state)
     char message[256] = "";
     assert_int_equal(hd_run_create(&run, &scene, message, sizeof message), HD_REFUSED);
     assert_null(run);
-    assert_string_equal(message, "exponents = 49: must be positive, all, none or from 1 to 4 disks = 48");
+    assert_string_equal(message,
+                        "exponents = 49: must be positive, all, none or from 1 to 4 disks = 48");
 }
 
 int main(void)
@@ -240,6 +281,7 @@ int main(void)
         cmocka_unit_test(the_loop_allocates_nothing),
         cmocka_unit_test(the_average_can_start_afresh),
         cmocka_unit_test(the_target_error_ends_the_run),
+        cmocka_unit_test(the_time_to_the_target_is_predicted),
         cmocka_unit_test(progress_and_cost_add_up),
         cmocka_unit_test(what_is_impossible_is_refused_by_name),
     };

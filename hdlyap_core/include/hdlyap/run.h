@@ -32,8 +32,9 @@ typedef struct hd_cost {
     long orthonormalisations; /**< number of them */
     long second_passes;       /**< how many needed a second pass */
     long repairs;             /**< intervals that turned out too long and were replayed in pieces */
-    double progress;          /**< 0 .. 1 of the time asked for; 0 for an endless run */
-    double remaining;         /**< predicted wall seconds to the end; negative if unknown */
+    double progress;          /**< 0 .. 1 of the time asked for, or to the target; 0 if unknown */
+    double remaining;         /**< predicted wall seconds to the end, or to target_std_error;
+                                  negative if unknown */
 } hd_cost;
 
 typedef struct hd_run hd_run;
