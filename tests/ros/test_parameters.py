@@ -136,10 +136,17 @@ class Parameters(unittest.TestCase):
             with self.subTest(params=params):
                 self.taken(params, shows)
 
-    def taken(self, params, shows):
+    def test_lists_on_the_command_line(self):
+        self.taken({}, dict(observables=['fields', 'state'], field_indices='[1, 7]'),
+                   args=['_observables:=[fields, state]', '_field_indices:=[1, 7]'])
+        self.check_refused([('observables', '[fields, spectra]', SHORT,
+                             ['_observables:=[fields,spectra]']),
+                            ('field_indices', '[0]', SHORT, ['_field_indices:=[0]'])])
+
+    def taken(self, params, shows, args=()):
         listener = harness.Listener('run_info')
         self.addCleanup(listener.close)
-        node = harness.start(dict(SHORT, wait_for_subscribers=['run_info'], **params))
+        node = harness.start(dict(SHORT, wait_for_subscribers=['run_info'], **params), args=args)
         self.addCleanup(node.stop)
         self.assertEqual(node.wait(), 0, node.text())
         self.assertTrue(listener.wait_for(lambda info: True))
