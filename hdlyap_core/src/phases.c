@@ -344,8 +344,9 @@ static void rotor_add(rotor *r, const hd_step *step, const hd_modes *modes, doub
         return;
     }
     const bool same = r->col == step->col && r->count == step->count;
-    const bool coarse = same && dt * SAFE > safe_sampling(step);
-    if (!same || coarse || (r->samples > 1 && dt > 1.5 * r->dt)) {
+    const bool paused = r->samples > 1 && dt > 1.5 * r->dt;
+    const bool coarse = same && !paused && dt * SAFE > safe_sampling(step);
+    if (!same || paused || coarse) {
         rotor_take_up(r, step, modes);
     } else {
         if (r->samples > LEARN) slots_match(r, step, modes, dt);

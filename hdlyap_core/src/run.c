@@ -394,7 +394,12 @@ hd_status hd_run_step(hd_run *run)
     return ends_piece ? finish_piece(run, measured) : HD_OK;
 }
 
-void hd_run_observe(hd_run *run, unsigned stages) { run->observe = stages & run->scene.observe; }
+void hd_run_observe(hd_run *run, unsigned stages)
+{
+    const unsigned now = stages & run->scene.observe, begun = now & ~run->observe;
+    if (begun & HD_OBSERVE_PHASES) hd_phases_clear(run->phases); /* not followed in between */
+    run->observe = now;
+}
 
 void hd_run_reset_average(hd_run *run)
 {

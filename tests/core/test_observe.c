@@ -159,6 +159,36 @@ static void only_what_is_needed_is_measured(void **state)
     hd_run_free(run);
 }
 
+static void check_none_coarse(const hd_run *run)
+{
+    for (int k = 0; k < hd_phases_count(hd_run_phases(run)); k++)
+        assert_int_not_equal(hd_phases_phase(hd_run_phases(run), k)->state, HD_LP_COARSE);
+}
+
+/** Phases that nobody looked at for a while begin anew, and are not taken for coarse. */
+static void a_look_away_begins_the_phases_anew(void **state)
+{
+    (void)state;
+    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
+    hd_run *run = created(&scene);
+    int tracked = 0;
+    for (int away = 0; away < 3; away++) {
+        const double until = 50.0 * (away + 1);
+        hd_run_observe(run, away == 1 ? 0 : EVERYTHING);
+        while (hd_spectrum_time(hd_run_spectrum(run)) < until) {
+            CHECK_OK(hd_run_step(run));
+            check_none_coarse(run);
+        }
+    }
+    for (int k = 0; k < hd_phases_count(hd_run_phases(run)); k++) {
+        const hd_lp_phase *phase = hd_phases_phase(hd_run_phases(run), k);
+        assert_true(phase->time < 50.5);
+        tracked += phase->state == HD_LP_TRACKED && phase->time > 20.0;
+    }
+    assert_true(tracked >= 4);
+    hd_run_free(run);
+}
+
 static void nothing_is_allocated_while_looking(void **state)
 {
     (void)state;
@@ -276,6 +306,7 @@ int main(void)
         cmocka_unit_test(coarse_reports_see_the_same_rotation),
         cmocka_unit_test(looking_changes_nothing),
         cmocka_unit_test(only_what_is_needed_is_measured),
+        cmocka_unit_test(a_look_away_begins_the_phases_anew),
         cmocka_unit_test(nothing_is_allocated_while_looking),
         cmocka_unit_test(a_reset_forgets_modes_steps_and_phases),
         cmocka_unit_test(the_negative_half_mirrors_the_positive_one),

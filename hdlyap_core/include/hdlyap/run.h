@@ -52,7 +52,7 @@ HD_MUST_CHECK hd_status hd_run_step(hd_run *run);
 bool hd_run_report_due(const hd_run *run);
 
 /** Which of the stages that the scene asks for (HD_OBSERVE_*) are needed from now on; at first all. A
- *  stage that nobody looks at is skipped, its averages miss that time. Before the step that it holds for. */
+ *  stage that nobody looks at is skipped, its averages miss that time, phases begin anew. Before the step that it holds for. */
 void hd_run_observe(hd_run *run, unsigned stages);
 
 /** Starts the averages afresh at the present time. */
