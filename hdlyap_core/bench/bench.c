@@ -7,21 +7,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static void require(hd_status status, const char *what)
-{
-    if (status == HD_OK) return;
-    fprintf(stderr, "hdlyap_bench: %s: %s\n", what, hd_status_text(status));
-    exit(3);
-}
+#include "timing.h"
 
 /** dgemm on the shape of the Gram matrix, measured in between the run's steps: the machine's speed at
  *  the time, whatever else it is doing. */

@@ -10,7 +10,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
+
+#include "timing.h"
 
 /** Tangent vectors as most programs keep them: one after the other, 4N numbers each. */
 typedef struct vectors {
@@ -19,20 +20,6 @@ typedef struct vectors {
     double *since; /**< [disks], of the last event of each */
     double *tau;   /**< [n], of LAPACK */
 } vectors;
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static void require(hd_status status, const char *what)
-{
-    if (status == HD_OK) return;
-    fprintf(stderr, "hdlyap_rivals: %s: %s\n", what, hd_status_text(status));
-    exit(3);
-}
 
 static hd_scene_def scene_of(int disks)
 {

@@ -1,0 +1,24 @@
+/** What the benchmark programs share: the clock, and the end of a program whose run failed. */
+#ifndef HD_BENCH_TIMING_H
+#define HD_BENCH_TIMING_H
+
+#include <hdlyap/status.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+static inline double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static inline void require(hd_status status, const char *what)
+{
+    if (status == HD_OK) return;
+    fprintf(stderr, "%s: %s\n", what, hd_status_text(status));
+    exit(3);
+}
+
+#endif
