@@ -283,7 +283,7 @@ static double smallest_error(const hd_run *run)
     const int first = run->vectors > SMALLEST_EXPONENTS ? run->vectors - SMALLEST_EXPONENTS : 0;
     for (int col = first; col < run->vectors; col++) {
         const double error = hd_spectrum_std_error(run->spectrum, col);
-        worst = error < 0 ? INFINITY : fmax(worst, error);
+        worst = error >= 0 ? fmax(worst, error) : INFINITY; /* NaN is not known either */
     }
     return worst;
 }

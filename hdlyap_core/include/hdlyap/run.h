@@ -51,8 +51,8 @@ HD_MUST_CHECK hd_status hd_run_step(hd_run *run);
 /** True if the last step ended at a multiple of the report interval, with a measured state. */
 bool hd_run_report_due(const hd_run *run);
 
-/** Which of the stages that the scene asks for (HD_OBSERVE_*) are needed from now on; at first all. A
- *  stage that nobody looks at is skipped, its averages miss that time, phases begin anew. Before the step that it holds for. */
+/** Which of the stages that the scene asks for (HD_OBSERVE_*) are needed from now on; at first all. A stage
+ *  that nobody looks at is skipped: its averages miss that time, phases begin anew. */
 void hd_run_observe(hd_run *run, unsigned stages);
 
 /** Starts the averages afresh at the present time. */
