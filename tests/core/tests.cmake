@@ -16,6 +16,8 @@ foreach(name IN ITEMS
     spectrum
     interval
     ortho
+    tail
+    schedule
     blocks
     frame
     trajectory

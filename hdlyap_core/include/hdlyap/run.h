@@ -31,6 +31,7 @@ typedef struct hd_cost {
         error_bound; /**< (sum of eps * condition + defect) / averaged time: rounding in a mean */
     long orthonormalisations; /**< number of them */
     long second_passes;       /**< how many needed a second pass */
+    long looks;               /**< at phases between two of them */
     long repairs;             /**< intervals that turned out too long and were replayed in pieces */
     double progress;          /**< 0 .. 1 of the time asked for, or to the target; 0 if unknown */
     double remaining;         /**< predicted wall seconds to the end, or to target_std_error;
@@ -48,15 +49,17 @@ void hd_run_free(hd_run *run);
  *  interrupted between two calls. Does nothing once HD_FINISHED. */
 HD_MUST_CHECK hd_status hd_run_step(hd_run *run);
 
-/** True if the last step ended at a multiple of the report interval, with a measured state. */
+/** True if the last step ended at a multiple of the report interval. Spectrum, modes, steps and the frame are then
+ *  those of the last orthonormalisation, hd_spectrum_time after the averaging began: at most an interval
+ *  ago, at once if fields or the hydrodynamic response are looked at. Phases are those of the very time. */
 bool hd_run_report_due(const hd_run *run);
 
 /** Which of the stages that the scene asks for (HD_OBSERVE_*) are needed from now on; at first all. A stage
  *  that nobody looks at is skipped: its averages miss that time, phases begin anew. */
 void hd_run_observe(hd_run *run, unsigned stages);
 
-/** Starts the averages afresh at the present time. */
-void hd_run_reset_average(hd_run *run);
+/** Starts the averages afresh at the present time. Fails as hd_run_step does. */
+HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 
 hd_phase hd_run_phase(const hd_run *run);
 double hd_run_time(const hd_run *run); /**< simulated time since the start */
