@@ -55,18 +55,25 @@ double hd_interval_condition(const hd_interval *interval, double length)
     return exp(interval->slope * length);
 }
 
-double hd_interval_longest(const hd_interval *interval)
+static void shorten(hd_interval_length *chosen, double length, hd_limit limit)
+{
+    if (length < chosen->length) *chosen = (hd_interval_length){length, limit};
+}
+
+hd_interval_length hd_interval_longest(const hd_interval *interval)
 {
     const double most = log(hd_interval_condition_max(interval, interval->last));
     const double aim = fmax(most - fmax(MARGIN * sqrt(interval->variance), HEADROOM_MIN), 0.3);
-    double length = fmin(interval->limit, GROW_MAX * interval->last);
-    if (interval->slope > 0) length = fmin(length, aim / interval->slope);
-    if (interval->stretch > 0) length = fmin(length, STRETCH_MAX / interval->stretch);
-    return length;
+    hd_interval_length chosen = {GROW_MAX * interval->last, HD_LIMIT_GROWTH};
+    shorten(&chosen, interval->limit, HD_LIMIT_SCENE);
+    if (interval->slope > 0) shorten(&chosen, aim / interval->slope, HD_LIMIT_CONDITION);
+    if (interval->stretch > 0) shorten(&chosen, STRETCH_MAX / interval->stretch, HD_LIMIT_OVERFLOW);
+    return chosen;
 }
 
-double hd_interval_next(const hd_interval *interval, double remaining)
+hd_interval_length hd_interval_next(const hd_interval *interval, double remaining)
 {
-    const double length = hd_interval_longest(interval);
-    return length >= remaining ? remaining : remaining / ceil(remaining / length);
+    const hd_interval_length longest = hd_interval_longest(interval);
+    if (longest.length >= remaining) return (hd_interval_length){remaining, HD_LIMIT_SCHEDULE};
+    return (hd_interval_length){remaining / ceil(remaining / longest.length), longest.limit};
 }

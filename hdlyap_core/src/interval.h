@@ -4,6 +4,8 @@
 
 #include <float.h>
 
+#include "hdlyap/run.h"
+
 /** The rounding of V enters the sum of one interval's logarithms as at most this times its condition; seen: up to
  *  1.4 eps [T6]. */
 #define HD_ROUNDING (2.0 * DBL_EPSILON)
@@ -33,10 +35,15 @@ void hd_interval_failed(hd_interval *interval, double length);
 /** Condition to be expected after `length`. */
 double hd_interval_condition(const hd_interval *interval, double length);
 
+typedef struct hd_interval_length {
+    double length;
+    hd_limit limit; /**< why not longer */
+} hd_interval_length;
+
 /** What the conditioning allows the next interval to be. */
-double hd_interval_longest(const hd_interval *interval);
+hd_interval_length hd_interval_longest(const hd_interval *interval);
 
 /** The next interval: an equal share of `remaining`, as few shares as the conditioning allows. */
-double hd_interval_next(const hd_interval *interval, double remaining);
+hd_interval_length hd_interval_next(const hd_interval *interval, double remaining);
 
 #endif

@@ -145,7 +145,7 @@ static void averages_clear(hd_run *run)
 static double sample_longest(const hd_run *run)
 {
     const bool known = run->frame && run->cost.orthonormalisations > 0;
-    return known ? fmin(run->sample_max, hd_interval_longest(&run->interval)) : run->sample_max;
+    return known ? fmin(run->sample_max, hd_interval_longest(&run->interval).length) : run->sample_max;
 }
 
 static void enter_phase(hd_run *run, hd_phase phase)
@@ -257,6 +257,7 @@ static hd_status frame_interval(hd_run *run)
         }
         if (end - begin <= duration / PIECES_MAX) return HD_ILL_CONDITIONED;
         run->cost.repairs += end >= duration && begin == 0.0;
+        run->cost.limit = HD_LIMIT_REPAIR;
         hd_interval_failed(&run->interval, end - begin);
         hd_frame_rewind(run->frame);
         end = begin + 0.5 * (end - begin);
@@ -374,17 +375,23 @@ static hd_status look(hd_run *run, int count)
     return status;
 }
 
+static hd_status end_early(hd_run *run)
+{
+    run->cost.limit = HD_LIMIT_LOOK;
+    return frame_interval(run);
+}
+
 /** In the middle of an interval: what is wanted there. What a look cannot give, an early end does; the first
  *  report has something to say that way. */
 static hd_status look_or_end(hd_run *run)
 {
     const bool averaging = run->schedule.phase == HD_AVERAGING;
     if (vectors_wanted(run) || (averaging && hd_spectrum_time(run->spectrum) == 0))
-        return frame_interval(run);
+        return end_early(run);
     const int count = observing(run) && (run->observe & HD_OBSERVE_PHASES) ? followed(run) : 0;
     if (count == 0) return HD_OK;
     const hd_status status = tail_suffices(run, count) ? look(run, count) : HD_ILL_CONDITIONED;
-    return status == HD_ILL_CONDITIONED ? frame_interval(run) : status;
+    return status == HD_ILL_CONDITIONED ? end_early(run) : status;
 }
 
 /** At the end of a piece: what is measured there, and what ends. */
@@ -407,9 +414,11 @@ static hd_status take_cut(hd_run *run)
 static void plan_interval(hd_run *run)
 {
     const double end = hd_schedule_sample_end(&run->schedule), left = end - run->now;
-    const double wanted = hd_interval_next(&run->interval, left);
-    const double length = wanted <= run->step_max ? wanted : left / ceil(left / run->step_max);
-    run->interval_end = length >= left ? end : run->now + length;
+    hd_interval_length next = hd_interval_next(&run->interval, left);
+    if (next.length > run->step_max)
+        next = (hd_interval_length){left / ceil(left / run->step_max), HD_LIMIT_EVENTS};
+    run->interval_end = next.length >= left ? end : run->now + next.length;
+    run->cost.limit = next.limit;
 }
 
 hd_status hd_run_step(hd_run *run)
@@ -494,6 +503,8 @@ hd_cost hd_run_cost(const hd_run *run)
     if (run->schedule.phase >= HD_AVERAGING && run->spectrum && hd_spectrum_time(run->spectrum) > 0)
         cost.error_bound = (run->rounding + cost.defect * cost.defect) /
                            hd_spectrum_time(run->spectrum);
+    const double error = run->spectrum ? smallest_error(run) : INFINITY;
+    cost.std_error = error < INFINITY ? error : -1.0;
     cost.events_per_second = cost.events > 0
                                  ? (double)hd_trajectory_collisions(run->trajectory) / cost.events
                                  : 0.0;
