@@ -10,7 +10,7 @@ static const double period = 1.0;
 /** How long a repair is worth a warning [s]. */
 static const double warn_seconds = 10.0;
 
-enum { KEYS = 10, TEXT_SIZE = 32 };
+enum { KEYS = 11, TEXT_SIZE = 32 };
 
 /** Keys and the texts that they point to. */
 typedef struct key_list {
