@@ -24,7 +24,7 @@ static const double DEFECT_LOOSE = 1e-4;
 static const double DEFECT_MEASURED = 1e-6;
 /** Single precision leaves a tenth of the tail's vectors astray there, and a thousandth of their phases. */
 static const double CONDITION_TAIL = 1e4;
-static const double COLLISIONS_PER_SAMPLE = 40.0; /* of one disk, at most */
+static const double COLLISIONS_PER_SAMPLE = 64.0; /* of one disk, at most */
 static const double EVENTS_PER_STEP = 200000.0;   /* bounds memory, and the wait for an answer */
 /** Householder reflections stay right to eps * condition: 1e-3 of one interval, once. */
 static const double CONDITION_STABLE = 1e13;
