@@ -46,7 +46,7 @@ double gemm_measure(gemm *g)
 double gemm_last(const gemm *g) { return g->last; }
 double gemm_rate(const gemm *g) { return sample_median(&g->rate); }
 
-double gemm_floor(const gemm *g, int m, int n, double spread)
+double gemm_floor(double rate, int m, int n, double spread)
 {
-    return 4.0 * m * n * (double)n / gemm_rate(g) * spread / log(1e8);
+    return 4.0 * m * n * (double)n / rate * spread / log(1e8);
 }

@@ -16,7 +16,7 @@ double gemm_last(const gemm *g); /**< flops per second of the last measurement *
 double gemm_rate(const gemm *g); /**< median flops per second */
 
 /** Seconds per time unit that a spectrum of n exponents in 4N = m dimensions costs at least:
- *  F = 4 m n^2 flops at this rate per ln(1e8) / (lambda_1 - lambda_n) of simulated time. */
-double gemm_floor(const gemm *g, int m, int n, double spread);
+ *  F = 4 m n^2 flops at this rate of dgemm per ln(1e8) / (lambda_1 - lambda_n) of simulated time. */
+double gemm_floor(double rate, int m, int n, double spread);
 
 #endif

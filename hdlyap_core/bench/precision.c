@@ -98,10 +98,10 @@ static double gemm_flops(const study *s)
     return 2.0 * s->w.rows * s->w.vectors * (double)s->w.vectors;
 }
 
-static void fill_cost(const study *s, point *p, double replay, double factor, double speed)
+static void fill_cost(const study *s, point *p, double replay, double factorisation, double speed)
 {
     p->replay = replay / s->w.length;
-    p->factor = factor / s->w.length;
+    p->factor = factorisation / s->w.length;
     p->gemms = (p->replay + p->factor) * speed / gemm_flops(s);
 }
 
