@@ -89,9 +89,9 @@ static void tell(const hd_run *run, const gemm *g, const asked *a, const result 
            a->disks, hd_run_vectors(run), hd_run_threads(run), hd_blas_query().kernel,
            gemm_rate(g) * 1e-9, a->rounds, a->duration);
     table *t = ratio_begin(a->out, a->name);
-    ratio_tell(t, "whole run W [s/time unit]", &r->w);
-    ratio_tell(t, "floor F [s/time unit]", &r->f);
-    ratio_tell(t, "W/F", &r->ratio);
+    ratio_tell(t, "whole run W [s/time unit]", a->disks, &r->w);
+    ratio_tell(t, "floor F [s/time unit]", a->disks, &r->f);
+    ratio_tell(t, "W/F", a->disks, &r->ratio);
     if (t) table_write(t, argv, gemm_rate(g));
     print_parts(r, a->rounds * a->duration);
 }

@@ -132,11 +132,12 @@ static void tell_targets(const course *c, const char *folder, char **argv)
 
 static void write_course(const course *c, const char *folder, char **argv)
 {
-    table *t = table_create(
-        folder, "convergence",
-        "averaged time [time units],wall time [s],lambda_1 [1/time unit],its error,"
-        "c_T [sigma/time unit],its error,c_L [sigma/time unit],its error,v [sigma/time unit],"
-        "its error");
+    table *t = table_create(folder, "convergence",
+                            "averaged time [time units],wall time [s],lambda_1 [1/time "
+                            "unit],lambda_1 error [1/time unit],"
+                            "c_T [sigma/time unit],c_T error [sigma/time unit],c_L [sigma/time "
+                            "unit],c_L error [sigma/time unit],"
+                            "v [sigma/time unit],v error [sigma/time unit]");
     for (const reading *r = c->at; r < c->at + c->count; r++)
         table_row(t, "%.6g,%.6g,%.8g,%.4g,%.8g,%.4g,%.8g,%.4g,%.8g,%.4g", r->time, r->wall,
                   r->value[LAMBDA_1], r->error[LAMBDA_1], r->value[C_T], r->error[C_T],

@@ -9,10 +9,20 @@
 #include "gemm.h"
 #include "options.h"
 #include "progress.h"
+#include "sample.h"
 #include "table.h"
 #include "timing.h"
 
-enum { EVENTS, REPLAY, FACTORISATION, MODES, PARTS, POINTS_MAX = 8, GEMM_SIZE = 1000 };
+enum {
+    EVENTS,
+    REPLAY,
+    FACTORISATION,
+    MODES,
+    PARTS,
+    POINTS_MAX = 8,
+    GEMM_SIZE = 1000,
+    FLOOR_FROM = 50
+};
 enum { BY_DISKS, BY_VECTORS, SWEEPS };
 
 static const char *const PART_NAMES[PARTS] = {"events", "replay", "factorisation", "modes"};
@@ -23,19 +33,28 @@ static const double THEORY[SWEEPS][PARTS] = {{1, 2, 3, 2}, {0, 1, 2, NAN}};
 static const double FIT_FROM[SWEEPS] = {200, 100};
 /** A point whose predicted seconds are more is left out. */
 static const double PATIENCE = 120.0;
-static const double WARMUP = 1.0, SECONDS_MIN = 2.0, TIME_MIN = 2.0;
+static const double WARMUP = 1.0, TIME_MIN = 2.0;
 
 typedef struct point {
     int disks, vectors, threads;
     double interval, time; /**< [time units]; averaged */
     double part[PARTS];    /**< seconds per time unit */
-    double whole, floor;   /**< their sum; see gemm_floor, 0 for one vector */
+    double whole,
+        floor; /**< their sum; see gemm_floor: 0 for few vectors, which dgemm does not bound */
 } point;
 
 typedef struct sweep {
     point at[POINTS_MAX];
     int count;
 } sweep;
+
+/** What all points share. */
+typedef struct study {
+    gemm *g;
+    double seconds_min; /**< that a point is averaged for */
+    sweep by[SWEEPS];
+    progress shown;
+} study;
 
 /* ---- measuring -------------------------------------------------------------------------------- */
 
@@ -48,22 +67,25 @@ static void read_costs(const hd_run *run, double part[PARTS])
     part[MODES] = cost.modes;
 }
 
-/** At least TIME_MIN and SECONDS_MIN, with some dgemms in between. */
-static void average(hd_run *run, gemm *g)
+/** At least TIME_MIN and seconds_min; dgemm's speed meanwhile. */
+static double average(hd_run *run, const study *all)
 {
     const double start = seconds();
-    double next = start;
     const hd_spectrum *spectrum = hd_run_spectrum(run);
+    double next = start;
+    sample speed = {0};
     while (!hd_run_report_due(run) || hd_spectrum_time(spectrum) < TIME_MIN - 1e-9 ||
-           seconds() < start + SECONDS_MIN) {
+           seconds() < start + all->seconds_min) {
         require(hd_run_step(run), "averaging");
         if (seconds() < next) continue;
-        gemm_measure(g);
+        gemm_measure(all->g);
+        sample_add(&speed, gemm_last(all->g));
         next = seconds() + 0.3;
     }
+    return sample_median(&speed);
 }
 
-static void fill(const hd_run *run, const gemm *g, const double before[PARTS], point *p)
+static void fill(const hd_run *run, double speed, const double before[PARTS], point *p)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     const int n = hd_run_vectors(run);
@@ -78,10 +100,10 @@ static void fill(const hd_run *run, const gemm *g, const double before[PARTS], p
         p->whole += p->part[k];
     }
     const double spread = hd_spectrum_exponent(spectrum, 0) - hd_spectrum_exponent(spectrum, n - 1);
-    p->floor = gemm_floor(gemm_rate(g), 4 * p->disks, n, spread);
+    if (n >= FLOOR_FROM) p->floor = gemm_floor(speed, 4 * p->disks, n, spread);
 }
 
-static void measure(sweep *s, int disks, int exponents, unsigned stages, gemm *g)
+static void measure(study *all, int which, int disks, int exponents, unsigned stages)
 {
     hd_scene_def scene = hd_scene_def_default();
     scene.disks = disks;
@@ -91,13 +113,12 @@ static void measure(sweep *s, int disks, int exponents, unsigned stages, gemm *g
     scene.warmup = WARMUP;
     hd_run *run;
     double before[PARTS];
-    point *p = &s->at[s->count++];
+    point *p = &all->by[which].at[all->by[which].count++];
     *p = (point){.disks = disks};
     require(hd_run_create(&run, &scene, NULL, 0), "scene");
     while (hd_run_phase(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
     read_costs(run, before);
-    average(run, g);
-    fill(run, g, before, p);
+    fill(run, average(run, all), before, p);
     hd_run_free(run);
 }
 
@@ -113,36 +134,38 @@ static double predicted(const sweep *s, int disks)
     return p->whole * pow((double)disks / p->disks, 3) * (intervals_in_warmup + TIME_MIN);
 }
 
-static void measure_disks(sweep *s, const int *disks, gemm *g, progress *shown)
+static void measure_disks(study *all, const int *disks)
 {
     for (; *disks; disks++) {
-        if (predicted(s, *disks) > PATIENCE)
-            fprintf(stderr, "%d disks would take %.0f s: left out\n", *disks, predicted(s, *disks));
+        const double wait = predicted(&all->by[BY_DISKS], *disks);
+        if (wait > PATIENCE)
+            fprintf(stderr, "%d disks would take %.0f s: left out\n", *disks, wait);
         else
-            measure(s, *disks, HD_EXPONENTS_POSITIVE, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES, g);
-        progress_add(shown, work(*disks, 2.0 * *disks));
+            measure(all, BY_DISKS, *disks, HD_EXPONENTS_POSITIVE,
+                    HD_OBSERVE_STEPS | HD_OBSERVE_PHASES);
+        progress_add(&all->shown, work(*disks, 2.0 * *disks));
     }
 }
 
-static void measure_vectors(sweep *s, int disks, const int *vectors, gemm *g, progress *shown)
+static void measure_vectors(study *all, int disks, const int *vectors)
 {
     for (; *vectors; vectors++) {
-        measure(s, disks, *vectors, 0, g);
-        progress_add(shown, work(disks, *vectors));
+        measure(all, BY_VECTORS, disks, *vectors, 0);
+        progress_add(&all->shown, work(disks, *vectors));
     }
 }
 
-static void measure_all(sweep s[SWEEPS], bool quick, gemm *g)
+static void measure_all(study *all, bool quick)
 {
-    static const int many[] = {100, 200, 400, 780, 1500, 3000, 0}, few[] = {50, 100, 200, 0};
+    static const int many[] = {100, 200, 400, 780, 1500, 3000, 0}, few[] = {60, 100, 160, 0};
     static const int vectors[] = {1, 10, 100, 400, 1560, 0}, less[] = {1, 10, 100, 200, 0};
     const int disks = quick ? 100 : 780;
     double total = 0.0;
     for (const int *k = quick ? few : many; *k; k++) total += work(*k, 2.0 * *k);
     for (const int *k = quick ? less : vectors; *k; k++) total += work(disks, *k);
-    progress shown = progress_begin("scaling", total);
-    measure_disks(&s[BY_DISKS], quick ? few : many, g, &shown);
-    measure_vectors(&s[BY_VECTORS], disks, quick ? less : vectors, g, &shown);
+    all->shown = progress_begin("scaling", total);
+    measure_vectors(all, disks, quick ? less : vectors);
+    measure_disks(all, quick ? few : many);
     progress_end();
 }
 
@@ -174,8 +197,8 @@ static void print_sweep(const sweep *s, int which)
     for (const point *p = s->at; p < s->at + s->count; p++) {
         printf("%6d %8d %8d %9.3g", p->disks, p->vectors, p->threads, p->interval);
         for (int k = 0; k < PARTS; k++) printf(" %13.6f", p->part[k]);
-        printf(" %10.5f %10.5f", p->whole, p->floor);
-        if (p->floor > 0) printf(" %6.2f", p->whole / p->floor);
+        printf(" %10.5f", p->whole);
+        if (p->floor > 0) printf(" %10.5f %6.2f", p->floor, p->whole / p->floor);
         printf("\n");
     }
 }
@@ -212,20 +235,19 @@ int main(int argc, char **argv)
     const option list[] = {{"--out", .text = &out}, {"--quick", .flag = &quick}, {0}};
     options_read(argc, argv, list);
     hd_blas_restart_if_slow(argv);
-    sweep s[SWEEPS] = {{.count = 0}};
-    gemm *g = gemm_create(GEMM_SIZE, GEMM_SIZE);
-    measure_all(s, quick, g);
+    study all = {.seconds_min = quick ? 0.3 : 2.0, .g = gemm_create(GEMM_SIZE, GEMM_SIZE)};
+    measure_all(&all, quick);
     table *points = table_create(
         out, "scaling",
         "sweep,disks,vectors,threads,interval [time units],averaged [time units],"
         "events [s/time unit],replay [s/time unit],factorisation [s/time unit],"
         "modes [s/time unit],whole [s/time unit],floor F [s/time unit]");
     table *fits = table_create(out, "scaling_fits", "sweep,part,fitted power,theory,fitted from");
-    write_points(s, points);
-    for (int which = 0; which < SWEEPS; which++) print_sweep(&s[which], which);
-    tell_fits(s, fits);
-    table_write(points, argv, gemm_rate(g));
-    table_write(fits, argv, gemm_rate(g));
-    gemm_free(g);
+    write_points(all.by, points);
+    for (int which = 0; which < SWEEPS; which++) print_sweep(&all.by[which], which);
+    tell_fits(all.by, fits);
+    table_write(points, argv, gemm_rate(all.g));
+    table_write(fits, argv, gemm_rate(all.g));
+    gemm_free(all.g);
     return 0;
 }

@@ -67,7 +67,7 @@ static void print_comment(FILE *file, char **argv, double dgemm)
     const hd_blas blas = hd_blas_query();
     fputs("# ", file);
     print_processor(file);
-    fprintf(file, "; %d cores; %s kernels, %s, %d threads; dgemm %.1f GF/s; command:", blas.cores,
+    fprintf(file, "; %d cores; %s kernels, %s, threads %d; dgemm %.1f GF/s; command:", blas.cores,
             blas.kernel, blas.threading, blas.threads, dgemm * 1e-9);
     for (; *argv; argv++) fprintf(file, " %s", *argv);
     fputc('\n', file);
