@@ -74,8 +74,8 @@ def precision(tables):
         _mark_failure(cliff, method, rows)
     _draw_largest(cliff, table)
     _draw_chosen(cliff, work, table)
-    _shade(cliff)
-    _shade(work)
+    _shade(cliff, left=True)
+    _shade(work, left=False)
     _label_intervals(work, table)
     cliff.set(xscale='log', yscale='log', ylim=(1e-16, 1e7), xlabel='interval  [time units]',
               ylabel='largest deviation of an exponent  [1/time unit]')
@@ -130,11 +130,11 @@ def _draw_chosen(cliff, work, table):
     work.plot([_seconds(row) for row in rows], deviations, **style)
 
 
-def _shade(axes):
+def _shade(axes, left):
     axes.axhspan(WRONG, FAILS, color=VERMILION, alpha=0.12, linewidth=0)
     axes.axhline(FAILS, color=GREY, linewidth=0.6)
-    axes.annotate('wrong, without an error', (0.97, WRONG * 2),
-                  xycoords=('axes fraction', 'data'), fontsize=8, ha='right')
+    axes.annotate('wrong, without an error', (0.03 if left else 0.97, WRONG * 2),
+                  xycoords=('axes fraction', 'data'), fontsize=8, ha='left' if left else 'right')
     axes.annotate('refused or broken down, with an error', (0.97, FAILS * 6 ** 6), xycoords=('axes fraction', 'data'), fontsize=8,
                   ha='right')
 
@@ -267,7 +267,7 @@ def effects(tables):
     axes.set_yticks(range(len(rows)))
     axes.set_yticklabels([row['effect'] for row in rows])
     axes.set_xlim(right=1.2 * max(1e-3, max(table['percent'])))
-    axes.set_xlabel('cost  [% of the run without it]')
+    axes.set_xlabel('cost  [% of the run that has it]')
     return figure
 
 

@@ -68,13 +68,17 @@ static double work_of_chosen(const study *s)
     return (s->w.scene.warmup + s->w.length) * weight(FACTOR_OURS);
 }
 
+static double work_of_fixed(factor_method method, int pieces)
+{
+    return weight(method) * pieces * repetitions(method, pieces);
+}
+
 static double work_in_all(const study *s)
 {
     double sum = AUTOS * work_of_chosen(s) + REFERENCE_PIECES * weight(FACTOR_CHOLESKY_TWICE);
     for (factor_method method = 0; method < FACTOR_METHODS; method++)
         for (int k = 0; k < LENGTHS; k++)
-            if (!is_left_out(method, PIECES[k]))
-                sum += weight(method) * PIECES[k] * repetitions(method, PIECES[k]);
+            if (!is_left_out(method, PIECES[k])) sum += work_of_fixed(method, PIECES[k]);
     return sum;
 }
 
@@ -107,12 +111,14 @@ static void fill_cost(const study *s, point *p, double replay, double factorisat
 
 static void measure_fixed(study *s, factor_method method, int pieces, point *p)
 {
+    const double end = s->shown.done + work_of_fixed(method, pieces);
+    const watch beside = {s->g, &s->shown, weight(method)};
     sample replay = {0}, factorisation = {0}, speed = {0};
     effort spent;
     *p = (point){.measured = true, .interval = s->w.length / pieces};
     factor *f = factor_create(method, s->w.rows, s->w.vectors);
     for (int k = 0; k < repetitions(method, pieces) && !p->failed; k++) {
-        p->failed = window_exponents(&s->w, f, pieces, s->g, s->exponents, &spent) != HD_OK;
+        p->failed = window_exponents(&s->w, f, pieces, &beside, s->exponents, &spent) != HD_OK;
         sample_add(&replay, spent.replay);
         sample_add(&factorisation, spent.factor);
         sample_add(&speed, sample_median(&spent.speed));
@@ -122,7 +128,7 @@ static void measure_fixed(study *s, factor_method method, int pieces, point *p)
     if (!p->failed)
         fill_cost(s, p, sample_median(&replay), sample_median(&factorisation),
                   sample_median(&speed));
-    progress_add(&s->shown, weight(method) * pieces * repetitions(method, pieces));
+    progress_add(&s->shown, end - s->shown.done); /* a failure ends early */
 }
 
 /** Through the averaging phase, measuring dgemm in between. */
@@ -159,11 +165,12 @@ static void measure_chosen(study *s, double accuracy, point *p)
 
 static void measure_reference(study *s)
 {
+    const watch beside = {s->g, &s->shown, weight(FACTOR_CHOLESKY_TWICE)};
     effort spent;
     factor *f = factor_create(FACTOR_CHOLESKY_TWICE, s->w.rows, s->w.vectors);
-    require(window_exponents(&s->w, f, REFERENCE_PIECES, s->g, s->reference, &spent), "reference");
+    require(window_exponents(&s->w, f, REFERENCE_PIECES, &beside, s->reference, &spent),
+            "reference");
     factor_free(f);
-    progress_add(&s->shown, REFERENCE_PIECES * weight(FACTOR_CHOLESKY_TWICE));
 }
 
 static void measure_all(study *s)

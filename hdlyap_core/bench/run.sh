@@ -68,27 +68,34 @@ stage() {
 
 fallback() { OPENBLAS_CORETYPE=Prescott "$PROGRAMS/hdlyap_bench" "$@"; }
 
+effects() {
+    "$PROGRAMS/hdlyap_effects" "$OUT/effects.csv.part"
+    mv "$OUT/effects.csv.part" "$OUT/effects.csv"
+}
+
 run_all() {
-    local -a whole=(--whole --out "$OUT") rival=(--out "$OUT") brief=()
+    local -a whole=(--whole --out "$OUT") small=()
+    local with_effects=0
     if ((${#QUICK[@]})); then
-        whole+=(--disks 64 --duration 8) rival+=(--disks 64) brief=(--rounds 2)
-    else
-        brief=(--rounds 3)
+        small=(--disks 64)
+    elif [[ -x $PROGRAMS/hdlyap_effects ]]; then
+        with_effects=1
     fi
-    TOTAL=$((${#QUICK[@]} ? 9 : 515))
+    TOTAL=$((${#QUICK[@]} ? 9 : 485))
+    if ((with_effects)); then TOTAL=$((TOTAL + 60)); fi
     stage 220 'what accuracy costs' "$PROGRAMS/hdlyap_precision" --out "$OUT" "${QUICK[@]}"
     stage 45 'how long a wanted error takes' "$PROGRAMS/hdlyap_convergence" --out "$OUT" "${QUICK[@]}"
     stage 110 'how cost grows' "$PROGRAMS/hdlyap_scaling" --out "$OUT" "${QUICK[@]}"
-    stage 15 'a whole run to its floor' "$PROGRAMS/hdlyap_bench" "${whole[@]}"
+    stage 15 'a whole run to its floor' "$PROGRAMS/hdlyap_bench" "${whole[@]}" "${small[@]}"
     stage 5 'the same, N = 100, one thread' "$PROGRAMS/hdlyap_bench" "${whole[@]}" --name whole_small \
         --disks 100 --threads 1 --duration 40
     if [[ $(uname -m) == x86_64 ]]; then
-        stage 45 "the same on OpenBLAS's oldest kernels" fallback "${whole[@]}" "${brief[@]}" \
+        stage 45 "the same on OpenBLAS's oldest kernels" fallback "${whole[@]}" "${small[@]}" \
             --name whole_fallback
     fi
-    stage 40 'what others write' "$PROGRAMS/hdlyap_rivals" "${rival[@]}"
-    if [[ -x $PROGRAMS/hdlyap_effects ]]; then
-        stage 30 'what each effect costs' "$PROGRAMS/hdlyap_effects" --out "$OUT" "${QUICK[@]}"
+    stage 40 'what others write' "$PROGRAMS/hdlyap_rivals" --out "$OUT" "${small[@]}"
+    if ((with_effects)); then
+        stage 60 'what each effect costs' effects
     fi
     stage 5 'pictures' draw
 }

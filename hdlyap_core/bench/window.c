@@ -74,15 +74,16 @@ static hd_status replay_piece(window *w, double begin, double end)
     return hd_frame_replay(w->frame, &log, begin, end);
 }
 
-/** Of every second piece, and of the first. */
-static void measure_speed(gemm *g, int piece, effort *spent)
+/** dgemm at every second piece, and at the first. */
+static void look_beside(const watch *beside, int piece, effort *spent)
 {
+    progress_add(beside->shown, beside->work);
     if (piece % 2 != 0) return;
-    gemm_measure(g);
-    sample_add(&spent->speed, gemm_last(g));
+    gemm_measure(beside->g);
+    sample_add(&spent->speed, gemm_last(beside->g));
 }
 
-hd_status window_exponents(window *w, factor *f, int pieces, gemm *g, double *exponents,
+hd_status window_exponents(window *w, factor *f, int pieces, const watch *beside, double *exponents,
                            effort *spent)
 {
     const size_t size = (size_t)w->rows * (size_t)hd_frame_stride(w->frame);
@@ -97,7 +98,7 @@ hd_status window_exponents(window *w, factor *f, int pieces, gemm *g, double *ex
         spent->replay += seconds() - start;
         HD_TRY(factor_step(f, w->frame, w->length / pieces, k == pieces - 1));
         for (int l = 0; l < w->vectors; l++) exponents[l] += factor_log_stretch(f)[l] / w->length;
-        measure_speed(g, k, spent);
+        look_beside(beside, k, spent);
     }
     spent->factor = factor_seconds(f) - before;
     return HD_OK;

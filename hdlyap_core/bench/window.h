@@ -4,6 +4,7 @@
 
 #include "factor.h"
 #include "gemm.h"
+#include "progress.h"
 #include "sample.h"
 
 typedef struct window {
@@ -25,9 +26,15 @@ typedef struct effort {
 window window_create(const hd_scene_def *scene);
 void window_free(window *w);
 
-/** Carries the frame through the window in `pieces` equal intervals, each ended by a step of f, and measures dgemm
- *  in between. exponents[n]. What factor_step fails with. */
-HD_MUST_CHECK hd_status window_exponents(window *w, factor *f, int pieces, gemm *g,
+/** What goes on beside: dgemm is measured, and the progress grows by `work` with every piece. */
+typedef struct watch {
+    gemm *g;
+    progress *shown;
+    double work;
+} watch;
+
+/** Carries the frame through the window in `pieces` equal intervals, each ended by a step of f. exponents[n]. What factor_step fails with. */
+HD_MUST_CHECK hd_status window_exponents(window *w, factor *f, int pieces, const watch *beside,
                                          double *exponents, effort *spent);
 
 #endif
