@@ -128,6 +128,17 @@ def _draw_chosen(cliff, work, table):
              'markerfacecolor': 'white', 'label': label}
     cliff.plot([row['interval'] for row in rows], deviations, **style)
     work.plot([_seconds(row) for row in rows], deviations, **style)
+    for interval in {row['interval'] for row in rows}:
+        _name_chosen(cliff, [row for row in rows if row['interval'] == interval])
+
+
+def _name_chosen(axes, rows):
+    """One label for all accuracies that led to the same interval."""
+    powers = [f'$10^{{{math.log10(row["accuracy asked"]):.0f}}}$' for row in rows]
+    names = powers[0] if len(powers) == 1 else f'{powers[0]} to {powers[-1]}'
+    axes.annotate(names, (rows[0]['interval'], rows[0]['deviation of any']), xytext=(7, -4),
+                  textcoords='offset points', va='top', fontsize=8, zorder=5,
+                  bbox={'facecolor': 'white', 'edgecolor': 'none', 'pad': 0.5, 'alpha': 0.8})
 
 
 def _shade(axes, left):
@@ -252,7 +263,7 @@ def whole(tables):
     axes.set_yticklabels([f'{label}, N = {row["disks"]:g}' for label, row in rows])
     axes.set_ylim(len(rows) - 0.4, -0.7)
     axes.set_xlim(0, 1.08 * max(row['maximum'] for _, row in rows))
-    axes.set_xlabel('ratio of seconds: median, least to most of the rounds')
+    axes.set_xlabel('ratio of seconds: median and range')
     return figure
 
 
