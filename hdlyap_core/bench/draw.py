@@ -117,7 +117,7 @@ def _draw_largest(axes, table):
     rows = [row for row in table.where(method='householder', status='ok')]
     axes.plot([row['interval'] for row in rows],
               [max(row['deviation of the largest'], 2e-16) for row in rows], ':', color=INK,
-              linewidth=1, label=r'$\lambda_1$ alone, by any of them')
+              linewidth=1, label=r'$\lambda_1$ alone, Householder')
 
 
 def _draw_chosen(cliff, work, table):
@@ -136,9 +136,10 @@ def _name_chosen(axes, rows):
     """One label for all accuracies that led to the same interval."""
     powers = [f'$10^{{{math.log10(row["accuracy asked"]):.0f}}}$' for row in rows]
     names = powers[0] if len(powers) == 1 else f'{powers[0]} to {powers[-1]}'
-    axes.annotate(names, (rows[0]['interval'], rows[0]['deviation of any']), xytext=(7, -4),
-                  textcoords='offset points', va='top', fontsize=8, zorder=5,
-                  bbox={'facecolor': 'white', 'edgecolor': 'none', 'pad': 0.5, 'alpha': 0.8})
+    place = ({'xytext': (-7, 0), 'ha': 'right', 'va': 'center'} if len(rows) == 1 else
+             {'xytext': (7, -4), 'ha': 'left', 'va': 'top'})
+    axes.annotate(names, (rows[0]['interval'], rows[0]['deviation of any']), fontsize=8,
+                  textcoords='offset points', zorder=5, **place)
 
 
 def _shade(axes, left):
@@ -158,7 +159,8 @@ def _label_intervals(axes, table):
 
 def _plain_ticks(axes):
     low, high = axes.get_xlim()
-    ticks = [a * 10.0 ** k for k in range(-6, 4) for a in (1, 2, 5) if low <= a * 10.0 ** k <= high]
+    steps = (1, 2, 5) if high < 200 * low else (1,)
+    ticks = [a * 10.0 ** k for k in range(-6, 5) for a in steps if low <= a * 10.0 ** k <= high]
     axes.set_xticks(ticks)
     axes.set_xticklabels([f'{tick:g}' for tick in ticks])
     axes.minorticks_off()
@@ -221,7 +223,7 @@ def scaling(tables):
         axes.legend(loc='upper left', fontsize=7)
         _plain_ticks(axes)
     seconds = [row[part] for row in table.rows for part in PARTS if row[part] > 0]
-    panels[0].set_ylim(0.5 * min(seconds), 300 * max(seconds))
+    panels[0].set_ylim(0.5 * min(seconds), 30 * max(seconds))
     panels[0].set(xlabel='disks N', ylabel='wall time  [s/time unit]')
     panels[1].set(xlabel='vectors n')
     return figure

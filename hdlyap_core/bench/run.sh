@@ -36,7 +36,7 @@ while (($#)); do
 done
 
 build() {
-    if [[ ! -f $BUILD/Makefile ]]; then
+    if [[ ! -f $BUILD/CMakeCache.txt ]]; then
         cmake -S "$ROOT/hdlyap_core" -B "$BUILD" -G 'Unix Makefiles' -DHDLYAP_CORE_TESTS=OFF
     fi
     cmake --build "$BUILD" -- -j "$(nproc)"
