@@ -1,111 +1,119 @@
 /** What a run costs: its parts, and the whole as a ratio to the floor
  *  F = 4 m n^2 flops at dgemm speed per ln(1e8) / (lambda_1 - lambda_n) of simulated time,
- *  all measured in one run on one machine. Usage: hdlyap_bench [time units averaged, default 20] */
-#define _POSIX_C_SOURCE 199309L
-#include <cblas.h>
+ *  all measured in one run on one machine, in rounds.
+ *  Usage: hdlyap_bench [--disks N] [--threads N] [--rounds N] [--duration TIME UNITS OF A ROUND] [--whole]
+ *         [--out FOLDER] [--name NAME]; with --out it writes FOLDER/NAME.csv; --whole leaves the events alone. */
 #include <hdlyap/hdlyap.h>
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
+#include "gemm.h"
+#include "options.h"
+#include "progress.h"
+#include "ratio.h"
 #include "timing.h"
 
-/** dgemm on the shape of the Gram matrix, measured in between the run's steps: the machine's speed at
- *  the time, whatever else it is doing. */
-typedef struct gemm {
-    int m, n;
-    double *a, *c;
-    double rate[1000]; /**< flops per second, ascending when read */
-    int count;
-} gemm;
+typedef struct asked {
+    int disks, threads, rounds;
+    double duration; /**< of a round [time units] */
+    bool whole;
+    const char *out, *name;
+} asked;
 
-static gemm *gemm_create(int m, int n)
+typedef struct result {
+    sample w, f, ratio;  /**< of each round */
+    hd_cost first, last; /**< before and after all */
+    double taken;        /**< wall seconds of all, dgemm's own left out */
+} result;
+
+static double spread_of(const hd_run *run)
 {
-    gemm *g = calloc(1, sizeof *g);
-    if (g) *g = (gemm){.m = m, .n = n, .a = calloc((size_t)m * (size_t)n, sizeof(double))};
-    if (g) g->c = calloc((size_t)n * (size_t)n, sizeof(double));
-    if (!g || !g->a || !g->c) require(HD_NO_MEMORY, "dgemm");
-    for (size_t k = 0; k < (size_t)m * (size_t)n; k++) g->a[k] = 1.0 / (double)(k % 97 + 1);
-    return g;
+    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    return hd_spectrum_exponent(spectrum, 0) -
+           hd_spectrum_exponent(spectrum, hd_run_vectors(run) - 1);
 }
 
-static void gemm_free(gemm *g)
+/** Goes on for `duration`, measuring dgemm after every second step. */
+static void one_round(hd_run *run, gemm *g, double duration, result *r)
 {
-    free(g->a);
-    free(g->c);
-    free(g);
-}
-
-/** One more measurement; returns the seconds that it took. */
-static double gemm_measure(gemm *g)
-{
-    const double start = seconds();
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, g->n, g->n, g->m, 1.0, g->a, g->n, g->a,
-                g->n, 0.0, g->c, g->n);
-    const double taken = seconds() - start;
-    if (g->count < 1000) g->rate[g->count++] = 2.0 * g->m * g->n * (double)g->n / taken;
-    return taken;
-}
-
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double gemm_rate(gemm *g)
-{
-    qsort(g->rate, (size_t)g->count, sizeof *g->rate, ascending);
-    return g->rate[g->count / 2];
-}
-
-/** Averages for `duration`; the wall seconds of it, dgemm's own left out. */
-static double average(hd_run *run, gemm *g)
-{
-    const double start = seconds();
+    const double begin = hd_run_time(run), start = seconds();
+    const int m = 4 * hd_run_scene(run)->disks, n = hd_run_vectors(run);
     double measuring = 0.0;
-    for (int step = 0; hd_run_phase(run) != HD_FINISHED; step++) {
+    sample speed = {0};
+    for (int step = 0; hd_run_time(run) < begin + duration - 1e-9; step++) {
         require(hd_run_step(run), "averaging");
-        if (step % 2 == 0) measuring += gemm_measure(g);
-        fprintf(stderr, "\r%3.0f %%", 100.0 * hd_run_cost(run).progress);
+        if (step % 2 != 0) continue;
+        measuring += gemm_measure(g);
+        sample_add(&speed, gemm_last(g));
     }
-    fprintf(stderr, "\r");
-    return seconds() - start - measuring;
+    const double taken = seconds() - start - measuring, w = taken / duration;
+    const double f = gemm_floor(sample_median(&speed), m, n, spread_of(run));
+    r->taken += taken;
+    sample_add(&r->w, w);
+    sample_add(&r->f, f);
+    sample_add(&r->ratio, w / f);
 }
 
-static void whole_run(double duration)
+static void measure(hd_run *run, gemm *g, const asked *a, result *r)
+{
+    progress p = progress_begin("whole run", a->rounds);
+    while (hd_run_phase(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
+    r->first = hd_run_cost(run);
+    for (int k = 0; k < a->rounds; k++) {
+        one_round(run, g, a->duration, r);
+        progress_add(&p, 1.0);
+    }
+    r->last = hd_run_cost(run);
+    progress_end();
+}
+
+static void print_parts(const result *r, double duration)
+{
+    const hd_cost *a = &r->first, *b = &r->last;
+    const double events = (b->events - a->events) / duration, w = r->taken / duration;
+    const double replay = (b->replay - a->replay) / duration;
+    const double ortho = (b->ortho - a->ortho) / duration;
+    const double modes = (b->modes - a->modes) / duration;
+    printf(
+        "seconds per time unit: whole run %.4f = events %.4f + replay %.4f + factorisation %.4f\n"
+        "    + modes, steps and phases %.4f + rest %.4f\n",
+        w, events, replay, ortho, modes, w - events - replay - ortho - modes);
+    printf("interval %.3g   condition %.2g   second passes %ld of %ld   repairs %ld\n", b->interval,
+           b->condition, b->second_passes - a->second_passes,
+           b->orthonormalisations - a->orthonormalisations, b->repairs - a->repairs);
+}
+
+static void tell(const hd_run *run, const gemm *g, const asked *a, const result *r, char **argv)
+{
+    printf("%d disks, %d vectors, %d threads, %s kernels, dgemm %.1f GF/s, %d rounds of %g time "
+           "units\n",
+           a->disks, hd_run_vectors(run), hd_run_threads(run), hd_blas_query().kernel,
+           gemm_rate(g) * 1e-9, a->rounds, a->duration);
+    table *t = ratio_begin(a->out, a->name);
+    ratio_tell(t, "whole run W [s/time unit]", a->disks, &r->w);
+    ratio_tell(t, "floor F [s/time unit]", a->disks, &r->f);
+    ratio_tell(t, "W/F", a->disks, &r->ratio);
+    if (t) table_write(t, argv, gemm_rate(g));
+    print_parts(r, a->rounds * a->duration);
+}
+
+static void whole_run(const asked *a, char **argv)
 {
     hd_scene_def scene = hd_scene_def_default();
+    scene.disks = a->disks;
+    scene.threads = a->threads;
     scene.equilibration = 20.0;
     scene.warmup = 10.0;
-    scene.duration = duration;
     scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
     hd_run *run;
-    require(hd_run_create(&run, &scene, NULL, 0), "780 disks");
-    while (hd_run_phase(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
-    const int m = 4 * scene.disks, n = hd_run_vectors(run);
-    gemm *g = gemm_create(m, n);
-    const hd_cost before = hd_run_cost(run);
-    const double w = average(run, g) / duration, rate = gemm_rate(g);
-    const hd_cost after = hd_run_cost(run);
-    const hd_spectrum *spectrum = hd_run_spectrum(run);
-    const double spread = hd_spectrum_exponent(spectrum, 0) - hd_spectrum_exponent(spectrum, n - 1);
-    const double floor = 4.0 * m * n * (double)n / rate * spread / log(1e8);
-    const double events = (after.events - before.events) / duration;
-    const double replay = (after.replay - before.replay) / duration;
-    const double ortho = (after.ortho - before.ortho) / duration;
-    const double modes = (after.modes - before.modes) / duration;
-    printf("%d disks, %d vectors, %d threads, %s kernels, dgemm %.1f GF/s\n", scene.disks, n,
-           hd_run_threads(run), hd_blas_query().kernel, rate * 1e-9);
-    printf("seconds per time unit: whole run W %.4f\n", w);
-    printf("    = events %.4f + replay %.4f + factorisation %.4f + modes, steps and phases %.4f + "
-           "rest "
-           "%.4f\n",
-           events, replay, ortho, modes, w - events - replay - ortho - modes);
-    printf("floor F %.4f   W/F %.2f   interval %.3g   condition %.2g   second passes %ld   repairs "
-           "%ld\n",
-           floor, w / floor, after.interval, after.condition,
-           after.second_passes - before.second_passes, after.repairs - before.repairs);
+    char message[256] = "out of memory";
+    if (hd_run_create(&run, &scene, message, sizeof message) != HD_OK) {
+        fprintf(stderr, "hdlyap_bench: %s\n", message);
+        exit(2);
+    }
+    result r = {0};
+    gemm *g = gemm_create(4 * scene.disks, hd_run_vectors(run));
+    measure(run, g, a, &r);
+    tell(run, g, a, &r, argv);
     gemm_free(g);
     hd_run_free(run);
 }
@@ -130,13 +138,19 @@ static void events_alone(int disks, double density, double collisions)
 
 int main(int argc, char **argv)
 {
+    asked a = {.disks = 780, .rounds = 5, .duration = 4.0, .name = "whole"};
+    const option list[] = {{"--disks", .count = &a.disks, .least = 10, .most = 5000},
+                           {"--threads", .count = &a.threads, .least = 0, .most = 256},
+                           {"--rounds", .count = &a.rounds, .least = 1, .most = SAMPLE_MAX},
+                           {"--duration", .number = &a.duration, .least = 1, .most = 1e6},
+                           {"--whole", .flag = &a.whole},
+                           {"--out", .text = &a.out},
+                           {"--name", .text = &a.name},
+                           {0}};
+    options_read(argc, argv, list);
     hd_blas_restart_if_slow(argv);
-    const double duration = argc > 1 ? atof(argv[1]) : 20.0;
-    if (!(duration > 0 && duration < 1e6)) {
-        fprintf(stderr, "hdlyap_bench: time units = %s: must be above 0, below 1e6\n", argv[1]);
-        return 2;
-    }
-    whole_run(duration);
+    whole_run(&a, argv);
+    if (a.whole) return 0;
     printf("\nEvents alone, one core:\n%9s %9s %12s %22s\n", "disks", "density", "collisions",
            "million collisions / s");
     events_alone(780, 0.7, 1e6);

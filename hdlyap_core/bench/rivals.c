@@ -1,25 +1,19 @@
 /** What others write, on the same trajectory and with the same BLAS: seconds per time unit of
  *  (ours) hd_run, spectrum alone;
  *  (qr)   unblocked replay, Householder QR (dgeqrf, dorgqr) every half time unit;
- *  (mgs)  unblocked replay, modified Gram-Schmidt once per time unit.
- *  Usage: hdlyap_rivals [disks, default 780] [time units of ours, default 20] */
-#define _POSIX_C_SOURCE 199309L
-#include <cblas.h>
+ *  (mgs)  unblocked replay, modified Gram-Schmidt once per time unit;
+ *  and their ratios, in rounds.
+ *  Usage: hdlyap_rivals [--disks N] [--rounds N] [--duration TIME UNITS OF OURS IN A ROUND] [--out FOLDER];
+ *  with --out it writes FOLDER/rivals.csv. */
 #include <hdlyap/hdlyap.h>
-#include <lapacke.h>
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
+#include "columns.h"
+#include "gemm.h"
+#include "options.h"
+#include "progress.h"
+#include "ratio.h"
 #include "timing.h"
-
-/** Tangent vectors as most programs keep them: one after the other, 4N numbers each. */
-typedef struct vectors {
-    int rows, n;
-    double *v;     /**< [n][rows]: dq_x dq_y dp_x dp_y of each disk */
-    double *since; /**< [disks], of the last event of each */
-    double *tau;   /**< [n], of LAPACK */
-} vectors;
 
 static hd_scene_def scene_of(int disks)
 {
@@ -34,40 +28,33 @@ static hd_scene_def scene_of(int disks)
 
 /* ---- ours ------------------------------------------------------------------------------------- */
 
-static double ours(int disks, double duration)
+static hd_run *ours_create(int disks)
 {
-    hd_scene_def scene = scene_of(disks);
-    scene.duration = duration;
+    const hd_scene_def scene = scene_of(disks);
     hd_run *run;
     require(hd_run_create(&run, &scene, NULL, 0), "scene");
     while (hd_run_phase(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
-    const double start = seconds();
-    while (hd_run_phase(run) != HD_FINISHED) require(hd_run_step(run), "averaging");
-    const double taken = seconds() - start;
-    hd_run_free(run);
-    return taken / duration;
+    return run;
+}
+
+/** Seconds per time unit of the next `duration`. */
+static double ours(hd_run *run, double duration)
+{
+    const double start = seconds(), begin = hd_run_time(run);
+    while (hd_run_time(run) < begin + duration - 1e-9) require(hd_run_step(run), "averaging");
+    return (seconds() - start) / (hd_run_time(run) - begin);
 }
 
 /* ---- theirs ----------------------------------------------------------------------------------- */
 
-static vectors vectors_create(int disks, int n)
-{
-    vectors x = {.rows = 4 * disks, .n = n};
-    x.v = malloc((size_t)n * (size_t)x.rows * sizeof(double));
-    x.since = calloc((size_t)disks, sizeof(double));
-    x.tau = calloc((size_t)n, sizeof(double));
-    if (!x.v || !x.since || !x.tau) require(HD_NO_MEMORY, "vectors");
-    for (size_t k = 0; k < (size_t)n * (size_t)x.rows; k++)
-        x.v[k] = (double)rand() / RAND_MAX - 0.5;
-    return x;
-}
-
-static void vectors_free(vectors *x)
-{
-    free(x->v);
-    free(x->since);
-    free(x->tau);
-}
+typedef struct rival {
+    hd_trajectory *trajectory;
+    hd_event_log *log;
+    columns x;
+    double *since; /**< [disks], of the last event of each */
+    double interval;
+    void (*orthonormalise)(columns *);
+} rival;
 
 static void fly(double *v, double tau)
 {
@@ -89,87 +76,117 @@ static void collide(double *vi, double *vj, const hd_event *e)
 }
 
 /** Event by event, all vectors each. */
-static void replay(vectors *x, const hd_event_log *log)
+static void replay(columns *x, double *since, const hd_event_log *log)
 {
-    for (int i = 0; i < x->rows / 4; i++) x->since[i] = 0.0;
+    for (int i = 0; i < x->rows / 4; i++) since[i] = 0.0;
     for (size_t k = 0; k < log->count; k++) {
         const hd_event *e = &log->event[k];
         for (int l = 0; l < x->n; l++) {
             double *v = x->v + (size_t)l * (size_t)x->rows;
-            fly(v + 4 * e->i, e->t - x->since[e->i]);
-            fly(v + 4 * e->j, e->t - x->since[e->j]);
+            fly(v + 4 * e->i, e->t - since[e->i]);
+            fly(v + 4 * e->j, e->t - since[e->j]);
             collide(v + 4 * e->i, v + 4 * e->j, e);
         }
-        x->since[e->i] = x->since[e->j] = e->t;
+        since[e->i] = since[e->j] = e->t;
     }
     for (int l = 0; l < x->n; l++)
         for (int i = 0; i < x->rows / 4; i++)
-            fly(x->v + (size_t)l * (size_t)x->rows + 4 * i, log->duration - x->since[i]);
+            fly(x->v + (size_t)l * (size_t)x->rows + 4 * i, log->duration - since[i]);
 }
 
-static void householder(vectors *x)
+/** Seconds per time unit of `steps` intervals. */
+static double theirs(rival *r, int steps)
 {
-    if (LAPACKE_dgeqrf(LAPACK_COL_MAJOR, x->rows, x->n, x->v, x->rows, x->tau) != 0 ||
-        LAPACKE_dorgqr(LAPACK_COL_MAJOR, x->rows, x->n, x->n, x->v, x->rows, x->tau) != 0)
-        require(HD_ILL_CONDITIONED, "dgeqrf");
-}
-
-static void gram_schmidt(vectors *x)
-{
-    for (int l = 0; l < x->n; l++) {
-        double *v = x->v + (size_t)l * (size_t)x->rows;
-        const double norm = cblas_dnrm2(x->rows, v, 1);
-        cblas_dscal(x->rows, 1.0 / norm, v, 1);
-        for (int m = l + 1; m < x->n; m++) {
-            double *w = x->v + (size_t)m * (size_t)x->rows;
-            cblas_daxpy(x->rows, -cblas_ddot(x->rows, v, 1, w, 1), v, 1, w, 1);
-        }
-    }
-}
-
-/** Seconds per time unit of `steps` intervals, after one that is not counted. */
-static double theirs(int disks, double interval, int steps, void (*orthonormalise)(vectors *))
-{
-    const hd_scene_def scene = scene_of(disks);
-    hd_trajectory *trajectory;
-    hd_event_log *log;
-    require(hd_trajectory_create(&trajectory, &scene), "trajectory");
-    require(hd_event_log_create(&log), "trajectory");
-    require(hd_trajectory_advance(trajectory, log, scene.equilibration), "trajectory");
-    vectors x = vectors_create(disks, hd_scene_vectors(&scene));
-    hd_blas_use_threads(hd_blas_query().cores);
-    orthonormalise(&x);
     const double start = seconds();
     for (int k = 0; k < steps; k++) {
-        const double end = hd_trajectory_time(trajectory) + interval;
-        require(hd_trajectory_advance(trajectory, log, end), "trajectory");
-        replay(&x, log);
-        orthonormalise(&x);
+        const double end = hd_trajectory_time(r->trajectory) + r->interval;
+        require(hd_trajectory_advance(r->trajectory, r->log, end), "trajectory");
+        replay(&r->x, r->since, r->log);
+        r->orthonormalise(&r->x);
     }
-    const double taken = seconds() - start;
-    vectors_free(&x);
-    hd_event_log_free(log);
-    hd_trajectory_free(trajectory);
-    return taken / (interval * steps);
+    return (seconds() - start) / (r->interval * steps);
+}
+
+/** After one interval that does not count. */
+static rival rival_create(int disks, double interval, void (*orthonormalise)(columns *))
+{
+    const hd_scene_def scene = scene_of(disks);
+    rival r = {.interval = interval, .orthonormalise = orthonormalise};
+    require(hd_trajectory_create(&r.trajectory, &scene), "trajectory");
+    require(hd_event_log_create(&r.log), "trajectory");
+    require(hd_trajectory_advance(r.trajectory, r.log, scene.equilibration), "trajectory");
+    r.x = columns_create(4 * disks, hd_scene_vectors(&scene));
+    r.since = room((size_t)disks, sizeof(double));
+    for (size_t k = 0; k < (size_t)r.x.n * (size_t)r.x.rows; k++)
+        r.x.v[k] = (double)rand() / RAND_MAX - 0.5;
+    columns_householder(&r.x);
+    theirs(&r, 1);
+    return r;
+}
+
+static void rival_free(rival *r)
+{
+    columns_free(&r->x);
+    free(r->since);
+    hd_event_log_free(r->log);
+    hd_trajectory_free(r->trajectory);
+}
+
+/* ---- side by side ----------------------------------------------------------------------------- */
+
+typedef struct result {
+    sample ours, qr, mgs;           /**< seconds per time unit */
+    sample qr_to_ours, mgs_to_ours; /**< of the same round */
+} result;
+
+static void measure(int disks, int rounds, double duration, gemm *g, result *r)
+{
+    hd_run *run = ours_create(disks); /* BLAS keeps its number of threads for the others */
+    rival qr = rival_create(disks, 0.5, columns_householder);
+    rival mgs = rival_create(disks, 1.0, columns_gram_schmidt);
+    progress p = progress_begin("rivals", rounds);
+    for (int k = 0; k < rounds; k++) {
+        const double w = ours(run, duration);
+        const double a = theirs(&qr, 2), b = theirs(&mgs, 1);
+        gemm_measure(g);
+        sample_add(&r->ours, w);
+        sample_add(&r->qr, a);
+        sample_add(&r->mgs, b);
+        sample_add(&r->qr_to_ours, a / w);
+        sample_add(&r->mgs_to_ours, b / w);
+        progress_add(&p, 1.0);
+    }
+    progress_end();
+    rival_free(&qr);
+    rival_free(&mgs);
+    hd_run_free(run);
 }
 
 int main(int argc, char **argv)
 {
+    int disks = 780, rounds = 5;
+    double duration = 4.0;
+    const char *out = NULL;
+    const option list[] = {{"--disks", .count = &disks, .least = 10, .most = 5000},
+                           {"--rounds", .count = &rounds, .least = 1, .most = SAMPLE_MAX},
+                           {"--duration", .number = &duration, .least = 1, .most = 1e6},
+                           {"--out", .text = &out},
+                           {0}};
+    options_read(argc, argv, list);
     hd_blas_restart_if_slow(argv);
-    const int disks = argc > 1 ? atoi(argv[1]) : 780;
-    const double duration = argc > 2 ? atof(argv[2]) : 20.0;
-    if (disks < 10 || disks > 5000 || !(duration > 0 && duration < 1e6)) {
-        fprintf(stderr, "hdlyap_rivals: disks = %d, time units = %g: must be 10 .. 5000, above 0\n",
-                disks, duration);
-        return 2;
-    }
-    const double w = ours(disks, duration);
-    printf("%d disks, density 0.7, positive half, %s kernels; seconds per time unit and ratio\n",
-           disks, hd_blas_query().kernel);
-    printf("ours, accuracy 1e-8                            %10.4f\n", w);
-    const double qr = theirs(disks, 0.5, 4, householder);
-    printf("unblocked replay, dgeqrf + dorgqr every 0.5    %10.4f %8.1f\n", qr, qr / w);
-    const double mgs = theirs(disks, 1.0, 1, gram_schmidt);
-    printf("unblocked replay, modified Gram-Schmidt every 1 %9.4f %8.1f\n", mgs, mgs / w);
+    const hd_scene_def scene = scene_of(disks);
+    result r = {0};
+    gemm *g = gemm_create(disks, hd_scene_vectors(&scene));
+    measure(disks, rounds, duration, g, &r);
+    printf("%d disks, density 0.7, positive half, %s kernels, %d rounds\n", disks,
+           hd_blas_query().kernel, rounds);
+    table *t = ratio_begin(out, "rivals");
+    ratio_tell(t, "ours at accuracy 1e-8 [s/time unit]", disks, &r.ours);
+    ratio_tell(t, "dgeqrf + dorgqr every 0.5 [s/time unit]", disks, &r.qr);
+    ratio_tell(t, "modified Gram-Schmidt every 1 [s/time unit]", disks, &r.mgs);
+    ratio_tell(t, "dgeqrf + dorgqr to ours", disks, &r.qr_to_ours);
+    ratio_tell(t, "modified Gram-Schmidt to ours", disks, &r.mgs_to_ours);
+    if (t) table_write(t, argv, gemm_rate(g));
+    gemm_free(g);
     return 0;
 }

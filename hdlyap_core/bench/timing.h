@@ -21,4 +21,12 @@ static inline void require(hd_status status, const char *what)
     exit(3);
 }
 
+/** calloc that ends the program when memory is out. */
+static inline void *room(size_t count, size_t size)
+{
+    void *block = calloc(count, size);
+    if (!block) require(HD_NO_MEMORY, "benchmark");
+    return block;
+}
+
 #endif

@@ -1,0 +1,118 @@
+#!/usr/bin/env bash
+# What accuracy costs in time, what a run costs, how cost grows: builds what is missing, runs every benchmark program,
+# prints their tables, and leaves CSV files and pictures in a folder.
+#   run.sh [--out DIR] [--quick] [--programs DIR]
+# --programs: they are built already, there.
+set -euo pipefail
+
+HERE=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+ROOT=$(cd "$HERE/../.." && pwd)
+BUILD=$ROOT/build/core
+OUT=$ROOT/build/bench
+QUICK=()
+PROGRAMS=
+
+die() {
+    printf 'run.sh: %s\n' "$1" >&2
+    exit "$2"
+}
+
+while (($#)); do
+    case $1 in
+        --out)
+            (($# > 1)) || die '--out: needs a folder' 2
+            OUT=$2
+            shift
+            ;;
+        --programs)
+            (($# > 1)) || die '--programs: needs a folder' 2
+            PROGRAMS=$2
+            shift
+            ;;
+        --quick) QUICK=(--quick) ;;
+        *) die "$1: not known; usage: run.sh [--out DIR] [--quick] [--programs DIR]" 2 ;;
+    esac
+    shift
+done
+
+build() {
+    if [[ ! -f $BUILD/CMakeCache.txt ]]; then
+        cmake -S "$ROOT/hdlyap_core" -B "$BUILD" -G 'Unix Makefiles' -DHDLYAP_CORE_TESTS=OFF
+    fi
+    cmake --build "$BUILD" -- -j "$(nproc)"
+}
+
+# The build without ROS puts the programs one folder deeper than that of the core alone.
+find_programs() {
+    local dir
+    for dir in "$BUILD/bench" "$BUILD/hdlyap_core/bench"; do
+        [[ ! -x $dir/hdlyap_precision ]] || PROGRAMS=$dir
+    done
+    [[ -n $PROGRAMS ]] || die "no programs in $BUILD" 1
+}
+
+DONE=0
+TOTAL=0
+
+# stage SHARE TITLE COMMAND...: the shares are rough seconds on two idle cores; of a quick run all are alike.
+stage() {
+    local share=$1 title=$2 left
+    shift 2
+    ((!${#QUICK[@]})) || share=1
+    left=$((TOTAL - DONE))
+    ((DONE == 0)) || left=$((left * (SECONDS - BEGAN) / DONE))
+    printf '\n== %s (%d s gone, about %d s left)\n' "$title" $((SECONDS - BEGAN)) "$left"
+    "$@"
+    DONE=$((DONE + share))
+}
+
+fallback() { OPENBLAS_CORETYPE=Prescott "$PROGRAMS/hdlyap_bench" "$@"; }
+
+effects() {
+    "$PROGRAMS/hdlyap_effects" "$OUT/effects.csv.part"
+    mv "$OUT/effects.csv.part" "$OUT/effects.csv"
+}
+
+run_all() {
+    local -a whole=(--whole --out "$OUT") small=()
+    local with_effects=0
+    if ((${#QUICK[@]})); then
+        small=(--disks 64)
+    elif [[ -x $PROGRAMS/hdlyap_effects ]]; then
+        with_effects=1
+    fi
+    TOTAL=$((${#QUICK[@]} ? 9 : 485))
+    if ((with_effects)); then TOTAL=$((TOTAL + 60)); fi
+    stage 220 'what accuracy costs' "$PROGRAMS/hdlyap_precision" --out "$OUT" "${QUICK[@]}"
+    stage 45 'how long a wanted error takes' "$PROGRAMS/hdlyap_convergence" --out "$OUT" "${QUICK[@]}"
+    stage 110 'how cost grows' "$PROGRAMS/hdlyap_scaling" --out "$OUT" "${QUICK[@]}"
+    stage 15 'a whole run to its floor' "$PROGRAMS/hdlyap_bench" "${whole[@]}" "${small[@]}"
+    stage 5 'the same, N = 100, one thread' "$PROGRAMS/hdlyap_bench" "${whole[@]}" --name whole_small \
+        --disks 100 --threads 1 --duration 40
+    if [[ $(uname -m) == x86_64 ]]; then
+        stage 45 "the same on OpenBLAS's oldest kernels" fallback "${whole[@]}" "${small[@]}" \
+            --name whole_fallback
+    fi
+    stage 40 'what others write' "$PROGRAMS/hdlyap_rivals" --out "$OUT" "${small[@]}"
+    if ((with_effects)); then
+        stage 60 'what each effect costs' effects
+    fi
+    stage 5 'pictures' draw
+}
+
+draw() {
+    local scratch=$PROGRAMS/matplotlib
+    mkdir -p "$scratch"
+    MPLCONFIGDIR=$scratch PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 "$HERE/draw.py" "$OUT"
+}
+
+BEGAN=$SECONDS
+mkdir -p "$OUT" || die "$OUT: cannot be made" 4
+if [[ -z $PROGRAMS ]]; then
+    mkdir -p "$ROOT/build"
+    LOG=$ROOT/build/bench_build.log
+    build >"$LOG" 2>&1 || die "the build failed; all of it is in $LOG" 1
+    find_programs
+fi
+run_all
+printf '\nCSV files and pictures are in %s (%d s)\n' "$OUT" $((SECONDS - BEGAN))
