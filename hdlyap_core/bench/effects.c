@@ -23,7 +23,7 @@ enum {
     EVERYTHING = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_FIELDS |
                  HD_OBSERVE_HYDRO
 };
-enum { ROUNDS_MAX = 1000, COUNTED_DISKS = 60, COUNTED_ROUNDS = 5 };
+enum { ROUNDS_MAX = 1000, WARM_REPORTS = 10, COUNTED_DISKS = 60, COUNTED_ROUNDS = 5 };
 static const double COUNTED_ASPECT = 0.12;
 
 /** What a run has of all the effects. */
@@ -90,12 +90,11 @@ static void report_interval(side *s)
     while (!hd_run_report_due(s->run));
 }
 
-/** Until the intervals have found their length, and the steps are found if somebody looks for them. */
+/** Until the intervals have found their length, and the steps are found. */
 static void warm(side *s)
 {
-    const int reports = hd_run_modes(s->run) ? 20 : 2;
     while (hd_run_phase(s->run) < HD_AVERAGING) require(hd_run_step(s->run), "warm-up");
-    for (int k = 0; k < reports; k++) report_interval(s);
+    for (int k = 0; k < WARM_REPORTS; k++) report_interval(s);
 }
 
 static side *side_create(const variant *v, int disks, double aspect)
@@ -161,12 +160,13 @@ static int steps_found(const side *s)
 /* ---- seconds ---------------------------------------------------------------------------------- */
 
 typedef struct cost {
-    double off, on; /**< seconds, or instructions, per report interval; NAN if unknown */
+    double off, on; /**< seconds (median), or instructions, per report interval; NAN if unknown */
+    double ratio;   /**< off / on; of seconds the median of the rounds' own */
     int steps;      /**< found in the run that has the effect */
 } cost;
 
 /** Of the run that has the effect, what it would do without. */
-static double percent(cost c) { return 100.0 * (c.on - c.off) / c.on; }
+static double percent(cost c) { return 100.0 * (1.0 - c.ratio); }
 
 static int ascending(const void *a, const void *b)
 {
@@ -194,7 +194,11 @@ static cost seconds_of(const effect *e, int disks, double aspect, int rounds)
         round_timed(round % 2 ? on : off, round);
         round_timed(round % 2 ? off : on, round);
     }
-    const cost c = {median(off->seconds, rounds), median(on->seconds, rounds), steps_found(on)};
+    double ratio[ROUNDS_MAX];
+    for (int round = 0; round < rounds; round++)
+        ratio[round] = off->seconds[round] / on->seconds[round];
+    const cost c = {median(off->seconds, rounds), median(on->seconds, rounds),
+                    median(ratio, rounds), steps_found(on)};
     side_free(off);
     side_free(on);
     return c;
@@ -249,6 +253,7 @@ static cost instructions_of(int k, const cost *known)
         if (memcmp(&effects[j].off, &effects[k].off, sizeof(variant)) == 0) c.off = known[j].off;
     if (isnan(c.off)) c.off = counted(effects[k].name, "off");
     if (!isnan(c.off)) c.on = counted(effects[k].name, "on");
+    c.ratio = c.off / c.on;
     return c;
 }
 

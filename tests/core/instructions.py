@@ -7,7 +7,9 @@ import os
 import sys
 import unittest
 
-import callgrind
+sys.dont_write_bytecode = True     # the sources stay as they are
+
+import callgrind  # noqa: E402
 
 VALGRIND, LOAD, CORE = sys.argv[1:4]
 NONE, POSITIVE, ALL = 0, -1, -2                     # HD_EXPONENTS_*
