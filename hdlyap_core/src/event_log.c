@@ -15,3 +15,9 @@ void hd_event_log_free(hd_event_log *log)
     hd_memory_free(log->event);
     hd_memory_free(log);
 }
+
+void hd_event_log_clear(hd_event_log *log)
+{
+    log->count = 0;
+    log->duration = 0.0;
+}

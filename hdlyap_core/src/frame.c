@@ -45,9 +45,12 @@ struct hd_frame {
 
 /* ---- creation --------------------------------------------------------------------------------- */
 
+/** Rows of whole cache lines; with room for the neutral vectors that complete the positive half (tail.h). */
 static int padded(int vectors)
 {
+    enum { NEUTRAL_MAX = 3, MANY = 64 };
     int width = 1;
+    if (vectors >= MANY) vectors += NEUTRAL_MAX;
     while (width < vectors && width < 8) width *= 2;
     return (vectors + width - 1) / width * width;
 }
@@ -112,8 +115,14 @@ void hd_frame_free(hd_frame *frame)
 int hd_frame_rows(const hd_frame *frame) { return frame->rows; }
 int hd_frame_vectors(const hd_frame *frame) { return frame->vectors; }
 int hd_frame_stride(const hd_frame *frame) { return frame->stride; }
+int hd_frame_threads(const hd_frame *frame) { return frame->threads; }
 double *hd_frame_data(hd_frame *frame) { return frame->copy[frame->current]; }
 const double *hd_frame_read(const hd_frame *frame) { return frame->copy[frame->current]; }
+
+hd_columns hd_frame_columns(const hd_frame *frame)
+{
+    return (hd_columns){hd_frame_read(frame), frame->stride, 0, frame->vectors};
+}
 
 /* ---- the log as tangent maps ------------------------------------------------------------------ */
 

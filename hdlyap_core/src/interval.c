@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-/** Cholesky of the Gram matrix loses orthogonality as 16 eps condition^2: at 1e7 a second pass still heals it. */
-static const double CONDITION_CHOLESKY = 1e7;
+/** Beyond, block Gram-Schmidt may meet panels that Cholesky cannot factor. */
+static const double CONDITION_MAX = 1e12;
 /** Standard deviations of ln(condition) kept free below the maximum: few intervals are then repaired,
  *  which costs less than shorter intervals would. At least a factor of 2. */
 static const double MARGIN = 2.0, HEADROOM_MIN = 0.7;
@@ -24,8 +24,8 @@ hd_interval hd_interval_first(double first, double limit, double accuracy)
 
 double hd_interval_condition_max(const hd_interval *interval, double length)
 {
-    return fmax(2.0, fmin(CONDITION_CHOLESKY,
-                          interval->accuracy * fmax(length, interval->last) / DBL_EPSILON));
+    return fmax(2.0, fmin(CONDITION_MAX,
+                          interval->accuracy * fmax(length, interval->last) / HD_ROUNDING));
 }
 
 static double follow(double old, double seen) { return fmax(seen, old + FORGET * (seen - old)); }
@@ -50,13 +50,30 @@ void hd_interval_failed(hd_interval *interval, double length)
     if (off > 0) interval->slope += FORGET * off / length;
 }
 
-double hd_interval_next(const hd_interval *interval, double remaining)
+double hd_interval_condition(const hd_interval *interval, double length)
+{
+    return exp(interval->slope * length);
+}
+
+static void shorten(hd_interval_length *chosen, double length, hd_limit limit)
+{
+    if (length < chosen->length) *chosen = (hd_interval_length){length, limit};
+}
+
+hd_interval_length hd_interval_longest(const hd_interval *interval)
 {
     const double most = log(hd_interval_condition_max(interval, interval->last));
     const double aim = fmax(most - fmax(MARGIN * sqrt(interval->variance), HEADROOM_MIN), 0.3);
-    double length = fmin(interval->limit, GROW_MAX * interval->last);
-    if (interval->slope > 0) length = fmin(length, aim / interval->slope);
-    if (interval->stretch > 0) length = fmin(length, STRETCH_MAX / interval->stretch);
-    if (length >= remaining) return remaining;
-    return remaining / ceil(remaining / length);
+    hd_interval_length chosen = {GROW_MAX * interval->last, HD_LIMIT_GROWTH};
+    shorten(&chosen, interval->limit, HD_LIMIT_SCENE);
+    if (interval->slope > 0) shorten(&chosen, aim / interval->slope, HD_LIMIT_CONDITION);
+    if (interval->stretch > 0) shorten(&chosen, STRETCH_MAX / interval->stretch, HD_LIMIT_OVERFLOW);
+    return chosen;
+}
+
+hd_interval_length hd_interval_next(const hd_interval *interval, double remaining)
+{
+    const hd_interval_length longest = hd_interval_longest(interval);
+    if (longest.length >= remaining) return (hd_interval_length){remaining, HD_LIMIT_SCHEDULE};
+    return (hd_interval_length){remaining / ceil(remaining / longest.length), longest.limit};
 }

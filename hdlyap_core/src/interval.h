@@ -2,6 +2,14 @@
 #ifndef HD_INTERVAL_H
 #define HD_INTERVAL_H
 
+#include <float.h>
+
+#include "hdlyap/run.h"
+
+/** The rounding of V enters the sum of one interval's logarithms as at most this times its condition; seen: up to
+ *  1.4 eps [T6]. */
+#define HD_ROUNDING (2.0 * DBL_EPSILON)
+
 /** Adapts to ln(condition) per time unit as it is measured [T6]. */
 typedef struct hd_interval {
     double limit;    /**< never longer [time units] */
@@ -15,8 +23,7 @@ typedef struct hd_interval {
 hd_interval hd_interval_first(double first, double limit, double accuracy);
 
 /** Largest condition that leaves the exponents as accurate as asked after an interval this long (or one as long as
- *  usual, if that is longer: a rare short one with a grazing collision may use its share), and
- *  Cholesky far from breaking down. */
+ *  usual, if that is longer: a rare short one with a grazing collision may use its share). */
 double hd_interval_condition_max(const hd_interval *interval, double length);
 
 /** What an interval of `length` showed. */
@@ -25,7 +32,18 @@ void hd_interval_learn(hd_interval *interval, double length, double condition, d
 /** An interval of `length` turned out too long: its condition was not even measured. */
 void hd_interval_failed(hd_interval *interval, double length);
 
+/** Condition to be expected after `length`. */
+double hd_interval_condition(const hd_interval *interval, double length);
+
+typedef struct hd_interval_length {
+    double length;
+    hd_limit limit; /**< why not longer */
+} hd_interval_length;
+
+/** What the conditioning allows the next interval to be. */
+hd_interval_length hd_interval_longest(const hd_interval *interval);
+
 /** The next interval: an equal share of `remaining`, as few shares as the conditioning allows. */
-double hd_interval_next(const hd_interval *interval, double remaining);
+hd_interval_length hd_interval_next(const hd_interval *interval, double remaining);
 
 #endif

@@ -94,15 +94,15 @@ void hd_modes_free(hd_modes *modes)
 /* ---- one snapshot ----------------------------------------------------------------------------- */
 
 /** out[count][stride] = (fields from `column` on)^T times the dq (half 0) or dp (half 2) rows. */
-static void overlaps(const hd_modes *modes, const hd_frame *frame, int half, int column, int count,
+static void overlaps(const hd_modes *modes, hd_columns v, int half, int column, int count,
                      double *out)
 {
-    const int stride = hd_frame_stride(frame), fields = hd_fields_stride(modes->fields);
+    const int fields = hd_fields_stride(modes->fields);
     for (int d = 0; d < 2; d++)
-        cblas_dgemm(CblasRowMajor, CblasTrans, CblasNoTrans, count, modes->vectors, modes->disks,
-                    1.0, hd_fields_data(modes->fields) + (size_t)d * (size_t)fields + column,
-                    2 * fields, hd_frame_read(frame) + (size_t)(half + d) * (size_t)stride,
-                    4 * stride, d, out, (int)modes->stride);
+        cblas_dgemm(CblasRowMajor, CblasTrans, CblasNoTrans, count, v.count, modes->disks, 1.0,
+                    hd_fields_data(modes->fields) + (size_t)d * (size_t)fields + column, 2 * fields,
+                    v.data + (size_t)(half + d) * (size_t)v.stride, 4 * v.stride, d, out + v.first,
+                    (int)modes->stride);
 }
 
 static void gram_fill(hd_modes *modes)
@@ -113,19 +113,17 @@ static void gram_fill(hd_modes *modes)
                 columns);
 }
 
-static void dq_norms(hd_modes *modes, const hd_frame *frame)
+static void dq_norms(hd_modes *modes, hd_columns v)
 {
-    const size_t stride = (size_t)hd_frame_stride(frame);
-    const double *v = hd_frame_read(frame);
-    const int n = modes->vectors, rows = 4 * modes->disks;
+    const int n = v.count, rows = 4 * modes->disks;
 #pragma omp parallel for schedule(static) num_threads(modes->threads) if (modes->threads > 1)
     for (int col = 0; col < n; col += BLOCK) {
         const int end = col + BLOCK < n ? col + BLOCK : n;
-        double *sum = modes->dq_norm;
+        double *sum = modes->dq_norm + v.first;
         for (int l = col; l < end; l++) sum[l] = 0.0;
         for (int row = 0; row < rows; row += row % 4 == 0 ? 1 : 3)
             for (int l = col; l < end; l++) {
-                const double dq = v[(size_t)row * stride + (size_t)l];
+                const double dq = v.data[(size_t)row * (size_t)v.stride + (size_t)l];
                 sum[l] += dq * dq;
             }
         for (int l = col; l < end; l++) sum[l] = sqrt(sum[l]);
@@ -143,14 +141,14 @@ static void add_squares(double *sum, const double *row, int n)
 }
 
 /** Whole vectors are orthonormal, and so are the null fields: plain overlaps. */
-static void measure_null(hd_modes *modes)
+static void measure_null(hd_modes *modes, hd_columns v)
 {
     const size_t from = (size_t)(hd_fields_columns(modes->fields) - HD_NULLS);
     for (size_t k = 0; k < HD_NULLS; k++) {
-        double *out = row_of(modes->snapshot, weight_rows(modes) - HD_NULLS + k, modes);
-        memset(out, 0, modes->stride * sizeof *out);
-        add_squares(out, row_of(modes->coefficient, from + k, modes), modes->vectors);
-        add_squares(out, row_of(modes->null_dp, k, modes), modes->vectors);
+        double *out = row_of(modes->snapshot, weight_rows(modes) - HD_NULLS + k, modes) + v.first;
+        memset(out, 0, (size_t)v.count * sizeof *out);
+        add_squares(out, row_of(modes->coefficient, from + k, modes) + v.first, v.count);
+        add_squares(out, row_of(modes->null_dp, k, modes) + v.first, v.count);
     }
 }
 
@@ -176,46 +174,47 @@ static void whitening(const hd_modes *modes, const hd_subspace *s, double *white
 }
 
 /** Squared norm of the part of the projection that columns [from, to) of s make up. */
-static void part_weight(const hd_modes *modes, const hd_subspace *s, int from, int to, double *out)
+static void part_weight(const hd_modes *modes, const hd_subspace *s, int from, int to, hd_columns v,
+                        double *out)
 {
     const int columns = hd_fields_columns(modes->fields);
-    memset(out, 0, modes->stride * sizeof *out);
+    memset(out, 0, (size_t)v.count * sizeof *out);
     for (int a = from; a < to; a++)
         for (int b = a; b < to; b++) {
             const double g = modes->gram[(s->column + a) * columns + s->column + b] *
                              (a == b ? 1.0 : 2.0);
-            const double *x = hd_modes_coefficients(modes, s->column + a);
-            const double *y = hd_modes_coefficients(modes, s->column + b);
-            for (int l = 0; l < modes->vectors; l++) out[l] += g * x[l] * y[l];
+            const double *x = hd_modes_coefficients(modes, s->column + a) + v.first;
+            const double *y = hd_modes_coefficients(modes, s->column + b) + v.first;
+            for (int l = 0; l < v.count; l++) out[l] += g * x[l] * y[l];
         }
 }
 
-static void measure_subspace(hd_modes *modes, int index)
+static void measure_subspace(hd_modes *modes, int index, hd_columns v)
 {
     const hd_subspace *s = hd_fields_subspace(modes->fields, index);
-    const int d = s->dimension, n = modes->vectors, stride = (int)modes->stride;
+    const int d = s->dimension, n = v.count, stride = (int)modes->stride;
     double whiten[DIMENSION_MAX * DIMENSION_MAX];
-    double *overlap = row_of(modes->coefficient, (size_t)s->column, modes);
-    double *out = row_of(modes->snapshot, (size_t)index * HD_WEIGHTS, modes);
+    double *overlap = row_of(modes->coefficient, (size_t)s->column, modes) + v.first;
+    double *out = row_of(modes->snapshot, (size_t)index * HD_WEIGHTS, modes) + v.first;
     whitening(modes, s, whiten);
     cblas_dgemm(CblasRowMajor, CblasTrans, CblasNoTrans, d, n, d, 1.0, whiten, d, overlap, stride,
                 0.0, modes->work, stride);
-    memset(out, 0, modes->stride * sizeof *out);
+    memset(out, 0, (size_t)n * sizeof *out);
     for (int e = 0; e < d; e++) add_squares(out, row_of(modes->work, (size_t)e, modes), n);
     cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, d, n, d, 1.0, whiten, d, modes->work,
                 stride, 0.0, overlap, stride);
     if (s->kind != HD_MODE_LP) return;
-    part_weight(modes, s, 0, d / 2, out + HD_WEIGHT_L * modes->stride);
-    part_weight(modes, s, d / 2, d, out + HD_WEIGHT_P * modes->stride);
+    part_weight(modes, s, 0, d / 2, v, out + HD_WEIGHT_L * modes->stride);
+    part_weight(modes, s, d / 2, d, v, out + HD_WEIGHT_P * modes->stride);
 }
 
 /** Overlaps with the fields of all subspaces, of normalised dq halves. A vector without a dq half has no weights. */
-static void normalise(hd_modes *modes)
+static void normalise(hd_modes *modes, hd_columns v)
 {
     const size_t columns = (size_t)(hd_fields_columns(modes->fields) - HD_NULLS);
     for (size_t c = 0; c < columns; c++) {
         double *row = row_of(modes->coefficient, c, modes);
-        for (int l = 0; l < modes->vectors; l++) row[l] /= fmax(modes->dq_norm[l], DBL_MIN);
+        for (int l = v.first; l < v.first + v.count; l++) row[l] /= fmax(modes->dq_norm[l], DBL_MIN);
     }
 }
 
@@ -226,19 +225,19 @@ static bool all_finite(const double *x, size_t count)
     return isfinite(sum);
 }
 
-hd_status hd_modes_measure(hd_modes *modes, const hd_frame *frame, const double *q, const double *p)
+hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const double *p)
 {
-    HD_ASSERT(hd_frame_vectors(frame) == modes->vectors);
+    HD_ASSERT(v.first >= 0 && v.first + v.count <= modes->vectors);
     const int columns = hd_fields_columns(modes->fields);
     hd_fields_sample(modes->fields, q, p);
     gram_fill(modes);
     if (!all_finite(modes->gram, (size_t)columns * (size_t)columns)) return HD_NOT_FINITE;
-    dq_norms(modes, frame);
-    overlaps(modes, frame, 0, 0, columns, modes->coefficient);
-    overlaps(modes, frame, 2, columns - HD_NULLS, HD_NULLS, modes->null_dp);
-    measure_null(modes);
-    normalise(modes);
-    for (int s = 0; s < hd_fields_subspaces(modes->fields); s++) measure_subspace(modes, s);
+    dq_norms(modes, v);
+    overlaps(modes, v, 0, 0, columns, modes->coefficient);
+    overlaps(modes, v, 2, columns - HD_NULLS, HD_NULLS, modes->null_dp);
+    measure_null(modes, v);
+    normalise(modes, v);
+    for (int s = 0; s < hd_fields_subspaces(modes->fields); s++) measure_subspace(modes, s, v);
     return all_finite(modes->snapshot, weight_rows(modes) * modes->stride) ? HD_OK : HD_NOT_FINITE;
 }
 

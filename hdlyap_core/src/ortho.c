@@ -1,29 +1,44 @@
-/** Tangent frame -> (Q, ln diag R), by Cholesky of the Gram matrix.
+/** Tangent frame -> (Q, ln diag R), by block Gram-Schmidt.
  *
- *  V (rows m, vectors n, row-major) is for BLAS the column-major n x m matrix A = V^T:
- *  G = A A^T (dsyrk), G = L L^T (dpotrf), L = R^T; Q^T = L^-1 A (dtrtri, dtrmm: on n x n blocks dtrsm runs
- *  far below dgemm speed). All BLAS-3. diag(L) > 0, so Q and R are unique. The stable step factors A = L Q
- *  by reflections instead (dgelqf, dorglq). Equations [T5]-[T7]. */
+ *  V (rows m, vectors n, row-major) is for BLAS the column-major n x m matrix A = V^T. The vectors are taken
+ *  in panels: a panel is orthonormalised by Cholesky of its Gram matrix, G = A_p A_p^T = L L^T, A_p <- L^-1 A_p
+ *  (dsyrk, dpotrf, dtrtri, dtrmm), and then taken out of all later ones: S = A_rest A_p^T,
+ *  A_rest -= S A_p (dgemm). That is 2 m n^2 flops nearly all in dgemm, and, as in the modified
+ *  Gram-Schmidt process, each panel meets vectors that the earlier ones have cleaned: it loses orthogonality in
+ *  proportion to the condition, where one Cholesky factorisation of all loses its square.
+ *  diag(L) > 0, so Q and R are unique; R is used up on the way. The stable step factors A = L Q by
+ *  reflections instead (dgelqf, dorglq). Equations [T5]-[T7]. */
 #include "hdlyap/ortho.h"
 
 #include <cblas.h>
 #include <float.h>
 #include <lapacke.h>
 #include <math.h>
-
 #include <stdbool.h>
+#include <string.h>
 
 #include "check.h"
 #include "memory.h"
 
-/** |Q^T Q - 1| after one pass is at most this times eps condition^2; seen: 1 to 7 [T7]. */
-static const double DEFECT_PER_CONDITION2 = 16.0;
+/** |Q^T Q - 1| after one pass is at most this times eps condition; see [T7]. */
+static const double DEFECT_PER_CONDITION = 64.0;
+/** A panel that is worse conditioned by itself gets a second Cholesky pass: its loss of orthogonality,
+ *  eps condition^2, multiplies what the later panels are cleaned of. */
+static const double PANEL_CONDITION_GOOD = 30.0;
+/** Cholesky of a Gram matrix breaks down near 1 / sqrt(16 eps) = 2e7. */
+static const double PANEL_CONDITION_MAX = 1e7;
+
+/** PANELS of them if there are that many vectors: the last half of the flops then falls into wide products. */
+enum { PANELS = 8, PANEL_MIN = 8, PANEL_MAX = 128, PROBES = 8 };
 
 struct hd_ortho {
-    int rows, vectors, stride;     /**< stride of the Gram matrix */
-    double *gram;                  /**< [vectors * stride], column-major, lower triangle */
-    double *norm2;                 /**< [vectors], diag(G) before it is factored */
-    double *row_sum;               /**< [vectors], workspace */
+    int rows, vectors;
+    int width;                     /**< of a panel */
+    double *gram;                  /**< [width * width], column-major, lower triangle */
+    double *projection;            /**< [vectors * width], column-major: S */
+    double *norm2;                 /**< [vectors], |V e_k|^2, of a panel complete when its turn comes */
+    double *scale;                 /**< [width], diagonal of gram before it is factored */
+    double *probe;                 /**< [PROBES][vectors]: R^-T D x, see condition_of */
     double *log_stretch;           /**< [vectors] */
     double *reflector, *workspace; /**< [vectors], [lwork]: of the stable step */
     int lwork;
@@ -32,25 +47,37 @@ struct hd_ortho {
 };
 
 /** Entries of workspace that LAPACK wants for the stable step. */
-static int stable_workspace(int rows, int vectors, int stride)
+static int stable_workspace(int rows, int vectors)
 {
     double lq = 0.0, q = 0.0, unused = 0.0;
-    (void)LAPACKE_dgelqf_work(LAPACK_COL_MAJOR, vectors, rows, &unused, stride, &unused, &lq, -1);
-    (void)LAPACKE_dorglq_work(LAPACK_COL_MAJOR, vectors, rows, vectors, &unused, stride, &unused,
+    (void)LAPACKE_dgelqf_work(LAPACK_COL_MAJOR, vectors, rows, &unused, vectors, &unused, &lq, -1);
+    (void)LAPACKE_dorglq_work(LAPACK_COL_MAJOR, vectors, rows, vectors, &unused, vectors, &unused,
                               &q, -1);
     return (int)fmax(fmax(lq, q), vectors);
 }
 
 static hd_status ortho_allocate(hd_ortho *ortho)
 {
-    const size_t n = (size_t)ortho->vectors;
-    ortho->lwork = stable_workspace(ortho->rows, ortho->vectors, ortho->stride);
-    ortho->gram = hd_memory_alloc(n * (size_t)ortho->stride, sizeof(double));
-    ortho->workspace = hd_memory_alloc((size_t)ortho->lwork, sizeof(double));
-    double **arrays[] = {&ortho->norm2, &ortho->row_sum, &ortho->log_stretch, &ortho->reflector};
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
-        if (!(*arrays[k] = hd_memory_alloc(n, sizeof(double)))) return HD_NO_MEMORY;
-    return ortho->gram && ortho->workspace ? HD_OK : HD_NO_MEMORY;
+    const size_t n = (size_t)ortho->vectors, width = (size_t)ortho->width;
+    ortho->lwork = stable_workspace(ortho->rows, ortho->vectors);
+    const struct {
+        double **array;
+        size_t size;
+    } wanted[] = {{&ortho->gram, width * width},     {&ortho->projection, n * width},
+                  {&ortho->norm2, n},                {&ortho->scale, width},
+                  {&ortho->probe, n * PROBES},       {&ortho->log_stretch, n},
+                  {&ortho->reflector, n},            {&ortho->workspace, (size_t)ortho->lwork}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
+        if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
+            return HD_NO_MEMORY;
+    return HD_OK;
+}
+
+static int panel_width(int vectors)
+{
+    const int even = (vectors / PANELS + 7) / 8 * 8;
+    const int width = even < PANEL_MIN ? PANEL_MIN : even > PANEL_MAX ? PANEL_MAX : even;
+    return width < vectors ? width : vectors;
 }
 
 hd_status hd_ortho_create(hd_ortho **out, int rows, int vectors)
@@ -61,7 +88,7 @@ hd_status hd_ortho_create(hd_ortho **out, int rows, int vectors)
     if (!ortho) return HD_NO_MEMORY;
     ortho->rows = rows;
     ortho->vectors = vectors;
-    ortho->stride = (vectors + 7) / 8 * 8;
+    ortho->width = panel_width(vectors);
     const hd_status status = ortho_allocate(ortho);
     if (status == HD_OK)
         *out = ortho;
@@ -74,74 +101,163 @@ void hd_ortho_free(hd_ortho *ortho)
 {
     if (!ortho) return;
     hd_memory_free(ortho->gram);
+    hd_memory_free(ortho->projection);
     hd_memory_free(ortho->norm2);
-    hd_memory_free(ortho->row_sum);
+    hd_memory_free(ortho->scale);
+    hd_memory_free(ortho->probe);
     hd_memory_free(ortho->log_stretch);
     hd_memory_free(ortho->reflector);
     hd_memory_free(ortho->workspace);
     hd_memory_free(ortho);
 }
 
-static size_t diagonal(const hd_ortho *ortho, int col)
+/* ---- the condition ---------------------------------------------------------------------------- */
+
+/** Entry of a fixed matrix of random signs (a bit of the row's hash). */
+static double sign_of(int row, int probe)
 {
-    return (size_t)col * ((size_t)ortho->stride + 1);
+    uint32_t hash = (uint32_t)row * 2654435761u;
+    hash = (hash ^ hash >> 15) * 2246822519u;
+    hash = (hash ^ hash >> 13) * 3266489917u;
+    return hash >> (16 + probe) & 1 ? 1.0 : -1.0;
 }
 
-/** gram <- lower triangle of V^T V. */
-static void gram_fill(hd_ortho *ortho, hd_frame *frame)
+/** See hd_ortho_condition: with D = diag |V e_k| and random signs x the entries of y = R^-T D x have the
+ *  mean squares kappa_l^2. INFINITY where one is not finite. */
+static double condition_of(const hd_ortho *ortho)
 {
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, ortho->vectors, ortho->rows, 1.0,
-                hd_frame_data(frame), hd_frame_stride(frame), 0.0, ortho->gram, ortho->stride);
-}
-
-/** See hd_ortho_condition; gram holds L^-1 = R^-T, norm2 the |V e_k|^2. INFINITY where an entry is not
- *  finite. Runs down the columns: n^2 / 2 entries read once. */
-static double condition_of(hd_ortho *ortho)
-{
-    double *sum = ortho->row_sum, worst = 0.0;
-    const int n = ortho->vectors;
-    for (int row = 0; row < n; row++) sum[row] = 0.0;
-    for (int col = 0; col < n; col++) {
-        const double *column = ortho->gram + (size_t)col * (size_t)ortho->stride;
-        for (int row = col; row < n; row++)
-            sum[row] += column[row] * column[row] * ortho->norm2[col];
-    }
-    for (int row = 0; row < n; row++) {
-        if (!(sum[row] < INFINITY)) return INFINITY;
-        worst = fmax(worst, sum[row]);
+    double worst = 1.0;
+    for (int col = 0; col < ortho->vectors; col++) {
+        double sum = 0.0;
+        for (int p = 0; p < PROBES; p++) {
+            const double y = ortho->probe[p * ortho->vectors + col];
+            sum += y * y / PROBES;
+        }
+        if (!(sum < INFINITY)) return INFINITY;
+        worst = fmax(worst, sum);
     }
     return sqrt(worst);
 }
 
-/** With L in gram and the |V e_k|^2 in norm2: adds ln diag R, turns L into its inverse and measures the
- *  condition. */
-static hd_status examine(hd_ortho *ortho, double condition_max)
+/* ---- a panel ---------------------------------------------------------------------------------- */
+
+typedef struct panel {
+    double *a; /**< its rows of A */
+    int lda, first, width;
+} panel;
+
+/** gram <- A_p A_p^T. */
+static hd_status panel_gram(hd_ortho *ortho, panel x)
 {
-    const int n = ortho->vectors;
-    for (int col = 0; col < n; col++)
-        ortho->log_stretch[col] += log(ortho->gram[diagonal(ortho, col)]);
-    if (LAPACKE_dtrtri_work(LAPACK_COL_MAJOR, 'L', 'N', n, ortho->gram, ortho->stride) != 0)
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, x.width, ortho->rows, 1.0, x.a, x.lda, 0.0,
+                ortho->gram, x.width);
+    for (int k = 0; k < x.width; k++) {
+        ortho->scale[k] = ortho->gram[k * (x.width + 1)];
+        if (!(ortho->scale[k] < INFINITY)) return HD_ILL_CONDITIONED; /* keeps NaN out of LAPACK */
+    }
+    return HD_OK;
+}
+
+/** Condition of the panel by itself; gram holds L^-1. INFINITY if not finite. */
+static double panel_condition(const hd_ortho *ortho, int width)
+{
+    double worst = 0.0;
+    for (int row = 0; row < width; row++) {
+        double sum = 0.0;
+        for (int col = 0; col <= row; col++) {
+            const double entry = ortho->gram[col * width + row];
+            sum += entry * entry * ortho->scale[col];
+        }
+        if (!(sum < INFINITY)) return INFINITY;
+        worst = fmax(worst, sum);
+    }
+    return sqrt(worst);
+}
+
+/** gram <- L^-1; adds ln L_kk. */
+static hd_status panel_factor(hd_ortho *ortho, panel x)
+{
+    const int w = x.width;
+    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', w, ortho->gram, w) != 0)
         return HD_ILL_CONDITIONED;
-    ortho->condition = condition_of(ortho);
-    return ortho->condition <= condition_max ? HD_OK : HD_ILL_CONDITIONED;
+    for (int k = 0; k < w; k++) ortho->log_stretch[x.first + k] += log(ortho->gram[k * (w + 1)]);
+    return LAPACKE_dtrtri_work(LAPACK_COL_MAJOR, 'L', 'N', w, ortho->gram, w) == 0
+               ? HD_OK
+               : HD_ILL_CONDITIONED;
+}
+
+/** x <- L^-1 x for a column-major x with `columns` columns. */
+static void panel_solve(const hd_ortho *ortho, panel x, double *right, int ld, int columns)
+{
+    cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, x.width, columns,
+                1.0, ortho->gram, x.width, right, ld);
+}
+
+/** The probes' rows of this panel are complete but for D x itself. */
+static void probe_panel(hd_ortho *ortho, panel x)
+{
+    for (int k = 0; k < x.width; k++) ortho->norm2[x.first + k] += ortho->scale[k];
+    for (int p = 0; p < PROBES; p++)
+        for (int k = x.first; k < x.first + x.width; k++)
+            ortho->probe[p * ortho->vectors + k] += sign_of(k, p) * sqrt(ortho->norm2[k]);
+}
+
+static hd_status panel_orthonormalise(hd_ortho *ortho, panel x)
+{
+    bool good = false;
+    for (int pass = 0; pass < 2 && !good; pass++) {
+        HD_TRY(panel_gram(ortho, x));
+        if (pass == 0) probe_panel(ortho, x);
+        HD_TRY(panel_factor(ortho, x));
+        const double condition = panel_condition(ortho, x.width);
+        if (!(condition <= PANEL_CONDITION_MAX)) return HD_ILL_CONDITIONED;
+        panel_solve(ortho, x, ortho->probe + x.first, ortho->vectors, PROBES);
+        panel_solve(ortho, x, x.a, x.lda, ortho->rows);
+        good = condition <= PANEL_CONDITION_GOOD;
+    }
+    return HD_OK;
+}
+
+/** Takes the panel out of all later vectors, and out of the probes. */
+static void panel_project_out(hd_ortho *ortho, panel x)
+{
+    const int next = x.first + x.width, rest = ortho->vectors - next;
+    double *later = x.a + x.width, *s = ortho->projection;
+    if (rest == 0) return;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, rest, x.width, ortho->rows, 1.0, later,
+                x.lda, x.a, x.lda, 0.0, s, rest);
+    for (int col = 0; col < x.width; col++)
+        for (int row = 0; row < rest; row++) {
+            const double entry = s[(size_t)col * (size_t)rest + (size_t)row];
+            ortho->norm2[next + row] += entry * entry;
+        }
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rest, PROBES, x.width, -1.0, s, rest,
+                ortho->probe + x.first, ortho->vectors, 1.0, ortho->probe + next, ortho->vectors);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rest, ortho->rows, x.width, -1.0, s,
+                rest, x.a, x.lda, 1.0, later, x.lda);
+}
+
+/* ---- a step ----------------------------------------------------------------------------------- */
+
+static void probes_clear(hd_ortho *ortho)
+{
+    memset(ortho->norm2, 0, (size_t)ortho->vectors * sizeof *ortho->norm2);
+    memset(ortho->probe, 0, (size_t)ortho->vectors * PROBES * sizeof *ortho->probe);
 }
 
 static hd_status pass(hd_ortho *ortho, hd_frame *frame, double condition_max)
 {
-    const int n = ortho->vectors;
-    gram_fill(ortho, frame);
-    for (int col = 0; col < n; col++) {
-        ortho->norm2[col] = ortho->gram[diagonal(ortho, col)];
-        if (!(ortho->norm2[col] < INFINITY))
-            return HD_ILL_CONDITIONED; /* keeps NaN out of LAPACK */
+    probes_clear(ortho);
+    for (int first = 0; first < ortho->vectors; first += ortho->width) {
+        const int left = ortho->vectors - first;
+        const panel x = {hd_frame_data(frame) + first, hd_frame_stride(frame), first,
+                         left < ortho->width ? left : ortho->width};
+        HD_TRY(panel_orthonormalise(ortho, x));
+        panel_project_out(ortho, x);
     }
-    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, ortho->gram, ortho->stride) != 0)
-        return HD_ILL_CONDITIONED;
-    HD_TRY(examine(ortho, condition_max));
-    cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, ortho->rows,
-                1.0, ortho->gram, ortho->stride, hd_frame_data(frame), hd_frame_stride(frame));
+    ortho->condition = condition_of(ortho);
     ortho->passes++;
-    return HD_OK;
+    return ortho->condition <= condition_max ? HD_OK : HD_ILL_CONDITIONED;
 }
 
 static void step_start(hd_ortho *ortho, const hd_frame *frame)
@@ -156,28 +272,35 @@ hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits
     step_start(ortho, frame);
     HD_TRY(pass(ortho, frame, limits.condition));
     const double condition = ortho->condition;
-    ortho->defect = DEFECT_PER_CONDITION2 * DBL_EPSILON * condition * condition;
+    ortho->defect = DEFECT_PER_CONDITION * DBL_EPSILON * condition;
     if (ortho->defect > limits.defect) {
         HD_TRY(pass(ortho, frame, limits.condition));
         ortho->condition = condition;
-        ortho->defect = DEFECT_PER_CONDITION2 * DBL_EPSILON;
+        ortho->defect = DEFECT_PER_CONDITION * DBL_EPSILON;
     }
     return HD_OK;
 }
 
-/** gram <- L with a positive diagonal, norm2 <- |V e_k|^2. */
-static void unpack_lq(hd_ortho *ortho, const double *a, int stride)
+/* ---- by reflections --------------------------------------------------------------------------- */
+
+/** With L in a: norm2 <- |V e_k|^2, log_stretch <- ln |L_kk|, and the condition. */
+static void examine_lq(hd_ortho *ortho, const double *a, int stride)
 {
     const int n = ortho->vectors;
-    for (int col = 0; col < n; col++) {
-        const double *from = a + (size_t)col * (size_t)stride;
-        double *to = ortho->gram + (size_t)col * (size_t)ortho->stride;
-        const double sign = from[col] < 0 ? -1.0 : 1.0;
+    probes_clear(ortho);
+    for (int col = 0; col < n; col++)
         for (int row = col; row < n; row++) {
-            to[row] = sign * from[row];
-            ortho->norm2[row] += from[row] * from[row];
+            const double entry = a[(size_t)col * (size_t)stride + (size_t)row];
+            ortho->norm2[row] += entry * entry;
         }
+    for (int k = 0; k < n; k++) {
+        ortho->log_stretch[k] = log(fabs(a[(size_t)k * (size_t)(stride + 1)]));
+        for (int p = 0; p < PROBES; p++)
+            ortho->probe[p * n + k] = sign_of(k, p) * sqrt(ortho->norm2[k]);
     }
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, PROBES, 1.0, a,
+                stride, ortho->probe, n);
+    ortho->condition = condition_of(ortho);
 }
 
 /** Row l of Q^T (column l of the row-major frame) takes the sign of L_ll. */
@@ -191,14 +314,13 @@ static void apply_signs(const hd_ortho *ortho, double *a, int stride, const doub
 hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame, double condition_max)
 {
     const int n = ortho->vectors, stride = hd_frame_stride(frame);
-    double *a = hd_frame_data(frame), *sign = ortho->row_sum;
+    double *a = hd_frame_data(frame), *sign = ortho->norm2;
     step_start(ortho, frame);
-    for (int col = 0; col < n; col++) ortho->norm2[col] = 0.0;
     if (LAPACKE_dgelqf_work(LAPACK_COL_MAJOR, n, ortho->rows, a, stride, ortho->reflector,
                             ortho->workspace, ortho->lwork) != 0)
         return HD_ILL_CONDITIONED;
-    unpack_lq(ortho, a, stride);
-    HD_TRY(examine(ortho, condition_max));
+    examine_lq(ortho, a, stride);
+    if (!(ortho->condition <= condition_max)) return HD_ILL_CONDITIONED;
     for (int col = 0; col < n; col++)
         sign[col] = a[(size_t)col * (size_t)(stride + 1)] < 0 ? -1.0 : 1.0;
     if (LAPACKE_dorglq_work(LAPACK_COL_MAJOR, n, ortho->rows, n, a, stride, ortho->reflector,
@@ -206,7 +328,7 @@ hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame, double conditio
         return HD_ILL_CONDITIONED;
     apply_signs(ortho, a, stride, sign);
     ortho->passes = 1;
-    ortho->defect = DEFECT_PER_CONDITION2 * DBL_EPSILON;
+    ortho->defect = DEFECT_PER_CONDITION * DBL_EPSILON;
     return HD_OK;
 }
 
@@ -215,16 +337,29 @@ double hd_ortho_condition(const hd_ortho *ortho) { return ortho->condition; }
 double hd_ortho_defect(const hd_ortho *ortho) { return ortho->defect; }
 int hd_ortho_passes(const hd_ortho *ortho) { return ortho->passes; }
 
-double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame)
+/** Largest |entry| of the unit matrix subtracted from `width` columns of Q^T Q, from the diagonal down. */
+static double panel_defect(hd_ortho *ortho, const double *a, int lda, int rest, int width)
 {
-    double worst = 0.0;
-    gram_fill(ortho, frame);
-    for (int col = 0; col < ortho->vectors; col++)
-        for (int row = col; row < ortho->vectors; row++) {
-            const double g = ortho->gram[(size_t)col * (size_t)ortho->stride + (size_t)row];
-            const double off = fabs(g - (row == col));
+    double worst = 0.0, *s = ortho->projection;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, rest, width, ortho->rows, 1.0, a, lda, a, lda,
+                0.0, s, rest);
+    for (int col = 0; col < width; col++)
+        for (int row = 0; row < rest; row++) {
+            const double off = fabs(s[(size_t)col * (size_t)rest + (size_t)row] - (row == col));
             if (!(off <= worst)) worst = off; /* NaN stays */
             if (isnan(worst)) return worst;
         }
+    return worst;
+}
+
+double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame)
+{
+    double worst = 0.0;
+    for (int first = 0; first < ortho->vectors && !isnan(worst); first += ortho->width) {
+        const int rest = ortho->vectors - first;
+        const double off = panel_defect(ortho, hd_frame_data(frame) + first, hd_frame_stride(frame),
+                                        rest, rest < ortho->width ? rest : ortho->width);
+        if (!(off <= worst)) worst = off;
+    }
     return worst;
 }

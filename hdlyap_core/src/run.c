@@ -1,9 +1,9 @@
 /** Scene -> spectrum, one interval at a time.
  *
- *  Phases follow each other at fixed simulated times: equilibration (trajectory alone), warm-up of the
- *  frame, averaging. A phase is cut into samples of equal length, a whole number of which make a report
- *  interval; a sample into the intervals that the conditioning allows. At the end of a report interval
- *  the frame is a measured state: orthonormal as far as the accuracy asks. */
+ *  The schedule says where samples and reports end. The frame goes from one orthonormalisation to the next,
+ *  as far apart as the conditioning allows; the log of the events since the last one waits until then. A
+ *  report in between states exponents and modes as of the last one, unless somebody looks at the vectors:
+ *  then the frame is orthonormalised for it. */
 #include "hdlyap/run.h"
 
 #include <float.h>
@@ -14,16 +14,21 @@
 #include "hdlyap/blas.h"
 #include "interval.h"
 #include "memory.h"
+#include "schedule.h"
+#include "tail.h"
 
-/** Between measured states Q may be loosely conditioned, as the logarithms telescope [T5]. */
-static const double DEFECT_LOOSE = 0.1;
-/** At a measured state, for who looks at the vectors; see defect_max. */
+/** Loss of orthogonality allowed where nobody looks at the vectors, as the logarithms telescope [T5]; its
+ *  square enters a mean. */
+static const double DEFECT_LOOSE = 1e-4;
+/** The same where somebody does. */
 static const double DEFECT_MEASURED = 1e-6;
-static const double COLLISIONS_PER_SAMPLE = 32.0; /* of one disk */
+/** Single precision leaves a tenth of the tail's vectors astray there, and a thousandth of their phases. */
+static const double CONDITION_TAIL = 1e4;
+static const double COLLISIONS_PER_SAMPLE = 40.0; /* of one disk, at most */
 static const double EVENTS_PER_STEP = 200000.0;   /* bounds memory, and the wait for an answer */
 /** Householder reflections stay right to eps * condition: 1e-3 of one interval, once. */
 static const double CONDITION_STABLE = 1e13;
-enum { PIECES_MAX = 64, SMALLEST_EXPONENTS = 8 };
+enum { PIECES_MAX = 64, SMALLEST_EXPONENTS = 8, TAIL_MAX = 60 };
 
 struct hd_run {
     hd_scene_def scene;
@@ -35,23 +40,21 @@ struct hd_run {
     hd_modes *modes; /**< NULL unless observed, as the next two */
     hd_steps *steps;
     hd_phases *phases;
+    hd_tail *tail;    /**< NULL without phases, and where it does not apply */
     double *q, *p;    /**< [2N], state of a snapshot */
     unsigned observe; /**< stages needed now */
-    int pieces;       /**< of a sample, at whose ends the phases are followed */
-    int piece;        /**< whole ones since the sample began */
+    hd_schedule schedule;
     hd_interval interval;
-    double step_max; /**< longest step that keeps to EVENTS_PER_STEP, as far as events are known */
+    double interval_end; /**< simulated time at which the frame is orthonormalised next */
+    double step_max;   /**< longest step that keeps to EVENTS_PER_STEP, as far as events are known */
+    double sample_max; /**< simulated time of COLLISIONS_PER_SAMPLE */
     int vectors, threads;
-    hd_phase phase;
-    double phase_start; /**< simulated time */
-    double now;         /**< simulated time */
-    double sample_length;
-    long samples_per_report;
-    long samples; /**< whole ones since phase_start */
+    double now; /**< simulated time */
     bool report_due;
     double created, frame_started,
         frame_start_time; /**< wall clock, and simulated time, for estimates */
-    double rounding;      /**< sum of eps * condition since phase_start of averaging */
+    double condition_max; /**< so far: how well the start of the averaging is known */
+    double rounding;      /**< HD_ROUNDING times that and the conditions since, summed */
     hd_cost cost;
 };
 
@@ -90,6 +93,15 @@ static hd_status prepare_frame(hd_run *run)
     return create_frame(run);
 }
 
+static hd_status prepare_phases(hd_run *run)
+{
+    const int most = run->vectors / 4;
+    HD_TRY(hd_phases_create(&run->phases, run->steps));
+    const hd_status status = hd_tail_create(&run->tail, &run->scene,
+                                            most < TAIL_MAX ? most : TAIL_MAX);
+    return status == HD_REFUSED ? HD_OK : status;
+}
+
 /** Kinds of modes need steps; only phases cost more. */
 static hd_status prepare_modes(hd_run *run)
 {
@@ -101,7 +113,7 @@ static hd_status prepare_modes(hd_run *run)
     if (!run->q || !run->p) return HD_NO_MEMORY;
     HD_TRY(hd_modes_create(&run->modes, scene, run->vectors, run->threads));
     HD_TRY(hd_steps_create(&run->steps, scene, run->modes));
-    return scene->observe & HD_OBSERVE_PHASES ? hd_phases_create(&run->phases, run->steps) : HD_OK;
+    return scene->observe & HD_OBSERVE_PHASES ? prepare_phases(run) : HD_OK;
 }
 
 static hd_status prepare(hd_run *run)
@@ -110,15 +122,12 @@ static hd_status prepare(hd_run *run)
     HD_TRY(hd_trajectory_create(&run->trajectory, scene));
     run->vectors = hd_scene_vectors(scene);
     run->threads = 1;
-    const double rate = hd_trajectory_collision_rate(run->trajectory);
-    const double per_disk = 2.0 * rate / scene->disks;
-    run->samples_per_report = (long)fmax(
-        1.0, ceil(scene->report_interval * per_disk / COLLISIONS_PER_SAMPLE));
-    run->sample_length = scene->report_interval / (double)run->samples_per_report;
+    const double per_disk = 2.0 * hd_trajectory_collision_rate(run->trajectory) / scene->disks;
     const double limit = scene->interval > 0 ? scene->interval : INFINITY;
+    run->sample_max = COLLISIONS_PER_SAMPLE / per_disk;
     run->step_max = 1e-3 / per_disk;
     run->interval = hd_interval_first(1.0 / per_disk, limit, scene->accuracy);
-    run->pieces = 1;
+    run->schedule = hd_schedule_of(scene);
     if (run->vectors == 0) return HD_OK;
     HD_TRY(prepare_frame(run));
     return scene->observe ? prepare_modes(run) : HD_OK;
@@ -132,18 +141,19 @@ static void averages_clear(hd_run *run)
     if (run->phases) hd_phases_clear(run->phases);
 }
 
-/** Enters the first phase at or after `phase` that has any length. */
+/** Longest sample that one orthonormalisation at its end can serve. */
+static double sample_longest(const hd_run *run)
+{
+    const bool known = run->frame && run->cost.orthonormalisations > 0;
+    return known ? fmin(run->sample_max, hd_interval_longest(&run->interval).length) : run->sample_max;
+}
+
 static void enter_phase(hd_run *run, hd_phase phase)
 {
-    const hd_scene_def *scene = &run->scene;
-    if (phase == HD_EQUILIBRATING && scene->equilibration == 0) phase = HD_WARMING_UP;
-    if (phase == HD_WARMING_UP && scene->warmup == 0) phase = HD_AVERAGING;
-    run->phase = phase;
-    run->phase_start = run->now;
-    run->samples = 0;
-    run->piece = 0;
+    hd_schedule_enter(&run->schedule, phase, run->now, sample_longest(run));
+    phase = run->schedule.phase;
     if (run->spectrum && phase == HD_AVERAGING) averages_clear(run);
-    if (phase == HD_AVERAGING) run->rounding = 0.0;
+    if (phase == HD_AVERAGING) run->rounding = HD_ROUNDING * run->condition_max;
     if (phase == HD_EQUILIBRATING || run->frame_started > 0) return;
     run->frame_started = hd_clock_now();
     run->frame_start_time = run->now;
@@ -175,6 +185,7 @@ void hd_run_free(hd_run *run)
     hd_frame_free(run->frame);
     hd_ortho_free(run->ortho);
     hd_spectrum_free(run->spectrum);
+    hd_tail_free(run->tail);
     hd_phases_free(run->phases);
     hd_steps_free(run->steps);
     hd_modes_free(run->modes);
@@ -184,26 +195,6 @@ void hd_run_free(hd_run *run)
 }
 
 /* ---- one interval ----------------------------------------------------------------------------- */
-
-/** End of the present phase; INFINITY for averaging without a duration. */
-static double phase_end(const hd_run *run)
-{
-    switch (run->phase) {
-    case HD_EQUILIBRATING: return run->phase_start + run->scene.equilibration;
-    case HD_WARMING_UP: return run->phase_start + run->scene.warmup;
-    default: break;
-    }
-    return run->scene.duration > 0 ? run->phase_start + run->scene.duration : INFINITY;
-}
-
-/** Ends of samples, and of their pieces, are products, not sums: rounding does not add up. */
-static double piece_end(const hd_run *run)
-{
-    const double done = (double)(run->piece + 1) / run->pieces; /* exactly 1 for the last */
-    const double end = run->phase_start + ((double)run->samples + done) * run->sample_length;
-    const double last = phase_end(run);
-    return end < last - 1e-6 * run->sample_length ? end : last;
-}
 
 /** Carries the frame from t_begin to t_end of the log and orthonormalises it. */
 static hd_status frame_piece(hd_run *run, double t_begin, double t_end, double defect)
@@ -229,35 +220,32 @@ static void piece_accepted(hd_run *run, double length)
     double most = 0.0;
     for (int col = 0; col < run->vectors; col++) most = fmax(most, fabs(stretch[col]));
     hd_interval_learn(&run->interval, length, condition, most);
-    if (run->phase == HD_AVERAGING) hd_spectrum_add(run->spectrum, stretch, length);
+    if (run->schedule.phase == HD_AVERAGING) hd_spectrum_add(run->spectrum, stretch, length);
     hd_cost *cost = &run->cost;
     cost->interval = length;
     cost->condition = condition;
     cost->defect = hd_ortho_defect(run->ortho);
-    run->rounding += DBL_EPSILON * condition;
+    run->condition_max = fmax(run->condition_max, condition);
+    run->rounding += HD_ROUNDING * condition;
     cost->orthonormalisations++;
     cost->second_passes += hd_ortho_passes(run->ortho) > 1;
     cost->spectrum += hd_clock_now() - start;
 }
 
-/** Loss of orthogonality allowed at the end of this interval. A running mean errs by that at the ends of
- *  its time; so the state at which averaging starts is orthonormal to rounding. */
-static double defect_max(const hd_run *run, bool measured)
+/** True while modes are looked at. */
+static bool observing(const hd_run *run)
 {
-    if (!measured) return DEFECT_LOOSE;
-    if (run->phase != HD_AVERAGING)
-        return run->now >= phase_end(run) ? DBL_EPSILON : DEFECT_MEASURED;
-    return fmin(DEFECT_MEASURED, 0.5 * run->scene.accuracy * (run->now - run->phase_start));
+    return run->observe && run->schedule.phase == HD_AVERAGING;
 }
 
 /** The whole log. An interval that turned out too long is taken back and replayed in pieces; a shortest
  *  piece that is still too much holds a grazing collision and is factored by reflections. */
-static hd_status frame_interval(hd_run *run, bool measured)
+static hd_status frame_interval(hd_run *run)
 {
     const double duration = run->log->duration;
+    const double defect = observing(run) ? DEFECT_MEASURED : DEFECT_LOOSE;
     double begin = 0.0, end = duration;
     while (begin < duration) {
-        const double defect = defect_max(run, measured && end >= duration);
         const hd_status status = frame_piece(run, begin, end, defect);
         if (status != HD_OK && status != HD_ILL_CONDITIONED) return status;
         if (status == HD_OK) {
@@ -269,10 +257,13 @@ static hd_status frame_interval(hd_run *run, bool measured)
         }
         if (end - begin <= duration / PIECES_MAX) return HD_ILL_CONDITIONED;
         run->cost.repairs += end >= duration && begin == 0.0;
+        run->cost.limit = HD_LIMIT_REPAIR;
         hd_interval_failed(&run->interval, end - begin);
         hd_frame_rewind(run->frame);
         end = begin + 0.5 * (end - begin);
     }
+    hd_event_log_clear(run->log);
+    run->interval_end = run->now;
     return HD_OK;
 }
 
@@ -295,24 +286,6 @@ static bool target_reached(const hd_run *run)
            smallest_error(run) <= run->scene.target_std_error;
 }
 
-/** Bookkeeping at the end of a sample; moves on to the next phase when this one is over. */
-static void finish_sample(hd_run *run)
-{
-    const bool over = run->now >= phase_end(run);
-    const double length = run->now - (run->phase_start + (double)run->samples * run->sample_length);
-    run->samples++;
-    run->piece = 0;
-    if (run->phase == HD_AVERAGING && run->spectrum && length > 0.999 * run->sample_length) {
-        hd_spectrum_sample(run->spectrum);
-        if (run->steps) hd_steps_sample(run->steps, run->spectrum, length);
-    }
-    run->report_due = over || run->samples % run->samples_per_report == 0;
-    if (run->phase == HD_AVERAGING && run->report_due && (over || target_reached(run)))
-        run->phase = HD_FINISHED;
-    else if (over)
-        enter_phase(run, run->phase + 1);
-}
-
 static uint64_t events_so_far(const hd_run *run)
 {
     return hd_trajectory_collisions(run->trajectory) + hd_trajectory_wall_events(run->trajectory);
@@ -324,7 +297,7 @@ static hd_status advance_disks(hd_run *run, hd_event_log *log, double length, do
 {
     const double start = hd_clock_now();
     const uint64_t before = events_so_far(run);
-    HD_TRY(hd_trajectory_advance(run->trajectory, log, end));
+    HD_TRY(hd_trajectory_extend(run->trajectory, log, end));
     run->now = end;
     const double events = fmax(1.0, (double)(events_so_far(run) - before));
     run->step_max = fmin(4.0 * fmax(length, run->step_max / 4.0),
@@ -339,23 +312,13 @@ static double phases_due(const hd_run *run)
     return run->observe & HD_OBSERVE_PHASES ? hd_phases_sampling(run->steps) : INFINITY;
 }
 
-/** The frame is measured at the end of a report interval, and where the phases would turn too far until
- *  then. */
-static bool ends_measured(const hd_run *run, bool ends_sample)
-{
-    if (run->scene.report_interval > phases_due(run)) return true;
-    return ends_sample &&
-           ((run->samples + 1) % run->samples_per_report == 0 || piece_end(run) >= phase_end(run));
-}
-
 /** Modes, steps and phases of a measured state; what is asked for is enough for each. */
-static hd_status observe(hd_run *run)
+static hd_status observe(hd_run *run, bool report)
 {
     const double start = hd_clock_now();
-    if (!run->observe || hd_spectrum_time(run->spectrum) == 0) return HD_OK;
     hd_trajectory_state(run->trajectory, run->q, run->p);
-    HD_TRY(hd_modes_measure(run->modes, run->frame, run->q, run->p));
-    if (run->report_due) {
+    HD_TRY(hd_modes_measure(run->modes, hd_frame_columns(run->frame), run->q, run->p));
+    if (report) {
         hd_modes_add(run->modes);
         hd_steps_find(run->steps, run->spectrum);
     }
@@ -364,34 +327,114 @@ static hd_status observe(hd_run *run)
     return HD_OK;
 }
 
-/** At the end of a piece that is no end of a sample, or of a sample: pieces are chosen anew. */
-static hd_status finish_piece(hd_run *run, bool measured)
+static void sample_spectrum(hd_run *run)
 {
-    const bool averaging = run->phase == HD_AVERAGING;
-    if (++run->piece == run->pieces || run->now >= phase_end(run)) finish_sample(run);
-    if (measured && averaging && run->modes) HD_TRY(observe(run));
-    if (run->piece == 0) run->pieces = (int)fmax(1.0, ceil(run->sample_length / phases_due(run)));
+    hd_spectrum_sample(run->spectrum);
+    if (run->steps) hd_steps_sample(run->steps, run->spectrum, run->schedule.sample_length);
+}
+
+/** True where somebody wants all of the vectors of this very time. */
+static bool vectors_wanted(const hd_run *run)
+{
+    return observing(run) && (run->observe & (HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO));
+}
+
+/** Number of slowest vectors among which all are whose phases are followed. */
+static int followed(const hd_run *run)
+{
+    int first = run->vectors;
+    for (int s = 0; s < hd_steps_count(run->steps); s++) {
+        const hd_step *step = hd_steps_step(run->steps, s);
+        if (step->kind == HD_MODE_LP && step->resolved && step->col < first) first = step->col;
+    }
+    return run->vectors - first;
+}
+
+/** True if the tail will do for `count` phases at this time. */
+static bool tail_suffices(const hd_run *run, int count)
+{
+    return run->tail && count <= hd_tail_count_max(run->tail) &&
+           hd_interval_condition(&run->interval, run->log->duration) <= CONDITION_TAIL;
+}
+
+/** Follows the phases in the middle of an interval; the frame stays as it was at its start. */
+static hd_status look(hd_run *run, int count)
+{
+    const double start = hd_clock_now();
+    HD_TRY(hd_frame_replay(run->frame, run->log, 0.0, run->log->duration));
+    const double replayed = hd_clock_now();
+    hd_trajectory_state(run->trajectory, run->q, run->p);
+    hd_status status = hd_tail_measure(run->tail, run->frame, run->p, count);
+    hd_frame_rewind(run->frame);
+    if (status == HD_OK)
+        status = hd_modes_measure(run->modes, hd_tail_columns(run->tail), run->q, run->p);
+    if (status == HD_OK) hd_phases_add(run->phases, run->steps, run->now);
+    run->cost.replay += replayed - start;
+    run->cost.modes += hd_clock_now() - replayed;
+    run->cost.looks += status == HD_OK;
+    return status;
+}
+
+static hd_status end_early(hd_run *run)
+{
+    run->cost.limit = HD_LIMIT_LOOK;
+    return frame_interval(run);
+}
+
+/** In the middle of an interval: what is wanted there. What a look cannot give, an early end does; the first
+ *  report has something to say that way. */
+static hd_status look_or_end(hd_run *run)
+{
+    const bool averaging = run->schedule.phase == HD_AVERAGING;
+    if (vectors_wanted(run) || (averaging && hd_spectrum_time(run->spectrum) == 0))
+        return end_early(run);
+    const int count = observing(run) && (run->observe & HD_OBSERVE_PHASES) ? followed(run) : 0;
+    if (count == 0) return HD_OK;
+    const hd_status status = tail_suffices(run, count) ? look(run, count) : HD_ILL_CONDITIONED;
+    return status == HD_ILL_CONDITIONED ? end_early(run) : status;
+}
+
+/** At the end of a piece: what is measured there, and what ends. */
+static hd_status take_cut(hd_run *run)
+{
+    const bool averaging = run->schedule.phase == HD_AVERAGING, measuring = observing(run);
+    if (run->frame && run->now < run->interval_end) HD_TRY(look_or_end(run));
+    const bool factored = run->frame && run->now == run->interval_end;
+    const unsigned ends = hd_schedule_pass(&run->schedule, phases_due(run));
+    run->report_due = ends & HD_ENDS_REPORT;
+    if (averaging && run->spectrum && (ends & HD_ENDS_WHOLE_SAMPLE)) sample_spectrum(run);
+    if (measuring && factored) HD_TRY(observe(run, run->report_due));
+    const bool reached = averaging && run->report_due && factored && target_reached(run);
+    if (ends & HD_ENDS_PHASE || reached)
+        enter_phase(run, reached ? HD_FINISHED : run->schedule.phase + 1);
     return HD_OK;
+}
+
+/** Where the next orthonormalisation falls. */
+static void plan_interval(hd_run *run)
+{
+    const double end = hd_schedule_sample_end(&run->schedule), left = end - run->now;
+    hd_interval_length next = hd_interval_next(&run->interval, left);
+    if (next.length > run->step_max)
+        next = (hd_interval_length){left / ceil(left / run->step_max), HD_LIMIT_EVENTS};
+    run->interval_end = next.length >= left ? end : run->now + next.length;
+    run->cost.limit = next.limit;
 }
 
 hd_status hd_run_step(hd_run *run)
 {
     run->report_due = false;
-    if (run->phase == HD_FINISHED) return HD_OK;
-    const bool with_frame = run->frame && run->phase != HD_EQUILIBRATING;
-    const double stop = piece_end(run), left = stop - run->now;
-    const double wanted = with_frame ? hd_interval_next(&run->interval, left) : left;
-    const double length = wanted <= run->step_max ? wanted : left / ceil(left / run->step_max);
-    const bool ends_piece = length >= left;
-    const bool ends_sample = run->piece + 1 == run->pieces || stop >= phase_end(run);
-    const bool measured = ends_piece && ends_measured(run, ends_sample);
+    if (run->schedule.phase == HD_FINISHED) return HD_OK;
+    if (run->frame) hd_blas_use_threads(run->threads); /* with OpenMP: of the calling thread */
+    const bool with_frame = run->frame && run->schedule.phase != HD_EQUILIBRATING;
+    const double cut = hd_schedule_cut(&run->schedule);
+    if (with_frame && run->now >= run->interval_end) plan_interval(run);
+    const double stop = with_frame ? fmin(cut, run->interval_end) : cut, left = stop - run->now;
+    const double length = left <= run->step_max ? left : left / ceil(left / run->step_max);
     HD_TRY(advance_disks(run, with_frame ? run->log : NULL, length,
-                         ends_piece ? stop : run->now + length));
-    if (with_frame) {
-        hd_blas_use_threads(run->threads); /* with OpenMP it holds for the calling thread */
-        HD_TRY(frame_interval(run, measured));
-    }
-    return ends_piece ? finish_piece(run, measured) : HD_OK;
+                         length >= left ? stop : run->now + length));
+    if (with_frame && run->now >= run->interval_end) HD_TRY(frame_interval(run));
+    return run->now >= cut ? take_cut(run) : HD_OK;
 }
 
 void hd_run_observe(hd_run *run, unsigned stages)
@@ -401,15 +444,18 @@ void hd_run_observe(hd_run *run, unsigned stages)
     run->observe = now;
 }
 
-void hd_run_reset_average(hd_run *run)
+hd_status hd_run_reset_average(hd_run *run)
 {
-    if (run->phase == HD_AVERAGING) enter_phase(run, HD_AVERAGING);
+    if (run->schedule.phase != HD_AVERAGING) return HD_OK;
+    if (run->frame && run->now < run->interval_end) HD_TRY(frame_interval(run));
+    enter_phase(run, HD_AVERAGING);
+    return HD_OK;
 }
 
 /* ---- what can be read ------------------------------------------------------------------------- */
 
 bool hd_run_report_due(const hd_run *run) { return run->report_due; }
-hd_phase hd_run_phase(const hd_run *run) { return run->phase; }
+hd_phase hd_run_phase(const hd_run *run) { return run->schedule.phase; }
 double hd_run_time(const hd_run *run) { return run->now; }
 const hd_scene_def *hd_run_scene(const hd_run *run) { return &run->scene; }
 int hd_run_vectors(const hd_run *run) { return run->vectors; }
@@ -423,15 +469,15 @@ const hd_phases *hd_run_phases(const hd_run *run) { return run->phases; }
 
 int hd_run_samples_per_report(const hd_run *run)
 {
-    const bool often = run->scene.report_interval > phases_due(run);
-    return often ? run->pieces * (int)run->samples_per_report : 1;
+    const bool followed = run->observe & HD_OBSERVE_PHASES;
+    return followed ? hd_schedule_cuts_per_report(&run->schedule) : 1;
 }
 
 /** Simulated time until the target is reached, as errors fall with the root of the time; INFINITY if it is none,
  *  or not yet known. */
 static double target_left(const hd_run *run)
 {
-    if (run->scene.target_std_error == 0 || run->phase != HD_AVERAGING || !run->spectrum)
+    if (run->scene.target_std_error == 0 || run->schedule.phase != HD_AVERAGING || !run->spectrum)
         return INFINITY;
     const double ratio = smallest_error(run) / run->scene.target_std_error;
     return hd_spectrum_time(run->spectrum) * fmax(ratio * ratio - 1.0, 0.0);
@@ -441,10 +487,11 @@ static double target_left(const hd_run *run)
 static double time_left(const hd_run *run)
 {
     const hd_scene_def *scene = &run->scene;
-    if (run->phase == HD_FINISHED) return 0.0;
-    double left = fmin(phase_end(run) - run->now, target_left(run));
-    if (run->phase == HD_EQUILIBRATING) left += scene->warmup;
-    if (run->phase < HD_AVERAGING) left += scene->duration > 0 ? scene->duration : INFINITY;
+    const hd_phase phase = run->schedule.phase;
+    if (phase == HD_FINISHED) return 0.0;
+    double left = fmin(hd_schedule_phase_end(&run->schedule) - run->now, target_left(run));
+    if (phase == HD_EQUILIBRATING) left += scene->warmup;
+    if (phase < HD_AVERAGING) left += scene->duration > 0 ? scene->duration : INFINITY;
     return left;
 }
 
@@ -453,13 +500,16 @@ hd_cost hd_run_cost(const hd_run *run)
     hd_cost cost = run->cost;
     const double now = hd_clock_now(), left = time_left(run);
     cost.wall = now - run->created;
-    if (run->phase >= HD_AVERAGING && run->now > run->phase_start)
-        cost.error_bound = (run->rounding + cost.defect) / (run->now - run->phase_start);
+    if (run->schedule.phase >= HD_AVERAGING && run->spectrum && hd_spectrum_time(run->spectrum) > 0)
+        cost.error_bound = (run->rounding + cost.defect * cost.defect) /
+                           hd_spectrum_time(run->spectrum);
+    const double error = run->spectrum ? smallest_error(run) : INFINITY;
+    cost.std_error = error < INFINITY ? error : -1.0;
     cost.events_per_second = cost.events > 0
                                  ? (double)hd_trajectory_collisions(run->trajectory) / cost.events
                                  : 0.0;
     cost.progress = left < INFINITY ? run->now / fmax(run->now + left, DBL_MIN) : 0.0;
-    if (run->phase == HD_FINISHED) cost.progress = 1.0;
+    if (run->schedule.phase == HD_FINISHED) cost.progress = 1.0;
     const double carried = run->now -
                            run->frame_start_time; /* equilibration is no measure of the rest */
     const bool known = left == 0 || (run->frame_started > 0 && carried > 0 && left < INFINITY);

@@ -182,9 +182,15 @@ static hd_status turn_epoch(hd_trajectory *tr)
 
 hd_status hd_trajectory_advance(hd_trajectory *tr, hd_event_log *log, double t_end)
 {
+    if (log) hd_event_log_clear(log);
+    return hd_trajectory_extend(tr, log, t_end);
+}
+
+hd_status hd_trajectory_extend(hd_trajectory *tr, hd_event_log *log, double t_end)
+{
     HD_ASSERT(t_end >= tr->now);
-    const double t_begin = tr->now;
-    if (log) log->count = 0, log->duration = t_end - t_begin;
+    const double t_begin = log ? tr->now - log->duration : tr->now;
+    if (log) log->duration = t_end - t_begin;
     for (;;) {
         const double end = t_end - tr->epoch_start;
         const int32_t bucket = tr->queue.now, i = hd_queue_next(&tr->queue);

@@ -83,7 +83,8 @@ class Stages(unittest.TestCase):
     def test_equilibration_has_no_frame(self):
         with_frame = profile('equilibrate')
         self.assertLessEqual(OF_TRAJECTORY, with_frame.files())
-        self.assertEqual(with_frame.files() & (OF_FRAME | LATER), set())
+        carrying = OF_FRAME - {'blas.c'}        # which is told the number of threads
+        self.assertEqual(with_frame.files() & (carrying | LATER), set())
         alone = profile('equilibrate', exponents=NONE)
         for file in OF_TRAJECTORY:
             self.assertEqual(with_frame.of_file(file), alone.of_file(file), file)

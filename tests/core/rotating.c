@@ -29,7 +29,7 @@ static void write_vector(rotating *r, int m)
 static void show(rotating *r)
 {
     for (int m = 0; m < 2 * r->d; m++) write_vector(r, m);
-    CHECK_OK(hd_modes_measure(r->w.modes, r->w.frame, r->w.q, r->w.p));
+    CHECK_OK(hd_modes_measure(r->w.modes, hd_frame_columns(r->w.frame), r->w.q, r->w.p));
     hd_phases_add(r->phases, r->w.steps, r->time);
 }
 

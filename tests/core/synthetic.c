@@ -236,7 +236,7 @@ void world_turn(world *w, int a, int b, double angle)
 
 void world_look(world *w)
 {
-    CHECK_OK(hd_modes_measure(w->modes, w->frame, w->q, w->p));
+    CHECK_OK(hd_modes_measure(w->modes, hd_frame_columns(w->frame), w->q, w->p));
     hd_modes_add(w->modes);
 }
 

@@ -436,10 +436,10 @@ static void what_is_not_finite_is_refused(void **state)
             world_noise(&w);
             const size_t at = (size_t)(4 * 17 + 2 * half) * (size_t)hd_frame_stride(w.frame) + 3;
             hd_frame_data(w.frame)[at] = bad[k];
-            assert_int_equal(hd_modes_measure(w.modes, w.frame, w.q, w.p), HD_NOT_FINITE);
+            assert_int_equal(hd_modes_measure(w.modes, hd_frame_columns(w.frame), w.q, w.p), HD_NOT_FINITE);
         }
     world_noise(&w);
-    CHECK_OK(hd_modes_measure(w.modes, w.frame, w.q, w.p));
+    CHECK_OK(hd_modes_measure(w.modes, hd_frame_columns(w.frame), w.q, w.p));
     world_free(&w);
 }
 

@@ -104,7 +104,8 @@ static void agrees_with_householder(void **state)
     check_step(20, 40, 20.0, 1); /* 5e8: beyond Cholesky, not beyond reflections */
 }
 
-/** One pass: the predicted defect is never below what is measured, and not far above it. */
+/** One pass: the predicted defect is never below what is measured, and not far above it. It grows as the condition, not
+ *  as its square. */
 static void the_defect_is_foreseen(void **state)
 {
     (void)state;
@@ -126,7 +127,16 @@ static void the_defect_is_foreseen(void **state)
     }
 }
 
-/** A loose Q costs nothing: what one step leaves out, the next one adds [T5]. */
+/** A loose Q costs nothing: what one step leaves out, the next one adds [T5]. Made loose by hand: a factor D, upper
+ *  triangular with a diagonal of 1, is in no logarithm at all. */
+static void loosen(hd_frame *frame)
+{
+    for (int row = 0; row < hd_frame_rows(frame); row++) {
+        double *v = hd_frame_data(frame) + row * hd_frame_stride(frame);
+        for (int col = hd_frame_vectors(frame) - 1; col > 0; col--) v[col] += 0.01 * v[col - 1];
+    }
+}
+
 static void logarithms_telescope(void **state)
 {
     enum { N = 60 };
@@ -143,6 +153,7 @@ static void logarithms_telescope(void **state)
         make_ill_conditioned(loose, 12.0);
         make_ill_conditioned(tight, 12.0);
         CHECK_OK(hd_ortho_step(ortho, loose, limits));
+        if (step < 5) loosen(loose);
         if (step < 5) defect = fmax(defect, hd_ortho_defect_measured(ortho, loose));
         for (int col = 0; col < N; col++) sum[0][col] += hd_ortho_log_stretch(ortho)[col];
         CHECK_OK(hd_ortho_step_stable(ortho, tight, 1e13));

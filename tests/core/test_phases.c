@@ -222,7 +222,7 @@ static void channel_show(channel *ch, double time)
             world_add_field(&ch->w, dq, column + 1, sin(ch->phase[n][m]));
             world_write_mode(&ch->w, 2 - 2 * n + m, dq, 1.0);
         }
-    CHECK_OK(hd_modes_measure(ch->w.modes, ch->w.frame, ch->w.q, ch->w.p));
+    CHECK_OK(hd_modes_measure(ch->w.modes, hd_frame_columns(ch->w.frame), ch->w.q, ch->w.p));
     hd_phases_add(ch->phases, ch->w.steps, time);
 }
 
@@ -322,7 +322,7 @@ static void shared_sets_turn_too(void **state)
             }
             world_write_mode(&w, m, dq, 1.0);
         }
-        CHECK_OK(hd_modes_measure(w.modes, w.frame, w.q, w.p));
+        CHECK_OK(hd_modes_measure(w.modes, hd_frame_columns(w.frame), w.q, w.p));
         hd_phases_add(phases, w.steps, t);
     }
     /* other subspaces of the set overlap by N^(-1/2): coefficients are off by as much, at a fixed phase */

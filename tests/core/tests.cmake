@@ -17,6 +17,8 @@ foreach(name IN ITEMS
     spectrum
     interval
     ortho
+    tail
+    schedule
     blocks
     frame
     trajectory

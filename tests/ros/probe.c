@@ -61,12 +61,12 @@ void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_rat
     atomic_fetch_add(&halves, 1);
 }
 
-hd_status hd_modes_measure(hd_modes *modes, const hd_frame *frame, const double *q, const double *p)
+hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const double *p)
 {
-    hd_status (*real)(hd_modes *, const hd_frame *, const double *, const double *);
+    hd_status (*real)(hd_modes *, hd_columns, const double *, const double *);
     next(&real, "hd_modes_measure");
     atomic_fetch_add(&measures, 1);
-    return real(modes, frame, q, p);
+    return real(modes, v, q, p);
 }
 
 void hd_phases_add(hd_phases *followed, const hd_steps *found, double time)

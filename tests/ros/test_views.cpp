@@ -348,8 +348,8 @@ TEST(views, state_without_disks)
 
 TEST(views, cost)
 {
-    const hdr_cost view = {header, "id", 1.5, HDR_AVERAGING, 2, 3, 4, 5, 6, 16, 7, 8, 9, 10, 11, 12,
-                           13,     14,   15,  0.5,           -1};
+    const hdr_cost view = {header, "id", 1.5, HDR_AVERAGING, 2,  3,  4,  5,   6,    16,  7, 8, 9,
+                           HDR_LIMIT_LOOK, 10, 11, 12,        13, 14, 17, 15, 0.25, 0.5, -1};
     hdlyap::Cost message;
     fill_header(message);
     message.run_id = "id";
@@ -364,12 +364,15 @@ TEST(views, cost)
     message.publish_seconds = 7;
     message.events_per_second = 8;
     message.interval = 9;
+    message.interval_limit = hdlyap::Cost::LIMIT_LOOK;
     message.condition = 10;
     message.orthogonality_defect = 11;
     message.error_bound = 12;
     message.orthonormalisations = 13;
     message.second_passes = 14;
+    message.looks = 17;
     message.repairs = 15;
+    message.std_error = 0.25;
     message.progress = 0.5;
     message.remaining_seconds = -1;
     expect_same(view, message);

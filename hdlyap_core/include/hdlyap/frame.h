@@ -20,8 +20,17 @@ void hd_frame_free(hd_frame *frame);
 int hd_frame_rows(const hd_frame *frame);    /**< 4N */
 int hd_frame_vectors(const hd_frame *frame); /**< n */
 int hd_frame_stride(const hd_frame *frame);  /**< doubles from one row to the next */
+int hd_frame_threads(const hd_frame *frame); /**< that work on it */
 double *hd_frame_data(hd_frame *frame);      /**< current vectors; valid until the next replay */
 const double *hd_frame_read(const hd_frame *frame); /**< the same, to look at */
+
+/** Vectors first .. first + count - 1, wherever they are kept: data is the first one's entry of row 0. */
+typedef struct hd_columns {
+    const double *data;
+    int stride; /**< doubles from one row to the next */
+    int first, count;
+} hd_columns;
+hd_columns hd_frame_columns(const hd_frame *frame); /**< all of them */
 
 /** Carries the vectors from t_begin to t_end (times as in the log) through the logged events with
  *  t_begin <= t < t_end, and keeps the vectors of t_begin for hd_frame_rewind. All cores; a block of

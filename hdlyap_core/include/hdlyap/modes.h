@@ -16,9 +16,10 @@ HD_MUST_CHECK hd_status hd_modes_create(hd_modes **out, const hd_scene_def *def,
                                         int threads);
 void hd_modes_free(hd_modes *modes);
 
-/** Measures the orthonormal vectors of the frame at q[2N], p[2N]: a snapshot, without averaging.
- *  HD_NOT_FINITE. Cost 4 N n columns flops as dgemm, and one reading of the frame. */
-HD_MUST_CHECK hd_status hd_modes_measure(hd_modes *modes, const hd_frame *frame, const double *q,
+/** Measures orthonormal vectors (all of them, or some: the others keep their snapshot) at q[2N], p[2N]: a
+ *  snapshot, without averaging. HD_NOT_FINITE. Cost 4 N columns flops per vector as dgemm, and one reading of
+ *  the vectors. */
+HD_MUST_CHECK hd_status hd_modes_measure(hd_modes *modes, hd_columns vectors, const double *q,
                                          const double *p);
 /** Adds the snapshot to the running averages. */
 void hd_modes_add(hd_modes *modes);

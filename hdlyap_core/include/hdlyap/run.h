@@ -15,6 +15,18 @@ extern "C" {
 
 typedef enum hd_phase { HD_EQUILIBRATING, HD_WARMING_UP, HD_AVERAGING, HD_FINISHED } hd_phase;
 
+/** Why an interval between orthonormalisations is not longer. */
+typedef enum hd_limit {
+    HD_LIMIT_SCHEDULE,  /**< a sample ends: the next one would not fit whole between reports */
+    HD_LIMIT_CONDITION, /**< rounding would exceed the accuracy asked for */
+    HD_LIMIT_GROWTH,    /**< twice the one before: the conditioning is still being learnt */
+    HD_LIMIT_OVERFLOW,  /**< vectors would outgrow their numbers */
+    HD_LIMIT_SCENE,     /**< hd_scene_def.interval */
+    HD_LIMIT_EVENTS,    /**< the log of events would take too much memory, or the wait for an answer */
+    HD_LIMIT_LOOK,      /**< vectors were wanted for a report */
+    HD_LIMIT_REPAIR     /**< it was longer, and had to be taken back */
+} hd_limit;
+
 /** What the run pays for, since its start unless said otherwise. */
 typedef struct hd_cost {
     double wall;              /**< seconds */
@@ -25,13 +37,17 @@ typedef struct hd_cost {
     double modes;             /**< seconds in classification, steps and phases */
     double events_per_second; /**< pair events over seconds in the trajectory */
     double interval;          /**< time units between orthonormalisations, last used */
+    hd_limit limit;           /**< why it was not longer */
     double condition;         /**< of the last orthonormalisation, see hd_ortho_condition */
     double defect;            /**< predicted loss of orthogonality of the last one */
     double
         error_bound; /**< (sum of eps * condition + defect) / averaged time: rounding in a mean */
     long orthonormalisations; /**< number of them */
     long second_passes;       /**< how many needed a second pass */
+    long looks;               /**< at phases between two of them */
     long repairs;             /**< intervals that turned out too long and were replayed in pieces */
+    double std_error;         /**< largest of the exponents nearest to zero, which target_std_error is
+                                   for; negative if unknown */
     double progress;          /**< 0 .. 1 of the time asked for, or to the target; 0 if unknown */
     double remaining;         /**< predicted wall seconds to the end, or to target_std_error;
                                   negative if unknown */
@@ -48,15 +64,17 @@ void hd_run_free(hd_run *run);
  *  interrupted between two calls. Does nothing once HD_FINISHED. */
 HD_MUST_CHECK hd_status hd_run_step(hd_run *run);
 
-/** True if the last step ended at a multiple of the report interval, with a measured state. */
+/** True if the last step ended at a multiple of the report interval. Spectrum, modes, steps and the frame are then
+ *  those of the last orthonormalisation, hd_spectrum_time after the averaging began: at most an interval
+ *  ago, at once if fields or the hydrodynamic response are looked at. Phases are those of the very time. */
 bool hd_run_report_due(const hd_run *run);
 
 /** Which of the stages that the scene asks for (HD_OBSERVE_*) are needed from now on; at first all. A stage
  *  that nobody looks at is skipped: its averages miss that time, phases begin anew. */
 void hd_run_observe(hd_run *run, unsigned stages);
 
-/** Starts the averages afresh at the present time. */
-void hd_run_reset_average(hd_run *run);
+/** Starts the averages afresh at the present time. Fails as hd_run_step does. */
+HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 
 hd_phase hd_run_phase(const hd_run *run);
 double hd_run_time(const hd_run *run); /**< simulated time since the start */

@@ -16,7 +16,7 @@ enum { HD_WALL_X = -1, HD_WALL_Y = -2 };
 
 /** One event; self-contained: with the disks' order in the log it fixes the tangent map [T3]. */
 typedef struct hd_event {
-    double t;    /**< since the start of the interval that was logged [time units] */
+    double t;    /**< since the start of the log [time units] */
     int32_t i;   /**< disk, 0-based; i < j for a pair */
     int32_t j;   /**< other disk, or HD_WALL_* */
     double n[2]; /**< unit vector from i to j at contact; for a wall its axis */
@@ -33,6 +33,8 @@ typedef struct hd_event_log {
 
 HD_MUST_CHECK hd_status hd_event_log_create(hd_event_log **out);
 void hd_event_log_free(hd_event_log *log);
+/** Empties the log: it starts anew where the disks are. */
+void hd_event_log_clear(hd_event_log *log);
 
 typedef struct hd_trajectory hd_trajectory;
 
@@ -51,6 +53,10 @@ void hd_trajectory_free(hd_trajectory *trajectory);
  *  Fails with HD_OVERLAP, HD_NOT_FINITE, HD_NO_MEMORY. Cost O(1) per event. */
 HD_MUST_CHECK hd_status hd_trajectory_advance(hd_trajectory *trajectory, hd_event_log *log,
                                               double t_end);
+
+/** The same, but adds to a log that ends at the present time. */
+HD_MUST_CHECK hd_status hd_trajectory_extend(hd_trajectory *trajectory, hd_event_log *log,
+                                             double t_end);
 
 double hd_trajectory_time(const hd_trajectory *trajectory); /**< simulated time */
 int hd_trajectory_disks(const hd_trajectory *trajectory);   /**< N */

@@ -197,6 +197,18 @@ typedef struct hdr_state {
 /** hdr_cost.phase */
 enum { HDR_EQUILIBRATING, HDR_WARMING_UP, HDR_AVERAGING, HDR_FINISHED };
 
+/** hdr_cost.interval_limit */
+enum {
+    HDR_LIMIT_SCHEDULE,
+    HDR_LIMIT_CONDITION,
+    HDR_LIMIT_GROWTH,
+    HDR_LIMIT_OVERFLOW,
+    HDR_LIMIT_SCENE,
+    HDR_LIMIT_EVENTS,
+    HDR_LIMIT_LOOK,
+    HDR_LIMIT_REPAIR
+};
+
 /** hdlyap/Cost */
 typedef struct hdr_cost {
     hdr_header header;
@@ -205,9 +217,11 @@ typedef struct hdr_cost {
     uint8_t phase;
     double wall_seconds, events_seconds, replay_seconds, ortho_seconds, spectrum_seconds;
     double modes_seconds, publish_seconds, events_per_second;
-    double interval, condition, orthogonality_defect, error_bound;
-    uint64_t orthonormalisations, second_passes, repairs;
-    double progress, remaining_seconds;
+    double interval;
+    uint8_t interval_limit;
+    double condition, orthogonality_defect, error_bound;
+    uint64_t orthonormalisations, second_passes, looks, repairs;
+    double std_error, progress, remaining_seconds;
 } hdr_cost;
 
 /** hdr_diagnostic.level */

@@ -10,7 +10,7 @@ static const double period = 1.0;
 /** How long a repair is worth a warning [s]. */
 static const double warn_seconds = 10.0;
 
-enum { KEYS = 10, TEXT_SIZE = 32 };
+enum { KEYS = 11, TEXT_SIZE = 32 };
 
 /** Keys and the texts that they point to. */
 typedef struct key_list {
@@ -64,6 +64,16 @@ static double collision_rate(diagnostics *d, const progress *last, double now)
     return seconds > 0.0 ? collisions / seconds : 0.0;
 }
 
+static const char *limit_name(hd_limit limit)
+{
+    static const char *const names[] = {
+        [HD_LIMIT_SCHEDULE] = "report interval", [HD_LIMIT_CONDITION] = "conditioning",
+        [HD_LIMIT_GROWTH] = "doubling",          [HD_LIMIT_OVERFLOW] = "overflow",
+        [HD_LIMIT_SCENE] = "parameter interval", [HD_LIMIT_EVENTS] = "memory of the events",
+        [HD_LIMIT_LOOK] = "vectors wanted",      [HD_LIMIT_REPAIR] = "repair"};
+    return names[limit];
+}
+
 static void fill_keys(diagnostics *d, key_list *list, const worker_state *state, double now)
 {
     const hd_cost *cost = &state->last.cost;
@@ -72,6 +82,7 @@ static void fill_keys(diagnostics *d, key_list *list, const worker_state *state,
     add_number(list, "progress", cost->progress);
     add_number(list, "remaining seconds", cost->remaining);
     add_number(list, "interval", cost->interval);
+    add_text(list, "interval limited by", limit_name(cost->limit));
     add_number(list, "condition", cost->condition);
     add_number(list, "repairs", (double)cost->repairs);
     add_number(list, "collisions per second", collision_rate(d, &state->last, now));

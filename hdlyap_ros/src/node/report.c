@@ -12,6 +12,8 @@
 #include "run_info.h"
 
 /** Topics whose messages are made of positions and momenta. */
+_Static_assert((int)HD_LIMIT_REPAIR == (int)HDR_LIMIT_REPAIR, "limits as in the core");
+
 static const unsigned of_state = 1u << TOPIC_STATE | 1u << TOPIC_FIELDS | 1u << TOPIC_HYDRO;
 
 /** Arrays of a spectrum message, all of length n in one block. */
@@ -211,12 +213,15 @@ static hd_status publish_cost(report *rep, const progress *now, hd_phase phase)
         .publish_seconds = rep->seconds,
         .events_per_second = cost->events_per_second,
         .interval = cost->interval,
+        .interval_limit = (uint8_t)cost->limit,
         .condition = cost->condition,
         .orthogonality_defect = cost->defect,
         .error_bound = cost->error_bound,
         .orthonormalisations = (uint64_t)cost->orthonormalisations,
         .second_passes = (uint64_t)cost->second_passes,
+        .looks = (uint64_t)cost->looks,
         .repairs = (uint64_t)cost->repairs,
+        .std_error = cost->std_error < 0.0 ? -1.0 : cost->std_error,
         .progress = cost->progress,
         .remaining_seconds = cost->remaining < 0.0 ? -1.0 : cost->remaining,
     };
@@ -232,6 +237,7 @@ static hd_status publish_cost(report *rep, const progress *now, hd_phase phase)
                               cost->progress,
                               cost->remaining,
                               cost->error_bound,
+                              cost->std_error,
                               cost->events_per_second,
                               cost->modes};
     if (!outlets_finite(numbers, sizeof numbers / sizeof *numbers)) return HD_NOT_FINITE;

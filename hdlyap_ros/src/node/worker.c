@@ -61,7 +61,7 @@ static bool wait_for_subscribers(worker *w)
 /** By the pace asked for, if any. */
 static bool too_early(const worker *w) { return w->due > 0.0 && clock_seconds() < w->due; }
 
-/** Between two steps: pauses, keeps pace and resets as asked. False if asked to stop. */
+/** Between two steps: pauses and keeps pace. False if asked to stop. */
 static bool obey(worker *w)
 {
     pthread_mutex_lock(&w->lock);
@@ -73,11 +73,18 @@ static bool obey(worker *w)
             wait_until(w, w->due);
     }
     w->state.stage = WORKER_RUNNING;
-    const bool reset = w->reset, go_on = !w->stop;
+    const bool go_on = !w->stop;
+    pthread_mutex_unlock(&w->lock);
+    return go_on;
+}
+
+static hd_status reset_if_asked(worker *w)
+{
+    pthread_mutex_lock(&w->lock);
+    const bool reset = w->reset;
     w->reset = false;
     pthread_mutex_unlock(&w->lock);
-    if (reset) hd_run_reset_average(w->run);
-    return go_on;
+    return reset ? hd_run_reset_average(w->run) : HD_OK;
 }
 
 static hd_status publish(worker *w)
@@ -100,7 +107,8 @@ static hd_status paced_step(worker *w)
 static hd_status step(worker *w)
 {
     hd_run_observe(w->run, report_demand(w->rep));
-    hd_status status = w->set->pace > 0.0 ? paced_step(w) : hd_run_step(w->run);
+    hd_status status = reset_if_asked(w);
+    if (status == HD_OK) status = w->set->pace > 0.0 ? paced_step(w) : hd_run_step(w->run);
     if (status != HD_OK) return status;
     if (hd_run_report_due(w->run)) status = publish(w);
     pthread_mutex_lock(&w->lock);

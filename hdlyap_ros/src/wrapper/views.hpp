@@ -234,9 +234,9 @@ template <> struct message_of<hdr_cost> {
     {
         put(s, v.header, v.run_id, v.sim_time, v.phase, v.wall_seconds, v.events_seconds,
             v.replay_seconds, v.ortho_seconds, v.spectrum_seconds, v.modes_seconds,
-            v.publish_seconds, v.events_per_second, v.interval, v.condition, v.orthogonality_defect,
-            v.error_bound, v.orthonormalisations, v.second_passes, v.repairs, v.progress,
-            v.remaining_seconds);
+            v.publish_seconds, v.events_per_second, v.interval, v.interval_limit, v.condition,
+            v.orthogonality_defect, v.error_bound, v.orthonormalisations, v.second_passes, v.looks,
+            v.repairs, v.std_error, v.progress, v.remaining_seconds);
     }
 };
 
