@@ -1,8 +1,8 @@
-/** What each effect of a scene costs: two runs that differ in it alone, side by side, one report interval of
- *  the one after one of the other, so that whatever else the machine does falls on both; medians.
+/** What each effect of a scene costs: two runs that differ in it alone, side by side, some report intervals
+ *  of the one after those of the other, so that whatever else the machine does falls on both; medians.
  *  Instructions are counted by callgrind, if valgrind is there (nan if not), in a smaller box of the same
  *  kind: a long one, in which steps are found soon. What publishing costs: effects_publishing.
- *  Usage: hdlyap_effects [effects.csv [disks, default 200 [aspect, default 0.05 [rounds, default 40]]]]
+ *  Usage: hdlyap_effects [effects.csv [disks, default 200 [aspect, default 0.05 [rounds, default 15]]]]
  *         hdlyap_effects --count EFFECT off|on: one run for callgrind, which collects in count_rounds */
 #define _POSIX_C_SOURCE 200809L
 #include <hdlyap/hdlyap.h>
@@ -23,7 +23,13 @@ enum {
     EVERYTHING = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_FIELDS |
                  HD_OBSERVE_HYDRO
 };
-enum { ROUNDS_MAX = 1000, WARM_REPORTS = 10, COUNTED_DISKS = 60, COUNTED_ROUNDS = 5 };
+enum {
+    ROUNDS_MAX = 1000,
+    WARM_REPORTS = 10,
+    COUNTED_DISKS = 60,
+    COUNTED_ROUNDS = 2,
+    ROUND_REPORTS = 5
+};
 static const double COUNTED_ASPECT = 0.12;
 
 /** What a run has of all the effects. */
@@ -139,13 +145,19 @@ static void reconstruct(side *s)
 }
 
 /** A report interval, and what is made of a report outside of the run. */
-static void round_of(side *s)
+static void report(side *s)
 {
     report_interval(s);
     if (s->hydro || s->pmode) hd_trajectory_state(hd_run_trajectory(s->run), s->q, s->p);
     if (s->pmode) reconstruct(s);
     if (s->hydro)
         hd_hydro_measure(s->hydro, hd_run_steps(s->run), hd_run_frame(s->run), s->q, s->p);
+}
+
+/** So many that each round has several orthonormalisations. */
+static void round_of(side *s)
+{
+    for (int k = 0; k < ROUND_REPORTS; k++) report(s);
 }
 
 static int steps_found(const side *s)
@@ -184,7 +196,7 @@ static void round_timed(side *s, int round)
 {
     const double start = seconds();
     round_of(s);
-    s->seconds[round] = seconds() - start;
+    s->seconds[round] = (seconds() - start) / ROUND_REPORTS;
 }
 
 static cost seconds_of(const effect *e, int disks, double aspect, int rounds)
@@ -242,7 +254,7 @@ static double counted(const char *name, const char *which)
     while (out && fgets(line, sizeof line, out))
         if (strstr(line, "Collected :")) instructions = atof(strchr(line, ':') + 1);
     if (!out || pclose(out) != 0) return NAN;
-    return instructions / COUNTED_ROUNDS;
+    return instructions / (COUNTED_ROUNDS * ROUND_REPORTS);
 }
 
 /** Of effect k; `known` are those before it: many are measured against the same run. */
@@ -305,7 +317,7 @@ int main(int argc, char **argv)
 {
     hd_blas_restart_if_slow(argv);
     if (argc == 4 && strcmp(argv[1], "--count") == 0) return count(argv[2], argv[3]);
-    const int disks = argc > 2 ? atoi(argv[2]) : 200, rounds = argc > 4 ? atoi(argv[4]) : 40;
+    const int disks = argc > 2 ? atoi(argv[2]) : 200, rounds = argc > 4 ? atoi(argv[4]) : 15;
     const double aspect = argc > 3 ? atof(argv[3]) : 0.05;
     if (rounds < 1 || rounds > ROUNDS_MAX) {
         fprintf(stderr, "hdlyap_effects: rounds = %d: must be 1 .. %d\n", rounds, ROUNDS_MAX);
