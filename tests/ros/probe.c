@@ -12,6 +12,7 @@
 #include "hdlyap/hydro.h"
 #include "hdlyap/pmode.h"
 #include "hdlyap/run.h"
+#include "hdlyap_ros/publisher.h"
 
 static atomic_long steps, states, halves, measures, phases, pmodes, hydros;
 
@@ -94,6 +95,25 @@ void hd_hydro_measure(hd_hydro *hydro, const hd_steps *found, const hd_frame *fr
     real(hydro, found, frame, q, p);
 }
 
+/* Messages made, of each topic. */
+/* clang-format off */
+#define TOPICS(DO)                                                                                 \
+    DO(run_info) DO(spectrum)                                                                      \
+    DO(modes) DO(steps) DO(lp_phases) DO(mode_field) DO(hydro) DO(state) DO(cost) DO(diagnostic)
+#define COUNT_MESSAGES(topic)                                                                      \
+    static atomic_long messages_##topic;                                                           \
+    hdr_status hdr_##topic##_publish(hdr_publisher *publisher, const hdr_##topic *view)            \
+    {                                                                                              \
+        hdr_status (*real)(hdr_publisher *, const hdr_##topic *);                                  \
+        next(&real, "hdr_" #topic "_publish");                                                     \
+        atomic_fetch_add(&messages_##topic, 1);                                                    \
+        return real(publisher, view);                                                              \
+    }
+#define WRITE_MESSAGES(topic)                                                                      \
+    fprintf(file, #topic "_publish %ld\n", atomic_load(&messages_##topic));
+TOPICS(COUNT_MESSAGES)
+/* clang-format on */
+
 /** PROBE_COUNTS: file for the numbers of calls, one to a line with its name. */
 __attribute__((destructor)) static void write_counts(void)
 {
@@ -110,5 +130,6 @@ __attribute__((destructor)) static void write_counts(void)
     if (!file) return;
     for (size_t k = 0; k < sizeof counts / sizeof *counts; k++)
         fprintf(file, "%s %ld\n", counts[k].name, counts[k].calls);
+    TOPICS(WRITE_MESSAGES)
     fclose(file);
 }

@@ -13,6 +13,7 @@ from harness import MODES, OBSERVABLES, Cost
 from hdlyap.msg import LpPhase, Mode
 
 REPORTS = 20    # of MODES, while averaging
+MESSAGE = {'fields': 'mode_field'}    # of topics that are named otherwise
 ROUNDING = 1e-9
 
 
@@ -263,13 +264,16 @@ def responses_of(field, modulation):
 
 
 class Demand(unittest.TestCase):
-    """Calls of the core by the end of a run, by who listens."""
+    """Calls of the core by the end of a run, and messages made, by who listens."""
 
     def calls(self, topics=(), **params):
         listeners = [harness.Listener(topic) for topic in topics]
         for listener in listeners:
             self.addCleanup(listener.close)
-        return harness.calls(self, dict(MODES, wait_for_subscribers=list(topics), **params))
+        calls = harness.calls(self, dict(MODES, wait_for_subscribers=list(topics), **params))
+        made = {name[:-len('_publish')] for name, count in calls.items() if name.endswith('_publish') and count}
+        self.assertEqual(made, {'run_info'} | {MESSAGE.get(topic, topic) for topic in topics})
+        return calls
 
     def check(self, calls, measures, phases=0, pmodes=0, hydros=0):
         """How many times a state is measured, and what of the rest is done at all."""

@@ -150,11 +150,15 @@ class Run(unittest.TestCase):
         self.assertGreater(times[2] - times[0], 1.8)
 
     def test_nothing_computed_without_subscribers(self):
-        self.assertEqual(set(harness.calls(self, SHORT).values()), {0})
+        calls = harness.calls(self, SHORT)
+        self.assertEqual(calls.pop('run_info_publish'), 1)      # latched
+        self.assertEqual(set(calls.values()), {0})
 
     def test_computed_for_subscribers(self):
         self.listen('state')
         calls = harness.calls(self, dict(SHORT, wait_for_subscribers=['state']))
+        self.assertEqual(calls.pop('run_info_publish'), 1)
+        self.assertEqual(calls.pop('state_publish'), 4)
         self.assertEqual(calls.pop('trajectory_state'), 4)
         self.assertEqual(set(calls.values()), {0})
 

@@ -109,9 +109,10 @@ static const char *message_of(uint8_t level, const worker_state *state)
 void diagnostics_publish(diagnostics *d, const worker_state *state)
 {
     const double now = clock_seconds();
-    key_list list = {.count = 0};
-    fill_keys(d, &list, state, now);
     const uint8_t level = level_of(d, state, now);
+    key_list list = {.count = 0};
+    if (hdr_publisher_subscribers(d->publisher) == 0) return;
+    fill_keys(d, &list, state, now);
     const hdr_diagnostic view = {
         .header = {.stamp = hdr_time_now(), .frame_id = ""},
         .level = level,

@@ -20,9 +20,9 @@ typedef struct diagnostics {
 HDR_MUST_CHECK hdr_status diagnostics_advertise(diagnostics *d, hdr_node *ros, const char *run_id,
                                                 const char *blas_kernel);
 
-/** Publishes if a second has passed since the last time. */
+/** Publishes if anybody listens and a second has passed since the last time. */
 void diagnostics_update(diagnostics *d, const worker_state *state);
-/** Publishes now. */
+/** Publishes now, if anybody listens. */
 void diagnostics_publish(diagnostics *d, const worker_state *state);
 
 #endif

@@ -288,5 +288,6 @@ hd_status report_publish(report *rep, const hd_run *run)
 
 hd_status report_finish(report *rep, const progress *last)
 {
-    return publish_cost(rep, last, HD_FINISHED);
+    const bool heard = outlets_subscribed(&rep->out) & topic_bit(TOPIC_COST);
+    return heard ? publish_cost(rep, last, HD_FINISHED) : HD_OK;
 }

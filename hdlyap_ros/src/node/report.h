@@ -42,7 +42,7 @@ unsigned report_demand(report *rep);
  *  HD_NOT_FINITE, and nothing of the message concerned is published, if a number of it is not. */
 HD_MUST_CHECK hd_status report_publish(report *rep, const hd_run *run);
 
-/** Publishes the run's last message: the cost, with phase FINISHED. */
+/** Publishes the run's last message, if anybody listens: the cost, with phase FINISHED. */
 HD_MUST_CHECK hd_status report_finish(report *rep, const progress *last);
 
 #endif

@@ -58,11 +58,14 @@ static bool wait_for_subscribers(worker *w)
     return go_on;
 }
 
+/** By the pace asked for, if any. */
+static bool too_early(const worker *w) { return w->due > 0.0 && clock_seconds() < w->due; }
+
 /** Between two steps: pauses and keeps pace. False if asked to stop. */
 static bool obey(worker *w)
 {
     pthread_mutex_lock(&w->lock);
-    while (!w->stop && (w->pause || clock_seconds() < w->due)) {
+    while (!w->stop && (w->pause || too_early(w))) {
         enter(w, w->pause ? WORKER_PAUSED : WORKER_RUNNING);
         if (w->pause)
             pthread_cond_wait(&w->changed, &w->lock);
@@ -92,20 +95,22 @@ static hd_status publish(worker *w)
     return status;
 }
 
-static void keep_pace(worker *w, double begin, double simulated)
+/** Sets when the step after the one that begins now is due. */
+static hd_status paced_step(worker *w)
 {
-    if (w->set->pace > 0.0) w->due = fmax(w->due, begin) + simulated / w->set->pace;
+    const double begin = clock_seconds(), from = hd_run_time(w->run);
+    const hd_status status = hd_run_step(w->run);
+    w->due = fmax(w->due, begin) + (hd_run_time(w->run) - from) / w->set->pace;
+    return status;
 }
 
 static hd_status step(worker *w)
 {
-    const double begin = clock_seconds(), from = hd_run_time(w->run);
     hd_run_observe(w->run, report_demand(w->rep));
     hd_status status = reset_if_asked(w);
-    if (status == HD_OK) status = hd_run_step(w->run);
+    if (status == HD_OK) status = w->set->pace > 0.0 ? paced_step(w) : hd_run_step(w->run);
     if (status != HD_OK) return status;
     if (hd_run_report_due(w->run)) status = publish(w);
-    keep_pace(w, begin, hd_run_time(w->run) - from);
     pthread_mutex_lock(&w->lock);
     w->state.last = progress_of(w->run);
     pthread_mutex_unlock(&w->lock);

@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""Only what a scene asks for is executed: counts of instructions, never times.
+   instructions.py VALGRIND LOAD CORE"""
+
+import functools
+import os
+import sys
+import unittest
+
+sys.dont_write_bytecode = True     # the sources stay as they are
+
+import callgrind  # noqa: E402
+
+VALGRIND, LOAD, CORE = sys.argv[1:4]
+NONE, POSITIVE, ALL = 0, -1, -2                     # HD_EXPONENTS_*
+MODES, STEPS, PHASES, EVERYTHING = 1, 2, 4, 31      # HD_OBSERVE_*
+
+# sources of each stage; what is common to all is in none
+OF_TRAJECTORY = {'trajectory.c', 'prediction.c', 'contact.h', 'cells.c', 'queue.c'}
+OF_FRAME = {'frame.c', 'ortho.c', 'spectrum.c', 'blocks.c', 'blas.c'}
+OF_MODES = {'fields.c', 'modes.c'}
+OF_STEPS = {'steps.c', 'sets.c'}
+OF_PHASES = {'phases.c'}
+OF_CALLER = {'pmode.c', 'hydro.c', 'dispersion.c'}  # called by who publishes
+LATER = OF_MODES | OF_STEPS | OF_PHASES | OF_CALLER
+LIBRARIES = ('blas', 'lapack', 'gomp')
+
+
+@functools.lru_cache(maxsize=None)
+def profiles(scene):
+    return callgrind.profiles(VALGRIND, LOAD, dict(scene))
+
+
+def profile(*parts, **scene):
+    """Of these parts of a run together, or of the whole."""
+    whole = callgrind.Profile()
+    for part in parts or callgrind.PARTS:
+        whole.add(profiles(tuple(sorted(scene.items())))[part])
+    return whole
+
+
+def libraries(of):
+    return {part for part in LIBRARIES if any(part in name for name in of.objects)}
+
+
+class Stages(unittest.TestCase):
+    """A stage that is not asked for executes nothing; each test sees it work where it is asked for."""
+
+    def test_trajectory_alone(self):
+        for scene in (dict(), dict(x=1, y=1)):
+            alone = profile(exponents=NONE, **scene)
+            self.assertLessEqual(OF_TRAJECTORY, alone.files())
+            self.assertEqual(alone.files() & (OF_FRAME | {'event_log.c'} | LATER), set())
+            self.assertEqual(libraries(alone), set())
+
+    def test_spectrum_alone(self):
+        for exponents in (1, POSITIVE, ALL):
+            spectrum = profile(exponents=exponents)
+            self.assertLessEqual(OF_FRAME, spectrum.files())
+            self.assertEqual(libraries(spectrum), set(LIBRARIES))
+            self.assertEqual(spectrum.files() & LATER, set())
+
+    def test_steps_alone(self):
+        for observe in (MODES, STEPS):
+            steps = profile(observe=observe, look=observe)
+            self.assertLessEqual(OF_MODES | OF_STEPS, steps.files())
+            self.assertEqual(steps.files() & (OF_PHASES | OF_CALLER), set())
+
+    def test_everything(self):
+        everything = profile('average', observe=EVERYTHING, look=EVERYTHING)
+        self.assertEqual(LATER - everything.files(), OF_CALLER)
+
+    def test_nobody_looks(self):
+        unseen = profile('average', observe=EVERYTHING, look=0)
+        self.assertLessEqual(OF_FRAME, unseen.files())
+        self.assertEqual(unseen.files() & (LATER - {'steps.c'}), set())
+
+    @unittest.expectedFailure   # run.c calls hd_steps_sample all the same
+    def test_nobody_looks_at_steps(self):
+        unseen = profile('average', observe=EVERYTHING, look=0)
+        self.assertNotIn('steps.c', unseen.files())
+
+    def test_equilibration_has_no_frame(self):
+        with_frame = profile('equilibrate')
+        self.assertLessEqual(OF_TRAJECTORY, with_frame.files())
+        carrying = OF_FRAME - {'blas.c'}        # which is told the number of threads
+        self.assertEqual(with_frame.files() & (carrying | LATER), set())
+        alone = profile('equilibrate', exponents=NONE)
+        for file in OF_TRAJECTORY:
+            self.assertEqual(with_frame.of_file(file), alone.of_file(file), file)
+
+
+class Walls(unittest.TestCase):
+    PLACES = (('trajectory.c', 'reflect'), ('frame.c', 'reflect'))
+
+    @staticmethod
+    def count(of, file, function):
+        return of.of_lines(file, *callgrind.body(os.path.join(CORE, 'src', file), function))
+
+    def test_without_walls_nothing_is_reflected(self):
+        for place in self.PLACES:
+            self.assertEqual(self.count(profile(), *place), 0, place)
+            for x, y in ((0, 1), (1, 0), (1, 1)):
+                self.assertGreater(self.count(profile(x=x, y=y), *place), 1000, place)
+
+
+class Vectors(unittest.TestCase):
+    """The replay's instructions for as many vectors as are asked for; columns come in eights."""
+    DISKS = 40      # the positive half: 77 vectors
+
+    def replay(self, exponents):
+        return profile('average', disks=self.DISKS, time=2.0, exponents=exponents).of_file('frame.c')
+
+    def test_ten_vectors(self):
+        of_column = (self.replay(32) - self.replay(16)) / 16
+        without = self.replay(16) - 16 * of_column      # the maps: the same for any number
+        self.assertGreater(without, 0)
+        self.assertEqual(self.replay(10), self.replay(16))
+        half = self.replay(POSITIVE)
+        self.assertLess(self.replay(10), 0.3 * half)
+
+    def test_one_vector(self):
+        of_column = (self.replay(32) - self.replay(16)) / 16
+        without = self.replay(16) - 16 * of_column
+        self.assertLess(self.replay(1) - without, 3 * of_column)
+
+    def test_trajectory_does_not_know(self):
+        one, ten = (profile('average', disks=self.DISKS, time=2.0, exponents=n) for n in (1, 10))
+        for file in OF_TRAJECTORY:
+            self.assertEqual(one.of_file(file), ten.of_file(file), file)
+
+
+class Loop(unittest.TestCase):
+    """After its first steps no part of a run asks for memory; libraries for linear algebra and threads do."""
+
+    def test_nothing_is_allocated(self):
+        for scene in (dict(exponents=NONE), dict(exponents=10), dict(), dict(x=1, y=1),
+                      dict(observe=EVERYTHING, look=EVERYTHING)):
+            self.assertEqual(profile('average', **scene).calls['hd_memory_alloc'], 0, scene)
+            self.assertGreater(profile('create', **scene).calls['hd_memory_alloc'], 5, scene)
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])

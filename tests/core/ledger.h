@@ -1,0 +1,14 @@
+/** Every block that the core asks for: stands before its allocation by having the same name. */
+#ifndef HD_LEDGER_H
+#define HD_LEDGER_H
+
+#include <stddef.h>
+
+typedef struct ledger {
+    size_t allocations; /**< so far */
+    size_t live, peak;  /**< bytes asked for and not given back: now, and at most so far */
+} ledger;
+
+ledger ledger_now(void);
+
+#endif
