@@ -40,6 +40,7 @@ struct hd_frame {
     double *buffer;   /**< [threads][rows * width] */
     tangent_map *map; /**< [map_capacity], of the interval being replayed */
     size_t map_capacity;
+    bool walls;    /**< some of them are of wall events */
     double *since; /**< [disks], time of each disk's last event, then its last flight */
 };
 
@@ -160,10 +161,12 @@ static size_t maps_fill(hd_frame *frame, const hd_event_log *log, double t_begin
 {
     const bool last = t_end >= log->duration;
     size_t count = 0;
+    frame->walls = false;
     for (int i = 0; i < frame->disks; i++) frame->since[i] = t_begin;
     for (size_t e = 0; e < log->count; e++) {
         if (log->event[e].t < t_begin) continue;
         if (log->event[e].t >= t_end && !last) break;
+        frame->walls |= log->event[e].j < 0;
         map_fill(&frame->map[count++], &log->event[e], frame->since);
     }
     for (int i = 0; i < frame->disks; i++) frame->since[i] = t_end - frame->since[i];
@@ -215,12 +218,12 @@ static inline __attribute__((always_inline)) void reflect(double *restrict v,
 }
 
 static inline __attribute__((always_inline)) void
-replay_width(double *buffer, const tangent_map *map, size_t count, int width)
+replay_width(double *buffer, const tangent_map *map, size_t count, bool walls, int width)
 {
     const size_t disk = 4 * (size_t)width;
     for (size_t e = 0; e < count; e++) {
         double *vi = buffer + disk * (size_t)map[e].i;
-        if (map[e].j >= 0)
+        if (!walls || map[e].j >= 0)
             collide(vi, buffer + disk * (size_t)map[e].j, &map[e], width);
         else
             reflect(vi, &map[e], width);
@@ -228,18 +231,31 @@ replay_width(double *buffer, const tangent_map *map, size_t count, int width)
 }
 
 /** The widths are spelled out so that the compiler unrolls and vectorises each. */
+static inline __attribute__((always_inline)) void
+replay_any(double *buffer, const tangent_map *map, size_t count, bool walls, int width)
+{
+    switch (width) {
+    case 1: replay_width(buffer, map, count, walls, 1); break;
+    case 2: replay_width(buffer, map, count, walls, 2); break;
+    case 4: replay_width(buffer, map, count, walls, 4); break;
+    case 8: replay_width(buffer, map, count, walls, 8); break;
+    case 16: replay_width(buffer, map, count, walls, 16); break;
+    case 32: replay_width(buffer, map, count, walls, 32); break;
+    default: replay_width(buffer, map, count, walls, BLOCK_WIDTH_MAX); break;
+    }
+}
+
 HD_MULTIVERSION
 static void replay_block(double *buffer, const tangent_map *map, size_t count, int width)
 {
-    switch (width) {
-    case 1: replay_width(buffer, map, count, 1); break;
-    case 2: replay_width(buffer, map, count, 2); break;
-    case 4: replay_width(buffer, map, count, 4); break;
-    case 8: replay_width(buffer, map, count, 8); break;
-    case 16: replay_width(buffer, map, count, 16); break;
-    case 32: replay_width(buffer, map, count, 32); break;
-    default: replay_width(buffer, map, count, BLOCK_WIDTH_MAX); break;
-    }
+    replay_any(buffer, map, count, false, width);
+}
+
+/** The same for a log that holds wall events. */
+HD_MULTIVERSION
+static void replay_block_with_walls(double *buffer, const tangent_map *map, size_t count, int width)
+{
+    replay_any(buffer, map, count, true, width);
 }
 
 /** Columns [col, col + used) of V into the buffer, or back. */
@@ -264,7 +280,10 @@ static void block_replay(const hd_frame *frame, double *buffer, size_t count, in
     const int width = frame->width, col = block * width;
     const int used = col + width <= frame->stride ? width : frame->stride - col;
     block_load(frame, buffer, col, used);
-    replay_block(buffer, frame->map, count, width);
+    if (frame->walls)
+        replay_block_with_walls(buffer, frame->map, count, width);
+    else
+        replay_block(buffer, frame->map, count, width);
     for (int i = 0; i < frame->disks; i++)
         fly(buffer + 4 * (size_t)width * (size_t)i, frame->since[i], width);
     block_store(frame, buffer, col, used);

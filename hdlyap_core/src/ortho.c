@@ -29,19 +29,19 @@ static const double PANEL_CONDITION_GOOD = 30.0;
 static const double PANEL_CONDITION_MAX = 1e7;
 
 /** PANELS of them if there are that many vectors: the last half of the flops then falls into wide products. */
-enum { PANELS = 8, PANEL_MIN = 8, PANEL_MAX = 128, PROBES = 8 };
+enum { PANELS = 8, PANEL_MIN = 8, PANEL_MAX = 160, LATER_MAX = 800, PROBES = 8 };
 
 struct hd_ortho {
     int rows, vectors;
     int width;                     /**< of a panel */
     double *gram;                  /**< [width * width], column-major, lower triangle */
-    double *projection;            /**< [vectors * width], column-major: S */
+    double *projection;            /**< [later * width], column-major: S; LAPACK's workspace */
     double *norm2;                 /**< [vectors], |V e_k|^2, of a panel complete when its turn comes */
     double *scale;                 /**< [width], diagonal of gram before it is factored */
     double *probe;                 /**< [PROBES][vectors]: R^-T D x, see condition_of */
     double *log_stretch;           /**< [vectors] */
-    double *reflector, *workspace; /**< [vectors], [lwork]: of the stable step */
-    int lwork;
+    double *reflector;             /**< [vectors], of the stable step */
+    int lwork;                     /**< of projection */
     double condition, defect;
     int passes;
 };
@@ -59,14 +59,16 @@ static int stable_workspace(int rows, int vectors)
 static hd_status ortho_allocate(hd_ortho *ortho)
 {
     const size_t n = (size_t)ortho->vectors, width = (size_t)ortho->width;
-    ortho->lwork = stable_workspace(ortho->rows, ortho->vectors);
+    const int wanted_by_lapack = stable_workspace(ortho->rows, ortho->vectors);
+    ortho->lwork = (ortho->vectors < LATER_MAX ? ortho->vectors : LATER_MAX) * ortho->width;
+    if (ortho->lwork < wanted_by_lapack) ortho->lwork = wanted_by_lapack;
     const struct {
         double **array;
         size_t size;
-    } wanted[] = {{&ortho->gram, width * width},     {&ortho->projection, n * width},
+    } wanted[] = {{&ortho->gram, width * width},     {&ortho->projection, (size_t)ortho->lwork},
                   {&ortho->norm2, n},                {&ortho->scale, width},
                   {&ortho->probe, n * PROBES},       {&ortho->log_stretch, n},
-                  {&ortho->reflector, n},            {&ortho->workspace, (size_t)ortho->lwork}};
+                  {&ortho->reflector, n}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
         if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
             return HD_NO_MEMORY;
@@ -107,7 +109,6 @@ void hd_ortho_free(hd_ortho *ortho)
     hd_memory_free(ortho->probe);
     hd_memory_free(ortho->log_stretch);
     hd_memory_free(ortho->reflector);
-    hd_memory_free(ortho->workspace);
     hd_memory_free(ortho);
 }
 
@@ -218,23 +219,29 @@ static hd_status panel_orthonormalise(hd_ortho *ortho, panel x)
     return HD_OK;
 }
 
-/** Takes the panel out of all later vectors, and out of the probes. */
-static void panel_project_out(hd_ortho *ortho, panel x)
+/** Takes the panel out of `count` later vectors from `next` on, and out of their probes. */
+static void panel_project(hd_ortho *ortho, panel x, int next, int count)
 {
-    const int next = x.first + x.width, rest = ortho->vectors - next;
-    double *later = x.a + x.width, *s = ortho->projection;
-    if (rest == 0) return;
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, rest, x.width, ortho->rows, 1.0, later,
-                x.lda, x.a, x.lda, 0.0, s, rest);
+    double *later = x.a + (next - x.first), *s = ortho->projection;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, count, x.width, ortho->rows, 1.0, later,
+                x.lda, x.a, x.lda, 0.0, s, count);
     for (int col = 0; col < x.width; col++)
-        for (int row = 0; row < rest; row++) {
-            const double entry = s[(size_t)col * (size_t)rest + (size_t)row];
+        for (int row = 0; row < count; row++) {
+            const double entry = s[(size_t)col * (size_t)count + (size_t)row];
             ortho->norm2[next + row] += entry * entry;
         }
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rest, PROBES, x.width, -1.0, s, rest,
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, PROBES, x.width, -1.0, s, count,
                 ortho->probe + x.first, ortho->vectors, 1.0, ortho->probe + next, ortho->vectors);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rest, ortho->rows, x.width, -1.0, s,
-                rest, x.a, x.lda, 1.0, later, x.lda);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, ortho->rows, x.width, -1.0, s,
+                count, x.a, x.lda, 1.0, later, x.lda);
+}
+
+static void panel_project_out(hd_ortho *ortho, panel x)
+{
+    for (int next = x.first + x.width; next < ortho->vectors; next += LATER_MAX) {
+        const int left = ortho->vectors - next;
+        panel_project(ortho, x, next, left < LATER_MAX ? left : LATER_MAX);
+    }
 }
 
 /* ---- a step ----------------------------------------------------------------------------------- */
@@ -317,14 +324,14 @@ hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame, double conditio
     double *a = hd_frame_data(frame), *sign = ortho->norm2;
     step_start(ortho, frame);
     if (LAPACKE_dgelqf_work(LAPACK_COL_MAJOR, n, ortho->rows, a, stride, ortho->reflector,
-                            ortho->workspace, ortho->lwork) != 0)
+                            ortho->projection, ortho->lwork) != 0)
         return HD_ILL_CONDITIONED;
     examine_lq(ortho, a, stride);
     if (!(ortho->condition <= condition_max)) return HD_ILL_CONDITIONED;
     for (int col = 0; col < n; col++)
         sign[col] = a[(size_t)col * (size_t)(stride + 1)] < 0 ? -1.0 : 1.0;
     if (LAPACKE_dorglq_work(LAPACK_COL_MAJOR, n, ortho->rows, n, a, stride, ortho->reflector,
-                            ortho->workspace, ortho->lwork) != 0)
+                            ortho->projection, ortho->lwork) != 0)
         return HD_ILL_CONDITIONED;
     apply_signs(ortho, a, stride, sign);
     ortho->passes = 1;
@@ -337,17 +344,17 @@ double hd_ortho_condition(const hd_ortho *ortho) { return ortho->condition; }
 double hd_ortho_defect(const hd_ortho *ortho) { return ortho->defect; }
 int hd_ortho_passes(const hd_ortho *ortho) { return ortho->passes; }
 
-/** Largest |entry| of the unit matrix subtracted from `width` columns of Q^T Q, from the diagonal down. */
-static double panel_defect(hd_ortho *ortho, const double *a, int lda, int rest, int width)
+/** max(worst, |x^T y - diagonal|) over all pairs of columns x of the panel and y from `next` on; NaN stays. */
+static double panel_defect(hd_ortho *ortho, panel x, int next, int count, double worst)
 {
-    double worst = 0.0, *s = ortho->projection;
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, rest, width, ortho->rows, 1.0, a, lda, a, lda,
-                0.0, s, rest);
-    for (int col = 0; col < width; col++)
-        for (int row = 0; row < rest; row++) {
-            const double off = fabs(s[(size_t)col * (size_t)rest + (size_t)row] - (row == col));
-            if (!(off <= worst)) worst = off; /* NaN stays */
-            if (isnan(worst)) return worst;
+    double *s = ortho->projection;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, count, x.width, ortho->rows, 1.0,
+                x.a + (next - x.first), x.lda, x.a, x.lda, 0.0, s, count);
+    for (int col = 0; col < x.width; col++)
+        for (int row = 0; row < count; row++) {
+            const bool same = x.first + col == next + row;
+            const double off = fabs(s[(size_t)col * (size_t)count + (size_t)row] - same);
+            if (!(off <= worst)) worst = off;
         }
     return worst;
 }
@@ -355,11 +362,12 @@ static double panel_defect(hd_ortho *ortho, const double *a, int lda, int rest, 
 double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame)
 {
     double worst = 0.0;
-    for (int first = 0; first < ortho->vectors && !isnan(worst); first += ortho->width) {
-        const int rest = ortho->vectors - first;
-        const double off = panel_defect(ortho, hd_frame_data(frame) + first, hd_frame_stride(frame),
-                                        rest, rest < ortho->width ? rest : ortho->width);
-        if (!(off <= worst)) worst = off;
-    }
+    for (int first = 0; first < ortho->vectors; first += ortho->width)
+        for (int next = first; next < ortho->vectors; next += LATER_MAX) {
+            const int rest = ortho->vectors - first, left = ortho->vectors - next;
+            const panel x = {hd_frame_data(frame) + first, hd_frame_stride(frame), first,
+                             rest < ortho->width ? rest : ortho->width};
+            worst = panel_defect(ortho, x, next, left < LATER_MAX ? left : LATER_MAX, worst);
+        }
     return worst;
 }

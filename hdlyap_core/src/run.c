@@ -330,7 +330,7 @@ static hd_status observe(hd_run *run, bool report)
 static void sample_spectrum(hd_run *run)
 {
     hd_spectrum_sample(run->spectrum);
-    if (run->steps) hd_steps_sample(run->steps, run->spectrum, run->schedule.sample_length);
+    if (run->observe) hd_steps_sample(run->steps, run->spectrum, run->schedule.sample_length);
 }
 
 /** True where somebody wants all of the vectors of this very time. */
@@ -425,8 +425,8 @@ hd_status hd_run_step(hd_run *run)
 {
     run->report_due = false;
     if (run->schedule.phase == HD_FINISHED) return HD_OK;
-    if (run->frame) hd_blas_use_threads(run->threads); /* with OpenMP: of the calling thread */
     const bool with_frame = run->frame && run->schedule.phase != HD_EQUILIBRATING;
+    if (with_frame) hd_blas_use_threads(run->threads); /* with OpenMP: of the calling thread */
     const double cut = hd_schedule_cut(&run->schedule);
     if (with_frame && run->now >= run->interval_end) plan_interval(run);
     const double stop = with_frame ? fmin(cut, run->interval_end) : cut, left = stop - run->now;
@@ -447,6 +447,7 @@ void hd_run_observe(hd_run *run, unsigned stages)
 hd_status hd_run_reset_average(hd_run *run)
 {
     if (run->schedule.phase != HD_AVERAGING) return HD_OK;
+    if (run->frame) hd_blas_use_threads(run->threads);
     if (run->frame && run->now < run->interval_end) HD_TRY(frame_interval(run));
     enter_phase(run, HD_AVERAGING);
     return HD_OK;

@@ -3,8 +3,7 @@ foreach(name trajectory_twin trajectory_ties)
   target_sources(test_${name} PRIVATE twin.c twin_compare.c)
 endforeach()
 target_sources(test_golden PRIVATE golden.c)
-option(HDLYAP_STARTUP_TEST "Hold the memory of the paper's scene to 1.4 (8 m n + 8 n^2) bytes" OFF) # not yet met
-if(HDLYAP_STARTUP_TEST)
+if(NOT HDLYAP_SANITIZE)
   hdlyap_core_test(startup)
 endif()
 foreach(name effects startup) # what they see of the core's memory

@@ -12,6 +12,8 @@
 #include "hdlyap/hdlyap.h"
 
 static const double MOST = 1.4;
+/** OpenBLAS's packing buffers, and allocations rounded up to huge pages; seen: 11 MB. */
+static const double LIBRARY = 16e6;
 
 /** Bytes at the peak: asked for by the core, and resident, with libraries and all that they take. */
 typedef struct peak {
@@ -69,7 +71,7 @@ static void of_the_positive_half(void **state)
                   1e-6 * unit, asked, resident);
     assert_true(asked > 1.0 && resident > 1.0); /* both see the frame */
     assert_true(asked <= MOST);
-    assert_true(resident <= MOST);
+    assert_true(resident <= MOST + LIBRARY / unit);
 }
 
 int main(int argc, char **argv)
