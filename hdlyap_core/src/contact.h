@@ -4,6 +4,7 @@
 #define HD_CONTACT_H
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "disk.h"
@@ -26,34 +27,41 @@ static inline hd_pair hd_contact_separation(const hd_disk *a, const hd_disk *b, 
            (hd_pair_load(a->q) + hd_pair_load(a->p) * (t - a->t)) + shift;
 }
 
-/** r x p */
-static inline double hd_contact_cross(hd_pair r, hd_pair p)
-{
-    const hd_pair x = r * (hd_pair){p[1], p[0]};
-    return x[0] - x[1];
-}
-
 static inline double hd_contact_dot(hd_pair r, hd_pair p)
 {
     const hd_pair x = r * p;
     return x[0] + x[1];
 }
 
-/** True if two disks that are r apart, with the relative momentum p, approach and will touch. */
-static inline int hd_contact_ahead(hd_pair r, hd_pair p)
-{
-    const double x = hd_contact_cross(r, p);
-    return (hd_contact_dot(r, p) < 0) & (hd_contact_dot(p, p) - x * x > 0);
-}
+/* ---- several contacts side by side ------------------------------------------------------------ */
 
-/** Wait until |r + p t| = 1 of disks with a contact ahead. With x = r x p and c = r^2 - 1 it is
- *  c / (sqrt(p^2 - x^2) - r.p): no difference of large numbers; two disks that touch within rounding
- *  while approaching meet at once. */
-static inline double hd_contact_wait(hd_pair r, hd_pair p)
+/** One AVX register, or two of SSE2. They are handed over by address: how they would be handed over by
+ *  value depends on the processor. */
+enum { HD_LANES = 4 };
+typedef double hd_lanes __attribute__((vector_size(8 * HD_LANES)));
+typedef int64_t hd_lanes_mask __attribute__((vector_size(8 * HD_LANES)));
+typedef int32_t hd_lanes_int __attribute__((vector_size(4 * HD_LANES)));
+
+#define HD_LANES_ALL(x) ((hd_lanes){(x), (x), (x), (x)})
+
+/** Lane by lane: mask ? yes : no. */
+#define HD_LANES_WHERE(mask, yes, no)                                                              \
+    ((hd_lanes)(((mask) & (hd_lanes_mask)(yes)) | (~(mask) & (hd_lanes_mask)(no))))
+
+/** When disks that are r = (x, y) apart at time t, with the relative momentum p, meet; NaN if never.
+ *  Contact is ahead if they approach (r.p < 0) and do not pass each other (p^2 - z^2 > 0 with
+ *  z = r x p). The wait until |r + p t| = 1 is, with c = r^2 - 1, c / (sqrt(p^2 - z^2) - r.p): no
+ *  difference of large numbers; two disks that touch within rounding while approaching meet at once. */
+static inline void hd_contact_times(hd_lanes *contact, const hd_lanes *x, const hd_lanes *y,
+                                    const hd_lanes *px, const hd_lanes *py, const hd_lanes *t)
 {
-    const double x = hd_contact_cross(r, p);
-    const double c = hd_contact_dot(r, r) - 1.0;
-    return c > 0 ? c / (sqrt(hd_contact_dot(p, p) - x * x) - hd_contact_dot(r, p)) : 0.0;
+    const hd_lanes z = *x * *py - *y * *px, rp = *x * *px + *y * *py;
+    const hd_lanes square = *px * *px + *py * *py - z * z, c = *x * *x + *y * *y - 1.0;
+    hd_lanes root;
+    for (int k = 0; k < HD_LANES; k++) root[k] = sqrt(square[k]);
+    const hd_lanes wait = (hd_lanes)((c > 0) & (hd_lanes_mask)(c / (root - rp)));
+    const hd_lanes_mask ahead = (rp < 0) & (square > 0);
+    *contact = (hd_lanes)((hd_lanes_mask)(*t + wait) | ~ahead);
 }
 
 #endif

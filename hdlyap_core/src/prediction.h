@@ -15,8 +15,7 @@ typedef struct prediction {
     int32_t partner;
     uint32_t partner_collisions; /**< when it was predicted */
     int32_t image[2];            /**< box edges to add to the partner's position */
-    double edge;                 /**< time at the next cell edge or wall */
-    int32_t direction, side;     /**< of that edge */
+    int32_t direction, side;     /**< of the next cell edge or wall */
 } prediction;
 
 struct hd_trajectory {

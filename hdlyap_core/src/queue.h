@@ -11,10 +11,16 @@
 /** Total order of events: by time, then kind, then the disks. */
 typedef struct hd_queue_key {
     double t;
-    int32_t kind, i, j;
+    uint64_t order; /**< hd_queue_order */
 } hd_queue_key;
 
-/** One disk's event and where it waits. */
+/** Kind (< 4), i (>= 0) and j (>= -2) as one number that sorts like the three. */
+static inline uint64_t hd_queue_order(int32_t kind, int32_t i, int32_t j)
+{
+    return (uint64_t)kind << 62 | (uint64_t)i << 31 | (uint64_t)(j + 2);
+}
+
+/** One disk's event and where it waits; half a cache line. */
 typedef struct hd_queue_entry {
     hd_queue_key key;
     int32_t place;        /**< bucket, or HD_QUEUE_HEAP, HD_QUEUE_NOWHERE */
@@ -27,7 +33,8 @@ typedef struct hd_queue {
     double per_time; /**< buckets per time unit */
     int32_t buckets, now;
     int32_t *first;        /**< [buckets], first disk in a later bucket or -1 */
-    hd_queue_entry *entry; /**< [disks] */
+    hd_queue_entry *entry; /**< [disks]; entry[-1] may be written, and means nothing */
+    hd_queue_entry *block; /**< where `entry` lies */
     int32_t *heap;         /**< [heap_count] of at most `disks`: the present bucket */
     int32_t heap_count, disks;
 } hd_queue;
