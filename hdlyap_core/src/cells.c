@@ -61,10 +61,14 @@ enum { LAST = HD_CELL_DISKS - 1 };
 
 static void cell_add(hd_cells *cells, hd_cell *cell, int32_t i)
 {
-    cell->crowded = cell->count == HD_CELL_DISKS;
-    cells->next[i] = cell->crowded ? cell->disk[LAST] : -1;
-    cell->count = (int16_t)(cell->count + !cell->crowded);
-    cell->disk[cell->count - 1] = i;
+    if (cell->count < HD_CELL_DISKS) {
+        cell->disk[cell->count++] = i;
+        return;
+    }
+    if (!cell->crowded) cells->next[cell->disk[LAST]] = -1;
+    cells->next[i] = cell->disk[LAST];
+    cell->disk[LAST] = i;
+    cell->crowded = 1;
 }
 
 /** Takes disk i out of its cell; another one may move to its place. */

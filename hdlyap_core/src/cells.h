@@ -9,9 +9,10 @@
 
 /** Where the cells next to a column (or row) lie; both ends of a line, both directions. */
 typedef struct hd_cell_line {
-    double bound[2];  /**< low and high end of the disks' centres; a wall's position where there is one */
+    double bound
+        [2]; /**< low and high end of the disks' centres; a wall's position where there is one */
     int32_t near[3];  /**< columns to the left, here, to the right; hd_cells.size beyond a wall */
-    int32_t shift[3]; /**< box edges to add to the positions there (-1, 0, 1) */
+    int32_t shift[4]; /**< box edges to add to the positions there (-1, 0, 1); the last is spare */
 } hd_cell_line;
 
 enum { HD_CELL_DISKS = 3 };
@@ -28,8 +29,8 @@ typedef struct hd_cells {
     hd_boundary boundary[2];
     int32_t size[2];       /**< columns, rows */
     hd_cell_line *line[2]; /**< [size[d]] */
-    hd_cell *cell;         /**< [(size[0] + 1) * (size[1] + 1)]; the last column and row stay empty */
-    int32_t *next;         /**< [disks], links of the crowded cells' lists; -1 at their ends */
+    hd_cell *cell; /**< [(size[0] + 1) * (size[1] + 1)]; the last column and row stay empty */
+    int32_t *next; /**< [disks], links of the crowded cells' lists; -1 at their ends */
 } hd_cells;
 
 HD_MUST_CHECK hd_status hd_cells_create(hd_cells *cells, const hd_scene_def *def);

@@ -38,8 +38,4 @@ void hd_prediction_renew(hd_trajectory *tr, int32_t i);
  *  to that side. What was predicted before stays. */
 void hd_prediction_extend(hd_trajectory *tr, int32_t i, int d, int side);
 
-/** Fetches what the events of the next buckets will touch: where the state does not fit into the cache,
- *  memory is waited for once and not at every step. Changes no result. */
-void hd_prediction_look_ahead(hd_trajectory *tr);
-
 #endif

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "fetch.h"
 #include "lattice.h"
 #include "memory.h"
 #include "prediction.h"
@@ -113,7 +114,7 @@ static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *c
     b->collisions++;
     fold(tr, a);
     fold(tr, b);
-    hd_prediction_renew(tr, found_by);
+    hd_prediction_renew(tr, found_by); /* the head of the queue first: foreseeable */
     hd_prediction_renew(tr, event.i + event.j - found_by);
     return status;
 }
@@ -151,8 +152,9 @@ static hd_status take_event(hd_trajectory *tr, hd_event_log *log, int32_t i, dou
 {
     const hd_queue_key key = tr->queue.entry[i].key;
     hd_event event = {.t = key.t > log_start ? key.t - log_start : 0.0,
-                      .i = (int32_t)(key.order >> 31 & 0x7fffffff), .j = (int32_t)(key.order & 0x7fffffff) - 2};
-    switch (key.order >> 62) {
+                      .i = hd_queue_i(key.order),
+                      .j = hd_queue_j(key.order)};
+    switch (hd_queue_kind(key.order)) {
     case WALL: return reflect(tr, log, &event, key.t);
     case EDGE: cross(tr, i); return HD_OK;
     default: break;
@@ -189,7 +191,7 @@ hd_status hd_trajectory_advance(hd_trajectory *tr, hd_event_log *log, double t_e
     for (;;) {
         const double end = t_end - tr->epoch_start;
         const int32_t bucket = tr->queue.now, i = hd_queue_next(&tr->queue);
-        if (tr->queue.now != bucket) hd_prediction_look_ahead(tr);
+        if (tr->queue.now != bucket) hd_fetch_ahead(tr, bucket);
         if (i >= 0 && tr->queue.entry[i].key.t < end &&
             tr->queue.entry[i].key.t < tr->epoch_length) {
             HD_TRY(take_event(tr, log, i, t_begin - tr->epoch_start));
@@ -352,7 +354,8 @@ double hd_trajectory_kinetic_energy(const hd_trajectory *tr)
 }
 
 /** Distance squared from disk i to disk j, `edges` of the box further, now; to itself infinite. */
-static double distance_squared(const hd_trajectory *tr, int32_t i, int32_t j, const int32_t edges[2])
+static double distance_squared(const hd_trajectory *tr, int32_t i, int32_t j,
+                               const int32_t edges[2])
 {
     const hd_disk *a = &tr->disk[i], *b = &tr->disk[j];
     const hd_pair shift = {(edges[0] + a->wrap[0] - b->wrap[0]) * tr->cells.box[0],

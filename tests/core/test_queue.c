@@ -120,6 +120,21 @@ static void ties_by_kind_then_disks(void **state)
         }
 }
 
+static void order_is_read_back(void **state)
+{
+    (void)state;
+    const int32_t number[] = {0, 1, 77, INT32_MAX - 2};
+    for (int32_t kind = 0; kind < 4; kind++)
+        for (int a = 0; a < 4; a++)
+            for (int b = -2; b < 4; b++) {
+                const int32_t j = b < 0 ? b : number[b];
+                const uint64_t order = hd_queue_order(kind, number[a], j);
+                assert_int_equal(hd_queue_kind(order), kind);
+                assert_int_equal(hd_queue_i(order), number[a]);
+                assert_int_equal(hd_queue_j(order), j);
+            }
+}
+
 static void beyond_the_horizon_is_forgotten(void **state)
 {
     (void)state;
@@ -187,6 +202,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_puts_like_a_sorted_list), cmocka_unit_test(ties_by_kind_then_disks),
+        cmocka_unit_test(order_is_read_back),
         cmocka_unit_test(beyond_the_horizon_is_forgotten), cmocka_unit_test(last_moment_is_kept),
         cmocka_unit_test(next_does_not_consume),          cmocka_unit_test(restart_forgets_everything),
     };

@@ -27,6 +27,7 @@ foreach(name IN ITEMS
     golden
     queue
     cells
+    nearby
     lattice
     scene
     random
