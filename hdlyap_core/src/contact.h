@@ -4,18 +4,28 @@
 #define HD_CONTACT_H
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "disk.h"
 
-/** Two components side by side: half the instructions, the same bits (no contraction, no reordering). */
+/** Two numbers side by side: half the instructions, the same bits (no contraction, no reordering). */
 typedef double hd_pair __attribute__((vector_size(16)));
+typedef int64_t hd_pair_mask __attribute__((vector_size(16)));
 
 static inline hd_pair hd_pair_load(const double *x)
 {
     hd_pair pair;
     memcpy(&pair, x, sizeof pair);
     return pair;
+}
+
+static inline hd_pair hd_pair_both(double x) { return (hd_pair){x, x}; }
+
+/** In each place: mask ? yes : no. */
+static inline hd_pair hd_pair_where(hd_pair_mask mask, hd_pair yes, hd_pair no)
+{
+    return (hd_pair)((mask & (hd_pair_mask)yes) | (~mask & (hd_pair_mask)no));
 }
 
 /** From disk a to the image of disk b that is `shift` away, both moved to time t. */
@@ -26,34 +36,44 @@ static inline hd_pair hd_contact_separation(const hd_disk *a, const hd_disk *b, 
            (hd_pair_load(a->q) + hd_pair_load(a->p) * (t - a->t)) + shift;
 }
 
-/** r x p */
-static inline double hd_contact_cross(hd_pair r, hd_pair p)
-{
-    const hd_pair x = r * (hd_pair){p[1], p[0]};
-    return x[0] - x[1];
-}
-
 static inline double hd_contact_dot(hd_pair r, hd_pair p)
 {
     const hd_pair x = r * p;
     return x[0] + x[1];
 }
 
-/** True if two disks that are r apart, with the relative momentum p, approach and will touch. */
-static inline int hd_contact_ahead(hd_pair r, hd_pair p)
+/** Two disks side by side. */
+typedef struct hd_two_disks {
+    hd_pair x, y, px, py, t;
+} hd_two_disks;
+
+static inline hd_two_disks hd_two_disks_of(const hd_disk *a, const hd_disk *b)
 {
-    const double x = hd_contact_cross(r, p);
-    return (hd_contact_dot(r, p) < 0) & (hd_contact_dot(p, p) - x * x > 0);
+    return (hd_two_disks){{a->q[0], b->q[0]},
+                          {a->q[1], b->q[1]},
+                          {a->p[0], b->p[0]},
+                          {a->p[1], b->p[1]},
+                          {a->t, b->t}};
 }
 
-/** Wait until |r + p t| = 1 of disks with a contact ahead. With x = r x p and c = r^2 - 1 it is
- *  c / (sqrt(p^2 - x^2) - r.p): no difference of large numbers; two disks that touch within rounding
- *  while approaching meet at once. */
-static inline double hd_contact_wait(hd_pair r, hd_pair p)
+/** When two disks a meet two disks b whose images are (shift_x, shift_y) away; NaN if never. A contact
+ *  is ahead if they approach (r.p < 0) and do not pass each other (p^2 - z^2 > 0 with z = r x p). The
+ *  wait until |r + p t| = 1 is, with c = r^2 - 1, c / (sqrt(p^2 - z^2) - r.p): no difference of large
+ *  numbers; two disks that touch within rounding while approaching meet at once. Without branches: one
+ *  that the processor cannot foresee costs more than a root and a quotient in vain. */
+static inline hd_pair hd_contact_times(const hd_two_disks *a, const hd_two_disks *b,
+                                       hd_pair shift_x, hd_pair shift_y)
 {
-    const double x = hd_contact_cross(r, p);
-    const double c = hd_contact_dot(r, r) - 1.0;
-    return c > 0 ? c / (sqrt(hd_contact_dot(p, p) - x * x) - hd_contact_dot(r, p)) : 0.0;
+    const hd_pair t = hd_pair_where(a->t > b->t, a->t, b->t), wait_a = t - a->t, wait_b = t - b->t;
+    const hd_pair px = b->px - a->px, py = b->py - a->py;
+    const hd_pair rx = b->x + b->px * wait_b - (a->x + a->px * wait_a) + shift_x;
+    const hd_pair ry = b->y + b->py * wait_b - (a->y + a->py * wait_a) + shift_y;
+    const hd_pair z = rx * py - ry * px, rp = rx * px + ry * py;
+    const hd_pair square = px * px + py * py - z * z, c = rx * rx + ry * ry - 1.0;
+    const hd_pair root = {sqrt(square[0]), sqrt(square[1])};
+    const hd_pair wait = (hd_pair)((c > 0) & (hd_pair_mask)(c / (root - rp)));
+    const hd_pair_mask ahead = (rp < 0) & (square > 0);
+    return (hd_pair)((hd_pair_mask)(t + wait) | ~ahead);
 }
 
 #endif

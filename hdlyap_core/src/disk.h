@@ -13,7 +13,6 @@ typedef struct hd_disk {
     int32_t wrap[2];     /**< box edges to subtract from its present position to be in its cell */
     int32_t cell[2];     /**< column, row */
     uint32_t collisions; /**< changes whenever q, p, t do; tells stale predictions */
-    int32_t next;        /**< in the cell's list, -1 at its end */
 } hd_disk;
 
 #endif

@@ -15,8 +15,7 @@ typedef struct prediction {
     int32_t partner;
     uint32_t partner_collisions; /**< when it was predicted */
     int32_t image[2];            /**< box edges to add to the partner's position */
-    double edge;                 /**< time at the next cell edge or wall */
-    int32_t direction, side;     /**< of that edge */
+    int32_t direction, side;     /**< of the next cell edge or wall */
 } prediction;
 
 struct hd_trajectory {
@@ -38,9 +37,5 @@ void hd_prediction_renew(hd_trajectory *tr, int32_t i);
 /** The same for what has newly come into reach: disk i has crossed the edge of its cell in direction d
  *  to that side. What was predicted before stays. */
 void hd_prediction_extend(hd_trajectory *tr, int32_t i, int d, int side);
-
-/** Fetches what the events of the next buckets will touch: where the state does not fit into the cache,
- *  memory is waited for once and not at every step. Changes no result. */
-void hd_prediction_look_ahead(hd_trajectory *tr);
 
 #endif

@@ -6,7 +6,12 @@
 #include "check.h"
 #include "memory.h"
 
-enum { BUCKETS_PER_DISK = 2 };
+/** Less than about one event in a bucket: the heap has next to nothing to sort. */
+enum { BUCKETS_PER_DISK = 16 };
+
+/** Entry -1 stands for no neighbour and is written to without asking; two, so that the others stay in
+ *  their halves of a cache line. */
+enum { NOBODY = 2 };
 
 hd_status hd_queue_create(hd_queue *queue, int32_t disks, double horizon)
 {
@@ -14,9 +19,10 @@ hd_status hd_queue_create(hd_queue *queue, int32_t disks, double horizon)
     *queue = (hd_queue){.disks = disks, .buckets = BUCKETS_PER_DISK * disks};
     queue->per_time = queue->buckets / horizon;
     queue->first = hd_memory_alloc((size_t)queue->buckets, sizeof *queue->first);
-    queue->entry = hd_memory_alloc(n, sizeof *queue->entry);
+    queue->block = hd_memory_alloc(n + NOBODY, sizeof *queue->block);
     queue->heap = hd_memory_alloc(n, sizeof *queue->heap);
-    if (!queue->first || !queue->entry || !queue->heap) return HD_NO_MEMORY;
+    if (!queue->first || !queue->block || !queue->heap) return HD_NO_MEMORY;
+    queue->entry = queue->block + NOBODY;
     hd_queue_restart(queue);
     return HD_OK;
 }
@@ -24,7 +30,7 @@ hd_status hd_queue_create(hd_queue *queue, int32_t disks, double horizon)
 void hd_queue_clear(hd_queue *queue)
 {
     hd_memory_free(queue->first);
-    hd_memory_free(queue->entry);
+    hd_memory_free(queue->block);
     hd_memory_free(queue->heap);
     *queue = (hd_queue){0};
 }
@@ -39,10 +45,7 @@ void hd_queue_restart(hd_queue *queue)
 
 static bool earlier(const hd_queue_key *a, const hd_queue_key *b)
 {
-    if (a->t != b->t) return a->t < b->t;
-    if (a->kind != b->kind) return a->kind < b->kind;
-    if (a->i != b->i) return a->i < b->i;
-    return a->j < b->j;
+    return a->t < b->t || (a->t == b->t && a->order < b->order);
 }
 
 static void heap_set(hd_queue *queue, int32_t position, int32_t disk)
@@ -99,18 +102,16 @@ static void bucket_add(hd_queue *queue, int32_t bucket, int32_t disk)
     queue->entry[disk].place = bucket;
     queue->entry[disk].next = old;
     queue->entry[disk].before = -1;
-    if (old >= 0) queue->entry[old].before = disk;
+    queue->entry[old].before = disk;
     queue->first[bucket] = disk;
 }
 
 static void bucket_remove(hd_queue *queue, int32_t disk)
 {
     const int32_t before = queue->entry[disk].before, after = queue->entry[disk].next;
-    if (before >= 0)
-        queue->entry[before].next = after;
-    else
-        queue->first[queue->entry[disk].place] = after;
-    if (after >= 0) queue->entry[after].before = before;
+    int32_t *const link[2] = {&queue->first[queue->entry[disk].place], &queue->entry[before].next};
+    *link[before >= 0] = after;
+    queue->entry[after].before = before;
 }
 
 /** Bucket of a time; `buckets` from the horizon on. */

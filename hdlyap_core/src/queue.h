@@ -11,10 +11,20 @@
 /** Total order of events: by time, then kind, then the disks. */
 typedef struct hd_queue_key {
     double t;
-    int32_t kind, i, j;
+    uint64_t order; /**< hd_queue_order */
 } hd_queue_key;
 
-/** One disk's event and where it waits. */
+/** Kind (< 4), i (>= 0) and j (>= -2) as one number that sorts like the three. */
+static inline uint64_t hd_queue_order(int32_t kind, int32_t i, int32_t j)
+{
+    return (uint64_t)kind << 62 | (uint64_t)i << 31 | (uint64_t)(j + 2);
+}
+
+static inline int32_t hd_queue_kind(uint64_t order) { return (int32_t)(order >> 62); }
+static inline int32_t hd_queue_i(uint64_t order) { return (int32_t)(order >> 31 & INT32_MAX); }
+static inline int32_t hd_queue_j(uint64_t order) { return (int32_t)(order & INT32_MAX) - 2; }
+
+/** One disk's event and where it waits; half a cache line. */
 typedef struct hd_queue_entry {
     hd_queue_key key;
     int32_t place;        /**< bucket, or HD_QUEUE_HEAP, HD_QUEUE_NOWHERE */
@@ -27,7 +37,8 @@ typedef struct hd_queue {
     double per_time; /**< buckets per time unit */
     int32_t buckets, now;
     int32_t *first;        /**< [buckets], first disk in a later bucket or -1 */
-    hd_queue_entry *entry; /**< [disks] */
+    hd_queue_entry *entry; /**< [disks]; entry[-1] may be written, and means nothing */
+    hd_queue_entry *block; /**< where `entry` lies */
     int32_t *heap;         /**< [heap_count] of at most `disks`: the present bucket */
     int32_t heap_count, disks;
 } hd_queue;
@@ -45,10 +56,9 @@ void hd_queue_put(hd_queue *queue, int32_t disk, hd_queue_key key);
 /** Disk with the next event, or -1 if none is left before the horizon. */
 int32_t hd_queue_next(hd_queue *queue);
 
-/** First disk of the bucket that comes `ahead` (>= 1) after the present one, or -1; then entry[].next. */
-static inline int32_t hd_queue_coming(const hd_queue *queue, int32_t ahead)
+/** First disk of a later bucket than the present one, or -1; then entry[].next. */
+static inline int32_t hd_queue_bucket(const hd_queue *queue, int32_t bucket)
 {
-    const int32_t bucket = queue->now + ahead;
     return bucket < queue->buckets ? queue->first[bucket] : -1;
 }
 

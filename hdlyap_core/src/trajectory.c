@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "fetch.h"
 #include "lattice.h"
 #include "memory.h"
 #include "prediction.h"
@@ -83,7 +84,7 @@ static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *c
     hd_event event = *contact;
     hd_disk *a = &tr->disk[event.i], *b = &tr->disk[event.j];
     const prediction *how = &tr->predicted[found_by];
-    const double sign = found_by == event.i ? 1.0 : -1.0; /* the image is seen from the finder */
+    const double sign = 1.0 - 2.0 * (found_by != event.i); /* the image is seen from the finder */
     const hd_pair shift = {sign * how->image[0] * tr->cells.box[0],
                            sign * how->image[1] * tr->cells.box[1]};
     move_to(a, t);
@@ -113,8 +114,8 @@ static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *c
     b->collisions++;
     fold(tr, a);
     fold(tr, b);
-    hd_prediction_renew(tr, event.i);
-    hd_prediction_renew(tr, event.j);
+    hd_prediction_renew(tr, found_by); /* the head of the queue first: foreseeable */
+    hd_prediction_renew(tr, event.i + event.j - found_by);
     return status;
 }
 
@@ -126,7 +127,7 @@ static hd_status reflect(hd_trajectory *tr, hd_event_log *log, hd_event *event, 
     const int d = how->direction;
     const hd_cell_line *line = &tr->cells.line[d][disk->cell[d]];
     move_to(disk, t);
-    disk->q[d] = how->side == HIGH ? line->high : line->low; /* there within rounding: no drift */
+    disk->q[d] = line->bound[how->side == HIGH]; /* there within rounding: no drift */
     event->n[d] = 1.0;
     event->p[0] = disk->p[0];
     event->p[1] = disk->p[1];
@@ -150,8 +151,10 @@ static void cross(hd_trajectory *tr, int32_t i)
 static hd_status take_event(hd_trajectory *tr, hd_event_log *log, int32_t i, double log_start)
 {
     const hd_queue_key key = tr->queue.entry[i].key;
-    hd_event event = {.t = key.t > log_start ? key.t - log_start : 0.0, .i = key.i, .j = key.j};
-    switch (key.kind) {
+    hd_event event = {.t = key.t > log_start ? key.t - log_start : 0.0,
+                      .i = hd_queue_i(key.order),
+                      .j = hd_queue_j(key.order)};
+    switch (hd_queue_kind(key.order)) {
     case WALL: return reflect(tr, log, &event, key.t);
     case EDGE: cross(tr, i); return HD_OK;
     default: break;
@@ -194,7 +197,7 @@ hd_status hd_trajectory_extend(hd_trajectory *tr, hd_event_log *log, double t_en
     for (;;) {
         const double end = t_end - tr->epoch_start;
         const int32_t bucket = tr->queue.now, i = hd_queue_next(&tr->queue);
-        if (tr->queue.now != bucket) hd_prediction_look_ahead(tr);
+        if (tr->queue.now != bucket) hd_fetch_ahead(tr, bucket);
         if (i >= 0 && tr->queue.entry[i].key.t < end &&
             tr->queue.entry[i].key.t < tr->epoch_length) {
             HD_TRY(take_event(tr, log, i, t_begin - tr->epoch_start));
@@ -356,23 +359,32 @@ double hd_trajectory_kinetic_energy(const hd_trajectory *tr)
     return 0.5 * twice;
 }
 
+/** Distance squared from disk i to disk j, `edges` of the box further, now; to itself infinite. */
+static double distance_squared(const hd_trajectory *tr, int32_t i, int32_t j,
+                               const int32_t edges[2])
+{
+    const hd_disk *a = &tr->disk[i], *b = &tr->disk[j];
+    const hd_pair shift = {(edges[0] + a->wrap[0] - b->wrap[0]) * tr->cells.box[0],
+                           (edges[1] + a->wrap[1] - b->wrap[1]) * tr->cells.box[1]};
+    const hd_pair r = hd_contact_separation(a, b, shift, tr->now - tr->epoch_start);
+    return i == j ? INFINITY : hd_contact_dot(r, r);
+}
+
 /** Least distance squared from disk i to the disks of one neighbouring cell, now. */
 static double nearest_in_cell(const hd_trajectory *tr, int32_t i, int32_t x, int32_t y)
 {
     const hd_disk *disk = &tr->disk[i];
     const hd_cell_line *lx = &tr->cells.line[0][disk->cell[0]];
     const hd_cell_line *ly = &tr->cells.line[1][disk->cell[1]];
+    const hd_cell *cell = hd_cells_at(&tr->cells, lx->near[x], ly->near[y]);
+    const int32_t edges[2] = {lx->shift[x], ly->shift[y]};
     double least = INFINITY;
-    if (lx->near[x] < 0 || ly->near[y] < 0) return least;
-    int32_t j = hd_cells_first(&tr->cells, lx->near[x], ly->near[y]);
-    for (; j >= 0; j = tr->disk[j].next) {
-        const hd_disk *other = &tr->disk[j];
-        const hd_pair shift = {(lx->shift[x] + disk->wrap[0] - other->wrap[0]) * tr->cells.box[0],
-                               (ly->shift[y] + disk->wrap[1] - other->wrap[1]) * tr->cells.box[1]};
-        if (j == i) continue;
-        const hd_pair r = hd_contact_separation(disk, other, shift, tr->now - tr->epoch_start);
-        least = fmin(least, hd_contact_dot(r, r));
-    }
+    for (int k = 0; k < cell->count; k++)
+        least = fmin(least, distance_squared(tr, i, cell->disk[k], edges));
+    if (!cell->crowded) return least;
+    int32_t j = cell->disk[HD_CELL_DISKS - 1];
+    while ((j = hd_cells_next(&tr->cells, j)) >= 0)
+        least = fmin(least, distance_squared(tr, i, j, edges));
     return least;
 }
 

@@ -23,6 +23,7 @@ static golden golden_scene(int scene)
         {scene_in_box(9, 12.0, 1.0 + 1e-6, p, p, 4), 10000, 0x0cf1b5884e03e11eu},
         {scene_in_box(6, 1.4, 9.0, p, r, 5), 10000, 0x036efe86482d7328u},
         {scene_of(64, 1.1, 0.8660254, p, p, 6), 10000, 0x04072dec68dbfaecu},
+        {scene_of(20000, 0.7, 0.8, p, r, 7), 60000, 0x2d02f1c2d1469492u}, /* larger than the caches */
     };
     return all[scene];
 }

@@ -3,7 +3,7 @@
 # expects the same events of every program.
 cmake_minimum_required(VERSION 3.16)
 
-set(SOURCES trajectory prediction cells queue lattice scene wave random memory status event_log)
+set(SOURCES trajectory prediction fetch nearby cells queue lattice scene wave random memory status event_log)
 list(TRANSFORM SOURCES PREPEND ${CORE}/src/)
 list(TRANSFORM SOURCES APPEND .c)
 set(TESTS ${CMAKE_CURRENT_LIST_DIR})

@@ -6,7 +6,7 @@ cmake_minimum_required(VERSION 3.16)
 # Of no stage: these may be included everywhere and include nothing but each other.
 set(STAGE_0 status check memory multiversion random clock blocks blas)
 set(STAGE_1 scene scene_box lattice wave)
-set(STAGE_2 trajectory event_log disk contact cells queue prediction)
+set(STAGE_2 trajectory event_log disk contact cells nearby queue prediction fetch)
 set(STAGE_3 frame)
 set(STAGE_4 ortho tail)
 set(STAGE_5 spectrum)

@@ -4,6 +4,7 @@
 #include <float.h>
 #include <stdlib.h>
 
+#include "random.h"
 #include "scenes.h"
 #include "testing.h"
 
@@ -52,15 +53,15 @@ static void neighbours_in_periodic_lines(void **state)
 static void neighbours_between_walls(void **state)
 {
     (void)state;
-    const int near1[][3] = {{-1, 0, -1}}, near2[][3] = {{-1, 0, 1}, {0, 1, -1}};
-    const int near3[][3] = {{-1, 0, 1}, {0, 1, 2}, {1, 2, -1}}, shift[3][3] = {{0}};
+    const int near1[][3] = {{1, 0, 1}}, near2[][3] = {{2, 0, 1}, {0, 1, 2}};
+    const int near3[][3] = {{3, 0, 1}, {0, 1, 2}, {1, 2, 3}}, shift[3][3] = {{0}};
     const int(*near[])[3] = {near1, near2, near3};
     for (int columns = 1; columns <= 3; columns++) {
         hd_cells cells = columns_of(columns, HD_REFLECTING);
         for (int d = 0; d < 2; d++) {
             check_line(&cells, d, near[columns - 1], shift);
-            assert_true(cells.line[d][0].low == 0.5);
-            assert_true(cells.line[d][columns - 1].high == cells.box[d] - 0.5);
+            assert_true(cells.line[d][0].bound[0] == 0.5);
+            assert_true(cells.line[d][columns - 1].bound[1] == cells.box[d] - 0.5);
         }
         hd_cells_clear(&cells);
     }
@@ -75,11 +76,11 @@ static void lines_cover_the_box(void **state)
         hd_cells cells = created(12, 31.0, edge[k], HD_PERIODIC);
         for (int d = 0; d < 2; d++) {
             const int32_t size = cells.size[d];
-            assert_true(cells.line[d][0].low == 0 && cells.line[d][size - 1].high == cells.box[d]);
+            assert_true(cells.line[d][0].bound[0] == 0 && cells.line[d][size - 1].bound[1] == cells.box[d]);
             for (int32_t c = 0; c < size; c++) {
                 const hd_cell_line *l = &cells.line[d][c];
-                if (c > 0) assert_true(l->low == cells.line[d][c - 1].high);
-                assert_true(size == 1 || l->high - l->low >= 1.0 + margin);
+                if (c > 0) assert_true(l->bound[0] == cells.line[d][c - 1].bound[1]);
+                assert_true(size == 1 || l->bound[1] - l->bound[0] >= 1.0 + margin);
             }
         }
         hd_cells_clear(&cells);
@@ -102,18 +103,23 @@ static void number_of_cells_follows_disks(void **state)
     }
 }
 
-static int listed(const hd_cells *cells, const hd_disk *disks, int32_t x, int32_t y, int32_t i)
+static int listed(const hd_cells *cells, int32_t x, int32_t y, int32_t i)
 {
+    const hd_cell *cell = hd_cells_at(cells, x, y);
     int found = 0;
-    for (int32_t j = hd_cells_first(cells, x, y); j >= 0; j = disks[j].next) found += j == i;
+    for (int k = 0; k < cell->count; k++) found += cell->disk[k] == i;
+    if (!cell->crowded) return found;
+    int32_t j = cell->disk[HD_CELL_DISKS - 1];
+    while ((j = hd_cells_next(cells, j)) >= 0) found += j == i;
     return found;
 }
 
-static int listed_anywhere(const hd_cells *cells, const hd_disk *disks, int32_t i)
+/** The empty cells beyond the walls included. */
+static int listed_anywhere(const hd_cells *cells, int32_t i)
 {
     int found = 0;
-    for (int32_t c = 0; c < cells->size[0] * cells->size[1]; c++)
-        found += listed(cells, disks, c % cells->size[0], c / cells->size[0], i);
+    for (int32_t x = 0; x <= cells->size[0]; x++)
+        for (int32_t y = 0; y <= cells->size[1]; y++) found += listed(cells, x, y, i);
     return found;
 }
 
@@ -129,12 +135,12 @@ static void disks_are_booked_where_they_are(void **state)
     }
     for (int32_t i = 0; i < N; i++) {
         const int32_t *cell = disks[i].cell;
-        assert_int_equal(listed_anywhere(&cells, disks, i), 1);
-        assert_int_equal(listed(&cells, disks, cell[0], cell[1], i), 1);
+        assert_int_equal(listed_anywhere(&cells, i), 1);
+        assert_int_equal(listed(&cells, cell[0], cell[1], i), 1);
         for (int d = 0; d < 2; d++) {
             const hd_cell_line *l = &cells.line[d][cell[d]];
             const double rounding = 4.0 * DBL_EPSILON * cells.box[d];
-            assert_true(disks[i].q[d] >= l->low - rounding && disks[i].q[d] <= l->high + rounding);
+            assert_true(disks[i].q[d] >= l->bound[0] - rounding && disks[i].q[d] <= l->bound[1] + rounding);
         }
     }
     hd_cells_clear(&cells);
@@ -152,15 +158,43 @@ static void crossing_counts_the_turns(void **state)
             for (int32_t i = 0; i < 3; i++) hd_cells_add(&cells, disks, i);
             for (int step = 0; step < 3 * columns; step++) {
                 hd_cells_cross(&cells, disks, 1, d, side);
-                assert_int_equal(listed(&cells, disks, disks[1].cell[0], disks[1].cell[1], 1), 1);
-                assert_int_equal(listed_anywhere(&cells, disks, 1), 1);
+                assert_int_equal(listed(&cells, disks[1].cell[0], disks[1].cell[1], 1), 1);
+                assert_int_equal(listed_anywhere(&cells, 1), 1);
             }
             assert_int_equal(disks[1].cell[d], 0);
             assert_int_equal(disks[1].wrap[d], 3 * turn);
             assert_int_equal(disks[1].wrap[1 - d], 0);
-            for (int32_t i = 0; i < 3; i++) assert_int_equal(listed(&cells, disks, 0, 0, i), 1);
+            for (int32_t i = 0; i < 3; i++) assert_int_equal(listed(&cells, 0, 0, i), 1);
             hd_cells_clear(&cells);
         }
+}
+
+/** Any number of disks in a cell, joining and leaving in all orders: each is listed where it is, once. */
+static void crowds_come_and_go(void **state)
+{
+    (void)state;
+    enum { N = 12, STEPS = 20000 };
+    hd_random random = hd_random_seeded(9, 0);
+    hd_cells cells = created(N, 40.0, 40.0, HD_PERIODIC);
+    static hd_disk disks[N];
+    int fullest = 0;
+    for (int32_t i = 0; i < N; i++) {
+        disks[i] = (hd_disk){.q = {1.0, 1.0}};
+        hd_cells_add(&cells, disks, i);
+    }
+    for (int step = 0; step < STEPS; step++) {
+        const int32_t i = (int32_t)(0.5 * (1.0 + hd_random_symmetric(&random)) * N);
+        hd_cells_cross(&cells, disks, i, 0, disks[i].cell[0] == 0 ? 2 : 0); /* to column 1 or back */
+        int in_first = 0;
+        for (int32_t k = 0; k < N; k++) {
+            assert_int_equal(listed_anywhere(&cells, k), 1);
+            assert_int_equal(listed(&cells, disks[k].cell[0], 0, k), 1);
+            in_first += disks[k].cell[0] == 0;
+        }
+        fullest = in_first > fullest ? in_first : fullest;
+    }
+    assert_true(fullest > 2 * HD_CELL_DISKS);
+    hd_cells_clear(&cells);
 }
 
 int main(void)
@@ -169,6 +203,7 @@ int main(void)
         cmocka_unit_test(neighbours_in_periodic_lines), cmocka_unit_test(neighbours_between_walls),
         cmocka_unit_test(lines_cover_the_box),          cmocka_unit_test(number_of_cells_follows_disks),
         cmocka_unit_test(disks_are_booked_where_they_are), cmocka_unit_test(crossing_counts_the_turns),
+        cmocka_unit_test(crowds_come_and_go),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,6 +30,7 @@ foreach(name IN ITEMS
     golden
     queue
     cells
+    nearby
     lattice
     scene
     random

@@ -1,13 +1,13 @@
 /** Scene -> events without cells, queue or stale predictions: every pair through every image that the
  *  two can reach before the epoch's end, then a plain search for the least (t, kind, i, j). With the
- *  trajectory it shares the formulas of contact.h and what defines the bits: epochs, folding into the
- *  box, and the exchange of momenta. */
+ *  trajectory it shares the separation of contact.h and what defines the bits: the formula for a contact
+ *  (here for one pair at a time), epochs, folding into the box, and the exchange of momenta. */
 #include "twin.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "contact.h"
+#include "one_contact.h"
 
 /** Images that come this close to touching [sigma] are tried: far above rounding, and harmless. */
 static const double IMAGE_MARGIN = 1e-6;
@@ -38,12 +38,9 @@ typedef struct candidate {
 
 static contact contact_through(const twin *t, int i, int j, int32_t mx, int32_t my)
 {
-    const hd_disk *a = &t->disk[i], *b = &t->disk[j];
-    const double now = fmax(a->t, b->t);
-    const hd_pair r = hd_contact_separation(a, b, (hd_pair){mx * t->box[0], my * t->box[1]}, now);
-    const hd_pair p = {b->p[0] - a->p[0], b->p[1] - a->p[1]};
-    if (!hd_contact_ahead(r, p)) return (contact){.t = INFINITY};
-    return (contact){now + hd_contact_wait(r, p), {mx, my}};
+    const hd_pair shift = {mx * t->box[0], my * t->box[1]};
+    const double time = one_contact(&t->disk[i], &t->disk[j], shift);
+    return time < INFINITY ? (contact){time, {mx, my}} : (contact){.t = INFINITY};
 }
 
 static bool sooner(const contact *a, const contact *b)
