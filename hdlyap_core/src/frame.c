@@ -33,7 +33,8 @@ typedef struct tangent_map {
 } tangent_map;
 
 struct hd_frame {
-    int disks, rows, vectors, stride, threads;
+    int disks, rows, vectors, stride;
+    int threads, threads_max;
     int width;       /**< of a block: 1, 2, 4, 8, 16, 32 or 64 columns */
     double *copy[2]; /**< [rows * stride] */
     int current;
@@ -87,7 +88,7 @@ hd_status hd_frame_create(hd_frame **out, int disks, int vectors, uint64_t seed,
     frame->vectors = vectors;
     frame->stride = padded(vectors);
     frame->width = block_width(frame->rows, frame->stride);
-    frame->threads = threads;
+    frame->threads = frame->threads_max = threads;
     const hd_status status = frame_allocate(frame);
     if (status != HD_OK) {
         hd_frame_free(frame);
@@ -117,6 +118,13 @@ int hd_frame_rows(const hd_frame *frame) { return frame->rows; }
 int hd_frame_vectors(const hd_frame *frame) { return frame->vectors; }
 int hd_frame_stride(const hd_frame *frame) { return frame->stride; }
 int hd_frame_threads(const hd_frame *frame) { return frame->threads; }
+
+void hd_frame_use_threads(hd_frame *frame, int threads)
+{
+    HD_ASSERT(threads >= 1 && threads <= frame->threads_max);
+    frame->threads = threads;
+}
+
 double *hd_frame_data(hd_frame *frame) { return frame->copy[frame->current]; }
 const double *hd_frame_read(const hd_frame *frame) { return frame->copy[frame->current]; }
 

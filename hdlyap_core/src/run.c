@@ -16,6 +16,7 @@
 #include "memory.h"
 #include "schedule.h"
 #include "tail.h"
+#include "threads.h"
 
 /** Loss of orthogonality allowed where nobody looks at the vectors, as the logarithms telescope [T5]; its
  *  square enters a mean. */
@@ -60,15 +61,6 @@ struct hd_run {
 
 /* ---- creation --------------------------------------------------------------------------------- */
 
-/** More threads than the work is worth would cost: each pass over the frame should outlast a wake-up. */
-static int threads_for(int wanted, int rows, int vectors)
-{
-    const double entries_worth_a_thread = 2e5;
-    const int cores = hd_blas_query().cores;
-    if (wanted > 0) return wanted;
-    return (double)rows * vectors < entries_worth_a_thread ? 1 : cores;
-}
-
 /** A random frame, orthonormal. Random vectors are hardly ever dependent: then reflections. */
 static hd_status create_frame(hd_run *run)
 {
@@ -85,12 +77,13 @@ static hd_status create_frame(hd_run *run)
 static hd_status prepare_frame(hd_run *run)
 {
     const int rows = 4 * run->scene.disks, n = run->vectors;
-    run->threads = threads_for(run->scene.threads, rows, n);
+    run->threads = hd_threads_most(run->scene.threads, rows, n);
     hd_blas_use_threads(run->threads);
     HD_TRY(hd_event_log_create(&run->log));
     HD_TRY(hd_ortho_create(&run->ortho, rows, n));
     HD_TRY(hd_spectrum_create(&run->spectrum, rows, n));
-    return create_frame(run);
+    HD_TRY(create_frame(run));
+    return hd_threads_choose(&run->threads, run->ortho, run->frame, run->scene.threads);
 }
 
 static hd_status prepare_phases(hd_run *run)

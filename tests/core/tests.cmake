@@ -18,6 +18,7 @@ foreach(name IN ITEMS
     interval
     ortho
     tail
+    threads
     schedule
     blocks
     frame

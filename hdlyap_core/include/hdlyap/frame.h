@@ -21,6 +21,7 @@ int hd_frame_rows(const hd_frame *frame);    /**< 4N */
 int hd_frame_vectors(const hd_frame *frame); /**< n */
 int hd_frame_stride(const hd_frame *frame);  /**< doubles from one row to the next */
 int hd_frame_threads(const hd_frame *frame); /**< that work on it */
+void hd_frame_use_threads(hd_frame *frame, int threads); /**< 1 .. as many as at its creation */
 double *hd_frame_data(hd_frame *frame);      /**< current vectors; valid until the next replay */
 const double *hd_frame_read(const hd_frame *frame); /**< the same, to look at */
 
