@@ -138,7 +138,7 @@ static void events_alone(int disks, double density, double collisions)
 
 int main(int argc, char **argv)
 {
-    asked a = {.disks = 780, .rounds = 5, .duration = 4.0, .name = "whole"};
+    asked a = {.disks = 780, .rounds = 5, .duration = 16.0, .name = "whole"};
     const option list[] = {{"--disks", .count = &a.disks, .least = 10, .most = 5000},
                            {"--threads", .count = &a.threads, .least = 0, .most = 256},
                            {"--rounds", .count = &a.rounds, .least = 1, .most = SAMPLE_MAX},

@@ -32,8 +32,8 @@ static const double THEORY[SWEEPS][PARTS] = {{1, 2, 3, 2}, {0, 1, 2, NAN}};
 /** What is smaller is left out of the fits: one thread, and matrices far below dgemm's best speed. */
 static const double FIT_FROM[SWEEPS] = {200, 100};
 /** A point whose predicted seconds are more is left out. */
-static const double PATIENCE = 120.0;
-static const double WARMUP = 1.0, TIME_MIN = 2.0;
+static const double PATIENCE = 180.0;
+static const double WARMUP = 6.0, TIME_MIN = 2.0;
 
 typedef struct point {
     int disks, vectors, threads;
@@ -128,10 +128,10 @@ static double work(double disks, double vectors) { return 2e8 + disks * vectors 
 /** Seconds that N disks will take, from the largest so far: the frame needs some short intervals at first. */
 static double predicted(const sweep *s, int disks)
 {
-    const double intervals_in_warmup = 4.0;
+    const double warmup = 12.0; /* as many time units would cost later: its intervals are short */
     if (s->count == 0) return 0.0;
     const point *p = &s->at[s->count - 1];
-    return p->whole * pow((double)disks / p->disks, 3) * (intervals_in_warmup + TIME_MIN);
+    return p->whole * pow((double)disks / p->disks, 3) * (warmup + TIME_MIN);
 }
 
 static void measure_disks(study *all, const int *disks)

@@ -12,7 +12,9 @@ static const double CONDITION_MAX = 1e12;
 static const double MARGIN = 2.0, HEADROOM_MIN = 0.7;
 /** A column may grow to e^150 before its square comes near overflow. */
 static const double STRETCH_MAX = 150.0;
-static const double GROW_MAX = 2.0, FORGET = 0.1, VARIANCE_FIRST = 1.0;
+/** A remainder that is longer by this factor is taken at once: a repair now and then costs less than halves would. */
+static const double STRAIN = 1.06;
+static const double GROW_MAX = 2.0, FORGET = 0.1, VARIANCE_FIRST = 0.5;
 
 hd_interval hd_interval_first(double first, double limit, double accuracy)
 {
@@ -74,6 +76,7 @@ hd_interval_length hd_interval_longest(const hd_interval *interval)
 hd_interval_length hd_interval_next(const hd_interval *interval, double remaining)
 {
     const hd_interval_length longest = hd_interval_longest(interval);
-    if (longest.length >= remaining) return (hd_interval_length){remaining, HD_LIMIT_SCHEDULE};
+    const double strained = fmin(STRAIN * longest.length, interval->limit);
+    if (strained >= remaining) return (hd_interval_length){remaining, HD_LIMIT_SCHEDULE};
     return (hd_interval_length){remaining / ceil(remaining / longest.length), longest.limit};
 }

@@ -119,7 +119,7 @@ static hd_status prepare(hd_run *run)
     const double limit = scene->interval > 0 ? scene->interval : INFINITY;
     run->sample_max = COLLISIONS_PER_SAMPLE / per_disk;
     run->step_max = 1e-3 / per_disk;
-    run->interval = hd_interval_first(1.0 / per_disk, limit, scene->accuracy);
+    run->interval = hd_interval_first(2.0 / per_disk, limit, scene->accuracy);
     run->schedule = hd_schedule_of(scene);
     if (run->vectors == 0) return HD_OK;
     HD_TRY(prepare_frame(run));
@@ -137,8 +137,8 @@ static void averages_clear(hd_run *run)
 /** Longest sample that one orthonormalisation at its end can serve. */
 static double sample_longest(const hd_run *run)
 {
-    const bool known = run->frame && run->cost.orthonormalisations > 0;
-    return known ? fmin(run->sample_max, hd_interval_longest(&run->interval).length) : run->sample_max;
+    if (!run->frame || run->cost.orthonormalisations == 0) return run->sample_max;
+    return fmin(run->sample_max, hd_interval_longest(&run->interval).length);
 }
 
 static void enter_phase(hd_run *run, hd_phase phase)
