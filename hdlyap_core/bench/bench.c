@@ -1,12 +1,14 @@
 /** What a run costs: its parts, and the whole as a ratio to the floor
  *  F = 4 m n^2 flops at dgemm speed per ln(1e8) / (lambda_1 - lambda_n) of simulated time,
  *  all measured in one run on one machine, in rounds.
- *  Usage: hdlyap_bench [--disks N] [--threads N] [--rounds N] [--duration TIME UNITS OF A ROUND] [--whole]
- *         [--out FOLDER] [--name NAME]; with --out it writes FOLDER/NAME.csv; --whole leaves the events alone. */
+ *  Usage: hdlyap_bench [--disks N] [--threads N] [--rounds N] [--duration TIME UNITS OF A ROUND]
+ *         [--whole] [--events] [--out FOLDER] [--name NAME]; with --out it writes FOLDER/NAME.csv; --whole and
+ *         --events are for one part alone. */
 #include <hdlyap/hdlyap.h>
 #include <stdio.h>
 
 #include "gemm.h"
+#include "memory_rate.h"
 #include "options.h"
 #include "progress.h"
 #include "ratio.h"
@@ -15,7 +17,7 @@
 typedef struct asked {
     int disks, threads, rounds;
     double duration; /**< of a round [time units] */
-    bool whole;
+    bool whole, events; /**< that part alone */
     const char *out, *name;
 } asked;
 
@@ -136,6 +138,48 @@ static void events_alone(int disks, double density, double collisions)
     hd_trajectory_free(trajectory);
 }
 
+/** One exponent of many disks: what its replay must move per event, a logged event and a tangent map in and out, the
+ *  vector's eight numbers of two disks in and out, against copying as many bytes. */
+static void one_exponent(int disks, double memory)
+{
+    const double bytes_per_event = 48.0 + 2.0 * 64.0 + 2.0 * 8.0 * 8.0;
+    hd_scene_def scene = hd_scene_def_default();
+    scene.disks = disks;
+    scene.density = 0.7;
+    scene.aspect = 1.0;
+    scene.exponents = 1;
+    scene.equilibration = 5.0;
+    scene.warmup = 5.0;
+    scene.duration = 4e6 / disks;
+    hd_run *run;
+    require(hd_run_create(&run, &scene, NULL, 0), "one exponent");
+    while (hd_run_phase(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
+    const double before = hd_run_cost(run).replay;
+    const double first = (double)hd_trajectory_collisions(hd_run_trajectory(run));
+    while (hd_run_phase(run) != HD_FINISHED) require(hd_run_step(run), "averaging");
+    const double count = (double)hd_trajectory_collisions(hd_run_trajectory(run)) - first;
+    const double rate = count / (hd_run_cost(run).replay - before);
+    printf("%9d %12.0f %22.1f %12.1f %18.0f\n", disks, count, rate * 1e-6,
+           rate * bytes_per_event * 1e-9, 100.0 * rate * bytes_per_event / memory);
+    hd_run_free(run);
+}
+
+static void print_events(void)
+{
+    printf("\nEvents alone, one core:\n%9s %9s %12s %22s\n", "disks", "density", "collisions",
+           "million collisions / s");
+    events_alone(780, 0.7, 1e6);
+    events_alone(1000, 0.7, 1e6);
+    events_alone(10000, 0.7, 1e6);
+    events_alone(100000, 0.7, 1e6);
+    events_alone(780, 0.01, 1e5);
+    const double memory = memory_rate();
+    printf("\nReplay of one exponent, one core; copying memory: %.1f GB/s\n%9s %12s %22s %12s %18s\n",
+           memory * 1e-9, "disks", "collisions", "million collisions / s", "GB/s", "% of copying");
+    one_exponent(4000, memory);
+    one_exponent(100000, memory);
+}
+
 int main(int argc, char **argv)
 {
     asked a = {.disks = 780, .rounds = 5, .duration = 16.0, .name = "whole"};
@@ -144,17 +188,13 @@ int main(int argc, char **argv)
                            {"--rounds", .count = &a.rounds, .least = 1, .most = SAMPLE_MAX},
                            {"--duration", .number = &a.duration, .least = 1, .most = 1e6},
                            {"--whole", .flag = &a.whole},
+                           {"--events", .flag = &a.events},
                            {"--out", .text = &a.out},
                            {"--name", .text = &a.name},
                            {0}};
     options_read(argc, argv, list);
     hd_blas_restart_if_slow(argv);
-    whole_run(&a, argv);
-    if (a.whole) return 0;
-    printf("\nEvents alone, one core:\n%9s %9s %12s %22s\n", "disks", "density", "collisions",
-           "million collisions / s");
-    events_alone(780, 0.7, 1e6);
-    events_alone(100000, 0.7, 1e6);
-    events_alone(780, 0.01, 1e5);
+    if (a.whole || !a.events) whole_run(&a, argv);
+    if (a.events || !a.whole) print_events();
     return 0;
 }

@@ -85,7 +85,7 @@ run_all() {
     elif [[ -x $PROGRAMS/hdlyap_effects ]]; then
         with_effects=1
     fi
-    TOTAL=$((${#QUICK[@]} ? 9 : 485))
+    TOTAL=$((${#QUICK[@]} ? 9 : 522))
     if ((with_effects)); then TOTAL=$((TOTAL + 60)); fi
     stage 220 'what accuracy costs' "$PROGRAMS/hdlyap_precision" --out "$OUT" "${QUICK[@]}"
     stage 45 'how long a wanted error takes' "$PROGRAMS/hdlyap_convergence" --out "$OUT" "${QUICK[@]}"
@@ -96,6 +96,9 @@ run_all() {
     if [[ $(uname -m) == x86_64 ]]; then
         stage 30 "the same on OpenBLAS's oldest kernels" fallback "${whole[@]}" "${small[@]}" --duration 8 \
             --name whole_fallback
+    fi
+    if ((!${#QUICK[@]})); then
+        stage 12 'events alone, and one exponent' "$PROGRAMS/hdlyap_bench" --events
     fi
     stage 40 'what others write' "$PROGRAMS/hdlyap_rivals" --out "$OUT" "${small[@]}"
     if ((with_effects)); then
