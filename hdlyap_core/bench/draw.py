@@ -128,15 +128,15 @@ def _draw_chosen(cliff, work, table):
              'markerfacecolor': 'white', 'label': label}
     cliff.plot([row['interval'] for row in rows], deviations, **style)
     work.plot([_seconds(row) for row in rows], deviations, **style)
-    for interval in {row['interval'] for row in rows}:
-        _name_chosen(cliff, [row for row in rows if row['interval'] == interval])
+    for k, interval in enumerate(sorted({row['interval'] for row in rows})):
+        _name_chosen(cliff, [row for row in rows if row['interval'] == interval], k % 2 == 0)
 
 
-def _name_chosen(axes, rows):
-    """One label for all accuracies that led to the same interval."""
+def _name_chosen(axes, rows, left):
+    """One label for all accuracies that led to the same interval; neighbours on different sides."""
     powers = [f'$10^{{{math.log10(row["accuracy asked"]):.0f}}}$' for row in rows]
     names = powers[0] if len(powers) == 1 else f'{powers[0]} to {powers[-1]}'
-    place = ({'xytext': (-7, 0), 'ha': 'right', 'va': 'center'} if len(rows) == 1 else
+    place = ({'xytext': (-3, 6), 'ha': 'right', 'va': 'bottom'} if left else
              {'xytext': (7, -4), 'ha': 'left', 'va': 'top'})
     axes.annotate(names, (rows[0]['interval'], rows[0]['deviation of any']), fontsize=8,
                   textcoords='offset points', zorder=5, **place)
