@@ -29,7 +29,7 @@ static const double PANEL_CONDITION_GOOD = 30.0;
 static const double PANEL_CONDITION_MAX = 1e7;
 
 /** PANELS of them if there are that many vectors: the last half of the flops then falls into wide products. */
-enum { PANELS = 8, PANEL_MIN = 8, PANEL_MAX = 160, LATER_MAX = 800, PROBES = 8 };
+enum { PANELS = 8, PANEL_MIN = 8, PANEL_MAX = 160, LATER_MAX = 640, PROBES = 8 };
 
 struct hd_ortho {
     int rows, vectors;
