@@ -4,7 +4,6 @@
  *  kind: a long one, in which steps are found soon. What publishing costs: effects_publishing.
  *  Usage: hdlyap_effects [effects.csv [disks, default 200 [aspect, default 0.05 [rounds, default 15]]]]
  *         hdlyap_effects --count EFFECT off|on: one run for callgrind, which collects in count_rounds */
-#define _POSIX_C_SOURCE 200809L
 #include <hdlyap/hdlyap.h>
 #include <math.h>
 #include <stdbool.h>

@@ -1,6 +1,5 @@
 #include "memory_rate.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "timing.h"

@@ -1,5 +1,4 @@
 /** Work done -> a line that overwrites itself; ten lines where stderr is a file. */
-#define _POSIX_C_SOURCE 199309L /* isatty, fileno */
 #include "progress.h"
 
 #include <math.h>

@@ -1,5 +1,4 @@
 /** Rows -> CSV file. */
-#define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "table.h"
 
 #include <hdlyap/blas.h>
