@@ -260,16 +260,9 @@ static hd_status frame_interval(hd_run *run)
     return HD_OK;
 }
 
-/** Largest standard error of the exponents nearest to zero; INFINITY while one is unknown. */
 static double smallest_error(const hd_run *run)
 {
-    double worst = 0.0;
-    const int first = run->vectors > SMALLEST_EXPONENTS ? run->vectors - SMALLEST_EXPONENTS : 0;
-    for (int col = first; col < run->vectors; col++) {
-        const double error = hd_spectrum_std_error(run->spectrum, col);
-        worst = error >= 0 ? fmax(worst, error) : INFINITY; /* NaN is not known either */
-    }
-    return worst;
+    return hd_spectrum_error_of_last(run->spectrum, SMALLEST_EXPONENTS);
 }
 
 /** True if the exponents nearest to zero are known as well as the scene asks. */
@@ -332,17 +325,6 @@ static bool vectors_wanted(const hd_run *run)
     return observing(run) && (run->observe & (HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO));
 }
 
-/** Number of slowest vectors among which all are whose phases are followed. */
-static int followed(const hd_run *run)
-{
-    int first = run->vectors;
-    for (int s = 0; s < hd_steps_count(run->steps); s++) {
-        const hd_step *step = hd_steps_step(run->steps, s);
-        if (step->kind == HD_MODE_LP && step->resolved && step->col < first) first = step->col;
-    }
-    return run->vectors - first;
-}
-
 /** True if the tail will do for `count` phases at this time. */
 static bool tail_suffices(const hd_run *run, int count)
 {
@@ -381,7 +363,8 @@ static hd_status look_or_end(hd_run *run)
     const bool averaging = run->schedule.phase == HD_AVERAGING;
     if (vectors_wanted(run) || (averaging && hd_spectrum_time(run->spectrum) == 0))
         return end_early(run);
-    const int count = observing(run) && (run->observe & HD_OBSERVE_PHASES) ? followed(run) : 0;
+    const bool follows = observing(run) && (run->observe & HD_OBSERVE_PHASES);
+    const int count = follows ? hd_phases_vectors(run->steps) : 0;
     if (count == 0) return HD_OK;
     const hd_status status = tail_suffices(run, count) ? look(run, count) : HD_ILL_CONDITIONED;
     return status == HD_ILL_CONDITIONED ? end_early(run) : status;

@@ -48,6 +48,9 @@ typedef struct hd_velocity {
 } hd_velocity;
 hd_velocity hd_phases_velocity(const hd_phases *phases);
 
+/** Number of slowest vectors among which all are whose phases are followed. */
+int hd_phases_vectors(const hd_steps *steps);
+
 /** Longest time between samples that unwraps every resolved step safely; INFINITY without one. */
 double hd_phases_sampling(const hd_steps *steps);
 

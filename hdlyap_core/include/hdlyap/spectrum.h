@@ -27,6 +27,8 @@ double hd_spectrum_exponent(const hd_spectrum *spectrum,
 /** Standard error of the mean from blocks long against the correlation time [T8]; negative while
  *  there are fewer than HD_SPECTRUM_MIN_SAMPLES samples. */
 double hd_spectrum_std_error(const hd_spectrum *spectrum, int col);
+/** Largest of the standard errors of the last `count` exponents carried; INFINITY while one is unknown. */
+double hd_spectrum_error_of_last(const hd_spectrum *spectrum, int count);
 double hd_spectrum_local(const hd_spectrum *spectrum, int col); /**< of the last sample */
 double hd_spectrum_lambda_max(const hd_spectrum *spectrum);     /**< exponent of col 0 */
 double hd_spectrum_ks_entropy(const hd_spectrum *spectrum); /**< sum of the positive ones carried */
