@@ -354,6 +354,7 @@ static double panel_defect(hd_ortho *ortho, panel x, int next, int count, double
         for (int row = 0; row < count; row++) {
             const bool same = x.first + col == next + row;
             const double off = fabs(s[(size_t)col * (size_t)count + (size_t)row] - same);
+            if (isnan(worst)) return worst;
             if (!(off <= worst)) worst = off;
         }
     return worst;

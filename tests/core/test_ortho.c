@@ -211,6 +211,23 @@ static void logarithms_telescope(void **state)
     hd_frame_free(tight);
 }
 
+/** One entry that is no number is seen in the measured defect wherever it stands. */
+static void a_measured_defect_keeps_nan(void **state)
+{
+    (void)state;
+    for (int col = 0; col < 30; col++) {
+        hd_frame *frame;
+        hd_ortho *ortho;
+        CHECK_OK(hd_frame_create(&frame, 10, 30, 7, 1));
+        CHECK_OK(hd_ortho_create(&ortho, 40, 30));
+        CHECK_OK(hd_ortho_step(ortho, frame, TIGHT));
+        hd_frame_data(frame)[5 * hd_frame_stride(frame) + col] = NAN;
+        assert_true(isnan(hd_ortho_defect_measured(ortho, frame)));
+        hd_ortho_free(ortho);
+        hd_frame_free(frame);
+    }
+}
+
 static hd_status step_with_entry(double value, double condition, int twin)
 {
     hd_frame *frame;
@@ -247,6 +264,7 @@ int main(void)
         cmocka_unit_test(the_condition_is_that_of_the_inverse),
         cmocka_unit_test(the_defect_is_foreseen),
         cmocka_unit_test(logarithms_telescope),
+        cmocka_unit_test(a_measured_defect_keeps_nan),
         cmocka_unit_test(what_cannot_be_trusted_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
