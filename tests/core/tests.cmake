@@ -37,6 +37,7 @@ foreach(name IN ITEMS
     random
     memory
     status
+    hard_parameters
 )
   hdlyap_core_test(${name})
 endforeach()

@@ -118,7 +118,7 @@ static bool read_interval(const reader *r, void *field)
         return *interval = 0.0, true;
     const hdr_status status = hdr_param_double(r->params, r->name, interval);
     if (status == HDR_MISSING || (status == HDR_OK && *interval > 0.0)) return true;
-    return refuse(r, "auto, or a number above 0");
+    return refuse(r, "auto, or a number from 1e-6 to 1e12");
 }
 
 /** A set of topics out of `allowed` ones. */
