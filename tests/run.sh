@@ -14,7 +14,7 @@ FAILED=0
 
 shell_scripts() {
     cd "$ROOT"
-    shellcheck -x --exclude=SC2317 launch/*.sh tests/*.sh tests/install/*.sh hdlyap_core/bench/*.sh .ci/run
+    shellcheck -x --exclude=SC2317 launch/*.sh tests/*.sh tests/install/*.sh tests/fuzz/*.sh hdlyap_core/bench/*.sh .ci/run
 }
 
 # without_ros COMMAND...: as on a machine that has no ROS.

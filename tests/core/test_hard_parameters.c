@@ -27,10 +27,7 @@ static const double OVERLAP_MAX = 1e-9;
 
 static double uniform(hd_random *random) { return 0.5 * (hd_random_symmetric(random) + 1.0); }
 
-static bool chance(hd_random *random, double probability)
-{
-    return uniform(random) < probability;
-}
+static bool chance(hd_random *random, double probability) { return uniform(random) < probability; }
 
 static int one_of(hd_random *random, int count) { return (int)(uniform(random) * count); }
 
@@ -72,6 +69,7 @@ static const parameter PARAMETERS[] = {
     {"report_interval", OFFSET(report_interval), false, 1e-6, 1e12, 0.1, 10},
     {"max_wave_number", OFFSET(max_wave_number), false, 0, 1e12, 0.3, 3},
     {"max_node", OFFSET(max_node), true, 0, 1000000, 0, 3},
+    {"observe", OFFSET(observe), true, 0, 31, 0, 31},
     {"threads", OFFSET(threads), true, 0, 1024, 0, 2},
 };
 enum { PARAMETER_COUNT = sizeof PARAMETERS / sizeof *PARAMETERS };
@@ -100,9 +98,19 @@ static void put_within(hd_random *random, hd_scene_def *def, const parameter *p,
 /** What no user means: not numbers, the ends of the types, just outside the range, any bits. */
 static void put_wild(hd_random *random, hd_scene_def *def, const parameter *p)
 {
-    const double reals[] = {NAN,     INFINITY,     -INFINITY, -1.0, -0.0, DBL_TRUE_MIN,
-                            DBL_MAX, -DBL_TRUE_MIN, DBL_MIN,  p->least * (1.0 - 1e-9),
-                            p->most * (1.0 + 1e-9), -DBL_MAX, 0.0};
+    const double reals[] = {NAN,
+                            INFINITY,
+                            -INFINITY,
+                            -1.0,
+                            -0.0,
+                            DBL_TRUE_MIN,
+                            DBL_MAX,
+                            -DBL_TRUE_MIN,
+                            DBL_MIN,
+                            p->least * (1.0 - 1e-9),
+                            p->most * (1.0 + 1e-9),
+                            -DBL_MAX,
+                            0.0};
     const int wholes[] = {INT_MIN, INT_MAX, -1, -3, 0, 1, (int)p->most + 1, (int)p->least - 1};
     const uint64_t any = bits(random);
     double real;
@@ -143,7 +151,6 @@ static hd_scene_def drawn(hd_random *random)
     }
     if (chance(random, 0.05)) make_narrow(random, &def);
     def.seed = bits(random);
-    def.observe = chance(random, 0.5) ? (unsigned)bits(random) : 0;
     return def;
 }
 
@@ -223,7 +230,8 @@ static const char *run_fault(hd_run *run)
 {
     const char *fault = NULL;
     for (int step = 0; !fault && step < STEPS_MAX && events_of(run) < EVENTS_ENOUGH &&
-                       hd_run_phase(run) != HD_FINISHED; step++)
+                       hd_run_phase(run) != HD_FINISHED;
+         step++)
         fault = step_once(run);
     return fault ? fault : state_fault(run);
 }
@@ -242,7 +250,7 @@ static const char *refusal_fault(hd_random *random, const hd_scene_def *def, con
     seen->refused++;
     seen->refused_by[k]++;
     return same_in_short_room(def, line, (size_t)one_of(random, LINE)) ? NULL
-                                                                      : "a short room overflows";
+                                                                       : "a short room overflows";
 }
 
 static const char *scene_fault(hd_random *random, const hd_scene_def *def, tally *seen)
@@ -263,9 +271,10 @@ static const char *scene_fault(hd_random *random, const hd_scene_def *def, tally
 
 static void report(const tally *seen)
 {
-    print_message("of %d scenes %d ran (%d of them as far as averages), %d were refused, %d were too "
-                  "large to be run here\n  refused by", SETS, seen->run, seen->averaged,
-                  seen->refused, seen->large);
+    print_message(
+        "of %d scenes %d ran (%d of them as far as averages), %d were refused, %d were too "
+        "large to be run here\n  refused by",
+        SETS, seen->run, seen->averaged, seen->refused, seen->large);
     for (int k = 0; k < PARAMETER_COUNT; k++)
         print_message(" %s %d", PARAMETERS[k].name, seen->refused_by[k]);
     print_message("\n");

@@ -20,6 +20,7 @@ foreach(name IN ITEMS
     ortho
     tail
     threads
+    two_threads
     schedule
     blocks
     frame

@@ -37,7 +37,8 @@ static const char *accepted_fault(const settings *set)
 {
     const unsigned published = set->observables | TOPICS_ALWAYS;
     if (hd_scene_check(&set->def, NULL, 0) != HD_OK) return "accepted, and no scene";
-    if (!set->scene || !*set->scene || has_control_character(set->scene)) return "a scene without name";
+    if (!set->scene || !*set->scene || has_control_character(set->scene))
+        return "a scene without name";
     if (!memchr(set->seed, '\0', sizeof set->seed)) return "the seed has no end";
     if (!memchr(set->exponents, '\0', sizeof set->exponents)) return "exponents have no end";
     if (set->observables & ~(unsigned)TOPICS_OBSERVABLE) return "no such observable";
