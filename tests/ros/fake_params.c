@@ -86,7 +86,7 @@ static const struct known {
     {"threads", INTEGER, "2"},
     {"wait_for_subscribers", STRINGS, "run_info"},
     {"pace", REAL, "1"},
-    {"checkpoint", STRING, ""},
+    {"checkpoint", STRING, "kept"},
     {"checkpoint_interval", REAL, "60"},
     {"resume", STRING, ""},
 };

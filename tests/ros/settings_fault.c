@@ -37,26 +37,40 @@ static const char *accepted_fault(const settings *set)
 {
     const unsigned published = set->observables | TOPICS_ALWAYS;
     if (hd_scene_check(&set->def, NULL, 0) != HD_OK) return "accepted, and no scene";
-    if (!set->scene || !*set->scene || has_control_character(set->scene))
-        return "a scene without name";
-    if (!memchr(set->seed, '\0', sizeof set->seed)) return "the seed has no end";
-    if (!memchr(set->exponents, '\0', sizeof set->exponents)) return "exponents have no end";
     if (set->observables & ~(unsigned)TOPICS_OBSERVABLE) return "no such observable";
     if (set->awaited & ~published) return "waits for what is not published";
     if (set->def.observe != topic_stages(set->observables)) return "other stages than topics";
     if (set->def.observe && hd_scene_vectors(&set->def) == 0) return "modes without vectors";
+    if (!(set->checkpoint_interval >= 0.0 && set->checkpoint_interval <= 1e12)) return "no time";
     return set->pace >= 0.0 && set->pace <= 1e12 ? fields_fault(set) : "no pace";
 }
 
-const char *settings_fault(const hdr_params *params, size_t room, char line[SETTINGS_ROOM_MAX])
+static const char *texts_fault(const settings *set)
+{
+    const char *const texts[] = {set->scene, set->checkpoint, set->resume};
+    for (int k = 0; k < 3; k++)
+        if (!texts[k] || has_control_character(texts[k])) return "a text that is no line";
+    if (!*set->scene) return "a scene without name";
+    if (!memchr(set->seed, '\0', sizeof set->seed)) return "the seed has no end";
+    return memchr(set->exponents, '\0', sizeof set->exponents) ? NULL : "exponents have no end";
+}
+
+const char *settings_fault(const hdr_params *params, bool resumed, size_t room,
+                           char line[SETTINGS_ROOM_MAX])
 {
     settings set;
+    hd_checkpoint kept = {.scene = hd_scene_def_default(), .label = "kept", .time = 1.0};
+    kept.scene.observe = HD_OBSERVE_MODES | HD_OBSERVE_STEPS;
     memset(line, '#', SETTINGS_ROOM_MAX);
     line[0] = '\0'; /* an accepted set writes nothing */
-    const bool accepted = settings_read(&set, params, line, room);
+    const char *path;
+    const bool accepted = settings_resume(&path, params, line, room) &&
+                          settings_read(&set, params, resumed ? &kept : NULL, line, room);
     for (size_t k = room; k < SETTINGS_ROOM_MAX; k++)
         if (line[k] != '#') return "writes behind its room";
     if (!memchr(line, '\0', room)) return "the line has no end";
-    if (accepted) return *line ? "accepted with a word" : accepted_fault(&set);
-    return line_fault(params, line, room);
+    if (!accepted) return line_fault(params, line, room);
+    if (*line) return "accepted with a word";
+    const char *fault = texts_fault(&set);
+    return fault ? fault : accepted_fault(&set);
 }
