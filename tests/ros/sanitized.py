@@ -9,6 +9,7 @@ Prints what the node says, and 'ok NAME' if it ended as it should: the checks en
 import os
 import signal
 import sys
+import tempfile
 
 import rospy
 from std_srvs.srv import SetBool, Trigger
@@ -20,7 +21,7 @@ from harness import Cost
 WHOLE = dict(harness.MODES, threads=2, report_interval=0.5, observables=harness.OBSERVABLES,
              wait_for_subscribers='all')
 LITTLE = dict(harness.SHORT, disks=6, threads=1, observables=['spectrum', 'modes', 'state'],
-              wait_for_subscribers='all')
+              wait_for_subscribers='all', duration=16.0, pace=4.0)
 PATIENCE = 100.0  # seconds: some checks slow the node down fifty times
 
 
@@ -31,28 +32,37 @@ def call(service, kind, *request):
     assert answer.success, '%s: %s' % (service, answer.message)
 
 
-def lead(listeners):
+def expect(node, condition):
+    """Waits, but not for a node that has ended."""
+    harness.wait_until(lambda: condition() or not node.running(), PATIENCE)
+    assert condition(), node.text()
+
+
+def lead(node, listeners):
     """Through all that it can be asked for."""
-    cost = listeners['cost']
-    assert cost.wait_for(lambda message: message.phase == Cost.AVERAGING, PATIENCE)
+    cost = listeners['cost'].messages
+    expect(node, lambda: cost and cost[-1].phase == Cost.AVERAGING)
     call('pause', SetBool, True)
     call('pause', SetBool, False)
     call('reset_average', Trigger)
-    assert all(listener.wait_for(lambda message: True, PATIENCE) for listener in listeners.values())
+    call('checkpoint', Trigger)
+    expect(node, lambda: all(listener.messages for listener in listeners.values()))
     listeners['state'].close()
-    count = len(cost.messages)
-    assert harness.wait_until(lambda: len(cost.messages) > count + 5, PATIENCE)
+    count = len(cost)
+    expect(node, lambda: len(cost) > count + 2)
 
 
 def live(command, params, stopped=False):
     """Exit status of a node that is stopped, or that comes to its end by itself."""
     listeners = {topic: harness.Listener(topic) for topic in params['observables'] + ['run_info', 'cost']}
-    node = harness.start(params, command=command)
+    # its own libraries, not those of the build whose messages are used here
+    libraries = os.path.dirname(os.path.dirname(command[-1]))
+    node = harness.start(params, command=command, LD_LIBRARY_PATH=libraries)
     try:
-        lead(listeners)
+        lead(node, listeners)
         if stopped:
             node.send(signal.SIGINT)
-        assert listeners['cost'].wait_for(lambda cost: cost.phase == Cost.FINISHED, PATIENCE)
+        expect(node, lambda: listeners['cost'].messages[-1].phase == Cost.FINISHED)
         return node.wait(PATIENCE)
     finally:
         node.stop()
@@ -61,15 +71,22 @@ def live(command, params, stopped=False):
             listener.close()
 
 
+def lives(command, checkpoint):
+    """Of a command each is slow; of a build one that ends by itself, one that is stopped, one that resumes the other's."""
+    if len(command) > 1:
+        return [live(command, dict(LITTLE, checkpoint=checkpoint))]
+    whole = dict(WHOLE, checkpoint=checkpoint)
+    return [live(command, dict(whole, duration=40.0, pace=20.0)),
+            live(command, dict(whole, duration=0.0), stopped=True),
+            live(command, dict(whole, duration=0.0, resume=checkpoint), stopped=True)]
+
+
 def main(name, *command):
     master = harness.Master()
     os.environ['ROS_MASTER_URI'] = master.uri
     rospy.init_node('sanitized', disable_rosout=True)
-    if len(command) > 1:
-        statuses = [live(command, dict(LITTLE, duration=8.0, pace=1.0))]
-    else:
-        statuses = [live(command, dict(WHOLE, duration=20.0, pace=10.0)),
-                    live(command, dict(WHOLE, duration=0.0), stopped=True)]
+    with tempfile.TemporaryDirectory() as folder:
+        statuses = lives(command, os.path.join(folder, 'kept'))
     rospy.signal_shutdown('done')
     master.stop()
     print(('FAILED ' if any(statuses) else 'ok ') + name)
