@@ -38,7 +38,7 @@ sanitizers_build() {
 
 run_ctest() {
     cd "$1"
-    ctest --output-on-failure
+    ctest --output-on-failure -j "$(nproc)"
 }
 
 ros_build() {

@@ -13,6 +13,8 @@ foreach(name IN ITEMS
     observe
     run
     checkpoint
+    checkpoint_file
+    checkpoint_contents
     verify
     effects
     blas
