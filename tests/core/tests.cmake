@@ -12,6 +12,7 @@ foreach(name IN ITEMS
     physics
     observe
     run
+    hard_conditioning
     effects
     blas
     spectrum
