@@ -13,6 +13,7 @@ foreach(name IN ITEMS
     observe
     run
     hard_conditioning
+    hard_degenerate
     effects
     blas
     spectrum
