@@ -14,6 +14,8 @@ foreach(name IN ITEMS
     run
     hard_conditioning
     hard_degenerate
+    hard_phases
+    hard_pmode
     effects
     blas
     spectrum
