@@ -16,6 +16,7 @@ foreach(name IN ITEMS
     hard_degenerate
     hard_phases
     hard_pmode
+    hard_values
     effects
     blas
     spectrum
