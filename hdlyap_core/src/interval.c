@@ -32,6 +32,12 @@ double hd_interval_condition_max(const hd_interval *interval, double length)
                           interval->accuracy * fmax(length, interval->last) / HD_ROUNDING));
 }
 
+double hd_interval_piece_max(const hd_interval *interval, double length, double whole)
+{
+    const double most = hd_interval_condition_max(interval, length);
+    return length < whole ? fmax(CONDITION_MIN, most / HD_ENLARGED) : most;
+}
+
 static double follow(double old, double seen) { return fmax(seen, old + FORGET * (seen - old)); }
 
 /** The condition grows exponentially but for a factor that grazing collisions make: that scatters alike at

@@ -29,10 +29,6 @@ static const double COLLISIONS_PER_SAMPLE = 64.0; /* of one disk, at most */
 static const double EVENTS_PER_STEP = 200000.0;   /* bounds memory, and the wait for an answer */
 /** Householder reflections stay right to eps * condition: 1e-3 of one interval, once. */
 static const double CONDITION_STABLE = 1e13;
-/** Neighbouring vectors that change places enlarge what rounding did to them: seen up to 18 times [T6]. */
-static const double ENLARGED = 20.0;
-/** No piece is divided for less: a few collisions alone can make as much. */
-static const double CONDITION_PIECE = 1e3;
 enum { PIECES_MAX = 64, SMALLEST_EXPONENTS = 8, TAIL_MAX = 60 };
 
 struct hd_run {
@@ -199,20 +195,14 @@ static double shortest_piece(const hd_run *run)
     return fmin(run->log->duration / PIECES_MAX, run->sample_max / COLLISIONS_PER_SAMPLE);
 }
 
-/** Largest condition of a piece. Whole intervals mostly stay far below what is allowed, those of repairs just below. */
-static double condition_allowed(const hd_run *run, double length)
-{
-    const double most = hd_interval_condition_max(&run->interval, length);
-    return length < run->log->duration ? fmax(most / ENLARGED, CONDITION_PIECE) : most;
-}
-
 /** Carries the frame from t_begin to t_end of the log and orthonormalises it. */
 static hd_status frame_piece(hd_run *run, double t_begin, double t_end, double defect)
 {
     const double start = hd_clock_now(), length = t_end - t_begin;
     HD_TRY(hd_frame_replay(run->frame, run->log, t_begin, t_end));
     const double replayed = hd_clock_now();
-    const hd_ortho_limits limits = {condition_allowed(run, length), defect};
+    const double allowed = hd_interval_piece_max(&run->interval, length, run->log->duration);
+    const hd_ortho_limits limits = {allowed, defect};
     const hd_status status = length > shortest_piece(run)
                                  ? hd_ortho_step(run->ortho, run->frame, limits)
                                  : hd_ortho_step_stable(run->ortho, run->frame, CONDITION_STABLE);
@@ -256,21 +246,21 @@ static hd_status frame_interval(hd_run *run)
     const double defect = observing(run) ? DEFECT_MEASURED : DEFECT_LOOSE;
     double begin = 0.0, end = duration;
     while (begin < duration) {
+        const double piece = end - begin;
         const hd_status status = frame_piece(run, begin, end, defect);
         if (status != HD_OK && status != HD_ILL_CONDITIONED) return status;
         if (status == HD_OK) {
-            piece_accepted(run, end - begin);
-            const double piece = end - begin;
+            piece_accepted(run, piece);
             begin = end;
             end = duration - end < 1.5 * piece ? duration : end + piece; /* no crumb of rounding is left */
             continue;
         }
-        if (end - begin <= shortest_piece(run)) return HD_ILL_CONDITIONED;
-        run->cost.repairs += end >= duration && begin == 0.0;
+        if (piece <= shortest_piece(run)) return HD_ILL_CONDITIONED;
+        run->cost.repairs += piece >= duration;
         run->cost.limit = HD_LIMIT_REPAIR;
-        hd_interval_failed(&run->interval, end - begin);
+        hd_interval_failed(&run->interval, piece);
         hd_frame_rewind(run->frame);
-        end = begin + 0.5 * (end - begin);
+        end = begin + 0.5 * piece;
     }
     hd_event_log_clear(run->log);
     run->interval_end = run->now;
@@ -410,7 +400,8 @@ static void plan_interval(hd_run *run)
     hd_interval_length next = hd_interval_next(&run->interval, left);
     if (next.length > run->step_max)
         next = (hd_interval_length){left / ceil(left / run->step_max), HD_LIMIT_EVENTS};
-    run->interval_end = next.length >= left ? end : fmax(run->now + next.length, nextafter(run->now, end));
+    const double later = fmax(run->now + next.length, nextafter(run->now, end));
+    run->interval_end = next.length >= left ? end : later;
     run->cost.limit = next.limit;
 }
 
@@ -495,7 +486,7 @@ hd_cost hd_run_cost(const hd_run *run)
     const double now = hd_clock_now(), left = time_left(run);
     cost.wall = now - run->created;
     if (run->schedule.phase >= HD_AVERAGING && run->spectrum && hd_spectrum_time(run->spectrum) > 0)
-        cost.error_bound = (ENLARGED * run->rounding + cost.defect * cost.defect) /
+        cost.error_bound = (HD_ENLARGED * run->rounding + cost.defect * cost.defect) /
                            hd_spectrum_time(run->spectrum);
     const double error = run->spectrum ? smallest_error(run) : INFINITY;
     cost.std_error = error < INFINITY ? error : -1.0;
