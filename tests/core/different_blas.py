@@ -1,4 +1,5 @@
-"""different_blas.py PROGRAM WORK: runs blas_results under every BLAS of this machine and compares what it prints.
+"""different_blas.py PROGRAM WORK TEST...: runs blas_results under every BLAS of this machine and compares what it
+prints; the tests, which the build runs under one of them, must pass under the others too.
 
 A library is put in place by a folder of links under WORK, first on LD_LIBRARY_PATH. HDLYAP_BLAS may name further
 folders, one after another with ':' between them, each as one below /usr/lib/*/: libblas.so.3, liblapack.so.3,
@@ -37,8 +38,8 @@ def files_of(name):
     return None
 
 
-def run(program, work, name, files, kernel):
-    folder = os.path.join(work, name)
+def environment_of(folder, files, kernel):
+    """In which the program loader finds these files first."""
     os.makedirs(folder, exist_ok=True)
     for link, target in files.items():
         path = os.path.join(folder, link)
@@ -49,10 +50,14 @@ def run(program, work, name, files, kernel):
     environment.pop("OPENBLAS_CORETYPE", None)
     if kernel:
         environment["OPENBLAS_CORETYPE"] = kernel
+    return environment
+
+
+def run(program, environment, label):
     done = subprocess.run([program], env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           universal_newlines=True)
     if done.returncode:
-        sys.exit(f"{name} {kernel}: exit status {done.returncode}\n{done.stderr}")
+        sys.exit(f"{program} under {label}: exit status {done.returncode}\n{done.stdout[-2000:]}{done.stderr}")
     return done.stdout.splitlines()
 
 
@@ -86,7 +91,7 @@ def compare(first, second, label):
 
 
 def main():
-    program, work = sys.argv[1:]
+    program, work, *tests = sys.argv[1:]
     flags, results, libraries = processor(), {}, set()
     for name in LIBRARIES:
         files = files_of(name)
@@ -99,8 +104,13 @@ def main():
             if kernel and not flags.issuperset(FEATURES[kernel]):
                 print(f"{label}: not for this processor, skipped")
                 continue
-            lines = run(program, work, name, files, kernel)
-            check_identity(lines, os.path.join(work, name), name, kernel)
+            folder = os.path.join(work, name)
+            environment = environment_of(folder, files, kernel)
+            lines = run(program, environment, label)
+            check_identity(lines, folder, name, kernel)
+            for test in tests if name != LIBRARIES[0] else []:
+                run(test, environment, label)
+                print(f"{label}: {os.path.basename(test)} passed")
             results[label] = [line.split() for line in lines[3:]]
             libraries.add(name)
     first = next(iter(results), None)

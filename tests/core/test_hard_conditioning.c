@@ -399,6 +399,7 @@ static void any_scale_is_right_or_refused(void **state)
         for (int stable = 0; stable < 2; stable++) {
             const bool ok = scaled_is_right(digits, stable);
             if (abs(digits) <= 130) assert_true(ok);
+            if (abs(digits) >= 156) assert_false(ok);
             right += ok;
             refused += !ok;
         }
