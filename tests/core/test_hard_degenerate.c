@@ -176,7 +176,7 @@ static hd_scene_def watched(int disks, double density, double aspect, hd_boundar
     hd_scene_def scene = scene_of(disks, density, aspect, x, y, 1);
     scene.equilibration = 50.0;
     scene.warmup = 200.0;
-    scene.duration = HD_SANITIZED ? 200.0 : 500.0;
+    scene.duration = HD_SANITIZED ? 200.0 : 300.0;
     scene.report_interval = 0.25; /* one sample of the phases per report */
     scene.observe = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
     scene.max_node = 1;
@@ -184,7 +184,7 @@ static hd_scene_def watched(int disks, double density, double aspect, hd_boundar
     return scene;
 }
 
-/** A step is lost and found, or moves, in one of 1600 looks at most. */
+/** A step is lost and found, or moves, at two of 800 looks at most. */
 static const long MOVES = 2;
 
 static void watch_scene(const hd_scene_def *scene, const char *name, int resolved, watch *w)
