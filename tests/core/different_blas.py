@@ -38,6 +38,17 @@ def files_of(name):
     return None
 
 
+def kernels_of(name, flags):
+    """Of the first library all that this processor has, of the others the first; None: not chosen."""
+    suitable = [kernel for kernel in FEATURES if flags.issuperset(FEATURES[kernel])]
+    if name == LIBRARIES[0]:
+        for kernel in FEATURES.keys() - set(suitable):
+            print(f"{name} {kernel}: not for this processor, skipped")
+    else:
+        suitable = suitable[:1]
+    return [None] if name == "reference" or not suitable else suitable
+
+
 def environment_of(folder, files, kernel):
     """In which the program loader finds these files first."""
     os.makedirs(folder, exist_ok=True)
@@ -67,7 +78,7 @@ def check_identity(lines, folder, name, kernel):
         if os.path.dirname(line.split()[2]) != folder:
             sys.exit(f"{name}: {line}, not from {folder}")
     library, its_kernel, threading = lines[0][len("blas "):].rsplit(", ", 2)
-    expected = ("unknown BLAS", "unknown") if name == "reference" else ("OpenBLAS", kernel)
+    expected = ("unknown BLAS", "unknown") if name == "reference" else ("OpenBLAS", kernel or its_kernel)
     if not library.startswith(expected[0]) or its_kernel != expected[1]:
         sys.exit(f"{name} {kernel}: is {lines[0]}")
     if name.startswith("openblas-") and threading != name[len("openblas-"):]:
@@ -98,12 +109,8 @@ def main():
         if not files:
             print(f"{name}: not installed, skipped")
             continue
-        kernels = FEATURES if name == "openblas-openmp" else list(FEATURES)[:1]
-        for kernel in [None] if name == "reference" else kernels:
+        for kernel in kernels_of(name, flags):
             label = f"{name} {kernel}" if kernel else name
-            if kernel and not flags.issuperset(FEATURES[kernel]):
-                print(f"{label}: not for this processor, skipped")
-                continue
             folder = os.path.join(work, name)
             environment = environment_of(folder, files, kernel)
             lines = run(program, environment, label)

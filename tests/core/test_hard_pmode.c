@@ -163,7 +163,8 @@ static void noise_is_not_blown_up_where_a_disk_rests(void **state)
 }
 
 /** One disk alone moves: the P fields of both modulations are the same but for a factor, the vectors dependent but for
- *  rounding. Refused, or finite fields that still are combinations of the vectors; these say how far from a rotation. */
+ *  rounding. Refused, or finite fields that still are combinations of the vectors; how far
+ *  from a rotation is told. */
 static void one_moving_disk_is_refused_or_finite(void **state)
 {
     (void)state;
