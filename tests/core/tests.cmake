@@ -16,6 +16,11 @@ foreach(name IN ITEMS
     checkpoint_file
     checkpoint_contents
     verify
+    hard_conditioning
+    hard_degenerate
+    hard_phases
+    hard_pmode
+    hard_values
     effects
     blas
     spectrum
