@@ -28,6 +28,7 @@ foreach(name IN ITEMS
     trajectory_pair
     trajectory_conservation
     trajectory_rates
+    hard_grazing
     golden
     queue
     cells
