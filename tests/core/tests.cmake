@@ -29,6 +29,7 @@ foreach(name IN ITEMS
     trajectory_conservation
     trajectory_rates
     hard_grazing
+    hard_grazing_run
     golden
     queue
     cells
