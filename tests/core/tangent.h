@@ -35,8 +35,7 @@ static inline double symplectic(const double *a, const double *b, int rows)
 {
     double sum = 0.0;
     for (int i = 0; i < rows; i += 4)
-        for (int c = 0; c < 2; c++)
-            sum += a[i + c] * b[i + 2 + c] - a[i + 2 + c] * b[i + c];
+        for (int c = 0; c < 2; c++) sum += a[i + c] * b[i + 2 + c] - a[i + 2 + c] * b[i + c];
     return sum;
 }
 

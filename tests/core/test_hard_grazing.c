@@ -134,7 +134,8 @@ static int check_encounter(const graze *g, double wait, double drift)
     double q[4], p[4];
     prepare(g, wait, drift, q, p);
     check_passage(&def, q, p, wait, g->impact);
-    if (drift <= 1.0) twin_compare(started(&def, q, p), &def, 3); /* else it tries a thousand images */
+    if (drift <= 1.0)
+        twin_compare(started(&def, q, p), &def, 3); /* else it tries a thousand images */
     hd_event_log *log = log_of(&def, q, p, wait + 0.5);
     const int taken = log->count > 0;
     if (taken) check_map(log, 2);

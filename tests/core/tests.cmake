@@ -30,6 +30,7 @@ foreach(name IN ITEMS
     trajectory_rates
     hard_grazing
     hard_grazing_run
+    hard_simultaneous
     golden
     queue
     cells
