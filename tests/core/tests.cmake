@@ -31,6 +31,7 @@ foreach(name IN ITEMS
     hard_grazing
     hard_grazing_run
     hard_simultaneous
+    hard_density
     golden
     queue
     cells
