@@ -32,6 +32,8 @@ foreach(name IN ITEMS
     hard_grazing_run
     hard_simultaneous
     hard_density
+    hard_long
+    hard_reversal
     golden
     queue
     cells
