@@ -1,5 +1,5 @@
 # What the trajectory's tests need beside cmocka: the twin, the golden scenes, and checks of the sources.
-foreach(name trajectory_twin trajectory_ties hard_grazing hard_simultaneous hard_density)
+foreach(name trajectory_twin trajectory_ties hard_grazing hard_simultaneous hard_density hard_special)
   target_sources(test_${name} PRIVATE twin.c twin_compare.c)
 endforeach()
 target_sources(test_golden PRIVATE golden.c)

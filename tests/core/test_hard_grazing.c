@@ -9,7 +9,7 @@
 static const double PI = 3.14159265358979323846;
 static const double LX = 8.0, LY = 8.0;
 static const double TAKEN_MIN = 1e-14; /* least |p.n| / |p| */
-enum { ANGLES = 24, ROWS = 8 };
+enum { ANGLES = 24 };
 
 /** |p.n| / |p| = impact, disk 1 at `angle` of disk 0 and passing at that side. */
 typedef struct graze {
@@ -35,34 +35,6 @@ static void relative_momentum(const graze *g, double speed, double p[2])
 
 /* ---- the map ---------------------------------------------------------------------------------- */
 
-/** S of the log, applied to the unit vectors: finite, and S^T J S = J. A column of S is computed by products whose
- *  largest is at most |S|, some ten in a row: it is known to 16 eps |S|, and enters with the other column. */
-static double check_map(const hd_event_log *log, int disks)
-{
-    hd_frame *frame;
-    double a[ROWS], b[ROWS], size[ROWS], all = 0.0;
-    assert_int_equal(4 * disks, ROWS);
-    CHECK_OK(hd_frame_create(&frame, disks, ROWS, 1, 1));
-    frame_identity(frame);
-    CHECK_OK(hd_frame_replay(frame, log, 0.0, log->duration));
-    for (int k = 0; k < ROWS; k++) {
-        frame_column(frame, k, a);
-        size[k] = sqrt(dot(a, a, ROWS));
-        all = hypot(all, size[k]);
-    }
-    assert_true(isfinite(all));
-    for (int k = 0; k < ROWS; k++)
-        for (int l = 0; l < ROWS; l++) {
-            const double want = l == (k ^ 2) ? (k & 2 ? -1.0 : 1.0) : 0.0;
-            frame_column(frame, k, a);
-            frame_column(frame, l, b);
-            CHECK_CLOSE(symplectic(a, b, ROWS), want,
-                        16.0 * DBL_EPSILON * all * (size[k] + size[l]));
-        }
-    hd_frame_free(frame);
-    return all;
-}
-
 /** The largest entries of S are p_t^2 / b n n^T, to and from both disks: |S| = 2 p_t^2 / |b|, and flights of a quarter
  *  stretch it further by less than (1 + 1/4)^2. */
 static void check_event(const graze *g, double speed)
@@ -72,7 +44,7 @@ static void check_event(const graze *g, double speed)
     relative_momentum(g, speed, p);
     hd_event event = {.t = 0.25, .i = 0, .j = 1, .n = {n[0], n[1]}, .p = {p[0], p[1]}};
     const hd_event_log log = {.event = &event, .count = 1, .capacity = 1, .duration = 0.5};
-    const double size = check_map(&log, 2), stretch = 2.0 * speed / g->impact;
+    const double size = check_symplectic_map(&log, 2), stretch = 2.0 * speed / g->impact;
     if (g->impact < 1e-3) assert_true(size > 0.9 * stretch && size < 1.6 * stretch);
 }
 
@@ -138,7 +110,7 @@ static int check_encounter(const graze *g, double wait, double drift)
         twin_compare(started(&def, q, p), &def, 3); /* else it tries a thousand images */
     hd_event_log *log = log_of(&def, q, p, wait + 0.5);
     const int taken = log->count > 0;
-    if (taken) check_map(log, 2);
+    if (taken) check_symplectic_map(log, 2);
     hd_event_log_free(log);
     return taken;
 }

@@ -34,6 +34,7 @@ foreach(name IN ITEMS
     hard_density
     hard_long
     hard_reversal
+    hard_special
     golden
     queue
     cells
