@@ -217,49 +217,55 @@ static void check_at(const hd_scene_def *def, const double *q, const double *p, 
     check_all(def, q, p, 4.0 * t);
 }
 
-/** A contact, two walls and a corner, all at the very end of the first, the second and the fourth epoch. */
+/** A contact, two walls and a corner, all at the middle of the first epoch, and at the very end of the first, the second
+ *  and the fourth. */
 static void events_at_the_end_of_an_epoch(void **state)
 {
     (void)state;
     const hd_scene_def def = scene_in_box(4, 8.0, 8.0, HD_REFLECTING, HD_REFLECTING, 1);
     const double q[] = {3.0, 4.0, 5.0, 4.0, 1.0, 1.0, 1.0, 7.0}, rest[8] = {0};
     const double epoch = epoch_of(&def, q, rest);
-    for (double t = epoch; t <= 4.0 * epoch; t *= 2.0) {
+    for (double t = 0.5 * epoch; t <= 4.0 * epoch; t *= 2.0) {
         const double v = 0.5 / t; /* half a diameter until then; powers of two: exact */
         const double p[] = {v, 0, -v, 0, -v, -v, -v, 0};
         check_at(&def, q, p, t, 4);
     }
 }
 
-/** Into an edge that two cells share, along it, and through the point where four meet: disks meet there head-on, and
- *  obliquely. */
+/** Two disks cross an edge of cells, or the point where four meet, from both sides at the moment at which they touch; ten
+ *  others wait above and below, two of them on an edge. */
+static void start_at(const double at[2], const double way[2], double side, double q[24],
+                     double p[24])
+{
+    const double length = hypot(way[0], way[1]);
+    for (int k = 2; k < 12; k++) {
+        q[2 * k] = k == 2 ? 6.0 : 1.2 + 2.4 * (k % 5);
+        q[2 * k + 1] = k < 7 ? 0.75 : 11.25;
+        p[2 * k] = 0.0;
+        p[2 * k + 1] = k == 2 ? 1.0 : 0.0;
+    }
+    for (int d = 0; d < 2; d++) { /* the first one's centre is on the edge at t = 1 */
+        q[d] = at[d] - way[d] * side;
+        q[2 + d] = at[d] + way[d] * side * (1.0 + 1.0 / length);
+        p[d] = way[d] * side;
+        p[2 + d] = -way[d] * side;
+    }
+}
+
 static void contacts_on_cell_edges(void **state)
 {
     (void)state;
-    const hd_scene_def def = scene_in_box(4, 8.0, 8.0, HD_PERIODIC, HD_PERIODIC, 1);
-    double q[8] = {1.0, 1.0, 4.0, 1.0, 1.0, 4.0, 5.0, 5.0}, p[8] = {0};
-    hd_trajectory *tr = started(&def, q, p);
-    const int32_t columns = tr->cells.size[0], rows = tr->cells.size[1];
-    assert_true(columns >= 2 && rows >= 2);
-    const double x = tr->cells.line[0][columns / 2].bound[0],
-                 y = tr->cells.line[1][rows / 2].bound[0];
-    hd_trajectory_free(tr);
-    const double way[][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
-    for (int k = 0; k < 4; k++) {
-        const double length = hypot(way[k][0], way[k][1]);
-        for (int side = -1; side <= 1; side += 2)
-            for (int d = 0; d < 2; d++) { /* centres cross the edge at t = 1, touching then */
-                const double u = way[k][d], at = d ? y : x;
-                q[d] = at - u * side;
-                q[2 + d] = at + u / length + u * side;
-                p[d] = u * side;
-                p[2 + d] = -u * side;
-                q[4 + d] = at + 2.5 * (d ? -u : u) + 1.5 * (u == 0);
-                q[6 + d] = d ? 0.0 : nextafter(8.0, 0.0); /* on the edges of the box */
-                p[4 + d] = 0.0;
-                p[6 + d] = u;
-            }
-        check_all(&def, q, p, 12.0);
+    const hd_scene_def def = scene_in_box(12, 12.0, 12.0, HD_PERIODIC, HD_PERIODIC, 1);
+    const double way[][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}, {0.5, 1}};
+    hd_cells cells;
+    CHECK_OK(hd_cells_create(&cells, &def));
+    assert_true(cells.size[0] >= 4 && cells.size[1] >= 4);
+    const double at[] = {cells.line[0][2].bound[0], cells.line[1][2].bound[0]};
+    hd_cells_clear(&cells);
+    for (int k = 0; k < 5 * 2; k++) {
+        double q[24], p[24];
+        start_at(at, way[k / 2], k % 2 ? 1.0 : -1.0, q, p);
+        check_all(&def, q, p, 40.0);
     }
 }
 
