@@ -9,7 +9,7 @@
 static const double PI = 3.14159265358979323846;
 static const double LX = 8.0, LY = 8.0;
 static const double TAKEN_MIN = 1e-14; /* least |p.n| / |p| */
-enum { ANGLES = 24 };
+enum { ANGLES = HD_SANITIZED ? 8 : 24 };
 
 /** |p.n| / |p| = impact, disk 1 at `angle` of disk 0 and passing at that side. */
 typedef struct graze {

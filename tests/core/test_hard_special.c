@@ -210,8 +210,8 @@ static int check_scaled(const scaled *s)
 /** Finer where squares begin to underflow or overflow. */
 static int step_from(int power)
 {
-    const int coarse = HD_SANITIZED ? 53 : 13;
-    return abs(power) >= 480 && abs(power) <= 560 ? (coarse + 12) / 25 + 1 : coarse;
+    if (abs(power) >= 480 && abs(power) <= 560) return HD_SANITIZED ? 9 : 1;
+    return HD_SANITIZED ? 53 : 13;
 }
 
 /** Everything that a run can come to, e^150 either way, is factored; from 2^-1074 to 2^1000 nothing is wrong. */
