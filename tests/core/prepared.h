@@ -40,4 +40,11 @@ static inline long void_contacts(const hd_trajectory *tr)
     return (long)((sum - tr->wall_events) / 2 - tr->collisions);
 }
 
+/** When the next event is due, pair or not; disks that meet then touch. */
+static inline double next_event_time(hd_trajectory *tr)
+{
+    const int32_t i = hd_queue_next(&tr->queue);
+    return i < 0 ? hd_trajectory_time(tr) : tr->epoch_start + tr->queue.entry[i].key.t;
+}
+
 #endif
