@@ -1,8 +1,19 @@
+/** Event log -> sums of ln R_ll [T1], [T3]-[T5], by the Gram-Schmidt process as it stands in textbooks, twice. */
 #include "exact.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "testing.h"
+
+/** Between two factorisations: a few disks' vectors are then conditioned to a thousand, and a grazing event's share. */
+enum { EVENTS_MAX = 8 };
+
+struct exact_frame {
+    int rows, vectors;
+    hd_exact *v;   /**< [rows][vectors] */
+    hd_exact *sum; /**< [vectors] */
+};
 
 void exact_orthonormalise(hd_exact *v, int rows, int n, hd_exact *log_stretch)
 {
@@ -21,27 +32,60 @@ void exact_orthonormalise(hd_exact *v, int rows, int n, hd_exact *log_stretch)
     }
 }
 
-hd_exact *exact_copy(hd_frame *frame)
+hd_exact *exact_copy(const hd_frame *frame)
 {
     const int n = hd_frame_vectors(frame), rows = hd_frame_rows(frame);
     hd_exact *v = malloc((size_t)(rows * n) * sizeof *v);
+    assert_non_null(v);
     for (int row = 0; row < rows; row++)
         for (int col = 0; col < n; col++)
             v[row * n + col] = hd_frame_read(frame)[row * hd_frame_stride(frame) + col];
     return v;
 }
 
+exact_frame *exact_create(const hd_frame *frame)
+{
+    exact_frame *x = calloc(1, sizeof *x);
+    assert_non_null(x);
+    x->rows = hd_frame_rows(frame);
+    x->vectors = hd_frame_vectors(frame);
+    x->v = exact_copy(frame);
+    x->sum = calloc((size_t)x->vectors, sizeof *x->sum);
+    assert_non_null(x->sum);
+    return x;
+}
+
+void exact_free(exact_frame *x)
+{
+    free(x->v);
+    free(x->sum);
+    free(x);
+}
+
+double exact_log_stretch(const exact_frame *x, int col) { return (double)x->sum[col]; }
+
+void exact_begin_anew(exact_frame *x)
+{
+    for (int col = 0; col < x->vectors; col++) x->sum[col] = 0.0L;
+}
+
 /* ---- the tangent maps, as [T1], [T3] and [T4] say them ---------------------------------------- */
 
-/** Rows of one disk: dq_x, dq_y, dp_x, dp_y, n entries each. */
-static void fly(hd_exact *disk, int n, hd_exact tau)
+/** The rows of one disk: dq_x, dq_y, dp_x, dp_y. */
+static hd_exact *rows_of(const exact_frame *x, int disk) { return x->v + 4 * disk * x->vectors; }
+
+static void fly(exact_frame *x, hd_exact tau)
 {
-    for (int k = 0; k < 2 * n; k++) disk[k] += tau * disk[2 * n + k];
+    const int n = x->vectors;
+    for (int disk = 0; tau > 0 && disk < x->rows / 4; disk++)
+        for (int k = 0; k < 2 * n; k++) rows_of(x, disk)[k] += tau * rows_of(x, disk)[2 * n + k];
 }
 
 static void collide(hd_exact *i, hd_exact *j, int n, const hd_event *event)
 {
-    const hd_exact nx = event->n[0], ny = event->n[1], px = event->p[0], py = event->p[1];
+    const hd_exact length = hypotl(event->n[0], event->n[1]);
+    const hd_exact nx = event->n[0] / length, ny = event->n[1] / length;
+    const hd_exact px = event->p[0], py = event->p[1];
     const hd_exact b = px * nx + py * ny, pt = py * nx - px * ny;
     for (int k = 0; k < n; k++) {
         const hd_exact qx = j[k] - i[k], qy = j[n + k] - i[n + k];
@@ -65,48 +109,52 @@ static void reflect(hd_exact *disk, int n, int d)
     }
 }
 
-static void replay(hd_exact *v, int disks, int n, const hd_event_log *log)
+void exact_replay(exact_frame *x, const hd_event_log *log)
 {
-    double now = 0.0;
-    for (size_t e = 0; e <= log->count; e++) {
-        const hd_event *event = e < log->count ? &log->event[e] : NULL;
-        const double t = event ? event->t : log->duration;
-        for (int d = 0; t > now && d < disks; d++) fly(v + 4 * d * n, n, (hd_exact)t - now);
-        now = t;
-        if (!event) return;
-        hd_exact *i = v + 4 * event->i * n;
-        if (event->j >= 0) collide(i, v + 4 * event->j * n, n, event);
-        else reflect(i, n, event->j == HD_WALL_Y);
+    double t = 0.0;
+    for (size_t k = 0; k < log->count; k++) {
+        const hd_event *event = &log->event[k];
+        hd_exact *i = rows_of(x, event->i);
+        fly(x, (hd_exact)event->t - t);
+        if (event->j >= 0) collide(i, rows_of(x, event->j), x->vectors, event);
+        else reflect(i, x->vectors, event->j == HD_WALL_Y);
+        if (k % EVENTS_MAX == 0) exact_orthonormalise(x->v, x->rows, x->vectors, x->sum);
+        t = event->t;
+    }
+    fly(x, (hd_exact)log->duration - t);
+    exact_orthonormalise(x->v, x->rows, x->vectors, x->sum);
+}
+
+/* ---- a whole scene ---------------------------------------------------------------------------- */
+
+/** In pieces, so that the log stays short. */
+static void carry(exact_frame *x, hd_trajectory *trajectory, hd_event_log *log, double length)
+{
+    const double begin = hd_trajectory_time(trajectory);
+    const int pieces = (int)ceil(length);
+    exact_begin_anew(x);
+    for (int k = 1; k <= pieces; k++) {
+        CHECK_OK(hd_trajectory_advance(trajectory, log, begin + length * k / pieces));
+        exact_replay(x, log);
     }
 }
 
-void exact_spectrum(const hd_scene_def *scene, double interval, double *out)
+void exact_spectrum(const hd_scene_def *scene, double *out)
 {
     hd_trajectory *trajectory;
     hd_event_log *log;
     hd_frame *frame;
-    const int n = hd_scene_vectors(scene), rows = 4 * scene->disks;
-    hd_exact *sum = calloc((size_t)n, sizeof *sum);
+    const int n = hd_scene_vectors(scene);
     CHECK_OK(hd_trajectory_create(&trajectory, scene));
     CHECK_OK(hd_event_log_create(&log));
     CHECK_OK(hd_frame_create(&frame, scene->disks, n, scene->seed, 1));
     CHECK_OK(hd_trajectory_advance(trajectory, NULL, scene->equilibration));
-    hd_exact *v = exact_copy(frame);
-    exact_orthonormalise(v, rows, n, sum);
-    const double length[2] = {scene->warmup, scene->duration};
-    for (int phase = 0; phase < 2; phase++) {
-        const double begin = hd_trajectory_time(trajectory);
-        const int pieces = (int)lround(length[phase] / interval);
-        for (int col = 0; col < n; col++) sum[col] = 0.0L;
-        for (int k = 1; k <= pieces; k++) {
-            CHECK_OK(hd_trajectory_advance(trajectory, log, begin + length[phase] * k / pieces));
-            replay(v, scene->disks, n, log);
-            exact_orthonormalise(v, rows, n, sum);
-        }
-    }
-    for (int col = 0; col < n; col++) out[col] = (double)(sum[col] / scene->duration);
-    free(v);
-    free(sum);
+    exact_frame *x = exact_create(frame);
+    exact_orthonormalise(x->v, x->rows, n, x->sum);
+    carry(x, trajectory, log, scene->warmup);
+    carry(x, trajectory, log, scene->duration);
+    for (int col = 0; col < n; col++) out[col] = exact_log_stretch(x, col) / scene->duration;
+    exact_free(x);
     hd_frame_free(frame);
     hd_event_log_free(log);
     hd_trajectory_free(trajectory);

@@ -103,7 +103,7 @@ static void any_forced_interval_gives_the_exact_spectrum(void **state)
     double exact[VECTORS_MAX];
     for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s++) {
         hd_scene_def scene = small_scene(scenes[s].disks, scenes[s].exponents, scenes[s].seed);
-        exact_spectrum(&scene, 0.1, exact);
+        exact_spectrum(&scene, exact);
         for (int a = 0; a < 3; a++) {
             tally sum = {0};
             scene.accuracy = accuracies[a];
@@ -185,7 +185,7 @@ static void nearly_dependent_start_vectors_are_separated_or_refused(void **state
         const hd_scene_def scene = small_scene(10, all ? HD_EXPONENTS_ALL : HD_EXPONENTS_POSITIVE, 4);
         double worst = 0.0;
         int refused = 0;
-        exact_spectrum(&scene, 0.1, exact);
+        exact_spectrum(&scene, exact);
         for (int k = 1; k <= 16; k++) {
             const double off = leaning_start(&scene, exact, k < 16 ? pow(10.0, -k) : 0.0);
             worst = fmax(worst, off);

@@ -37,6 +37,13 @@ foreach(name IN ITEMS
     trajectory_pair
     trajectory_conservation
     trajectory_rates
+    hard_grazing
+    hard_grazing_run
+    hard_simultaneous
+    hard_density
+    hard_long
+    hard_reversal
+    hard_special
     golden
     queue
     cells
