@@ -30,7 +30,7 @@ type_in() {
         launch/demo.sh* | tests/run.sh*) return ;; # tested elsewhere
         source*) return ;;                         # done below, for another folder
         'rosrun hdlyap hdlyap_node') run timeout --preserve-status -s INT 8 rosrun hdlyap hdlyap_node ;;
-        *bench/run.sh*) run bash -ec "$1 --quick" ;; # nine minutes otherwise
+        *bench/run.sh*) run bash -ec "$1 --quick" ;; # fifteen minutes otherwise
         *follow* | rostopic*) beside_a_node bash -ec "timeout 60 $1" ;;
         *) run bash -ec "$1" ;;
     esac

@@ -36,6 +36,19 @@ sanitizers_build() {
     without_ros cmake --build "$WORK/sanitizers" -- -j "$(nproc)"
 }
 
+# Installed, it would take the place of the OpenBLAS in use: one more to compare with, in a folder of its own.
+other_blas() {
+    mkdir -p "$WORK/blas"
+    cd "$WORK/blas"
+    apt-get download libopenblas0-pthread
+    dpkg -x libopenblas0-pthread_*.deb .
+}
+
+core_ctest() {
+    local folders=("$WORK"/blas/usr/lib/*/)
+    HDLYAP_BLAS=${folders[0]} run_ctest "$WORK/core"
+}
+
 run_ctest() {
     cd "$1"
     ctest --output-on-failure -j "$(nproc)"
@@ -127,7 +140,8 @@ own_environment "$WORK/home"
 
 stage shell_scripts one shell_scripts
 stage core_build one core_build
-stage core_tests ctest run_ctest "$WORK/core"
+[[ ${1:-} ]] || stage other_blas one other_blas
+stage core_tests ctest core_ctest
 stage core_install checks core_install
 stage sanitizers_build one sanitizers_build
 stage sanitizers_tests ctest run_ctest "$WORK/sanitizers"

@@ -85,7 +85,7 @@ run_all() {
     elif [[ -x $PROGRAMS/hdlyap_effects ]]; then
         with_effects=1
     fi
-    TOTAL=$((${#QUICK[@]} ? 9 : 522))
+    TOTAL=$((${#QUICK[@]} ? 10 : 872))
     if ((with_effects)); then TOTAL=$((TOTAL + 60)); fi
     stage 220 'what accuracy costs' "$PROGRAMS/hdlyap_precision" --out "$OUT" "${QUICK[@]}"
     stage 45 'how long a wanted error takes' "$PROGRAMS/hdlyap_convergence" --out "$OUT" "${QUICK[@]}"
@@ -101,6 +101,7 @@ run_all() {
         stage 12 'events alone, and one exponent' "$PROGRAMS/hdlyap_bench" --events
     fi
     stage 40 'what others write' "$PROGRAMS/hdlyap_rivals" --out "$OUT" "${small[@]}"
+    stage 350 'a long trajectory' "$PROGRAMS/hdlyap_endurance" --out "$OUT" "${QUICK[@]}"
     if ((with_effects)); then
         stage 60 'what each effect costs' effects
     fi

@@ -21,6 +21,8 @@
 #include "multiversion.h"
 #include "random.h"
 
+/** Sums of squares below are no longer known to rounding: such a half counts as none. */
+static const double SQUARE_MIN = DBL_MIN / DBL_EPSILON;
 enum { BLOCK_BYTES = 512 * 1024, BLOCK_WIDTH_MAX = 64 };
 
 /** Tangent map of one event: free flights of its disks since their last events, then the collision. */
@@ -342,8 +344,9 @@ void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_rat
         double sum[3][BLOCK_WIDTH_MAX];
         const int count = n - col < BLOCK_WIDTH_MAX ? n - col : BLOCK_WIDTH_MAX;
         halves_of_columns(frame, sum, col, count);
-        for (int k = 0; k < count; k++) { /* DBL_MIN: a half that vanishes has no angle */
-            cos_theta[col + k] = sum[2][k] / fmax(sqrt(sum[0][k] * sum[1][k]), DBL_MIN);
+        for (int k = 0; k < count; k++) { /* a half that vanishes has no angle */
+            const bool both = fmin(sum[0][k], sum[1][k]) > SQUARE_MIN;
+            cos_theta[col + k] = both ? sum[2][k] / (sqrt(sum[0][k]) * sqrt(sum[1][k])) : 0.0;
             dp_dq_ratio[col + k] = sqrt(sum[1][k] / fmax(sum[0][k], DBL_MIN));
         }
     }

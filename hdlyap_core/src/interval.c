@@ -9,6 +9,8 @@
 
 /** Beyond, block Gram-Schmidt may meet panels that Cholesky cannot factor. */
 static const double CONDITION_MAX = 1e12;
+/** A few collisions alone can make as much: shorter intervals would not lower it, only add up more of it. */
+static const double CONDITION_MIN = 1e3;
 /** Standard deviations of ln(condition) kept free below the maximum: few intervals are then repaired,
  *  which costs less than shorter intervals would. At least a factor of 2. */
 static const double MARGIN = 2.0, HEADROOM_MIN = 0.7;
@@ -28,8 +30,14 @@ hd_interval hd_interval_first(double first, double limit, double accuracy)
 
 double hd_interval_condition_max(const hd_interval *interval, double length)
 {
-    return fmax(2.0, fmin(CONDITION_MAX,
+    return fmax(CONDITION_MIN, fmin(CONDITION_MAX,
                           interval->accuracy * fmax(length, interval->last) / HD_ROUNDING));
+}
+
+double hd_interval_piece_max(const hd_interval *interval, double length, double whole)
+{
+    const double most = hd_interval_condition_max(interval, length);
+    return length < whole ? fmax(CONDITION_MIN, most / HD_ENLARGED) : most;
 }
 
 static double follow(double old, double seen) { return fmax(seen, old + FORGET * (seen - old)); }

@@ -10,6 +10,9 @@
  *  1.4 eps [T6]. */
 #define HD_ROUNDING (2.0 * DBL_EPSILON)
 
+/** Neighbouring vectors that change places enlarge that: seen up to 18 times [T6]. */
+#define HD_ENLARGED 20.0
+
 /** Adapts to ln(condition) per time unit as it is measured [T6]. */
 typedef struct hd_interval {
     double limit;    /**< never longer [time units] */
@@ -25,6 +28,10 @@ hd_interval hd_interval_first(double first, double limit, double accuracy);
 /** Largest condition that leaves the exponents as accurate as asked after an interval this long (or one as long as
  *  usual, if that is longer: a rare short one with a grazing collision may use its share). */
 double hd_interval_condition_max(const hd_interval *interval, double length);
+
+/** The same for a piece of an interval of `whole`: those that were not taken back mostly stay far below what they are
+ *  allowed, pieces of the others just below. */
+double hd_interval_piece_max(const hd_interval *interval, double length, double whole);
 
 /** What an interval of `length` showed. */
 void hd_interval_learn(hd_interval *interval, double length, double condition, double stretch);

@@ -125,12 +125,16 @@ static double sign_of(int row, int probe)
     return hash >> (16 + probe) & 1 ? 1.0 : -1.0;
 }
 
+/** Below, |V e_k|^2 has lost digits to underflow, and a condition that is made from it says nothing. */
+static const double NORM2_MIN = DBL_MIN / DBL_EPSILON;
+
 /** See hd_ortho_condition: with D = diag |V e_k| and random signs x the entries of y = R^-T D x have the
- *  mean squares kappa_l^2. INFINITY where one is not finite. */
+ *  mean squares kappa_l^2. INFINITY where one is not finite, or a vector too short to be measured. */
 static double condition_of(const hd_ortho *ortho)
 {
     double worst = 1.0;
     for (int col = 0; col < ortho->vectors; col++) {
+        if (!(ortho->norm2[col] >= NORM2_MIN)) return INFINITY;
         double sum = 0.0;
         for (int p = 0; p < PROBES; p++) {
             const double y = ortho->probe[p * ortho->vectors + col];
@@ -141,6 +145,10 @@ static double condition_of(const hd_ortho *ortho)
     }
     return sqrt(worst);
 }
+
+/** True if a sum of squares is known to rounding: neither zero, as BLAS libraries differ in what they make of that, nor
+ *  near the smallest numbers, nor overflown. */
+static bool is_square(double sum) { return sum > DBL_MIN / DBL_EPSILON && sum < INFINITY; }
 
 /* ---- a panel ---------------------------------------------------------------------------------- */
 
@@ -156,7 +164,7 @@ static hd_status panel_gram(hd_ortho *ortho, panel x)
                 ortho->gram, x.width);
     for (int k = 0; k < x.width; k++) {
         ortho->scale[k] = ortho->gram[k * (x.width + 1)];
-        if (!(ortho->scale[k] < INFINITY)) return HD_ILL_CONDITIONED; /* keeps NaN out of LAPACK */
+        if (!is_square(ortho->scale[k])) return HD_ILL_CONDITIONED; /* keeps NaN out of LAPACK */
     }
     return HD_OK;
 }
@@ -309,8 +317,11 @@ static void examine_lq(hd_ortho *ortho, const double *a, int stride)
             const double entry = a[(size_t)col * (size_t)stride + (size_t)row];
             ortho->norm2[row] += entry * entry;
         }
+    ortho->condition = INFINITY;
     for (int k = 0; k < n; k++) {
-        ortho->log_stretch[k] = log(fabs(a[(size_t)k * (size_t)(stride + 1)]));
+        const double diagonal = fabs(a[(size_t)k * (size_t)(stride + 1)]);
+        if (!is_square(ortho->norm2[k]) || !(diagonal > 0.0)) return;
+        ortho->log_stretch[k] = log(diagonal);
         for (int p = 0; p < PROBES; p++)
             ortho->probe[p * n + k] = sign_of(k, p) * sqrt(ortho->norm2[k]);
     }

@@ -5,7 +5,6 @@
  *  psi^T B = overlaps, so Q = (psi^T psi)^-1 psi^T B (dposv on 2d x 2d; psi is nearly orthonormal). */
 #include "hdlyap/pmode.h"
 
-#include <float.h>
 #include <lapacke.h>
 #include <math.h>
 #include <string.h>
@@ -13,6 +12,8 @@
 #include "check.h"
 #include "memory.h"
 
+/** As in modes.c: a shorter dq half counts as none. */
+static const double NO_HALF = 1e-145;
 enum { DIMENSION_MAX = 2 * HD_MODULATIONS_MAX };
 
 struct hd_pmode {
@@ -71,7 +72,8 @@ static void psi_load(hd_pmode *pmode, const hd_frame *frame, int col)
         const double *v = hd_frame_read(frame) + col + m;
         for (int j = 0; j < pmode->disks; j++)
             for (int d = 0; d < 2; d++) psi[2 * j + d] = v[(size_t)(4 * j + d) * stride];
-        const double scale = 1.0 / fmax(sqrt(dot(psi, psi, 2 * pmode->disks)), DBL_MIN);
+        const double norm = sqrt(dot(psi, psi, 2 * pmode->disks));
+        const double scale = norm > NO_HALF ? 1.0 / norm : 0.0; /* then dependent: refused */
         for (int k = 0; k < 2 * pmode->disks; k++) psi[k] *= scale;
     }
 }

@@ -57,7 +57,7 @@ hd_cost hd_run_cost(const hd_run *run)
     const double now = hd_clock_now(), left = time_left(run);
     cost.wall = now - run->created;
     if (run->schedule.phase >= HD_AVERAGING && run->spectrum && hd_spectrum_time(run->spectrum) > 0)
-        cost.error_bound = (run->rounding + cost.defect * cost.defect) /
+        cost.error_bound = (HD_ENLARGED * run->rounding + cost.defect * cost.defect) /
                            hd_spectrum_time(run->spectrum);
     const double error = run->spectrum ? hd_run_smallest_error(run) : INFINITY;
     cost.std_error = error < INFINITY ? error : -1.0;

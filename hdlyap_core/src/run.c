@@ -189,14 +189,21 @@ static hd_status replay(hd_run *run, double t_begin, double t_end)
     return HD_OK;
 }
 
+/** Pieces of the log that are taken back no more: a collision of each disk is the least that can be divided. */
+static double shortest_piece(const hd_run *run)
+{
+    return fmin(run->log->duration / PIECES_MAX, run->sample_max / COLLISIONS_PER_SAMPLE);
+}
+
 /** Carries the frame from t_begin to t_end of the log and orthonormalises it. */
 static hd_status frame_piece(hd_run *run, double t_begin, double t_end, double defect)
 {
-    const double start = hd_clock_now(), duration = run->log->duration;
+    const double start = hd_clock_now(), length = t_end - t_begin;
     HD_TRY(replay(run, t_begin, t_end));
     const double replayed = hd_clock_now();
-    const hd_ortho_limits limits = {hd_interval_condition_max(&run->interval, duration), defect};
-    const hd_status status = t_end - t_begin > duration / PIECES_MAX
+    const double allowed = hd_interval_piece_max(&run->interval, length, run->log->duration);
+    const hd_ortho_limits limits = {allowed, defect};
+    const hd_status status = length > shortest_piece(run)
                                  ? hd_ortho_step(run->ortho, run->frame, limits)
                                  : hd_ortho_step_stable(run->ortho, run->frame, CONDITION_STABLE);
     run->cost.replay += replayed - start;
@@ -240,21 +247,21 @@ static hd_status frame_interval(hd_run *run)
     const double defect = observing(run) ? DEFECT_MEASURED : DEFECT_LOOSE;
     double begin = 0.0, end = duration;
     while (begin < duration) {
+        const double piece = end - begin;
         const hd_status status = frame_piece(run, begin, end, defect);
         if (status != HD_OK && status != HD_ILL_CONDITIONED) return status;
         if (status == HD_OK) {
-            piece_accepted(run, end - begin);
-            const double next = fmin(duration, end + (end - begin));
+            piece_accepted(run, piece);
             begin = end;
-            end = next;
+            end = duration - end < 1.5 * piece ? duration : end + piece; /* no crumb of rounding is left */
             continue;
         }
-        if (end - begin <= duration / PIECES_MAX) return HD_ILL_CONDITIONED;
-        run->cost.repairs += end >= duration && begin == 0.0;
+        if (piece <= shortest_piece(run)) return HD_ILL_CONDITIONED;
+        run->cost.repairs += piece >= duration;
         run->cost.limit = HD_LIMIT_REPAIR;
-        hd_interval_failed(&run->interval, end - begin);
+        hd_interval_failed(&run->interval, piece);
         hd_frame_rewind(run->frame);
-        end = begin + 0.5 * (end - begin);
+        end = begin + 0.5 * piece;
     }
     hd_event_log_clear(run->log);
     run->interval_end = run->now;

@@ -10,6 +10,7 @@
  *  One thread. Only + - * / sqrt and comparisons: the same bits everywhere. */
 #include "hdlyap/trajectory.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "check.h"
@@ -66,6 +67,30 @@ static double square_minus_one(hd_pair r)
     return (sum - 1.0) + (lost + error[0] + error[1]);
 }
 
+/** What two disks that are r apart exchange: false if nothing, because they graze within rounding. An approach that is
+ *  lost in the rounding of their momenta might leave these as they are, and the pair would meet again at once, for
+ *  ever: it is turned into a parting that rounding cannot take back, along the longer component of r. */
+static bool exchange(hd_disk *a, hd_disk *b, hd_pair r, double approach, double excess)
+{
+    const double lost = 8.0 * DBL_EPSILON *
+                        (fabs(a->p[0]) + fabs(a->p[1]) + fabs(b->p[0]) + fabs(b->p[1]));
+    if (approach < -lost) {
+        /* approach / r.r; with r.r rounded near 1 the energy would drift, 3e-16 a collision */
+        const double per_r = approach - approach * excess;
+        for (int d = 0; d < 2; d++) {
+            a->p[d] += per_r * r[d];
+            b->p[d] -= per_r * r[d];
+        }
+        return true;
+    }
+    if (approach < 0) {
+        const int d = fabs(r[1]) > fabs(r[0]);
+        a->p[d] -= copysign(lost, r[d]);
+        b->p[d] += copysign(lost, r[d]);
+    }
+    return false;
+}
+
 /** Pair contact [T3]: moves both disks to the contact and exchanges their normal momenta. */
 static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *contact,
                          int32_t found_by, double t)
@@ -89,13 +114,7 @@ static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *c
     const double excess = square_minus_one(r);
     if (excess < -2.0 * HD_OVERLAP_MAX) return HD_OVERLAP;
     hd_status status = HD_OK;
-    if (approach < 0) { /* else it grazes within rounding: nothing is exchanged */
-        /* approach / r.r; with r.r rounded near 1 the energy would drift, 3e-16 a collision */
-        const double per_r = approach - approach * excess;
-        for (int d = 0; d < 2; d++) {
-            a->p[d] += per_r * r[d];
-            b->p[d] -= per_r * r[d];
-        }
+    if (exchange(a, b, r, approach, excess)) {
         tr->collisions++;
         status = log_append(log, &event);
     }

@@ -20,6 +20,7 @@ COLUMNS = {     # the first ones of each table, without units
     'scaling_fits': ['sweep', 'part', 'fitted power', 'theory'],
     'whole': ['quantity', 'disks', 'minimum', 'median', 'maximum', 'rounds'],
     'whole_small': ['quantity', 'disks', 'minimum', 'median', 'maximum', 'rounds'],
+    'endurance': ['collisions', 'simulated time', 'relative energy deviation', 'momentum', 'overlap'],
     'rivals': ['quantity', 'disks', 'minimum', 'median', 'maximum', 'rounds']}
 PICTURES = ('precision', 'convergence', 'scaling', 'whole')
 ACCURACY = 1e-8     # asked for, and so the largest deviation allowed
@@ -92,7 +93,7 @@ class Bench(unittest.TestCase):
         self.assertEqual([name for name in os.listdir(FOLDER) if '.part' in name], [])
 
     def test_bad_arguments_give_one_line_and_status_2(self):
-        for command in ('bench', 'rivals', 'precision', 'convergence', 'scaling'):
+        for command in ('bench', 'rivals', 'precision', 'convergence', 'scaling', 'endurance'):
             run = subprocess.run([os.path.join(PROGRAMS, 'hdlyap_' + command), '--nonsense'],
                                  stderr=subprocess.PIPE, universal_newlines=True, check=False)
             self.assertEqual((run.returncode, run.stderr.count('\n')), (2, 1), command)

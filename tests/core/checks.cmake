@@ -1,6 +1,9 @@
 # What the trajectory's tests need beside cmocka: the twin, the golden scenes, and checks of the sources.
-foreach(name trajectory_twin trajectory_ties)
+foreach(name trajectory_twin trajectory_ties hard_grazing hard_simultaneous hard_density hard_special)
   target_sources(test_${name} PRIVATE twin.c twin_compare.c)
+endforeach()
+foreach(name grazing grazing_run simultaneous density long reversal special)
+  set_tests_properties(core_hard_${name} PROPERTIES TIMEOUT 300) # events without end would take all memory
 endforeach()
 target_sources(test_golden PRIVATE golden.c)
 if(NOT HDLYAP_SANITIZE)

@@ -67,10 +67,29 @@ static void expect_same_spectrum(const hd_spectrum *a, const hd_spectrum *b)
     }
 }
 
+static void expect_same_steps(const hd_steps *a, const hd_steps *b)
+{
+    assert_int_equal(hd_steps_changes(a), hd_steps_changes(b));
+    for (int k = 0; k < hd_steps_count(a); k++) {
+        const hd_step *x = hd_steps_step(a, k), *y = hd_steps_step(b, k);
+        assert_int_equal(x->resolved, y->resolved);
+        assert_int_equal(x->col, y->col);
+        assert_int_equal(x->count, y->count);
+        assert_int_equal(x->set, y->set);
+        assert_int_equal(x->members, y->members);
+        CHECK_CLOSE(x->multiplicity, y->multiplicity, 0.0);
+        CHECK_CLOSE(x->exponent, y->exponent, 0.0);
+        CHECK_CLOSE(x->std_error, y->std_error, 0.0);
+    }
+}
+
 /** What is kept; and, of what nothing else depends on, what is read. */
 static void expect_same_state(hd_run *a, hd_run *b)
 {
     if (hd_run_spectrum(a)) expect_same_spectrum(hd_run_spectrum(a), hd_run_spectrum(b));
+    if (hd_run_steps(a)) expect_same_steps(hd_run_steps(a), hd_run_steps(b));
+    assert_int_equal(hd_trajectory_wall_events(hd_run_trajectory(a)),
+                     hd_trajectory_wall_events(hd_run_trajectory(b)));
     if (hd_run_modes(a)) expect_same_modes(hd_run_modes(a), hd_run_modes(b));
     if (hd_run_phases(a)) expect_same_phases(hd_run_phases(a), hd_run_phases(b));
     const bytes of_a = kept_bytes(a), of_b = kept_bytes(b);
@@ -265,7 +284,8 @@ static void what_cannot_change_is_refused_by_name(void **state)
 static void it_says_whose_it_is(void **state)
 {
     (void)state;
-    const hd_scene_def def = kept_scene(30, 0.7, 1.0, 4, 0);
+    hd_scene_def def = kept_scene(30, 0.7, 1.0, 4, KEPT_ALL);
+    def.max_node = 1;
     hd_run *run = kept_run(&def);
     hd_checkpoint found;
     char long_label[200] = "", message[512] = "";
@@ -279,6 +299,7 @@ static void it_says_whose_it_is(void **state)
     assert_string_equal(found.label, KEPT_LABEL);
     assert_int_equal(found.scene.disks, def.disks);
     assert_int_equal(found.scene.exponents, def.exponents);
+    assert_int_equal(found.scene.max_node, def.max_node);
     CHECK_CLOSE(found.scene.warmup, def.warmup, 0.0);
     CHECK_CLOSE(found.time, hd_run_time(run), 0.0);
     hd_run_free(run);

@@ -5,7 +5,7 @@
 
 #include "testing.h"
 
-#include "hdlyap/frame.h"
+#include "tangent.h"
 
 /** A state in the fluid, a displacement of it, and the time that both are followed. */
 typedef struct shadow {
@@ -130,30 +130,6 @@ static scene_log logged(int disks, hd_boundary boundary, double time)
     return s;
 }
 
-static double *column(hd_frame *frame, int col, double *out)
-{
-    for (int row = 0; row < hd_frame_rows(frame); row++)
-        out[row] = hd_frame_data(frame)[(size_t)row * (size_t)hd_frame_stride(frame) + (size_t)col];
-    return out;
-}
-
-static double dot(const double *a, const double *b, int rows)
-{
-    double sum = 0.0;
-    for (int row = 0; row < rows; row++) sum += a[row] * b[row];
-    return sum;
-}
-
-/** a^T J b = sum of dq_a . dp_b - dp_a . dq_b */
-static double symplectic(const double *a, const double *b, int rows)
-{
-    double sum = 0.0;
-    for (int i = 0; i < rows; i += 4)
-        for (int c = 0; c < 2; c++)
-            sum += a[i + c] * b[i + 2 + c] - a[i + 2 + c] * b[i + c];
-    return sum;
-}
-
 /** S^T J S = J: the symplectic product of any two vectors stays, to rounding of their sizes. */
 static void check_symplectic(hd_boundary boundary)
 {
@@ -164,12 +140,12 @@ static void check_symplectic(hd_boundary boundary)
     CHECK_OK(hd_frame_create(&frame, DISKS, ROWS, 3, 1));
     for (int k = 0; k < ROWS; k++)
         for (int l = 0; l < ROWS; l++)
-            before[k][l] = symplectic(column(frame, k, a), column(frame, l, b), ROWS);
+            before[k][l] = symplectic(frame_column(frame, k, a), frame_column(frame, l, b), ROWS);
     CHECK_OK(hd_frame_replay(frame, s.log, 0.0, s.log->duration));
     for (int k = 0; k < ROWS; k++)
         for (int l = 0; l < ROWS; l++) {
-            column(frame, k, a);
-            column(frame, l, b);
+            frame_column(frame, k, a);
+            frame_column(frame, l, b);
             const double size = sqrt(dot(a, a, ROWS) * dot(b, b, ROWS));
             const double events = (double)s.log->count;
             CHECK_CLOSE(symplectic(a, b, ROWS), before[k][l], sqrt(events) * 8 * DBL_EPSILON * size);
@@ -233,7 +209,7 @@ static void replayed(const scene_log *s, int vectors, int threads, const double 
             v[(size_t)row * (size_t)hd_frame_stride(frame) + (size_t)k] = cos(row * 1.7 + k * 0.3);
     double begin = 0.0;
     for (; *cuts > 0.0; begin = *cuts++) CHECK_OK(hd_frame_replay(frame, s->log, begin, *cuts));
-    column(frame, col, out);
+    frame_column(frame, col, out);
     hd_frame_free(frame);
 }
 
@@ -313,7 +289,7 @@ static void halves_are_measured_per_column(void **state)
     CHECK_CLOSE(ratio[3], 2.0, 4 * DBL_EPSILON);
     for (int col = 0; col < VECTORS; col++) {
         double qq = 0, pp = 0, qp = 0;
-        column(frame, col, v);
+        frame_column(frame, col, v);
         for (int row = 0; row < 4 * DISKS; row++) {
             qq += row % 4 < 2 ? v[row] * v[row] : 0;
             pp += row % 4 >= 2 ? v[row] * v[row] : 0;

@@ -127,6 +127,19 @@ static void more_accuracy_allows_less_condition(void **state)
     CHECK_CLOSE(hd_interval_condition_max(&loose, 1.0), 1e12, 0.0);
 }
 
+/** A piece of a repair has a twentieth of its own share; nothing is divided for a condition of 1e3. */
+static void pieces_keep_to_their_share(void **state)
+{
+    (void)state;
+    const hd_interval interval = hd_interval_first(0.1, INFINITY, 1e-8);
+    const double whole = hd_interval_condition_max(&interval, 2.0);
+    CHECK_CLOSE(hd_interval_piece_max(&interval, 2.0, 2.0), whole, 0.0);
+    CHECK_CLOSE(hd_interval_piece_max(&interval, 1.0, 2.0), whole / 40.0, 1e-9 * whole);
+    const hd_interval tight = hd_interval_first(0.1, INFINITY, 1e-12);
+    CHECK_CLOSE(hd_interval_condition_max(&tight, 0.01), 1e3, 0.0);
+    CHECK_CLOSE(hd_interval_piece_max(&tight, 0.01, 0.1), 1e3, 0.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -138,6 +151,7 @@ int main(void)
         cmocka_unit_test(the_reason_is_told),
         cmocka_unit_test(shares_of_the_rest_are_equal),
         cmocka_unit_test(more_accuracy_allows_less_condition),
+        cmocka_unit_test(pieces_keep_to_their_share),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,6 +16,11 @@ foreach(name IN ITEMS
     checkpoint_file
     checkpoint_contents
     verify
+    hard_conditioning
+    hard_degenerate
+    hard_phases
+    hard_pmode
+    hard_values
     effects
     blas
     spectrum
@@ -33,6 +38,13 @@ foreach(name IN ITEMS
     trajectory_pair
     trajectory_conservation
     trajectory_rates
+    hard_grazing
+    hard_grazing_run
+    hard_simultaneous
+    hard_density
+    hard_long
+    hard_reversal
+    hard_special
     golden
     queue
     cells

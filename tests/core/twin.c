@@ -4,6 +4,7 @@
  *  (here for one pair at a time), epochs, folding into the box, and the exchange of momenta. */
 #include "twin.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -169,6 +170,21 @@ static double excess_of(hd_pair r)
     return (sum - 1.0) + (lost + fma(r[0], r[0], -xx) + fma(r[1], r[1], -yy));
 }
 
+/** An approach by less than this is rounding of the momenta. */
+static double lost_by(const hd_disk *a, const hd_disk *b)
+{
+    return 8.0 * DBL_EPSILON *
+           (fabs(a->p[0]) + fabs(a->p[1]) + fabs(b->p[0]) + fabs(b->p[1]));
+}
+
+static void push(hd_disk *a, hd_disk *b, hd_pair along, double impulse)
+{
+    for (int d = 0; d < 2; d++) {
+        a->p[d] += impulse * along[d];
+        b->p[d] -= impulse * along[d];
+    }
+}
+
 /** False if the two only grazed within rounding. */
 static bool collide(twin *t, hd_event *event, const candidate *c)
 {
@@ -184,16 +200,17 @@ static bool collide(twin *t, hd_event *event, const candidate *c)
         event->p[d] = b->p[d] - a->p[d];
     }
     const double approach = event->p[0] * r[0] + event->p[1] * r[1];
-    const double exchanged = approach < 0 ? approach - approach * excess_of(r) : 0.0;
-    for (int d = 0; d < 2; d++) {
-        a->p[d] += exchanged * r[d];
-        b->p[d] -= exchanged * r[d];
-    }
+    const double lost = lost_by(a, b);
+    const bool exchanged = approach < -lost;
+    if (exchanged)
+        push(a, b, r, approach - approach * excess_of(r));
+    else if (approach < 0)
+        push(a, b, fabs(r[1]) > fabs(r[0]) ? (hd_pair){0, copysign(1, r[1])} : (hd_pair){copysign(1, r[0]), 0}, -lost);
     fold(t, a);
     fold(t, b);
     predict_all_of(t, c->i);
     predict_all_of(t, c->j);
-    return approach < 0;
+    return exchanged;
 }
 
 static void reflect(twin *t, hd_event *event, const candidate *c)

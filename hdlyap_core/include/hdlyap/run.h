@@ -41,7 +41,8 @@ typedef struct hd_cost {
     double condition;         /**< of the last orthonormalisation, see hd_ortho_condition */
     double defect;            /**< predicted loss of orthogonality of the last one */
     double
-        error_bound; /**< (sum of eps * condition + defect) / averaged time: rounding in a mean */
+        error_bound; /**< (sum of eps * condition, enlarged as [T6] says, + defect) / averaged time:
+                          what rounding may have done to a mean */
     long orthonormalisations; /**< number of them */
     long second_passes;       /**< how many needed a second pass */
     long looks;               /**< at phases between two of them */

@@ -1,0 +1,161 @@
+/** Event log -> sums of ln R_ll [T1], [T3]-[T5], by the Gram-Schmidt process as it stands in textbooks, twice. */
+#include "exact.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "testing.h"
+
+/** Between two factorisations: a few disks' vectors are then conditioned to a thousand, and a grazing event's share. */
+enum { EVENTS_MAX = 8 };
+
+struct exact_frame {
+    int rows, vectors;
+    hd_exact *v;   /**< [rows][vectors] */
+    hd_exact *sum; /**< [vectors] */
+};
+
+void exact_orthonormalise(hd_exact *v, int rows, int n, hd_exact *log_stretch)
+{
+    for (int col = 0; col < n; col++) {
+        for (int before = 0; before < 2 * col; before++) {
+            const int b = before % col;
+            hd_exact overlap = 0.0L;
+            for (int row = 0; row < rows; row++) overlap += v[row * n + b] * v[row * n + col];
+            for (int row = 0; row < rows; row++) v[row * n + col] -= overlap * v[row * n + b];
+        }
+        hd_exact norm = 0.0L;
+        for (int row = 0; row < rows; row++) norm += v[row * n + col] * v[row * n + col];
+        norm = sqrtl(norm);
+        log_stretch[col] += logl(norm);
+        for (int row = 0; row < rows; row++) v[row * n + col] /= norm;
+    }
+}
+
+hd_exact *exact_copy(const hd_frame *frame)
+{
+    const int n = hd_frame_vectors(frame), rows = hd_frame_rows(frame);
+    hd_exact *v = malloc((size_t)(rows * n) * sizeof *v);
+    assert_non_null(v);
+    for (int row = 0; row < rows; row++)
+        for (int col = 0; col < n; col++)
+            v[row * n + col] = hd_frame_read(frame)[row * hd_frame_stride(frame) + col];
+    return v;
+}
+
+exact_frame *exact_create(const hd_frame *frame)
+{
+    exact_frame *x = calloc(1, sizeof *x);
+    assert_non_null(x);
+    x->rows = hd_frame_rows(frame);
+    x->vectors = hd_frame_vectors(frame);
+    x->v = exact_copy(frame);
+    x->sum = calloc((size_t)x->vectors, sizeof *x->sum);
+    assert_non_null(x->sum);
+    return x;
+}
+
+void exact_free(exact_frame *x)
+{
+    free(x->v);
+    free(x->sum);
+    free(x);
+}
+
+double exact_log_stretch(const exact_frame *x, int col) { return (double)x->sum[col]; }
+
+void exact_begin_anew(exact_frame *x)
+{
+    for (int col = 0; col < x->vectors; col++) x->sum[col] = 0.0L;
+}
+
+/* ---- the tangent maps, as [T1], [T3] and [T4] say them ---------------------------------------- */
+
+/** The rows of one disk: dq_x, dq_y, dp_x, dp_y. */
+static hd_exact *rows_of(const exact_frame *x, int disk) { return x->v + 4 * disk * x->vectors; }
+
+static void fly(exact_frame *x, hd_exact tau)
+{
+    const int n = x->vectors;
+    for (int disk = 0; tau > 0 && disk < x->rows / 4; disk++)
+        for (int k = 0; k < 2 * n; k++) rows_of(x, disk)[k] += tau * rows_of(x, disk)[2 * n + k];
+}
+
+static void collide(hd_exact *i, hd_exact *j, int n, const hd_event *event)
+{
+    const hd_exact length = hypotl(event->n[0], event->n[1]);
+    const hd_exact nx = event->n[0] / length, ny = event->n[1] / length;
+    const hd_exact px = event->p[0], py = event->p[1];
+    const hd_exact b = px * nx + py * ny, pt = py * nx - px * ny;
+    for (int k = 0; k < n; k++) {
+        const hd_exact qx = j[k] - i[k], qy = j[n + k] - i[n + k];
+        const hd_exact dx = j[2 * n + k] - i[2 * n + k], dy = j[3 * n + k] - i[3 * n + k];
+        const hd_exact a = qx * nx + qy * ny, s = qy * nx - qx * ny - pt / b * a;
+        const hd_exact along = dx * nx + dy * ny + pt * s, across = b * s;
+        const hd_exact change[4] = {a * nx, a * ny, along * nx - across * ny,
+                                    along * ny + across * nx};
+        for (int row = 0; row < 4; row++) {
+            i[row * n + k] += change[row];
+            j[row * n + k] -= change[row];
+        }
+    }
+}
+
+static void reflect(hd_exact *disk, int n, int d)
+{
+    for (int k = 0; k < n; k++) {
+        disk[d * n + k] *= -1.0L;
+        disk[(2 + d) * n + k] *= -1.0L;
+    }
+}
+
+void exact_replay(exact_frame *x, const hd_event_log *log)
+{
+    double t = 0.0;
+    for (size_t k = 0; k < log->count; k++) {
+        const hd_event *event = &log->event[k];
+        hd_exact *i = rows_of(x, event->i);
+        fly(x, (hd_exact)event->t - t);
+        if (event->j >= 0) collide(i, rows_of(x, event->j), x->vectors, event);
+        else reflect(i, x->vectors, event->j == HD_WALL_Y);
+        if (k % EVENTS_MAX == 0) exact_orthonormalise(x->v, x->rows, x->vectors, x->sum);
+        t = event->t;
+    }
+    fly(x, (hd_exact)log->duration - t);
+    exact_orthonormalise(x->v, x->rows, x->vectors, x->sum);
+}
+
+/* ---- a whole scene ---------------------------------------------------------------------------- */
+
+/** In pieces, so that the log stays short. */
+static void carry(exact_frame *x, hd_trajectory *trajectory, hd_event_log *log, double length)
+{
+    const double begin = hd_trajectory_time(trajectory);
+    const int pieces = (int)ceil(length);
+    exact_begin_anew(x);
+    for (int k = 1; k <= pieces; k++) {
+        CHECK_OK(hd_trajectory_advance(trajectory, log, begin + length * k / pieces));
+        exact_replay(x, log);
+    }
+}
+
+void exact_spectrum(const hd_scene_def *scene, double *out)
+{
+    hd_trajectory *trajectory;
+    hd_event_log *log;
+    hd_frame *frame;
+    const int n = hd_scene_vectors(scene);
+    CHECK_OK(hd_trajectory_create(&trajectory, scene));
+    CHECK_OK(hd_event_log_create(&log));
+    CHECK_OK(hd_frame_create(&frame, scene->disks, n, scene->seed, 1));
+    CHECK_OK(hd_trajectory_advance(trajectory, NULL, scene->equilibration));
+    exact_frame *x = exact_create(frame);
+    exact_orthonormalise(x->v, x->rows, n, x->sum);
+    carry(x, trajectory, log, scene->warmup);
+    carry(x, trajectory, log, scene->duration);
+    for (int col = 0; col < n; col++) out[col] = exact_log_stretch(x, col) / scene->duration;
+    exact_free(x);
+    hd_frame_free(frame);
+    hd_event_log_free(log);
+    hd_trajectory_free(trajectory);
+}

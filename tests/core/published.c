@@ -1,0 +1,142 @@
+#include "published.h"
+
+#include <float.h>
+#include <stdlib.h>
+
+#include "testing.h"
+
+#include "hdlyap/hydro.h"
+#include "hdlyap/pmode.h"
+
+static long numbers;
+
+static void check_number(double x, const char *name)
+{
+    numbers++;
+    if (x == 0.0 || (isfinite(x) && fabs(x) >= DBL_MIN)) return;
+    fail_msg("%s = %g", name, x);
+}
+
+static void check_numbers(const double *x, int count, const char *name)
+{
+    for (int k = 0; k < count; k++) check_number(x[k], name);
+}
+
+static void check_spectrum(const hd_run *run)
+{
+    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    const int n = hd_spectrum_vectors(spectrum);
+    double *halves = malloc(2 * (size_t)n * sizeof *halves);
+    for (int col = 0; col < n; col++) {
+        check_number(hd_spectrum_exponent(spectrum, col), "exponent");
+        check_number(hd_spectrum_std_error(spectrum, col), "standard error");
+        check_number(hd_spectrum_local(spectrum, col), "local exponent");
+    }
+    hd_frame_halves(hd_run_frame(run), halves, halves + n);
+    check_numbers(halves, n, "cos Theta");
+    check_numbers(halves + n, n, "dp / dq");
+    for (int col = 0; col < n; col++) assert_true(fabs(halves[col]) <= 1.0 + 1e-12);
+    free(halves);
+    check_number(hd_spectrum_time(spectrum), "averaged time");
+    check_number(hd_spectrum_lambda_max(spectrum), "lambda_max");
+    check_number(hd_spectrum_ks_entropy(spectrum), "entropy");
+    check_number(hd_spectrum_pairing_error(spectrum), "pairing error");
+}
+
+static void check_modes(const hd_modes *modes)
+{
+    const int n = hd_modes_vectors(modes);
+    for (int s = 0; s < hd_fields_subspaces(hd_modes_fields(modes)); s++)
+        for (hd_weight which = HD_WEIGHT; which < HD_WEIGHTS; which++) {
+            check_numbers(hd_modes_snapshot(modes, s, which), n, "weight");
+            check_numbers(hd_modes_average(modes, s, which), n, "average weight");
+        }
+    for (int null = 0; null < HD_NULLS; null++)
+        check_numbers(hd_modes_null_average(modes, null), n, "part in the null space");
+}
+
+static void check_dispersion(hd_dispersion fit)
+{
+    const double x[] = {fit.c, fit.c_error, fit.c2, fit.c2_error};
+    check_numbers(x, 4, "dispersion");
+}
+
+static void check_steps(const hd_steps *steps)
+{
+    const int n = hd_modes_vectors(hd_steps_modes(steps));
+    for (int k = 0; k < hd_steps_count(steps); k++) {
+        const hd_step *step = hd_steps_step(steps, k);
+        check_number(step->multiplicity, "multiplicity");
+        check_number(step->exponent, "exponent of a step");
+        check_number(step->std_error, "error of a step");
+        assert_true(step->multiplicity >= 0.0 && step->multiplicity <= step->count * (1.0 + 1e-9));
+        assert_true(!step->resolved || (step->col >= 0 && step->col + step->count <= n));
+    }
+    check_dispersion(hd_steps_dispersion(steps, HD_MODE_T));
+    check_dispersion(hd_steps_dispersion(steps, HD_MODE_LP));
+}
+
+static void check_phases(const hd_phases *phases)
+{
+    for (int k = 0; k < hd_phases_count(phases); k++) {
+        const hd_lp_phase *phase = hd_phases_phase(phases, k);
+        const double x[] = {phase->a,     phase->b,           phase->phase,
+                            phase->omega, phase->omega_error, phase->time};
+        check_numbers(x, 6, "phase");
+    }
+    check_number(hd_phases_velocity(phases).v, "velocity");
+    check_number(hd_phases_velocity(phases).v_error, "error of the velocity");
+}
+
+/** Reconstructed modes and responses, which the caller of a run makes from its vectors. */
+static void check_fields(const hd_run *run)
+{
+    const hd_steps *steps = hd_run_steps(run);
+    const int rows = 2 * hd_run_scene(run)->disks;
+    double *state = malloc(3 * (size_t)rows * sizeof *state), *p = state + rows, *out = p + rows;
+    hd_pmode *pmode;
+    hd_hydro *hydro;
+    hd_trajectory_state(hd_run_trajectory(run), state, p);
+    CHECK_OK(hd_pmode_create(&pmode, rows / 2));
+    CHECK_OK(hd_hydro_create(&hydro, hd_run_scene(run), steps));
+    for (int k = 0; k < hd_steps_count(steps); k++) {
+        const hd_step *step = hd_steps_step(steps, k);
+        if (!hd_pmode_reconstruct(pmode, step, hd_run_modes(run), hd_run_frame(run))) continue;
+        for (int c = 0; c < step->expected; c++) {
+            hd_pmode_divide(pmode, out, c, p);
+            check_numbers(out, rows, "divided field");
+            check_numbers(hd_pmode_field(pmode, c), rows, "field");
+            check_number(hd_pmode_residual(pmode, c), "residual");
+        }
+        check_number(hd_pmode_rotation_distance(pmode), "distance from a rotation");
+    }
+    hd_hydro_measure(hydro, steps, hd_run_frame(run), state, p);
+    for (int k = 0; k < hd_hydro_count(hydro); k++) {
+        const hd_hydro_response *r = hd_hydro_at(hydro, k);
+        const double x[] = {r->density, r->along, r->across, r->energy};
+        check_numbers(x, 4, "response");
+    }
+    hd_pmode_free(pmode);
+    hd_hydro_free(hydro);
+    free(state);
+}
+
+static void check_cost(hd_cost cost)
+{
+    const double x[] = {cost.interval, cost.condition, cost.defect, cost.error_bound,
+                        cost.std_error, cost.progress, cost.remaining, cost.events_per_second};
+    check_numbers(x, 8, "cost");
+}
+
+long check_published(const hd_run *run)
+{
+    numbers = 0;
+    check_number(hd_run_time(run), "time");
+    check_cost(hd_run_cost(run));
+    if (hd_run_spectrum(run)) check_spectrum(run);
+    if (hd_run_modes(run)) check_modes(hd_run_modes(run));
+    if (hd_run_steps(run)) check_steps(hd_run_steps(run));
+    if (hd_run_phases(run)) check_phases(hd_run_phases(run));
+    if (hd_run_steps(run)) check_fields(run);
+    return numbers;
+}

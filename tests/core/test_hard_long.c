@@ -1,0 +1,101 @@
+/** Late times: the same state goes on alike from t = 0 and from t near 1e6, bit for bit. What rounding does in 1e8
+ *  collisions is seen by core_endurance (check_endurance.py). */
+#include <float.h>
+#include <stdlib.h>
+
+#include "prepared.h"
+
+/** 2^20; a multiple of every scene's epoch. */
+static const double LATE = 1048576.0;
+
+enum { SCENES = 4 };
+static hd_scene_def scene_number(int k)
+{
+    const hd_scene_def scene[SCENES] = {
+        scene_of(10, 0.1, 1.0, HD_PERIODIC, HD_PERIODIC, 5),
+        scene_of(100, 0.7, 0.8, HD_PERIODIC, HD_REFLECTING, 6),
+        scene_of(12, 0.3, 0.5, HD_REFLECTING, HD_REFLECTING, 7),
+        scene_in_box(8, 14.0, 1.4, HD_PERIODIC, HD_PERIODIC, 8),
+    };
+    return scene[k];
+}
+
+enum { PIECES = 24 };
+
+/** Over three epochs; multiples of 1/1024: their sums with LATE are exact, as the epochs' are. */
+static double end_of(int piece, double epoch)
+{
+    const double part = (double)piece / PIECES;
+    return ldexp(rint(ldexp(3.3 * epoch * part * part, 10)), -10);
+}
+
+/** Both go on from here, at the times that they are at, for some epochs: the same logs and states. */
+static void check_alike(hd_trajectory *early, hd_trajectory *late)
+{
+    const double begin[2] = {hd_trajectory_time(early), hd_trajectory_time(late)};
+    const size_t size = 4 * (size_t)hd_trajectory_disks(early);
+    double *state[2] = {calloc(size, sizeof(double)), calloc(size, sizeof(double))};
+    hd_trajectory *tr[2] = {early, late};
+    hd_event_log *log[2] = {new_log(), new_log()};
+    size_t events = 0;
+    for (int piece = 1; piece <= PIECES; piece++) {
+        for (int k = 0; k < 2; k++)
+            CHECK_OK(hd_trajectory_advance(tr[k], log[k],
+                                           begin[k] + end_of(piece, early->epoch_length)));
+        assert_int_equal(log[0]->count, log[1]->count);
+        assert_memory_equal(log[0]->event, log[1]->event, log[0]->count * sizeof *log[0]->event);
+        events += log[0]->count;
+    }
+    for (int k = 0; k < 2; k++) hd_trajectory_state(tr[k], state[k], state[k] + size / 2);
+    assert_memory_equal(state[0], state[1], size * sizeof(double));
+    assert_true(events > 20 * size / 4);
+    for (int k = 0; k < 2; k++) {
+        hd_event_log_free(log[k]);
+        free(state[k]);
+    }
+}
+
+/** The clock alone is set. */
+static void a_state_goes_on_alike_at_any_time(void **state)
+{
+    (void)state;
+    const double shift[] = {LATE, ldexp(1.0, 40)}; /* 1e12, whose last digit is 2^-12 */
+    for (int k = 0; k < 2 * SCENES; k++) {
+        const hd_scene_def def = scene_number(k / 2);
+        hd_trajectory *early, *late;
+        CHECK_OK(hd_trajectory_create(&early, &def));
+        CHECK_OK(hd_trajectory_create(&late, &def));
+        late->epoch_start = late->now = shift[k % 2];
+        check_alike(early, late);
+        hd_trajectory_free(early);
+        hd_trajectory_free(late);
+    }
+}
+
+/** Really run until then: what is read of the disks at the end of an epoch starts a trajectory that is the same. */
+static void a_late_state_goes_on_as_at_the_start(void **state)
+{
+    (void)state;
+    const double end = HD_SANITIZED ? LATE / 64.0 : LATE;
+    hd_scene_def def = scene_number(0);
+    double q[20], p[20];
+    hd_trajectory *late;
+    CHECK_OK(hd_trajectory_create(&late, &def));
+    CHECK_OK(hd_trajectory_advance(late, NULL, end));
+    assert_true(fmod(end, late->epoch_length) == 0.0);
+    assert_true(HD_SANITIZED || hd_trajectory_collisions(late) > 1000000);
+    hd_trajectory_state(late, q, p);
+    hd_trajectory *early = started(&def, q, p);
+    check_alike(early, late);
+    hd_trajectory_free(early);
+    hd_trajectory_free(late);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_state_goes_on_alike_at_any_time),
+        cmocka_unit_test(a_late_state_goes_on_as_at_the_start),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
