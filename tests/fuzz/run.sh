@@ -39,6 +39,6 @@ mkdir -p "$work/corpus/fuzz_checkpoint"
 # few threads and no pool: what a file asks for is not this machine's to give
 export OMP_THREAD_LIMIT=2 OPENBLAS_NUM_THREADS=1 HDLYAP_SEEDS=$work/corpus/fuzz_checkpoint
 check fuzz_build build
-check fuzz_settings fuzz fuzz_settings 40000 -max_len=400 -len_control=0
-check fuzz_checkpoint fuzz fuzz_checkpoint 8000
+check fuzz_settings fuzz fuzz_settings 60000 -max_len=400 -len_control=0
+check fuzz_checkpoint fuzz fuzz_checkpoint 20000
 exit "$failed"
