@@ -209,6 +209,7 @@ static hd_status restore(hd_run *run, hd_archive *archive, double time, char *me
     if (hd_archive_end(archive) != HD_OK) return inconsistent(archive, message, size);
     HD_TRY(reopen(run, message, size));
     times_expect(run, archive);
+    run->step_max = fmin(run->step_max, hd_run_step_bound(run)); /* else a file can ask for a step without end */
     return hd_archive_good(archive) ? HD_OK : inconsistent(archive, message, size);
 }
 

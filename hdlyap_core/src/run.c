@@ -92,6 +92,12 @@ static double events_per_disk(const hd_run *run, double collisions_per_disk)
     return rate;
 }
 
+double hd_run_step_bound(const hd_run *run)
+{
+    const double rate = hd_trajectory_collision_rate(run->trajectory), disks = run->scene.disks;
+    return 8.0 * EVENTS_PER_STEP / (disks * events_per_disk(run, 2.0 * rate / disks));
+}
+
 static hd_status prepare(hd_run *run)
 {
     const hd_scene_def *scene = &run->scene;

@@ -37,6 +37,9 @@ struct hd_run {
 
 enum { SMALLEST_EXPONENTS = 8 };
 
+/** More than a run of this scene learns of how long a step may be: several times the events of the longest step. */
+double hd_run_step_bound(const hd_run *run);
+
 /** Largest standard error of the exponents nearest to zero; INFINITY while one is unknown. */
 double hd_run_smallest_error(const hd_run *run);
 

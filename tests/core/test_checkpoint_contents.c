@@ -111,6 +111,29 @@ static void contents_that_no_run_has_are_refused(void **state)
     hd_run_free(run);
 }
 
+/** At the end of a sample, where nothing is pending: found by tests/fuzz. */
+static void ends_of_samples_are_not_passed_twice(void **state)
+{
+    (void)state;
+    const hd_scene_def def = kept_scene(4, 0.3, 0.3, HD_EXPONENTS_ALL, 0);
+    hd_run *run = kept_run(&def), *again = NULL;
+    char message[512] = "";
+    while (hd_run_phase(run) < HD_AVERAGING || run->schedule.samples == 0 || run->log->duration > 0)
+        kept_steps(run, 1);
+    const bytes b = kept_bytes(run);
+    const nonsense_case backwards = {"log duration", 0, -1.0, 0, "log duration"};
+    const nonsense_case twice = {"schedule samples", 0, 0, run->schedule.samples - 1, "schedule"};
+    expect_nonsense_refused(&b, &backwards);
+    expect_nonsense_refused(&b, &twice);
+    const double endless = 1e300;
+    memcpy(element(&b, "run step max", 0), &endless, sizeof endless);
+    CHECK_OK(status_of(&b, &again, message, sizeof message));
+    assert_true(again->step_max <= hd_run_step_bound(again));
+    free(b.data);
+    hd_run_free(again);
+    hd_run_free(run);
+}
+
 /** Each number of a file replaced by another one, with a checksum that is right: the run is refused, or goes on. */
 static void nonsense_is_survived(void **state)
 {
@@ -145,6 +168,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contents_that_no_run_has_are_refused),
+        cmocka_unit_test(ends_of_samples_are_not_passed_twice),
         cmocka_unit_test(nonsense_is_survived),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
