@@ -74,9 +74,10 @@ void drain(const hdr_node &node, double linger)
 } // namespace
 
 hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *name,
-                           double stop_seconds)
+                           double stop_seconds, int memory_status)
 {
     *out = nullptr;
+    stop_without_memory(memory_status);
     return hdr_guard([&] {
         stop_handlers_install(stop_seconds);
         ros::init(*argc, argv, name, ros::init_options::NoSigintHandler);
