@@ -42,7 +42,7 @@ void hdr_stop_request(void);
 
 hdr_time hdr_time_now(void);
 
-/** One line to the console and /rosout; format as for printf. */
+/** One line to the console and /rosout, control characters as question marks; format as for printf. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif

@@ -62,6 +62,13 @@ bool has_subscribers(const hdr_node &node)
     });
 }
 
+/** What a parameter holds must not look like a line of its own, nor steer a terminal. */
+void one_line(char *text)
+{
+    for (; *text; text++)
+        if (static_cast<unsigned char>(*text) < ' ' || *text == 0x7f) *text = '?';
+}
+
 void drain(const hdr_node &node, double linger)
 {
     double after_stop = linger_after_stop;
@@ -112,6 +119,7 @@ void hdr_log(hdr_level level, const char *format, ...)
     va_start(list, format);
     std::vsnprintf(line, sizeof line, format, list);
     va_end(list);
+    one_line(line);
     hdr_guard([&] {
         switch (level) {
         case HDR_DEBUG: ROS_DEBUG("%s", line); break;
