@@ -6,7 +6,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 run_packages() {
-    echo build-essential cmake pkg-config procps libopenblas-openmp-dev liblapacke-dev \
+    echo build-essential cmake pkg-config procps libopenblas-openmp-dev liblapacke-dev zlib1g-dev \
         python3-numpy python3-matplotlib
     case $1 in
         debian)

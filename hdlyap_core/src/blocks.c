@@ -1,9 +1,11 @@
 /** Samples -> standard errors that see the correlation time [T8]. */
 #include "blocks.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stddef.h>
 
+#include "archive.h"
 #include "check.h"
 #include "memory.h"
 
@@ -100,4 +102,21 @@ double hd_blocks_long_error(const hd_blocks *blocks, int series)
     int level = 0;
     while (level + 1 < HD_BLOCKS_LEVELS && blocks->count[level + 1] >= SAMPLES_MIN) level++;
     return level_error(blocks, level, series);
+}
+
+/** Levels that have never had a block hold nothing. */
+void hd_blocks_archive(hd_blocks *blocks, hd_archive *archive)
+{
+    const long most = LONG_MAX / 2;
+    int levels = 0;
+    while (levels < HD_BLOCKS_LEVELS && blocks->count[levels] > 0) levels++;
+    hd_archive_long(archive, "blocks samples", &blocks->samples, 0, most);
+    hd_archive_int(archive, "blocks levels", &levels, 0, HD_BLOCKS_LEVELS);
+    for (int k = 0; k < levels; k++) {
+        const size_t first = (size_t)k * (size_t)blocks->series, n = (size_t)blocks->series;
+        hd_archive_long(archive, "blocks count", &blocks->count[k], 1, most);
+        hd_archive_doubles(archive, "blocks mean", blocks->mean + first, n);
+        hd_archive_doubles(archive, "blocks square", blocks->square + first, n);
+        hd_archive_doubles(archive, "blocks half", blocks->half + first, n);
+    }
 }

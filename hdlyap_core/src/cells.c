@@ -31,6 +31,11 @@ static void line_fill(hd_cell_line *line, int32_t size, double length, hd_bounda
     }
 }
 
+static size_t cell_count(const hd_cells *cells)
+{
+    return ((size_t)cells->size[0] + 1) * ((size_t)cells->size[1] + 1);
+}
+
 hd_status hd_cells_create(hd_cells *cells, const hd_scene_def *def)
 {
     *cells = (hd_cells){.boundary = {def->boundary[0], def->boundary[1]}};
@@ -42,8 +47,7 @@ hd_status hd_cells_create(hd_cells *cells, const hd_scene_def *def)
         if (!cells->line[d]) return HD_NO_MEMORY;
         line_fill(cells->line[d], cells->size[d], cells->box[d], cells->boundary[d]);
     }
-    const size_t count = ((size_t)cells->size[0] + 1) * ((size_t)cells->size[1] + 1);
-    cells->cell = hd_memory_alloc(count, sizeof *cells->cell);
+    cells->cell = hd_memory_alloc(cell_count(cells), sizeof *cells->cell);
     cells->next = hd_memory_alloc((size_t)def->disks, sizeof *cells->next);
     return cells->cell && cells->next ? HD_OK : HD_NO_MEMORY;
 }
@@ -95,13 +99,24 @@ static hd_cell *cell_of(const hd_cells *cells, const hd_disk *disk)
     return hd_cells_at(cells, disk->cell[0], disk->cell[1]);
 }
 
+void hd_cells_book(hd_cells *cells, const hd_disk *disks, int32_t i)
+{
+    cell_add(cells, cell_of(cells, &disks[i]), i);
+}
+
 void hd_cells_add(hd_cells *cells, hd_disk *disks, int32_t i)
 {
     for (int d = 0; d < 2; d++) {
         const int32_t c = (int32_t)(disks[i].q[d] / cells->box[d] * cells->size[d]);
         disks[i].cell[d] = c >= cells->size[d] ? cells->size[d] - 1 : c;
     }
-    cell_add(cells, cell_of(cells, &disks[i]), i);
+    hd_cells_book(cells, disks, i);
+}
+
+void hd_cells_empty(hd_cells *cells)
+{
+    const size_t count = cell_count(cells);
+    for (size_t k = 0; k < count; k++) cells->cell[k] = (hd_cell){.count = 0};
 }
 
 void hd_cells_cross(hd_cells *cells, hd_disk *disks, int32_t i, int d, int side)

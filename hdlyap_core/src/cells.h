@@ -39,6 +39,12 @@ void hd_cells_clear(hd_cells *cells);
 /** Books disk i, inside the box, into the cell of its position q. */
 void hd_cells_add(hd_cells *cells, hd_disk *disks, int32_t i);
 
+/** The same for the cell that it names. */
+void hd_cells_book(hd_cells *cells, const hd_disk *disks, int32_t i);
+
+/** No disk is in any cell. */
+void hd_cells_empty(hd_cells *cells);
+
 /** Moves disk i over the low (side 0) or high (side 2) edge of its cell in direction d. */
 void hd_cells_cross(hd_cells *cells, hd_disk *disks, int32_t i, int d, int side);
 

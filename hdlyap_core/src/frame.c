@@ -15,6 +15,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "archive.h"
 #include "check.h"
 #include "memory.h"
 #include "multiversion.h"
@@ -346,4 +347,12 @@ void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_rat
             dp_dq_ratio[col + k] = sqrt(sum[1][k] / fmax(sum[0][k], DBL_MIN));
         }
     }
+}
+
+void hd_frame_archive(hd_frame *frame, hd_archive *archive)
+{
+    const size_t rows = (size_t)frame->rows, n = (size_t)frame->vectors;
+    hd_archive_of_doubles(archive, "frame vectors", rows * n);
+    for (size_t row = 0; row < rows; row++)
+        hd_archive_next_doubles(archive, hd_frame_data(frame) + row * (size_t)frame->stride, n);
 }

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "archive.h"
+
 /** Beyond, block Gram-Schmidt may meet panels that Cholesky cannot factor. */
 static const double CONDITION_MAX = 1e12;
 /** Standard deviations of ln(condition) kept free below the maximum: few intervals are then repaired,
@@ -79,4 +81,14 @@ hd_interval_length hd_interval_next(const hd_interval *interval, double remainin
     const double strained = fmin(STRAIN * longest.length, interval->limit);
     if (strained >= remaining) return (hd_interval_length){remaining, HD_LIMIT_SCHEDULE};
     return (hd_interval_length){remaining / ceil(remaining / longest.length), longest.limit};
+}
+
+void hd_interval_archive(hd_interval *interval, hd_archive *archive)
+{
+    hd_archive_double(archive, "interval slope", &interval->slope);
+    hd_archive_double(archive, "interval variance", &interval->variance);
+    hd_archive_double(archive, "interval stretch", &interval->stretch);
+    hd_archive_double(archive, "interval last", &interval->last);
+    const bool learnt = interval->slope >= 0 && interval->variance >= 0 && interval->stretch >= 0;
+    hd_archive_expect(archive, learnt && interval->last > 0, "interval", "it is negative");
 }

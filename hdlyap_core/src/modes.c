@@ -9,9 +9,11 @@
 #include <cblas.h>
 #include <float.h>
 #include <lapacke.h>
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
+#include "archive.h"
 #include "check.h"
 #include "memory.h"
 
@@ -300,4 +302,16 @@ const double *hd_modes_coefficients(const hd_modes *modes, int column)
 {
     HD_ASSERT(column >= 0 && column < hd_fields_columns(modes->fields));
     return modes->coefficient + (size_t)column * modes->stride;
+}
+
+/** With the snapshot: reports go on to state it until the next one. */
+void hd_modes_archive(hd_modes *modes, hd_archive *archive)
+{
+    const size_t n = modes->stride, rows = weight_rows(modes) * n;
+    hd_archive_long(archive, "modes samples", &modes->samples, 0, LONG_MAX / 2);
+    hd_archive_doubles(archive, "modes average", modes->average, rows);
+    hd_archive_doubles(archive, "modes snapshot", modes->snapshot, rows);
+    hd_archive_doubles(archive, "modes coefficient", modes->coefficient,
+                       (size_t)hd_fields_columns(modes->fields) * n);
+    hd_archive_doubles(archive, "modes dq norm", modes->dq_norm, n);
 }

@@ -8,8 +8,10 @@
 #include "hdlyap/phases.h"
 
 #include <complex.h>
+#include <limits.h>
 #include <math.h>
 
+#include "archive.h"
 #include "blocks.h"
 #include "check.h"
 #include "memory.h"
@@ -52,7 +54,7 @@ typedef struct rotor {
 } rotor;
 
 struct hd_phases {
-    int rotors, tracks;
+    int rotors, tracks, vectors;
     rotor *rotor;
     track *track;
 };
@@ -97,6 +99,7 @@ hd_status hd_phases_create(hd_phases **out, const hd_steps *steps)
     hd_phases *phases = hd_memory_alloc(1, sizeof *phases);
     *out = NULL;
     if (!phases) return HD_NO_MEMORY;
+    phases->vectors = hd_modes_vectors(hd_steps_modes(steps));
     int rotors = 0;
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
@@ -432,4 +435,48 @@ double hd_phases_sampling(const hd_steps *steps)
             sampling = fmin(sampling, safe_sampling(step));
     }
     return sampling;
+}
+
+/* ---- file ------------------------------------------------------------------------------------- */
+
+static void track_archive(track *t, hd_archive *archive, int vectors)
+{
+    int state = (int)t->out.state;
+    hd_archive_int(archive, "phase col", &t->out.col, -1, vectors - 1);
+    hd_archive_int(archive, "phase state", &state, HD_LP_UNRESOLVED, HD_LP_TRACKED);
+    t->out.state = (hd_lp_state)state;
+    double *const of_out[] = {&t->out.a,     &t->out.b,           &t->out.phase,
+                              &t->out.omega, &t->out.omega_error, &t->out.time};
+    double *const sums[] = {&t->last, &t->begin, &t->mean_t, &t->mean_phase, &t->square_t, &t->product};
+    hd_archive_of_doubles(archive, "phase a b phase omega error time", 6);
+    for (int k = 0; k < 6; k++) hd_archive_next_doubles(archive, of_out[k], 1);
+    hd_archive_of_doubles(archive, "phase sums", 6);
+    for (int k = 0; k < 6; k++) hd_archive_next_doubles(archive, sums[k], 1);
+    hd_archive_long(archive, "phase count", &t->count, 0, LONG_MAX / 2);
+    hd_blocks_archive(&t->rate, archive);
+}
+
+/** The vectors in the slots are those of the set. */
+static void rotor_archive(rotor *r, hd_archive *archive, int vectors)
+{
+    hd_archive_int(archive, "rotor col", &r->col, -1, vectors - 1);
+    hd_archive_int(archive, "rotor count", &r->count, 0, HD_STEP_VECTORS_MAX);
+    hd_archive_long(archive, "rotor samples", &r->samples, 0, LONG_MAX / 2);
+    const int first = r->col < 0 ? 0 : r->col, last = r->col < 0 ? vectors - 1 : r->col + r->count - 1;
+    hd_archive_expect(archive, first <= last && last < vectors, "rotor", "its vectors are none");
+    hd_archive_of_ints(archive, "rotor slots", (size_t)r->slots);
+    for (int v = 0; v < r->slots; v++) hd_archive_next_int(archive, &r->slot_col[v], first, last);
+    hd_archive_doubles(archive, "rotor sign", r->sign, (size_t)r->slots);
+    for (int v = 0; v < r->slots; v++)
+        hd_archive_doubles(archive, "rotor z", (double *)r->z[v], 2 * (size_t)r->pairs);
+    hd_archive_double(archive, "rotor time", &r->time);
+    hd_archive_double(archive, "rotor dt", &r->dt);
+    hd_archive_double(archive, "rotor omega", &r->omega);
+    hd_blocks_archive(&r->rate, archive);
+}
+
+void hd_phases_archive(hd_phases *phases, hd_archive *archive)
+{
+    for (int k = 0; k < phases->rotors; k++) rotor_archive(&phases->rotor[k], archive, phases->vectors);
+    for (int t = 0; t < phases->tracks; t++) track_archive(&phases->track[t], archive, phases->vectors);
 }

@@ -7,6 +7,9 @@
 #include "hdlyap/trajectory.h"
 #include "queue.h"
 
+/** Deeper than this [sigma], an overlap is a fault and not rounding. */
+#define HD_OVERLAP_MAX 1e-9
+
 enum { PAIR, WALL, EDGE };  /* kinds, in the order in which equal times are taken */
 enum { LOW = 0, HIGH = 2 }; /* sides of a cell, as in hd_cell_line */
 

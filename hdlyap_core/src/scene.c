@@ -5,12 +5,13 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "archive.h"
 #include "check.h"
 #include "hdlyap/wave.h"
 #include "lattice.h"
 #include "scene_box.h"
 
-enum { DISKS_MIN = 2, DISKS_MAX = 1000000, THREADS_MAX = 1024 };
+enum { DISKS_MIN = 2, DISKS_MAX = 1000000, THREADS_MAX = 1024, OBSERVE_ALL = 31 };
 
 hd_scene_def hd_scene_def_default(void)
 {
@@ -87,6 +88,7 @@ static hd_status check_ranges(const hd_scene_def *def, char *message, size_t siz
         {"report_interval", "from 1e-6 to 1e12", def->report_interval, 1e-6, huge},
         {"max_wave_number", "0 (by max_node) or above", def->max_wave_number, 0, huge},
         {"max_node", "from 0 (automatic) to 1000000", def->max_node, 0, DISKS_MAX},
+        {"observe", "a set of HD_OBSERVE_*", def->observe, 0, OBSERVE_ALL},
         {"threads", "from 0 (all cores) to 1024", def->threads, 0, THREADS_MAX},
     };
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
@@ -153,4 +155,35 @@ hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
                       "these boundaries (densest start lattice)",
                       def->density, hd_lattice_density_max(def), def->disks, def->aspect);
     return HD_OK;
+}
+
+/** Ranges beyond what the types hold are checked with the whole of it. */
+void hd_scene_archive(hd_scene_def *def, hd_archive *archive)
+{
+    const struct {
+        const char *name;
+        double *x;
+    } doubles[] = {{"scene density", &def->density},
+                   {"scene aspect", &def->aspect},
+                   {"scene equilibration", &def->equilibration},
+                   {"scene warmup", &def->warmup},
+                   {"scene duration", &def->duration},
+                   {"scene target_std_error", &def->target_std_error},
+                   {"scene interval", &def->interval},
+                   {"scene accuracy", &def->accuracy},
+                   {"scene report_interval", &def->report_interval},
+                   {"scene max_wave_number", &def->max_wave_number}};
+    int boundary[2] = {(int)def->boundary[0], (int)def->boundary[1]}, observe = (int)def->observe;
+    hd_archive_int(archive, "scene disks", &def->disks, DISKS_MIN, DISKS_MAX);
+    hd_archive_int(archive, "scene boundary x", &boundary[0], HD_PERIODIC, HD_REFLECTING);
+    hd_archive_int(archive, "scene boundary y", &boundary[1], HD_PERIODIC, HD_REFLECTING);
+    hd_archive_bits(archive, "scene seed", &def->seed);
+    hd_archive_int(archive, "scene exponents", &def->exponents, HD_EXPONENTS_ALL, 4 * DISKS_MAX);
+    hd_archive_int(archive, "scene observe", &observe, 0, OBSERVE_ALL);
+    hd_archive_int(archive, "scene max_node", &def->max_node, 0, DISKS_MAX);
+    hd_archive_int(archive, "scene threads", &def->threads, 0, THREADS_MAX);
+    for (size_t k = 0; k < sizeof doubles / sizeof *doubles; k++)
+        hd_archive_double(archive, doubles[k].name, doubles[k].x);
+    for (int d = 0; d < 2; d++) def->boundary[d] = (hd_boundary)boundary[d];
+    def->observe = (unsigned)observe;
 }

@@ -7,7 +7,10 @@
  *  can be due. */
 #include "schedule.h"
 
+#include <limits.h>
 #include <math.h>
+
+#include "archive.h"
 
 /** Of samples, for standard errors: fewer in an averaging of this many would make them late and rough. */
 static const double SAMPLES_MIN = 32.0;
@@ -30,6 +33,11 @@ static double sample_longest(const hd_schedule *s, double sample_max)
     return fmin(sample_max, s->length[HD_AVERAGING] / SAMPLES_MIN);
 }
 
+static void sample_measure(hd_schedule *s)
+{
+    s->sample_length = s->report_interval * s->reports_per_sample / s->samples_per_report;
+}
+
 static void samples_lay_out(hd_schedule *s, double sample_max)
 {
     const double r = s->report_interval;
@@ -42,7 +50,7 @@ static void samples_lay_out(hd_schedule *s, double sample_max)
         samples = ceil(r / sample_max * (1.0 - CLOSE));
     s->reports_per_sample = (int)fmin(fmax(reports, 1.0), COUNT_MAX);
     s->samples_per_report = (int)fmin(samples, COUNT_MAX);
-    s->sample_length = r * s->reports_per_sample / s->samples_per_report;
+    sample_measure(s);
     s->pieces = s->reports_per_sample;
 }
 
@@ -50,15 +58,16 @@ void hd_schedule_enter(hd_schedule *s, hd_phase phase, double now, double sample
 {
     while (phase < HD_AVERAGING && s->length[phase] == 0) phase++;
     s->phase = phase;
+    if (phase == HD_FINISHED) return;
     s->start = now;
     s->samples = 0;
     s->piece = 0;
-    if (phase != HD_FINISHED) samples_lay_out(s, sample_max);
+    samples_lay_out(s, sample_max);
 }
 
 double hd_schedule_phase_end(const hd_schedule *s)
 {
-    return s->phase == HD_FINISHED ? s->start : s->start + s->length[s->phase];
+    return s->start + s->length[s->phase == HD_FINISHED ? HD_AVERAGING : s->phase];
 }
 
 /** Products, not sums: rounding does not add up. */
@@ -70,29 +79,58 @@ static double end_after(const hd_schedule *s, double samples)
 
 double hd_schedule_sample_end(const hd_schedule *s) { return end_after(s, (double)s->samples + 1); }
 
-double hd_schedule_cut(const hd_schedule *s)
+static double samples_at_cut(const hd_schedule *s)
 {
-    return end_after(s, (double)s->samples + (double)(s->piece + 1) / s->pieces);
+    return (double)s->samples + (double)(s->piece + 1) / s->pieces;
 }
+
+double hd_schedule_cut(const hd_schedule *s) { return end_after(s, samples_at_cut(s)); }
 
 int hd_schedule_cuts_per_report(const hd_schedule *s)
 {
     return s->pieces / s->reports_per_sample * s->samples_per_report;
 }
 
+/** A piece that the end of the phase cuts short is not passed: it would go on if the phase were made longer. */
 unsigned hd_schedule_pass(hd_schedule *s, double piece_max)
 {
-    const double end = hd_schedule_cut(s);
+    const double last = hd_schedule_phase_end(s), close = CLOSE * s->sample_length;
+    const double whole = s->start + samples_at_cut(s) * s->sample_length;
     const int per_report = s->pieces / s->reports_per_sample;
-    unsigned ends = end >= hd_schedule_phase_end(s) ? HD_ENDS_PHASE | HD_ENDS_REPORT : 0;
+    const unsigned phase_ends = HD_ENDS_PHASE | HD_ENDS_REPORT | HD_ENDS_SAMPLE;
+    unsigned ends = hd_schedule_cut(s) >= last ? phase_ends : 0;
+    if (whole > last + close) return ends;
     s->piece++;
-    if (s->piece < s->pieces && !ends) return s->piece % per_report == 0 ? HD_ENDS_REPORT : 0;
-    const double length = end - (s->start + (double)s->samples * s->sample_length);
-    ends |= HD_ENDS_SAMPLE;
-    if (length > 0.999 * s->sample_length) ends |= HD_ENDS_WHOLE_SAMPLE;
+    if (s->piece < s->pieces) return s->piece % per_report == 0 ? ends | HD_ENDS_REPORT : ends;
     s->samples++;
     s->piece = 0;
     s->pieces = s->reports_per_sample *
                 (int)fmax(1.0, ceil(s->sample_length / s->reports_per_sample / piece_max));
+    ends |= HD_ENDS_SAMPLE | HD_ENDS_WHOLE_SAMPLE;
     return s->samples % s->samples_per_report == 0 ? ends | HD_ENDS_REPORT : ends;
+}
+
+bool hd_schedule_reopen(hd_schedule *s, double now)
+{
+    const double last = hd_schedule_phase_end(s), close = CLOSE * s->sample_length;
+    if (s->phase == HD_FINISHED && now < last - close) s->phase = HD_AVERAGING;
+    return now <= last + close;
+}
+
+/** What the scene does not say of it. */
+void hd_schedule_archive(hd_schedule *s, hd_archive *archive)
+{
+    int phase = (int)s->phase;
+    hd_archive_int(archive, "schedule phase", &phase, HD_EQUILIBRATING, HD_FINISHED);
+    s->phase = (hd_phase)phase;
+    hd_archive_double(archive, "schedule start", &s->start);
+    hd_archive_int(archive, "schedule reports", &s->reports_per_sample, 1, (int)COUNT_MAX);
+    hd_archive_int(archive, "schedule samples per report", &s->samples_per_report, 1,
+                   (int)COUNT_MAX);
+    hd_archive_int(archive, "schedule pieces", &s->pieces, 1, INT_MAX);
+    hd_archive_int(archive, "schedule piece", &s->piece, 0, INT_MAX - 1);
+    hd_archive_long(archive, "schedule samples", &s->samples, 0, LONG_MAX / 2);
+    sample_measure(s);
+    hd_archive_expect(archive, s->piece < s->pieces && s->pieces % s->reports_per_sample == 0,
+                      "schedule pieces", "they do not make up a sample");
 }

@@ -2,12 +2,14 @@
 #ifndef HD_SCHEDULE_H
 #define HD_SCHEDULE_H
 
+#include <stdbool.h>
+
 #include "hdlyap/run.h"
 
 /** What ends at a cut. */
 enum {
     HD_ENDS_REPORT = 1,       /**< a report is due */
-    HD_ENDS_SAMPLE = 2,       /**< the last piece of a sample */
+    HD_ENDS_SAMPLE = 2,       /**< the last piece of a sample, or of its phase */
     HD_ENDS_WHOLE_SAMPLE = 4, /**< one of full length: the end of a phase may cut it short */
     HD_ENDS_PHASE = 8
 };
@@ -39,5 +41,8 @@ int hd_schedule_cuts_per_report(const hd_schedule *schedule);
 /** The time is that of the cut: goes on to the next piece; a set of HD_ENDS_*. Pieces of the next sample are no longer
  *  than piece_max. The phase stays: see hd_schedule_enter. */
 unsigned hd_schedule_pass(hd_schedule *schedule, double piece_max);
+
+/** An averaging that has finished goes on if it has become longer. False if `now` is beyond its end. */
+bool hd_schedule_reopen(hd_schedule *schedule, double now);
 
 #endif

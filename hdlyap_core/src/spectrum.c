@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "archive.h"
 #include "blocks.h"
 #include "check.h"
 #include "memory.h"
@@ -139,4 +140,17 @@ double hd_spectrum_pairing_error(const hd_spectrum *spectrum)
         worst = fmax(worst, fabs(hd_spectrum_exponent(spectrum, col) +
                                  hd_spectrum_exponent(spectrum, spectrum->rows - 1 - col)));
     return worst;
+}
+
+void hd_spectrum_archive(hd_spectrum *spectrum, hd_archive *archive)
+{
+    const size_t n = (size_t)spectrum->vectors;
+    hd_archive_double(archive, "spectrum time", &spectrum->time);
+    hd_archive_double(archive, "spectrum sample time", &spectrum->sample_time);
+    hd_archive_doubles(archive, "spectrum sum", spectrum->sum, n);
+    hd_archive_doubles(archive, "spectrum sample sum", spectrum->sample_sum, n);
+    hd_archive_doubles(archive, "spectrum local", spectrum->local, n);
+    hd_blocks_archive(&spectrum->blocks, archive);
+    hd_archive_expect(archive, spectrum->time >= 0 && spectrum->sample_time >= 0, "spectrum time",
+                      "it is negative");
 }

@@ -2,9 +2,11 @@
 #include "hdlyap/steps.h"
 
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
+#include "archive.h"
 #include "blocks.h"
 #include "check.h"
 #include "memory.h"
@@ -14,7 +16,7 @@
 typedef struct record {
     hd_blocks blocks; /**< one series: the mean, sample by sample */
     double time;      /**< that they cover */
-    long identity;    /**< of which vectors and members the set consisted */
+    uint64_t identity; /**< of which vectors and members the set consisted */
 } record;
 
 struct hd_steps {
@@ -245,11 +247,11 @@ static void zero_find(hd_steps *steps, int *sets)
 }
 
 /** Of which vectors a step consists, and with which others it shares them. */
-static long identity_of(const hd_steps *steps, const hd_step *step)
+static uint64_t identity_of(const hd_steps *steps, const hd_step *step)
 {
-    long identity = step->col * 1000L + step->count;
+    uint64_t identity = (uint64_t)(step->col * 1000L + step->count);
     for (int k = 0; k < steps->count; k++)
-        if (step->set >= 0 && steps->step[k].set == step->set) identity = 31 * identity + k;
+        if (step->set >= 0 && steps->step[k].set == step->set) identity = 31 * identity + (uint64_t)k;
     return identity;
 }
 
@@ -259,7 +261,7 @@ static bool records_follow(hd_steps *steps)
     bool changed = false;
     for (int k = 0; k < steps->count; k++) {
         record *r = &steps->record[k];
-        const long identity = identity_of(steps, &steps->step[k]);
+        const uint64_t identity = identity_of(steps, &steps->step[k]);
         if (identity == r->identity) continue;
         r->identity = identity;
         record_restart(r);
@@ -310,4 +312,45 @@ int hd_steps_of_vector(const hd_steps *steps, int col)
 {
     HD_ASSERT(col >= 0 && col < steps->vectors);
     return steps->of_vector[col];
+}
+
+/* ---- file ------------------------------------------------------------------------------------- */
+
+/** The rest of a step is the same in every run of its scene. */
+static void step_archive(hd_steps *steps, hd_step *step, hd_archive *archive)
+{
+    int resolved = step->resolved;
+    hd_archive_int(archive, "step resolved", &resolved, 0, 1);
+    step->resolved = resolved;
+    hd_archive_int(archive, "step col", &step->col, -1, steps->vectors - 1);
+    hd_archive_int(archive, "step count", &step->count, 0, HD_STEP_VECTORS_MAX);
+    hd_archive_int(archive, "step set", &step->set, -1, steps->count - 1);
+    hd_archive_int(archive, "step members", &step->members, 0, steps->count);
+    hd_archive_double(archive, "step multiplicity", &step->multiplicity);
+    hd_archive_double(archive, "step exponent", &step->exponent);
+    hd_archive_double(archive, "step error", &step->std_error);
+    const int least = step->kind == HD_MODE_ZERO ? 1 : step->expected;
+    const bool whole = step->col >= 0 && step->count >= least && step->set >= 0 &&
+                       step->col + step->count <= steps->vectors;
+    hd_archive_expect(archive, whole || !step->resolved, "step", "it has not the vectors that it needs");
+}
+
+static void record_archive(record *r, hd_archive *archive)
+{
+    hd_archive_double(archive, "step record time", &r->time);
+    hd_archive_bits(archive, "step record identity", &r->identity);
+    hd_blocks_archive(&r->blocks, archive);
+}
+
+/** Sets are found anew from the averages whenever they are needed. */
+void hd_steps_archive(hd_steps *steps, hd_archive *archive)
+{
+    const size_t count = (size_t)steps->count;
+    hd_archive_long(archive, "steps changes", &steps->changes, 0, LONG_MAX / 2);
+    for (size_t k = 0; k < count; k++) step_archive(steps, &steps->step[k], archive);
+    for (size_t k = 0; k < count; k++) record_archive(&steps->record[k], archive);
+    hd_archive_doubles(archive, "steps share", steps->share, count * HD_STEP_VECTORS_MAX);
+    hd_archive_of_ints(archive, "steps of vector", (size_t)steps->vectors);
+    for (int col = 0; col < steps->vectors; col++)
+        hd_archive_next_int(archive, &steps->of_vector[col], -1, steps->count - 1);
 }

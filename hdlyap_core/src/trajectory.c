@@ -11,18 +11,15 @@
 #include "hdlyap/trajectory.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "check.h"
+#include "event_log.h"
 #include "fetch.h"
 #include "lattice.h"
 #include "memory.h"
 #include "prediction.h"
 #include "random.h"
 #include "scene_box.h"
-
-/** Deeper than this [sigma], an overlap is a fault and not rounding. */
-static const double OVERLAP_MAX = 1e-9;
 
 /** Faster disks would lose the positions' digits within one epoch. */
 static const double MOMENTUM_MAX = 1e6;
@@ -49,15 +46,7 @@ static void move_to(hd_disk *disk, double t)
 static hd_status log_append(hd_event_log *log, const hd_event *event)
 {
     if (!log) return HD_OK;
-    if (log->count == log->capacity) {
-        const size_t capacity = log->capacity ? 2 * log->capacity : 4096;
-        hd_event *grown = hd_memory_alloc(capacity, sizeof *grown);
-        if (!grown) return HD_NO_MEMORY;
-        if (log->count) memcpy(grown, log->event, log->count * sizeof *grown);
-        hd_memory_free(log->event);
-        log->event = grown;
-        log->capacity = capacity;
-    }
+    if (log->count == log->capacity) HD_TRY(hd_event_log_reserve(log, log->count + 1));
     log->event[log->count++] = *event;
     return HD_OK;
 }
@@ -98,7 +87,7 @@ static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *c
         approach += event.p[d] * r[d];
     }
     const double excess = square_minus_one(r);
-    if (excess < -2.0 * OVERLAP_MAX) return HD_OVERLAP;
+    if (excess < -2.0 * HD_OVERLAP_MAX) return HD_OVERLAP;
     hd_status status = HD_OK;
     if (approach < 0) { /* else it grazes within rounding: nothing is exchanged */
         /* approach / r.r; with r.r rounded near 1 the energy would drift, 3e-16 a collision */
@@ -223,7 +212,7 @@ static double enskog_rate(const hd_scene_def *def)
 }
 
 /** A power of two that holds about 32 to 64 collisions of a disk; in a thin gas less, so that no flight
- *  is so long that its rounding comes near OVERLAP_MAX. */
+ *  is so long that its rounding comes near HD_OVERLAP_MAX. */
 static double epoch_for(double rate_per_disk)
 {
     const double wanted = fmin(32.0 / rate_per_disk, 16384.0);
@@ -258,7 +247,7 @@ static hd_status trajectory_start(hd_trajectory *tr, const double *q, const doub
         }
         hd_cells_add(&tr->cells, tr->disk, i);
     }
-    if (hd_trajectory_overlap(tr) > OVERLAP_MAX) return HD_OVERLAP;
+    if (hd_trajectory_overlap(tr) > HD_OVERLAP_MAX) return HD_OVERLAP;
     for (int32_t i = 0; i < tr->count; i++) hd_prediction_renew(tr, i);
     return HD_OK;
 }

@@ -35,7 +35,7 @@ if(NOT HDLYAP_SANITIZE)
   add_executable(hdlyap_load load.c ${sources})
   target_include_directories(hdlyap_load PRIVATE ${HDLYAP_CORE_FOLDER}/include)
   target_include_directories(hdlyap_load SYSTEM PRIVATE ${OPENBLAS_INCLUDE_DIRS} ${LAPACKE_INCLUDE_DIRS})
-  target_link_libraries(hdlyap_load PRIVATE ${HDLYAP_LAPACKE} ${HDLYAP_OPENBLAS} OpenMP::OpenMP_C m)
+  target_link_libraries(hdlyap_load PRIVATE ${HDLYAP_CORE_LIBRARIES})
   set_target_properties(hdlyap_load PROPERTIES C_STANDARD 11 C_EXTENSIONS OFF)
   target_compile_options(hdlyap_load PRIVATE ${HDLYAP_C_WARNINGS} ${HDLYAP_C_EXACT} -O1 -g1 -fno-inline)
   add_test(NAME core_instructions COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/instructions.py

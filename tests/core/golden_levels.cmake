@@ -3,7 +3,7 @@
 # expects the same events of every program.
 cmake_minimum_required(VERSION 3.16)
 
-set(SOURCES trajectory prediction fetch nearby cells queue lattice scene wave random memory status event_log)
+set(SOURCES archive trajectory prediction fetch nearby cells queue lattice scene wave random memory status event_log)
 list(TRANSFORM SOURCES PREPEND ${CORE}/src/)
 list(TRANSFORM SOURCES APPEND .c)
 set(TESTS ${CMAKE_CURRENT_LIST_DIR})
@@ -17,7 +17,7 @@ function(expect_golden compiler level)
   string(MAKE_C_IDENTIFIER "golden_${name}${level}" program)
   execute_process(RESULT_VARIABLE failed
     COMMAND ${compiler} ${EXACT} ${flags} -I${CORE}/include -I${CORE}/src -I${TESTS} ${SOURCES}
-      ${TESTS}/golden.c ${TESTS}/golden_main.c -o ${WORK}/${program} -lm)
+      ${TESTS}/golden.c ${TESTS}/golden_main.c -o ${WORK}/${program} -lz -lm)
   if(failed)
     message(FATAL_ERROR "${compiler} ${level}: does not compile")
   endif()

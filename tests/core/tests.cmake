@@ -12,6 +12,7 @@ foreach(name IN ITEMS
     physics
     observe
     run
+    checkpoint
     effects
     blas
     spectrum

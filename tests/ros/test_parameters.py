@@ -40,9 +40,9 @@ BAD = dict(
     max_node=[-1, 3, 1000001, 1.0, '2', '', [2], False],
     field_indices=['', 'all', 'Steps', 5, 1.0, [], ['1'], [1.0], [1, 'steps'], [True], [[1]], [0], [-1],
                    [38], [1, 2, 1000000]],
-    checkpoint=['file'],
-    checkpoint_interval=[60.0],
-    resume=['file', True],
+    checkpoint=[5, True, ['file']],
+    checkpoint_interval=[-1, 2e12, 'x', NAN, INFINITY],
+    resume=[5, True, ['file']],
     densty=[0.8],
     Disks=[100],
 )
@@ -92,7 +92,7 @@ GOOD = [
     (dict(field_indices='steps', exponents='none'), dict(field_indices='steps', wave_nx=())),
     (dict(field_indices=[37, 1]), dict(field_indices='[37, 1]')),
     (dict(observables=['hydro', 'steps']), dict(observables=['steps', 'hydro'])),
-    (dict(checkpoint='', checkpoint_interval=0.0, resume=False), dict(scene='paper_periodic')),
+    (dict(checkpoint='', checkpoint_interval=0.0, resume=''), dict(checkpoint='', checkpoint_interval=0.0, resumed_time=-1.0)),
 ]
 
 

@@ -75,6 +75,10 @@ TEST(views, run_info)
                                {nodes + 1, 2},
                                "[1, 5]",
                                8.5,
+                               "file",
+                               60,
+                               "before",
+                               12.5,
                                2,
                                1,
                                "blas",
@@ -110,6 +114,10 @@ TEST(views, run_info)
     message.wave_ny = {0, 4294967295};
     message.field_indices = "[1, 5]";
     message.pace = 8.5;
+    message.checkpoint = "file";
+    message.checkpoint_interval = 60;
+    message.resume = "before";
+    message.resumed_time = 12.5;
     message.threads = 2;
     message.blas_threads = 1;
     message.blas_library = "blas";

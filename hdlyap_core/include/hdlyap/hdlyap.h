@@ -3,6 +3,7 @@
 #define HDLYAP_HDLYAP_H
 
 #include "hdlyap/blas.h"
+#include "hdlyap/checkpoint.h"
 #include "hdlyap/hydro.h"
 #include "hdlyap/pmode.h"
 #include "hdlyap/run.h"

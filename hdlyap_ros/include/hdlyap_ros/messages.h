@@ -59,6 +59,10 @@ typedef struct hdr_run_info {
     hdr_uints wave_nx, wave_ny;
     const char *field_indices;
     double pace;
+    const char *checkpoint;
+    double checkpoint_interval;
+    const char *resume;
+    double resumed_time;
     uint32_t threads, blas_threads;
     const char *blas_library, *blas_kernel, *blas_threading;
 } hdr_run_info;

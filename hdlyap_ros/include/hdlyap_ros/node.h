@@ -29,6 +29,9 @@ typedef enum hdr_level { HDR_DEBUG, HDR_INFO, HDR_WARN, HDR_ERROR, HDR_FATAL } h
 HDR_MUST_CHECK hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *name,
                                           double stop_seconds, int memory_status);
 
+/** Changes stop_seconds, before a stop is requested. */
+void hdr_node_stop_within(double stop_seconds);
+
 /** Waits until all subscribers have been handed their last message, at most linger seconds (a
  *  fraction of a second once a stop was requested), then leaves the graph. NULL is allowed. */
 void hdr_node_free(hdr_node *node, double linger);

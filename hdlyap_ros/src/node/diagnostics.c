@@ -1,4 +1,5 @@
-/** OK while it computes, WARN while intervals have to be repaired, ERROR once a fault has ended it. */
+/** OK while it computes, WARN while intervals have to be repaired, ERROR while checkpoints cannot be written and once
+ *  a fault has ended it. */
 #include "diagnostics.h"
 
 #include <math.h>
@@ -10,7 +11,7 @@ static const double period = 1.0;
 /** How long a repair is worth a warning [s]. */
 static const double warn_seconds = 10.0;
 
-enum { KEYS = 11, TEXT_SIZE = 32 };
+enum { KEYS = 12, TEXT_SIZE = 32 };
 
 /** Keys and the texts that they point to. */
 typedef struct key_list {
@@ -87,13 +88,15 @@ static void fill_keys(diagnostics *d, key_list *list, const worker_state *state,
     add_number(list, "repairs", (double)cost->repairs);
     add_number(list, "collisions per second", collision_rate(d, &state->last, now));
     add_text(list, "blas kernel", d->blas_kernel);
+    if (state->checkpoint.time >= 0)
+        add_number(list, "checkpoint of simulated time", state->checkpoint.time);
     if (state->last.resolved_steps >= 0)
         add_number(list, "resolved steps", state->last.resolved_steps);
 }
 
 static uint8_t level_of(diagnostics *d, const worker_state *state, double now)
 {
-    if (state->status != HD_OK) return HDR_DIAGNOSTIC_ERROR;
+    if (state->status != HD_OK || state->checkpoint.failed) return HDR_DIAGNOSTIC_ERROR;
     if (state->last.cost.repairs > d->repairs) d->repaired = now;
     d->repairs = state->last.cost.repairs;
     return now - d->repaired < warn_seconds ? HDR_DIAGNOSTIC_WARN : HDR_DIAGNOSTIC_OK;
@@ -101,7 +104,8 @@ static uint8_t level_of(diagnostics *d, const worker_state *state, double now)
 
 static const char *message_of(uint8_t level, const worker_state *state)
 {
-    if (level == HDR_DIAGNOSTIC_ERROR) return hd_status_text(state->status);
+    if (state->status != HD_OK) return hd_status_text(state->status);
+    if (state->checkpoint.failed) return state->checkpoint.message;
     if (level == HDR_DIAGNOSTIC_WARN) return "intervals were too long and had to be repaired";
     return phase_name(state);
 }

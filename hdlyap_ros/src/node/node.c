@@ -17,6 +17,8 @@ enum { EXIT_REFUSED = 2, EXIT_NUMERICAL_FAULT = 3, EXIT_FILE_FAULT = 4 };
 static const double stop_seconds = 0.8;
 /** Of them for the step that is under way. */
 static const double stop_step_seconds = 0.25;
+/** The same where a checkpoint is to be written first: less than roslaunch waits before it insists. */
+static const double stop_keeping_seconds = 12.0, stop_step_keeping_seconds = 10.0;
 /** How long the last messages of a finished run may take to reach a slow subscriber. */
 static const double linger_seconds = 5.0;
 static const double poll_seconds = 0.02;
@@ -25,6 +27,7 @@ static const double poll_seconds = 0.02;
 typedef struct app {
     hdr_node *ros;
     hdr_params *params;
+    hd_checkpoint kept; /**< what is gone on from */
     settings set;
     hd_run *run;
     report *rep;
@@ -61,21 +64,43 @@ static int failed_status(hdr_status status)
     return fault_status(HD_NO_MEMORY);
 }
 
+/** The exit status; the fault's line is in the log. */
+static int fault_logged(hd_status status, const char *message)
+{
+    if (status != HD_OK) hdr_log(HDR_FATAL, "%s", *message ? message : hd_status_text(status));
+    return fault_status(status);
+}
+
 static int read_settings(app *a)
 {
     char message[512] = "";
-    const hdr_status status = hdr_params_create(&a->params, a->ros);
-    if (status != HDR_OK) return failed_status(status);
-    if (!settings_read(&a->set, a->params, message, sizeof message)) return refuse(message);
+    const char *resume = "";
+    const hdr_status created = hdr_params_create(&a->params, a->ros);
+    if (created != HDR_OK) return failed_status(created);
+    if (!settings_resume(&resume, a->params, message, sizeof message)) return refuse(message);
+    if (*resume) {
+        const hd_status status = hd_checkpoint_read(&a->kept, resume, message, sizeof message);
+        if (status != HD_OK) return fault_logged(status, message);
+    }
+    if (!settings_read(&a->set, a->params, *resume ? &a->kept : NULL, message, sizeof message))
+        return refuse(message);
     return EXIT_SUCCESS;
 }
 
+/** A run whose checkpoints could not be written is not begun. */
 static int create_run(app *a)
 {
     char message[512] = "";
-    const hd_status status = hd_run_create(&a->run, &a->set.def, message, sizeof message);
-    if (status != HD_OK) hdr_log(HDR_FATAL, "%s", *message ? message : hd_status_text(status));
-    return fault_status(status);
+    const settings *set = &a->set;
+    hd_status status = HD_OK;
+    if (*set->checkpoint)
+        status = hd_checkpoint_writable(set->checkpoint, message, sizeof message);
+    if (status == HD_OK && *set->resume)
+        status = hd_run_resume(&a->run, set->resume, &set->def, message, sizeof message);
+    else if (status == HD_OK)
+        status = hd_run_create(&a->run, &set->def, message, sizeof message);
+    if (*set->checkpoint) hdr_node_stop_within(stop_keeping_seconds);
+    return fault_logged(status, message);
 }
 
 /** From here on the node can be seen by others. */
@@ -101,6 +126,9 @@ static void log_start(const app *a)
             "scene %s: %d disks in %.6g x %.6g, %d vectors, %d threads; %s, kernel %s, %d threads",
             a->set.scene, def->disks, box[0], box[1], hd_run_vectors(a->run),
             hd_run_threads(a->run), blas.library, blas.kernel, blas.threads);
+    if (*a->set.resume)
+        hdr_log(HDR_INFO, "goes on from simulated time %.6g of %s", hd_run_time(a->run),
+                a->set.resume);
     if (a->set.awaited) hdr_log(HDR_INFO, "waiting for subscribers");
 }
 
@@ -128,7 +156,8 @@ static bool look_after(app *a)
         diagnostics_update(&a->diag, &state);
     }
     worker_stop(a->work);
-    return ended || worker_wait(a->work, stop_step_seconds);
+    return ended || worker_wait(a->work, *a->set.checkpoint ? stop_step_keeping_seconds
+                                                            : stop_step_seconds);
 }
 
 /** A run at fault has no last message: its end is in the log and in the diagnostics. */
@@ -138,7 +167,11 @@ static int finish(app *a)
     if (state.status == HD_OK) state.status = worker_finish(a->work);
     diagnostics_publish(&a->diag, &state);
     log_end(&state);
-    return fault_status(state.status);
+    if (*a->set.checkpoint && state.stage != WORKER_ENDED)
+        hdr_log(HDR_WARN, "the checkpoint is not of the end, but of simulated time %.6g",
+                state.checkpoint.time);
+    return state.status == HD_OK && state.checkpoint.failed ? EXIT_FILE_FAULT
+                                                            : fault_status(state.status);
 }
 
 /** The worker publishes through the node, whose services call the worker. */

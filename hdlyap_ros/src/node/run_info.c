@@ -98,6 +98,10 @@ hdr_status run_info_publish(const outlets *out, const settings *set, const hd_ru
         .wave_ny = {.data = waves.ny, .count = waves.count},
         .field_indices = set->fields.text,
         .pace = set->pace,
+        .checkpoint = set->checkpoint,
+        .checkpoint_interval = set->checkpoint_interval,
+        .resume = set->resume,
+        .resumed_time = *set->resume ? hd_run_time(run) : -1.0,
     };
     fill_scene(&info, set);
     fill_machine(&info, run);

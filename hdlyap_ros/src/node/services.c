@@ -30,9 +30,20 @@ static bool on_reset_average(void *context, char *message, size_t size)
     return true;
 }
 
+/** Long enough for a step and for a large file. */
+static const double checkpoint_seconds = 30.0;
+
+static bool on_checkpoint(void *context, char *message, size_t size)
+{
+    worker *w = context;
+    return worker_checkpoint(w, checkpoint_seconds, message, size);
+}
+
 hdr_status services_advertise(hdr_node *ros, worker *w)
 {
     const hdr_status status = hdr_service_set_bool(ros, "~pause", on_pause, w);
     if (status != HDR_OK) return status;
-    return hdr_service_trigger(ros, "~reset_average", on_reset_average, w);
+    const hdr_status reset = hdr_service_trigger(ros, "~reset_average", on_reset_average, w);
+    if (reset != HDR_OK) return reset;
+    return hdr_service_trigger(ros, "~checkpoint", on_checkpoint, w);
 }

@@ -22,7 +22,6 @@ enum {
 typedef struct reader {
     const hdr_params *params;
     const char *name;
-    const char *missing_feature; /**< of parameters that only have their neutral value yet */
     char *message;
     size_t size;
 } reader;
@@ -169,55 +168,42 @@ static bool read_field_indices(const reader *r, void *field)
            refuse(r, "steps or a list of integers from 1");
 }
 
-/** Neutral: "", 0 or false. */
-static bool read_neutral(const reader *r, void *field)
+/** Of a file; "" for none. */
+static bool read_path(const reader *r, void *field)
 {
-    bool flag = false;
-    double number = 0.0;
-    const char *text = "";
-    char allowed[64];
-    (void)field;
-    const bool known = hdr_param_double(r->params, r->name, &number) != HDR_WRONG_TYPE ||
-                       hdr_param_bool(r->params, r->name, &flag) == HDR_OK ||
-                       hdr_param_string(r->params, r->name, &text) == HDR_OK;
-    if (known && number == 0.0 && !flag && !*text) return true;
-    snprintf(allowed, sizeof allowed, "unset or empty (this version %s)", r->missing_feature);
-    return refuse(r, allowed);
+    return accept(r, hdr_param_string(r->params, r->name, field), "a string");
 }
-
-#define NO_FILES "writes no checkpoints"
 
 static const struct parameter {
     const char *name;
     read_function read;
     size_t offset;
-    const char *missing_feature;
 } parameters[] = {
-    {"scene", read_scene, offsetof(settings, scene), NULL},
-    {"disks", read_int, offsetof(settings, def.disks), NULL},
-    {"density", read_double, offsetof(settings, def.density), NULL},
-    {"aspect", read_double, offsetof(settings, def.aspect), NULL},
-    {"boundary_x", read_boundary, offsetof(settings, def.boundary[0]), NULL},
-    {"boundary_y", read_boundary, offsetof(settings, def.boundary[1]), NULL},
-    {"seed", read_seed, offsetof(settings, def.seed), NULL},
-    {"exponents", read_exponents, offsetof(settings, def.exponents), NULL},
-    {"equilibration", read_double, offsetof(settings, def.equilibration), NULL},
-    {"warmup", read_double, offsetof(settings, def.warmup), NULL},
-    {"duration", read_double, offsetof(settings, def.duration), NULL},
-    {"target_std_error", read_double, offsetof(settings, def.target_std_error), NULL},
-    {"interval", read_interval, offsetof(settings, def.interval), NULL},
-    {"accuracy", read_double, offsetof(settings, def.accuracy), NULL},
-    {"report_interval", read_double, offsetof(settings, def.report_interval), NULL},
-    {"max_wave_number", read_double, offsetof(settings, def.max_wave_number), NULL},
-    {"max_node", read_int, offsetof(settings, def.max_node), NULL},
-    {"field_indices", read_field_indices, offsetof(settings, fields), NULL},
-    {"observables", read_observables, offsetof(settings, observables), NULL},
-    {"threads", read_int, offsetof(settings, def.threads), NULL},
-    {"wait_for_subscribers", read_awaited, offsetof(settings, awaited), NULL},
-    {"pace", read_double, offsetof(settings, pace), NULL},
-    {"checkpoint", read_neutral, 0, NO_FILES},
-    {"checkpoint_interval", read_neutral, 0, NO_FILES},
-    {"resume", read_neutral, 0, NO_FILES},
+    {"scene", read_scene, offsetof(settings, scene)},
+    {"disks", read_int, offsetof(settings, def.disks)},
+    {"density", read_double, offsetof(settings, def.density)},
+    {"aspect", read_double, offsetof(settings, def.aspect)},
+    {"boundary_x", read_boundary, offsetof(settings, def.boundary[0])},
+    {"boundary_y", read_boundary, offsetof(settings, def.boundary[1])},
+    {"seed", read_seed, offsetof(settings, def.seed)},
+    {"exponents", read_exponents, offsetof(settings, def.exponents)},
+    {"equilibration", read_double, offsetof(settings, def.equilibration)},
+    {"warmup", read_double, offsetof(settings, def.warmup)},
+    {"duration", read_double, offsetof(settings, def.duration)},
+    {"target_std_error", read_double, offsetof(settings, def.target_std_error)},
+    {"interval", read_interval, offsetof(settings, def.interval)},
+    {"accuracy", read_double, offsetof(settings, def.accuracy)},
+    {"report_interval", read_double, offsetof(settings, def.report_interval)},
+    {"max_wave_number", read_double, offsetof(settings, def.max_wave_number)},
+    {"max_node", read_int, offsetof(settings, def.max_node)},
+    {"field_indices", read_field_indices, offsetof(settings, fields)},
+    {"observables", read_observables, offsetof(settings, observables)},
+    {"threads", read_int, offsetof(settings, def.threads)},
+    {"wait_for_subscribers", read_awaited, offsetof(settings, awaited)},
+    {"pace", read_double, offsetof(settings, pace)},
+    {"checkpoint", read_path, offsetof(settings, checkpoint)},
+    {"checkpoint_interval", read_double, offsetof(settings, checkpoint_interval)},
+    {"resume", read_path, offsetof(settings, resume)},
 };
 
 enum { PARAMETERS = sizeof parameters / sizeof *parameters };
@@ -243,18 +229,20 @@ static bool read_all(settings *out, reader *r)
     for (size_t k = 0; k < PARAMETERS; k++) {
         const struct parameter *p = &parameters[k];
         r->name = p->name;
-        r->missing_feature = p->missing_feature;
         if (!p->read(r, (char *)out + p->offset)) return false;
     }
     return true;
 }
 
-static bool check_pace(const settings *set, reader *r)
+static bool check_wall_times(const settings *set, reader *r)
 {
-    const double pace_max = 1e12;
+    const double most = 1e12;
     r->name = "pace";
-    return (set->pace >= 0.0 && set->pace <= pace_max) ||
-           refuse(r, "from 0 (as fast as it goes) to 1e12");
+    if (!(set->pace >= 0.0 && set->pace <= most))
+        return refuse(r, "from 0 (as fast as it goes) to 1e12");
+    r->name = "checkpoint_interval";
+    return (set->checkpoint_interval >= 0.0 && set->checkpoint_interval <= most) ||
+           refuse(r, "from 0 (only at the end and when asked) to 1e12");
 }
 
 /** Without exponents the defaults that need them go silently. */
@@ -315,17 +303,48 @@ static void write_texts(settings *out)
     if (exponents == HD_EXPONENTS_NONE) strcpy(out->exponents, "none");
 }
 
-bool settings_read(settings *out, const hdr_params *params, char *message, size_t size)
+bool settings_resume(const char **path, const hdr_params *params, char *message, size_t size)
 {
-    reader r = {.params = params, .message = message, .size = size};
-    *out = (settings){
+    const reader r = {.params = params, .name = "resume", .message = message, .size = size};
+    *path = "";
+    return read_path(&r, path);
+}
+
+/** What the modes of a checkpoint are published as; the rest as documented. */
+static unsigned topics_of(unsigned stages)
+{
+    unsigned set = TOPICS_OBSERVABLE & ~(unsigned)TOPICS_OF_MODES;
+    for (topic t = 0; t < TOPICS; t++)
+        if ((topic_bit(t) & TOPICS_OF_MODES) && !(topic_stages(topic_bit(t)) & ~stages))
+            set |= topic_bit(t);
+    return set;
+}
+
+static settings defaults(const hd_checkpoint *kept)
+{
+    settings set = {
         .def = hd_scene_def_default(),
         .scene = "paper_periodic",
         .observables = TOPICS_OBSERVABLE & ~topic_bit(TOPIC_HYDRO),
         .fields = {.text = "steps"},
+        .checkpoint = "",
+        .checkpoint_interval = 600.0,
+        .resume = "",
     };
+    if (!kept) return set;
+    set.def = kept->scene;
+    set.scene = kept->label;
+    set.observables = topics_of(kept->scene.observe);
+    return set;
+}
+
+bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint *kept,
+                   char *message, size_t size)
+{
+    reader r = {.params = params, .message = message, .size = size};
+    *out = defaults(kept);
     if (!check_names(&r) || !read_all(out, &r)) return false;
-    if (!check_pace(out, &r) || !check_observables(out, &r) || !check_awaited(out, &r))
+    if (!check_wall_times(out, &r) || !check_observables(out, &r) || !check_awaited(out, &r))
         return false;
     if (!check_modes(out, &r)) return false;
     write_texts(out);

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "hdlyap/scene.h"
+#include "hdlyap/checkpoint.h"
 #include "hdlyap_ros/params.h"
 
 /** Vectors whose fields are published. */
@@ -25,10 +25,17 @@ typedef struct settings {
     field_choice fields;
     unsigned awaited; /**< set of topics that must have a subscriber before the run starts */
     double pace;      /**< time units per wall second, 0 = as fast as it goes */
+    const char *checkpoint;     /**< file, or ""; in the params, as the next but one */
+    double checkpoint_interval; /**< wall seconds; 0: only at the end and when asked */
+    const char *resume;         /**< file to go on from, or "" */
 } settings;
 
-/** False if refused, with one line in message: the parameter, its value, what is allowed. The params
- *  must outlive the settings. */
-bool settings_read(settings *out, const hdr_params *params, char *message, size_t size);
+/** The file to go on from, "" if none. False if refused. */
+bool settings_resume(const char **path, const hdr_params *params, char *message, size_t size);
+
+/** False if refused, with one line in message: the parameter, its value, what is allowed. What is not given is as in
+ *  the checkpoint that is gone on from (NULL: as documented). The params and it must outlive the settings. */
+bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint *kept,
+                   char *message, size_t size);
 
 #endif

@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <math.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
 
@@ -20,10 +21,11 @@ struct worker {
     const settings *set;
     pthread_t thread;
     double due; /**< wall time before which pace allows no further step; the thread's own */
+    keeper keep; /**< the thread's own */
 
     pthread_mutex_t lock;
     pthread_cond_t changed;
-    bool stop, pause, reset; /**< asked for */
+    bool stop, pause, reset, save; /**< asked for */
     worker_state state;
 
     pthread_mutex_t publishing;
@@ -61,11 +63,25 @@ static bool wait_for_subscribers(worker *w)
 /** By the pace asked for, if any. */
 static bool too_early(const worker *w) { return w->due > 0.0 && clock_seconds() < w->due; }
 
-/** Between two steps: pauses and keeps pace. False if asked to stop. */
+/** Writes the checkpoint. Lock held, but not while it is written. */
+static void save(worker *w)
+{
+    pthread_mutex_unlock(&w->lock);
+    keeper_save(&w->keep, w->run);
+    pthread_mutex_lock(&w->lock);
+    w->save = false;
+    w->state.checkpoint = w->keep.state;
+    pthread_cond_broadcast(&w->changed);
+}
+
+/** Between two steps: keeps the run if it is time to, pauses and keeps pace. False if asked to stop. */
 static bool obey(worker *w)
 {
     pthread_mutex_lock(&w->lock);
-    while (!w->stop && (w->pause || too_early(w))) {
+    if (keeper_due(&w->keep)) save(w);
+    while (!w->stop && (w->save || w->pause || too_early(w))) {
+        if (w->save) save(w);
+        if (!w->pause && !too_early(w)) continue;
         enter(w, w->pause ? WORKER_PAUSED : WORKER_RUNNING);
         if (w->pause)
             pthread_cond_wait(&w->changed, &w->lock);
@@ -124,6 +140,7 @@ static void *work(void *context)
     if (!wait_for_subscribers(w)) return NULL;
     while (status == HD_OK && hd_run_phase(w->run) != HD_FINISHED && obey(w)) status = step(w);
     pthread_mutex_lock(&w->lock);
+    if (status == HD_OK) save(w);
     w->state.status = status;
     enter(w, WORKER_ENDED);
     pthread_mutex_unlock(&w->lock);
@@ -156,6 +173,8 @@ bool worker_create(worker **out, hd_run *run, report *rep, const settings *set)
     w->rep = rep;
     w->set = set;
     w->state.last = progress_of(run);
+    w->keep = keeper_of(set);
+    w->state.checkpoint = w->keep.state;
     locks_create(w);
     if (pthread_create(&w->thread, NULL, work, w) == 0) return true;
     locks_free(w);
@@ -198,6 +217,38 @@ static void ask(worker *w, bool *request, bool value)
 void worker_pause(worker *w, bool pause) { ask(w, &w->pause, pause); }
 
 void worker_reset_average(worker *w) { ask(w, &w->reset, true); }
+
+/** Lock held. */
+static bool saved(worker *w, double until, char *message, size_t size)
+{
+    const kept *k = &w->state.checkpoint;
+    while (w->save && w->state.stage != WORKER_ENDED && wait_until(w, until)) continue;
+    const bool done = !w->save && !k->failed && k->time >= 0.0;
+    if (done)
+        snprintf(message, size, "%s: simulated time %.6g", w->set->checkpoint, k->time);
+    else if (w->save)
+        snprintf(message, size, "it will be written after the step that is under way");
+    else
+        snprintf(message, size, "%s", k->failed ? k->message : "the run has not begun");
+    return done;
+}
+
+bool worker_checkpoint(worker *w, double seconds, char *message, size_t size)
+{
+    const double until = clock_seconds() + seconds;
+    if (!*w->set->checkpoint) {
+        snprintf(message, size, "the parameter checkpoint names no file");
+        return false;
+    }
+    pthread_mutex_lock(&w->lock);
+    if (w->state.stage == WORKER_RUNNING || w->state.stage == WORKER_PAUSED) {
+        w->save = true;
+        pthread_cond_broadcast(&w->changed);
+    }
+    const bool done = saved(w, until, message, size);
+    pthread_mutex_unlock(&w->lock);
+    return done;
+}
 
 void worker_stop(worker *w) { ask(w, &w->stop, true); }
 

@@ -1,7 +1,9 @@
-/** The computation in a thread of its own: steps a run, reports when due, obeys pause and reset. */
+/** The computation in a thread of its own: steps a run, reports when due, keeps it in its file, obeys pause and
+ *  reset. */
 #ifndef HDLYAP_WORKER_H
 #define HDLYAP_WORKER_H
 
+#include "keeper.h"
 #include "report.h"
 
 typedef enum worker_stage {
@@ -16,6 +18,7 @@ typedef struct worker_state {
     worker_stage stage;
     hd_status status; /**< the fault that ended it, else HD_OK */
     progress last;
+    kept checkpoint;
 } worker_state;
 
 typedef struct worker worker;
@@ -33,6 +36,10 @@ worker_state worker_state_now(worker *w);
 void worker_pause(worker *w, bool pause);
 /** Starts the averages afresh before the next step. */
 void worker_reset_average(worker *w);
+
+/** Writes a checkpoint before the next step, and waits for it at most that long. False if it was not written, with
+ *  the reason in message. */
+bool worker_checkpoint(worker *w, double seconds, char *message, size_t size);
 
 /** Waits at most that long for the end; true if it has come. */
 bool worker_wait(worker *w, double seconds);

@@ -82,8 +82,7 @@ void stop_handlers_install(double stop_seconds)
     event.sigev_signo = SIGALRM;
     if (timer_create(CLOCK_MONOTONIC, &event, &watchdog))
         throw std::system_error(errno, std::generic_category(), "timer_create");
-    watchdog_time.it_value.tv_sec = static_cast<time_t>(stop_seconds);
-    watchdog_time.it_value.tv_nsec = static_cast<long>(1e9 * std::fmod(stop_seconds, 1.0));
+    hdr_node_stop_within(stop_seconds);
     handle(SIGALRM, on_watchdog);
     handle(SIGINT, on_stop);
     handle(SIGTERM, on_stop);
@@ -94,6 +93,12 @@ void stop_without_memory(int status) noexcept
 {
     status_without_memory = status;
     std::set_terminate(on_terminate);
+}
+
+void hdr_node_stop_within(double stop_seconds)
+{
+    watchdog_time.it_value.tv_sec = static_cast<time_t>(stop_seconds);
+    watchdog_time.it_value.tv_nsec = static_cast<long>(1e9 * std::fmod(stop_seconds, 1.0));
 }
 
 bool hdr_stop_requested(void) { return requested.load(); }

@@ -1,0 +1,43 @@
+/** What a run holds, for the files that make it up: run.c goes on, progress.c tells, checkpoint.c keeps. */
+#ifndef HD_RUN_STATE_H
+#define HD_RUN_STATE_H
+
+#include "hdlyap/run.h"
+#include "interval.h"
+#include "schedule.h"
+#include "tail.h"
+
+struct hd_run {
+    hd_scene_def scene;
+    hd_trajectory *trajectory;
+    hd_event_log *log;
+    hd_frame *frame; /**< NULL without exponents, as the two below */
+    hd_ortho *ortho;
+    hd_spectrum *spectrum;
+    hd_modes *modes; /**< NULL unless observed, as the next two */
+    hd_steps *steps;
+    hd_phases *phases;
+    hd_tail *tail;    /**< NULL without phases, and where it does not apply */
+    double *q, *p;    /**< [2N], state of a snapshot */
+    unsigned observe; /**< stages needed now */
+    hd_schedule schedule;
+    hd_interval interval;
+    double interval_end; /**< simulated time at which the frame is orthonormalised next */
+    double step_max;   /**< longest step that keeps to EVENTS_PER_STEP, as far as events are known */
+    double sample_max; /**< simulated time of COLLISIONS_PER_SAMPLE */
+    int vectors, threads;
+    double now; /**< simulated time */
+    bool report_due;
+    double created, frame_started,
+        frame_start_time; /**< wall clock, and simulated time, for estimates */
+    double condition_max; /**< so far: how well the start of the averaging is known */
+    double rounding;      /**< HD_ROUNDING times that and the conditions since, summed */
+    hd_cost cost;
+};
+
+enum { SMALLEST_EXPONENTS = 8 };
+
+/** Largest standard error of the exponents nearest to zero; INFINITY while one is unknown. */
+double hd_run_smallest_error(const hd_run *run);
+
+#endif

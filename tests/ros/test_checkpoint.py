@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+"""A run kept in a file and taken up again, by parameters and by the service."""
+
+import os
+import signal
+import tempfile
+import unittest
+
+import rospy
+import rostest
+from std_srvs.srv import SetBool, Trigger
+
+import harness
+from harness import NODE, SHORT
+
+LONG = dict(SHORT, duration=0.0, threads=1)
+# reports come at the same times whatever the speed; nobody's listening changes what is computed
+RUN = dict(disks=60, density=0.8, aspect=0.06, equilibration=5.0, warmup=20.0, duration=30.0, threads=1,
+           report_interval=0.5, observables=['spectrum', 'modes', 'steps', 'lp_phases', 'state'],
+           wait_for_subscribers='all')
+
+
+class Checkpoint(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.file = os.path.join(folder.name, 'run.checkpoint')
+
+    def start(self, params, **how):
+        node = harness.start(params, **how)
+        self.addCleanup(node.stop)
+        return node
+
+    def listen(self, topic):
+        listener = harness.Listener(topic)
+        self.addCleanup(listener.close)
+        return listener
+
+    def call(self, name, kind, *request):
+        rospy.wait_for_service('/%s/%s' % (NODE, name), harness.PATIENCE)
+        return rospy.ServiceProxy('/%s/%s' % (NODE, name), kind)(*request)
+
+    def ends(self, node, status, *words):
+        self.assertEqual(node.wait(), status, node.text())
+        for word in words:
+            self.assertIn(word, node.text())
+
+    def recorded(self, params, stop_after=None):
+        """All messages of a run by topic, without what the clock and the run's name are."""
+        topics = ['run_info', 'cost', *RUN['observables']]
+        listeners = {topic: self.listen(topic) for topic in topics}
+        node = self.start(params)
+        if stop_after:
+            listeners['state'].wait_for(lambda message: message.sim_time >= stop_after)
+            node.send(signal.SIGINT)
+        self.ends(node, 0)
+        for listener in listeners.values():
+            listener.close()
+        return {topic: listener.messages for topic, listener in listeners.items()}
+
+    @staticmethod
+    def plain(messages):
+        for message in messages:
+            message.header.seq = 0
+            message.header.stamp = rospy.Time()
+            message.run_id = ''
+        return messages
+
+    def test_resumed_run_publishes_what_the_uninterrupted_one_does(self):
+        whole = self.recorded(RUN)
+        first = self.recorded(dict(RUN, checkpoint=self.file, pace=20.0), stop_after=40.0)
+        second = self.recorded(dict(RUN, resume=self.file, checkpoint=self.file))
+        info = second['run_info'][0]
+        self.assertEqual((info.resume, info.checkpoint), (self.file, self.file))
+        self.assertGreaterEqual(info.resumed_time, 40.0)
+        self.assertLess(info.resumed_time, 55.0)
+        self.assertEqual(whole['run_info'][0].resumed_time, -1.0)
+        for topic in RUN['observables']:
+            with self.subTest(topic=topic):
+                both = self.plain(first[topic]) + self.plain(second[topic])
+                self.assertGreater(len(second[topic]), 0)
+                self.assertEqual(both, self.plain(whole[topic]))
+
+    def test_what_is_not_given_is_as_in_the_file(self):
+        params = dict(RUN, scene='kept', exponents=7, checkpoint=self.file)
+        self.recorded(dict(params, duration=5.0))
+        info = self.listen('run_info')
+        self.ends(self.start(dict(resume=self.file, duration=6.0)), 0, 'finished at simulated time 31')
+        message = info.messages[0]
+        self.assertEqual((message.scene, message.disks, message.exponents), ('kept', 60, '7'))
+        self.assertEqual(message.observables, RUN['observables'])
+        self.assertEqual(message.duration, 6.0)
+
+    def test_refused(self):
+        self.ends(self.start(dict(RUN, resume=self.file)), 4, self.file, 'No such file')
+        self.recorded(dict(RUN, checkpoint=self.file, duration=5.0))
+        self.ends(self.start(dict(resume=self.file, disks=61)), 2, 'disks = 61: must be 60')
+        self.ends(self.start(dict(resume=self.file, duration=4.0)), 2, 'duration = 4: must be at least 5')
+        self.ends(self.start(dict(resume=self.file, observables=['spectrum'])), 2, 'observables')
+        with open(self.file, 'r+b') as file:
+            file.seek(1000)
+            file.write(b'damage')
+        self.ends(self.start(dict(resume=self.file)), 4, self.file, 'damaged')
+        os.truncate(self.file, 5000)
+        self.ends(self.start(dict(resume=self.file)), 4, self.file, 'cut short')
+        folder = os.path.dirname(self.file)
+        self.ends(self.start(dict(RUN, checkpoint=folder)), 4, folder, 'no regular file')
+        self.ends(self.start(dict(RUN, checkpoint='/no/such/file')), 4, '/no/such/file')
+        self.assertEqual(os.listdir(folder), [os.path.basename(self.file)])
+
+    def test_service(self):
+        node = self.start(dict(LONG, checkpoint=self.file, checkpoint_interval=0.0))
+        answer = self.call('checkpoint', Trigger)
+        self.assertTrue(answer.success, answer.message)
+        self.assertIn(self.file, answer.message)
+        first = os.stat(self.file)
+        self.assertTrue(self.call('pause', SetBool, True).success)
+        answer = self.call('checkpoint', Trigger)
+        self.assertTrue(answer.success, answer.message)
+        self.assertNotEqual(os.stat(self.file).st_ino, first.st_ino)
+        node.send(signal.SIGINT)
+        self.ends(node, 0)
+
+    def test_service_without_a_file(self):
+        node = self.start(LONG)
+        answer = self.call('checkpoint', Trigger)
+        self.assertFalse(answer.success)
+        self.assertIn('names no file', answer.message)
+        node.send(signal.SIGINT)
+        self.ends(node, 0)
+
+    def test_service_before_the_run(self):
+        node = self.start(dict(LONG, checkpoint=self.file, wait_for_subscribers=['state']))
+        answer = self.call('checkpoint', Trigger)
+        self.assertFalse(answer.success)
+        self.assertIn('not begun', answer.message)
+        node.send(signal.SIGINT)
+        self.ends(node, 0)
+        self.assertFalse(os.path.exists(self.file))
+
+    def test_at_intervals(self):
+        cost = self.listen('cost')
+        node = self.start(dict(LONG, checkpoint=self.file, checkpoint_interval=0.05))
+        seen = set()
+        harness.wait_until(lambda: os.path.exists(self.file))
+        harness.wait_until(lambda: seen.add(os.stat(self.file).st_mtime_ns) or len(seen) > 3)
+        self.assertGreater(len(seen), 3)
+        self.assertTrue(cost.messages)
+        node.send(signal.SIGKILL)
+        node.wait()
+        node = self.start(dict(resume=self.file))
+        self.assertTrue(harness.wait_until(lambda: node.lines('goes on from simulated time')))
+        node.send(signal.SIGINT)
+        self.ends(node, 0)
+
+    def test_a_long_step_does_not_keep_it_from_ending(self):
+        cost = self.listen('cost')
+        node = self.start(dict(LONG, checkpoint=self.file, wait_for_subscribers=['cost']),
+                          probe={'PROBE_STEP_SECONDS': '2.5'})
+        self.assertTrue(cost.wait_for(lambda message: True))
+        node.send(signal.SIGINT)
+        self.ends(node, 0)
+        self.assertTrue(os.path.exists(self.file))
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_checkpoint')
+    rostest.rosrun('hdlyap', 'checkpoint', Checkpoint)
