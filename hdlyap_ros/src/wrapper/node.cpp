@@ -65,8 +65,12 @@ bool has_subscribers(const hdr_node &node)
 /** What a parameter holds must not look like a line of its own, nor steer a terminal. */
 void one_line(char *text)
 {
-    for (; *text; text++)
-        if (static_cast<unsigned char>(*text) < ' ' || *text == 0x7f) *text = '?';
+    const auto byte = [](char c) { return static_cast<unsigned char>(c); };
+    for (; *text; text++) {
+        if (byte(*text) < 0x20 || byte(*text) == 0x7f) *text = '?';
+        const bool is_c1 = byte(text[0]) == 0xc2 && byte(text[1]) >= 0x80 && byte(text[1]) < 0xa0;
+        if (is_c1) text[0] = text[1] = '?'; /* in UTF-8 */
+    }
 }
 
 void drain(const hdr_node &node, double linger)

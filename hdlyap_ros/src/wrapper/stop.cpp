@@ -87,6 +87,7 @@ void stop_handlers_install(double stop_seconds)
     handle(SIGINT, on_stop);
     handle(SIGTERM, on_stop);
     if (!is_ignored(SIGHUP)) handle(SIGHUP, on_stop); /* nohup ignores it */
+    handle(SIGXFSZ, SIG_IGN);                         /* writing says so too */
 }
 
 void stop_without_memory(int status) noexcept
