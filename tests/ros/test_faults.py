@@ -20,7 +20,7 @@ from harness import MODES, OBSERVABLES, SHORT
 BOUND = 1.0     # seconds from a request to stop to the end, the contract
 FAULT = 3       # exit status
 MB = 1 << 20
-AT_ONCE = 3     # nodes that run at the same time
+AT_ONCE = 5     # nodes that run at the same time
 # all stages, with two threads: OpenBLAS and OpenMP start theirs
 THREADED = dict(MODES, warmup=10.0, duration=5.0, observables=OBSERVABLES, threads=2)
 ENDLESS = dict(SHORT, disks=100, duration=0.0)
