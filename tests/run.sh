@@ -32,13 +32,13 @@ core_install() {
 }
 
 sanitizers_build() {
-    without_ros cmake -S "$ROOT/hdlyap_core" -B "$WORK/sanitizers" -DHDLYAP_SANITIZE=ON
+    without_ros cmake -S "$ROOT/hdlyap_core" -B "$WORK/sanitizers" -DHDLYAP_SANITIZE=ON -DHDLYAP_VERIFY=ON
     without_ros cmake --build "$WORK/sanitizers" -- -j "$(nproc)"
 }
 
 run_ctest() {
     cd "$1"
-    ctest --output-on-failure
+    ctest --output-on-failure -j "$(nproc)"
 }
 
 ros_build() {

@@ -152,7 +152,10 @@ hd_status hd_checkpoint_file_end(hd_checkpoint_file *f, hd_archive *archive, cha
     if (hd_archive_good(archive) && finish(f, archive)) return HD_OK;
     const int error = hd_archive_good(archive) ? errno : archive->error;
     const hd_status status = error ? HD_FILE_FAULT : archive->status;
-    (void)fault(message, size, f->part, "%s", error ? strerror(error) : archive->fault);
+    if (error)
+        (void)fault(message, size, f->part, "%s", strerror(error));
+    else
+        (void)fault(message, size, f->part, "%s: %s", archive->name, archive->fault);
     hd_checkpoint_file_drop(f);
     return status;
 }

@@ -20,8 +20,9 @@
 #include "check.h"
 #include "memory.h"
 
-/** |Q^T Q - 1| after one pass is at most this times eps condition; see [T7]. */
-static const double DEFECT_PER_CONDITION = 64.0;
+/** |Q^T Q - 1| after one pass is at most the square of this, or of the worst panel's own condition if that is larger,
+ *  times eps condition; see [T7]. */
+static const double PANEL_CONDITION_LEAST = 8.0;
 /** A panel that is worse conditioned by itself gets a second Cholesky pass: its loss of orthogonality,
  *  eps condition^2, multiplies what the later panels are cleaned of. */
 static const double PANEL_CONDITION_GOOD = 30.0;
@@ -43,6 +44,7 @@ struct hd_ortho {
     double *reflector;             /**< [vectors], of the stable step */
     int lwork;                     /**< of projection */
     double condition, defect;
+    double panel_condition; /**< largest of the panels as they were accepted, at least PANEL_CONDITION_LEAST */
     int passes;
 };
 
@@ -215,6 +217,7 @@ static hd_status panel_orthonormalise(hd_ortho *ortho, panel x)
         panel_solve(ortho, x, ortho->probe + x.first, ortho->vectors, PROBES);
         panel_solve(ortho, x, x.a, x.lda, ortho->rows);
         good = condition <= PANEL_CONDITION_GOOD;
+        if (good) ortho->panel_condition = fmax(ortho->panel_condition, condition);
     }
     return HD_OK;
 }
@@ -255,6 +258,7 @@ static void probes_clear(hd_ortho *ortho)
 static hd_status pass(hd_ortho *ortho, hd_frame *frame, double condition_max)
 {
     probes_clear(ortho);
+    ortho->panel_condition = PANEL_CONDITION_LEAST;
     for (int first = 0; first < ortho->vectors; first += ortho->width) {
         const int left = ortho->vectors - first;
         const panel x = {hd_frame_data(frame) + first, hd_frame_stride(frame), first,
@@ -274,16 +278,21 @@ static void step_start(hd_ortho *ortho, const hd_frame *frame)
     ortho->passes = 0;
 }
 
+static double defect_foreseen(const hd_ortho *ortho)
+{
+    return DBL_EPSILON * ortho->condition * ortho->panel_condition * ortho->panel_condition;
+}
+
 hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits)
 {
     step_start(ortho, frame);
     HD_TRY(pass(ortho, frame, limits.condition));
     const double condition = ortho->condition;
-    ortho->defect = DEFECT_PER_CONDITION * DBL_EPSILON * condition;
+    ortho->defect = defect_foreseen(ortho);
     if (ortho->defect > limits.defect) {
         HD_TRY(pass(ortho, frame, limits.condition));
+        ortho->defect = defect_foreseen(ortho);
         ortho->condition = condition;
-        ortho->defect = DEFECT_PER_CONDITION * DBL_EPSILON;
     }
     return HD_OK;
 }
@@ -335,7 +344,7 @@ hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame, double conditio
         return HD_ILL_CONDITIONED;
     apply_signs(ortho, a, stride, sign);
     ortho->passes = 1;
-    ortho->defect = DEFECT_PER_CONDITION * DBL_EPSILON;
+    ortho->defect = DBL_EPSILON * PANEL_CONDITION_LEAST * PANEL_CONDITION_LEAST;
     return HD_OK;
 }
 

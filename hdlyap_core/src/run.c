@@ -15,6 +15,7 @@
 #include "memory.h"
 #include "run_state.h"
 #include "threads.h"
+#include "verify.h"
 
 /** Loss of orthogonality allowed where nobody looks at the vectors, as the logarithms telescope [T5]; its
  *  square enters a mean. */
@@ -160,11 +161,20 @@ void hd_run_free(hd_run *run)
 
 /* ---- one interval ----------------------------------------------------------------------------- */
 
+static hd_status replay(hd_run *run, double t_begin, double t_end)
+{
+    hd_symplectic before;
+    if (HD_VERIFIES) before = hd_verify_sample(run->frame);
+    HD_TRY(hd_frame_replay(run->frame, run->log, t_begin, t_end));
+    if (HD_VERIFIES) hd_verify_symplectic(run->frame, &before, (double)run->log->count);
+    return HD_OK;
+}
+
 /** Carries the frame from t_begin to t_end of the log and orthonormalises it. */
 static hd_status frame_piece(hd_run *run, double t_begin, double t_end, double defect)
 {
     const double start = hd_clock_now(), duration = run->log->duration;
-    HD_TRY(hd_frame_replay(run->frame, run->log, t_begin, t_end));
+    HD_TRY(replay(run, t_begin, t_end));
     const double replayed = hd_clock_now();
     const hd_ortho_limits limits = {hd_interval_condition_max(&run->interval, duration), defect};
     const hd_status status = t_end - t_begin > duration / PIECES_MAX
@@ -172,6 +182,7 @@ static hd_status frame_piece(hd_run *run, double t_begin, double t_end, double d
                                  : hd_ortho_step_stable(run->ortho, run->frame, CONDITION_STABLE);
     run->cost.replay += replayed - start;
     run->cost.ortho += hd_clock_now() - replayed;
+    if (HD_VERIFIES && status == HD_OK) hd_verify_ortho(run->ortho, run->frame);
     return status;
 }
 
@@ -255,6 +266,8 @@ static hd_status advance_disks(hd_run *run, hd_event_log *log, double length, do
     run->step_max = fmin(4.0 * fmax(length, run->step_max / 4.0),
                          length * EVENTS_PER_STEP / events);
     run->cost.events += hd_clock_now() - start;
+    if (HD_VERIFIES) hd_verify_disks(run->trajectory, &run->scene);
+    if (HD_VERIFIES && log) hd_verify_log(log, run->scene.disks);
     return HD_OK;
 }
 
@@ -302,7 +315,7 @@ static bool tail_suffices(const hd_run *run, int count)
 static hd_status look(hd_run *run, int count)
 {
     const double start = hd_clock_now();
-    HD_TRY(hd_frame_replay(run->frame, run->log, 0.0, run->log->duration));
+    HD_TRY(replay(run, 0.0, run->log->duration));
     const double replayed = hd_clock_now();
     hd_trajectory_state(run->trajectory, run->q, run->p);
     hd_status status = hd_tail_measure(run->tail, run->frame, run->p, count);

@@ -137,6 +137,7 @@ static void a_resumed_run_is_the_uninterrupted_one(void **state)
     walls.boundary[0] = walls.boundary[1] = HD_REFLECTING;
     hd_scene_def crowded = scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, ALL | HD_OBSERVE_FIELDS);
     crowded.report_interval = 0.25;
+    crowded.threads = 2;
     hd_scene_def looks = scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, ALL);
     looks.report_interval = 0.1;
     hd_scene_def rare = scene(20, 0.05, 1.0, 3, 0);
@@ -501,6 +502,25 @@ static void a_write_that_fails_leaves_the_file(void **state)
     hd_run_free(run);
 }
 
+static void a_run_that_is_no_number_is_not_written(void **state)
+{
+    (void)state;
+    const hd_scene_def def = scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
+    hd_run *run = run_of(&def);
+    hd_run_free(saved_and_resumed(run, NULL));
+    const bytes before = file_read(PATH);
+    char message[512] = "";
+    hd_frame_data(run->frame)[17] = NAN;
+    assert_int_equal(hd_run_save(run, PATH, LABEL, message, sizeof message), HD_NOT_FINITE);
+    assert_non_null(strstr(message, "frame vectors: a number is not finite"));
+    const bytes after = file_read(PATH);
+    assert_int_equal(after.size, before.size);
+    assert_memory_equal(after.data, before.data, before.size);
+    free(before.data);
+    free(after.data);
+    hd_run_free(run);
+}
+
 /** While another process holds the part. */
 static void nobody_writes_into_anothers_part(void **state)
 {
@@ -541,6 +561,7 @@ int main(void)
         cmocka_unit_test(nonsense_is_survived),
         cmocka_unit_test(what_cannot_be_written_is_named),
         cmocka_unit_test(a_write_that_fails_leaves_the_file),
+        cmocka_unit_test(a_run_that_is_no_number_is_not_written),
         cmocka_unit_test(nobody_writes_into_anothers_part),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

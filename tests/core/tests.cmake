@@ -13,6 +13,7 @@ foreach(name IN ITEMS
     observe
     run
     checkpoint
+    verify
     effects
     blas
     spectrum

@@ -13,6 +13,7 @@ from std_srvs.srv import SetBool, Trigger
 import harness
 from harness import NODE, SHORT
 
+DOCUMENT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/survival.md')
 LONG = dict(SHORT, duration=0.0, threads=1)
 # reports come at the same times whatever the speed; nobody's listening changes what is computed
 RUN = dict(disks=60, density=0.8, aspect=0.06, equilibration=5.0, warmup=20.0, duration=30.0, threads=1,
@@ -90,6 +91,21 @@ class Checkpoint(unittest.TestCase):
         self.assertEqual((message.scene, message.disks, message.exponents), ('kept', 60, '7'))
         self.assertEqual(message.observables, RUN['observables'])
         self.assertEqual(message.duration, 6.0)
+
+    def test_file_is_read_as_documented(self):
+        """By the program in doc/survival.md."""
+        spectrum = self.listen('spectrum')
+        self.recorded(dict(RUN, checkpoint=self.file))
+        with open(DOCUMENT) as file:
+            program = file.read().split('```python\n')[1].split('```')[0]
+        found = {}
+        exec(program, found)
+        arrays = dict(found['arrays'](self.file))
+        self.assertEqual(b''.join(arrays['label']).rstrip(b'\0').decode(), 'paper_periodic')
+        self.assertEqual(arrays['scene disks'], [60])
+        self.assertEqual(arrays['frame vectors'].size, 240 * 117)
+        exponents = arrays['spectrum sum'] / arrays['spectrum time']
+        self.assertEqual(list(exponents), list(spectrum.messages[-1].exponents))
 
     def test_refused(self):
         self.ends(self.start(dict(RUN, resume=self.file)), 4, self.file, 'No such file')

@@ -1,6 +1,6 @@
 /** A run in a file: kept while it goes on, taken up again after whatever ended it.
  *
- *  The file is a list of named arrays behind a head with format, length and checksum (THEORY.md, "Checkpoints"). It
+ *  The file is a list of named arrays behind a head with format, length and checksum (doc/survival.md). It
  *  holds disks, pending events, frame, averages, phases and what the intervals have taught; so a run that was taken up
  *  has the same events bit for bit, and with the same number of threads and BLAS kernels the same exponents. */
 #ifndef HDLYAP_CHECKPOINT_H
