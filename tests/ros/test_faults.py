@@ -35,6 +35,10 @@ def limited(limit):
 
 
 class Faults(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)    # nohup's would be handed on
+
     def start(self, params, **kw):
         node = harness.start(params, **kw)
         self.addCleanup(node.stop)
@@ -87,7 +91,8 @@ class Faults(unittest.TestCase):
         """Memory is out for the core, from its first block to the last one, which a report needs."""
         blocks = harness.calls(self, dict(SHORT, observables=OBSERVABLES))['memory_alloc']
         self.assertGreater(blocks, 100)
-        moments = [1, blocks - 1] + [blocks * k // 8 for k in range(1, 8)]
+        moments = [1] + [blocks * k // 6 for k in range(1, 6)]
+        moments += range(blocks - 8, blocks)    # of the report, of the first interval
         for first in range(0, len(moments), AT_ONCE):
             nodes = [self.start(dict(SHORT, observables=OBSERVABLES), name='short_%d' % k,
                                 probe={'PROBE_MEMORY_AFTER': str(after)})
