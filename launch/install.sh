@@ -24,7 +24,7 @@ run_packages() {
 }
 
 test_packages() {
-    echo libcmocka-dev libgtest-dev shellcheck valgrind
+    echo libcmocka-dev libgtest-dev shellcheck strace valgrind
     case $1 in
         debian)
             echo librostest-dev python3-rostest python3-rostopic python3-rosnode \

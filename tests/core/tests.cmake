@@ -52,6 +52,7 @@ foreach(name IN ITEMS
     scene
     random
     memory
+    hard_memory
     status
 )
   hdlyap_core_test(${name})
