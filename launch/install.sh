@@ -24,10 +24,10 @@ run_packages() {
 }
 
 test_packages() {
-    echo libcmocka-dev libgtest-dev shellcheck strace valgrind
+    echo libcmocka-dev libgtest-dev shellcheck strace valgrind clang libomp-dev
     case $1 in
         debian)
-            echo librostest-dev python3-rostest python3-rostopic python3-rosnode \
+            echo libclang-rt-dev librostest-dev python3-rostest python3-rostopic python3-rosnode \
                 python3-rosservice catkin-lint
             ;;
         noetic)

@@ -14,7 +14,7 @@ FAILED=0
 
 shell_scripts() {
     cd "$ROOT"
-    shellcheck -x --exclude=SC2317 launch/*.sh tests/*.sh tests/install/*.sh hdlyap_core/bench/*.sh .ci/run
+    shellcheck -x --exclude=SC2317 launch/*.sh tests/*.sh tests/install/*.sh tests/fuzz/*.sh hdlyap_core/bench/*.sh .ci/run
 }
 
 # without_ros COMMAND...: as on a machine that has no ROS.
@@ -145,9 +145,11 @@ stage core_tests ctest core_ctest
 stage core_install checks core_install
 stage sanitizers_build one sanitizers_build
 stage sanitizers_tests ctest run_ctest "$WORK/sanitizers"
+stage fuzz checks without_ros "$ROOT/tests/fuzz/run.sh" "$WORK/fuzz"
 stage ros_build one ros_build
 stage ros_tests catkin ros_tests
 stage plot_tests unittest plot_tests
+stage checked checks "$ROOT/tests/checked.sh" "$WORK/checked" "$WORK/core" "$WORK/ros"
 stage lint one lint
 stage demo checks "$ROOT/tests/demo.sh" "$WORK/demo"
 stage readme checks "$ROOT/tests/readme.sh" "$WORK/readme" "$WORK/ros/.install/setup.bash"

@@ -85,14 +85,15 @@ static void times_expect(const hd_run *run, hd_archive *archive)
 {
     const hd_schedule *s = &run->schedule;
     const double now = run->now, cut = hd_schedule_cut(s);
-    const bool ahead = s->phase == HD_FINISHED || cut >= now;
+    const bool no_more = cut >= now && hd_schedule_phase_end(s) <= now; /* a phase without length */
+    const bool ahead = s->phase == HD_FINISHED || cut > now || no_more;
     hd_archive_expect(archive, s->start >= 0 && s->start <= now && ahead, "schedule",
                       "it does not go on from this time");
     const bool pending = run->log && run->log->duration > 0;
     const double end = fmax(now, s->phase == HD_FINISHED ? now : hd_schedule_sample_end(s));
     hd_archive_expect(archive, run->interval_end <= end && (!pending || run->interval_end >= now),
                       "run interval end", "it does not fit the time");
-    hd_archive_expect(archive, !pending || (run->log->duration <= now && run->log->duration > 0),
+    hd_archive_expect(archive, !run->log || (run->log->duration >= 0 && run->log->duration <= now),
                       "log duration", "it does not fit the time");
     hd_archive_expect(archive, run->step_max > 0, "run step max", "it is not positive");
 }

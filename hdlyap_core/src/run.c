@@ -26,6 +26,8 @@ static const double DEFECT_MEASURED = 1e-6;
 static const double CONDITION_TAIL = 1e4;
 static const double COLLISIONS_PER_SAMPLE = 64.0; /* of one disk, at most */
 static const double EVENTS_PER_STEP = 200000.0;   /* bounds memory, and the wait for an answer */
+/** Of what is so short, or nothing, how long a step may be is not learnt: events at its start would count. */
+static const double STEP_MIN = 1e-12;
 /** Householder reflections stay right to eps * condition: 1e-3 of one interval, once. */
 static const double CONDITION_STABLE = 1e13;
 enum { PIECES_MAX = 64, TAIL_MAX = 60 };
@@ -81,6 +83,16 @@ static hd_status prepare_modes(hd_run *run)
     return scene->observe & HD_OBSERVE_PHASES ? prepare_phases(run) : HD_OK;
 }
 
+/** Pair and wall events of one disk per time unit, roughly: momenta across a box are about 1. */
+static double events_per_disk(const hd_run *run, double collisions_per_disk)
+{
+    double box[2], rate = collisions_per_disk;
+    hd_scene_box(&run->scene, box);
+    for (int d = 0; d < 2; d++)
+        if (run->scene.boundary[d] == HD_REFLECTING) rate += 1.0 / (box[d] - 1.0);
+    return rate;
+}
+
 static hd_status prepare(hd_run *run)
 {
     const hd_scene_def *scene = &run->scene;
@@ -90,7 +102,7 @@ static hd_status prepare(hd_run *run)
     const double per_disk = 2.0 * hd_trajectory_collision_rate(run->trajectory) / scene->disks;
     const double limit = scene->interval > 0 ? scene->interval : INFINITY;
     run->sample_max = COLLISIONS_PER_SAMPLE / per_disk;
-    run->step_max = 1e-3 / per_disk;
+    run->step_max = 1e-3 / events_per_disk(run, per_disk);
     run->interval = hd_interval_first(2.0 / per_disk, limit, scene->accuracy);
     run->schedule = hd_schedule_of(scene);
     if (run->vectors == 0) return HD_OK;
@@ -106,10 +118,18 @@ static void averages_clear(hd_run *run)
     if (run->phases) hd_phases_clear(run->phases);
 }
 
+/** Intervals shorter than a collision of each disk, because the warm-up was, have taught nothing yet. */
+static bool interval_is_learnt(const hd_run *run)
+{
+    const double collision = run->sample_max / COLLISIONS_PER_SAMPLE;
+    return run->cost.orthonormalisations > 0 &&
+           run->interval.last >= fmin(collision, run->interval.limit);
+}
+
 /** Longest sample that one orthonormalisation at its end can serve. */
 static double sample_longest(const hd_run *run)
 {
-    if (!run->frame || run->cost.orthonormalisations == 0) return run->sample_max;
+    if (!run->frame || !interval_is_learnt(run)) return run->sample_max;
     return fmin(run->sample_max, hd_interval_longest(&run->interval).length);
 }
 
@@ -261,6 +281,11 @@ static uint64_t events_so_far(const hd_run *run)
     return hd_trajectory_collisions(run->trajectory) + hd_trajectory_wall_events(run->trajectory);
 }
 
+/** By less, simulated time would not move. */
+static double step_min(const hd_run *run) { return STEP_MIN + 4.0 * DBL_EPSILON * run->now; }
+
+static double step_longest(const hd_run *run) { return fmax(run->step_max, step_min(run)); }
+
 /** Moves the disks on by `length`, and learns how long a step may be: a channel of hardly more than a
  *  disk's width can have 1e9 wall events in a time unit. */
 static hd_status advance_disks(hd_run *run, hd_event_log *log, double length, double end)
@@ -376,11 +401,12 @@ static hd_status take_cut(hd_run *run)
 static void plan_interval(hd_run *run)
 {
     const double end = hd_schedule_sample_end(&run->schedule), left = end - run->now;
+    const double most = step_longest(run);
     hd_interval_length next = hd_interval_next(&run->interval, left);
-    if (next.length > run->step_max)
-        next = (hd_interval_length){left / ceil(left / run->step_max), HD_LIMIT_EVENTS};
-    const double later = fmax(run->now + next.length, nextafter(run->now, end));
-    run->interval_end = next.length >= left ? end : later;
+    if (next.length > most)
+        next = (hd_interval_length){left / ceil(left / most), HD_LIMIT_EVENTS};
+    next.length = fmax(next.length, step_min(run));
+    run->interval_end = next.length >= left ? end : run->now + next.length;
     run->cost.limit = next.limit;
 }
 
@@ -393,7 +419,7 @@ hd_status hd_run_step(hd_run *run)
     const double cut = hd_schedule_cut(&run->schedule);
     if (with_frame && run->now >= run->interval_end) plan_interval(run);
     const double stop = with_frame ? fmin(cut, run->interval_end) : cut, left = stop - run->now;
-    const double length = left <= run->step_max ? left : left / ceil(left / run->step_max);
+    const double most = step_longest(run), length = left <= most ? left : left / ceil(left / most);
     HD_TRY(advance_disks(run, with_frame ? run->log : NULL, length,
                          length >= left ? stop : run->now + length));
     if (with_frame && run->now >= run->interval_end) HD_TRY(frame_interval(run));

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 
 #include "archive.h"
@@ -12,6 +13,10 @@
 #include "scene_box.h"
 
 enum { DISKS_MIN = 2, DISKS_MAX = 1000000, THREADS_MAX = 1024, OBSERVE_ALL = 31 };
+
+/** Room between walls beyond a diameter: less is crossed more often than there are times to tell apart. It is
+ *  1e-9 but for the rounding of an edge that density and aspect give. */
+static const double ROOM_MIN = 0.999e-9;
 
 hd_scene_def hd_scene_def_default(void)
 {
@@ -83,7 +88,8 @@ static hd_status check_ranges(const hd_scene_def *def, char *message, size_t siz
         {"warmup", "from 0 to 1e12", def->warmup, 0, huge},
         {"duration", "from 0 (until stopped) to 1e12", def->duration, 0, huge},
         {"target_std_error", "from 0 (off) to 1e12", def->target_std_error, 0, huge},
-        {"interval", "auto, or above 0 up to 1e12", def->interval, 0, huge},
+        {"interval", "auto, or from 1e-6 to 1e12", def->interval,
+         def->interval == 0 ? 0 : 1e-6, huge},
         {"accuracy", "from 1e-12 to 1e-2", def->accuracy, 1e-12, 1e-2},
         {"report_interval", "from 1e-6 to 1e12", def->report_interval, 1e-6, huge},
         {"max_wave_number", "0 (by max_node) or above", def->max_wave_number, 0, huge},
@@ -99,18 +105,24 @@ static hd_status check_ranges(const hd_scene_def *def, char *message, size_t siz
     return HD_OK;
 }
 
+static bool is_wide_enough(const hd_scene_def *def, int d, double edge)
+{
+    return def->boundary[d] == HD_REFLECTING ? edge - 1.0 >= ROOM_MIN : edge > 1.0;
+}
+
 hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size)
 {
     double box[2];
     HD_TRY(check_ranges(def, message, size));
     hd_scene_box(def, box);
     for (int d = 0; d < 2; d++)
-        if (!(box[d] > 1.0))
+        if (!is_wide_enough(def, d, box[d]))
             return refuse(
                 message, size,
                 "density = %.15g with disks = %d, aspect = %.15g: the box edge L%c = %.15g "
-                "must be above the disk diameter 1",
-                def->density, def->disks, def->aspect, "xy"[d], box[d]);
+                "must be above the disk diameter 1%s",
+                def->density, def->disks, def->aspect, "xy"[d], box[d],
+                def->boundary[d] == HD_REFLECTING ? " by 1e-9" : "");
     return HD_OK;
 }
 

@@ -55,6 +55,7 @@ static const field FIELDS[] = {
     {"duration", "from 0", OFFSET(duration), 0.0, 1e12, -1e-9, 1.1e12},
     {"target_std_error", "from 0", OFFSET(target_std_error), 0.0, 1.0, -1e-9, 1.1e12},
     {"interval", "auto", OFFSET(interval), 0.0, 1e12, -1e-9, 1.1e12},
+    {"interval", "from 1e-6 to 1e12", OFFSET(interval), 1e-6, 1e12, 0.9e-6, 1.1e12},
     {"accuracy", "from 1e-12 to 1e-2", OFFSET(accuracy), 1e-12, 1e-2, 0.9e-12, 1.1e-2},
     {"report_interval", "from 1e-6 to 1e12", OFFSET(report_interval), 1e-6, 1e12, 0.9e-6, 1.1e12},
 };

@@ -28,6 +28,7 @@ foreach(name IN ITEMS
     ortho
     tail
     threads
+    two_threads
     schedule
     blocks
     frame
@@ -54,6 +55,7 @@ foreach(name IN ITEMS
     memory
     hard_memory
     status
+    hard_parameters
 )
   hdlyap_core_test(${name})
 endforeach()

@@ -90,9 +90,9 @@ class Master(Process):
         assert wait_until(lambda: rosgraph.is_master_online(self.uri))
 
 
-def start(params, name=NODE, probe=None, args=(), before=(), **env):
-    """hdlyap_node with exactly these private parameters; probe: what probe.c is asked for; before: a command
-    that becomes the node."""
+def start(params, name=NODE, probe=None, args=(), command=None, **env):
+    """hdlyap_node with exactly these private parameters; probe: what probe.c is asked for; command: another build of it, and
+    what that is run by."""
     master = rosgraph.Master('/harness', env.get('ROS_MASTER_URI'))
     if master.hasParam('/' + name):
         master.deleteParam('/' + name)
@@ -100,7 +100,7 @@ def start(params, name=NODE, probe=None, args=(), before=(), **env):
         master.setParam('/%s/%s' % (name, key), value)
     if probe is not None:
         env.update(probe, LD_PRELOAD=probe_library())
-    return Process([*before, executable(), '__name:=' + name, *args], **env)
+    return Process([*(command or [executable()]), '__name:=' + name, *args], **env)
 
 
 def calls(test, params):

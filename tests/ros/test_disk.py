@@ -141,7 +141,7 @@ class Disk(unittest.TestCase):
         if disk is None:
             print('no file system of its own here: only the limit of a file is tested')
             return
-        node = self.start(dict(KEPT, checkpoint=self.path()), before=disk)
+        node = self.start(dict(KEPT, checkpoint=self.path()), command=[*disk, harness.executable()])
         seen = lambda name: '/proc/%d/root%s' % (node.process.pid, self.path(name))
         self.wait_for(lambda: written(seen('run.checkpoint')), node)
         self.fill(seen('filler'), lambda: node.lines('checkpoint not written'))

@@ -77,14 +77,14 @@ class Faults(unittest.TestCase):
         for params in (THREADED, dict(THREADED, exponents='none', observables=['state'])):
             ends = []
             for first in range(0, len(LIMITS), AT_ONCE):
-                nodes = [self.start(params, name='limited_%d' % k, before=limited(limit))
+                nodes = [self.start(params, name='limited_%d' % k, command=[*limited(limit), harness.executable()])
                          for k, limit in enumerate(LIMITS[first:first + AT_ONCE])]
                 ends += [node.wait() for node in nodes]
                 for node in nodes:
                     if node.wait() != 0:
                         self.check_out_of_memory(node)
             self.assertEqual(ends[0], FAULT)
-        node = self.start(THREADED, before=limited(ENOUGH))
+        node = self.start(THREADED, command=[*limited(ENOUGH), harness.executable()])
         self.assertEqual(node.wait(), 0, node.text())
 
     def test_each_part_of_the_run(self):
@@ -121,7 +121,7 @@ class Faults(unittest.TestCase):
         self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())
 
     def test_ignored_hangup(self):
-        node, cost = self.running(dict(ENDLESS, pace=20.0), before=['nohup'])
+        node, cost = self.running(dict(ENDLESS, pace=20.0), command=['nohup', harness.executable()])
         node.send(signal.SIGHUP)
         self.goes_on(node, cost)
         self.stops(node)
@@ -134,7 +134,7 @@ class Faults(unittest.TestCase):
 
     def test_closed_output(self):
         """Nobody reads what it says: SIGPIPE."""
-        node, cost = self.running(dict(ENDLESS, pace=20.0), before=['bash', '-c', 'exec "$@" > >(true) 2>&1', 'bash'])
+        node, cost = self.running(dict(ENDLESS, pace=20.0), command=['bash', '-c', 'exec "$@" > >(true) 2>&1', 'bash', harness.executable()])
         self.goes_on(node, cost)
         self.stops(node)
 
@@ -193,7 +193,7 @@ class Faults(unittest.TestCase):
         """What a node says is lost with the disk; what it computes is not."""
         for args in (['__log:=/dev/full'], ['__log:=/nowhere/at/all.log'], ['__log:=/']):
             with self.subTest(args=args):
-                node = self.start(SHORT, args=args, before=['sh', '-c', 'exec "$@" >/dev/full', 'sh'])
+                node = self.start(SHORT, args=args, command=['sh', '-c', 'exec "$@" >/dev/full', 'sh', harness.executable()])
                 self.assertEqual(node.wait(), 0, node.text())
 
 

@@ -55,8 +55,9 @@ class Security(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         trace = os.path.join(folder.name, 'trace')
-        return self.start(params, before=['strace', '-f', '--seccomp-bpf', '-qq', '-s', '200', '-e', 'signal=none',
-                                          '-e', 'trace=' + CALLS, '-o', trace], **how), trace
+        return self.start(params, command=['strace', '-f', '--seccomp-bpf', '-qq', '-s', '200', '-e', 'signal=none',
+                                           '-e', 'trace=' + CALLS, '-o', trace, harness.executable()],
+                          **how), trace
 
     def check_watched(self, params, status, lines, ours=(), **how):
         """How it ends, with how many lines, and that it writes only these files."""

@@ -38,7 +38,7 @@ typedef struct hd_scene_def {
     double duration;         /**< time units averaged, >= 0; 0 = until stopped */
     double
         target_std_error; /**< stop when the smallest exponents carried are known so well; 0 = off */
-    double interval;      /**< upper limit of the time between orthonormalisations; 0 = automatic */
+    double interval; /**< upper limit of the time between orthonormalisations, >= 1e-6; 0 = automatic */
     double accuracy;      /**< largest tolerated deviation of an exponent, 1e-12 .. 1e-2 */
     double report_interval; /**< simulated time between reports, > 0 */
     unsigned observe;       /**< stages beyond the exponents: a set of HD_OBSERVE_*, 0 = none */

@@ -29,10 +29,22 @@ typedef struct reader {
 /** Reads into field of settings; a missing parameter leaves the default. False if refused. */
 typedef bool (*read_function)(const reader *r, void *field);
 
+static bool is_control(char c) { return (unsigned char)c < ' ' || c == 0x7f; }
+
+static bool is_one_line(const char *text)
+{
+    while (*text && !is_control(*text)) text++;
+    return !*text;
+}
+
+/** In one line whatever it shows: names and values are anybody's, and may hold line ends. */
 static bool refuse(const reader *r, const char *allowed)
 {
-    snprintf(r->message, r->size, "%s = %.150s: must be %s", r->name,
+    if (r->size == 0) return false;
+    snprintf(r->message, r->size, "%.100s = %.150s: must be %s", r->name,
              hdr_param_text(r->params, r->name), allowed);
+    for (char *c = r->message; *c; c++)
+        if (is_control(*c)) *c = '?';
     return false;
 }
 
@@ -55,7 +67,8 @@ static bool read_scene(const reader *r, void *field)
 {
     const char **scene = field;
     const hdr_status status = hdr_param_string(r->params, r->name, scene);
-    return accept(r, status, "a string") && (**scene || refuse(r, "a string that is not empty"));
+    return accept(r, status, "a string") &&
+           ((**scene && is_one_line(*scene)) || refuse(r, "a line that is not empty"));
 }
 
 static bool read_boundary(const reader *r, void *field)
@@ -117,7 +130,7 @@ static bool read_interval(const reader *r, void *field)
         return *interval = 0.0, true;
     const hdr_status status = hdr_param_double(r->params, r->name, interval);
     if (status == HDR_MISSING || (status == HDR_OK && *interval > 0.0)) return true;
-    return refuse(r, "auto, or a number above 0");
+    return refuse(r, "auto, or a number from 1e-6 to 1e12");
 }
 
 /** A set of topics out of `allowed` ones. */
@@ -171,7 +184,9 @@ static bool read_field_indices(const reader *r, void *field)
 /** Of a file; "" for none. */
 static bool read_path(const reader *r, void *field)
 {
-    return accept(r, hdr_param_string(r->params, r->name, field), "a string");
+    const char **path = field;
+    const hdr_status status = hdr_param_string(r->params, r->name, path);
+    return accept(r, status, "a string") && (is_one_line(*path) || refuse(r, "a path in one line"));
 }
 
 static const struct parameter {

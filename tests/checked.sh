@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# The node and the parallel parts of the core under the address, leak and thread sanitizers and valgrind.
+#   checked.sh WORK_FOLDER CORE_BUILD ROS_BUILD    the plain builds are for valgrind, and for the messages
+set -euo pipefail
+# shellcheck source=launch/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
+
+readonly WORK=$1 CORE=$2 ROS=$3
+readonly PARALLEL=(frame ortho threads two_threads) # tests of the core
+FAILED=0
+mkdir -p "$WORK"
+
+# check NAME COMMAND...
+check() {
+    local name=$1
+    shift
+    if "$@" >"$WORK/$name.log" 2>&1; then
+        echo "ok $name"
+    else
+        tail -n 60 "$WORK/$name.log"
+        echo "FAILED $name"
+        FAILED=1
+    fi
+}
+
+# build_with SANITIZER C_COMPILER CXX_COMPILER TARGET...: clang's OpenMP tells the thread sanitizer what it orders.
+build_with() {
+    local sanitizer=$1 c=$2 cxx=$3
+    shift 3
+    cmake -S "$ROOT" -B "$WORK/$sanitizer" -DPYTHON_EXECUTABLE=/usr/bin/python3 \
+        "-DCMAKE_C_COMPILER=$c" "-DCMAKE_CXX_COMPILER=$cxx" -DCMAKE_BUILD_TYPE=Debug \
+        -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 -DHDLYAP_CORE_TESTS=ON \
+        "-DHDLYAP_SANITIZE=$sanitizer"
+    cmake --build "$WORK/$sanitizer" --target "$@" -- -j "$(nproc)"
+}
+
+# under_threads COMMAND...: with the thread sanitizer. Libraries that are not compiled with it are not looked into; their
+# locks count. Copies of whole structures are lost with them.
+under_threads() {
+    local omp
+    omp=$(sed -n 's/^OpenMP_omp_LIBRARY:FILEPATH=//p' "$WORK/thread/CMakeCache.txt")
+    [[ -f ${omp%/*}/libarcher.so ]] || die "no libarcher.so beside $omp"
+    TSAN_OPTIONS='ignore_noninstrumented_modules=1 exitcode=66' \
+        OMP_TOOL_LIBRARIES="${omp%/*}/libarcher.so" "$@"
+}
+
+parallel_tests() {
+    local name
+    for name in "${PARALLEL[@]}"; do
+        "$(find "$WORK/thread" -name "test_$name" -type f)"
+    done
+}
+
+readonly MEMCHECK=(valgrind --quiet --leak-check=full --errors-for-leak-kinds=definite
+    --show-leak-kinds=definite --error-exitcode=9)
+
+# 12 disks between walls, all vectors, modes, steps and phases, 5 time units
+core_in_valgrind() {
+    "${MEMCHECK[@]}" "$(find "$CORE" -name hdlyap_load -type f)" 12 0.7 1 0 1 -2 7 7 5
+}
+
+# live NAME COMMAND...: a node's short life, see sanitized.py.
+live() {
+    "$ROOT/tests/ros/sanitized.py" "$@"
+}
+
+node_of() { find "$1" -path '*/devel/lib/hdlyap/hdlyap_node' -type f; }
+
+own_environment "$WORK/home"
+source_setup "$ROS/devel/setup.bash"
+# what a node sets by starting itself once more, which valgrind and the sanitizers do not need
+export HDLYAP_RESTARTED=1 GOMP_SPINCOUNT=2000
+stop_at_exit
+check address_build build_with address gcc g++ hdlyap_node
+check thread_build build_with thread clang clang++ hdlyap_node "${PARALLEL[@]/#/test_}"
+check address_node run live address "$(node_of "$WORK/address")"
+check thread_core run under_threads parallel_tests
+check thread_node run under_threads live thread "$(node_of "$WORK/thread")"
+check valgrind_core run core_in_valgrind
+check valgrind_node run live valgrind "${MEMCHECK[@]}" "$(node_of "$ROS")"
+exit "$FAILED"
