@@ -89,7 +89,7 @@ class Faults(unittest.TestCase):
 
     def test_each_part_of_the_run(self):
         """Memory is out for the core, from its first block to the last one, which a report needs."""
-        blocks = harness.calls(self, dict(SHORT, observables=OBSERVABLES))['memory_alloc']
+        blocks = harness.counts(self, dict(SHORT, observables=OBSERVABLES))['memory_alloc']
         self.assertGreater(blocks, 100)
         moments = [1] + [blocks * k // 6 for k in range(1, 6)]
         moments += range(blocks - 8, blocks)    # of the report, of the first interval

@@ -42,13 +42,13 @@ static void look_for_room(int argc, char **argv, char **environment)
     (void)argv;
     if (status == HD_OK) return;
     clock_gettime(CLOCK_REALTIME, &now);
-    const int length = snprintf(line, sizeof line,
-                                "[FATAL] [%ld.%09ld]: %s: no address space for OpenBLAS, %d threads\n",
-                                (long)now.tv_sec, now.tv_nsec, hd_status_text(status), threads);
+    const int length = snprintf(
+        line, sizeof line, "[FATAL] [%ld.%09ld]: %s: no address space for OpenBLAS, %d threads\n",
+        (long)now.tv_sec, now.tv_nsec, hd_status_text(status), threads);
     const ssize_t written = write(STDERR_FILENO, line, (size_t)length);
     (void)written; /* nobody is left to be told */
     _exit(EXIT_FAULT);
 }
 
-__attribute__((section(".preinit_array"), used)) static void (*const first)(int, char **, char **) =
-    look_for_room;
+__attribute__((section(".preinit_array"),
+               used)) static void (*const first)(int, char **, char **) = look_for_room;
