@@ -4,7 +4,6 @@
 
 #include <limits.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -130,15 +129,6 @@ hd_status hd_checkpoint_writable(const char *path, char *message, size_t size)
 
 /* ---- reading ---------------------------------------------------------------------------------- */
 
-static hd_status refuse(char *message, size_t size, const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    if (message && size > 0) vsnprintf(message, size, format, list);
-    va_end(list);
-    return HD_REFUSED;
-}
-
 /** What cannot change within a run. */
 static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept, char *message,
                             size_t size)
@@ -157,10 +147,10 @@ static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept,
     };
     for (size_t k = 0; k < sizeof table / sizeof *table; k++)
         if (!(table[k].asked == table[k].kept))
-            return refuse(message, size, "%s = %.15g: must be %.15g, as in the checkpoint",
+            return hd_refuse(message, size, "%s = %.15g: must be %.15g, as in the checkpoint",
                           table[k].name, table[k].asked, table[k].kept);
     if (asked->seed != kept->seed)
-        return refuse(message, size, "seed = %llu: must be %llu, as in the checkpoint",
+        return hd_refuse(message, size, "seed = %llu: must be %llu, as in the checkpoint",
                       (unsigned long long)asked->seed, (unsigned long long)kept->seed);
     return HD_OK;
 }
@@ -168,8 +158,8 @@ static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept,
 static hd_status inconsistent(const hd_archive *archive, char *message, size_t size)
 {
     if (archive->status != HD_FILE_FAULT)
-        return refuse(message, size, "%s", hd_status_text(archive->status)), archive->status;
-    (void)refuse(message, size, "is inconsistent: %s: %s", archive->name, archive->fault);
+        return hd_refuse(message, size, "%s", hd_status_text(archive->status)), archive->status;
+    (void)hd_refuse(message, size, "is inconsistent: %s: %s", archive->name, archive->fault);
     return HD_FILE_FAULT;
 }
 
@@ -195,7 +185,7 @@ static hd_status reopen(hd_run *run, char *message, size_t size)
     const double averaged = run->now - run->schedule.start;
     if (run->schedule.phase < HD_AVERAGING || hd_schedule_reopen(&run->schedule, run->now))
         return HD_OK;
-    return refuse(message, size,
+    return hd_refuse(message, size,
                   "duration = %.15g: must be at least %.15g, averaged before the checkpoint",
                   run->scene.duration, averaged);
 }
@@ -250,7 +240,7 @@ static hd_status named(hd_status status, const char *path, const char *line, cha
     if (status == HD_FILE_FAULT)
         hd_checkpoint_file_line(message, size, path, line);
     else if (status != HD_OK)
-        (void)refuse(message, size, "%s", line);
+        (void)hd_refuse(message, size, "%s", line);
     return status;
 }
 
