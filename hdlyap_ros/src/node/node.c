@@ -93,8 +93,7 @@ static int create_run(app *a)
     char message[512] = "";
     const settings *set = &a->set;
     hd_status status = HD_OK;
-    if (*set->checkpoint)
-        status = hd_checkpoint_writable(set->checkpoint, message, sizeof message);
+    if (*set->checkpoint) status = hd_checkpoint_writable(set->checkpoint, message, sizeof message);
     if (status == HD_OK && *set->resume)
         status = hd_run_resume(&a->run, set->resume, &set->def, message, sizeof message);
     else if (status == HD_OK)
@@ -156,8 +155,8 @@ static bool look_after(app *a)
         diagnostics_update(&a->diag, &state);
     }
     worker_stop(a->work);
-    return ended || worker_wait(a->work, *a->set.checkpoint ? stop_step_keeping_seconds
-                                                            : stop_step_seconds);
+    return ended ||
+           worker_wait(a->work, *a->set.checkpoint ? stop_step_keeping_seconds : stop_step_seconds);
 }
 
 /** A run at fault has no last message: its end is in the log and in the diagnostics. */
