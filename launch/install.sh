@@ -24,7 +24,7 @@ run_packages() {
 }
 
 test_packages() {
-    echo libcmocka-dev libgtest-dev shellcheck valgrind clang libomp-dev
+    echo libcmocka-dev libgtest-dev shellcheck strace valgrind clang libomp-dev
     case $1 in
         debian)
             echo libclang-rt-dev librostest-dev python3-rostest python3-rostopic python3-rosnode \

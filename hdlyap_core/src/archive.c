@@ -114,7 +114,7 @@ void hd_archive_next_doubles(hd_archive *archive, double *x, size_t count)
     for (size_t k = 0; k < count; k++) sum += 0.0 * x[k]; /* NaN unless all are finite */
     if (!isnan(sum)) return;
     hd_archive_fail(archive, archive->writing ? HD_NOT_FINITE : HD_FILE_FAULT, archive->name,
-         "a number is not finite");
+                    "a number is not finite");
     if (!archive->writing) memset(x, 0, count * sizeof *x);
 }
 

@@ -18,10 +18,10 @@ enum { HD_ARCHIVE_NAME = 40 };
 typedef struct hd_archive {
     FILE *file;
     bool writing;
-    uint64_t bytes;   /**< written so far; of a file that is read: not yet read */
-    uint32_t crc;     /**< of what was written (CRC-32) */
-    hd_status status; /**< the first failure; after it nothing is read or written any more */
-    const char *name; /**< of the array that it happened at */
+    uint64_t bytes;    /**< written so far; of a file that is read: not yet read */
+    uint32_t crc;      /**< of what was written (CRC-32) */
+    hd_status status;  /**< the first failure; after it nothing is read or written any more */
+    const char *name;  /**< of the array that it happened at */
     const char *fault; /**< NULL: see error */
     int error;         /**< errno of a write that failed */
 } hd_archive;
@@ -51,9 +51,12 @@ void hd_archive_double(hd_archive *archive, const char *name, double *x);
 void hd_archive_doubles(hd_archive *archive, const char *name, double *x, size_t count);
 void hd_archive_int(hd_archive *archive, const char *name, int *x, int min, int max);
 void hd_archive_long(hd_archive *archive, const char *name, long *x, long min, long max);
-void hd_archive_bits(hd_archive *archive, const char *name, uint64_t *x); /**< any 64 */
-void hd_archive_count(hd_archive *archive, const char *name, size_t *x, size_t size); /**< of elements of so many bytes that are still to come */
-void hd_archive_text(hd_archive *archive, const char *name, char *text, size_t size); /**< in size bytes, zeros behind it */
+/** Any 64 bits. */
+void hd_archive_bits(hd_archive *archive, const char *name, uint64_t *x);
+/** Of elements of `size` bytes that are still to come. */
+void hd_archive_count(hd_archive *archive, const char *name, size_t *x, size_t size);
+/** In size bytes, zeros behind it. */
+void hd_archive_text(hd_archive *archive, const char *name, char *text, size_t size);
 
 /* An array in parts: its head, then all of its elements. */
 

@@ -9,6 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
 
 extern char *openblas_get_config(void) __attribute__((weak));
 extern char *openblas_get_corename(void) __attribute__((weak));
@@ -33,6 +36,21 @@ hd_blas hd_blas_query(void)
 void hd_blas_use_threads(int threads)
 {
     if (openblas_set_num_threads) openblas_set_num_threads(threads);
+}
+
+hd_status hd_blas_room(int threads)
+{
+#if defined(__linux__)
+    const size_t buffer = (size_t)128 << 20; /* the largest of any version */
+    const size_t stacks = (size_t)32 << 20;  /* of two pools, the caller's and the run's, with what they take */
+    const size_t bytes = (size_t)threads * (buffer + stacks);
+    void *room = mmap(NULL, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (room == MAP_FAILED) return HD_NO_MEMORY;
+    (void)munmap(room, bytes);
+#else
+    (void)threads;
+#endif
+    return HD_OK;
 }
 
 static bool is_one_of(const char *name, const char *const *list)

@@ -2,6 +2,8 @@
 #ifndef HD_CHECK_H
 #define HD_CHECK_H
 
+#include <stddef.h>
+
 #include "hdlyap/status.h"
 
 void hd_assert_fail(const char *condition, const char *file, int line);
@@ -10,6 +12,12 @@ void hd_assert_fail(const char *condition, const char *file, int line);
     do {                                                                                           \
         if (!(condition)) hd_assert_fail(#condition, __FILE__, __LINE__);                          \
     } while (0)
+
+/** Writes the line that refuses, if there is room for one; returns HD_REFUSED. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+hd_status hd_refuse(char *message, size_t size, const char *format, ...);
 
 /** Returns from the calling function with the status of `call` unless it is HD_OK. */
 #define HD_TRY(call)                                                                               \

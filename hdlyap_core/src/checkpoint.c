@@ -4,7 +4,6 @@
 
 #include <limits.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -27,8 +26,8 @@ static void head_archive(hd_checkpoint *head, hd_archive *archive)
 static void cost_archive(hd_run *run, hd_archive *archive)
 {
     hd_cost *c = &run->cost;
-    double *const numbers[] = {&c->events,   &c->replay,    &c->ortho, &c->spectrum, &c->modes,
-                               &c->interval, &c->condition, &c->defect};
+    double *const numbers[] = {&c->events, &c->replay,   &c->ortho,     &c->spectrum,
+                               &c->modes,  &c->interval, &c->condition, &c->defect};
     long *const counts[] = {&c->orthonormalisations, &c->second_passes, &c->looks, &c->repairs};
     int limit = (int)c->limit;
     hd_archive_of_doubles(archive, "cost", sizeof numbers / sizeof *numbers);
@@ -44,7 +43,8 @@ static void cost_archive(hd_run *run, hd_archive *archive)
 static void clocks_archive(hd_run *run, hd_archive *archive)
 {
     const double now = hd_clock_now();
-    double wall = now - run->created, carried = run->frame_started > 0 ? now - run->frame_started : -1.0;
+    double wall = now - run->created,
+           carried = run->frame_started > 0 ? now - run->frame_started : -1.0;
     hd_archive_double(archive, "run wall", &wall);
     hd_archive_double(archive, "run wall carried", &carried);
     if (archive->writing) return;
@@ -130,15 +130,6 @@ hd_status hd_checkpoint_writable(const char *path, char *message, size_t size)
 
 /* ---- reading ---------------------------------------------------------------------------------- */
 
-static hd_status refuse(char *message, size_t size, const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    if (message && size > 0) vsnprintf(message, size, format, list);
-    va_end(list);
-    return HD_REFUSED;
-}
-
 /** What cannot change within a run. */
 static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept, char *message,
                             size_t size)
@@ -148,8 +139,17 @@ static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept,
         double asked, kept;
     } table[] = {
 #define SAME(field) {#field, asked->field, kept->field}
-        SAME(disks), SAME(density), SAME(aspect), SAME(exponents), SAME(equilibration), SAME(warmup),
-        SAME(interval), SAME(accuracy), SAME(report_interval), SAME(max_wave_number), SAME(max_node),
+        SAME(disks),
+        SAME(density),
+        SAME(aspect),
+        SAME(exponents),
+        SAME(equilibration),
+        SAME(warmup),
+        SAME(interval),
+        SAME(accuracy),
+        SAME(report_interval),
+        SAME(max_wave_number),
+        SAME(max_node),
 #undef SAME
         {"boundary_x", asked->boundary[0], kept->boundary[0]},
         {"boundary_y", asked->boundary[1], kept->boundary[1]},
@@ -157,19 +157,19 @@ static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept,
     };
     for (size_t k = 0; k < sizeof table / sizeof *table; k++)
         if (!(table[k].asked == table[k].kept))
-            return refuse(message, size, "%s = %.15g: must be %.15g, as in the checkpoint",
-                          table[k].name, table[k].asked, table[k].kept);
+            return hd_refuse(message, size, "%s = %.15g: must be %.15g, as in the checkpoint",
+                             table[k].name, table[k].asked, table[k].kept);
     if (asked->seed != kept->seed)
-        return refuse(message, size, "seed = %llu: must be %llu, as in the checkpoint",
-                      (unsigned long long)asked->seed, (unsigned long long)kept->seed);
+        return hd_refuse(message, size, "seed = %llu: must be %llu, as in the checkpoint",
+                         (unsigned long long)asked->seed, (unsigned long long)kept->seed);
     return HD_OK;
 }
 
 static hd_status inconsistent(const hd_archive *archive, char *message, size_t size)
 {
     if (archive->status != HD_FILE_FAULT)
-        return refuse(message, size, "%s", hd_status_text(archive->status)), archive->status;
-    (void)refuse(message, size, "is inconsistent: %s: %s", archive->name, archive->fault);
+        return hd_refuse(message, size, "%s", hd_status_text(archive->status)), archive->status;
+    (void)hd_refuse(message, size, "is inconsistent: %s: %s", archive->name, archive->fault);
     return HD_FILE_FAULT;
 }
 
@@ -195,9 +195,9 @@ static hd_status reopen(hd_run *run, char *message, size_t size)
     const double averaged = run->now - run->schedule.start;
     if (run->schedule.phase < HD_AVERAGING || hd_schedule_reopen(&run->schedule, run->now))
         return HD_OK;
-    return refuse(message, size,
-                  "duration = %.15g: must be at least %.15g, averaged before the checkpoint",
-                  run->scene.duration, averaged);
+    return hd_refuse(message, size,
+                     "duration = %.15g: must be at least %.15g, averaged before the checkpoint",
+                     run->scene.duration, averaged);
 }
 
 static hd_status restore(hd_run *run, hd_archive *archive, double time, char *message, size_t size)
@@ -217,7 +217,8 @@ static hd_status restore(hd_run *run, hd_archive *archive, double time, char *me
 static bool holds(hd_archive *archive, const hd_scene_def *scene)
 {
     const double least = 8.0 * scene->disks * (9.0 + 4.0 * hd_scene_vectors(scene));
-    hd_archive_expect(archive, least <= (double)archive->bytes, "scene", "the rest is too short for it");
+    hd_archive_expect(archive, least <= (double)archive->bytes, "scene",
+                      "the rest is too short for it");
     return hd_archive_good(archive);
 }
 
@@ -246,12 +247,13 @@ hd_status hd_run_read(hd_run **out, hd_archive *archive, const hd_scene_def *sce
 }
 
 /** Puts the file's name before a line about its contents. */
-static hd_status named(hd_status status, const char *path, const char *line, char *message, size_t size)
+static hd_status named(hd_status status, const char *path, const char *line, char *message,
+                       size_t size)
 {
     if (status == HD_FILE_FAULT)
         hd_checkpoint_file_line(message, size, path, line);
     else if (status != HD_OK)
-        (void)refuse(message, size, "%s", line);
+        (void)hd_refuse(message, size, "%s", line);
     return status;
 }
 

@@ -70,8 +70,8 @@ static int lock_part(int fd, const char *part)
 {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     struct stat opened, named;
-    return fcntl(fd, F_SETLK, &whole) == 0 && fstat(fd, &opened) == 0 &&
-           stat(part, &named) == 0 && opened.st_ino == named.st_ino && S_ISREG(opened.st_mode);
+    return fcntl(fd, F_SETLK, &whole) == 0 && fstat(fd, &opened) == 0 && stat(part, &named) == 0 &&
+           opened.st_ino == named.st_ino && S_ISREG(opened.st_mode);
 }
 
 /** Without waiting for anybody at the other end of what is no file. */
@@ -181,10 +181,12 @@ static hd_status verify(FILE *file, uint64_t *bytes, const char *path, char *mes
     if (found < sizeof h.magic || memcmp(h.magic, MAGIC, sizeof MAGIC) != 0)
         return fault(message, size, path, "is no checkpoint of hdlyap");
     if (found < sizeof h)
-        return fault(message, size, path, "is cut short: %zu of at least %zu bytes", found, sizeof h);
+        return fault(message, size, path, "is cut short: %zu of at least %zu bytes", found,
+                     sizeof h);
     if (h.order != BYTE_ORDER_HERE && h.head_crc == hd_checkpoint_head_crc(&h))
         return fault(message, size, path, "is of a machine with another byte order");
-    if (h.head_crc != hd_checkpoint_head_crc(&h)) return fault(message, size, path, "is damaged: its head is");
+    if (h.head_crc != hd_checkpoint_head_crc(&h))
+        return fault(message, size, path, "is damaged: its head is");
     if (h.format > HD_CHECKPOINT_FORMAT)
         return fault(message, size, path, "is of format %u, of a newer hdlyap: this one reads %d",
                      (unsigned)h.format, HD_CHECKPOINT_FORMAT);

@@ -95,7 +95,8 @@ void hd_event_log_archive(hd_event_log *log, hd_archive *archive, int disks)
     hd_archive_count(archive, "log count", &count, sizeof *log->event);
     if (!archive->writing) {
         const hd_status status = hd_event_log_reserve(log, count);
-        if (status != HD_OK) hd_archive_fail(archive, status, "log count", "there is no room for so many");
+        if (status != HD_OK)
+            hd_archive_fail(archive, status, "log count", "there is no room for so many");
         if (!hd_archive_good(archive)) return;
         log->count = count;
     }

@@ -51,6 +51,7 @@ static hd_status prepare_frame(hd_run *run)
 {
     const int rows = 4 * run->scene.disks, n = run->vectors;
     run->threads = hd_threads_most(run->scene.threads, rows, n);
+    if (run->threads > 1) HD_TRY(hd_blas_room(run->threads)); /* one has its buffer since the start */
     hd_blas_use_threads(run->threads);
     HD_TRY(hd_event_log_create(&run->log));
     HD_TRY(hd_ortho_create(&run->ortho, rows, n));

@@ -23,7 +23,7 @@ struct hd_run {
     hd_schedule schedule;
     hd_interval interval;
     double interval_end; /**< simulated time at which the frame is orthonormalised next */
-    double step_max;   /**< longest step that keeps to EVENTS_PER_STEP, as far as events are known */
+    double step_max; /**< longest step that keeps to EVENTS_PER_STEP, as far as events are known */
     double sample_max; /**< simulated time of COLLISIONS_PER_SAMPLE */
     int vectors, threads;
     double now; /**< simulated time */

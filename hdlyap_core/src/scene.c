@@ -2,9 +2,7 @@
 #include "hdlyap/scene.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdbool.h>
-#include <stdio.h>
 
 #include "archive.h"
 #include "check.h"
@@ -60,15 +58,6 @@ int hd_scene_vectors(const hd_scene_def *def)
     return def->exponents;
 }
 
-static hd_status refuse(char *message, size_t size, const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    if (message && size > 0) vsnprintf(message, size, format, list);
-    va_end(list);
-    return HD_REFUSED;
-}
-
 typedef struct range {
     const char *name, *allowed;
     double value, min, max;
@@ -100,7 +89,7 @@ static hd_status check_ranges(const hd_scene_def *def, char *message, size_t siz
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
         const range *r = &table[k];
         if (r->value >= r->min && r->value <= r->max) continue;
-        return refuse(message, size, "%s = %.15g: must be %s", r->name, r->value, r->allowed);
+        return hd_refuse(message, size, "%s = %.15g: must be %s", r->name, r->value, r->allowed);
     }
     return HD_OK;
 }
@@ -117,7 +106,7 @@ hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size
     hd_scene_box(def, box);
     for (int d = 0; d < 2; d++)
         if (!is_wide_enough(def, d, box[d]))
-            return refuse(
+            return hd_refuse(
                 message, size,
                 "density = %.15g with disks = %d, aspect = %.15g: the box edge L%c = %.15g "
                 "must be above the disk diameter 1%s",
@@ -131,11 +120,11 @@ static hd_status check_waves(const hd_scene_def *def, char *message, size_t size
 {
     const hd_wave_limits limits = hd_wave_limits_of(def);
     if (def->max_wave_number > 0 && def->max_node > 0)
-        return refuse(message, size,
+        return hd_refuse(message, size,
                       "max_node = %d: must be 0 when max_wave_number = %.15g is given",
                       def->max_node, def->max_wave_number);
     if (def->max_node > limits.node)
-        return refuse(
+        return hd_refuse(
             message, size,
             "max_node = %d: must be at most %d with disks = %d, density = %.15g, aspect = "
             "%.15g and these boundaries: a shorter wave than two mean distances, "
@@ -143,7 +132,7 @@ static hd_status check_waves(const hd_scene_def *def, char *message, size_t size
             def->max_node, limits.node, def->disks, def->density, def->aspect);
     const double k = def->max_wave_number;
     if (k > 0 && !(k >= limits.smallest && k <= limits.largest))
-        return refuse(
+        return hd_refuse(
             message, size,
             "max_wave_number = %.15g: must be from %.6g, the longest wave of this box, to %.6g: "
             "a shorter one than two mean distances, 2 / sqrt(density), is not sampled",
@@ -157,12 +146,12 @@ hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
     HD_TRY(hd_scene_check_box(def, message, size));
     hd_scene_box(def, box);
     if (def->exponents < HD_EXPONENTS_ALL || def->exponents > 4 * def->disks)
-        return refuse(message, size,
+        return hd_refuse(message, size,
                       "exponents = %d: must be positive, all, none or from 1 to 4 disks = %d",
                       def->exponents, 4 * def->disks);
     HD_TRY(check_waves(def, message, size));
     if (hd_lattice_best(def->disks, box, def->boundary).distance < HD_LATTICE_DISTANCE_MIN)
-        return refuse(message, size,
+        return hd_refuse(message, size,
                       "density = %.15g: must be at most %.6g with disks = %d, aspect = %.15g and "
                       "these boundaries (densest start lattice)",
                       def->density, hd_lattice_density_max(def), def->disks, def->aspect);

@@ -1,6 +1,7 @@
 /** Texts of the statuses and the handler of broken contracts. */
 #include "check.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -13,6 +14,15 @@ const char *hd_status_text(hd_status status)
 #undef HD_STATUS_CASE
     }
     return "unknown status";
+}
+
+hd_status hd_refuse(char *message, size_t size, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    if (message && size > 0) vsnprintf(message, size, format, list);
+    va_end(list);
+    return HD_REFUSED;
 }
 
 static void print_and_abort(const char *condition, const char *file, int line)

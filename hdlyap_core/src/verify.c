@@ -35,7 +35,8 @@ static void expect_momentum(const hd_trajectory *tr, const hd_scene_def *scene)
     for (int i = 0; i < n; i++)
         for (int d = 0; d < 2; d++) sum[d] += tr->disk[i].p[d];
     for (int d = 0; d < 2; d++)
-        if (scene->boundary[d] == HD_PERIODIC) expect_at_most(fabs(sum[d]), n * walk(tr), "momentum");
+        if (scene->boundary[d] == HD_PERIODIC)
+            expect_at_most(fabs(sum[d]), n * walk(tr), "momentum");
 }
 
 void hd_verify_disks(const hd_trajectory *tr, const hd_scene_def *scene)
@@ -70,7 +71,8 @@ static void pair_products(const hd_frame *frame, int a, int b, double *product, 
         const int other = row % 4 < 2 ? row + 2 : row - 2;
         const double x = data[(size_t)row * (size_t)hd_frame_stride(frame) + (size_t)a];
         const double y = data[(size_t)row * (size_t)hd_frame_stride(frame) + (size_t)b];
-        sum += (row % 4 < 2 ? x : -x) * data[(size_t)other * (size_t)hd_frame_stride(frame) + (size_t)b];
+        sum += (row % 4 < 2 ? x : -x) *
+               data[(size_t)other * (size_t)hd_frame_stride(frame) + (size_t)b];
         aa += x * x;
         bb += y * y;
     }
@@ -94,7 +96,8 @@ void hd_verify_symplectic(const hd_frame *frame, const hd_symplectic *before, do
     const double per_disk = 8.0 * events / hd_frame_rows(frame);
     for (int k = 0; k < HD_VERIFY_PAIRS; k++)
         expect_at_most(fabs(after.product[k] - before->product[k]),
-                       16.0 * DBL_EPSILON * (4.0 + per_disk) * fmax(before->scale[k], after.scale[k]),
+                       16.0 * DBL_EPSILON * (4.0 + per_disk) *
+                           fmax(before->scale[k], after.scale[k]),
                        "symplectic product");
 }
 
@@ -107,6 +110,7 @@ void hd_verify_ortho(hd_ortho *ortho, hd_frame *frame)
     if (hd_frame_vectors(frame) < hd_frame_rows(frame)) return;
     double sum = 0.0;
     for (int col = 0; col < hd_frame_vectors(frame); col++) sum += hd_ortho_log_stretch(ortho)[col];
-    expect_at_most(fabs(sum), n * HD_ROUNDING * hd_ortho_condition(ortho) + n * n * 1e-8 + n * least,
+    expect_at_most(fabs(sum),
+                   n * HD_ROUNDING * hd_ortho_condition(ortho) + n * n * 1e-8 + n * least,
                    "volume");
 }

@@ -9,7 +9,7 @@ target_sources(test_golden PRIVATE golden.c)
 if(NOT HDLYAP_SANITIZE)
   hdlyap_core_test(startup)
 endif()
-foreach(name effects startup) # what they see of the core's memory
+foreach(name effects hard_memory startup) # what they see of the core's memory
   if(TARGET test_${name})
     target_sources(test_${name} PRIVATE ledger.c)
     target_compile_definitions(test_${name} PRIVATE _GNU_SOURCE) # RTLD_NEXT

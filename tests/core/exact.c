@@ -116,8 +116,10 @@ void exact_replay(exact_frame *x, const hd_event_log *log)
         const hd_event *event = &log->event[k];
         hd_exact *i = rows_of(x, event->i);
         fly(x, (hd_exact)event->t - t);
-        if (event->j >= 0) collide(i, rows_of(x, event->j), x->vectors, event);
-        else reflect(i, x->vectors, event->j == HD_WALL_Y);
+        if (event->j >= 0)
+            collide(i, rows_of(x, event->j), x->vectors, event);
+        else
+            reflect(i, x->vectors, event->j == HD_WALL_Y);
         if (k % EVENTS_MAX == 0) exact_orthonormalise(x->v, x->rows, x->vectors, x->sum);
         t = event->t;
     }

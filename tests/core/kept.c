@@ -78,4 +78,3 @@ bytes kept_file(const char *path)
     fclose(file);
     return b;
 }
-

@@ -28,7 +28,7 @@ typedef struct bytes {
     size_t size;
 } bytes;
 
-bytes kept_bytes(hd_run *run);  /**< its arrays */
+bytes kept_bytes(hd_run *run); /**< its arrays */
 bytes kept_file(const char *path);
 
 /** Of the elements of the array that begins there. */

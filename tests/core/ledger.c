@@ -15,6 +15,7 @@ static struct {
 } blocks[BLOCKS_MAX];
 static size_t count;
 static ledger book;
+static size_t asked, refused_from, refused_count; /* allocations asked for, had or not */
 
 /** The core's own function of that name, into the pointer that `function` is the address of. */
 static void next(void *function, const char *name)
@@ -28,6 +29,8 @@ void *hd_memory_alloc(size_t number, size_t size)
 {
     void *(*real)(size_t, size_t);
     next(&real, "hd_memory_alloc");
+    const size_t now = asked++;
+    if (now >= refused_from && now - refused_from < refused_count) return NULL;
     void *block = real(number, size);
     if (!block) return NULL;
     blocks[count].at = block;
@@ -52,3 +55,9 @@ void hd_memory_free(void *block)
 }
 
 ledger ledger_now(void) { return book; }
+
+void ledger_refuse(size_t first, size_t how_many)
+{
+    refused_from = asked + first;
+    refused_count = how_many;
+}

@@ -11,4 +11,7 @@ typedef struct ledger {
 
 ledger ledger_now(void);
 
+/** Memory is out for so many allocations, after `first` more of them; none for how_many = 0. */
+void ledger_refuse(size_t first, size_t how_many);
+
 #endif

@@ -22,7 +22,8 @@ static void expect_same_bytes(const bytes *a, const bytes *b)
     for (size_t at = 0; at < a->size;) {
         const char *name = a->data + at;
         const size_t size = kept_array_size(name);
-        if (!of_the_clock(name) && memcmp(name, b->data + at, size) != 0) fail_msg("%s differs", name);
+        if (!of_the_clock(name) && memcmp(name, b->data + at, size) != 0)
+            fail_msg("%s differs", name);
         at += size;
     }
 }
@@ -125,7 +126,8 @@ static void a_resumed_run_is_the_uninterrupted_one(void **state)
     (void)state;
     hd_scene_def walls = kept_scene(24, 0.6, 0.5, HD_EXPONENTS_ALL, KEPT_ALL);
     walls.boundary[0] = walls.boundary[1] = HD_REFLECTING;
-    hd_scene_def crowded = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL | HD_OBSERVE_FIELDS);
+    hd_scene_def crowded = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE,
+                                      KEPT_ALL | HD_OBSERVE_FIELDS);
     crowded.report_interval = 0.25;
     crowded.threads = 2;
     hd_scene_def looks = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL);
@@ -184,7 +186,8 @@ static void clocks_and_costs_go_on(void **state)
     (void)state;
     const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL);
     hd_run *run = kept_run(&def);
-    while (hd_run_phase(run) != HD_AVERAGING || hd_run_cost(run).error_bound == 0) kept_steps(run, 1);
+    while (hd_run_phase(run) != HD_AVERAGING || hd_run_cost(run).error_bound == 0)
+        kept_steps(run, 1);
     hd_run_observe(run, HD_OBSERVE_MODES);
     run->cost.limit = HD_LIMIT_REPAIR;
     const hd_cost before = hd_run_cost(run);

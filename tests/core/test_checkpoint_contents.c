@@ -23,7 +23,8 @@ static char *element(const bytes *b, const char *name, size_t index)
 {
     for (size_t at = 0; at < b->size; at += kept_array_size(b->data + at))
         if (strcmp(b->data + at, name) == 0)
-            return b->data + at + KEPT_HEAD + index * kept_element_size(b->data + at + HD_ARCHIVE_NAME);
+            return b->data + at + KEPT_HEAD +
+                   index * kept_element_size(b->data + at + HD_ARCHIVE_NAME);
     fail_msg("there is no %s", name);
     return NULL;
 }
@@ -45,7 +46,8 @@ static void expect_nonsense_refused(const bytes *b, const nonsense_case *c)
     memcpy(at, c->real != 0 ? (const void *)&c->real : (const void *)&integer, sizeof before);
     const hd_status status = status_of(b, &run, message, sizeof message);
     if (status != HD_FILE_FAULT || run || !strstr(message, c->word))
-        fail_msg("%s[%zu]: %d, \"%s\" without \"%s\"", c->array, c->index, status, message, c->word);
+        fail_msg("%s[%zu]: %d, \"%s\" without \"%s\"", c->array, c->index, status, message,
+                 c->word);
     memcpy(at, before, sizeof before);
 }
 
@@ -106,7 +108,8 @@ static void contents_that_no_run_has_are_refused(void **state)
     };
     CHECK_OK(status_of(&b, &again, message, sizeof message));
     hd_run_free(again);
-    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) expect_nonsense_refused(&b, &cases[k]);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        expect_nonsense_refused(&b, &cases[k]);
     free(b.data);
     hd_run_free(run);
 }
@@ -138,8 +141,16 @@ static void ends_of_samples_are_not_passed_twice(void **state)
 static void nonsense_is_survived(void **state)
 {
     (void)state;
-    static const uint64_t nonsense[] = {0, 1, 5, UINT64_MAX, 0x7ff8000000000000, 0x7ff0000000000000,
-                                        0x3ff0000000000000, 0x7fefffffffffffff, 0xc08f400000000000, 1 << 20};
+    static const uint64_t nonsense[] = {0,
+                                        1,
+                                        5,
+                                        UINT64_MAX,
+                                        0x7ff8000000000000,
+                                        0x7ff0000000000000,
+                                        0x3ff0000000000000,
+                                        0x7fefffffffffffff,
+                                        0xc08f400000000000,
+                                        1 << 20};
     const hd_scene_def def = kept_scene(4, 0.3, 0.3, HD_EXPONENTS_ALL, KEPT_ALL);
     hd_run *run = kept_run(&def);
     kept_steps(run, 60);

@@ -24,8 +24,7 @@ static void expect_refused(const char *word)
 {
     hd_run *run;
     char message[512] = "";
-    assert_int_equal(hd_run_resume(&run, PATH, NULL, message, sizeof message),
-                     HD_FILE_FAULT);
+    assert_int_equal(hd_run_resume(&run, PATH, NULL, message, sizeof message), HD_FILE_FAULT);
     assert_null(run);
     if (!strstr(message, word)) fail_msg("\"%s\" does not say \"%s\"", message, word);
     assert_null(strchr(message, '\n'));

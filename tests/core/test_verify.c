@@ -19,7 +19,7 @@ static const bool VERIFIES = false;
 
 static jmp_buf caught;
 
-static void catch(const char *condition, const char *file, int line)
+static void catch (const char *condition, const char *file, int line)
 {
     (void)condition;
     (void)line;
@@ -64,7 +64,8 @@ static void disks_are_checked(void **state)
     disk[0].p[0] *= 1.0 + 1e-9;
     EXPECT_BROKEN(true, hd_verify_disks(tr, &run->scene));
     disk[0] = right;
-    for (int d = 0; d < 2; d++) { /* turned back where it is: the same energy, but not the same momentum */
+    for (int d = 0; d < 2;
+         d++) { /* turned back where it is: the same energy, but not the same momentum */
         disk[0].q[d] += 2.0 * disk[0].p[d] * (tr->now - tr->epoch_start - disk[0].t);
         disk[0].p[d] = -disk[0].p[d];
     }
@@ -87,16 +88,14 @@ static void the_log_is_checked(void **state)
         int event;
         hd_event wrong;
     } cases[] = {
-        {1, {0.4, 0, 1, {1, 0}, {-1, 0}}},   /* before the other */
-        {1, {1.1, 0, 1, {1, 0}, {-1, 0}}},   /* after the end */
-        {0, {NAN, 0, 1, {1, 0}, {-1, 0}}},   /* never */
-        {0, {0.5, 1, 0, {1, 0}, {-1, 0}}},   /* not in their order */
-        {0, {0.5, 0, 3, {1, 0}, {-1, 0}}},   /* no such disk */
-        {0, {0.5, -1, 1, {1, 0}, {-1, 0}}},
-        {0, {0.5, 0, -3, {1, 0}, {-1, 0}}},  /* no such wall */
+        {1, {0.4, 0, 1, {1, 0}, {-1, 0}}}, /* before the other */
+        {1, {1.1, 0, 1, {1, 0}, {-1, 0}}}, /* after the end */
+        {0, {NAN, 0, 1, {1, 0}, {-1, 0}}}, /* never */
+        {0, {0.5, 1, 0, {1, 0}, {-1, 0}}}, /* not in their order */
+        {0, {0.5, 0, 3, {1, 0}, {-1, 0}}}, /* no such disk */
+        {0, {0.5, -1, 1, {1, 0}, {-1, 0}}},   {0, {0.5, 0, -3, {1, 0}, {-1, 0}}}, /* no such wall */
         {0, {0.5, 0, 1, {1, 1e-7}, {-1, 0}}}, /* not a unit vector */
-        {0, {0.5, 0, 1, {NAN, 0}, {-1, 0}}},
-        {0, {0.5, 0, 1, {1, 0}, {1e-9, 0}}}, /* parting */
+        {0, {0.5, 0, 1, {NAN, 0}, {-1, 0}}},  {0, {0.5, 0, 1, {1, 0}, {1e-9, 0}}}, /* parting */
         {0, {0.5, 0, 1, {1, 0}, {NAN, 0}}},
     };
     hd_event event[2];

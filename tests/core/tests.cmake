@@ -53,6 +53,7 @@ foreach(name IN ITEMS
     scene
     random
     memory
+    hard_memory
     status
     hard_parameters
 )

@@ -13,8 +13,9 @@
 #include "hdlyap/pmode.h"
 #include "hdlyap/run.h"
 #include "hdlyap_ros/publisher.h"
+#include "memory.h"
 
-static atomic_long steps, states, halves, measures, phases, pmodes, hydros;
+static atomic_long steps, states, halves, measures, phases, pmodes, hydros, allocations;
 
 /** The core's own function of that name, into the pointer that `function` is the address of. */
 static void next(void *function, const char *name)
@@ -41,6 +42,17 @@ hd_status hd_run_step(hd_run *run)
         return HD_ILL_CONDITIONED;
     next(&real, "hd_run_step");
     return real(run);
+}
+
+/** PROBE_MEMORY_AFTER: blocks of the core before memory is out. */
+void *hd_memory_alloc(size_t count, size_t size)
+{
+    void *(*real)(size_t, size_t);
+    const double memory_after = number("PROBE_MEMORY_AFTER");
+    const long before = atomic_fetch_add(&allocations, 1);
+    if (memory_after > 0.0 && (double)before >= memory_after) return NULL;
+    next(&real, "hd_memory_alloc");
+    return real(count, size);
 }
 
 /** PROBE_NAN: the first momentum is not a number. */
@@ -124,6 +136,7 @@ __attribute__((destructor)) static void write_counts(void)
         {"trajectory_state", atomic_load(&states)},  {"frame_halves", atomic_load(&halves)},
         {"modes_measure", atomic_load(&measures)},   {"phases_add", atomic_load(&phases)},
         {"pmode_reconstruct", atomic_load(&pmodes)}, {"hydro_measure", atomic_load(&hydros)},
+        {"memory_alloc", atomic_load(&allocations)},
     };
     const char *path = getenv("PROBE_COUNTS");
     FILE *file = path ? fopen(path, "w") : NULL;

@@ -171,8 +171,8 @@ class Checkpoint(unittest.TestCase):
 
     def test_a_long_step_does_not_keep_it_from_ending(self):
         cost = self.listen('cost')
-        node = self.start(dict(LONG, checkpoint=self.file, wait_for_subscribers=['cost']),
-                          probe={'PROBE_STEP_SECONDS': '2.5'})
+        node = self.start(dict(LONG, checkpoint=self.file, report_interval=1.0e-3, wait_for_subscribers=['cost']),
+                          probe={'PROBE_STEP_SECONDS': '1.5'})
         self.assertTrue(cost.wait_for(lambda message: True))
         node.send(signal.SIGINT)
         self.ends(node, 0)

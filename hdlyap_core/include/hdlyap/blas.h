@@ -2,6 +2,8 @@
 #ifndef HDLYAP_BLAS_H
 #define HDLYAP_BLAS_H
 
+#include "hdlyap/status.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -27,6 +29,10 @@ const char *hd_blas_better_kernel(const char *kernel, int has_avx2_fma, int has_
 void hd_blas_restart_if_slow(char **argv);
 
 void hd_blas_use_threads(int threads);
+
+/** HD_NO_MEMORY where so many threads would not find the address space for their stacks and buffers: OpenBLAS
+ *  would ask for it for ever, and OpenMP would end the process. Takes none. */
+HD_MUST_CHECK hd_status hd_blas_room(int threads);
 
 #ifdef __cplusplus
 }

@@ -20,13 +20,14 @@ typedef struct hdr_time {
 
 typedef enum hdr_level { HDR_DEBUG, HDR_INFO, HDR_WARN, HDR_ERROR, HDR_FATAL } hdr_level;
 
-/** Takes the remappings out of argc and argv, replaces the handlers of SIGINT and SIGTERM by
- *  hdr_stop_request, waits until there is a master (says so once) and serves callbacks from a thread
+/** Takes the remappings out of argc and argv, replaces the handlers of SIGINT, SIGTERM and
+ *  SIGHUP (unless it is ignored) by hdr_stop_request, waits until there is a master (says so once) and serves callbacks from a thread
  *  of its own. A process that has not ended stop_seconds after a stop was requested is ended with
- *  status 0, whatever it is doing. *out is NULL if a stop was requested before there was a master.
- *  Fails with HDR_FAULT (a name that ROS refuses, no thread, no timer). */
+ *  status 0, whatever it is doing; one in which a thread of roscpp's finds no memory with memory_status,
+ *  after a line that says so. *out is NULL if a stop was requested before there was a master.
+ *  Fails with HDR_NO_MEMORY or HDR_FAULT (a name that ROS refuses, no timer). */
 HDR_MUST_CHECK hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *name,
-                                          double stop_seconds);
+                                          double stop_seconds, int memory_status);
 
 /** Changes stop_seconds, before a stop is requested. */
 void hdr_node_stop_within(double stop_seconds);
@@ -37,14 +38,14 @@ void hdr_node_free(hdr_node *node, double linger);
 
 const char *hdr_node_name(const hdr_node *node); /**< resolved, e.g. /hdlyap */
 
-/** True after SIGINT, SIGTERM, `rosnode kill` or hdr_stop_request. */
+/** True after SIGINT, SIGTERM, SIGHUP, `rosnode kill` or hdr_stop_request. */
 bool hdr_stop_requested(void);
 /** Asks the process to stop; may be called from a signal handler. */
 void hdr_stop_request(void);
 
 hdr_time hdr_time_now(void);
 
-/** One line to the console and /rosout; format as for printf. */
+/** One line to the console and /rosout, control characters as question marks; format as for printf. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif

@@ -13,7 +13,7 @@ extern "C" {
 typedef struct hdr_params hdr_params;
 
 /** Fetches all private parameters of the node with one call to the master.
- *  Fails with HDR_FAULT if the master does not answer. */
+ *  Fails with HDR_FAULT if the master does not answer, or HDR_NO_MEMORY. */
 HDR_MUST_CHECK hdr_status hdr_params_create(hdr_params **out, const hdr_node *node);
 void hdr_params_free(hdr_params *params);
 

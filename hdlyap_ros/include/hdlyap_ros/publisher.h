@@ -13,7 +13,7 @@ typedef struct hdr_publisher hdr_publisher;
 
 /* Topic names: "~x" is private to the node. queue >= 1 is the number of messages kept for each
  * subscriber that is behind; the oldest are dropped first. The publishers belong to the node and live
- * as long as it does. Fail with HDR_FAULT. */
+ * as long as it does. Fail with HDR_FAULT or HDR_NO_MEMORY. */
 
 /** Latched: who comes late gets the last message. */
 HDR_MUST_CHECK hdr_status hdr_run_info_advertise(hdr_publisher **out, hdr_node *node,
@@ -41,7 +41,7 @@ HDR_MUST_CHECK hdr_status hdr_diagnostic_advertise(hdr_publisher **out, hdr_node
 int hdr_publisher_subscribers(const hdr_publisher *publisher);
 
 /* The view is serialised before these return and never waited for. Without a subscriber and without
- * latching they do nothing. HDR_FAULT if the publisher is of another type. */
+ * latching they do nothing. HDR_FAULT if the publisher is of another type; HDR_NO_MEMORY. */
 
 HDR_MUST_CHECK hdr_status hdr_run_info_publish(hdr_publisher *publisher, const hdr_run_info *view);
 HDR_MUST_CHECK hdr_status hdr_spectrum_publish(hdr_publisher *publisher, const hdr_spectrum *view);

@@ -15,7 +15,7 @@ extern "C" {
 typedef bool (*hdr_set_bool_callback)(void *context, bool value, char *message, size_t size);
 typedef bool (*hdr_trigger_callback)(void *context, char *message, size_t size);
 
-/* The service lives as long as the node; context must too. Names as for topics. HDR_FAULT on failure. */
+/* The service lives as long as the node; context must too. Names as for topics. HDR_FAULT or HDR_NO_MEMORY on failure. */
 
 HDR_MUST_CHECK hdr_status hdr_service_set_bool(hdr_node *node, const char *name,
                                                hdr_set_bool_callback callback, void *context);

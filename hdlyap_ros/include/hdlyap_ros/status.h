@@ -10,6 +10,7 @@ typedef enum hdr_status {
     HDR_OK,
     HDR_MISSING,    /**< there is no such parameter */
     HDR_WRONG_TYPE, /**< the parameter has another type */
+    HDR_NO_MEMORY,  /**< nor a thread; hdr_error_text says which */
     HDR_FAULT       /**< roscpp refused; hdr_error_text says why */
 } hdr_status;
 
@@ -19,7 +20,7 @@ typedef enum hdr_status {
 #define HDR_MUST_CHECK
 #endif
 
-/** What the last HDR_FAULT of this thread was about; never NULL, valid until its next HDR_FAULT. */
+/** What the last HDR_FAULT or HDR_NO_MEMORY of this thread was about; never NULL, valid until its next one. */
 const char *hdr_error_text(void);
 
 #ifdef __cplusplus

@@ -54,6 +54,16 @@ static int fault_status(hd_status status)
     return status == HD_FILE_FAULT ? EXIT_FILE_FAULT : EXIT_NUMERICAL_FAULT;
 }
 
+/** Of a call of the wrapper, or of what it is the last one of. */
+static int failed_status(hdr_status status)
+{
+    if (status == HDR_OK) return EXIT_SUCCESS;
+    if (status != HDR_NO_MEMORY) return refuse(hdr_error_text());
+    const char *what = hdr_error_text(); /* empty where it was not the wrapper's */
+    hdr_log(HDR_FATAL, "%s%s%s", hd_status_text(HD_NO_MEMORY), *what ? ": " : "", what);
+    return fault_status(HD_NO_MEMORY);
+}
+
 /** The exit status; the fault's line is in the log. */
 static int fault_logged(hd_status status, const char *message)
 {
@@ -65,7 +75,8 @@ static int read_settings(app *a)
 {
     char message[512] = "";
     const char *resume = "";
-    if (hdr_params_create(&a->params, a->ros) != HDR_OK) return refuse(hdr_error_text());
+    const hdr_status created = hdr_params_create(&a->params, a->ros);
+    if (created != HDR_OK) return failed_status(created);
     if (!settings_resume(&resume, a->params, message, sizeof message)) return refuse(message);
     if (*resume) {
         const hd_status status = hd_checkpoint_read(&a->kept, resume, message, sizeof message);
@@ -82,8 +93,7 @@ static int create_run(app *a)
     char message[512] = "";
     const settings *set = &a->set;
     hd_status status = HD_OK;
-    if (*set->checkpoint)
-        status = hd_checkpoint_writable(set->checkpoint, message, sizeof message);
+    if (*set->checkpoint) status = hd_checkpoint_writable(set->checkpoint, message, sizeof message);
     if (status == HD_OK && *set->resume)
         status = hd_run_resume(&a->run, set->resume, &set->def, message, sizeof message);
     else if (status == HD_OK)
@@ -93,18 +103,16 @@ static int create_run(app *a)
 }
 
 /** From here on the node can be seen by others. */
-static int advertise(app *a)
+static hdr_status advertise(app *a)
 {
-    char message[512] = "";
-    if (!report_create(&a->rep, a->ros, &a->set, a->run, message, sizeof message))
-        return refuse(message);
     const char *kernel = hd_blas_query().kernel;
-    if (diagnostics_advertise(&a->diag, a->ros, report_run_id(a->rep), kernel) != HDR_OK)
-        return refuse(hdr_error_text());
-    if (report_run_info(a->rep, a->run) != HDR_OK) return refuse(hdr_error_text());
-    if (!worker_create(&a->work, a->run, a->rep, &a->set)) return refuse("no thread to compute in");
-    if (services_advertise(a->ros, a->work) != HDR_OK) return refuse(hdr_error_text());
-    return EXIT_SUCCESS;
+    hdr_status status = report_create(&a->rep, a->ros, &a->set, a->run);
+    if (status == HDR_OK)
+        status = diagnostics_advertise(&a->diag, a->ros, report_run_id(a->rep), kernel);
+    if (status == HDR_OK) status = report_run_info(a->rep, a->run);
+    if (status == HDR_OK && !worker_create(&a->work, a->run, a->rep, &a->set))
+        status = HDR_NO_MEMORY;
+    return status == HDR_OK ? services_advertise(a->ros, a->work) : status;
 }
 
 static void log_start(const app *a)
@@ -147,8 +155,8 @@ static bool look_after(app *a)
         diagnostics_update(&a->diag, &state);
     }
     worker_stop(a->work);
-    return ended || worker_wait(a->work, *a->set.checkpoint ? stop_step_keeping_seconds
-                                                            : stop_step_seconds);
+    return ended ||
+           worker_wait(a->work, *a->set.checkpoint ? stop_step_keeping_seconds : stop_step_seconds);
 }
 
 /** A run at fault has no last message: its end is in the log and in the diagnostics. */
@@ -182,7 +190,7 @@ static int run(app *a)
     if (status == EXIT_SUCCESS) status = create_run(a);
     if (status != EXIT_SUCCESS) return status;
     log_start(a);
-    status = advertise(a);
+    status = failed_status(advertise(a));
     if (status != EXIT_SUCCESS) return status;
     const bool ended = look_after(a);
     status = finish(a);
@@ -195,8 +203,9 @@ int main(int argc, char **argv)
 {
     app a = {.ros = NULL};
     hd_blas_restart_if_slow(argv);
-    if (hdr_node_create(&a.ros, &argc, argv, "hdlyap", stop_seconds) != HDR_OK)
-        return refuse(hdr_error_text());
+    const hdr_status created = hdr_node_create(&a.ros, &argc, argv, "hdlyap", stop_seconds,
+                                               fault_status(HD_NO_MEMORY));
+    if (created != HDR_OK) return failed_status(created);
     if (!a.ros) return EXIT_SUCCESS;
     const int status = argc > 1 ? refuse_argument(argv[1]) : run(&a);
     app_free(&a);

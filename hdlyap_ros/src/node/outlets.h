@@ -15,7 +15,7 @@ typedef struct outlets {
 } outlets;
 
 /** Advertises a set of topics; doubles[t]: about so many numbers in a message, for the length of the
- *  queue. The run's id is made here. HDR_FAULT if ROS refuses. */
+ *  queue. The run's id is made here. HDR_NO_MEMORY, or HDR_FAULT if ROS refuses. */
 HDR_MUST_CHECK hdr_status outlets_advertise(outlets *out, hdr_node *ros, unsigned set,
                                             const double doubles[TOPICS], const char *seed);
 

@@ -2,7 +2,6 @@
 #include "report.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "clock.h"
@@ -88,22 +87,18 @@ static hdr_status advertise(report *rep, hdr_node *ros)
                              rep->set->seed);
 }
 
-bool report_create(report **out, hdr_node *ros, const settings *set, const hd_run *run,
-                   char *message, size_t size)
+hdr_status report_create(report **out, hdr_node *ros, const settings *set, const hd_run *run)
 {
     report *rep = *out = calloc(1, sizeof *rep);
-    bool created = false;
-    if (rep) {
-        rep->set = set;
-        rep->n = (uint32_t)hd_run_vectors(run);
-        rep->disks = (uint32_t)set->def.disks;
-        created = parts_create(rep, run);
-        if (created && advertise(rep, ros) == HDR_OK) return true;
-    }
-    snprintf(message, size, "topics: %s", created ? hdr_error_text() : "out of memory");
+    if (!rep) return HDR_NO_MEMORY;
+    rep->set = set;
+    rep->n = (uint32_t)hd_run_vectors(run);
+    rep->disks = (uint32_t)set->def.disks;
+    const hdr_status status = parts_create(rep, run) ? advertise(rep, ros) : HDR_NO_MEMORY;
+    if (status == HDR_OK) return HDR_OK;
     report_free(rep);
     *out = NULL;
-    return false;
+    return status;
 }
 
 void report_free(report *rep)

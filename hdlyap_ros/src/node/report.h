@@ -21,9 +21,9 @@ progress progress_of(const hd_run *run);
 typedef struct report report;
 
 /** Advertises the topics that the settings ask for. Both live longer than the report.
- *  False if out of memory or refused by ROS, with the reason in message. */
-bool report_create(report **out, hdr_node *ros, const settings *set, const hd_run *run,
-                   char *message, size_t size);
+ *  HDR_NO_MEMORY, or HDR_FAULT if ROS refuses. */
+HDR_MUST_CHECK hdr_status report_create(report **out, hdr_node *ros, const settings *set,
+                                        const hd_run *run);
 void report_free(report *rep);
 
 const char *report_run_id(const report *rep);

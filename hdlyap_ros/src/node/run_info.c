@@ -22,25 +22,26 @@ static uint32_t names_of(const char *names[TOPICS], unsigned set)
 /** Nodes of the wave vectors that are classified; none without modes. */
 typedef struct wave_list {
     uint32_t count;
-    uint32_t *nx, *ny; /**< in one block at nx; NULL if out of memory */
+    uint32_t *nx, *ny; /**< in one block at nx */
 } wave_list;
 
-static wave_list waves_create(const hd_scene_def *def)
+static bool waves_create(wave_list *list, const hd_scene_def *def)
 {
     const int count = def->observe ? hd_waves(def, NULL, 0) : 0;
     hd_wave *waves = malloc(((size_t)count + 1) * sizeof *waves);
-    wave_list list = {.nx = malloc((2 * (size_t)count + 1) * sizeof *list.nx)};
-    if (waves && list.nx) {
-        list.count = (uint32_t)count;
-        list.ny = list.nx + count;
+    *list = (wave_list){.nx = malloc((2 * (size_t)count + 1) * sizeof *list->nx)};
+    const bool created = waves && list->nx;
+    if (created) {
+        list->count = (uint32_t)count;
+        list->ny = list->nx + count;
         hd_waves(def, waves, count);
-        for (int k = 0; k < count; k++) {
-            list.nx[k] = (uint32_t)waves[k].n[0];
-            list.ny[k] = (uint32_t)waves[k].n[1];
-        }
+    }
+    for (uint32_t k = 0; k < list->count; k++) {
+        list->nx[k] = (uint32_t)waves[k].n[0];
+        list->ny[k] = (uint32_t)waves[k].n[1];
     }
     free(waves);
-    return list;
+    return created;
 }
 
 /** What the scene says. */
@@ -87,7 +88,8 @@ static void fill_machine(hdr_run_info *info, const hd_run *run)
 hdr_status run_info_publish(const outlets *out, const settings *set, const hd_run *run)
 {
     const char *names[TOPICS];
-    const wave_list waves = waves_create(&set->def);
+    wave_list waves;
+    hdr_status status = waves_create(&waves, &set->def) ? HDR_OK : HDR_NO_MEMORY;
     hdr_run_info info = {
         .header = outlets_header(),
         .run_id = out->run_id,
@@ -103,7 +105,7 @@ hdr_status run_info_publish(const outlets *out, const settings *set, const hd_ru
     };
     fill_scene(&info, set);
     fill_machine(&info, run);
-    const hdr_status status = hdr_run_info_publish(out->publisher[TOPIC_RUN_INFO], &info);
+    if (status == HDR_OK) status = hdr_run_info_publish(out->publisher[TOPIC_RUN_INFO], &info);
     free(waves.nx);
     return status;
 }

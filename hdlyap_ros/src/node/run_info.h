@@ -6,7 +6,7 @@
 #include "outlets.h"
 #include "settings.h"
 
-/** Allocates, as it is sent once. HDR_FAULT if ROS refuses. */
+/** Allocates, as it is sent once. HDR_NO_MEMORY, or HDR_FAULT if ROS refuses. */
 HDR_MUST_CHECK hdr_status run_info_publish(const outlets *out, const settings *set,
                                            const hd_run *run);
 

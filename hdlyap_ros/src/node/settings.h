@@ -23,9 +23,9 @@ typedef struct settings {
     char exponents[16];   /**< as asked for: positive, all, none or a number */
     unsigned observables; /**< set of topics: all but run_info and cost */
     field_choice fields;
-    unsigned awaited; /**< set of topics that must have a subscriber before the run starts */
-    double pace;      /**< time units per wall second, 0 = as fast as it goes */
-    const char *checkpoint;     /**< file, or ""; in the params, as the next but one */
+    unsigned awaited;       /**< set of topics that must have a subscriber before the run starts */
+    double pace;            /**< time units per wall second, 0 = as fast as it goes */
+    const char *checkpoint; /**< file, or ""; in the params, as the next but one */
     double checkpoint_interval; /**< wall seconds; 0: only at the end and when asked */
     const char *resume;         /**< file to go on from, or "" */
 } settings;

@@ -20,7 +20,7 @@ struct worker {
     report *rep;
     const settings *set;
     pthread_t thread;
-    double due; /**< wall time before which pace allows no further step; the thread's own */
+    double due;  /**< wall time before which pace allows no further step; the thread's own */
     keeper keep; /**< the thread's own */
 
     pthread_mutex_t lock;

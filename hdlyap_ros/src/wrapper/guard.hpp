@@ -1,9 +1,12 @@
-/** The line that no exception crosses: runs a body and turns what it throws into HDR_FAULT. */
+/** The line that no exception crosses: runs a body and turns what it throws into a status. */
 #pragma once
 
 #include <exception>
 
 #include "hdlyap_ros/status.h"
+
+/** True for what is thrown where there is neither memory nor a thread left. */
+bool hdr_error_of_memory(const std::exception &error) noexcept;
 
 /** Keeps text for hdr_error_text of this thread. */
 void hdr_error_keep(const char *text) noexcept;
@@ -15,6 +18,7 @@ template <class Body> hdr_status hdr_guard(const Body &body) noexcept
         return HDR_OK;
     } catch (const std::exception &error) {
         hdr_error_keep(error.what());
+        if (hdr_error_of_memory(error)) return HDR_NO_MEMORY;
     } catch (...) {
         hdr_error_keep("an exception without a text");
     }

@@ -62,6 +62,17 @@ bool has_subscribers(const hdr_node &node)
     });
 }
 
+/** What a parameter holds must not look like a line of its own, nor steer a terminal. */
+void one_line(char *text)
+{
+    const auto byte = [](char c) { return static_cast<unsigned char>(c); };
+    for (; *text; text++) {
+        if (byte(*text) < 0x20 || byte(*text) == 0x7f) *text = '?';
+        const bool is_c1 = byte(text[0]) == 0xc2 && byte(text[1]) >= 0x80 && byte(text[1]) < 0xa0;
+        if (is_c1) text[0] = text[1] = '?'; /* in UTF-8 */
+    }
+}
+
 void drain(const hdr_node &node, double linger)
 {
     double after_stop = linger_after_stop;
@@ -74,9 +85,10 @@ void drain(const hdr_node &node, double linger)
 } // namespace
 
 hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *name,
-                           double stop_seconds)
+                           double stop_seconds, int memory_status)
 {
     *out = nullptr;
+    stop_without_memory(memory_status);
     return hdr_guard([&] {
         stop_handlers_install(stop_seconds);
         ros::init(*argc, argv, name, ros::init_options::NoSigintHandler);
@@ -111,6 +123,7 @@ void hdr_log(hdr_level level, const char *format, ...)
     va_start(list, format);
     std::vsnprintf(line, sizeof line, format, list);
     va_end(list);
+    one_line(line);
     hdr_guard([&] {
         switch (level) {
         case HDR_DEBUG: ROS_DEBUG("%s", line); break;

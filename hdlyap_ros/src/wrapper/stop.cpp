@@ -1,15 +1,20 @@
-/** Signals -> a flag that the node polls, and a timer that ends a process which does not. */
+/** Signals -> a flag that the node polls, and a timer that ends a process which does not; exceptions that
+ *  nobody catches -> an exit status. */
 #include "stop.hpp"
 
 #include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <ctime>
+#include <exception>
 #include <system_error>
 
 #include <unistd.h>
 
+#include "guard.hpp"
 #include "hdlyap_ros/node.h"
 
 namespace
@@ -18,9 +23,46 @@ namespace
 std::atomic<bool> requested{false};
 timer_t watchdog;
 itimerspec watchdog_time{};
+int status_without_memory;
 
 void on_stop(int) { hdr_stop_request(); }
-void on_watchdog(int) { _exit(0); }
+/** SIGALRM of somebody else's is none of ours. */
+void on_watchdog(int)
+{
+    if (hdr_stop_requested()) _exit(0);
+}
+
+bool is_ignored(int signal)
+{
+    struct sigaction action = {};
+    return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+/** Allocates nothing. */
+[[noreturn]] void end_without_memory(const char *what)
+{
+    char line[256];
+    timespec now = {};
+    clock_gettime(CLOCK_REALTIME, &now);
+    const int length = std::snprintf(line, sizeof line, "[FATAL] [%ld.%09ld]: out of memory: %s\n",
+                                     static_cast<long>(now.tv_sec), now.tv_nsec, what);
+    const auto written = write(STDERR_FILENO, line, static_cast<size_t>(length));
+    static_cast<void>(written); /* nobody is left to be told */
+    _exit(status_without_memory);
+}
+
+/** Any other exception that nobody catches is a bug. */
+void on_terminate()
+{
+    try {
+        if (std::current_exception()) throw;
+    } catch (const std::exception &error) {
+        if (hdr_error_of_memory(error)) end_without_memory(error.what());
+        std::fprintf(stderr, "hdlyap: lost exception: %s\n", error.what());
+    } catch (...) {
+    }
+    std::abort();
+}
 
 void handle(int signal, void (*handler)(int))
 {
@@ -44,6 +86,14 @@ void stop_handlers_install(double stop_seconds)
     handle(SIGALRM, on_watchdog);
     handle(SIGINT, on_stop);
     handle(SIGTERM, on_stop);
+    if (!is_ignored(SIGHUP)) handle(SIGHUP, on_stop); /* nohup ignores it */
+    handle(SIGXFSZ, SIG_IGN);                         /* writing says so too */
+}
+
+void stop_without_memory(int status) noexcept
+{
+    status_without_memory = status;
+    std::set_terminate(on_terminate);
 }
 
 void hdr_node_stop_within(double stop_seconds)

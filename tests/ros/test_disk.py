@@ -1,0 +1,206 @@
+#!/usr/bin/env python3
+"""Checkpoints on a disk that is full, or was never to be written to, or in a process that is killed: what has been
+written stays whole, what cannot be is named, and the run goes on."""
+
+import os
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+import rospy
+import rostest
+
+import harness
+from harness import SHORT
+
+FILE_FAULT = 4      # exit status
+AT_ONCE = 4         # nodes that run at the same time
+KILLS = 100
+# all that a file can hold, 200 kB of it
+KEPT = dict(disks=60, density=0.8, aspect=0.06, equilibration=1.0, warmup=2.0, duration=0.0, threads=1,
+            pace=100.0, checkpoint_interval=1.0e-3)
+
+
+def small_disk(folder, bytes_):
+    """Before the node: a file system of its own, which nobody else sees; None where that is not allowed."""
+    for unshare in (['unshare', '-m'], ['unshare', '-rm']):
+        if subprocess.run(unshare + ['mount', '-t', 'tmpfs', 'tmpfs', folder],
+                          stderr=subprocess.DEVNULL).returncode == 0:
+            mount = 'mount -t tmpfs -o size=%d tmpfs %s && exec "$@"' % (bytes_, folder)
+            return unshare + ['sh', '-c', mount, 'sh']
+    return None
+
+
+def written(path):
+    """Something that tells two writings of a file apart; None if there is none."""
+    try:
+        found = os.stat(path)
+    except FileNotFoundError:
+        return None
+    return found.st_ino, found.st_mtime_ns
+
+
+class Disk(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name='run.checkpoint'):
+        return os.path.join(self.folder, name)
+
+    def start(self, params, **how):
+        node = harness.start(params, **how)
+        self.addCleanup(node.stop)
+        return node
+
+    def wait_for(self, condition, node):
+        self.assertTrue(harness.wait_until(condition), node.text())
+
+    def written_again(self, node, path):
+        now = written(path)
+        self.wait_for(lambda: written(path) not in (None, now), node)
+
+    def resumes(self, path):
+        node = self.start(dict(resume=path))
+        self.wait_for(lambda: node.lines('goes on from simulated time') or not node.running(), node)
+        self.stop(node, 0)
+        self.assertEqual(len(node.lines('goes on from simulated time')), 1, node.text())
+
+    def diagnostic(self, message):
+        status = rospy.wait_for_message('/diagnostics', DiagnosticArray, harness.PATIENCE).status[0]
+        return (status.level, message in status.message) == (DiagnosticStatus.ERROR, True)
+
+    def fill(self, path, condition):
+        """A part that is given up makes room again."""
+        def more():
+            try:
+                while True:
+                    filler.write(bytes(4096))
+            except OSError:
+                return condition()
+
+        with open(path, 'wb', buffering=0) as filler:
+            self.assertTrue(harness.wait_until(more))
+
+    def check_full(self, node, message):
+        """It says so, twice over, and goes on; at its end, too."""
+        self.wait_for(lambda: node.lines('checkpoint not written'), node)
+        self.assertIn(message, node.lines('checkpoint not written')[0])
+        self.wait_for(lambda: self.diagnostic(message), node)
+
+    def stop(self, node, status):
+        node.send(signal.SIGINT)
+        self.assertEqual(node.wait(), status, node.text())
+
+    # ---- paths that cannot be written ----
+
+    def test_refused_before_the_run(self):
+        plain, link, pipe = self.path('plain'), self.path('link'), self.path('pipe')
+        with open(plain, 'w') as file:
+            file.write('mine')
+        os.symlink(plain, link)
+        os.mkfifo(pipe)
+        os.mkdir(self.path('taken.part'))
+        os.symlink(plain, self.path('led.part'))
+        paths = [link, pipe, self.folder, plain + '/below', self.path('x' * 300), self.path('taken'),
+                 self.path('led'), '/dev/full', '/dev/null', '/proc/self/status', '/sys/new', self.path('no/such/folder')]
+        for first in range(0, len(paths), AT_ONCE):
+            some = paths[first:first + AT_ONCE]
+            nodes = [self.start(dict(SHORT, checkpoint=path), name='refused_%d' % k)
+                     for k, path in enumerate(some)]
+            for path, node in zip(some, nodes):
+                with self.subTest(path=path):
+                    self.assertEqual(node.wait(), FILE_FAULT, node.text())
+                    self.assertEqual(len(node.text().splitlines()), 1, node.text())
+                    self.assertIn(path[-100:], node.text())
+        with open(plain) as file:
+            self.assertEqual(file.read(), 'mine')
+        self.assertEqual(sorted(os.listdir(self.folder)), ['led.part', 'link', 'pipe', 'plain', 'taken.part'])
+
+    def test_resume_from_what_is_no_file(self):
+        """Without waiting for somebody to write."""
+        pipe = self.path('pipe')
+        os.mkfifo(pipe)
+        for path in (pipe, self.folder, '/dev/zero', '/dev/full', '/etc/passwd'):
+            with self.subTest(path=path):
+                node = self.start(dict(resume=path))
+                self.assertEqual(node.wait(), FILE_FAULT, node.text())
+                self.assertIn(path, node.text())
+
+    # ---- full disks ----
+
+    def test_full_disk(self):
+        disk = small_disk(self.folder, 2 << 20)
+        if disk is None:
+            print('no file system of its own here: only the limit of a file is tested')
+            return
+        node = self.start(dict(KEPT, checkpoint=self.path()), command=[*disk, harness.executable()])
+        seen = lambda name: '/proc/%d/root%s' % (node.process.pid, self.path(name))
+        self.wait_for(lambda: written(seen('run.checkpoint')), node)
+        self.fill(seen('filler'), lambda: node.lines('checkpoint not written'))
+        self.check_full(node, 'No space left on device')
+        copy = tempfile.NamedTemporaryFile()
+        self.addCleanup(copy.close)
+        shutil.copyfile(seen('run.checkpoint'), copy.name)
+        self.wait_for(lambda: 'run.checkpoint.part' not in os.listdir(seen('')), node)  # between two attempts
+        os.unlink(seen('filler'))
+        self.wait_for(lambda: node.lines('checkpoint written again'), node)
+        self.stop(node, 0)
+        self.resumes(copy.name)
+
+    def test_limit_of_a_file(self):
+        node = self.start(dict(KEPT, checkpoint=self.path()))
+        self.wait_for(lambda: written(self.path()), node)
+        resource.prlimit(node.process.pid, resource.RLIMIT_FSIZE, (50000, resource.RLIM_INFINITY))
+        self.check_full(node, 'File too large')
+        before = written(self.path())
+        self.stop(node, FILE_FAULT)
+        self.assertEqual(written(self.path()), before)
+        self.assertEqual(os.listdir(self.folder), ['run.checkpoint'])
+        self.resumes(self.path())
+
+    def test_folder_goes_away(self):
+        os.mkdir(self.path('below'))
+        node = self.start(dict(KEPT, checkpoint=self.path('below/run.checkpoint')))
+        self.wait_for(lambda: written(self.path('below/run.checkpoint')), node)
+        os.rename(self.path('below'), self.path('away'))
+        self.check_full(node, 'No such file or directory')
+        self.stop(node, FILE_FAULT)
+        self.resumes(self.path('away/run.checkpoint'))
+
+    # ---- killed ----
+
+    def test_killed_at_any_moment(self):
+        """A hundred times; each time it goes on from what the one before has left."""
+        randomly = random.Random(5)
+        rounds = KILLS // AT_ONCE
+        paths = [self.path('run_%d' % k) for k in range(AT_ONCE)]
+        for number in range(rounds):
+            there = [os.path.exists(path) for path in paths]
+            self.assertTrue(number == 0 or all(there))
+            nodes = [self.start(dict(KEPT, checkpoint=path, **(dict(resume=path) if before else {})),
+                                name='killed_%d' % k)
+                     for k, (path, before) in enumerate(zip(paths, there))]
+            left = [written(path) for path in paths]
+            for node, path, before in zip(nodes, paths, left):
+                self.wait_for(lambda: written(path) != before or not node.running(), node)
+            time.sleep(randomly.uniform(0.0, 0.03))
+            for node, before in zip(nodes, there):
+                self.assertTrue(node.running(), node.text())
+                node.send(signal.SIGKILL)
+                self.assertEqual(node.wait(), -signal.SIGKILL)
+                self.assertEqual(bool(node.lines('goes on from simulated time')), before)
+        for path in paths:
+            self.resumes(path)
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_disk')
+    rostest.rosrun('hdlyap', 'disk', Disk)

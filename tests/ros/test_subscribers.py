@@ -1,0 +1,192 @@
+#!/usr/bin/env python3
+"""Many subscribers, those that stop reading, come and go, or speak another language, and a master that is
+restarted: none of them slows the node, fills its memory or keeps it from ending."""
+
+import os
+import random
+import signal
+import socket
+import time
+import unittest
+
+import rospy
+import rostest
+
+import harness
+import links
+from harness import MODES, OBSERVABLES, SHORT, TYPES
+
+BOUND = 1.0     # seconds from a request to stop to the end, the contract
+MB = 1 << 20
+QUEUE_BYTES = 128e6     # of one topic at most, see outlets.c
+SLACK = 32 * MB         # of what is fragmented, and the node's own growth
+EVERY_TOPIC = dict(MODES, equilibration=1.0, warmup=1.0, duration=100.0, report_interval=0.25,
+                   observables=OBSERVABLES)
+REPORTS, AVERAGED_REPORTS = 408, 400
+# messages of 160 kB, thousands of them in a second
+BULKY = dict(disks=5000, exponents='none', observables=['state'], report_interval=0.02, duration=0.0)
+
+
+def resident(node):
+    """Bytes."""
+    with open('/proc/%d/statm' % node.process.pid) as file:
+        return int(file.read().split()[1]) * os.sysconf('SC_PAGE_SIZE')
+
+
+def open_files(node):
+    return len(os.listdir('/proc/%d/fd' % node.process.pid))
+
+
+class Subscribers(unittest.TestCase):
+    def start(self, params, **kw):
+        node = harness.start(params, **kw)
+        self.addCleanup(node.stop)
+        return node
+
+    def link(self, port, topic, name='/links'):
+        link = links.Link(port, topic, name)
+        self.addCleanup(link.close)
+        return link
+
+    def read(self, some):
+        reader = links.Reader(some)
+        self.addCleanup(reader.join, harness.PATIENCE)
+        return reader
+
+    def stop(self, node):
+        begin = time.monotonic()
+        node.send(signal.SIGINT)
+        self.assertEqual(node.wait(), 0, node.text())
+        self.assertLess(time.monotonic() - begin, BOUND)
+
+    def wait_for(self, condition):
+        self.assertTrue(harness.wait_until(condition))
+
+    def test_ten_on_every_topic(self):
+        node = self.start(dict(EVERY_TOPIC, wait_for_subscribers='all'))
+        port = links.node_port(node)
+        ten = {topic: [self.link(port, topic, '/links_%d' % k) for k in range(10)]
+               for topic in TYPES if topic != 'run_info'}
+        for some in ten.values():
+            for link in some:
+                link.greet()
+        ten['run_info'] = [self.link(port, 'run_info')]     # the run waits for it alone now
+        reader = self.read(sum(ten.values(), []))
+        self.assertEqual(node.wait(), 0, node.text())
+        reader.join(harness.PATIENCE)
+        for topic, some in ten.items():
+            with self.subTest(topic=topic):
+                self.assertEqual({link.gaps() for link in some}, {0})
+                self.assertEqual(len({tuple(link.seqs) for link in some}), 1)
+        counts = {topic: len(some[0].seqs) for topic, some in ten.items()}
+        self.assertGreater(counts.pop('fields'), AVERAGED_REPORTS / 2)
+        self.assertEqual(counts, dict(run_info=1, state=REPORTS, cost=REPORTS,
+                                      **{topic: AVERAGED_REPORTS for topic in
+                                         ('spectrum', 'modes', 'steps', 'lp_phases', 'hydro')}))
+
+    def test_stopped_reading(self):
+        """What they have not read is dropped; memory stays that of one queue, which they share."""
+        node = self.start(dict(BULKY, wait_for_subscribers=['state', 'cost']))
+        port = links.node_port(node)
+        deaf = [self.link(port, 'state', '/deaf_%d' % k) for k in range(3)]
+        for link in deaf:
+            link.greet()
+        before = resident(node)
+        cost = self.link(port, 'cost')
+        self.read([cost])
+        reports = int(4 * QUEUE_BYTES / (4 * 8 * BULKY['disks']))
+        self.wait_for(lambda: len(cost.seqs) > reports)
+        self.assertEqual(cost.gaps(), 0)
+        self.assertLess(resident(node) - before, QUEUE_BYTES + SLACK)
+        self.stop(node)
+        self.assertEqual(cost.gaps(), 0)
+
+    def test_flood(self):
+        """Thousands of reports in a second, on all topics, nothing else to do."""
+        for disks in (2, 10):
+            with self.subTest(disks=disks):
+                node = self.start(dict(disks=disks, density=0.3, aspect=1.0, exponents='all',
+                                       equilibration=0.1, warmup=0.1, duration=0.0,
+                                       report_interval=1.0e-4, observables=OBSERVABLES,
+                                       wait_for_subscribers='all'))
+                port = links.node_port(node)
+                every = [self.link(port, topic) for topic in TYPES]
+                before = resident(node)
+                self.read(every)
+                state = next(link for link in every if link.topic == 'state')
+                self.wait_for(lambda: len(state.seqs) > 5000)
+                queues = sum(1000 * link.bytes / max(len(link.seqs), 1) for link in every
+                             if link.topic != 'run_info')
+                self.assertLess(resident(node) - before, queues + SLACK)
+                self.stop(node)
+
+    def test_come_and_go(self):
+        """Hundreds of times, at all stages of a connection."""
+        randomly = random.Random(1)
+        node = self.start(dict(EVERY_TOPIC, duration=0.0, pace=25.0, wait_for_subscribers=['cost']))
+        port = links.node_port(node)
+        cost = self.link(port, 'cost')
+        self.read([cost])
+        self.wait_for(lambda: len(cost.seqs) > 10)
+        files, before = open_files(node), resident(node)
+        for k in range(400):
+            guest = links.Link(port, randomly.choice(list(TYPES)), '/guest_%d' % k)
+            if randomly.random() < 0.7:
+                guest.greet()
+            guest.close()
+        self.wait_for(lambda: open_files(node) <= files)
+        self.assertLess(resident(node) - before, SLACK)
+        now = len(cost.seqs)
+        self.wait_for(lambda: len(cost.seqs) > now + 10)
+        self.stop(node)
+        self.assertEqual(cost.gaps(), 0)
+
+    def test_another_language(self):
+        """Neither the port for subscribers nor that for calls minds noise; it runs on, unharmed."""
+        randomly = random.Random(2)
+        node = self.start(dict(SHORT, duration=0.0, pace=20.0, wait_for_subscribers=['cost']))
+        port = links.node_port(node)
+        calls = int(links.node_uri(node).rstrip('/').rsplit(':', 1)[1])
+        cost = self.link(port, 'cost')
+        self.read([cost])
+        for k in range(40):
+            noise = [bytes(randomly.choices(range(256), k=randomly.randrange(1, 2000))), b'\xff' * 4 + b'a' * 100,
+                     b'POST / HTTP/1.1\r\nContent-Length: -5\r\n\r\n<methodCall>',
+                     links.pack(dict(md5sum='0' * 32, topic='/hdlyap/state', callerid='%n%s')),
+                     links.LENGTH.pack(8) + links.LENGTH.pack(0x7fffffff) + b'abcd'][k % 5]
+            with socket.create_connection(('localhost', (port, calls)[k % 2])) as stranger:
+                stranger.sendall(noise)
+        now = len(cost.seqs)
+        self.wait_for(lambda: len(cost.seqs) > now + 10)
+        self.assertTrue(links.answers(links.node_uri(node), node.process.pid))
+        self.stop(node)
+        self.assertEqual(cost.gaps(), 0)
+
+    def test_master_restarted(self):
+        """Connections outlive it; the node ends in an orderly way. The new master does not know the node."""
+        master = harness.Master()
+        uri, port_of_master = master.uri, int(master.uri.rsplit(':', 1)[1])
+        self.addCleanup(master.stop)
+        node = self.start(dict(SHORT, duration=0.0, pace=20.0, wait_for_subscribers=['cost', 'state']),
+                          ROS_MASTER_URI=uri)
+        port = links.node_port(node, uri)
+        some = [self.link(port, topic) for topic in ('cost', 'state')]
+        self.read(some)
+        for _ in range(3):
+            now = len(some[0].seqs)
+            self.wait_for(lambda: len(some[0].seqs) > now + 5)
+            master.stop()
+            now = len(some[0].seqs)
+            self.wait_for(lambda: len(some[0].seqs) > now + 5)
+            master = harness.Master(port_of_master)
+            self.addCleanup(master.stop)
+        late = self.link(port, 'cost', '/late')
+        late.greet()
+        self.stop(node)
+        self.assertEqual([link.gaps() for link in some], [0, 0])
+        self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_subscribers')
+    rostest.rosrun('hdlyap', 'subscribers', Subscribers)
