@@ -205,7 +205,8 @@ int main(int argc, char **argv)
     hd_blas_restart_if_slow(argv);
     const hdr_status created = hdr_node_create(&a.ros, &argc, argv, "hdlyap", stop_seconds,
                                                fault_status(HD_NO_MEMORY));
-    if (created != HDR_OK) return failed_status(created);
+    /* roscpp that has started by half does not survive the end of main */
+    if (created != HDR_OK) _exit(failed_status(created));
     if (!a.ros) return EXIT_SUCCESS;
     const int status = argc > 1 ? refuse_argument(argv[1]) : run(&a);
     app_free(&a);
