@@ -38,6 +38,7 @@ type_in() {
 
 beside_a_node() {
     local node status=0
+    rosparam delete /hdlyap 2>/dev/null || true # of a launch before
     start rosrun hdlyap hdlyap_node _disks:=100 _density:=0.8 _aspect:=0.2 _duration:=2000 _pace:=300
     node=$CHILD
     run "$@" || status=$?
