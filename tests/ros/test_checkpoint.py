@@ -124,6 +124,16 @@ class Checkpoint(unittest.TestCase):
         self.ends(self.start(dict(RUN, checkpoint='/no/such/file')), 4, '/no/such/file')
         self.assertEqual(os.listdir(folder), [os.path.basename(self.file)])
 
+    def test_another_runs_file_is_set_aside(self):
+        for seed, files in (('1', ['run.checkpoint']), ('2', ['run.checkpoint', 'run.checkpoint.old'])):
+            self.recorded(dict(RUN, seed=seed, duration=5.0, checkpoint=self.file))
+            self.assertEqual(sorted(os.listdir(os.path.dirname(self.file))), files)
+        self.ends(self.start(dict(resume=self.file + '.old', seed='1')), 0)
+        node = self.start(dict(resume=self.file, checkpoint=self.file, seed='2', duration=6.0))
+        self.ends(node, 0)
+        self.assertNotIn('another run', node.text())
+        self.ends(self.start(dict(resume=self.file + '.old', duration=5.0)), 0)
+
     def test_service(self):
         node = self.start(dict(LONG, checkpoint=self.file, checkpoint_interval=0.0))
         answer = self.call('checkpoint', Trigger)

@@ -1,7 +1,12 @@
 /** Settings and run -> checkpoints. */
 #include "keeper.h"
 
+#include <errno.h>
+#include <limits.h>
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
 
 #include "clock.h"
 #include "hdlyap_ros/node.h"
@@ -10,6 +15,27 @@ static double next_due(const settings *set)
 {
     const bool periodic = *set->checkpoint && set->checkpoint_interval > 0.0;
     return periodic ? clock_seconds() + set->checkpoint_interval : INFINITY;
+}
+
+static bool is_same_file(const struct stat *a, const char *path)
+{
+    struct stat b;
+    return *path && stat(path, &b) == 0 && a->st_dev == b.st_dev && a->st_ino == b.st_ino;
+}
+
+hd_status keeper_set_aside(const settings *set, char *message, size_t size)
+{
+    char old[PATH_MAX];
+    struct stat found;
+    if (!*set->checkpoint || stat(set->checkpoint, &found) != 0) return HD_OK;
+    if (is_same_file(&found, set->resume)) return HD_OK;
+    const int length = snprintf(old, sizeof old, "%s.old", set->checkpoint);
+    if (length >= (int)sizeof old || rename(set->checkpoint, old) != 0) {
+        snprintf(message, size, "%.200s: cannot be set aside: %s", set->checkpoint, strerror(errno));
+        return HD_FILE_FAULT;
+    }
+    hdr_log(HDR_WARN, "%s is of another run: it is now %s", set->checkpoint, old);
+    return HD_OK;
 }
 
 keeper keeper_of(const settings *set)

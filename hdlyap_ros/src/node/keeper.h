@@ -20,6 +20,10 @@ typedef struct keeper {
 
 keeper keeper_of(const settings *set);
 
+/** Another run's file of that name, unless it is the one that is gone on from, becomes `name`.old; the log says so.
+ *  HD_FILE_FAULT with its line in message. */
+HD_MUST_CHECK hd_status keeper_set_aside(const settings *set, char *message, size_t size);
+
 /** True once the interval has passed since the last attempt. */
 bool keeper_due(const keeper *k);
 
