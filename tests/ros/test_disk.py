@@ -155,6 +155,16 @@ class Disk(unittest.TestCase):
         self.stop(node, 0)
         self.resumes(copy.name)
 
+    def test_no_room_at_the_start(self):
+        """The first file is written before the run."""
+        info = harness.Listener('run_info')
+        self.addCleanup(info.close)
+        node = self.start(dict(KEPT, checkpoint=self.path()),
+                          command=['prlimit', '--fsize=100000', harness.executable()])
+        self.assertEqual(node.wait(), FILE_FAULT, node.text())
+        self.assertEqual(len(node.lines('File too large')), 1, node.text())
+        self.assertEqual((os.listdir(self.folder), info.messages), ([], []))
+
     def test_limit_of_a_file(self):
         node = self.start(dict(KEPT, checkpoint=self.path()))
         self.wait_for(lambda: written(self.path()), node)

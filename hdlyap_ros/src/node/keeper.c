@@ -23,11 +23,11 @@ static bool is_same_file(const struct stat *a, const char *path)
     return *path && stat(path, &b) == 0 && a->st_dev == b.st_dev && a->st_ino == b.st_ino;
 }
 
-hd_status keeper_set_aside(const settings *set, char *message, size_t size)
+static hd_status set_aside(const settings *set, char *message, size_t size)
 {
     char old[PATH_MAX];
     struct stat found;
-    if (!*set->checkpoint || stat(set->checkpoint, &found) != 0) return HD_OK;
+    if (stat(set->checkpoint, &found) != 0) return HD_OK;
     if (is_same_file(&found, set->resume)) return HD_OK;
     const int length = snprintf(old, sizeof old, "%s.old", set->checkpoint);
     if (length >= (int)sizeof old || rename(set->checkpoint, old) != 0) {
@@ -38,9 +38,18 @@ hd_status keeper_set_aside(const settings *set, char *message, size_t size)
     return HD_OK;
 }
 
-keeper keeper_of(const settings *set)
+hd_status keeper_begin(const settings *set, hd_run *run, char *message, size_t size)
 {
-    return (keeper){.set = set, .due = next_due(set), .state = {.time = -1.0}};
+    if (!*set->checkpoint) return HD_OK;
+    const hd_status status = set_aside(set, message, size);
+    return status == HD_OK ? hd_run_save(run, set->checkpoint, set->scene, message, size) : status;
+}
+
+keeper keeper_of(const settings *set, const hd_run *run)
+{
+    return (keeper){.set = set,
+                    .due = next_due(set),
+                    .state = {.time = *set->checkpoint ? hd_run_time(run) : -1.0}};
 }
 
 bool keeper_due(const keeper *k) { return k->due < INFINITY && clock_seconds() >= k->due; }

@@ -8,7 +8,7 @@
 /** What others may know of it. */
 typedef struct kept {
     bool failed;       /**< the last attempt */
-    double time;       /**< simulated time of the last file that is whole; negative: none */
+    double time;       /**< simulated time of the last file that is whole; -1: no file */
     char message[512]; /**< of the last failure */
 } kept;
 
@@ -18,11 +18,12 @@ typedef struct keeper {
     kept state;
 } keeper;
 
-keeper keeper_of(const settings *set);
+/** Writes the first file, so that what cannot be kept is not begun. Another run's file of that name, unless it is the one
+ *  that is gone on from, becomes `name`.old; the log says so. Fails as hd_run_save, with its line in message. */
+HD_MUST_CHECK hd_status keeper_begin(const settings *set, hd_run *run, char *message, size_t size);
 
-/** Another run's file of that name, unless it is the one that is gone on from, becomes `name`.old; the log says so.
- *  HD_FILE_FAULT with its line in message. */
-HD_MUST_CHECK hd_status keeper_set_aside(const settings *set, char *message, size_t size);
+/** Of a run that has begun so. */
+keeper keeper_of(const settings *set, const hd_run *run);
 
 /** True once the interval has passed since the last attempt. */
 bool keeper_due(const keeper *k);

@@ -98,7 +98,7 @@ static int create_run(app *a)
         status = hd_run_resume(&a->run, set->resume, &set->def, message, sizeof message);
     else if (status == HD_OK)
         status = hd_run_create(&a->run, &set->def, message, sizeof message);
-    if (status == HD_OK) status = keeper_set_aside(set, message, sizeof message);
+    if (status == HD_OK) status = keeper_begin(set, a->run, message, sizeof message);
     if (*set->checkpoint) hdr_node_stop_within(stop_keeping_seconds);
     return fault_logged(status, message);
 }

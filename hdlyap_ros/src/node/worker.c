@@ -173,7 +173,7 @@ bool worker_create(worker **out, hd_run *run, report *rep, const settings *set)
     w->rep = rep;
     w->set = set;
     w->state.last = progress_of(run);
-    w->keep = keeper_of(set);
+    w->keep = keeper_of(set, run);
     w->state.checkpoint = w->keep.state;
     locks_create(w);
     if (pthread_create(&w->thread, NULL, work, w) == 0) return true;
@@ -223,13 +223,13 @@ static bool saved(worker *w, double until, char *message, size_t size)
 {
     const kept *k = &w->state.checkpoint;
     while (w->save && w->state.stage != WORKER_ENDED && wait_until(w, until)) continue;
-    const bool done = !w->save && !k->failed && k->time >= 0.0;
+    const bool done = !w->save && !k->failed;
     if (done)
         snprintf(message, size, "%s: simulated time %.6g", w->set->checkpoint, k->time);
     else if (w->save)
         snprintf(message, size, "it will be written after the step that is under way");
     else
-        snprintf(message, size, "%s", k->failed ? k->message : "the run has not begun");
+        snprintf(message, size, "%s", k->message);
     return done;
 }
 
