@@ -44,7 +44,7 @@ static void clocks_archive(hd_run *run, hd_archive *archive)
 {
     const double now = hd_clock_now();
     double wall = now - run->created,
-           carried = run->frame_started > 0 ? now - run->frame_started : -1.0;
+           carried = run->frame_started != 0 ? now - run->frame_started : -1.0;
     hd_archive_double(archive, "run wall", &wall);
     hd_archive_double(archive, "run wall carried", &carried);
     if (archive->writing) return;
@@ -192,7 +192,9 @@ static int threads_of(int asked, int before)
 /** A run that had finished goes on if it has become longer. */
 static hd_status reopen(hd_run *run, char *message, size_t size)
 {
-    const double averaged = run->now - run->schedule.start;
+    const double averaged = run->now - run->schedule.start, target = run->scene.target_std_error;
+    const bool finished = run->schedule.phase == HD_FINISHED && run->spectrum;
+    if (finished && target > 0 && hd_run_smallest_error(run) <= target) return HD_OK;
     if (run->schedule.phase < HD_AVERAGING || hd_schedule_reopen(&run->schedule, run->now))
         return HD_OK;
     return hd_refuse(message, size,
@@ -208,8 +210,11 @@ static hd_status restore(hd_run *run, hd_archive *archive, double time, char *me
     hd_archive_expect(archive, run->now == time, "time", "it is not that of the disks");
     if (hd_archive_end(archive) != HD_OK) return inconsistent(archive, message, size);
     HD_TRY(reopen(run, message, size));
+    run->interval_end = fmin(run->interval_end, /* of a duration that has become shorter */
+                             fmax(run->now, hd_schedule_phase_end(&run->schedule)));
     times_expect(run, archive);
-    run->step_max = fmin(run->step_max, hd_run_step_bound(run)); /* else a file can ask for a step without end */
+    run->step_max = fmin(run->step_max,
+                         hd_run_step_bound(run)); /* else a file can ask for a step without end */
     return hd_archive_good(archive) ? HD_OK : inconsistent(archive, message, size);
 }
 

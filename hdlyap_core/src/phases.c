@@ -347,6 +347,7 @@ static void rotor_add(rotor *r, const hd_step *step, const hd_modes *modes, doub
         return;
     }
     const bool same = r->col == step->col && r->count == step->count;
+    if (same && r->samples > 1 && dt < 0.5 * r->dt) return; /* the end of the averaging cuts a piece short */
     const bool paused = r->samples > 1 && dt > 1.5 * r->dt;
     const bool coarse = same && !paused && dt * SAFE > safe_sampling(step);
     if (!same || paused || coarse) {

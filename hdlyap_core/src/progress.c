@@ -68,7 +68,7 @@ hd_cost hd_run_cost(const hd_run *run)
     if (run->schedule.phase == HD_FINISHED) cost.progress = 1.0;
     const double carried = run->now -
                            run->frame_start_time; /* equilibration is no measure of the rest */
-    const bool known = left == 0 || (run->frame_started > 0 && carried > 0 && left < INFINITY);
+    const bool known = left == 0 || (run->frame_started != 0 && carried > 0 && left < INFINITY);
     cost.remaining = !known ? -1.0 : left == 0 ? 0.0 : left * (now - run->frame_started) / carried;
     return cost;
 }

@@ -26,7 +26,7 @@ static const double DEFECT_MEASURED = 1e-6;
 static const double CONDITION_TAIL = 1e4;
 static const double COLLISIONS_PER_SAMPLE = 64.0; /* of one disk, at most */
 static const double EVENTS_PER_STEP = 200000.0;   /* bounds memory, and the wait for an answer */
-/** Of what is so short, or nothing, how long a step may be is not learnt: events at its start would count. */
+/** No step is planned shorter: simulated time must move. */
 static const double STEP_MIN = 1e-12;
 /** Householder reflections stay right to eps * condition: 1e-3 of one interval, once. */
 static const double CONDITION_STABLE = 1e13;
@@ -51,7 +51,8 @@ static hd_status prepare_frame(hd_run *run)
 {
     const int rows = 4 * run->scene.disks, n = run->vectors;
     run->threads = hd_threads_most(run->scene.threads, rows, n);
-    if (run->threads > 1) HD_TRY(hd_blas_room(run->threads)); /* one has its buffer since the start */
+    if (run->threads > 1)
+        HD_TRY(hd_blas_room(run->threads)); /* one has its buffer since the start */
     hd_blas_use_threads(run->threads);
     HD_TRY(hd_event_log_create(&run->log));
     HD_TRY(hd_ortho_create(&run->ortho, rows, n));
@@ -145,7 +146,7 @@ static void enter_phase(hd_run *run, hd_phase phase)
     phase = run->schedule.phase;
     if (run->spectrum && phase == HD_AVERAGING) averages_clear(run);
     if (phase == HD_AVERAGING) run->rounding = HD_ROUNDING * run->condition_max;
-    if (phase == HD_EQUILIBRATING || run->frame_started > 0) return;
+    if (phase == HD_EQUILIBRATING || run->frame_started != 0) return;
     run->frame_started = hd_clock_now();
     run->frame_start_time = run->now;
 }
@@ -260,7 +261,8 @@ static hd_status frame_interval(hd_run *run)
         if (status == HD_OK) {
             piece_accepted(run, piece);
             begin = end;
-            end = duration - end < 1.5 * piece ? duration : end + piece; /* no crumb of rounding is left */
+            end = duration - end < 1.5 * piece ? duration
+                                               : end + piece; /* no crumb of rounding is left */
             continue;
         }
         if (piece <= shortest_piece(run)) return HD_ILL_CONDITIONED;
@@ -301,8 +303,9 @@ static hd_status advance_disks(hd_run *run, hd_event_log *log, double length, do
     HD_TRY(hd_trajectory_extend(run->trajectory, log, end));
     run->now = end;
     const double events = fmax(1.0, (double)(events_so_far(run) - before));
-    run->step_max = fmin(4.0 * fmax(length, run->step_max / 4.0),
-                         length * EVENTS_PER_STEP / events);
+    if (length > 0)
+        run->step_max = fmin(4.0 * fmax(length, run->step_max / 4.0),
+                             length * EVENTS_PER_STEP / events);
     run->cost.events += hd_clock_now() - start;
     if (HD_VERIFIES) hd_verify_disks(run->trajectory, &run->scene);
     if (HD_VERIFIES && log) hd_verify_log(log, run->scene.disks);
@@ -409,8 +412,7 @@ static void plan_interval(hd_run *run)
     const double end = hd_schedule_sample_end(&run->schedule), left = end - run->now;
     const double most = step_longest(run);
     hd_interval_length next = hd_interval_next(&run->interval, left);
-    if (next.length > most)
-        next = (hd_interval_length){left / ceil(left / most), HD_LIMIT_EVENTS};
+    if (next.length > most) next = (hd_interval_length){left / ceil(left / most), HD_LIMIT_EVENTS};
     next.length = fmax(next.length, step_min(run));
     run->interval_end = next.length >= left ? end : run->now + next.length;
     run->cost.limit = next.limit;

@@ -114,6 +114,7 @@ bool hd_schedule_reopen(hd_schedule *s, double now)
 {
     const double last = hd_schedule_phase_end(s), close = CLOSE * s->sample_length;
     if (s->phase == HD_FINISHED && now < last - close) s->phase = HD_AVERAGING;
+    if (s->phase == HD_AVERAGING && now >= last) s->phase = HD_FINISHED;
     return now <= last + close;
 }
 

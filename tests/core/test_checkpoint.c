@@ -236,6 +236,86 @@ static void a_finished_run_can_be_made_longer(void **state)
     hd_run_free(once);
 }
 
+/** At every moment of the averaging: what has been averaged, and hardly more, is a duration; what comes of it is a file
+ *  that can be gone on from. */
+static void the_duration_can_end_at_once(void **state)
+{
+    (void)state;
+    static const double more[] = {0.0, 0.01, 0.1, 0.35, -1e-9};
+    const hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL);
+    hd_run *run = kept_run(&def);
+    for (int k = 0; kept_steps(run, 1) == 1; k++) {
+        if (hd_run_phase(run) != HD_AVERAGING || hd_run_time(run) == run->schedule.start) continue;
+        hd_scene_def shorter = def;
+        shorter.duration = hd_run_time(run) - run->schedule.start + more[k % 5];
+        hd_run *ended = kept_and_resumed(run, PATH, &shorter);
+        kept_steps(ended, 1000);
+        assert_int_equal(hd_run_phase(ended), HD_FINISHED);
+        hd_run_free(kept_and_resumed(ended, PATH, &def));
+        hd_run_free(ended);
+    }
+    hd_run_free(run);
+}
+
+/** A step of no length teaches nothing. */
+static void phases_too_short_for_the_time_to_move_are_kept(void **state)
+{
+    (void)state;
+    hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
+    def.equilibration = 100.0;
+    def.warmup = 1e-15;
+    def.duration = 2.0;
+    hd_run *run = kept_run(&def);
+    for (int taken = 1; taken == 1; taken = kept_steps(run, 1))
+        hd_run_free(kept_and_resumed(run, PATH, &def));
+    hd_run_free(run);
+}
+
+static void what_the_target_has_ended_stays_ended(void **state)
+{
+    (void)state;
+    hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
+    def.duration = 0.0;
+    def.target_std_error = 0.05;
+    hd_run *run = kept_run(&def);
+    kept_steps(run, 100000);
+    assert_int_equal(hd_run_phase(run), HD_FINISHED);
+    hd_run *again = kept_and_resumed(run, PATH, &def);
+    assert_int_equal(hd_run_phase(again), HD_FINISHED);
+    hd_run_free(again);
+    def.target_std_error = 0.04;
+    again = kept_and_resumed(run, PATH, &def);
+    assert_int_equal(hd_run_phase(again), HD_AVERAGING);
+    hd_run_free(again);
+    hd_run_free(run);
+}
+
+/** Turns of a thousandth of a sample say nothing about a velocity, and end no tracking. */
+static void an_end_that_cuts_a_sample_short_keeps_the_phases(void **state)
+{
+    (void)state;
+    hd_scene_def def = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL);
+    def.duration = 40.0;
+    hd_scene_def odd = def, longer = def;
+    odd.duration = 40.001;
+    longer.duration = 60.0;
+    hd_run *even = kept_run(&def), *cut = kept_run(&odd);
+    kept_steps(even, 100000);
+    kept_steps(cut, 100000);
+    const hd_velocity v = hd_phases_velocity(hd_run_phases(even));
+    assert_true(v.phases > 0);
+    CHECK_CLOSE(hd_phases_velocity(hd_run_phases(cut)).v, v.v, 0.1 * v.v_error);
+    hd_run *resumed = kept_and_resumed(cut, PATH, &longer);
+    kept_steps(resumed, 100000);
+    double longest = 0.0;
+    for (int k = 0; k < hd_phases_count(hd_run_phases(resumed)); k++)
+        longest = fmax(longest, hd_phases_phase(hd_run_phases(resumed), k)->time);
+    assert_true(longest > 30.0); /* it was not begun anew at 40 */
+    hd_run_free(even);
+    hd_run_free(cut);
+    hd_run_free(resumed);
+}
+
 static void expect_refused(const hd_scene_def *asked, hd_status expected, const char *word)
 {
     hd_run *run;
@@ -316,6 +396,10 @@ int main(void)
         cmocka_unit_test(pending_events_are_kept),
         cmocka_unit_test(clocks_and_costs_go_on),
         cmocka_unit_test(a_finished_run_can_be_made_longer),
+        cmocka_unit_test(the_duration_can_end_at_once),
+        cmocka_unit_test(phases_too_short_for_the_time_to_move_are_kept),
+        cmocka_unit_test(what_the_target_has_ended_stays_ended),
+        cmocka_unit_test(an_end_that_cuts_a_sample_short_keeps_the_phases),
         cmocka_unit_test(what_cannot_change_is_refused_by_name),
         cmocka_unit_test(it_says_whose_it_is),
     };

@@ -124,15 +124,42 @@ class Checkpoint(unittest.TestCase):
         self.ends(self.start(dict(RUN, checkpoint='/no/such/file')), 4, '/no/such/file')
         self.assertEqual(os.listdir(folder), [os.path.basename(self.file)])
 
-    def test_another_runs_file_is_set_aside(self):
-        for seed, files in (('1', ['run.checkpoint']), ('2', ['run.checkpoint', 'run.checkpoint.old'])):
+    def test_what_was_there_is_set_aside(self):
+        old = [self.file, self.file + '.old', self.file + '.old2']
+        for seed in ('1', '2', '3'):
             self.recorded(dict(RUN, seed=seed, duration=5.0, checkpoint=self.file))
-            self.assertEqual(sorted(os.listdir(os.path.dirname(self.file))), files)
-        self.ends(self.start(dict(resume=self.file + '.old', seed='1')), 0)
-        node = self.start(dict(resume=self.file, checkpoint=self.file, seed='2', duration=6.0))
+        folder = os.path.dirname(self.file)
+        self.assertEqual(sorted(os.listdir(folder)), [os.path.basename(name) for name in old])
+        for name, seed in zip(old, ('3', '1', '2')):
+            self.ends(self.start(dict(resume=name, seed=seed)), 0)
+        node = self.start(dict(resume=self.file, checkpoint=self.file, duration=6.0))
         self.ends(node, 0)
-        self.assertNotIn('another run', node.text())
-        self.ends(self.start(dict(resume=self.file + '.old', duration=5.0)), 0)
+        self.assertNotIn('there already', node.text())
+        # the way back after a start by accident
+        self.ends(self.start(dict(resume=old[1], checkpoint=self.file, duration=6.0)), 0, 'run.checkpoint.old3')
+        self.ends(self.start(dict(resume=old[1], seed='1', duration=5.0)), 0)
+        self.ends(self.start(dict(resume=old[0], seed='1', duration=6.0)), 0)
+
+    def test_two_runs_with_one_file(self):
+        """The second one has it."""
+        params = dict(LONG, checkpoint=self.file, checkpoint_interval=0.05)
+        first = self.start(dict(params, seed='1'), name='first')
+        self.assertTrue(harness.wait_until(lambda: os.path.exists(self.file)))
+        second = self.start(dict(params, seed='2'), name='second')
+        self.assertTrue(harness.wait_until(lambda: first.lines('another process has replaced it')))
+        for node, status in ((first, 4), (second, 0)):
+            node.send(signal.SIGINT)
+            self.ends(node, status)
+        self.ends(self.start(dict(resume=self.file, seed='2', duration=1e-3)), 2, 'duration')
+
+    def test_while_paused(self):
+        """What has happened before the pause is in the file."""
+        node = self.start(dict(LONG, checkpoint=self.file, checkpoint_interval=1.5, pace=50.0))
+        self.assertTrue(self.call('pause', SetBool, True).success)
+        written = os.stat(self.file).st_ino
+        self.assertTrue(harness.wait_until(lambda: os.stat(self.file).st_ino != written))
+        node.send(signal.SIGINT)
+        self.ends(node, 0)
 
     def test_service(self):
         node = self.start(dict(LONG, checkpoint=self.file, checkpoint_interval=0.0))
@@ -144,6 +171,9 @@ class Checkpoint(unittest.TestCase):
         answer = self.call('checkpoint', Trigger)
         self.assertTrue(answer.success, answer.message)
         self.assertNotEqual(os.stat(self.file).st_ino, first.st_ino)
+        current = os.stat(self.file)
+        self.assertTrue(self.call('checkpoint', Trigger).success)
+        self.assertEqual(os.stat(self.file).st_ino, current.st_ino)     # nothing has happened since
         node.send(signal.SIGINT)
         self.ends(node, 0)
 

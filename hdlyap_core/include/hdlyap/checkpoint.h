@@ -2,7 +2,7 @@
  *
  *  The file is a list of named arrays behind a head with format, length and checksum (doc/survival.md). It
  *  holds disks, pending events, frame, averages, phases and what the intervals have taught; so a run that was taken up
- *  has the same events bit for bit, and with the same number of threads and BLAS kernels the same exponents. */
+ *  has the same events bit for bit, and with the same number of threads, BLAS kernels and stages observed the same exponents. */
 #ifndef HDLYAP_CHECKPOINT_H
 #define HDLYAP_CHECKPOINT_H
 
@@ -23,7 +23,7 @@ typedef struct hd_checkpoint {
 
 /** Writes the run, between two steps, to `path`: to `path`.part first, which replaces the file only when it is whole and
  *  on the disk. label (at most HD_CHECKPOINT_LABEL - 1 bytes of it) is kept. HD_FILE_FAULT with one line in
- *  message (the file, the reason); an older file then stays as it was. Cost: 32 N n bytes. */
+ *  message (the file, the reason), HD_NOT_FINITE if a number of the run is none; an older file then stays as it was. Cost: 32 N n bytes. */
 HD_MUST_CHECK hd_status hd_run_save(hd_run *run, const char *path, const char *label, char *message,
                                     size_t size);
 

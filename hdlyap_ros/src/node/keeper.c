@@ -7,9 +7,12 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "clock.h"
 #include "hdlyap_ros/node.h"
+
+enum { OLD_FILES_MAX = 99 };
 
 static double next_due(const settings *set)
 {
@@ -17,53 +20,114 @@ static double next_due(const settings *set)
     return periodic ? clock_seconds() + set->checkpoint_interval : INFINITY;
 }
 
-static bool is_same_file(const struct stat *a, const char *path)
+static hd_status fault(const char *path, const char *what, char *message, size_t size)
 {
-    struct stat b;
-    return *path && stat(path, &b) == 0 && a->st_dev == b.st_dev && a->st_ino == b.st_ino;
+    snprintf(message, size, "%.200s: %s", path, what);
+    return HD_FILE_FAULT;
 }
 
-static hd_status set_aside(const settings *set, char *message, size_t size)
+/* ---- the first file --------------------------------------------------------------------------- */
+
+/** True if there is a file of that name which is not the one that is gone on from. */
+static bool is_anothers(const settings *set)
 {
-    char old[PATH_MAX];
-    struct stat found;
-    if (stat(set->checkpoint, &found) != 0) return HD_OK;
-    if (is_same_file(&found, set->resume)) return HD_OK;
-    const int length = snprintf(old, sizeof old, "%s.old", set->checkpoint);
-    if (length >= (int)sizeof old || rename(set->checkpoint, old) != 0) {
-        snprintf(message, size, "%.200s: cannot be set aside: %s", set->checkpoint, strerror(errno));
-        return HD_FILE_FAULT;
+    struct stat there, resumed;
+    if (stat(set->checkpoint, &there) != 0) return false;
+    return !*set->resume || stat(set->resume, &resumed) != 0 || there.st_dev != resumed.st_dev ||
+           there.st_ino != resumed.st_ino;
+}
+
+static hd_status set_aside(const char *path, char *message, size_t size)
+{
+    char old[PATH_MAX] = "";
+    for (int k = 1; k <= OLD_FILES_MAX; k++) {
+        char number[8] = "";
+        if (k > 1) snprintf(number, sizeof number, "%d", k);
+        const int length = snprintf(old, sizeof old, "%s.old%s", path, number);
+        if (length >= (int)sizeof old) return fault(path, strerror(ENAMETOOLONG), message, size);
+        if (access(old, F_OK) == 0) continue;
+        if (rename(path, old) != 0) return fault(path, strerror(errno), message, size);
+        hdr_log(HDR_WARN, "%s was there already: it is now %s", path, old);
+        return HD_OK;
     }
-    hdr_log(HDR_WARN, "%s is of another run: it is now %s", set->checkpoint, old);
+    return fault(path, "is there already, and so are .old to .old99", message, size);
+}
+
+/** Beside what is there; which goes only when this is whole. */
+static hd_status save_first(const settings *set, hd_run *run, char *message, size_t size)
+{
+    char first[PATH_MAX];
+    if (!is_anothers(set)) return hd_run_save(run, set->checkpoint, set->scene, message, size);
+    if (snprintf(first, sizeof first, "%s.new", set->checkpoint) >= (int)sizeof first)
+        return fault(set->checkpoint, strerror(ENAMETOOLONG), message, size);
+    hd_status status = hd_run_save(run, first, set->scene, message, size);
+    if (status != HD_OK) return status;
+    status = set_aside(set->checkpoint, message, size);
+    if (status == HD_OK && rename(first, set->checkpoint) != 0)
+        status = fault(set->checkpoint, strerror(errno), message, size);
+    if (status != HD_OK) (void)unlink(first);
+    return status;
+}
+
+/** Whose the file is: a rename makes it another one. */
+static void remember(keeper *k)
+{
+    struct stat now;
+    if (stat(k->set->checkpoint, &now) != 0) return;
+    k->device = now.st_dev;
+    k->number = now.st_ino;
+}
+
+hd_status keeper_begin(keeper *out, const settings *set, hd_run *run, char *message, size_t size)
+{
+    *out = (keeper){.set = set, .due = INFINITY, .state = {.time = -1.0}};
+    if (!*set->checkpoint) return HD_OK;
+    const hd_status status = save_first(set, run, message, size);
+    if (status != HD_OK) return status;
+    remember(out);
+    out->due = next_due(set);
+    out->state.time = hd_run_time(run);
     return HD_OK;
 }
 
-hd_status keeper_begin(const settings *set, hd_run *run, char *message, size_t size)
+/* ---- the next ones ---------------------------------------------------------------------------- */
+
+void keeper_touch(keeper *k) { k->changed = true; }
+
+bool keeper_due(const keeper *k)
 {
-    if (!*set->checkpoint) return HD_OK;
-    const hd_status status = set_aside(set, message, size);
-    return status == HD_OK ? hd_run_save(run, set->checkpoint, set->scene, message, size) : status;
+    return k->changed && k->due < INFINITY && clock_seconds() >= k->due;
 }
 
-keeper keeper_of(const settings *set, const hd_run *run)
+/** Two runs must not take turns with one file. */
+static bool is_mine(const keeper *k)
 {
-    return (keeper){.set = set,
-                    .due = next_due(set),
-                    .state = {.time = *set->checkpoint ? hd_run_time(run) : -1.0}};
+    struct stat now;
+    return stat(k->set->checkpoint, &now) != 0 ||
+           (now.st_dev == k->device && now.st_ino == k->number);
 }
 
-bool keeper_due(const keeper *k) { return k->due < INFINITY && clock_seconds() >= k->due; }
+static hd_status save(keeper *k, hd_run *run)
+{
+    kept *state = &k->state;
+    const char *path = k->set->checkpoint;
+    if (!is_mine(k))
+        return fault(path, "another process has replaced it", state->message,
+                     sizeof state->message);
+    return hd_run_save(run, path, k->set->scene, state->message, sizeof state->message);
+}
 
 void keeper_save(keeper *k, hd_run *run)
 {
-    const settings *set = k->set;
     kept *state = &k->state;
-    if (!*set->checkpoint) return;
-    const bool failed = hd_run_save(run, set->checkpoint, set->scene, state->message,
-                                    sizeof state->message) != HD_OK;
+    if (!*k->set->checkpoint || !k->changed) return;
+    const bool failed = save(k, run) != HD_OK;
     if (failed) hdr_log(HDR_ERROR, "checkpoint not written: %s", state->message);
     if (!failed && state->failed) hdr_log(HDR_INFO, "checkpoint written again");
-    if (!failed) state->time = hd_run_time(run);
     state->failed = failed;
-    k->due = next_due(set);
+    k->due = next_due(k->set);
+    if (failed) return;
+    remember(k);
+    state->time = hd_run_time(run);
+    k->changed = false;
 }

@@ -2,6 +2,8 @@
 #ifndef HDLYAP_KEEPER_H
 #define HDLYAP_KEEPER_H
 
+#include <sys/types.h>
+
 #include "hdlyap/checkpoint.h"
 #include "settings.h"
 
@@ -14,21 +16,26 @@ typedef struct kept {
 
 typedef struct keeper {
     const settings *set;
-    double due; /**< [s of clock_seconds] */
+    bool changed; /**< the run is not as in the file */
+    double due;   /**< [s of clock_seconds]; INFINITY: only when asked */
+    dev_t device; /**< of the file, as it was written */
+    ino_t number; /**< likewise */
     kept state;
 } keeper;
 
-/** Writes the first file, so that what cannot be kept is not begun. Another run's file of that name, unless it is the one
- *  that is gone on from, becomes `name`.old; the log says so. Fails as hd_run_save, with its line in message. */
-HD_MUST_CHECK hd_status keeper_begin(const settings *set, hd_run *run, char *message, size_t size);
+/** Writes the first file, so that what cannot be kept is not begun; does nothing without one. A file of that name, unless
+ *  it is the one that is gone on from, is set aside under a name of its own (FILE.old, FILE.old2 ..); the log
+ *  says so. Fails as hd_run_save, with its line in message; all files are then as they were. */
+HD_MUST_CHECK hd_status keeper_begin(keeper *out, const settings *set, hd_run *run, char *message,
+                                     size_t size);
 
-/** Of a run that has begun so. */
-keeper keeper_of(const settings *set, const hd_run *run);
+/** The run has gone on. */
+void keeper_touch(keeper *k);
 
-/** True once the interval has passed since the last attempt. */
+/** True once the interval has passed since the last attempt, if there is anything new. */
 bool keeper_due(const keeper *k);
 
-/** Writes the run now. A failure is logged; the file of before stays. Does nothing without a file. */
+/** Writes the run now, unless the file is as new. A failure is logged; the file of before stays. */
 void keeper_save(keeper *k, hd_run *run);
 
 #endif

@@ -30,6 +30,7 @@ typedef struct app {
     hd_checkpoint kept; /**< what is gone on from */
     settings set;
     hd_run *run;
+    keeper keep; /**< as the run begins; then the worker's */
     report *rep;
     worker *work;
     diagnostics diag;
@@ -98,8 +99,8 @@ static int create_run(app *a)
         status = hd_run_resume(&a->run, set->resume, &set->def, message, sizeof message);
     else if (status == HD_OK)
         status = hd_run_create(&a->run, &set->def, message, sizeof message);
-    if (status == HD_OK) status = keeper_begin(set, a->run, message, sizeof message);
     if (*set->checkpoint) hdr_node_stop_within(stop_keeping_seconds);
+    if (status == HD_OK) status = keeper_begin(&a->keep, set, a->run, message, sizeof message);
     return fault_logged(status, message);
 }
 
@@ -111,7 +112,7 @@ static hdr_status advertise(app *a)
     if (status == HDR_OK)
         status = diagnostics_advertise(&a->diag, a->ros, report_run_id(a->rep), kernel);
     if (status == HDR_OK) status = report_run_info(a->rep, a->run);
-    if (status == HDR_OK && !worker_create(&a->work, a->run, a->rep, &a->set))
+    if (status == HDR_OK && !worker_create(&a->work, a->run, a->rep, &a->set, &a->keep))
         status = HDR_NO_MEMORY;
     return status == HDR_OK ? services_advertise(a->ros, a->work) : status;
 }
@@ -167,7 +168,7 @@ static int finish(app *a)
     if (state.status == HD_OK) state.status = worker_finish(a->work);
     diagnostics_publish(&a->diag, &state);
     log_end(&state);
-    if (*a->set.checkpoint && state.stage != WORKER_ENDED)
+    if (*a->set.checkpoint && state.status == HD_OK && state.checkpoint.time != state.last.time)
         hdr_log(HDR_WARN, "the checkpoint is not of the end, but of simulated time %.6g",
                 state.checkpoint.time);
     return state.status == HD_OK && state.checkpoint.failed ? EXIT_FILE_FAULT

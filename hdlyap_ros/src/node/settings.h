@@ -18,7 +18,7 @@ typedef struct field_choice {
 
 typedef struct settings {
     hd_scene_def def;
-    const char *scene;    /**< name; in the params */
+    const char *scene;    /**< name; in the params, or in the checkpoint */
     char seed[24];        /**< decimal */
     char exponents[16];   /**< as asked for: positive, all, none or a number */
     unsigned observables; /**< set of topics: all but run_info and cost */

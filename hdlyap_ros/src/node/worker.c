@@ -32,9 +32,10 @@ struct worker {
     bool closed; /**< the last message is out */
 };
 
-/** Waits for a change until a wall time; false once that has come. Lock held. */
+/** Waits for a change until a wall time, if it is one; false once that has come. Lock held. */
 static bool wait_until(worker *w, double wall)
 {
+    if (wall == INFINITY) return pthread_cond_wait(&w->changed, &w->lock) == 0;
     const double whole = floor(wall);
     const struct timespec until = {.tv_sec = (time_t)whole,
                                    .tv_nsec = (long)(1e9 * (wall - whole))};
@@ -80,13 +81,12 @@ static bool obey(worker *w)
     pthread_mutex_lock(&w->lock);
     if (keeper_due(&w->keep)) save(w);
     while (!w->stop && (w->save || w->pause || too_early(w))) {
-        if (w->save) save(w);
-        if (!w->pause && !too_early(w)) continue;
+        if (w->save || keeper_due(&w->keep)) {
+            save(w);
+            continue;
+        }
         enter(w, w->pause ? WORKER_PAUSED : WORKER_RUNNING);
-        if (w->pause)
-            pthread_cond_wait(&w->changed, &w->lock);
-        else
-            wait_until(w, w->due);
+        wait_until(w, fmin(w->pause ? INFINITY : w->due, w->keep.changed ? w->keep.due : INFINITY));
     }
     w->state.stage = WORKER_RUNNING;
     const bool go_on = !w->stop;
@@ -124,6 +124,7 @@ static hd_status step(worker *w)
 {
     hd_run_observe(w->run, report_demand(w->rep));
     hd_status status = reset_if_asked(w);
+    keeper_touch(&w->keep);
     if (status == HD_OK) status = w->set->pace > 0.0 ? paced_step(w) : hd_run_step(w->run);
     if (status != HD_OK) return status;
     if (hd_run_report_due(w->run)) status = publish(w);
@@ -165,7 +166,7 @@ static void locks_free(worker *w)
     pthread_mutex_destroy(&w->publishing);
 }
 
-bool worker_create(worker **out, hd_run *run, report *rep, const settings *set)
+bool worker_create(worker **out, hd_run *run, report *rep, const settings *set, const keeper *keep)
 {
     worker *w = *out = calloc(1, sizeof *w);
     if (!w) return false;
@@ -173,7 +174,7 @@ bool worker_create(worker **out, hd_run *run, report *rep, const settings *set)
     w->rep = rep;
     w->set = set;
     w->state.last = progress_of(run);
-    w->keep = keeper_of(set, run);
+    w->keep = *keep;
     w->state.checkpoint = w->keep.state;
     locks_create(w);
     if (pthread_create(&w->thread, NULL, work, w) == 0) return true;
@@ -222,10 +223,13 @@ void worker_reset_average(worker *w) { ask(w, &w->reset, true); }
 static bool saved(worker *w, double until, char *message, size_t size)
 {
     const kept *k = &w->state.checkpoint;
-    while (w->save && w->state.stage != WORKER_ENDED && wait_until(w, until)) continue;
-    const bool done = !w->save && !k->failed;
+    while (w->save && !w->stop && w->state.stage != WORKER_ENDED && wait_until(w, until)) continue;
+    const bool fault = w->state.stage == WORKER_ENDED && w->state.status != HD_OK;
+    const bool done = !w->save && !k->failed && !fault;
     if (done)
         snprintf(message, size, "%s: simulated time %.6g", w->set->checkpoint, k->time);
+    else if (fault)
+        snprintf(message, size, "the run has ended: %s", hd_status_text(w->state.status));
     else if (w->save)
         snprintf(message, size, "it will be written after the step that is under way");
     else

@@ -25,7 +25,7 @@ typedef struct worker worker;
 
 /** Starts the thread, which alone uses run and rep until worker_state says WORKER_ENDED.
  *  False if the system has no thread for it. */
-bool worker_create(worker **out, hd_run *run, report *rep, const settings *set);
+bool worker_create(worker **out, hd_run *run, report *rep, const settings *set, const keeper *keep);
 /** Asks the thread to end and waits for the step that it is in. NULL is allowed. */
 void worker_end(worker *w);
 /** Only after worker_end. NULL is allowed. */
