@@ -135,11 +135,12 @@ def known(errors):
     return np.where(errors < 0, np.nan, errors)
 
 
-def read(path, node=None):
-    """The last run of the given node, or of the only node in the bag."""
+def read(path, node=None, types=TYPES):
+    """The last run of the given node, or of the only node in the bag; of its messages those of the
+    given types."""
     try:
         with rosbag.Bag(path) as bag:
-            return _read_run(bag, path, _topics_of_node(bag, path, node))
+            return _read_run(bag, path, _topics_of_node(bag, path, node, types))
     except rosbag.ROSBagUnindexedException:
         raise RecordingError(f'{path}: not closed properly; repair it with rosbag reindex')
     except rosbag.ROSBagException as error:
@@ -148,11 +149,11 @@ def read(path, node=None):
         raise RecordingError(f'{path}: {error.strerror or error}')
 
 
-def _topics_of_node(bag, path, node):
-    """Topics with messages of ours, below one node's name."""
+def _topics_of_node(bag, path, node, types):
+    """Topics with messages of these types, below one node's name."""
     nodes = {}
     for topic, entry in bag.get_type_and_topic_info().topics.items():
-        if entry.msg_type in TYPES:
+        if entry.msg_type in types:
             nodes.setdefault(topic.rpartition('/')[0], []).append(topic)
     if not nodes:
         raise RecordingError(f'{path}: nothing in it was published by hdlyap_node')
