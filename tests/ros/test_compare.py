@@ -332,6 +332,16 @@ class Refusals(Pairs):
                                         'rosbag reindex|not a readable bag'):
                 recording.read(self.b)
 
+    def test_damaged_bag(self):
+        made.write(self.a, run())
+        with open(self.a, 'rb') as file:
+            content = file.read()
+        # a run_id that is no text
+        with open(self.b, 'wb') as file:
+            file.write(content.replace(b'\3\0\0\0one', b'\3\0\0\0\xff\xff\xff'))
+        with self.assertRaisesRegex(recording.RecordingError, 'b.bag: damaged'):
+            recording.read(self.b)
+
     def test_several_nodes(self):
         for path in (self.a, self.b):
             made.write(path, run())

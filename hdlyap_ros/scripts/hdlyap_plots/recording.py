@@ -4,6 +4,7 @@ scalars and the last of everything else, so a bag may be far larger than the mem
 import struct
 import sys
 
+import genpy
 import numpy as np
 import rosbag
 
@@ -14,6 +15,7 @@ RUN_INFO, SPECTRUM, COST = 'hdlyap/RunInfo', 'hdlyap/Spectrum', 'hdlyap/Cost'
 STEPS, PHASES, FIELD = 'hdlyap/Steps', 'hdlyap/LpPhases', 'hdlyap/ModeField'
 TYPES = (RUN_INFO, SPECTRUM, COST, STEPS, PHASES, FIELD)
 SMALLEST = 4    # exponents whose course is kept, counted back from the last positive one
+DAMAGE = (genpy.DeserializationError, struct.error, UnicodeDecodeError, KeyError)
 STAGES = ('events', 'replay', 'ortho', 'spectrum', 'modes', 'publish')
 
 
@@ -145,6 +147,8 @@ def read(path, node=None, types=TYPES):
         raise RecordingError(f'{path}: not closed properly; repair it with rosbag reindex')
     except rosbag.ROSBagException as error:
         raise RecordingError(f'{path}: not a readable bag: {error}')
+    except DAMAGE as error:
+        raise RecordingError(f'{path}: damaged: {error}')
     except OSError as error:
         raise RecordingError(f'{path}: {error.strerror or error}')
 
