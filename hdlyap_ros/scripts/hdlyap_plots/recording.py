@@ -4,6 +4,7 @@ scalars and the last of everything else, so a bag may be far larger than the mem
 import struct
 import sys
 
+import genpy
 import numpy as np
 import rosbag
 
@@ -14,6 +15,7 @@ RUN_INFO, SPECTRUM, COST = 'hdlyap/RunInfo', 'hdlyap/Spectrum', 'hdlyap/Cost'
 STEPS, PHASES, FIELD = 'hdlyap/Steps', 'hdlyap/LpPhases', 'hdlyap/ModeField'
 TYPES = (RUN_INFO, SPECTRUM, COST, STEPS, PHASES, FIELD)
 SMALLEST = 4    # exponents whose course is kept, counted back from the last positive one
+DAMAGE = (genpy.DeserializationError, struct.error, UnicodeDecodeError, KeyError)
 STAGES = ('events', 'replay', 'ortho', 'spectrum', 'modes', 'publish')
 
 
@@ -135,24 +137,27 @@ def known(errors):
     return np.where(errors < 0, np.nan, errors)
 
 
-def read(path, node=None):
-    """The last run of the given node, or of the only node in the bag."""
+def read(path, node=None, types=TYPES):
+    """The last run of the given node, or of the only node in the bag; of its messages those of the
+    given types."""
     try:
         with rosbag.Bag(path) as bag:
-            return _read_run(bag, path, _topics_of_node(bag, path, node))
+            return _read_run(bag, path, _topics_of_node(bag, path, node, types))
     except rosbag.ROSBagUnindexedException:
         raise RecordingError(f'{path}: not closed properly; repair it with rosbag reindex')
     except rosbag.ROSBagException as error:
         raise RecordingError(f'{path}: not a readable bag: {error}')
+    except DAMAGE as error:
+        raise RecordingError(f'{path}: damaged: {error}')
     except OSError as error:
         raise RecordingError(f'{path}: {error.strerror or error}')
 
 
-def _topics_of_node(bag, path, node):
-    """Topics with messages of ours, below one node's name."""
+def _topics_of_node(bag, path, node, types):
+    """Topics with messages of these types, below one node's name."""
     nodes = {}
     for topic, entry in bag.get_type_and_topic_info().topics.items():
-        if entry.msg_type in TYPES:
+        if entry.msg_type in types:
             nodes.setdefault(topic.rpartition('/')[0], []).append(topic)
     if not nodes:
         raise RecordingError(f'{path}: nothing in it was published by hdlyap_node')

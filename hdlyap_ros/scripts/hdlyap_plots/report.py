@@ -19,11 +19,17 @@ def report(recording):
 
 
 def _head(recording):
-    info = recording.info
-    return (f'scene {info.scene}: N = {info.disks}, density {info.density:g}, '
+    return f'scene {recording.info.scene}: {system(recording.info)}\n{origin(recording.info)}'
+
+
+def system(info):
+    return (f'N = {info.disks}, density {info.density:g}, '
             f'box {info.box_x:.3f} x {info.box_y:.3f}, '
-            f'x {info.boundary_x}, y {info.boundary_y}\n'
-            f'seed {info.seed}, hdlyap {info.version}, run {info.run_id}')
+            f'x {info.boundary_x}, y {info.boundary_y}')
+
+
+def origin(info):
+    return f'seed {info.seed}, hdlyap {info.version}, run {info.run_id}'
 
 
 def _sums(recording):

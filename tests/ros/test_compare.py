@@ -1,0 +1,391 @@
+"""compare against bags that are made here: what it finds, what it says, what it refuses."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from math import atan, cos, pi, sin, sqrt
+
+import numpy as np
+import rosbag
+import rospy
+
+from std_msgs.msg import String
+
+import made
+from made import LP, SCRIPTS, T
+from hdlyap_plots import recording, verdict
+from hdlyap_plots.comparison import Comparison
+from hdlyap_plots.deviation import Deviation, chance_of_largest, student_tail, unlikeliest
+
+ERROR = 0.01            # of the exponents
+EXPONENTS = np.linspace(9, 3, 37)
+# z is (b - a) / error of numbers up to 10, rounded, over errors of 0.01
+Z_TOLERANCE = 10 * np.finfo(float).eps * 10 / ERROR
+# the angles' integral: 64 nodes are exact to rounding for powers of a cosine up to 127
+TAIL_TOLERANCE = 64 * np.finfo(float).eps
+
+
+def shifted(z):
+    """Exponents of a second run that deviate by z combined errors."""
+    return EXPONENTS + sqrt(2) * ERROR * np.asarray(z)
+
+
+def noise(seed=5):
+    return np.random.default_rng(seed).normal(size=EXPONENTS.size)
+
+
+def found(info, **fields):
+    return [made.step(info, T, 1, 0, 36, 37, **fields), made.step(info, LP, 1, 0, 32, 35),
+            made.unresolved(info, T, 1, 1, 4), made.zero_modes()]
+
+
+def run(exponents=EXPONENTS, info=None, made_steps=None, error=ERROR, **fields):
+    """Messages of a run: averages of half its time and of all of it."""
+    info = info or made.run_info(**fields)
+    of_run = {'run_id': info.run_id}
+    made_steps = found(info) if made_steps is None else made_steps
+    return [info, made.spectrum(np.zeros_like(exponents), 25.0, error=error, **of_run),
+            made.spectrum(exponents, 50.0, error=error, **of_run), made.steps(made_steps, **of_run)]
+
+
+class Pairs(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.a, self.b = (os.path.join(folder.name, name) for name in ('a.bag', 'b.bag'))
+
+    def compared(self, a, b):
+        made.write(self.a, a)
+        made.write(self.b, b)
+        return Comparison(recording.read(self.a), recording.read(self.b))
+
+    def compare(self, *arguments):
+        return subprocess.run([sys.executable, os.path.join(SCRIPTS, 'compare'), self.a, self.b,
+                               *arguments], universal_newlines=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+    def succeeds(self, status, *arguments):
+        done = self.compare(*arguments)
+        self.assertEqual((done.returncode, done.stderr), (status, ''), done.stdout)
+        return done.stdout
+
+    def refuses(self, reason):
+        done = self.compare()
+        self.assertEqual((done.returncode, done.stdout), (2, ''), done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn(reason, done.stderr)
+
+    def cannot_compare(self, reason, a, b):
+        with self.assertRaisesRegex(recording.RecordingError, reason):
+            verdict.verdict(self.compared(a, b))
+
+
+class Identical(Pairs):
+    def test_but_for_stamps_and_run_id(self):
+        other = run(run_id='two')
+        for message in other:
+            message.header.stamp = rospy.Time(7)
+        made.write(self.a, run())
+        made.write(self.b, other)
+        text = self.succeeds(0)
+        self.assertIn('\nidentical: ', text)
+        self.assertIn('the same seed', text)
+        self.assertNotIn('parameters that differ', text)
+        self.assertNotIn('largest deviations', text)
+
+    def test_also_while_errors_are_not_known(self):
+        unknown = run(error=-1.0)
+        self.assertIn('identical', verdict.verdict(self.compared(unknown, unknown))[0])
+
+    def test_one_bit_is_seen(self):
+        for changed in ('exponents', 'local_exponents', 'steps'):
+            other = run()
+            if changed == 'steps':
+                other[-1].steps[0].multiplicity = np.nextafter(1.98, 2)
+            else:
+                nearly = EXPONENTS.copy()
+                nearly[20] = np.nextafter(nearly[20], 0)
+                setattr(other[2], changed, nearly)
+            comparison = self.compared(run(), other)
+            self.assertFalse(comparison.is_identical, changed)
+            self.assertEqual(verdict.verdict(comparison)[1], verdict.AGREE)
+
+
+class Agreeing(Pairs):
+    def test_each_z_is_the_one_that_was_made(self):
+        z = noise()
+        comparison = self.compared(run(), run(shifted(z), run_id='two', seed='2'))
+        for one, expected in zip(comparison.exponents, z):
+            self.assertLess(abs(one.z - expected), Z_TOLERANCE, one.name)
+        largest = unlikeliest(comparison.deviations)[0]
+        self.assertEqual(largest, comparison.exponents[int(np.argmax(abs(z)))])
+        # 37 exponents, their sum, two steps, five fits
+        self.assertEqual(chance_of_largest(comparison.deviations), (
+            min(1.0, 45 * largest.chance), 45))
+        self.assertEqual(verdict.verdict(comparison)[1], verdict.AGREE)
+
+    def test_what_is_printed(self):
+        z = noise()
+        made.write(self.a, run())
+        made.write(self.b, run(shifted(z), run_id='two', seed='2', observables=['steps', 'state']))
+        text = self.succeeds(0)
+        self.assertIn('both  N = 20, density 0.5, box 6.325 x 6.325, x periodic, y periodic', text)
+        self.assertRegex(text, r'\n  seed +1 +2\n')
+        self.assertRegex(text, r'\n  observables +"" +steps state\n')
+        self.assertNotIn('the same seed', text)
+        self.assertRegex(text, fr'\n  lambda_max +9\.000\(10\) .* {z[0]:+.2f}')
+        self.assertRegex(text, r'\n  T\(1,0\) .* \+0\.00  36-37: 1\.98 and 1\.98 of 2\n')
+        self.assertRegex(text, r'\n  c_T +1\.400\(12\) .* over 3 and 3 wave numbers\n')
+        self.assertIn(f'chi^2 / exponent {np.mean(z * z):.2f};', text)
+        self.assertIn('exponents: 37 of 37 compared, 0 of unknown error, 0 zero', text)
+        self.assertIn('\nagree within their errors: not less than 0.01\n', text)
+
+    def test_sum_has_at_most_the_sum_of_the_errors(self):
+        one, = self.compared(run(), run(shifted(np.ones(37)))).sums
+        self.assertEqual(one.name, 'h_KS')
+        # 37 exponents and the sum of both are rounded
+        self.assertTrue(np.allclose(one.errors, 37 * ERROR, rtol=37 * np.finfo(float).eps, atol=0))
+        self.assertLess(abs(one.z - 1.0), Z_TOLERANCE * 37)
+
+    def test_a_part_of_the_spectrum(self):
+        part = run(EXPONENTS[:5], made_steps=[])
+        comparison = self.compared(part, part)
+        self.assertEqual([one.name for one in comparison.sums], ['sum of exponents'])
+        comparison = self.compared(run([3.0], made_steps=[]), run([3.02], made_steps=[]))
+        self.assertEqual(([one.name for one in comparison.exponents], comparison.sums),
+                         (['lambda_max'], []))
+
+
+class Differing(Pairs):
+    def test_one_exponent(self):
+        z = noise()
+        z[20] = -10.0
+        made.write(self.a, run())
+        made.write(self.b, run(shifted(z), seed='2'))
+        text = self.succeeds(1)
+        self.assertIn('\nleast likely of 45: lambda_21, z = -10.00, ', text)
+        self.assertIn('\ndiffer: ', text)
+        after_head = text[text.index('largest deviations'):].splitlines()[2]
+        self.assertRegex(after_head, r'  lambda_21 +.* -10\.00  \d\.\de-0\d')
+
+    def test_one_step(self):
+        info = made.run_info()
+        far = made.exponent(info, T, 1, 0) + 10 * sqrt(2) * made.ERROR
+        comparison = self.compared(run(), run(made_steps=found(info, exponent=far)))
+        self.assertEqual(unlikeliest(comparison.deviations)[0].name, 'T(1,0)')
+        self.assertEqual(verdict.verdict(comparison)[1], verdict.DIFFER)
+
+    def test_one_fit(self):
+        other = run()
+        other[-1].v += 10 * sqrt(2) * other[-1].v_error
+        comparison = self.compared(run(), other)
+        self.assertEqual(unlikeliest(comparison.deviations)[0].name, 'v')
+        self.assertEqual(verdict.verdict(comparison)[1], verdict.DIFFER)
+
+    def test_what_is_no_number(self):
+        exponents = EXPONENTS.copy()
+        exponents[7] = np.nan
+        comparison = self.compared(run(), run(exponents))
+        one = comparison.exponents[7]
+        self.assertEqual((one.z, one.chance), (np.inf, 0.0))
+        self.assertEqual(verdict.verdict(comparison)[1], verdict.DIFFER)
+
+    def test_without_any_error(self):
+        self.assertEqual(Deviation('', (1.0, 1.0), (0.0, 0.0)).z, 0.0)
+        off = Deviation('', (1.0, 2.0), (0.0, 0.0))
+        self.assertEqual((off.z, off.chance), (np.inf, 0.0))
+
+
+class Steps(Pairs):
+    def names(self, comparison, judged=True):
+        return [one.name for one in comparison.steps + comparison.fits if one.judged == judged]
+
+    def test_are_found_by_their_waves(self):
+        info = made.run_info()
+        comparison = self.compared(run(), run(made_steps=found(info)[::-1]))
+        self.assertEqual(self.names(comparison),
+                         ['T(1,0)', 'LP(1,0)', 'c_T', 'c_T2', 'c_L', 'c_L2', 'v'])
+        self.assertEqual({one.z for one in comparison.steps}, {0.0})
+
+    def test_of_one_run_alone(self):
+        info = made.run_info()
+        comparison = self.compared(run(), run(made_steps=[found(info)[1],
+                                                          made.step(info, T, 0, 1, 36, 37)]))
+        self.assertEqual(comparison.found_once, (['T(1,0)'], ['T(0,1)']))
+        # the T curve is through other points
+        self.assertEqual(self.names(comparison), ['LP(1,0)', 'c_L', 'c_L2', 'v'])
+        self.assertEqual(self.names(comparison, judged=False), ['c_T', 'c_T2'])
+        text = verdict.report(comparison)
+        self.assertIn('\n  resolved in a alone: T(1,0)\n  resolved in b alone: T(0,1)\n', text)
+        self.assertRegex(text, r'\n  c_T .*\(not judged\)\n')
+
+    def test_fits_with_too_little(self):
+        other = run()
+        other[-1].t_points, other[-1].l_points, other[-1].v_phases = 1, 0, 0
+        self.assertEqual(self.names(self.compared(run(), other)), ['T(1,0)', 'LP(1,0)', 'c_T'])
+
+    def test_zero_modes_are_not_judged(self):
+        half = list(EXPONENTS)
+        spectra = [[*half, *[zero] * 6, *-EXPONENTS[::-1]] for zero in (0.0, -1.0)]
+        zero_modes = [made.zero_modes(38), made.zero_modes(38)]
+        zero_modes[1].exponent = -1.0
+        comparison = self.compared(*(run(spectrum, made_steps=[zero])
+                                     for spectrum, zero in zip(spectra, zero_modes)))
+        self.assertIn('exponents: 74 of 80 compared, 0 of unknown error, 6 zero',
+                      verdict.report(comparison))
+        self.assertEqual([one.name for one in comparison.exponents if not one.judged],
+                         [f'lambda_{index}' for index in range(38, 44)])
+        self.assertEqual(verdict.verdict(comparison)[1], verdict.AGREE)
+
+    def test_conjugate_steps_have_a_name_of_their_own(self):
+        info = made.run_info()
+        pair = [made.step(info, T, 1, 0, 36, 37),
+                made.step(info, T, 1, 0, 44, 45, conjugate=True, exponent=-2.0)]
+        comparison = self.compared(run(made_steps=pair), run(made_steps=pair))
+        self.assertEqual(sorted(one.name for one in comparison.steps), ['T(1,0)', 'T(1,0)*'])
+
+    def test_without_steps(self):
+        comparison = self.compared(run(), run()[:-1])
+        self.assertEqual((comparison.steps, comparison.fits), ([], []))
+        self.assertIn('\nno steps in b\n', verdict.report(comparison))
+        self.assertTrue(comparison.is_identical)
+
+
+class OtherNumberOfDisks(Pairs):
+    def big(self):
+        info = made.run_info(disks=40, box_x=80 ** 0.5, box_y=80 ** 0.5)
+        return run(np.linspace(9, 3, 77), info, [made.step(info, T, 0, 1, 76, 77)])
+
+    def test_only_fits_are_compared(self):
+        comparison = self.compared(run(), self.big())
+        self.assertEqual([one.name for one in comparison.deviations],
+                         ['c_T', 'c_T2', 'c_L', 'c_L2', 'v'])
+        # though not over the same steps
+        self.assertEqual(chance_of_largest(comparison.deviations)[1], 5)
+        text = verdict.report(comparison)
+        self.assertIn('only the fits are compared', text)
+        self.assertIn('a  N = 20', text)
+        self.assertIn('b  N = 40', text)
+        self.assertEqual(verdict.verdict(comparison)[1], verdict.AGREE)
+
+    def test_without_fits(self):
+        for missing in (self.big()[:-1], self.big()):
+            if len(missing) == 4:
+                missing[-1].t_points = missing[-1].l_points = 0
+            self.cannot_compare('disks are 20 and 40, and only fits', run(), missing)
+
+
+class UnknownErrors(Pairs):
+    def test_of_some(self):
+        one = run(shifted(noise()), error=1.0)
+        for index in (0, 5):
+            one[2].std_errors[index] = -1.0
+        comparison = self.compared(run(), one)
+        text = verdict.report(comparison)
+        self.assertIn('exponents: 35 of 37 compared, 2 of unknown error', text)
+        self.assertRegex(text, r'\n  lambda_max .* +-\n')
+        self.assertRegex(text, r'\n  h_KS .* +-\n')
+        self.assertEqual(chance_of_largest(comparison.deviations)[1], 35 + 2 + 5)
+
+    def test_of_all(self):
+        other = run(shifted(noise()), error=-1.0, made_steps=[])
+        other[-1].t_points = other[-1].l_points = other[-1].v_phases = 0
+        self.cannot_compare('no quantity has a known error in both', run(), other)
+
+
+class Refusals(Pairs):
+    def test_other_systems(self):
+        for name, value in (('density', 0.51), ('aspect', 0.9), ('boundary_x', 'reflecting'),
+                            ('boundary_y', 'reflecting')):
+            self.cannot_compare(f'{name} is .* and {value}', run(), run(**{name: value}))
+        made.write(self.a, run())
+        made.write(self.b, run(density=0.6))
+        self.refuses('compare: the runs cannot be compared: density is 0.5 and 0.6')
+
+    def test_other_exponents(self):
+        self.cannot_compare('exponents 1-37 and 1-36', run(), run(EXPONENTS[:-1]))
+
+    def test_missing_topics(self):
+        self.cannot_compare('no averaged spectrum in the second bag', run(),
+                            [made.run_info(), made.cost(1)])
+        self.cannot_compare('no averaged spectrum in the first bag', [made.run_info()], run())
+        self.cannot_compare('no run_info', run()[1:], run())
+
+    def test_no_bag(self):
+        with open(self.b, 'w') as file:
+            file.write('something else entirely\n' * 10)
+        with self.assertRaisesRegex(recording.RecordingError, 'b.bag: not a readable bag'):
+            recording.read(self.b)
+
+    def test_foreign_bag(self):
+        with rosbag.Bag(self.b, 'w') as bag:
+            bag.write('/chatter', String('hello'), rospy.Time(1))
+        with self.assertRaisesRegex(recording.RecordingError, 'nothing in it was published'):
+            recording.read(self.b)
+
+    def test_truncated_bag(self):
+        made.write(self.a, run())
+        with open(self.a, 'rb') as file:
+            content = file.read()
+        for length in (0, 1, 100, len(content) // 2, len(content) - 1):
+            with open(self.b, 'wb') as file:
+                file.write(content[:length])
+            with self.assertRaisesRegex(recording.RecordingError,
+                                        'rosbag reindex|not a readable bag'):
+                recording.read(self.b)
+
+    def test_damaged_bag(self):
+        made.write(self.a, run())
+        with open(self.a, 'rb') as file:
+            content = file.read()
+        # a run_id that is no text
+        with open(self.b, 'wb') as file:
+            file.write(content.replace(b'\3\0\0\0one', b'\3\0\0\0\xff\xff\xff'))
+        with self.assertRaisesRegex(recording.RecordingError, 'b.bag: damaged'):
+            recording.read(self.b)
+
+    def test_one_of_several_nodes(self):
+        for path in (self.a, self.b):
+            made.write(path, run())
+            made.write(path, run(EXPONENTS + 1), node='/other', mode='a')
+        self.assertRegex(self.succeeds(0, '--node', 'other'), r'lambda_max +10\.000\(10\)')
+
+
+class Chance(unittest.TestCase):
+    def test_student_tail(self):
+        """Abramowitz and Stegun, 26.7.3 and 26.7.4."""
+        for z in (0.0, 0.3, 1.0, -2.5, 6.0):
+            angle = atan(abs(z) / sqrt(7))
+            c = cos(angle)
+            odd = 1 - 2 / pi * (angle + sin(angle) * (c + 2 / 3 * c ** 3 + 8 / 15 * c ** 5))
+            self.assertLess(abs(student_tail(z, 7) - odd), TAIL_TOLERANCE)
+            s = abs(z) / sqrt(4 + z * z)
+            c = sqrt(1 - s * s)
+            self.assertLess(abs(student_tail(z, 4) - (1 - s * (1 + c * c / 2))), TAIL_TOLERANCE)
+        self.assertEqual(student_tail(np.inf, 7), 0.0)
+
+    def test_unequal_errors_have_the_freedom_of_the_larger(self):
+        equal = Deviation('', (0.0, 4.0 * sqrt(2)), (1.0, 1.0))
+        one = Deviation('', (0.0, 4.0), (1.0, 1e-9))
+        self.assertLess(abs(equal.chance - student_tail(4.0, 14)), TAIL_TOLERANCE)
+        self.assertLess(abs(one.chance - student_tail(4.0, 7)), TAIL_TOLERANCE)
+
+    def test_agreeing_pairs_are_seldom_said_to_differ(self):
+        """Means and errors of eight independent blocks, as few as the node may have had. Of
+        these pairs normal tails say that 43 differ."""
+        pairs, quantities = 1500, 4
+        blocks = np.random.default_rng(8).normal(size=(pairs, quantities, 2, 8))
+        means, errors = blocks.mean(axis=-1), blocks.std(axis=-1, ddof=1) / sqrt(8)
+        differ = sum(
+            chance_of_largest([Deviation('', *one) for one in zip(*pair)])[0] < verdict.CHANCE
+            for pair in zip(means, errors))
+        expected = verdict.CHANCE * pairs
+        # four standard errors of a Poisson count
+        self.assertLessEqual(differ, expected + 4 * sqrt(expected))
+        self.assertGreater(differ, 0)
+
+
+if __name__ == '__main__':
+    unittest.main()
