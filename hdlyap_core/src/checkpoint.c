@@ -167,10 +167,11 @@ static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept,
 
 static hd_status inconsistent(const hd_archive *archive, char *message, size_t size)
 {
-    if (archive->status != HD_FILE_FAULT)
-        return hd_refuse(message, size, "%s", hd_status_text(archive->status)), archive->status;
-    (void)hd_refuse(message, size, "is inconsistent: %s: %s", archive->name, archive->fault);
-    return HD_FILE_FAULT;
+    if (archive->status == HD_FILE_FAULT)
+        (void)hd_refuse(message, size, "is inconsistent: %s: %s", archive->name, archive->fault);
+    else
+        (void)hd_refuse(message, size, "%s", hd_status_text(archive->status));
+    return archive->status;
 }
 
 /** Contents of a whole file can be nonsense all the same. */

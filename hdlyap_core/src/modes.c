@@ -19,9 +19,6 @@
 /** Eigenvalues of a Gram matrix of unit fields below this are unsampled directions, not small ones. */
 static const double RANK = 1e-6;
 
-/** A dq half shorter than this counts as none: its squares are no longer known to rounding. */
-static const double NO_HALF = 1e-145;
-
 enum { DIMENSION_MAX = 2 * HD_MODULATIONS_MAX, BLOCK = 128 };
 
 struct hd_modes {
@@ -219,7 +216,7 @@ static void normalise(hd_modes *modes, hd_columns v)
     for (size_t c = 0; c < columns; c++) {
         double *row = row_of(modes->coefficient, c, modes);
         for (int l = v.first; l < v.first + v.count; l++)
-            row[l] = modes->dq_norm[l] > NO_HALF ? row[l] / modes->dq_norm[l] : 0.0;
+            row[l] = modes->dq_norm[l] > HD_MODES_DQ_MIN ? row[l] / modes->dq_norm[l] : 0.0;
     }
 }
 

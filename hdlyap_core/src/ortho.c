@@ -125,8 +125,9 @@ static double sign_of(int row, int probe)
     return hash >> (16 + probe) & 1 ? 1.0 : -1.0;
 }
 
-/** Below, |V e_k|^2 has lost digits to underflow, and a condition that is made from it says nothing. */
-static const double NORM2_MIN = DBL_MIN / DBL_EPSILON;
+/** True if a sum of squares is known to rounding: neither zero, as BLAS libraries differ in what they make of that, nor
+ *  near the smallest numbers, nor overflown. */
+static bool is_square(double sum) { return sum > DBL_MIN / DBL_EPSILON && sum < INFINITY; }
 
 /** See hd_ortho_condition: with D = diag |V e_k| and random signs x the entries of y = R^-T D x have the
  *  mean squares kappa_l^2. INFINITY where one is not finite, or a vector too short to be measured. */
@@ -134,7 +135,7 @@ static double condition_of(const hd_ortho *ortho)
 {
     double worst = 1.0;
     for (int col = 0; col < ortho->vectors; col++) {
-        if (!(ortho->norm2[col] >= NORM2_MIN)) return INFINITY;
+        if (!is_square(ortho->norm2[col])) return INFINITY;
         double sum = 0.0;
         for (int p = 0; p < PROBES; p++) {
             const double y = ortho->probe[p * ortho->vectors + col];
@@ -145,10 +146,6 @@ static double condition_of(const hd_ortho *ortho)
     }
     return sqrt(worst);
 }
-
-/** True if a sum of squares is known to rounding: neither zero, as BLAS libraries differ in what they make of that, nor
- *  near the smallest numbers, nor overflown. */
-static bool is_square(double sum) { return sum > DBL_MIN / DBL_EPSILON && sum < INFINITY; }
 
 /* ---- a panel ---------------------------------------------------------------------------------- */
 

@@ -12,8 +12,6 @@
 #include "check.h"
 #include "memory.h"
 
-/** As in modes.c: a shorter dq half counts as none. */
-static const double NO_HALF = 1e-145;
 enum { DIMENSION_MAX = 2 * HD_MODULATIONS_MAX };
 
 struct hd_pmode {
@@ -73,7 +71,7 @@ static void psi_load(hd_pmode *pmode, const hd_frame *frame, int col)
         for (int j = 0; j < pmode->disks; j++)
             for (int d = 0; d < 2; d++) psi[2 * j + d] = v[(size_t)(4 * j + d) * stride];
         const double norm = sqrt(dot(psi, psi, 2 * pmode->disks));
-        const double scale = norm > NO_HALF ? 1.0 / norm : 0.0; /* then dependent: refused */
+        const double scale = norm > HD_MODES_DQ_MIN ? 1.0 / norm : 0.0; /* then dependent: refused */
         for (int k = 0; k < 2 * pmode->disks; k++) psi[k] *= scale;
     }
 }

@@ -208,6 +208,23 @@ static void clocks_and_costs_go_on(void **state)
     hd_run_free(resumed);
 }
 
+/** The clock may have begun anew, less ago than the run has been going on. */
+static void the_time_left_is_known_after_a_restart(void **state)
+{
+    (void)state;
+    const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
+    hd_run *run = kept_run(&def);
+    while (hd_run_phase(run) != HD_AVERAGING) kept_steps(run, 1);
+    run->frame_started = -1000.0;
+    assert_true(hd_run_cost(run).remaining > 0.0);
+    hd_run *resumed = kept_and_resumed(run, PATH, NULL);
+    assert_true(hd_run_cost(resumed).remaining > 0.0);
+    kept_steps(resumed, 1000);
+    CHECK_CLOSE(resumed->frame_start_time, run->frame_start_time, 0.0);
+    hd_run_free(run);
+    hd_run_free(resumed);
+}
+
 /* ---- another duration ------------------------------------------------------------------------- */
 
 /** Rounding of two ways to cut the same time into intervals [T6]: the accuracy that the scene asks for. */
@@ -395,6 +412,7 @@ int main(void)
         cmocka_unit_test(what_was_compared_was_there),
         cmocka_unit_test(pending_events_are_kept),
         cmocka_unit_test(clocks_and_costs_go_on),
+        cmocka_unit_test(the_time_left_is_known_after_a_restart),
         cmocka_unit_test(a_finished_run_can_be_made_longer),
         cmocka_unit_test(the_duration_can_end_at_once),
         cmocka_unit_test(phases_too_short_for_the_time_to_move_are_kept),

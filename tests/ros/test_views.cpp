@@ -46,44 +46,13 @@ TEST(views, run_info)
 {
     const char *const observables[] = {"spectrum", "state"};
     const uint32_t nodes[] = {1, 0, 4294967295};
-    const hdr_run_info view = {header,
-                               "id",
-                               "0.1.0",
-                               "scene",
-                               780,
-                               0.8,
-                               0.867,
-                               33.5,
-                               29.1,
-                               "periodic",
-                               "reflecting",
-                               "18446744073709551615",
-                               "all",
-                               3120,
-                               6,
-                               1,
-                               2,
-                               3,
-                               4,
-                               5,
-                               6,
-                               7,
-                               {observables, 2},
-                               0.25,
-                               9,
-                               {nodes, 3},
-                               {nodes + 1, 2},
-                               "[1, 5]",
-                               8.5,
-                               "file",
-                               60,
-                               "before",
-                               12.5,
-                               2,
-                               1,
-                               "blas",
-                               "kernel",
-                               "openmp"};
+    /* clang-format off: one number a line otherwise */
+    const hdr_run_info view = {
+        header, "id", "0.1.0", "scene", 780, 0.8, 0.867, 33.5, 29.1, "periodic", "reflecting",
+        "18446744073709551615", "all", 3120, 6, 1, 2, 3, 4, 5, 6, 7, {observables, 2}, 0.25,
+        9, {nodes, 3}, {nodes + 1, 2}, "[1, 5]", 8.5, "file", 60, "before", 12.5, 2, 1,
+        "blas", "kernel", "openmp"};
+    /* clang-format on */
     hdlyap::RunInfo message;
     fill_header(message);
     message.run_id = "id";

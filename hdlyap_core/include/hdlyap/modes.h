@@ -9,6 +9,9 @@
 extern "C" {
 #endif
 
+/** A dq half shorter than this counts as none: its squares are no longer known to rounding. */
+#define HD_MODES_DQ_MIN 1e-145
+
 typedef struct hd_modes hd_modes;
 
 /** Vectors carried = n. HD_NO_MEMORY. */
