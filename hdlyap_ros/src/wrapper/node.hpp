@@ -1,7 +1,9 @@
-/** What a node and a publisher are made of; private to the wrapper. */
+/** What a node, a publisher and a subscriber are made of; private to the wrapper. */
 #pragma once
 
+#include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -18,10 +20,22 @@ struct hdr_publisher {
     boost::shared_array<uint8_t> newest;
 };
 
+struct hdr_subscriber {
+    ros::Subscriber subscriber;
+    hdr_node *node;
+    /** False once it is freed, which its callback outlives when it is the one to do so. */
+    std::shared_ptr<std::atomic<bool>> wanted = std::make_shared<std::atomic<bool>>(true);
+};
+
 struct hdr_node {
     ros::NodeHandle handle;
     ros::AsyncSpinner spinner{1};
     std::string name;
     std::vector<std::unique_ptr<hdr_publisher>> publishers;
     std::vector<ros::ServiceServer> services;
+    std::vector<std::unique_ptr<hdr_subscriber>> subscribers;
+    std::mutex mutex; /**< of subscribers, which callbacks may free */
 };
+
+/** roscpp's: 0 would be without an end. Throws std::invalid_argument. */
+uint32_t queue_length(const std::string &topic, int queue);
