@@ -93,6 +93,12 @@ uint32_t queue_length(const std::string &topic, int queue)
     return static_cast<uint32_t>(queue);
 }
 
+void throw_of_another_type(const std::string &topic, const std::string &datatype)
+{
+    throw std::invalid_argument(topic + " cannot be " + datatype +
+                                ": this node has it with another type");
+}
+
 hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *name,
                            double stop_seconds, int memory_status)
 {

@@ -39,3 +39,6 @@ struct hdr_node {
 
 /** roscpp's: 0 would be without an end. Throws std::invalid_argument. */
 uint32_t queue_length(const std::string &topic, int queue);
+
+/** For what roscpp refuses without saying why to its caller. */
+[[noreturn]] void throw_of_another_type(const std::string &topic, const std::string &datatype);

@@ -22,6 +22,7 @@ hdr_status advertise(hdr_publisher **out, hdr_node *node, const char *topic, int
         made->datatype = ros::message_traits::datatype<message>();
         made->publisher = node->handle.advertise<message>(made->topic,
                                                           queue_length(made->topic, queue), latch);
+        if (!made->publisher) throw_of_another_type(made->topic, made->datatype);
         node->publishers.push_back(std::move(made));
         *out = node->publishers.back().get();
     });

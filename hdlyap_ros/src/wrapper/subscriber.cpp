@@ -2,7 +2,6 @@
 #include "hdlyap_ros/subscriber.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "guard.hpp"
 #include "node.hpp"
@@ -24,18 +23,29 @@ caller(const hdr_subscriber &subscriber, callback_of<View> callback, void *conte
     };
 }
 
+/** Unlike roscpp's its faults name the topic. */
+template <class View> ros::Subscriber connect(hdr_subscriber &subscriber, const std::string &topic,
+                                              int queue, callback_of<View> callback, void *context)
+{
+    using message = hdlyap_ros::received<View>;
+    ros::Subscriber made;
+    try {
+        made = subscriber.node->handle.subscribe<message>(topic, queue_length(topic, queue),
+                                                          caller(subscriber, callback, context));
+    } catch (const ros::ConflictingSubscriptionException &) {
+    }
+    if (!made) throw_of_another_type(topic, ros::message_traits::datatype<message>());
+    return made;
+}
+
 template <class View> hdr_status subscribe(hdr_subscriber **out, hdr_node *node, const char *topic,
                                            int queue, callback_of<View> callback, void *context)
 {
     *out = nullptr;
     return hdr_guard([&] {
-        const std::string name = ros::names::resolve(topic);
         std::unique_ptr<hdr_subscriber> made(new hdr_subscriber);
         made->node = node;
-        made->subscriber = node->handle.subscribe<hdlyap_ros::received<View>>(
-            name, queue_length(name, queue), caller<View>(*made, callback, context));
-        if (!made->subscriber)
-            throw std::invalid_argument(name + " is published by this node with another type");
+        made->subscriber = connect(*made, ros::names::resolve(topic), queue, callback, context);
         const std::lock_guard<std::mutex> lock(node->mutex);
         node->subscribers.push_back(std::move(made));
         *out = node->subscribers.back().get();
