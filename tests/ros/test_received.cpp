@@ -118,7 +118,8 @@ TEST(received, of_any_other_length_is_refused)
 {
     bytes whole = bytes_of(some_field());
     for (size_t length = 0; length < whole.size(); length++)
-        expect_refused<hdr_mode_field>(bytes(whole.begin(), whole.begin() + static_cast<long>(length)));
+        expect_refused<hdr_mode_field>(
+            bytes(whole.begin(), whole.begin() + static_cast<long>(length)));
     whole.push_back(0);
     expect_refused<hdr_mode_field>(whole);
     bytes status = bytes_of(diagnostics(2));

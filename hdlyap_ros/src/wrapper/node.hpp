@@ -22,7 +22,10 @@ struct hdr_publisher {
 
 struct hdr_subscriber {
     ros::Subscriber subscriber;
+    std::string topic;
+    std::string datatype;
     hdr_node *node;
+    int looks = 0; /**< at it since it was last connected, or not published at all */
     /** False once it is freed, which its callback outlives when it is the one to do so. */
     std::shared_ptr<std::atomic<bool>> wanted = std::make_shared<std::atomic<bool>>(true);
 };
@@ -34,7 +37,8 @@ struct hdr_node {
     std::vector<std::unique_ptr<hdr_publisher>> publishers;
     std::vector<ros::ServiceServer> services;
     std::vector<std::unique_ptr<hdr_subscriber>> subscribers;
-    std::mutex mutex; /**< of subscribers, which callbacks may free */
+    ros::WallTimer lookout; /**< for subscribers that cannot be connected */
+    std::mutex mutex;       /**< of subscribers, which callbacks may free, and of lookout */
 };
 
 /** roscpp's: 0 would be without an end. Throws std::invalid_argument. */

@@ -27,7 +27,8 @@ namespace
 std::atomic<bool> requested{false};
 timer_t watchdog;
 itimerspec watchdog_time{};
-int stop_event = -1; /**< can be read from the request on: it is never read, and wakes everybody who waits */
+int stop_event =
+    -1; /**< can be read from the request on: it is never read, and wakes everybody who waits */
 int status_without_memory;
 
 void on_stop(int) { hdr_stop_request(); }

@@ -6,6 +6,7 @@
 #include "guard.hpp"
 #include "node.hpp"
 #include "received.hpp"
+#include "unheard.hpp"
 
 namespace
 {
@@ -24,18 +25,16 @@ caller(const hdr_subscriber &subscriber, callback_of<View> callback, void *conte
 }
 
 /** Unlike roscpp's its faults name the topic. */
-template <class View> ros::Subscriber connect(hdr_subscriber &subscriber, const std::string &topic,
-                                              int queue, callback_of<View> callback, void *context)
+template <class View>
+void connect(hdr_subscriber &subscriber, int queue, callback_of<View> callback, void *context)
 {
-    using message = hdlyap_ros::received<View>;
-    ros::Subscriber made;
     try {
-        made = subscriber.node->handle.subscribe<message>(topic, queue_length(topic, queue),
-                                                          caller(subscriber, callback, context));
+        subscriber.subscriber = subscriber.node->handle.subscribe<hdlyap_ros::received<View>>(
+            subscriber.topic, queue_length(subscriber.topic, queue),
+            caller(subscriber, callback, context));
     } catch (const ros::ConflictingSubscriptionException &) {
     }
-    if (!made) throw_of_another_type(topic, ros::message_traits::datatype<message>());
-    return made;
+    if (!subscriber.subscriber) throw_of_another_type(subscriber.topic, subscriber.datatype);
 }
 
 template <class View> hdr_status subscribe(hdr_subscriber **out, hdr_node *node, const char *topic,
@@ -45,7 +44,10 @@ template <class View> hdr_status subscribe(hdr_subscriber **out, hdr_node *node,
     return hdr_guard([&] {
         std::unique_ptr<hdr_subscriber> made(new hdr_subscriber);
         made->node = node;
-        made->subscriber = connect(*made, ros::names::resolve(topic), queue, callback, context);
+        made->topic = ros::names::resolve(topic);
+        made->datatype = ros::message_traits::datatype<hdlyap_ros::received<View>>();
+        connect(*made, queue, callback, context);
+        unheard_look_out(node);
         const std::lock_guard<std::mutex> lock(node->mutex);
         node->subscribers.push_back(std::move(made));
         *out = node->subscribers.back().get();
@@ -56,9 +58,8 @@ std::unique_ptr<hdr_subscriber> taken_from_its_node(const hdr_subscriber *subscr
 {
     auto &all = subscriber->node->subscribers;
     const std::lock_guard<std::mutex> lock(subscriber->node->mutex);
-    const auto found = std::find_if(all.begin(), all.end(), [subscriber](const auto &one) {
-        return one.get() == subscriber;
-    });
+    const auto found = std::find_if(
+        all.begin(), all.end(), [subscriber](const auto &one) { return one.get() == subscriber; });
     std::unique_ptr<hdr_subscriber> taken = std::move(*found);
     all.erase(found);
     return taken;
@@ -92,7 +93,8 @@ void hdr_subscriber_free(hdr_subscriber *subscriber)
 {
     if (!subscriber) return;
     subscriber->wanted->store(false);
-    const hdr_status status = hdr_guard([&] { taken_from_its_node(subscriber)->subscriber.shutdown(); });
+    const hdr_status status = hdr_guard(
+        [&] { taken_from_its_node(subscriber)->subscriber.shutdown(); });
     if (status != HDR_OK) hdr_log(HDR_ERROR, "unsubscribing: %s", hdr_error_text());
 }
 
