@@ -55,7 +55,7 @@ static void on_phases(void *context, const hdr_lp_phases *all)
 {
     watch *w = context;
     const hdr_lp_phase *phase = find(w, all);
-    const int state = phase ? phase->state : ABSENT;
+    const int state = phase && phase->state < ABSENT ? phase->state : ABSENT;
     if (state != w->state)
         hdr_log(state == HDR_LP_TRACKED ? HDR_INFO : HDR_WARN, "t = %g: phase %d of LP(%d,%d): %s",
                 all->sim_time, w->number, w->nx, w->ny, states[state]);
@@ -73,10 +73,8 @@ static void on_phases(void *context, const hdr_lp_phases *all)
         hdr_log(HDR_ERROR, "%s", hdr_error_text());
     const uint32_t now = hdr_time_now().sec; /* a line a second is enough, once there is an error */
     if (now != w->said && phase->omega_error >= 0.0)
-        hdr_log(HDR_INFO,
-                "t = %g: a = %.3f, b = %.3f, phase = %.3f, omega = %.5f +- %.5f, %+.2f %%",
-                all->sim_time, phase->a, phase->b, phase->phase, phase->omega, phase->omega_error,
-                percent.data);
+        hdr_log(HDR_INFO, "t = %g: phase = %.3f, omega = %.5f +- %.5f, deviation %+.2f %%",
+                all->sim_time, phase->phase, phase->omega, phase->omega_error, percent.data);
     w->said = now;
 }
 
@@ -98,7 +96,7 @@ static bool read_params(watch *w, const hdr_params *params)
     static const char *const known[] = {"node", "nx", "ny", "number", NULL};
     const char *unknown = hdr_params_unknown(params, known);
     if (unknown) return refuse(params, unknown, "removed: there is no parameter of this name");
-    if (hdr_param_string(params, "node", &w->node) == HDR_WRONG_TYPE)
+    if (hdr_param_string(params, "node", &w->node) == HDR_WRONG_TYPE || strlen(w->node) > 200)
         return refuse(params, "node", "the name of a node");
     return read_int(params, "nx", 0, &w->nx) && read_int(params, "ny", 0, &w->ny) &&
            read_int(params, "number", 1, &w->number) &&

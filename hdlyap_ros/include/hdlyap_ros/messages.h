@@ -41,7 +41,7 @@ typedef struct hdr_strings {
 typedef struct hdr_header {
     hdr_time stamp;
     const char *frame_id;
-    uint32_t seq; /**< filled while publishing: one more each time, so that a gap is what was lost */
+    uint32_t seq; /**< counts a publisher's messages, filled while publishing: gaps are losses */
 } hdr_header;
 
 /** hdlyap/RunInfo */

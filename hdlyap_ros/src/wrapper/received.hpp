@@ -123,8 +123,7 @@ namespace ros
 namespace message_traits
 {
 #define HDR_RECEIVED_TRAIT(trait)                                                                  \
-    template <class View>                                                                          \
-    struct trait<hdlyap_ros::received<View>> {                                                     \
+    template <class View> struct trait<hdlyap_ros::received<View>> {                               \
         using message = typename hdlyap_ros::message_of<View>::type;                               \
         static const char *value() { return trait<message>::value(); }                             \
         static const char *value(const hdlyap_ros::received<View> &) { return value(); }           \
@@ -132,8 +131,8 @@ namespace message_traits
 HDR_RECEIVED_TRAIT(MD5Sum)
 HDR_RECEIVED_TRAIT(DataType)
 #undef HDR_RECEIVED_TRAIT
-template <class View>
-struct HasHeader<hdlyap_ros::received<View>> : HasHeader<typename hdlyap_ros::message_of<View>::type> {
+template <class View> struct HasHeader<hdlyap_ros::received<View>>
+    : HasHeader<typename hdlyap_ros::message_of<View>::type> {
 };
 } // namespace message_traits
 

@@ -155,12 +155,11 @@ template <> struct message_of<hdr_run_info> {
     template <class Stream, class View> static void fields(Stream &s, View &v)
     {
         pass(s, v.header, v.run_id, v.version, v.scene, v.disks, v.density, v.aspect, v.box_x,
-            v.box_y, v.boundary_x, v.boundary_y, v.seed, v.exponents, v.vectors, v.zero_exponents,
-            v.equilibration, v.warmup, v.duration, v.target_std_error, v.interval, v.accuracy,
-            v.report_interval, v.observables, v.max_wave_number, v.max_node, v.wave_nx, v.wave_ny,
-            v.field_indices, v.pace, v.checkpoint, v.checkpoint_interval, v.resume, v.resumed_time,
-            v.threads, v.blas_threads, v.blas_library, v.blas_kernel,
-            v.blas_threading);
+             v.box_y, v.boundary_x, v.boundary_y, v.seed, v.exponents, v.vectors, v.zero_exponents,
+             v.equilibration, v.warmup, v.duration, v.target_std_error, v.interval, v.accuracy,
+             v.report_interval, v.observables, v.max_wave_number, v.max_node, v.wave_nx, v.wave_ny,
+             v.field_indices, v.pace, v.checkpoint, v.checkpoint_interval, v.resume, v.resumed_time,
+             v.threads, v.blas_threads, v.blas_library, v.blas_kernel, v.blas_threading);
     }
 };
 
@@ -169,8 +168,8 @@ template <> struct message_of<hdr_spectrum> {
     template <class Stream, class View> static void fields(Stream &s, View &v)
     {
         pass(s, v.header, v.run_id, v.sim_time, v.averaged_time, v.collisions, v.lambda_max,
-            v.ks_entropy, v.pairing_error, v.first_index, v.exponents, v.std_errors,
-            v.local_exponents, v.cos_theta, v.dp_dq_ratio);
+             v.ks_entropy, v.pairing_error, v.first_index, v.exponents, v.std_errors,
+             v.local_exponents, v.cos_theta, v.dp_dq_ratio);
     }
 };
 
@@ -178,7 +177,7 @@ template <> struct message_of<hdr_mode> {
     template <class Stream, class View> static void fields(Stream &s, View &v)
     {
         pass(s, v.index, v.exponent, v.kind, v.nx, v.ny, v.wave_number, v.weight, v.weight_l,
-            v.weight_p, v.weight_now, v.null_x, v.null_y, v.null_p, v.step);
+             v.weight_p, v.weight_now, v.null_x, v.null_y, v.null_p, v.step);
     }
 };
 
@@ -187,7 +186,7 @@ template <> struct message_of<hdr_modes> {
     template <class Stream, class View> static void fields(Stream &s, View &v)
     {
         pass(s, v.header, v.run_id, v.sim_time, v.averaged_time, v.samples,
-            items_of(v.modes, v.count));
+             items_of(v.modes, v.count));
     }
 };
 
@@ -195,7 +194,8 @@ template <> struct message_of<hdr_step> {
     template <class Stream, class View> static void fields(Stream &s, View &v)
     {
         pass(s, v.kind, v.nx, v.ny, v.wave_number, v.conjugate, v.resolved, v.expected,
-            v.first_index, v.last_index, v.multiplicity, v.set, v.members, v.exponent, v.std_error);
+             v.first_index, v.last_index, v.multiplicity, v.set, v.members, v.exponent,
+             v.std_error);
     }
 };
 
@@ -204,7 +204,7 @@ template <> struct message_of<hdr_steps> {
     template <class Stream, class View> static void fields(Stream &s, View &v)
     {
         pass(s, v.header, v.run_id, v.sim_time, v.averaged_time, v.threshold,
-            items_of(v.steps, v.count), v.t, v.l, v.v_phases, v.v, v.v_error);
+             items_of(v.steps, v.count), v.t, v.l, v.v_phases, v.v, v.v_error);
     }
 };
 
@@ -212,7 +212,7 @@ template <> struct message_of<hdr_lp_phase> {
     template <class Stream, class View> static void fields(Stream &s, View &v)
     {
         pass(s, v.step, v.nx, v.ny, v.modulation, v.index, v.state, v.a, v.b, v.phase, v.omega,
-            v.omega_error, v.velocity, v.tracked_time);
+             v.omega_error, v.velocity, v.tracked_time);
     }
 };
 
@@ -229,9 +229,9 @@ template <> struct message_of<hdr_mode_field> {
     template <class Stream, class View> static void fields(Stream &s, View &v)
     {
         pass(s, v.header, v.run_id, v.sim_time, v.index, v.kind, v.nx, v.ny, v.wave_number,
-            v.exponent, v.x, v.y, v.px, v.py, v.dqx, v.dqy, v.dpx, v.dpy, v.pairs, v.modulation,
-            v.residual_l, v.residual_p, v.rotation_distance, v.l_x, v.l_y, v.p_x, v.p_y,
-            v.p_over_px, v.p_over_py);
+             v.exponent, v.x, v.y, v.px, v.py, v.dqx, v.dqy, v.dpx, v.dpy, v.pairs, v.modulation,
+             v.residual_l, v.residual_p, v.rotation_distance, v.l_x, v.l_y, v.p_x, v.p_y,
+             v.p_over_px, v.p_over_py);
     }
 };
 
@@ -239,7 +239,7 @@ template <> struct message_of<hdr_hydro_mode> {
     template <class Stream, class View> static void fields(Stream &s, View &v)
     {
         pass(s, v.step, v.index, v.kind, v.nx, v.ny, v.modulation, v.density, v.along, v.across,
-            v.energy);
+             v.energy);
     }
 };
 
@@ -264,10 +264,10 @@ template <> struct message_of<hdr_cost> {
     template <class Stream, class View> static void fields(Stream &s, View &v)
     {
         pass(s, v.header, v.run_id, v.sim_time, v.phase, v.wall_seconds, v.events_seconds,
-            v.replay_seconds, v.ortho_seconds, v.spectrum_seconds, v.modes_seconds,
-            v.publish_seconds, v.events_per_second, v.interval, v.interval_limit, v.condition,
-            v.orthogonality_defect, v.error_bound, v.orthonormalisations, v.second_passes, v.looks,
-            v.repairs, v.std_error, v.progress, v.remaining_seconds);
+             v.replay_seconds, v.ortho_seconds, v.spectrum_seconds, v.modes_seconds,
+             v.publish_seconds, v.events_per_second, v.interval, v.interval_limit, v.condition,
+             v.orthogonality_defect, v.error_bound, v.orthonormalisations, v.second_passes, v.looks,
+             v.repairs, v.std_error, v.progress, v.remaining_seconds);
     }
 };
 
