@@ -125,12 +125,13 @@ static hd_status publish(worker *w)
     return status;
 }
 
-/** Sets when the step after the one that begins now is due. */
+/** Sets when the step after the one that begins now is due. Nobody waits for what comes before the averaging. */
 static hd_status paced_step(worker *w)
 {
     const double begin = clock_seconds(), from = hd_run_time(w->run);
+    const bool paced = hd_run_phase(w->run) == HD_AVERAGING;
     const hd_status status = hd_run_step(w->run);
-    w->due = fmax(w->due, begin) + (hd_run_time(w->run) - from) / w->set->pace;
+    if (paced) w->due = fmax(w->due, begin) + (hd_run_time(w->run) - from) / w->set->pace;
     return status;
 }
 

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/** Well below the 100 that rviz keeps while it waits for a frame. */
-enum { LAYERS_MAX = 90, SEEN_MAX = 200, NAME_SIZE = 32, TEXT_SIZE = 200 };
+/** The largest picture has some 110. */
+enum { LAYERS_MAX = 160, SEEN_MAX = 300, NAME_SIZE = 32, TEXT_SIZE = 200 };
 
 /** One marker; its points are [begin, begin + count) of the canvas. */
 typedef struct layer {
