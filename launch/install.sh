@@ -30,10 +30,10 @@ test_packages() {
     case $1 in
         debian)
             echo libclang-rt-dev librostest-dev python3-rostest python3-rostopic python3-rosnode \
-                python3-rosservice catkin-lint
+                python3-rosservice python3-tf2-msgs catkin-lint
             ;;
         noetic)
-            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice
+            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice tf2-msgs
             echo python3-catkin-lint
             ;;
     esac
