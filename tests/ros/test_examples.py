@@ -208,7 +208,7 @@ class Alone(Examples):
         deviations, subscriber = self.hear('/watch_phase/deviation', Float64)
         self.wait_for(lambda: publisher.get_num_connections() and subscriber.get_num_connections(), watch)
         # times, and how long it has been followed by then
-        made = [(t, t - began) for began, times in ((0.5, range(1, 6)), (7.0, range(10, 16)), (1.0, range(2, 6)))
+        made = [(t, t - began) for began, times in ((0.5, range(1, 4)), (7.0, range(10, 16)), (1.5, range(9, 13)))
                 for t in times]
         messages = [LpPhases(sim_time=t, phases=[LpPhase(nx=1, state=LpPhase.TRACKED, tracked_time=tracked,
                                                          phase=t + 0.1 * (7 * k % 5))])
