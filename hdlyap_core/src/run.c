@@ -395,7 +395,8 @@ static hd_status look_or_end(hd_run *run)
 static hd_status take_cut(hd_run *run)
 {
     const bool averaging = run->schedule.phase == HD_AVERAGING, measuring = observing(run);
-    run->fields_due = averaging && hd_schedule_reaches_multiple(&run->schedule, run->field_interval);
+    run->fields_due = averaging &&
+                      hd_schedule_reaches_multiple(&run->schedule, run->field_interval);
     if (run->frame && run->now < run->interval_end) HD_TRY(look_or_end(run));
     const bool factored = run->frame && run->now == run->interval_end;
     const unsigned ends = hd_schedule_pass(&run->schedule, phases_due(run));

@@ -238,7 +238,8 @@ static void fields_are_due_now_and_then(void **state)
         CHECK_CLOSE(hd_run_time(run), 150.0 + averaged, 1e-9);
         due++;
     }
-    const long ends[] = {hd_run_cost(without).orthonormalisations, hd_run_cost(run).orthonormalisations,
+    const long ends[] = {hd_run_cost(without).orthonormalisations,
+                         hd_run_cost(run).orthonormalisations,
                          hd_run_cost(always).orthonormalisations};
     print_message("orthonormalisations: %ld without fields, %ld every 10, %ld at each report\n",
                   ends[0], ends[1], ends[2]);

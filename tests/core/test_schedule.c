@@ -135,7 +135,8 @@ static void expect_multiples(double report, double sample_max, double piece_max,
 static void multiples_are_reached_once(void **state)
 {
     (void)state;
-    const double reports[] = {1.0, 0.3, 0.1, 7.0, 2.5}, intervals[] = {0.0, 0.5, 1.0, 1.3, 10.0, 1000.0};
+    const double reports[] = {1.0, 0.3, 0.1, 7.0, 2.5};
+    const double intervals[] = {0.0, 0.5, 1.0, 1.3, 10.0, 1000.0};
     for (size_t r = 0; r < sizeof reports / sizeof *reports; r++)
         for (size_t k = 0; k < sizeof intervals / sizeof *intervals; k++) {
             expect_multiples(reports[r], 0.9, INFINITY, intervals[k]);
