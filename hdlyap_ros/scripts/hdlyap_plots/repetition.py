@@ -1,5 +1,7 @@
 """bag file -> run_info -> the scene file (YAML, as launch/scenes/*.yaml) that repeats the run."""
 
+import re
+
 import yaml
 
 from . import recording
@@ -7,6 +9,8 @@ from . import recording
 # of run_info, what is no parameter: what follows from them, and what the run ran on
 RESULTS = ('header', 'run_id', 'version', 'box_x', 'box_y', 'vectors', 'zero_exponents', 'wave_nx', 'wave_ny',
            'resumed_time', 'blas_threads', 'blas_library', 'blas_kernel', 'blas_threading')
+# a word, or a list as text: numbers, or modes such as T(1,0)
+LISTS = ('field_indices', 'marker_modes')
 # bags of before these parameters
 OLDER = dict(field_interval=0.0, wait_for_subscribers=[])
 
@@ -33,9 +37,15 @@ def parameters(info):
     makes no difference to its numbers."""
     names = [name for name in info.__slots__ if name not in RESULTS]
     asked = {name: getattr(info, name) for name in names}
-    asked.update(interval=info.interval or 'auto', field_indices=yaml.safe_load(info.field_indices),
-                 checkpoint='', resume='')
+    asked.update({name: _list_of(asked[name]) for name in LISTS if name in asked},
+                 interval=info.interval or 'auto', checkpoint='', resume='')
     return {**asked, **{name: value for name, value in OLDER.items() if name not in asked}}
+
+
+def _list_of(text):
+    if not text.startswith('['):
+        return text
+    return [int(item) if item.isdigit() else item for item in re.findall(r'\w+(?:\([^)]*\))?', text)]
 
 
 def _remarks(info):
