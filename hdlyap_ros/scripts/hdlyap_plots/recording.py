@@ -1,6 +1,7 @@
 """bag file -> Recording: what one node said about its last run. Streams, keeps thinned courses of
 scalars and the last of everything else, so a bag may be far larger than the memory."""
 
+import contextlib
 import struct
 import sys
 
@@ -140,9 +141,33 @@ def known(errors):
 def read(path, node=None, types=TYPES):
     """The last run of the given node, or of the only node in the bag; of its messages those of the
     given types."""
+    with _opened(path) as bag:
+        return _read_run(bag, path, _topics_of_node(bag, path, node, types))
+
+
+def run_infos(path, node=None):
+    """The run_info of every run of the given node, or of the only one in the bag, in their order."""
+    with _opened(path) as bag:
+        topics = _topics_of_node(bag, path, node, TYPES)
+        types = bag.get_type_and_topic_info().topics
+        topics = [topic for topic in topics if types[topic].msg_type == RUN_INFO]
+        # each file of a bag that was split has it; no topics would mean all of them
+        found = {info.run_id: info for _, info, _ in bag.read_messages(topics=topics or [''])}
+    if not found:
+        raise _without_run_info(path)
+    return list(found.values())
+
+
+def _without_run_info(path):
+    return RecordingError(f'{path}: no run_info in it; record that topic too')
+
+
+@contextlib.contextmanager
+def _opened(path):
+    """The bag; whatever is wrong with it is a RecordingError."""
     try:
         with rosbag.Bag(path) as bag:
-            return _read_run(bag, path, _topics_of_node(bag, path, node, types))
+            yield bag
     except rosbag.ROSBagUnindexedException:
         raise RecordingError(f'{path}: not closed properly; repair it with rosbag reindex')
     except rosbag.ROSBagException as error:
@@ -183,7 +208,7 @@ def _read_run(bag, path, topics):
         elif recording is not None and recording.info.run_id == packed.run_id:
             recording.add(kind, packed)
     if recording is None:
-        raise RecordingError(f'{path}: no run_info in it; record that topic too')
+        raise _without_run_info(path)
     return recording
 
 

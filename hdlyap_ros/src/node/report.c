@@ -269,6 +269,7 @@ static unsigned topics_due(const report *rep, const hd_run *run)
     unsigned set = outlets_subscribed(&rep->out);
     if (!spectrum || !(hd_spectrum_time(spectrum) > 0.0)) set &= ~topic_bit(TOPIC_SPECTRUM);
     if (!modes || hd_modes_samples(modes) == 0) set &= ~of_modes;
+    if (!hd_run_fields_due(run)) set &= ~topic_bit(TOPIC_FIELDS);
     if (hd_run_phase(run) == HD_FINISHED) set &= ~topic_bit(TOPIC_COST);
     return set & (rep->demand | ~of_modes);
 }
