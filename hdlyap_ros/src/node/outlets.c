@@ -74,6 +74,22 @@ unsigned outlets_subscribed(const outlets *out)
     return set;
 }
 
+static bool is_worse(hdr_lag a, hdr_lag b)
+{
+    return a.losing != b.losing ? a.losing : a.seconds > b.seconds;
+}
+
+hdr_lag outlets_lag(const outlets *out)
+{
+    hdr_lag worst = {.topic = ""};
+    for (topic t = 0; t < TOPICS; t++) {
+        if (!out->publisher[t]) continue;
+        const hdr_lag lag = hdr_publisher_lag(out->publisher[t]);
+        if (is_worse(lag, worst)) worst = lag;
+    }
+    return worst;
+}
+
 hdr_header outlets_header(void)
 {
     return (hdr_header){.stamp = hdr_time_now(), .frame_id = frame_id};
