@@ -109,6 +109,7 @@ hdr_lag hdr_publisher_lag(hdr_publisher *publisher)
 {
     hdr_lag lag = publisher->backlog.lag(seconds_now());
     lag.topic = publisher->topic.c_str();
-    lag.losing = lag.messages >= publisher->queue;
+    /* a queue of one is meant to lose what is old */
+    lag.losing = publisher->queue > 1 && lag.messages >= publisher->queue;
     return lag;
 }
