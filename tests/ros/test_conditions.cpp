@@ -84,7 +84,7 @@ examination examined(double distance, double momentum)
 
 TEST(Examination, RoundingIsNoOverlap)
 {
-    const examination good = examined(1.0 - 2 * DBL_EPSILON, 1.0);
+    const examination good = examined(1.0 - 32 * DBL_EPSILON, 1.0);
     EXPECT_TRUE(good.made);
     EXPECT_FALSE(examination_overlap(&good));
     EXPECT_FALSE(examination_drift(&good));
