@@ -5,25 +5,26 @@ import struct
 import sys
 
 import genpy
-import numpy as np
 import rosbag
 
 from .course import Course
+from .numbers import known
 from .phases import PhaseCourse
+from .run import Run
+from .stages import STAGES
 
 RUN_INFO, SPECTRUM, COST = 'hdlyap/RunInfo', 'hdlyap/Spectrum', 'hdlyap/Cost'
 STEPS, PHASES, FIELD = 'hdlyap/Steps', 'hdlyap/LpPhases', 'hdlyap/ModeField'
 TYPES = (RUN_INFO, SPECTRUM, COST, STEPS, PHASES, FIELD)
 SMALLEST = 4    # exponents whose course is kept, counted back from the last positive one
 DAMAGE = (genpy.DeserializationError, struct.error, UnicodeDecodeError, KeyError)
-STAGES = ('events', 'replay', 'ortho', 'spectrum', 'modes', 'publish')
 
 
 class RecordingError(Exception):
     """One line for the user: what is wrong with which bag."""
 
 
-class Recording:
+class Recording(Run):
     """The last run in the bag: its run_info, its last spectrum (None without exponents), the
     course of the averages since their last reset, the cost over time, and of the modes the last
     steps (None if unrecorded), the last field of each vector, and the course of the LP phases."""
@@ -34,16 +35,6 @@ class Recording:
         self.phases = PhaseCourse()
         self._history, self._costs = Course(), Course()
         self._steps, self._fields = None, {}
-
-    @property
-    def positive_end(self):
-        """Lyapunov index of the last positive exponent."""
-        return (4 * self.info.disks - self.info.zero_exponents) // 2
-
-    @property
-    def last_index(self):
-        """Lyapunov index of the last exponent carried."""
-        return self.spectrum.first_index + len(self.spectrum.exponents) - 1
 
     @property
     def smallest(self):
@@ -129,12 +120,6 @@ class Packed:
 
     def message(self):
         return self._pytype().deserialize(self._data)
-
-
-def known(errors):
-    """Standard errors with the messages' -1 for 'not yet known' as NaN."""
-    errors = np.asarray(errors, dtype=float)
-    return np.where(errors < 0, np.nan, errors)
 
 
 def read(path, node=None, types=TYPES):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from . import paper, step_table
-from .recording import known
+from .numbers import known
 
 TAIL = 64       # exponents in the table
 COLUMNS = 3

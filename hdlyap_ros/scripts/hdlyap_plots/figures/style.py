@@ -7,7 +7,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt     # noqa: E402
 import numpy as np                  # noqa: E402
 
-from ..recording import known       # noqa: E402
+from ..numbers import known       # noqa: E402
 from .. import steps                # noqa: E402
 
 POINTS = 2000       # of a curve; more cannot be seen
