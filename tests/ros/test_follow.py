@@ -16,9 +16,9 @@ from hdlyap.msg import Cost, LpPhase
 from made import LP, SCRIPTS, T
 from terminal import Terminal
 from hdlyap_follow import layout, panels
-from hdlyap_follow.glyphs import Glyphs
 from hdlyap_follow.screen import clean, cut
 from hdlyap_follow.watch import Speed, View, lazy
+from hdlyap_plots.glyphs import Glyphs
 
 FOLLOW = os.path.join(SCRIPTS, 'follow')
 SIZES = (80, 24), (120, 40), (200, 60), (60, 15), (30, 5), (7, 2), (1, 1)

@@ -1,8 +1,12 @@
 """The screen of a running node, redrawn until the user has seen enough."""
 
+import sys
+
 import rospy
 
-from . import glyphs, layout
+from hdlyap_plots import glyphs
+
+from . import layout
 from .screen import Screen
 from .watch import Watch
 
@@ -14,7 +18,7 @@ WENT_AWAY = 3
 def follow(node, plain=False):
     """Returns the exit status: 0 the user has quit, 3 the node had gone before its end by then,
     130 interrupted."""
-    watch, drawn = Watch(node), glyphs.chosen(plain)
+    watch, drawn = Watch(node), glyphs.chosen(sys.stdout, plain)
     screen = Screen(plain)
     with screen:
         status = _redraw(watch, screen, drawn)

@@ -1,8 +1,8 @@
 """bag file -> Recording: what one node said about its last run. Streams, keeps thinned courses of
 scalars and the last of everything else, so a bag may be far larger than the memory."""
 
+import os
 import struct
-import sys
 
 import genpy
 import rosbag
@@ -10,6 +10,7 @@ import rosbag
 from .course import Course
 from .numbers import known
 from .phases import PhaseCourse
+from .progress import Progress
 from .run import Run
 from .stages import STAGES
 
@@ -29,8 +30,9 @@ class Recording(Run):
     course of the averages since their last reset, the cost over time, and of the modes the last
     steps (None if unrecorded), the last field of each vector, and the course of the LP phases."""
 
-    def __init__(self, info):
+    def __init__(self, info, runs=1):
         self.info = info
+        self.runs = runs        # in the bag
         self.spectrum = None
         self.phases = PhaseCourse()
         self._history, self._costs = Course(), Course()
@@ -122,20 +124,28 @@ class Packed:
         return self._pytype().deserialize(self._data)
 
 
-def read(path, node=None, types=TYPES):
-    """The last run of the given node, or of the only node in the bag; of its messages those of the
-    given types."""
+def read(path, node=None, types=TYPES, number=None):
+    """The last run of the given node, or of the only node in the bag, or the one of that number,
+    from 1; of its messages those of the given types."""
     try:
         with rosbag.Bag(path) as bag:
-            return _read_run(bag, path, _topics_of_node(bag, path, node, types))
+            return _read_run(bag, path, _topics_of_node(bag, path, node, types), number)
     except rosbag.ROSBagUnindexedException:
-        raise RecordingError(f'{path}: not closed properly; repair it with rosbag reindex')
+        raise RecordingError(f'{path}: not closed, as of a recording that goes on or was cut off; '
+                             f'if it was: rosbag reindex {path}')
     except rosbag.ROSBagException as error:
         raise RecordingError(f'{path}: not a readable bag: {error}')
     except DAMAGE as error:
         raise RecordingError(f'{path}: damaged: {error}')
     except OSError as error:
-        raise RecordingError(f'{path}: {error.strerror or error}')
+        raise RecordingError(f'{path}: {error.strerror or error}{_unfinished(path)}')
+
+
+def _unfinished(path):
+    """rosbag record gives a bag its name when it is whole."""
+    active = path + '.active'
+    return (f'; {active} is there: it is still recorded, or was cut off, and then needs '
+            f'rosbag reindex {active}' if os.path.exists(active) else '')
 
 
 def _topics_of_node(bag, path, node, types):
@@ -156,28 +166,33 @@ def _topics_of_node(bag, path, node, types):
     return nodes['/' + node.strip('/')]
 
 
-def _read_run(bag, path, topics):
-    recording = None
-    messages = bag.read_messages(topics=topics, raw=True)
-    for _, raw, _ in _with_progress(messages, bag.get_message_count(topics)):
-        kind, data, pytype = raw[0], raw[1], raw[-1]
-        packed = Packed(data, pytype)
-        if kind == RUN_INFO:
-            if recording is None or recording.info.run_id != packed.run_id:
-                recording = Recording(packed.message())
-        elif recording is not None and recording.info.run_id == packed.run_id:
-            recording.add(kind, packed)
-    if recording is None:
+def _read_run(bag, path, topics, number):
+    runs = _runs(bag, topics)
+    if not runs:
         raise RecordingError(f'{path}: no run_info in it; record that topic too')
+    if not 1 <= (number or 1) <= len(runs):
+        raise RecordingError(f'{path}: no run {number} in it, only 1 .. {len(runs)}')
+    info = runs[(number or len(runs)) - 1]
+    recording = Recording(info, len(runs))
+    for kind, packed in _packed(bag, topics):
+        if kind != RUN_INFO and packed.run_id == info.run_id:
+            recording.add(kind, packed)
     return recording
 
 
-def _with_progress(messages, total):
-    """Passes the messages on; a percentage on the terminal where that takes a while."""
-    show = sys.stderr.isatty() and total > 1000
-    for count, message in enumerate(messages):
-        if show and count % (total // 100) == 0:
-            print(f'\rreading {100 * count // total} %', end='', file=sys.stderr, flush=True)
-        yield message
-    if show:
-        print('\r\033[K', end='', file=sys.stderr, flush=True)
+def _runs(bag, topics):
+    """RunInfo of every run, in the order of their beginnings."""
+    about = bag.get_type_and_topic_info(topics).topics
+    named = [topic for topic in about if about[topic].msg_type == RUN_INFO]
+    runs = {}
+    for _, packed in _packed(bag, named) if named else ():
+        if packed.run_id not in runs:
+            runs[packed.run_id] = packed.message()
+    return list(runs.values())
+
+
+def _packed(bag, topics):
+    """(type, Packed) of the messages of these topics."""
+    messages = bag.read_messages(topics=topics, raw=True)
+    for _, raw, _ in Progress('reading').over(messages, bag.get_message_count(topics)):
+        yield raw[0], Packed(raw[1], raw[-1])

@@ -1,6 +1,5 @@
 """Bars and dials out of characters."""
 
-import sys
 from math import isfinite
 
 
@@ -25,10 +24,10 @@ class Glyphs:
         return self._hands[round(turn * 8) % 8]
 
 
-def chosen(plain):
-    """As the terminal's encoding allows."""
+def chosen(stream, plain=False):
+    """As the encoding of a terminal allows."""
     try:
-        '█→'.encode(sys.stdout.encoding or 'ascii')
+        '█→'.encode(stream.encoding or 'ascii')
     except UnicodeEncodeError:
         plain = True
     return Glyphs(plain)
