@@ -1,4 +1,4 @@
-"""A program on a terminal of its own: what it draws, what is typed, and how it leaves the terminal."""
+"""A program on a terminal of its own: what it draws, what is typed, and how it leaves that."""
 
 import codecs
 import fcntl

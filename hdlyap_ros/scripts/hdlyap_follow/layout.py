@@ -1,5 +1,5 @@
-"""View and size of the screen -> the lines on it: what matters most has room first, the two tables share
-what is left."""
+"""View and size of the screen -> the lines on it: what matters most has room first, the two tables
+share what is left."""
 
 from . import panels
 

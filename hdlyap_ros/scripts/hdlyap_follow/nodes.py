@@ -1,4 +1,4 @@
-"""Which nodes there are and whether they live: questions to the master and to the nodes themselves."""
+"""Which nodes there are and whether they live: questions to the master and to the nodes."""
 
 import sys
 import time

@@ -24,7 +24,8 @@ def head(view):
     info = view.info
     if info is None:
         return [[(view.node, 'strong')]]
-    return [[(f'{view.node}  {info.scene}', 'strong'), (f'  seed {info.seed}  run {info.run_id}', '')],
+    return [[(f'{view.node}  {info.scene}', 'strong'),
+             (f'  seed {info.seed}  run {info.run_id}', '')],
             [(system(info), '')]]
 
 

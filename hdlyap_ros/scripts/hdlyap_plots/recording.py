@@ -170,9 +170,10 @@ def _read_run(bag, path, topics, number):
     runs = _runs(bag, topics)
     if not runs:
         raise RecordingError(f'{path}: no run_info in it; record that topic too')
-    if not 1 <= (number or 1) <= len(runs):
+    number = len(runs) if number is None else number
+    if not 1 <= number <= len(runs):
         raise RecordingError(f'{path}: no run {number} in it, only 1 .. {len(runs)}')
-    info = runs[(number or len(runs)) - 1]
+    info = runs[number - 1]
     recording = Recording(info, len(runs))
     for kind, packed in _packed(bag, topics):
         if kind != RUN_INFO and packed.run_id == info.run_id:

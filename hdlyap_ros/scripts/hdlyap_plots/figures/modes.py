@@ -1,7 +1,7 @@
 """Vector fields of the modes with the smallest exponents, one of each step, at the disks."""
 
 import numpy as np
-from matplotlib.collections import PatchCollection
+from matplotlib.collections import EllipseCollection
 
 from .. import steps
 from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, plt, scene
@@ -11,7 +11,7 @@ WIDTH = 7.2         # of the figure [inch]
 TALLEST = 9.0
 LONG = 26           # names do not fit over a panel in the usual size
 ALONE = 4.2         # of a figure with one panel [inch]
-MANY = 10000        # arrows are drawn as pixels also where the rest is not: they would fill megabytes
+MANY = 10000        # arrows, as curves, would fill megabytes of an SVG file
 ARROW = 1.3         # root mean square length of the arrows [sigma]
 CHANNEL = 2.0       # a box narrower than this, in sigma, has no room for arrows
 
@@ -102,9 +102,7 @@ def _arrows(axes, panel, info, as_pixels):
     field = panel.field
     dq = np.array([field.dqx, field.dqy])
     dq = dq * ARROW / np.sqrt(np.mean(np.sum(dq ** 2, axis=0)))
-    axes.add_collection(PatchCollection([plt.Circle(q, 0.5) for q in zip(field.x, field.y)],
-                                        facecolors='none', edgecolors=LIGHT, linewidths=0.4,
-                                        rasterized=True))
+    axes.add_collection(_disks(axes, field))
     axes.quiver(field.x, field.y, *dq, angles='xy', scale_units='xy', scale=1, units='xy',
                 width=0.13, headwidth=3.5, headlength=4, headaxislength=3.5, minlength=0,
                 color=panel.colour, zorder=3, rasterized=as_pixels)
@@ -113,6 +111,16 @@ def _arrows(axes, panel, info, as_pixels):
     axes.set_ylim(0, info.box_y)
     axes.set_title(panel.title, fontsize=8 if len(panel.name) < LONG else 6)
     axes.tick_params(labelsize=6, length=2)
+
+
+def _disks(axes, field):
+    """One outline, repeated: much less of a file than one for each disk."""
+    # matplotlib 3.6 has given it another name
+    transform = ('offset_transform' if hasattr(EllipseCollection, 'set_offset_transform')
+                 else 'transOffset')
+    return EllipseCollection([1.0], [1.0], [0.0], units='xy', offsets=np.c_[field.x, field.y],
+                             facecolors='none', edgecolors=LIGHT, linewidths=0.4,
+                             **{transform: axes.transData})
 
 
 def _channel(panels, info):

@@ -6,6 +6,7 @@ from .. import steps
 from .style import GREY, INK, bars, kind_colour, plt, scene
 
 MOST = 24           # steps shown: the names of more would not fit
+ROOM = 6            # for so many at least
 
 
 def draw(recording):
@@ -19,15 +20,15 @@ def draw(recording):
         _degeneracy(bottom, place, block, recording.spectrum)
     top.axhline(100, color=GREY, linewidth=0.6)
     top.axhline(100 * recording.steps.threshold, color=INK, linewidth=0.8, linestyle=':',
-                label='least, beyond chance')
-    top.set_ylim(0, 118)
+                label='least for a step (beyond chance)')
+    top.set_ylim(0, 108)
     top.set_ylabel('multiplicity found  [% of expected]')
-    top.legend(loc='lower left')
+    top.legend(loc='lower right', bbox_to_anchor=(1, 1), borderpad=0)
     bottom.axhline(0, color=GREY, linewidth=0.6)
     bottom.set_ylabel('exponents less their mean  [%]')
     bottom.set_xticks(range(len(blocks)))
     bottom.set_xticklabels([block.name.replace('+', '\n+') for block in blocks], rotation=90)
-    bottom.set_xlim(-0.7, len(blocks) - 0.3)
+    bottom.set_xlim(-0.7, max(len(blocks), ROOM) - 0.3)
     for axes, name in zip((top, bottom), 'ab'):
         axes.set_title(f'({name})', loc='left')
         axes.tick_params(axis='x', length=0)
@@ -41,8 +42,8 @@ def _found(axes, place, block):
     axes.bar(place, 100 * block.multiplicity / block.expected, width=0.7,
              color=kind_colour(block.kind))
     axes.annotate(f'{block.multiplicity:.1f}/{block.expected}',
-                  (place, 100 * block.multiplicity / block.expected), xytext=(0, 2),
-                  textcoords='offset points', ha='center', fontsize=6)
+                  (place, 100 * block.multiplicity / block.expected), xytext=(0, -3),
+                  textcoords='offset points', ha='center', va='top', fontsize=6, color='white')
 
 
 def _degeneracy(axes, place, block, spectrum):
