@@ -72,7 +72,7 @@ ros_tests() {
 plot_tests() {
     source_setup "$WORK/ros/devel/setup.bash"
     cd "$ROOT/tests/ros"
-    python3 -m unittest -v test_plot_bag test_compare test_repeat
+    python3 -m unittest -v test_plot_bag test_compare test_follow test_repeat test_tools
 }
 
 lint() {
