@@ -150,7 +150,7 @@ lane() {
 
 # gives way: the other lane holds a node to what it does within a second
 core_lane() {
-    renice -n 10 "$BASHPID" >/dev/null
+    renice -n 5 "$BASHPID" >/dev/null
     stage core_build one core_build
     [[ $INSTALL == no ]] || stage other_blas one other_blas
     stage core_tests ctest core_ctest
