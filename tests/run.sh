@@ -139,6 +139,8 @@ report() {
     fi
 }
 
+has_reported() { [[ -s $LOGS/$1.log.report ]]; }
+
 # ---- two lanes beside each other: what computes, and what mostly waits for ROS -----------------
 
 # lane FUNCTION: its stages one after the other, in a process that ends what it has started.
@@ -158,6 +160,8 @@ core_lane() {
     stage sanitizers_build one sanitizers_build
     stage sanitizers_tests ctest run_ctest "$WORK/sanitizers"
     stage fuzz checks without_ros "$ROOT/tests/fuzz/run.sh" "$WORK/fuzz"
+    until has_reported ros_build || ! is_running "$ros"; do sleep 1; done
+    stage checked checks "$ROOT/tests/checked.sh" "$WORK/checked" "$WORK/core" "$WORK/ros"
 }
 
 ros_lane() {
@@ -182,14 +186,12 @@ mkdir -p "$LOGS"
 own_environment "$WORK/home"
 
 stage shell_scripts one shell_scripts
-start lane core_lane
-core=$CHILD
+whole=0
 start lane ros_lane
 ros=$CHILD
-whole=0
-finish "$core" || whole=1
+start lane core_lane
+finish "$CHILD" || whole=1
 finish "$ros" || whole=1
-stage checked checks "$ROOT/tests/checked.sh" "$WORK/checked" "$WORK/core" "$WORK/ros"
 stage warnings one warnings
 ((!whole)) || report "end of a lane" 0 1 0 "$COUNTS"
 
