@@ -150,6 +150,13 @@ lane() {
     "$1"
 }
 
+# A lane stops its own; unlike stop, which insists after a while, this leaves it the time.
+end_lanes() {
+    local pid
+    for pid in "${CHILDREN[@]}"; do kill -TERM "$pid" 2>/dev/null || true; done
+    for pid in "${CHILDREN[@]}"; do wait "$pid" || true; done
+}
+
 # gives way: the other lane holds a node to what it does within a second
 core_lane() {
     renice -n 5 "$BASHPID" >/dev/null
@@ -181,6 +188,7 @@ case ${1:-} in
     *) die "usage: run.sh [--no-install]" 2 ;;
 esac
 stop_at_exit
+trap end_lanes EXIT
 rm -rf "$WORK"
 mkdir -p "$LOGS"
 own_environment "$WORK/home"
