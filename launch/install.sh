@@ -15,26 +15,28 @@ run_packages() {
                 ros-std-msgs libstd-msgs-dev python3-std-msgs \
                 ros-std-srvs libstd-srvs-dev python3-std-srvs \
                 ros-diagnostic-msgs libdiagnostic-msgs-dev python3-diagnostic-msgs \
-                python3-rospy python3-rosbag python3-roslaunch rosbash
+                ros-visualization-msgs libvisualization-msgs-dev python3-visualization-msgs libtf2-ros-dev \
+                python3-rospy python3-rosbag python3-roslaunch python3-rospkg python3-yaml rosbash rviz
             ;;
         noetic)
             printf 'ros-noetic-%s\n' catkin message-generation message-runtime roscpp \
-                std-msgs std-srvs diagnostic-msgs rospy rosbag roslaunch rosbash
+                std-msgs std-srvs diagnostic-msgs visualization-msgs tf2-ros rospy rosbag roslaunch rosbash rviz
+            echo python3-rospkg python3-yaml
             ;;
     esac
 }
 
 test_packages() {
-    echo libcmocka-dev libgtest-dev ninja-build shellcheck strace valgrind clang libomp-dev
+    echo libcmocka-dev libgtest-dev ninja-build shellcheck strace valgrind clang libomp-dev xvfb imagemagick libgl1-mesa-dri
     case $1 in
         debian)
             echo libclang-rt-dev librostest-dev python3-rostest python3-rostopic python3-rosnode \
                 python3-rosservice python3-rosgraph python3-roslib python3-rosmaster python3-rosmsg rospack-tools \
-                python3-rospkg python3-yaml catkin-lint
+                python3-tf2-msgs catkin-lint
             ;;
         noetic)
-            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice rosgraph roslib rosmaster rosmsg rospack
-            echo python3-rospkg python3-yaml python3-catkin-lint
+            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice rosgraph roslib rosmaster rosmsg rospack tf2-msgs
+            echo python3-catkin-lint
             ;;
     esac
 }

@@ -51,9 +51,9 @@ they_talk() {
 has_every_file() {
     local share=$1/share/hdlyap include=$1/include file folder
     cd "$ROOT"
-    for folder in launch/scenes launch msg doc rviz examples; do
+    for folder in launch/scenes launch msg doc hdlyap_ros/rviz hdlyap_ros/examples; do
         for file in "$folder"/*; do
-            [[ ! -f $file || $file == *.sh || -s $share/$file ]] || { echo "no $share/$file" && return 1; }
+            [[ ! -f $file || $file == *.sh || -s $share/${file#hdlyap_ros/} ]] || { echo "no $share/$file" && return 1; }
         done
     done
     for file in hdlyap_core/include/*/*.h hdlyap_ros/include/*/*.h; do

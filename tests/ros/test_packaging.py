@@ -24,7 +24,7 @@ OF_ROS = dict(
     rospack='rospack-tools', rospy='python3-rospy', rosservice='python3-rosservice',
     rostest='librostest-dev python3-rostest', rostopic='python3-rostopic', rviz='rviz',
     std_msgs='libstd-msgs-dev python3-std-msgs ros-std-msgs', std_srvs='libstd-srvs-dev python3-std-srvs ros-std-srvs',
-    tf2_ros='libtf2-ros-dev',
+    tf2_msgs='python3-tf2-msgs', tf2_ros='libtf2-ros-dev',
     visualization_msgs='libvisualization-msgs-dev python3-visualization-msgs ros-visualization-msgs')
 # Of the system: base.yaml and python.yaml of rosdistro, the same on Debian and Ubuntu. libopenblas-openmp-dev is the one of
 # libopenblas-dev's alternatives that hdlyap is tested with.

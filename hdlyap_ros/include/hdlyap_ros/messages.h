@@ -59,6 +59,8 @@ typedef struct hdr_run_info {
     hdr_uints wave_nx, wave_ny;
     const char *field_indices;
     double pace;
+    const char *marker_modes;
+    double marker_rate;
     const char *checkpoint;
     double checkpoint_interval;
     const char *resume;

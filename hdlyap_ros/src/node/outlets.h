@@ -22,6 +22,9 @@ HDR_MUST_CHECK hdr_status outlets_advertise(outlets *out, hdr_node *ros, unsigne
 /** Set of the topics that have a subscriber now. */
 unsigned outlets_subscribed(const outlets *out);
 
+/** Name of the frame that positions are in. */
+const char *outlets_frame(void);
+
 /** A header of now. */
 hdr_header outlets_header(void);
 /** Messages that ROS refuses are lost with a line in the log; they do not end the run. */

@@ -98,6 +98,8 @@ hdr_status run_info_publish(const outlets *out, const settings *set, const hd_ru
         .wave_ny = {.data = waves.ny, .count = waves.count},
         .field_indices = set->fields.text,
         .pace = set->pace,
+        .marker_modes = set->markers.text,
+        .marker_rate = set->markers.rate,
         .checkpoint = set->checkpoint,
         .checkpoint_interval = set->checkpoint_interval,
         .resume = set->resume,
