@@ -24,6 +24,8 @@ FOLLOW = os.path.join(SCRIPTS, 'follow')
 SIZES = (80, 24), (120, 40), (200, 60), (60, 15), (30, 5), (7, 2), (1, 1)
 OBSERVED = ['spectrum', 'steps', 'lp_phases']
 PACED = dict(harness.MODES, equilibration=1.0, warmup=20.0, duration=0.0, pace=100.0)
+# a short run does not begin before it is watched
+SEEN = dict(wait_for_subscribers=['cost', 'spectrum'])
 SCREEN = 'from hdlyap_follow.screen import Screen\n'
 
 
@@ -320,7 +322,7 @@ class Running(unittest.TestCase):
         self.master.stop()
         self.shows(patient, 'no master  what connected before goes on')
         self.addClassCleanup(harness.Master(self.port).stop)
-        self.node(seed='18', duration=10.0)
+        self.node(seed='18', duration=10.0, **SEEN)
         self.shows(patient, 'seed 18')
         self.shows(patient, 'the run has finished')
         self.assertNotIn('no master', '\n'.join(patient.screen()))
@@ -329,7 +331,7 @@ class Running(unittest.TestCase):
         self.assertTrue(harness.wait_until(patient.is_as_before))
 
     def test_one_line_until_the_end(self):
-        self.node(duration=60.0)
+        self.node(duration=60.0, **SEEN)
         process = harness.Process([sys.executable, FOLLOW], **self.env)
         self.addCleanup(process.stop)
         self.assertTrue(harness.wait_until(lambda: self.listeners() == {'cost', 'spectrum'}))
