@@ -17,7 +17,7 @@ from made import LP, SCRIPTS, T
 from terminal import Terminal
 from hdlyap_follow import layout, panels
 from hdlyap_follow.screen import clean, cut
-from hdlyap_follow.watch import Speed, View, lazy
+from hdlyap_follow.watch import Speed, View, fill, lazy
 from hdlyap_plots.glyphs import Glyphs
 
 FOLLOW = os.path.join(SCRIPTS, 'follow')
@@ -197,6 +197,13 @@ class Screens(unittest.TestCase):
         seen = [speed.add(made.Cost(wall_seconds=wall, sim_time=time))
                 for wall, time in ((1, 10), (2, 30), (12, 130), (22, 130), (1, 5), (3, 15))]
         self.assertEqual(seen, [None, 20.0, 10.0, 0.0, None, 5.0])
+
+    def test_a_run_before_is_not_shown(self):
+        shown = View()
+        fill(shown, {'steps': made.steps([]), 'run_info': made.run_info(run_id='two'),
+                     'spectrum': made.spectrum([3.0], 1.0), 'cost': cost(run_id='two')})
+        self.assertEqual((shown.info.run_id, shown.cost.run_id), ('two', 'two'))
+        self.assertEqual((shown.steps, shown.spectrum), (None, None))
 
     def test_messages_are_unpacked_when_asked(self):
         class Counted(made.Spectrum):
