@@ -1,6 +1,7 @@
 """bag file -> Recording: what one node said about its last run. Streams, keeps thinned courses of
 scalars and the last of everything else, so a bag may be far larger than the memory."""
 
+import contextlib
 import os
 import struct
 
@@ -127,9 +128,22 @@ class Packed:
 def read(path, node=None, types=TYPES, number=None):
     """The last run of the given node, or of the only node in the bag, or the one of that number,
     from 1; of its messages those of the given types."""
+    with _opened(path) as bag:
+        return _read_run(bag, path, _topics_of_node(bag, path, node, types), number)
+
+
+def run_infos(path, node=None):
+    """The run_info of every run of the given node, or of the only one in the bag, in their order."""
+    with _opened(path) as bag:
+        return _runs(bag, path, _topics_of_node(bag, path, node, TYPES))
+
+
+@contextlib.contextmanager
+def _opened(path):
+    """The bag; whatever is wrong with it is a RecordingError."""
     try:
         with rosbag.Bag(path) as bag:
-            return _read_run(bag, path, _topics_of_node(bag, path, node, types), number)
+            yield bag
     except rosbag.ROSBagUnindexedException:
         raise RecordingError(f'{path}: not closed, as of a recording that goes on or was cut off; '
                              f'if it was: rosbag reindex {path}')
@@ -167,9 +181,7 @@ def _topics_of_node(bag, path, node, types):
 
 
 def _read_run(bag, path, topics, number):
-    runs = _runs(bag, topics)
-    if not runs:
-        raise RecordingError(f'{path}: no run_info in it; record that topic too')
+    runs = _runs(bag, path, topics)
     number = len(runs) if number is None else number
     if not 1 <= number <= len(runs):
         raise RecordingError(f'{path}: no run {number} in it, only 1 .. {len(runs)}')
@@ -181,14 +193,16 @@ def _read_run(bag, path, topics, number):
     return recording
 
 
-def _runs(bag, topics):
-    """RunInfo of every run, in the order of their beginnings."""
+def _runs(bag, path, topics):
+    """RunInfo of every run, in the order of their beginnings; each file of a bag that was split has it."""
     about = bag.get_type_and_topic_info(topics).topics
     named = [topic for topic in about if about[topic].msg_type == RUN_INFO]
     runs = {}
     for _, packed in _packed(bag, named) if named else ():
         if packed.run_id not in runs:
             runs[packed.run_id] = packed.message()
+    if not runs:
+        raise RecordingError(f'{path}: no run_info in it; record that topic too')
     return list(runs.values())
 
 
