@@ -31,6 +31,7 @@ class Sweep(unittest.TestCase):
     def table(self, text):
         """Of the lines below its head: densities with lambda_max, as printed."""
         lines = text.splitlines()
+        self.assertRegex(text, '(?m)^density  lambda_max')
         head = next(k for k, line in enumerate(lines) if line.startswith('density  lambda_max'))
         return {line.split()[0]: line.split()[1] for line in lines[head + 1:head + 1 + len(DENSITIES)] if line}
 
@@ -38,11 +39,13 @@ class Sweep(unittest.TestCase):
         return self.process(['roslaunch', 'hdlyap', 'sweep.launch', 'scene:=quick', *args], folder, **env)
 
     def test_two_sweeps(self):
-        """At once, of which one is recorded; the other, in a namespace of its own, has a density that is refused."""
+        """At once, of which one is recorded; the other, in a namespace and with a master of its own, has a density that
+        is refused."""
         with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as other:
             recorded = self.sweep(folder, 'densities:=' + ' '.join(DENSITIES), 'record:=true', 'seed:=5',
                                   'duration:=20')
-            seen = self.sweep(other, 'densities:=0.3 2.5', 'duration:=10', ROS_NAMESPACE='/lab')
+            seen = self.sweep(other, 'densities:=0.3 2.5', 'duration:=10', ROS_NAMESPACE='/lab',
+                              ROS_MASTER_URI='http://localhost:%d' % harness.free_port())
             recorded.wait()
             seen.wait()
             self.check_recorded(recorded, folder)
