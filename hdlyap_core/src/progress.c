@@ -6,6 +6,7 @@
 #include "run_state.h"
 
 bool hd_run_report_due(const hd_run *run) { return run->report_due; }
+bool hd_run_fields_due(const hd_run *run) { return run->fields_due; }
 hd_phase hd_run_phase(const hd_run *run) { return run->schedule.phase; }
 double hd_run_time(const hd_run *run) { return run->now; }
 const hd_scene_def *hd_run_scene(const hd_run *run) { return &run->scene; }
@@ -17,6 +18,8 @@ const hd_spectrum *hd_run_spectrum(const hd_run *run) { return run->spectrum; }
 const hd_modes *hd_run_modes(const hd_run *run) { return run->modes; }
 const hd_steps *hd_run_steps(const hd_run *run) { return run->steps; }
 const hd_phases *hd_run_phases(const hd_run *run) { return run->phases; }
+
+hd_columns hd_run_columns(const hd_run *run) { return run->view.columns; }
 
 int hd_run_samples_per_report(const hd_run *run)
 {

@@ -12,7 +12,7 @@
 #include "hdlyap/hydro.h"
 #include "hdlyap/pmode.h"
 #include "hdlyap/run.h"
-#include "hdlyap_ros/publisher.h"
+#include "hdlyap_ros/markers.h"
 #include "memory.h"
 
 static atomic_long steps, overlaps, states, halves, measures, phases, pmodes, hydros, allocations;
@@ -131,7 +131,7 @@ void hd_hydro_measure(hd_hydro *hydro, const hd_steps *found, const hd_frame *fr
 /* clang-format off */
 #define TOPICS(DO)                                                                                 \
     DO(run_info) DO(spectrum)                                                                      \
-    DO(modes) DO(steps) DO(lp_phases) DO(mode_field) DO(hydro) DO(state) DO(cost) DO(diagnostic)
+    DO(modes) DO(steps) DO(lp_phases) DO(mode_field) DO(hydro) DO(state) DO(cost) DO(diagnostic) DO(markers)
 #define COUNT_MESSAGES(topic)                                                                      \
     static atomic_long messages_##topic;                                                           \
     hdr_status hdr_##topic##_publish(hdr_publisher *publisher, const hdr_##topic *view)            \

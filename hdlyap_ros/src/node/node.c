@@ -100,6 +100,7 @@ static int create_run(app *a)
     else if (status == HD_OK)
         status = hd_run_create(&a->run, &set->def, message, sizeof message);
     if (*set->checkpoint) hdr_node_stop_within(stop_keeping_seconds);
+    if (status == HD_OK) hd_run_fields_every(a->run, set->field_interval);
     if (status == HD_OK) status = keeper_begin(&a->keep, set, a->run, message, sizeof message);
     return fault_logged(status, message);
 }

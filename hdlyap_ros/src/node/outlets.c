@@ -10,9 +10,6 @@ enum { QUEUE_MIN = 8, QUEUE_MAX = 1000 };
 /** For each subscriber that is behind. */
 static const double queue_bytes = 128e6;
 
-/** The frame that positions are in. */
-static const char *const frame_id = "box";
-
 typedef hdr_status (*advertise_function)(hdr_publisher **, hdr_node *, const char *, int);
 
 /** run_info is latched: it needs no queue. */
@@ -90,9 +87,11 @@ hdr_lag outlets_lag(const outlets *out)
     return worst;
 }
 
+const char *outlets_frame(void) { return "box"; }
+
 hdr_header outlets_header(void)
 {
-    return (hdr_header){.stamp = hdr_time_now(), .frame_id = frame_id};
+    return (hdr_header){.stamp = hdr_time_now(), .frame_id = outlets_frame()};
 }
 
 hd_status outlets_sent(hdr_status status, topic t)

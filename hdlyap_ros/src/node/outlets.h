@@ -26,6 +26,9 @@ unsigned outlets_subscribed(const outlets *out);
  *  is. Any thread. */
 hdr_lag outlets_lag(const outlets *out);
 
+/** Name of the frame that positions are in. */
+const char *outlets_frame(void);
+
 /** A header of now. */
 hdr_header outlets_header(void);
 /** Messages that ROS refuses are lost with a line in the log; they do not end the run. */

@@ -6,6 +6,7 @@
 
 #include "clock.h"
 #include "field_report.h"
+#include "marker_report.h"
 #include "mode_report.h"
 #include "outlets.h"
 #include "run_info.h"
@@ -30,6 +31,7 @@ struct report {
     double *block;
     mode_report *modes;   /**< NULL unless some of its topics are asked for */
     field_report *fields; /**< NULL unless asked for */
+    marker_report *markers;
     unsigned demand;      /**< set of topics that the step under way is made for */
     double seconds;       /**< spent here */
 };
@@ -96,7 +98,8 @@ hdr_status report_create(report **out, hdr_node *ros, const settings *set, const
     rep->set = set;
     rep->n = (uint32_t)hd_run_vectors(run);
     rep->disks = (uint32_t)set->def.disks;
-    const hdr_status status = parts_create(rep, run) ? advertise(rep, ros) : HDR_NO_MEMORY;
+    hdr_status status = parts_create(rep, run) ? advertise(rep, ros) : HDR_NO_MEMORY;
+    if (status == HDR_OK) status = marker_report_create(&rep->markers, ros, set, run, rep->modes);
     if (status == HDR_OK) return HDR_OK;
     report_free(rep);
     *out = NULL;
@@ -108,6 +111,7 @@ void report_free(report *rep)
     if (!rep) return;
     mode_report_free(rep->modes);
     field_report_free(rep->fields);
+    marker_report_free(rep->markers);
     free(rep->block);
     free(rep);
 }
@@ -121,12 +125,27 @@ bool report_awaited_here(const report *rep, unsigned awaited)
     return !(awaited & ~outlets_subscribed(&rep->out));
 }
 
-/** The message of steps has the velocity of the LP phases in it. */
+/** The message of steps has the velocity of the LP phases in it, and pictures have the steps. */
 unsigned report_demand(report *rep)
 {
-    const unsigned phases = topic_bit(TOPIC_LP_PHASES) & rep->set->observables;
+    const unsigned set = rep->set->observables, phases = topic_bit(TOPIC_LP_PHASES) & set;
     rep->demand = outlets_subscribed(&rep->out);
-    return topic_stages(rep->demand & topic_bit(TOPIC_STEPS) ? rep->demand | phases : rep->demand);
+    unsigned stages = topic_stages(rep->demand);
+    if (rep->demand & topic_bit(TOPIC_STEPS)) stages |= topic_stages(phases);
+    if (rep->modes && marker_report_watched(rep->markers))
+        stages |= topic_stages(topic_bit(TOPIC_STEPS) | phases);
+    return stages;
+}
+
+void report_demand_picture(report *rep, hd_run *run) { marker_report_demand(rep->markers, run); }
+
+hd_status report_picture(report *rep, const hd_run *run, bool at_rest)
+{
+    const double start = clock_seconds();
+    const hd_status status = at_rest ? marker_report_rest(rep->markers, run)
+                                     : marker_report_publish(rep->markers, run);
+    rep->seconds += clock_seconds() - start;
+    return status;
 }
 
 hdr_status report_run_info(report *rep, const hd_run *run)
@@ -254,6 +273,7 @@ static unsigned topics_due(const report *rep, const hd_run *run)
     unsigned set = outlets_subscribed(&rep->out);
     if (!spectrum || !(hd_spectrum_time(spectrum) > 0.0)) set &= ~topic_bit(TOPIC_SPECTRUM);
     if (!modes || hd_modes_samples(modes) == 0) set &= ~of_modes;
+    if (!hd_run_fields_due(run)) set &= ~topic_bit(TOPIC_FIELDS);
     if (hd_run_phase(run) == HD_FINISHED) set &= ~topic_bit(TOPIC_COST);
     return set & (rep->demand | ~of_modes);
 }

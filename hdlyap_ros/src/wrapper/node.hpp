@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <ros/ros.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 
 #include "backlog.hpp"
 #include "hdlyap_ros/node.h"
@@ -24,4 +25,5 @@ struct hdr_node {
     std::string name;
     std::vector<std::unique_ptr<hdr_publisher>> publishers;
     std::vector<ros::ServiceServer> services;
+    std::unique_ptr<tf2_ros::StaticTransformBroadcaster> frames;
 };

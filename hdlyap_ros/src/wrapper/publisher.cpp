@@ -72,6 +72,11 @@ hdr_status hdr_run_info_advertise(hdr_publisher **out, hdr_node *node, const cha
     return advertise<hdr_run_info>(out, node, topic, 1, true);
 }
 
+hdr_status hdr_markers_advertise(hdr_publisher **out, hdr_node *node, const char *topic)
+{
+    return advertise<hdr_markers>(out, node, topic, 1, true);
+}
+
 /* One function per message, so that C checks the type of the view. */
 #define HDR_PUBLISH(view)                                                                          \
     hdr_status view##_publish(hdr_publisher *publisher, const view *message)                       \
@@ -85,6 +90,7 @@ hdr_status hdr_run_info_advertise(hdr_publisher **out, hdr_node *node, const cha
     }                                                                                              \
     HDR_PUBLISH(view)
 HDR_PUBLISH(hdr_run_info)
+HDR_PUBLISH(hdr_markers)
 HDR_TOPIC(hdr_spectrum)
 HDR_TOPIC(hdr_modes)
 HDR_TOPIC(hdr_steps)

@@ -16,7 +16,9 @@
 #include <hdlyap/State.h>
 #include <hdlyap/Steps.h>
 #include <ros/serialization.h>
+#include <visualization_msgs/MarkerArray.h>
 
+#include "hdlyap_ros/markers.h"
 #include "hdlyap_ros/messages.h"
 
 static_assert(int(HDR_FINISHED) == int(hdlyap::Cost::FINISHED), "phases as in Cost.msg");
@@ -25,6 +27,9 @@ static_assert(int(HDR_MODE_LP) == int(hdlyap::Step::LP), "kinds as in Step.msg")
 static_assert(int(HDR_LP_TRACKED) == int(hdlyap::LpPhase::TRACKED), "states as in LpPhase.msg");
 static_assert(int(HDR_DIAGNOSTIC_ERROR) == int(diagnostic_msgs::DiagnosticStatus::ERROR),
               "levels as in DiagnosticStatus.msg");
+static_assert(int(HDR_MARKER_TEXT) == int(visualization_msgs::Marker::TEXT_VIEW_FACING) &&
+                  int(HDR_MARKER_TRIANGLE_LIST) == int(visualization_msgs::Marker::TRIANGLE_LIST),
+              "types as in Marker.msg");
 
 namespace hdlyap_ros
 {
@@ -68,6 +73,21 @@ inline void put(ros::serialization::OStream &stream, const hdr_doubles &array)
         std::memcpy(out + k * sizeof(double), array.data + size_t(k) * array.stride,
                     sizeof(double));
 }
+
+/** Numbers of one type, in the order of the message. */
+template <class Stream, class Numbers> void put_block(Stream &stream, const Numbers &numbers)
+{
+    uint8_t *out = stream.advance(static_cast<uint32_t>(sizeof numbers));
+    std::memcpy(out, &numbers, sizeof numbers);
+}
+
+template <class Numbers> void put_block(ros::serialization::LStream &stream, const Numbers &numbers)
+{
+    stream.advance(static_cast<uint32_t>(sizeof numbers));
+}
+
+template <class Stream> void put(Stream &stream, const hdr_point &point) { put_block(stream, point); }
+template <class Stream> void put(Stream &stream, const hdr_colour &colour) { put_block(stream, colour); }
 
 template <class Stream> void put(Stream &stream, double value) { stream.next(value); }
 template <class Stream> void put(Stream &stream, bool value) { stream.next(uint8_t(value)); }
@@ -125,7 +145,8 @@ template <> struct message_of<hdr_run_info> {
             v.box_y, v.boundary_x, v.boundary_y, v.seed, v.exponents, v.vectors, v.zero_exponents,
             v.equilibration, v.warmup, v.duration, v.target_std_error, v.interval, v.accuracy,
             v.report_interval, v.observables, v.max_wave_number, v.max_node, v.wave_nx, v.wave_ny,
-            v.field_indices, v.pace, v.checkpoint, v.checkpoint_interval, v.resume, v.resumed_time,
+            v.field_indices, v.field_interval, v.wait_for_subscribers, v.pace, v.marker_modes, v.marker_rate,
+            v.checkpoint, v.checkpoint_interval, v.resume, v.resumed_time,
             v.threads, v.blas_threads, v.blas_library, v.blas_kernel,
             v.blas_threading);
     }
@@ -258,6 +279,39 @@ template <> struct message_of<hdr_diagnostic> {
     }
 };
 
+/** pose, scale, colour, life time, frame_locked; points, colours, text; no mesh. */
+template <> struct message_of<hdr_marker> {
+    template <class Stream>
+    static void write(Stream &s, const char *frame_id, const hdr_marker &v)
+    {
+        const uint32_t zero = 0;
+        const double upright[] = {0.0, 0.0, 0.0, 1.0};
+        put(s, hdr_header{{0, 0}, frame_id}, v.ns, v.id, v.type, v.action, v.position);
+        put_block(s, upright);
+        put(s, v.scale, v.colour, zero, zero, false);
+        put_points(s, v.points, v.count);
+        put_points(s, v.colours, v.colours ? v.count : 0);
+        put(s, v.text, "", false);
+    }
+
+    template <class Stream, class Item>
+    static void put_points(Stream &s, const Item *items, uint32_t count)
+    {
+        s.next(count);
+        for (uint32_t k = 0; k < count; k++) put(s, items[k]);
+    }
+};
+
+template <> struct message_of<hdr_markers> {
+    using type = visualization_msgs::MarkerArray;
+    template <class Stream> static void write(Stream &s, const hdr_markers &v)
+    {
+        s.next(v.count);
+        for (uint32_t k = 0; k < v.count; k++)
+            message_of<hdr_marker>::write(s, v.frame_id, v.markers[k]);
+    }
+};
+
 } // namespace hdlyap_ros
 
 namespace ros
@@ -284,6 +338,7 @@ HDR_VIEW_TRAITS(hdr_hydro)
 HDR_VIEW_TRAITS(hdr_state)
 HDR_VIEW_TRAITS(hdr_cost)
 HDR_VIEW_TRAITS(hdr_diagnostic)
+HDR_VIEW_TRAITS(hdr_markers)
 #undef HDR_VIEW_TRAITS
 #undef HDR_VIEW_TRAIT
 } // namespace message_traits
@@ -321,6 +376,8 @@ template <> struct Serializer<hdr_state> : ViewSerializer<hdr_state> {
 template <> struct Serializer<hdr_cost> : ViewSerializer<hdr_cost> {
 };
 template <> struct Serializer<hdr_diagnostic> : ViewSerializer<hdr_diagnostic> {
+};
+template <> struct Serializer<hdr_markers> : ViewSerializer<hdr_markers> {
 };
 } // namespace serialization
 } // namespace ros
