@@ -36,6 +36,10 @@ HDR_MUST_CHECK hdr_status hdr_cost_advertise(hdr_publisher **out, hdr_node *node
                                              int queue);
 HDR_MUST_CHECK hdr_status hdr_diagnostic_advertise(hdr_publisher **out, hdr_node *node,
                                                    const char *topic, int queue);
+HDR_MUST_CHECK hdr_status hdr_float64_advertise(hdr_publisher **out, hdr_node *node,
+                                                const char *topic, int queue);
+HDR_MUST_CHECK hdr_status hdr_string_advertise(hdr_publisher **out, hdr_node *node,
+                                               const char *topic, int queue);
 
 /** Number of subscribers connected now. */
 int hdr_publisher_subscribers(const hdr_publisher *publisher);
@@ -67,6 +71,8 @@ HDR_MUST_CHECK hdr_status hdr_state_publish(hdr_publisher *publisher, const hdr_
 HDR_MUST_CHECK hdr_status hdr_cost_publish(hdr_publisher *publisher, const hdr_cost *view);
 HDR_MUST_CHECK hdr_status hdr_diagnostic_publish(hdr_publisher *publisher,
                                                  const hdr_diagnostic *view);
+HDR_MUST_CHECK hdr_status hdr_float64_publish(hdr_publisher *publisher, const hdr_float64 *view);
+HDR_MUST_CHECK hdr_status hdr_string_publish(hdr_publisher *publisher, const hdr_string *view);
 
 #ifdef __cplusplus
 }

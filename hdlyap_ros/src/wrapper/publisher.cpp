@@ -22,8 +22,9 @@ hdr_status advertise(hdr_publisher **out, hdr_node *node, const char *topic, int
         made->topic = ros::names::resolve(topic);
         made->datatype = ros::message_traits::datatype<message>();
         made->queue = queue;
-        made->publisher = node->handle.advertise<message>(made->topic, static_cast<uint32_t>(queue),
-                                                          latch);
+        made->publisher = node->handle.advertise<message>(made->topic,
+                                                          queue_length(made->topic, queue), latch);
+        if (!made->publisher) throw_of_another_type(made->topic, made->datatype);
         node->publishers.push_back(std::move(made));
         *out = node->publishers.back().get();
     });
@@ -100,6 +101,8 @@ HDR_TOPIC(hdr_hydro)
 HDR_TOPIC(hdr_state)
 HDR_TOPIC(hdr_cost)
 HDR_TOPIC(hdr_diagnostic)
+HDR_TOPIC(hdr_float64)
+HDR_TOPIC(hdr_string)
 #undef HDR_TOPIC
 #undef HDR_PUBLISH
 
