@@ -21,8 +21,8 @@ import harness
 from harness import SHORT, TYPES, Cost, Process, RunInfo
 
 TOPICS = ['spectrum', 'state', 'cost']
-RUN = dict(SHORT, threads=1, duration=10.0, report_interval=0.5, observables=['spectrum', 'state'],
-           wait_for_subscribers='all')
+RUN = dict(SHORT, threads=1, equilibration=0.0, warmup=0.0, duration=12.0, report_interval=0.5,
+           observables=['spectrum', 'state'], wait_for_subscribers='all')
 REPORTS = 24
 PACE = 10.0
 
