@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The one list of the system packages of hdlyap. Installs those that are missing.
-#   install.sh run|test      what building and running needs; test: what the tests need on top
+#   install.sh run|test            what building and running needs; test: what the tests need on top
+#   install.sh list debian|noetic  only prints both
 set -euo pipefail
 # shellcheck source=launch/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -14,24 +15,27 @@ run_packages() {
                 ros-std-msgs libstd-msgs-dev python3-std-msgs \
                 ros-std-srvs libstd-srvs-dev python3-std-srvs \
                 ros-diagnostic-msgs libdiagnostic-msgs-dev python3-diagnostic-msgs \
-                python3-rospy python3-rosbag python3-roslaunch rosbash
+                ros-visualization-msgs libvisualization-msgs-dev python3-visualization-msgs libtf2-ros-dev \
+                python3-rospy python3-rosbag python3-roslaunch python3-rospkg python3-yaml rosbash rviz
             ;;
         noetic)
             printf 'ros-noetic-%s\n' catkin message-generation message-runtime roscpp \
-                std-msgs std-srvs diagnostic-msgs rospy rosbag roslaunch rosbash
+                std-msgs std-srvs diagnostic-msgs visualization-msgs tf2-ros rospy rosbag roslaunch rosbash rviz
+            echo python3-rospkg python3-yaml
             ;;
     esac
 }
 
 test_packages() {
-    echo libcmocka-dev libgtest-dev shellcheck strace valgrind clang libomp-dev
+    echo libcmocka-dev libgtest-dev ninja-build shellcheck strace valgrind clang libomp-dev xvfb imagemagick libgl1-mesa-dri
     case $1 in
         debian)
             echo libclang-rt-dev librostest-dev python3-rostest python3-rostopic python3-rosnode \
-                python3-rosservice catkin-lint
+                python3-rosservice python3-rosgraph python3-roslib python3-rosmaster python3-rosmsg rospack-tools \
+                python3-tf2-msgs catkin-lint
             ;;
         noetic)
-            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice
+            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice rosgraph roslib rosmaster rosmsg rospack tf2-msgs
             echo python3-catkin-lint
             ;;
     esac
@@ -61,7 +65,12 @@ as_root() {
     fi
 }
 
-[[ ${1:-} == run || ${1:-} == test ]] || die "usage: install.sh run|test" 2
+if [[ ${1:-} == list && ${2:-} == @(debian|noetic) ]]; then
+    run_packages "$2"
+    test_packages "$2"
+    exit
+fi
+[[ ${1:-} == run || ${1:-} == test ]] || die "usage: install.sh run|test|list debian|list noetic" 2
 flavour=$(ros_flavour)
 wanted=$(run_packages "$flavour")
 [[ $1 == run ]] || wanted+=" $(test_packages "$flavour")"

@@ -19,6 +19,8 @@ const hd_modes *hd_run_modes(const hd_run *run) { return run->modes; }
 const hd_steps *hd_run_steps(const hd_run *run) { return run->steps; }
 const hd_phases *hd_run_phases(const hd_run *run) { return run->phases; }
 
+hd_columns hd_run_columns(const hd_run *run) { return run->view.columns; }
+
 int hd_run_samples_per_report(const hd_run *run)
 {
     const bool followed = run->observe & HD_OBSERVE_PHASES;

@@ -9,6 +9,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "advance.h"
 #include "check.h"
 #include "clock.h"
 #include "hdlyap/blas.h"
@@ -25,9 +26,6 @@ static const double DEFECT_MEASURED = 1e-6;
 /** Single precision leaves a tenth of the tail's vectors astray there, and a thousandth of their phases. */
 static const double CONDITION_TAIL = 1e4;
 static const double COLLISIONS_PER_SAMPLE = 64.0; /* of one disk, at most */
-static const double EVENTS_PER_STEP = 200000.0;   /* bounds memory, and the wait for an answer */
-/** No step is planned shorter: simulated time must move. */
-static const double STEP_MIN = 1e-12;
 /** Householder reflections stay right to eps * condition: 1e-3 of one interval, once. */
 static const double CONDITION_STABLE = 1e13;
 enum { PIECES_MAX = 64, TAIL_MAX = 60 };
@@ -84,22 +82,6 @@ static hd_status prepare_modes(hd_run *run)
     return scene->observe & HD_OBSERVE_PHASES ? prepare_phases(run) : HD_OK;
 }
 
-/** Pair and wall events of one disk per time unit, roughly: momenta across a box are about 1. */
-static double events_per_disk(const hd_run *run, double collisions_per_disk)
-{
-    double box[2], rate = collisions_per_disk;
-    hd_scene_box(&run->scene, box);
-    for (int d = 0; d < 2; d++)
-        if (run->scene.boundary[d] == HD_REFLECTING) rate += 1.0 / (box[d] - 1.0);
-    return rate;
-}
-
-double hd_run_step_bound(const hd_run *run)
-{
-    const double rate = hd_trajectory_collision_rate(run->trajectory), disks = run->scene.disks;
-    return 8.0 * EVENTS_PER_STEP / (disks * events_per_disk(run, 2.0 * rate / disks));
-}
-
 static hd_status prepare(hd_run *run)
 {
     const hd_scene_def *scene = &run->scene;
@@ -109,7 +91,8 @@ static hd_status prepare(hd_run *run)
     const double per_disk = 2.0 * hd_trajectory_collision_rate(run->trajectory) / scene->disks;
     const double limit = scene->interval > 0 ? scene->interval : INFINITY;
     run->sample_max = COLLISIONS_PER_SAMPLE / per_disk;
-    run->step_max = 1e-3 / events_per_disk(run, per_disk);
+    hd_advance_first(run, per_disk);
+    run->view = (hd_view){.interval = INFINITY, .first = run->vectors};
     run->interval = hd_interval_first(2.0 / per_disk, limit, scene->accuracy);
     run->schedule = hd_schedule_of(scene);
     if (run->vectors == 0) return HD_OK;
@@ -143,6 +126,7 @@ static double sample_longest(const hd_run *run)
 static void enter_phase(hd_run *run, hd_phase phase)
 {
     hd_schedule_enter(&run->schedule, phase, run->now, sample_longest(run));
+    run->plan.end = run->now;
     phase = run->schedule.phase;
     if (run->spectrum && phase == HD_AVERAGING) averages_clear(run);
     if (phase == HD_AVERAGING) run->rounding = HD_ROUNDING * run->condition_max;
@@ -273,7 +257,7 @@ static hd_status frame_interval(hd_run *run)
         end = begin + 0.5 * piece;
     }
     hd_event_log_clear(run->log);
-    run->interval_end = run->now;
+    run->interval_end = run->plan.end = run->now;
     return HD_OK;
 }
 
@@ -284,46 +268,28 @@ static bool target_reached(const hd_run *run)
            hd_run_smallest_error(run) <= run->scene.target_std_error;
 }
 
-static uint64_t events_so_far(const hd_run *run)
-{
-    return hd_trajectory_collisions(run->trajectory) + hd_trajectory_wall_events(run->trajectory);
-}
-
-/** By less, simulated time would not move. */
-static double step_min(const hd_run *run) { return STEP_MIN + 4.0 * DBL_EPSILON * run->now; }
-
-static double step_longest(const hd_run *run) { return fmax(run->step_max, step_min(run)); }
-
-/** Moves the disks on by `length`, and learns how long a step may be: a channel of hardly more than a
- *  disk's width can have 1e9 wall events in a time unit. */
-static hd_status advance_disks(hd_run *run, hd_event_log *log, double length, double end)
-{
-    const double start = hd_clock_now();
-    const uint64_t before = events_so_far(run);
-    HD_TRY(hd_trajectory_extend(run->trajectory, log, end));
-    run->now = end;
-    const double events = fmax(1.0, (double)(events_so_far(run) - before));
-    if (length > 0)
-        run->step_max = fmin(4.0 * fmax(length, run->step_max / 4.0),
-                             length * EVENTS_PER_STEP / events);
-    run->cost.events += hd_clock_now() - start;
-    if (HD_VERIFIES) hd_verify_disks(run->trajectory, &run->scene);
-    if (HD_VERIFIES && log) hd_verify_log(log, run->scene.disks);
-    return HD_OK;
-}
-
 /** Longest time between two looks at the phases; INFINITY if nobody looks. */
 static double phases_due(const hd_run *run)
 {
     return run->observe & HD_OBSERVE_PHASES ? hd_phases_sampling(run->steps) : INFINITY;
 }
 
+/** The modes of an orthonormal frame. */
+static hd_status measure(hd_run *run)
+{
+    const double start = hd_clock_now();
+    run->view.columns = hd_frame_columns(run->frame);
+    hd_trajectory_state(run->trajectory, run->q, run->p);
+    HD_TRY(hd_modes_measure(run->modes, run->view.columns, run->q, run->p));
+    run->cost.modes += hd_clock_now() - start;
+    return HD_OK;
+}
+
 /** Modes, steps and phases of a measured state; what is asked for is enough for each. */
 static hd_status observe(hd_run *run, bool report)
 {
+    HD_TRY(measure(run));
     const double start = hd_clock_now();
-    hd_trajectory_state(run->trajectory, run->q, run->p);
-    HD_TRY(hd_modes_measure(run->modes, hd_frame_columns(run->frame), run->q, run->p));
     if (report) {
         hd_modes_add(run->modes);
         hd_steps_find(run->steps, run->spectrum);
@@ -353,7 +319,7 @@ static bool tail_suffices(const hd_run *run, int count)
            hd_interval_condition(&run->interval, run->log->duration) <= CONDITION_TAIL;
 }
 
-/** Follows the phases in the middle of an interval; the frame stays as it was at its start. */
+/** Finds the slowest vectors in the middle of an interval; the frame stays as it was at its start. */
 static hd_status look(hd_run *run, int count)
 {
     const double start = hd_clock_now();
@@ -364,7 +330,7 @@ static hd_status look(hd_run *run, int count)
     hd_frame_rewind(run->frame);
     if (status == HD_OK)
         status = hd_modes_measure(run->modes, hd_tail_columns(run->tail), run->q, run->p);
-    if (status == HD_OK) hd_phases_add(run->phases, run->steps, run->now);
+    if (status == HD_OK) run->view.columns = hd_tail_columns(run->tail);
     run->cost.replay += replayed - start;
     run->cost.modes += hd_clock_now() - replayed;
     run->cost.looks += status == HD_OK;
@@ -377,6 +343,19 @@ static hd_status end_early(hd_run *run)
     return frame_interval(run);
 }
 
+/** The slowest vectors, by a look or else by an early end of the interval. */
+static hd_status find_slowest(hd_run *run, int count)
+{
+    const hd_status status = tail_suffices(run, count) ? look(run, count) : HD_ILL_CONDITIONED;
+    return status == HD_ILL_CONDITIONED ? end_early(run) : status;
+}
+
+/** Number of slowest vectors that a view wants now. */
+static int viewed(const hd_run *run)
+{
+    return observing(run) && run->view.first < run->vectors ? run->vectors - run->view.first : 0;
+}
+
 /** In the middle of an interval: what is wanted there. What a look cannot give, an early end does; the first
  *  report has something to say that way. */
 static hd_status look_or_end(hd_run *run)
@@ -386,9 +365,19 @@ static hd_status look_or_end(hd_run *run)
         return end_early(run);
     const bool follows = observing(run) && (run->observe & HD_OBSERVE_PHASES);
     const int count = follows ? hd_phases_vectors(run->steps) : 0;
-    if (count == 0) return HD_OK;
-    const hd_status status = tail_suffices(run, count) ? look(run, count) : HD_ILL_CONDITIONED;
-    return status == HD_ILL_CONDITIONED ? end_early(run) : status;
+    const int most = count > viewed(run) ? count : viewed(run);
+    if (most == 0) return HD_OK;
+    HD_TRY(find_slowest(run, most));
+    if (count > 0 && run->now < run->interval_end) hd_phases_add(run->phases, run->steps, run->now);
+    return HD_OK;
+}
+
+/** Between two cuts: what a view wants. */
+static hd_status show(hd_run *run)
+{
+    if (viewed(run) == 0) return HD_OK;
+    if (run->now < run->interval_end) HD_TRY(find_slowest(run, viewed(run)));
+    return run->now == run->interval_end ? measure(run) : HD_OK;
 }
 
 /** At the end of a piece: what is measured there, and what ends. */
@@ -414,10 +403,10 @@ static hd_status take_cut(hd_run *run)
 static void plan_interval(hd_run *run)
 {
     const double end = hd_schedule_sample_end(&run->schedule), left = end - run->now;
-    const double most = step_longest(run);
+    const double most = hd_advance_longest(run);
     hd_interval_length next = hd_interval_next(&run->interval, left);
     if (next.length > most) next = (hd_interval_length){left / ceil(left / most), HD_LIMIT_EVENTS};
-    next.length = fmax(next.length, step_min(run));
+    next.length = fmax(next.length, hd_advance_shortest(run));
     run->interval_end = next.length >= left ? end : run->now + next.length;
     run->cost.limit = next.limit;
 }
@@ -425,17 +414,16 @@ static void plan_interval(hd_run *run)
 hd_status hd_run_step(hd_run *run)
 {
     run->report_due = run->fields_due = false;
+    run->view.columns.count = 0;
     if (run->schedule.phase == HD_FINISHED) return HD_OK;
     const bool with_frame = run->frame && run->schedule.phase != HD_EQUILIBRATING;
     if (with_frame) hd_blas_use_threads(run->threads); /* with OpenMP: of the calling thread */
     const double cut = hd_schedule_cut(&run->schedule);
     if (with_frame && run->now >= run->interval_end) plan_interval(run);
-    const double stop = with_frame ? fmin(cut, run->interval_end) : cut, left = stop - run->now;
-    const double most = step_longest(run), length = left <= most ? left : left / ceil(left / most);
-    HD_TRY(advance_disks(run, with_frame ? run->log : NULL, length,
-                         length >= left ? stop : run->now + length));
+    if (run->now >= run->plan.end) hd_advance_plan(run, with_frame ? fmin(cut, run->interval_end) : cut);
+    HD_TRY(hd_advance(run, with_frame ? run->log : NULL));
     if (with_frame && run->now >= run->interval_end) HD_TRY(frame_interval(run));
-    return run->now >= cut ? take_cut(run) : HD_OK;
+    return run->now >= cut ? take_cut(run) : show(run);
 }
 
 void hd_run_observe(hd_run *run, unsigned stages)
@@ -454,4 +442,11 @@ hd_status hd_run_reset_average(hd_run *run)
     if (run->frame && run->now < run->interval_end) HD_TRY(frame_interval(run));
     enter_phase(run, HD_AVERAGING);
     return HD_OK;
+}
+
+void hd_run_view(hd_run *run, double interval, int first)
+{
+    HD_ASSERT(interval > 0.0 && first >= 0);
+    run->view.interval = interval;
+    run->view.first = first;
 }

@@ -7,6 +7,19 @@
 #include "schedule.h"
 #include "tail.h"
 
+/** The step that the disks are in: what is learnt of it waits for its end, however often a view stops it. */
+typedef struct hd_step_plan {
+    double begin, end; /**< simulated times */
+    uint64_t events;   /**< before it */
+} hd_step_plan;
+
+/** What somebody looks at between orthonormalisations, see hd_run_view. */
+typedef struct hd_view {
+    double interval;    /**< INFINITY: nobody looks */
+    int first;          /**< column from which vectors are wanted */
+    hd_columns columns; /**< known at this very time */
+} hd_view;
+
 struct hd_run {
     hd_scene_def scene;
     hd_trajectory *trajectory;
@@ -25,6 +38,8 @@ struct hd_run {
     double interval_end; /**< simulated time at which the frame is orthonormalised next */
     double step_max; /**< longest step that keeps to EVENTS_PER_STEP, as far as events are known */
     double sample_max; /**< simulated time of COLLISIONS_PER_SAMPLE */
+    hd_step_plan plan;
+    hd_view view;
     int vectors, threads;
     double now; /**< simulated time */
     bool report_due, fields_due;

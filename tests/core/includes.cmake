@@ -13,7 +13,7 @@ set(STAGE_5 spectrum)
 set(STAGE_6 fields modes)
 set(STAGE_7 steps sets dispersion)
 set(STAGE_8 phases pmode hydro)
-set(STAGE_9 run run_state progress interval schedule checkpoint checkpoint_file verify hdlyap)
+set(STAGE_9 advance run run_state progress interval schedule checkpoint checkpoint_file verify hdlyap)
 set(LINEAR_ALGEBRA "ortho;tail;blas;modes;pmode")
 
 function(stage_of out name)

@@ -11,6 +11,7 @@ foreach(name IN ITEMS
     hydro
     physics
     observe
+    view
     run
     checkpoint
     checkpoint_file

@@ -152,7 +152,7 @@ class Run(unittest.TestCase):
     def test_nothing_computed_without_subscribers(self):
         calls = harness.calls(self, SHORT)
         self.assertEqual(calls.pop('run_info_publish'), 1)      # latched
-        self.assertEqual(set(calls.values()), {0})
+        self.assertEqual(set(calls.values()), {0}, calls)
 
     def test_computed_for_subscribers(self):
         self.listen('state')
@@ -160,7 +160,7 @@ class Run(unittest.TestCase):
         self.assertEqual(calls.pop('run_info_publish'), 1)
         self.assertEqual(calls.pop('state_publish'), 4)
         self.assertEqual(calls.pop('trajectory_state'), 4)
-        self.assertEqual(set(calls.values()), {0})
+        self.assertEqual(set(calls.values()), {0}, calls)
 
     def fault(self, **probe):
         self.listen('state')

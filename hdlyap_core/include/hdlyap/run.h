@@ -83,6 +83,16 @@ bool hd_run_fields_due(const hd_run *run);
  *  that nobody looks at is skipped: its averages miss that time, phases begin anew. */
 void hd_run_observe(hd_run *run, unsigned stages);
 
+/** For pictures: from now on no step is longer than `interval` [time units; INFINITY: nobody looks], and while the
+ *  modes are observed each step ends with the vectors from column `first` on known (hd_run_vectors or more:
+ *  none), by a look at the slowest or, where that cannot give them, an orthonormalisation. No average takes
+ *  them up. */
+void hd_run_view(hd_run *run, double interval, int first);
+
+/** The vectors known at the very time of the last step: all of them, the slowest, or none (count 0). Their
+ *  coefficients are in the snapshot of hd_run_modes. */
+hd_columns hd_run_columns(const hd_run *run);
+
 /** Starts the averages afresh at the present time. Fails as hd_run_step does. */
 HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 

@@ -175,8 +175,7 @@ static bool has_example(const hd_steps *steps, int s)
     return true;
 }
 
-/** First vector of the set that belongs to the step itself, else the first one. */
-static int example_of(const hd_steps *steps, int s)
+int field_report_example(const hd_steps *steps, int s)
 {
     const hd_step *step = hd_steps_step(steps, s);
     for (int col = step->col; col < step->col + step->count; col++)
@@ -189,7 +188,7 @@ static hd_status publish_examples(field_report *r, const snapshot *now)
     const hd_steps *steps = hd_run_steps(now->run);
     hd_status status = HD_OK;
     for (int s = 0; s < hd_steps_count(steps) && status == HD_OK; s++)
-        if (has_example(steps, s)) status = publish_vector(r, now, example_of(steps, s));
+        if (has_example(steps, s)) status = publish_vector(r, now, field_report_example(steps, s));
     return status;
 }
 

@@ -13,6 +13,9 @@ typedef struct field_report field_report;
 bool field_report_create(field_report **out, const outlets *to, const settings *set);
 void field_report_free(field_report *r);
 
+/** Column that stands for a resolved step: the first of its set that belongs to the step itself, else the first one. */
+int field_report_example(const hd_steps *steps, int s);
+
 /** Numbers in the largest message. */
 double field_report_size(const field_report *r);
 

@@ -209,13 +209,12 @@ static hd_status publish_modes(mode_report *m, const snapshot *now)
     return outlets_sent(hdr_modes_publish(m->to->publisher[TOPIC_MODES], &view), TOPIC_MODES);
 }
 
-static hd_status publish_steps(mode_report *m, const snapshot *now)
+bool mode_report_steps(mode_report *m, hdr_steps *view, const hd_run *run)
 {
-    const hd_run *run = now->run;
     const hd_steps *steps = hd_run_steps(run);
     const hd_phases *phases = hd_run_phases(run);
     const hd_velocity none = {.v_error = -1.0}, v = phases ? hd_phases_velocity(phases) : none;
-    hdr_steps view = {
+    *view = (hdr_steps){
         .header = outlets_header(),
         .run_id = m->to->run_id,
         .sim_time = hd_run_time(run),
@@ -228,11 +227,17 @@ static hd_status publish_steps(mode_report *m, const snapshot *now)
         .v_error = error_of(v.v_error),
     };
     bool finite = isfinite(v.v + v.v_error) &&
-                  fill_fit(&view.t, hd_steps_dispersion(steps, HD_MODE_T)) &&
-                  fill_fit(&view.l, hd_steps_dispersion(steps, HD_MODE_LP));
+                  fill_fit(&view->t, hd_steps_dispersion(steps, HD_MODE_T)) &&
+                  fill_fit(&view->l, hd_steps_dispersion(steps, HD_MODE_LP));
     for (uint32_t k = 0; k < m->steps && finite; k++)
         finite = fill_step(&m->step[k], hd_steps_step(steps, (int)k));
-    if (!finite) return HD_NOT_FINITE;
+    return finite;
+}
+
+static hd_status publish_steps(mode_report *m, const snapshot *now)
+{
+    hdr_steps view;
+    if (!mode_report_steps(m, &view, now->run)) return HD_NOT_FINITE;
     return outlets_sent(hdr_steps_publish(m->to->publisher[TOPIC_STEPS], &view), TOPIC_STEPS);
 }
 

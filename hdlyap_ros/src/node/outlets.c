@@ -10,9 +10,6 @@ enum { QUEUE_MIN = 8, QUEUE_MAX = 1000 };
 /** For each subscriber that is behind. */
 static const double queue_bytes = 128e6;
 
-/** The frame that positions are in. */
-static const char *const frame_id = "box";
-
 typedef hdr_status (*advertise_function)(hdr_publisher **, hdr_node *, const char *, int);
 
 /** run_info is latched: it needs no queue. */
@@ -74,9 +71,27 @@ unsigned outlets_subscribed(const outlets *out)
     return set;
 }
 
+static bool is_worse(hdr_lag a, hdr_lag b)
+{
+    return a.losing != b.losing ? a.losing : a.seconds > b.seconds;
+}
+
+hdr_lag outlets_lag(const outlets *out)
+{
+    hdr_lag worst = {.topic = ""};
+    for (topic t = 0; t < TOPICS; t++) {
+        if (!out->publisher[t]) continue;
+        const hdr_lag lag = hdr_publisher_lag(out->publisher[t]);
+        if (is_worse(lag, worst)) worst = lag;
+    }
+    return worst;
+}
+
+const char *outlets_frame(void) { return "box"; }
+
 hdr_header outlets_header(void)
 {
-    return (hdr_header){.stamp = hdr_time_now(), .frame_id = frame_id};
+    return (hdr_header){.stamp = hdr_time_now(), .frame_id = outlets_frame()};
 }
 
 hd_status outlets_sent(hdr_status status, topic t)

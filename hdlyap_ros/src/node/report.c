@@ -6,6 +6,7 @@
 
 #include "clock.h"
 #include "field_report.h"
+#include "marker_report.h"
 #include "mode_report.h"
 #include "outlets.h"
 #include "run_info.h"
@@ -30,6 +31,7 @@ struct report {
     double *block;
     mode_report *modes;   /**< NULL unless some of its topics are asked for */
     field_report *fields; /**< NULL unless asked for */
+    marker_report *markers;
     unsigned demand;      /**< set of topics that the step under way is made for */
     double seconds;       /**< spent here */
 };
@@ -47,11 +49,13 @@ static int resolved_steps(const hd_run *run)
 
 progress progress_of(const hd_run *run)
 {
+    const hd_spectrum *spectrum = hd_run_spectrum(run);
     return (progress){
         .phase = hd_run_phase(run),
         .time = hd_run_time(run),
         .collisions = hd_trajectory_collisions(hd_run_trajectory(run)),
         .cost = hd_run_cost(run),
+        .averaged = spectrum ? hd_spectrum_time(spectrum) : 0.0,
         .resolved_steps = resolved_steps(run),
     };
 }
@@ -94,7 +98,8 @@ hdr_status report_create(report **out, hdr_node *ros, const settings *set, const
     rep->set = set;
     rep->n = (uint32_t)hd_run_vectors(run);
     rep->disks = (uint32_t)set->def.disks;
-    const hdr_status status = parts_create(rep, run) ? advertise(rep, ros) : HDR_NO_MEMORY;
+    hdr_status status = parts_create(rep, run) ? advertise(rep, ros) : HDR_NO_MEMORY;
+    if (status == HDR_OK) status = marker_report_create(&rep->markers, ros, set, run, rep->modes);
     if (status == HDR_OK) return HDR_OK;
     report_free(rep);
     *out = NULL;
@@ -106,23 +111,41 @@ void report_free(report *rep)
     if (!rep) return;
     mode_report_free(rep->modes);
     field_report_free(rep->fields);
+    marker_report_free(rep->markers);
     free(rep->block);
     free(rep);
 }
 
 const char *report_run_id(const report *rep) { return rep->out.run_id; }
 
+hdr_lag report_lag(const report *rep) { return outlets_lag(&rep->out); }
+
 bool report_awaited_here(const report *rep, unsigned awaited)
 {
     return !(awaited & ~outlets_subscribed(&rep->out));
 }
 
-/** The message of steps has the velocity of the LP phases in it. */
+/** The message of steps has the velocity of the LP phases in it, and pictures have the steps. */
 unsigned report_demand(report *rep)
 {
-    const unsigned phases = topic_bit(TOPIC_LP_PHASES) & rep->set->observables;
+    const unsigned set = rep->set->observables, phases = topic_bit(TOPIC_LP_PHASES) & set;
     rep->demand = outlets_subscribed(&rep->out);
-    return topic_stages(rep->demand & topic_bit(TOPIC_STEPS) ? rep->demand | phases : rep->demand);
+    unsigned stages = topic_stages(rep->demand);
+    if (rep->demand & topic_bit(TOPIC_STEPS)) stages |= topic_stages(phases);
+    if (rep->modes && marker_report_watched(rep->markers))
+        stages |= topic_stages(topic_bit(TOPIC_STEPS) | phases);
+    return stages;
+}
+
+void report_demand_picture(report *rep, hd_run *run) { marker_report_demand(rep->markers, run); }
+
+hd_status report_picture(report *rep, const hd_run *run, bool at_rest)
+{
+    const double start = clock_seconds();
+    const hd_status status = at_rest ? marker_report_rest(rep->markers, run)
+                                     : marker_report_publish(rep->markers, run);
+    rep->seconds += clock_seconds() - start;
+    return status;
 }
 
 hdr_status report_run_info(report *rep, const hd_run *run)

@@ -13,6 +13,7 @@ typedef struct progress {
     double time;         /**< simulated time since the start */
     uint64_t collisions; /**< pairs, since the start */
     hd_cost cost;
+    double averaged;    /**< time; 0 without exponents */
     int resolved_steps; /**< -1 while nobody looks at them */
 } progress;
 
@@ -28,6 +29,9 @@ void report_free(report *rep);
 
 const char *report_run_id(const report *rep);
 
+/** Of the run's topics; any thread. */
+hdr_lag report_lag(const report *rep);
+
 /** True if each topic of the set has a subscriber. */
 bool report_awaited_here(const report *rep, unsigned awaited);
 
@@ -37,6 +41,13 @@ HDR_MUST_CHECK hdr_status report_run_info(report *rep, const hd_run *run);
 /** Stages of the core (HD_OBSERVE_*) that somebody listens to now: of the modes, what the next step does
  *  not measure is not published after it. */
 unsigned report_demand(report *rep);
+
+/** Tells the run which vectors the next step is to end with, for a picture. */
+void report_demand_picture(report *rep, hd_run *run);
+
+/** Publishes a picture after a step, if somebody looks and it is time to; `at_rest`: the run will stand still, and who
+ *  comes while it does gets this one. HD_NOT_FINITE, HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status report_picture(report *rep, const hd_run *run, bool at_rest);
 
 /** Publishes what has a subscriber of a run that has a report due.
  *  HD_NOT_FINITE, and nothing of the message concerned is published, if a number of it is not. */

@@ -100,6 +100,8 @@ hdr_status run_info_publish(const outlets *out, const settings *set, const hd_ru
         .field_interval = set->field_interval,
         .wait_for_subscribers = {.data = awaited, .count = names_of(awaited, set->awaited)},
         .pace = set->pace,
+        .marker_modes = set->markers.text,
+        .marker_rate = set->markers.rate,
         .checkpoint = set->checkpoint,
         .checkpoint_interval = set->checkpoint_interval,
         .resume = set->resume,

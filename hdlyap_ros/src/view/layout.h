@@ -1,0 +1,21 @@
+/** Where the parts of a picture lie, in the frame of the box [sigma]: the first panel is the box itself. */
+#ifndef HDLYAP_LAYOUT_H
+#define HDLYAP_LAYOUT_H
+
+#include "picture.h"
+
+typedef struct rect {
+    double x, y, width, height; /**< lower left corner, size */
+} rect;
+
+typedef struct layout {
+    double unit; /**< height of text */
+    rect panel[PICTURE_MODES_MAX];
+    int panels; /**< one per mode, at least one */
+    rect spectrum, lowest, dispersion;
+    double caption_x, caption_y; /**< middle of the caption's text */
+} layout;
+
+layout layout_of(const picture *p);
+
+#endif

@@ -1,0 +1,372 @@
+/** Pictures for rviz: the bytes of a MarkerArray, what rviz demands of one, and what is drawn where. */
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "views.hpp"
+
+extern "C" {
+#include "view.h"
+}
+
+namespace
+{
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+/** As rviz gets it. */
+MarkerArray received(const hdr_markers &view)
+{
+    const ros::SerializedMessage bytes = ros::serialization::serializeMessage(view);
+    MarkerArray message;
+    ros::serialization::deserializeMessage(bytes, message);
+    return message;
+}
+
+/** A picture and all that it points to. */
+struct scene {
+    picture p = {};
+    std::vector<double> q, exponents, vectors;
+    std::vector<hdr_step> step;
+    hdr_steps steps = {};
+
+    scene(double width, double height, int disks, int modes, unsigned seed)
+    {
+        std::mt19937_64 random(seed);
+        std::uniform_real_distribution<double> part(0.0, 1.0);
+        p.scene = "a scene";
+        p.phase = "averaging";
+        p.box[0] = width;
+        p.box[1] = height;
+        p.time = 12.5;
+        p.progress = 0.25;
+        p.modes = modes;
+        for (int i = 0; i < disks; i++) {
+            q.push_back(width * part(random));
+            q.push_back(height * part(random));
+        }
+        for (int k = 0; k < 2 * disks * modes; k++) vectors.push_back(part(random) - 0.5);
+        point();
+    }
+
+    void point()
+    {
+        const auto disks = static_cast<uint32_t>(q.size() / 2);
+        p.x = {q.data(), disks, 2};
+        p.y = {q.data() + 1, disks, 2};
+        for (int k = 0; k < p.modes; k++) {
+            picture_mode &m = p.mode[k];
+            std::snprintf(m.name, sizeof m.name, k % 2 ? "LP(%d,1)" : "T(%d,0)", k);
+            m.kind = k % 2 ? HDR_MODE_LP : HDR_MODE_T;
+            m.known = true;
+            m.index = 7;
+            m.pairs = k % 2 ? 2 : 0;
+            m.a[0] = 0.6, m.b[0] = 0.3, m.a[1] = -0.4, m.b[1] = 0.1;
+            m.dx = {vectors.data() + 2 * disks * k, disks, 2};
+            m.dy = {vectors.data() + 2 * disks * k + 1, disks, 2};
+        }
+    }
+
+    void measure(uint32_t n)
+    {
+        for (uint32_t k = 0; k < n; k++) exponents.push_back(6.0 - 5.0 * k / n);
+        p.has_exponents = true;
+        p.exponents = {exponents.data(), n, 1};
+        step.push_back({HDR_MODE_T, 1, 0, 0.2, false, true, 2, n - 1, n, 1.9, 0, 1, 1.05, 0.01});
+        step.push_back({HDR_MODE_LP, 1, 0, 0.2, false, true, 4, n - 5, n - 2, 3.5, 1, 1, 1.1, -1});
+        step.push_back({HDR_MODE_LP, 0, 1, 0.3, false, false, 4, 0, 0, 0, -1, 0, 0, 0});
+        steps.steps = step.data();
+        steps.count = static_cast<uint32_t>(step.size());
+        steps.t = {2, 3.2, 0.1, 0.2, -1};
+        steps.l = {1, 4.2, -1, 0, -1};
+        p.steps = &steps;
+    }
+
+    /** Of one vector each, below those of measure. */
+    void more_steps(uint32_t count)
+    {
+        for (uint32_t k = 0; k < count; k++)
+            step.push_back({HDR_MODE_T, 2, k, 0.3, false, true, 1, 90 - k, 90 - k, 1, int(k), 1, 1.2 + 0.05 * k, 0.01});
+        steps.steps = step.data();
+        steps.count = static_cast<uint32_t>(step.size());
+    }
+};
+
+struct drawing {
+    view *v = nullptr;
+    drawing() { EXPECT_TRUE(view_create(&v)); }
+    ~drawing() { view_free(v); }
+    MarkerArray of(const picture &p)
+    {
+        hdr_markers markers;
+        EXPECT_TRUE(view_draw(v, &markers, &p, "box"));
+        return received(markers);
+    }
+};
+
+std::vector<Marker> in(const MarkerArray &array, const std::string &ns, int type)
+{
+    std::vector<Marker> found;
+    for (const Marker &m : array.markers)
+        if (m.ns == ns && m.type == type && m.action == Marker::ADD) found.push_back(m);
+    return found;
+}
+
+/** What rviz 1.14 refuses, see its marker_utils.cpp. */
+void expect_shown(const MarkerArray &array)
+{
+    std::set<std::pair<std::string, int>> names;
+    for (const Marker &m : array.markers) {
+        EXPECT_TRUE(names.emplace(m.ns, m.id).second) << m.ns << " " << m.id;
+        EXPECT_EQ("box", m.header.frame_id);
+        EXPECT_TRUE(m.header.stamp.isZero());
+        EXPECT_EQ(1.0, m.pose.orientation.w);
+        if (m.action == Marker::DELETE) continue;
+        EXPECT_EQ(int(Marker::ADD), m.action);
+        EXPECT_GT(m.color.a, 0.0f);
+        EXPECT_TRUE(m.scale.x > 0 && m.scale.y > 0 && m.scale.z > 0);
+        EXPECT_TRUE(m.colors.empty() || m.colors.size() == m.points.size());
+        EXPECT_EQ(m.type == Marker::TEXT_VIEW_FACING, m.points.empty());
+        EXPECT_EQ(m.type == Marker::TEXT_VIEW_FACING, !m.text.empty());
+        EXPECT_TRUE(m.type != Marker::LINE_LIST || m.points.size() % 2 == 0);
+        EXPECT_TRUE(m.type != Marker::TRIANGLE_LIST || m.points.size() % 3 == 0);
+        for (const auto &point : m.points) EXPECT_TRUE(std::isfinite(point.x + point.y + point.z));
+        EXPECT_TRUE(std::isfinite(m.pose.position.x + m.pose.position.y));
+    }
+}
+
+/** Middle and difference of the ends of each arrow: of the shaft's tail and of the point. */
+struct arrow {
+    double x, y, dx, dy;
+};
+std::vector<arrow> arrows_of(const Marker &m)
+{
+    std::vector<arrow> found;
+    for (size_t k = 0; k + 9 <= m.points.size(); k += 9) {
+        const auto &a = m.points[k], &b = m.points[k + 5], &tip = m.points[k + 7];
+        const double x = 0.5 * (a.x + b.x), y = 0.5 * (a.y + b.y);
+        found.push_back({0.5 * (x + tip.x), 0.5 * (y + tip.y), tip.x - x, tip.y - y});
+    }
+    return found;
+}
+} // namespace
+
+TEST(markers, bytes)
+{
+    const hdr_point points[] = {{1, 2, 3}, {-4, 5e300, 6}};
+    const hdr_colour colours[] = {{0.25F, 0.5F, 0.75F, 1.0F}, {1, 0, 0, 0.5F}};
+    const hdr_marker list[] = {
+        {"a", 3, HDR_MARKER_LINE_LIST, HDR_MARKER_ADD, {1, 2, 3}, {4, 5, 6}, colours[0], points, colours, 2, ""},
+        {"b", 0, HDR_MARKER_TEXT, HDR_MARKER_DELETE, {}, {}, colours[1], nullptr, nullptr, 0, "some text"}};
+    const hdr_markers markers = {"box", list, 2};
+    MarkerArray message;
+    message.markers.resize(2);
+    Marker &line = message.markers[0], &text = message.markers[1];
+    line.header.frame_id = text.header.frame_id = "box";
+    line.pose.orientation.w = text.pose.orientation.w = 1.0;
+    line.ns = "a", line.id = 3, line.type = Marker::LINE_LIST, line.action = Marker::ADD;
+    line.pose.position.x = 1, line.pose.position.y = 2, line.pose.position.z = 3;
+    line.scale.x = 4, line.scale.y = 5, line.scale.z = 6;
+    line.points.resize(2);
+    line.colors.resize(2);
+    for (int k = 0; k < 2; k++) {
+        line.points[k].x = points[k].x, line.points[k].y = points[k].y, line.points[k].z = points[k].z;
+        line.colors[k].r = colours[k].r, line.colors[k].g = colours[k].g;
+        line.colors[k].b = colours[k].b, line.colors[k].a = colours[k].a;
+    }
+    line.color = line.colors[0];
+    text.ns = "b", text.type = Marker::TEXT_VIEW_FACING, text.action = Marker::DELETE, text.text = "some text";
+    text.color = line.colors[1];
+    const ros::SerializedMessage got = ros::serialization::serializeMessage(markers);
+    const ros::SerializedMessage want = ros::serialization::serializeMessage(message);
+    ASSERT_EQ(want.num_bytes, got.num_bytes);
+    EXPECT_EQ(0, std::memcmp(want.buf.get(), got.buf.get(), want.num_bytes));
+    EXPECT_STREQ(ros::message_traits::md5sum<MarkerArray>(), ros::message_traits::md5sum(markers));
+}
+
+/** Boxes of all shapes, hardly any disks, many modes and steps: rviz takes what is drawn, and nothing of it is left
+ *  out. */
+TEST(markers, rviz_takes_every_picture)
+{
+    for (const double shape : {0.01, 0.3, 0.867, 1.0, 3.0, 80.0})
+        for (const int modes : {0, 1, 2, 3, 8})
+            for (const bool measured : {false, true}) {
+                scene s(30.0 / std::sqrt(shape), 30.0 * std::sqrt(shape), measured ? 50 : 2, modes, 1);
+                if (measured) s.measure(97);
+                if (measured) s.more_steps(20);
+                const MarkerArray array = drawing().of(s.p);
+                expect_shown(array);
+                EXPECT_LE(array.markers.size(), 150u);
+                EXPECT_EQ(1u, in(array, "text", Marker::TEXT_VIEW_FACING).size());
+                int names = 0; // of steps
+                for (const Marker &m : in(array, "spectrum", Marker::TEXT_VIEW_FACING))
+                    names += m.text.find('(') != std::string::npos;
+                EXPECT_EQ(measured ? 12 : 0, names);
+            }
+}
+
+TEST(markers, disks_and_boxes_lie_where_they_are)
+{
+    scene s(20.0, 10.0, 40, 2, 2);
+    const MarkerArray array = drawing().of(s.p);
+    const std::vector<Marker> disks = in(array, "disks", Marker::SPHERE_LIST);
+    const std::vector<Marker> boxes = in(array, "box", Marker::LINE_LIST);
+    ASSERT_EQ(1u, disks.size());
+    ASSERT_EQ(1u, boxes.size());
+    ASSERT_EQ(80u, disks[0].points.size());
+    ASSERT_EQ(16u, boxes[0].points.size());
+    EXPECT_EQ(1.0, disks[0].scale.x); // sigma
+    for (int i = 0; i < 40; i++) {
+        EXPECT_EQ(s.q[2 * i], disks[0].points[i].x);
+        EXPECT_EQ(s.q[2 * i + 1], disks[0].points[i].y);
+        EXPECT_NEAR(s.q[2 * i], disks[0].points[40 + i].x - boxes[0].points[8].x, 1e-12);
+    }
+    EXPECT_EQ(0.0, boxes[0].points[0].x);
+    EXPECT_EQ(20.0, boxes[0].points[1].x);
+    EXPECT_EQ(10.0, boxes[0].points[3].y);
+}
+
+/** At the disks, along the field, as long as it is but for one factor: none is clipped here. */
+TEST(markers, arrows_are_the_field)
+{
+    scene s(20.0, 15.0, 60, 1, 3);
+    const std::vector<Marker> found = in(drawing().of(s.p), "mode/T(0,0)", Marker::TRIANGLE_LIST);
+    ASSERT_EQ(1u, found.size());
+    const std::vector<arrow> arrows = arrows_of(found[0]);
+    ASSERT_EQ(60u, arrows.size());
+    const double factor = arrows[0].dx / s.vectors[0];
+    double square = 0;
+    EXPECT_GT(factor, 0.0);
+    for (int i = 0; i < 60; i++) {
+        EXPECT_NEAR(s.q[2 * i], arrows[i].x, 1e-12);
+        EXPECT_NEAR(s.q[2 * i + 1], arrows[i].y, 1e-12);
+        EXPECT_NEAR(factor * s.vectors[2 * i], arrows[i].dx, 1e-12);
+        EXPECT_NEAR(factor * s.vectors[2 * i + 1], arrows[i].dy, 1e-12);
+        square += arrows[i].dx * arrows[i].dx + arrows[i].dy * arrows[i].dy;
+    }
+    EXPECT_NEAR(1.3 * std::sqrt(20.0 * 15.0 / 60), std::sqrt(square / 60), 1e-9);
+}
+
+TEST(markers, an_lp_mode_shows_its_phase)
+{
+    scene s(20.0, 20.0, 10, 2, 4);
+    picture_mode &lp = s.p.mode[1];
+    drawing on;
+    const std::vector<Marker> dials = in(on.of(s.p), "phases", Marker::LINE_LIST);
+    ASSERT_EQ(2u, dials.size()); // circles, hands
+    ASSERT_EQ(4u, dials[1].points.size());
+    const double radius = dials[0].points[0].x - dials[1].points[0].x;
+    for (int k = 0; k < 2; k++) {
+        EXPECT_NEAR(lp.a[k], (dials[1].points[2 * k + 1].x - dials[1].points[2 * k].x) / radius, 1e-9);
+        EXPECT_NEAR(lp.b[k], (dials[1].points[2 * k + 1].y - dials[1].points[2 * k].y) / radius, 1e-9);
+    }
+    const auto red = [&](double a, double b) {
+        lp.pairs = 1, lp.a[0] = a, lp.b[0] = b;
+        return in(on.of(s.p), "mode/LP(1,1)", Marker::TRIANGLE_LIST)[0].color.r;
+    };
+    EXPECT_FLOAT_EQ(0.902F, red(0.7, 0.0)); // all L
+    EXPECT_FLOAT_EQ(0.40F, red(0.0, -0.7)); // all P
+    EXPECT_FLOAT_EQ(0.651F, red(0.5, 0.5));
+}
+
+namespace
+{
+/** Of an axis, by the first and the last of the numbers beside it: place -> number. */
+struct scale {
+    double place[2], number[2];
+    double of(double at) const
+    {
+        return number[0] + (at - place[0]) / (place[1] - place[0]) * (number[1] - number[0]);
+    }
+};
+scale scale_along(const MarkerArray &array, const std::string &ns, bool along_x, double at, double low, double high)
+{
+    scale found = {{1e300, -1e300}, {0, 0}};
+    for (const Marker &m : in(array, ns, Marker::TEXT_VIEW_FACING)) {
+        char *end = nullptr;
+        const double number = std::strtod(m.text.c_str(), &end);
+        const double place = along_x ? m.pose.position.x : m.pose.position.y;
+        const double other = along_x ? m.pose.position.y : m.pose.position.x;
+        if (*end || std::fabs(other - at) > 1e-9 || place < low || place > high) continue;
+        if (place < found.place[0]) found.place[0] = place, found.number[0] = number;
+        if (place > found.place[1]) found.place[1] = place, found.number[1] = number;
+    }
+    return found;
+}
+} // namespace
+
+TEST(markers, curves_are_the_numbers)
+{
+    scene s(20.0, 20.0, 50, 2, 5);
+    s.measure(97);
+    const MarkerArray array = drawing().of(s.p);
+    const Marker curve = in(array, "spectrum", Marker::LINE_STRIP).at(0);
+    const Marker frame = in(array, "spectrum", Marker::LINE_LIST).at(0);
+    const double unit = curve.scale.x / 0.2, left = frame.points[0].x, bottom = frame.points[0].y;
+    const scale y = scale_along(array, "spectrum", false, left - 1.3 * unit, bottom - 1, bottom + 100);
+    const scale x = scale_along(array, "spectrum", true, bottom - 1.3 * unit, left - 1, frame.points[1].x + 1);
+    ASSERT_EQ(97u, curve.points.size());
+    for (int k = 0; k < 97; k++) {
+        EXPECT_NEAR(k + 1, x.of(curve.points[k].x), 1e-6);
+        EXPECT_NEAR(s.exponents[k], y.of(curve.points[k].y), 1e-9);
+    }
+    const Marker dots = in(array, "dispersion", Marker::POINTS).at(0);
+    const Marker axes = in(array, "dispersion", Marker::LINE_LIST).at(0);
+    const scale k = scale_along(array, "dispersion", true, axes.points[0].y - 1.3 * unit, axes.points[0].x - 1, 1e9);
+    const scale lambda = scale_along(array, "dispersion", false, axes.points[0].x - 1.3 * unit, -1e9, 1e9);
+    ASSERT_EQ(2u, dots.points.size());
+    EXPECT_NEAR(0.2, k.of(dots.points[0].x), 1e-9);
+    EXPECT_NEAR(1.05, lambda.of(dots.points[0].y), 1e-9);
+    EXPECT_NEAR(1.1, lambda.of(dots.points[1].y), 1e-9);
+    EXPECT_GT(dots.colors[0].b, dots.colors[0].r); // T is blue, LP is not
+    EXPECT_LT(dots.colors[1].b, dots.colors[1].r);
+    const Marker fit = in(array, "dispersion", Marker::LINE_LIST).at(1);
+    for (const auto &point : fit.points) {
+        const double at = k.of(point.x);
+        EXPECT_NEAR(3.2 * at + 0.2 * at * at, lambda.of(point.y), 1e-9);
+    }
+}
+
+TEST(markers, what_is_gone_is_deleted)
+{
+    scene s(20.0, 20.0, 10, 2, 6);
+    drawing on;
+    EXPECT_EQ(1u, in(on.of(s.p), "mode/T(0,0)", Marker::TRIANGLE_LIST).size());
+    std::snprintf(s.p.mode[0].name, sizeof s.p.mode[0].name, "T(0,1)");
+    s.p.mode[1].known = false;
+    for (int again = 0; again < 2; again++) { // and stays so for who has missed it
+        const MarkerArray array = on.of(s.p);
+        std::map<std::string, int> deleted;
+        for (const Marker &m : array.markers) deleted[m.ns] += m.action == Marker::DELETE;
+        expect_shown(array);
+        EXPECT_EQ(2, deleted["mode/T(0,0)"]); // arrows and title
+        EXPECT_EQ(2, deleted["phases"]);
+        EXPECT_EQ(1, deleted["mode/LP(1,1)"]);
+        EXPECT_EQ(0, deleted["mode/T(0,1)"]);
+    }
+}
+
+TEST(markers, the_caption_says_what_is_known)
+{
+    scene s(20.0, 20.0, 10, 0, 7);
+    drawing on;
+    EXPECT_NE(std::string::npos, in(on.of(s.p), "text", Marker::TEXT_VIEW_FACING).at(0).text.find("t = 12.5"));
+    s.measure(40);
+    const std::string text = in(on.of(s.p), "text", Marker::TEXT_VIEW_FACING).at(0).text;
+    EXPECT_NE(std::string::npos, text.find("c_T 3.200 +- 0.100")) << text;
+    EXPECT_NE(std::string::npos, text.find("c_L 4.200 ")) << text;
+    EXPECT_NE(std::string::npos, text.find("v unknown")) << text;
+    EXPECT_NE(std::string::npos, text.find("a scene: 10 disks")) << text;
+    EXPECT_NE(std::string::npos, text.find("25 %")) << text;
+}
+
+int main(int argc, char **argv)
+{
+    testing::InitGoogleTest(&argc, argv);
+    return RUN_ALL_TESTS();
+}

@@ -1,0 +1,163 @@
+#!/usr/bin/env python3
+"""~markers: what the node draws is what it publishes as numbers, only while somebody looks, as often as asked."""
+
+import re
+import time
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+from std_srvs.srv import SetBool
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import Marker, MarkerArray
+
+import harness
+from harness import MODES, Listener
+
+ENDLESS = dict(MODES, duration=0.0)
+
+
+class Pictures:
+    """All pictures of the node's, in the order of their arrival."""
+
+    def __init__(self):
+        self.all = []
+        self.subscriber = rospy.Subscriber('/hdlyap/markers', MarkerArray, self.all.append, queue_size=None)
+
+    def close(self):
+        self.subscriber.unregister()
+
+
+def of(picture, ns, kind):
+    return [m for m in picture.markers if m.ns == ns and m.type == kind and m.action == Marker.ADD]
+
+
+def modes(picture):
+    """Namespaces of the modes that are drawn."""
+    return [m.ns for m in picture.markers if m.type == Marker.TRIANGLE_LIST and m.action == Marker.ADD]
+
+
+def text(picture):
+    return of(picture, 'text', Marker.TEXT_VIEW_FACING)[0].text
+
+
+def places(picture):
+    """Of the disks in the first panel."""
+    points = of(picture, 'disks', Marker.SPHERE_LIST)[0].points
+    return np.array([(p.x, p.y) for p in points[:MODES['disks']]])
+
+
+def arrows(marker):
+    """Of each disk: the difference of the ends."""
+    tails = [((a.x + b.x) / 2, (a.y + b.y) / 2) for a, b in zip(marker.points[0::9], marker.points[5::9])]
+    return np.array([(tip.x - x, tip.y - y) for (x, y), tip in zip(tails, marker.points[7::9])])
+
+
+class Markers(unittest.TestCase):
+
+    def start(self, params):
+        node = harness.start(params)
+        self.addCleanup(node.stop)
+        return node
+
+    def look(self):
+        pictures = Pictures()
+        self.addCleanup(pictures.close)
+        return pictures
+
+    def pause(self, yes):
+        rospy.wait_for_service('/hdlyap/pause', 10)
+        self.assertTrue(rospy.ServiceProxy('/hdlyap/pause', SetBool)(yes).success)
+
+    def test_arrows_are_the_published_vectors(self):
+        states, fields = Listener('state'), Listener('fields')
+        for listener in (states, fields):
+            self.addCleanup(listener.close)
+        pictures = self.look()
+        node = self.start(dict(ENDLESS, marker_rate=100.0, pace=10.0))
+        self.assertTrue(harness.wait_until(lambda: sum(len(modes(p)) == 2 for p in pictures.all) > 60), node.text())
+        node.stop()
+        compared = 0
+        by_place = {(s.x[0], s.y[0]): s.sim_time for s in states.messages}
+        for picture in pictures.all:
+            at = by_place.get(tuple(places(picture)[0]))
+            for name in modes(picture) if at is not None else ():
+                nx, ny = map(int, re.search(r'(\d+),(\d+)', name).groups())
+                kind = 2 if 'T' in name else 3
+                field = [f for f in fields.messages if (f.sim_time, f.kind, f.nx, f.ny) == (at, kind, nx, ny)]
+                if not field:
+                    continue
+                drawn, wanted = arrows(of(picture, name, Marker.TRIANGLE_LIST)[0]), np.c_[field[0].dqx, field[0].dqy]
+                longest = abs(drawn).max(axis=1) < 3.0      # the longest are clipped
+                factor = (drawn[longest] * wanted[longest]).sum() / (wanted[longest] ** 2).sum()
+                self.assertGreater(factor, 0)
+                np.testing.assert_allclose(drawn[longest], factor * wanted[longest], atol=1e-9)
+                np.testing.assert_array_equal(places(picture), np.c_[field[0].x, field[0].y])
+                compared += 1
+        self.assertGreater(compared, 5)
+
+    def test_named_modes_in_their_order(self):
+        pictures = self.look()
+        self.start(dict(ENDLESS, marker_modes=['LP(1,0)', 'T(2,0)', 'T(1,0)']))
+        self.assertTrue(harness.wait_until(lambda: pictures.all and len(modes(pictures.all[-1])) == 3))
+        self.assertEqual(modes(pictures.all[-1]), ['mode/LP(1,0)', 'mode/T(2,0)', 'mode/T(1,0)'])
+        self.assertIn('c_T', text(pictures.all[-1]))
+
+    def test_what_is_not_looked_for_is_refused(self):
+        for value in ('T(1,0)', ['T(1,0'], ['T(1,0)x'], ['P(1,0)'], ['T(99,0)'], [], ['T(1,0)'] * 9, [3]):
+            node = self.start(dict(MODES, marker_modes=value))
+            self.assertEqual(node.wait(), 2, value)
+            self.assertEqual(len(node.lines('marker_modes = ')), 1, node.text())
+        node = self.start(dict(MODES, observables=['spectrum'], marker_modes=['T(1,0)']))
+        self.assertEqual(node.wait(), 2)
+
+    def test_as_often_as_asked(self):
+        """Pictures of the averaging, beside the wall time that they took; before it steps are as long as they like."""
+        pictures = self.look()
+        self.start(dict(ENDLESS, pace=2.0, marker_rate=10.0))
+        averaging = lambda: [p for p in pictures.all if 'averaging' in text(p)]
+        self.assertTrue(harness.wait_until(lambda: len(averaging()) >= 5))
+        begin, count = time.monotonic(), len(averaging())
+        self.assertTrue(harness.wait_until(lambda: len(averaging()) >= count + 20))
+        self.assertGreater(time.monotonic() - begin, 0.8 * 20 / 10.0)
+        times = [float(re.search(r't = ([0-9.]+)', text(p)).group(1)) for p in averaging()[3:]]
+        self.assertLess(max(np.diff(times)), 0.9)      # 0.2 apart, but for a busy machine
+
+    def test_without_modes_or_exponents(self):
+        pictures = self.look()
+        self.start(dict(ENDLESS, observables=['spectrum']))
+        self.assertTrue(harness.wait_until(lambda: any(of(p, 'spectrum', Marker.LINE_STRIP) for p in pictures.all)))
+        self.assertFalse(any(of(p, 'dispersion', Marker.LINE_LIST) or modes(p) for p in pictures.all))
+        pictures.all.clear()
+        self.start(dict(ENDLESS, exponents='none'))
+        self.assertTrue(harness.wait_until(lambda: any(not of(p, 'spectrum', Marker.LINE_LIST) for p in pictures.all)))
+
+    def test_late_to_a_run_that_rests(self):
+        self.start(ENDLESS)
+        self.pause(True)
+        time.sleep(0.5)
+        pictures = self.look()
+        self.assertTrue(harness.wait_until(lambda: pictures.all, 10))
+        self.assertEqual(len(pictures.all), 1)
+
+    def test_the_frame_of_the_box_is_known(self):
+        frames = []
+        listener = rospy.Subscriber('/tf_static', TFMessage, frames.append, queue_size=None)
+        self.addCleanup(listener.unregister)
+        self.start(ENDLESS)
+        self.assertTrue(harness.wait_until(lambda: frames))
+        transform = frames[0].transforms[0]
+        self.assertEqual((transform.header.frame_id, transform.child_frame_id), ('world', 'box'))
+        self.assertEqual(transform.transform.rotation.w, 1.0)
+        translation = transform.transform.translation
+        self.assertEqual((translation.x, translation.y, translation.z), (0, 0, 0))
+
+    def test_nothing_is_drawn_for_nobody(self):
+        calls = harness.calls(self, dict(MODES, duration=5.0))
+        self.assertEqual(calls['markers_publish'], 0)
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_pictures')
+    rostest.rosrun('hdlyap', 'pictures', Markers)

@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+"""The real rviz, on a screen of its own without a monitor: it shows what ~markers says, where it says so, live, to who comes
+late, and from a bag."""
+
+import os
+import subprocess
+import tempfile
+import time
+import unittest
+
+import matplotlib.image
+import numpy as np
+import rosbag
+import rosgraph
+import rospy
+import rostest
+import yaml
+from std_srvs.srv import SetBool
+from visualization_msgs.msg import Marker, MarkerArray
+
+import harness
+
+SCREEN = (1360, 960)
+PAPER = (250, 251, 255)     # a background that nothing else has
+# steps within seconds, then slow enough to look on
+SCENE = dict(harness.MODES, warmup=40.0, duration=0.0, pace=2.0, marker_rate=10.0)
+
+
+class Screen:
+    """Xvfb with rviz in it."""
+
+    def __init__(self):
+        read, write = os.pipe()
+        self.server = subprocess.Popen(['Xvfb', '-displayfd', str(write), '-screen', '0', '%dx%dx24' % SCREEN],
+                                       pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as number:
+            self.env = dict(DISPLAY=':' + number.readline().strip(), LIBGL_ALWAYS_SOFTWARE='1')
+
+    def shot(self):
+        """Pixels of the screen, [row, column, colour]."""
+        with tempfile.NamedTemporaryFile(suffix='.png') as file:
+            subprocess.run(['import', '-window', 'root', 'png24:' + file.name], check=True, env=dict(os.environ, **self.env))
+            return np.rint(255 * matplotlib.image.imread(file.name)[:, :, :3]).astype(int)
+
+    def close(self):
+        self.server.terminate()
+        self.server.wait()
+
+
+def config(folder):
+    """The view that is shipped, on a paper of its own."""
+    share = os.path.join(os.path.dirname(__file__), '..', '..', 'hdlyap_ros', 'rviz', 'hdlyap.rviz')
+    with open(share) as file:
+        view = yaml.safe_load(file)
+    view['Visualization Manager']['Global Options']['Background Color'] = '%d; %d; %d' % PAPER
+    view['Window Geometry'].update(Width=SCREEN[0], Height=SCREEN[1])
+    path = os.path.join(folder, 'test.rviz')
+    with open(path, 'w') as file:
+        yaml.safe_dump(view, file)
+    return path
+
+
+class Paper:
+    """Where the scene is on the screen: the view's middle is the paper's."""
+
+    def __init__(self, shot, view):
+        rows, columns = np.nonzero((shot == PAPER).all(axis=2))
+        self.shot = shot
+        self.middle = 0.5 * (columns.min() + columns.max()), 0.5 * (rows.min() + rows.max())
+        self.view = view
+
+    def pixels(self, x, y, around=0):
+        """Colours at a place [sigma], and so many pixels around."""
+        scale = self.view['Scale']
+        column = self.middle[0] + (x - self.view['X']) * scale
+        row = self.middle[1] - (y - self.view['Y']) * scale
+        row, column = int(round(row)), int(round(column))
+        return self.shot[row - around:row + around + 1, column - around:column + around + 1].reshape(-1, 3)
+
+    def has(self, x, y, colour, around=1, tolerance=45):
+        wanted = 255 * np.array([colour.r, colour.g, colour.b])
+        return bool((abs(self.pixels(x, y, around) - wanted).max(axis=1) <= tolerance).any())
+
+    def is_inked(self, x, y, around):
+        return bool((abs(self.pixels(x, y, around) - PAPER).max(axis=1) > 60).any())
+
+
+def middles(marker):
+    """Points that are well inside what a marker draws."""
+    points = marker.points
+    if marker.type == Marker.LINE_LIST:
+        return [(0.5 * (a.x + b.x), 0.5 * (a.y + b.y)) for a, b in zip(points[::2], points[1::2])]
+    if marker.type == Marker.TRIANGLE_LIST:     # heads of arrows: their shafts are a pixel wide
+        heads = [points[k + 6:k + 9] for k in range(0, len(points), 9)]
+        return [(sum(p.x for p in head) / 3, sum(p.y for p in head) / 3) for head in heads]
+    return [(p.x, p.y) for p in points]
+
+
+def part_seen(paper, marker):
+    """Of what a marker draws, the part that has its colour on the screen."""
+    if marker.type == Marker.TEXT_VIEW_FACING:
+        place = marker.pose.position
+        return float(paper.is_inked(place.x, place.y, int(0.6 * marker.scale.z * paper.view['Scale']) + 1))
+    places = middles(marker)
+    colours = marker.colors or [marker.color] * len(places)
+    if marker.type == Marker.SPHERE_LIST:       # shaded, and an arrow lies on their middle
+        seen = [paper.is_inked(x + 0.3, y + 0.25, 1) for x, y in places]
+    else:
+        seen = [paper.has(x, y, colour) for (x, y), colour in zip(places, colours)]
+    return sum(seen) / len(seen)
+
+
+def drawn(picture):
+    return [marker for marker in picture.markers if marker.action == Marker.ADD]
+
+
+class Rviz(unittest.TestCase):
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.screen = Screen()
+        self.addCleanup(self.screen.close)
+        self.pictures = []
+        self.listener = rospy.Subscriber('/hdlyap/markers', MarkerArray, self.pictures.append, queue_size=None)
+        self.addCleanup(self.listener.unregister)
+
+    def start(self, params):
+        node = harness.start(params)
+        self.addCleanup(node.stop)
+        return node
+
+    def open_rviz(self):
+        view = os.path.join(os.path.dirname(__file__), '..', '..', 'hdlyap_ros', 'scripts', 'view')
+        rviz = harness.Process([view, '--config', config(self.folder.name)], ROS_HOME=self.folder.name, **self.screen.env)
+        self.addCleanup(rviz.stop)
+        self.assertTrue(harness.wait_until(lambda: any(name.startswith('/rviz_') for name in self.subscribers())), rviz.text())
+        with open(os.path.join(self.folder.name, 'view_hdlyap_markers.rviz')) as file:
+            self.view = yaml.safe_load(file)['Visualization Manager']['Views']['Current']
+        return rviz
+
+    def subscribers(self):
+        state = rosgraph.Master('/test').getSystemState()[1]
+        return [name for topic, names in state if topic == '/hdlyap/markers' for name in names]
+
+    def modes_seen(self):
+        """Both modes in the newest picture."""
+        names = {m.ns for m in drawn(self.pictures[-1]) if m.type == Marker.TRIANGLE_LIST} if self.pictures else ()
+        return len(names) == 2
+
+    def pause(self, yes):
+        rospy.wait_for_service('/hdlyap/pause', 10)
+        self.assertTrue(rospy.ServiceProxy('/hdlyap/pause', SetBool)(yes).success)
+
+    def missing(self, picture):
+        """What the screen does not show of a picture: (namespace, type, part that is seen)."""
+        shot = self.screen.shot()
+        if not (shot == PAPER).all(axis=2).any():
+            return ['rviz']     # is not there yet
+        paper = Paper(shot, self.view)
+        parts = [(m.ns, m.type, round(part_seen(paper, m), 2)) for m in drawn(picture)]
+        return [part for part in parts if part[2] < 0.8]
+
+    def check_shown(self, picture):
+        self.assertTrue(harness.wait_until(lambda: not self.missing(picture), 20), self.missing(picture))
+
+    def rest(self):
+        """Pauses the node, and returns its last picture."""
+        self.pause(True)
+        time.sleep(0.5)
+        return self.pictures[-1]
+
+    def test_late_live_and_from_a_bag(self):
+        node = self.start(SCENE)
+        self.assertTrue(harness.wait_until(self.modes_seen), node.text())
+        first = self.rest()
+        rviz = self.open_rviz()             # late: nothing more is published
+        self.check_shown(first)
+        self.pause(False)                   # live
+        count = len(self.pictures)
+        self.assertTrue(harness.wait_until(lambda: len(self.pictures) > count + 20))
+        second = self.rest()
+        self.check_shown(second)
+        self.assertTrue(self.missing(first), 'the picture does not change')
+        node.stop()
+        bag = os.path.join(self.folder.name, 'markers.bag')
+        with rosbag.Bag(bag, 'w') as file:  # and from a bag, in which the run stands where it did at first
+            file.write('/hdlyap/markers', first)
+        play = harness.Process(['rosbag', 'play', '--quiet', '--delay=1', '--keep-alive', bag])
+        self.addCleanup(play.stop)
+        self.check_shown(first)
+        self.assertTrue(rviz.running())
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_rviz')
+    rostest.rosrun('hdlyap', 'rviz', Rviz)
