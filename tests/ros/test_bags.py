@@ -281,7 +281,7 @@ class Stopped(unittest.TestCase):
         self.assertTrue(harness.wait_until(lambda: len(self.files('first_*')) > 2))
         end(first)
         self.assertTrue(node.running())
-        second = self.record('bag:=second.bag')
+        second = self.record('bag:=second.bag', 'markers:=true')
         averaged = harness.Listener('spectrum')
         self.addCleanup(averaged.close)
         self.assertTrue(harness.wait_until(lambda: is_recorded(node, ['run_info', 'spectrum', 'state', 'cost'])))
@@ -299,6 +299,7 @@ class Stopped(unittest.TestCase):
         parts = [read(path) for path in paths]
         ids = {message.run_id for part in parts for message in unpacked(part['/hdlyap/run_info'])}
         self.assertEqual(len(ids), 1)
+        self.assertFalse(any('/hdlyap/markers' in part for part in parts))
         states = [message for part in parts for message in unpacked(part.get('/hdlyap/state', []))]
         self.assertEqual({message.run_id for message in states}, ids)
         self.assertEqual(states[0].sim_time, BULKY['report_interval'])
@@ -307,7 +308,10 @@ class Stopped(unittest.TestCase):
 
     def check_drawn(self, paths):
         self.assertEqual([os.path.basename(path) for path in paths], ['second.bag'])
-        self.assertEqual(len(read(paths[0])['/hdlyap/run_info']), 1)
+        messages = read(paths[0])
+        self.assertEqual(len(messages['/hdlyap/run_info']), 1)
+        self.assertIn('/hdlyap/markers', messages)
+        self.assertIn('/tf_static', messages)
         plot = self.process(Process([program('plot_bag'), paths[0], '--out', self.folder]))
         self.assertEqual(plot.wait(), 0, plot.text())
         self.assertIn('lambda_max', plot.text())
