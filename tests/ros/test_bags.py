@@ -26,8 +26,8 @@ FIRST = dict(SHORT, seed='7', observables=OBSERVABLES, wait_for_subscribers='all
 RUN = dict(MODES, seed='11', threads=1, pace=100.0, observables=OBSERVABLES, field_interval=5.0, wait_for_subscribers='all')
 REPORTS, BEGIN = 90, 70.0      # of RUN; where its averaging begins
 # 64 kB a report
-BULKY = dict(disks=2000, density=0.7, aspect=1.0, exponents=20, equilibration=0.2, warmup=0.2, duration=0.0,
-             report_interval=0.1, pace=10.0, observables=['spectrum', 'state'], wait_for_subscribers='all')
+BULKY = dict(disks=2000, density=0.7, aspect=1.0, exponents=1, equilibration=0.2, warmup=0.2, duration=0.0,
+             report_interval=0.1, pace=20.0, observables=['spectrum', 'state'], wait_for_subscribers='all')
 PROBED = {'fields': 'mode_field'}   # of topics that the probe knows by another name
 
 
