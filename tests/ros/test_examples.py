@@ -32,6 +32,24 @@ def example(name):
     return find_node('hdlyap', name)[0]
 
 
+def expected_deviations(messages, ours):
+    """Percent of a turn off the line through all that has been followed without a break."""
+    expected, times, phases, last = [], [], [], None
+    for message in messages:
+        phase = ours(message)
+        if phase.state != LpPhase.TRACKED:
+            continue
+        began = message.sim_time - phase.tracked_time
+        if last is None or abs(began - last) > 0.1:
+            times, phases = [], []
+        last = began
+        times.append(message.sim_time)
+        phases.append(phase.phase)
+        line = np.polyfit(times, phases, 1) if len(times) > 2 else (0.0, phase.phase)
+        expected.append(100 * (phase.phase - np.polyval(line, message.sim_time)) / (2 * math.pi))
+    return expected
+
+
 class Examples(unittest.TestCase):
     def start(self, params, **kw):
         process = harness.start(params, **kw)
@@ -92,19 +110,7 @@ class Beside(Examples):
         return [phase for phase in message.phases if (phase.nx, phase.ny) == (1, 0)][1]
 
     def check_deviations(self, messages, deviations, watch):
-        expected, times, phases, last = [], [], [], None
-        for message in messages:
-            phase = self.ours(message)
-            if phase.state != LpPhase.TRACKED:
-                continue
-            began = message.sim_time - phase.tracked_time
-            if last is None or began > last + 0.5:     # reports are a time unit apart
-                times, phases = [], []
-            last = began
-            times.append(message.sim_time)
-            phases.append(phase.phase)
-            line = np.polyfit(times, phases, 1) if len(times) > 2 else (0.0, phase.phase)
-            expected.append(100 * (phase.phase - np.polyval(line, message.sim_time)) / (2 * math.pi))
+        expected = expected_deviations(messages, self.ours)
         self.assertGreater(len(expected), 50)
         self.assertGreater(max(map(abs, expected)), 1.0)
         self.wait_for(lambda: len(deviations) >= len(expected), watch)
@@ -172,7 +178,7 @@ class Alone(Examples):
             self.assertIn('[FATAL]', node.text())
 
     def publisher(self, topic, kind):
-        publisher = rospy.Publisher(topic, kind, queue_size=1)
+        publisher = rospy.Publisher(topic, kind, queue_size=100)
         self.addCleanup(publisher.unregister)
         return publisher
 
@@ -194,6 +200,25 @@ class Alone(Examples):
         self.assertEqual(watch.lines('[ERROR]') + older.lines('[ WARN]'), said)
         self.stop(watch)
         self.stop(older)
+
+    def test_followed_anew(self):
+        """Between two reports, and in another run: the line begins again."""
+        publisher = self.publisher('/made/lp_phases', LpPhases)
+        watch = self.watch(node='made')
+        deviations, subscriber = self.hear('/watch_phase/deviation', Float64)
+        self.wait_for(lambda: publisher.get_num_connections() and subscriber.get_num_connections(), watch)
+        # times, and how long it has been followed by then
+        made = [(t, t - began) for began, times in ((0.5, range(1, 6)), (7.0, range(10, 16)), (1.0, range(2, 6)))
+                for t in times]
+        messages = [LpPhases(sim_time=t, phases=[LpPhase(nx=1, state=LpPhase.TRACKED, tracked_time=tracked,
+                                                         phase=t + 0.1 * (7 * k % 5))])
+                    for k, (t, tracked) in enumerate(made)]
+        for message in messages:
+            publisher.publish(message)
+        self.wait_for(lambda: len(deviations) >= len(messages), watch)
+        np.testing.assert_allclose([each.data for each in deviations],
+                                   expected_deviations(messages, lambda message: message.phases[0]), atol=ROUNDING)
+        self.stop(watch)
 
     def test_node_dies_and_comes_back(self):
         watch = self.watch()

@@ -32,7 +32,7 @@ HDR_MUST_CHECK hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv
 /** Changes stop_seconds, before a stop is requested. */
 void hdr_node_stop_within(double stop_seconds);
 
-/** Waits until all subscribers have been handed their last message, at most linger seconds (a
+/** Ends this node's own subscribers, waits until all subscribers of its topics have been handed their last message, at most linger seconds (a
  *  fraction of a second once a stop was requested), then leaves the graph. NULL is allowed. */
 void hdr_node_free(hdr_node *node, double linger);
 

@@ -50,6 +50,20 @@ hdr_node *node_start()
     return node.release();
 }
 
+/** Waits for a callback that is running, which may free subscribers: they stay until all are shut down. */
+void unsubscribe(hdr_node &node)
+{
+    std::vector<std::unique_ptr<hdr_subscriber>> all;
+    {
+        const std::lock_guard<std::mutex> lock(node.mutex);
+        all.swap(node.subscribers);
+    }
+    for (const auto &subscriber : all) {
+        subscriber->wanted->store(false);
+        subscriber->subscriber.shutdown();
+    }
+}
+
 bool drained(const hdr_node &node)
 {
     return std::all_of(node.publishers.begin(), node.publishers.end(),
@@ -116,6 +130,7 @@ void hdr_node_free(hdr_node *node, double linger)
     if (!node) return;
     const hdr_status status = hdr_guard([&] {
         const std::unique_ptr<hdr_node> owned(node);
+        unsubscribe(*node); /* callbacks publish, too */
         drain(*node, linger);
         node->spinner.stop();
         ros::shutdown();

@@ -54,12 +54,14 @@ template <class View> hdr_status subscribe(hdr_subscriber **out, hdr_node *node,
     });
 }
 
+/** NULL if the node is ending, and has it no longer. */
 std::unique_ptr<hdr_subscriber> taken_from_its_node(const hdr_subscriber *subscriber)
 {
     auto &all = subscriber->node->subscribers;
     const std::lock_guard<std::mutex> lock(subscriber->node->mutex);
     const auto found = std::find_if(
         all.begin(), all.end(), [subscriber](const auto &one) { return one.get() == subscriber; });
+    if (found == all.end()) return nullptr;
     std::unique_ptr<hdr_subscriber> taken = std::move(*found);
     all.erase(found);
     return taken;
@@ -93,8 +95,10 @@ void hdr_subscriber_free(hdr_subscriber *subscriber)
 {
     if (!subscriber) return;
     subscriber->wanted->store(false);
-    const hdr_status status = hdr_guard(
-        [&] { taken_from_its_node(subscriber)->subscriber.shutdown(); });
+    const hdr_status status = hdr_guard([&] {
+        const auto taken = taken_from_its_node(subscriber);
+        if (taken) taken->subscriber.shutdown();
+    });
     if (status != HDR_OK) hdr_log(HDR_ERROR, "unsubscribing: %s", hdr_error_text());
 }
 
