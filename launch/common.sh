@@ -94,6 +94,7 @@ stop() {
         while is_running "$pid" && ((SECONDS < deadline)); do sleep 0.1; done
         kill -KILL "$pid" 2>/dev/null || true
     done
+    kill -KILL -- "-$1" 2>/dev/null || true # what it has begun meanwhile, where signals are ignored
 }
 
 is_running() { kill -0 "$1" 2>/dev/null; }

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # The one list of the system packages of hdlyap. Installs those that are missing.
-#   install.sh run|test      what building and running needs; test: what the tests need on top
+#   install.sh run|test            what building and running needs; test: what the tests need on top
+#   install.sh list debian|noetic  only prints both
 set -euo pipefail
 # shellcheck source=launch/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 run_packages() {
     echo build-essential cmake pkg-config procps libopenblas-openmp-dev liblapacke-dev zlib1g-dev \
-        python3-numpy python3-matplotlib
+        python3-numpy python3-matplotlib python3-yaml
     case $1 in
         debian)
             echo catkin ros-message-generation ros-message-runtime libroscpp-dev \
@@ -26,14 +27,15 @@ run_packages() {
 }
 
 test_packages() {
-    echo libcmocka-dev libgtest-dev shellcheck strace valgrind clang libomp-dev xvfb imagemagick libgl1-mesa-dri
+    echo libcmocka-dev libgtest-dev ninja-build shellcheck strace valgrind clang libomp-dev xvfb imagemagick libgl1-mesa-dri
     case $1 in
         debian)
             echo libclang-rt-dev librostest-dev python3-rostest python3-rostopic python3-rosnode \
-                python3-rosservice python3-tf2-msgs catkin-lint
+                python3-rosservice python3-rosgraph python3-roslib python3-rosmaster python3-rosmsg rospack-tools \
+                python3-tf2-msgs catkin-lint
             ;;
         noetic)
-            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice tf2-msgs
+            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice rosgraph roslib rosmaster rosmsg rospack tf2-msgs
             echo python3-catkin-lint
             ;;
     esac
@@ -63,7 +65,12 @@ as_root() {
     fi
 }
 
-[[ ${1:-} == run || ${1:-} == test ]] || die "usage: install.sh run|test" 2
+if [[ ${1:-} == list && ${2:-} == @(debian|noetic) ]]; then
+    run_packages "$2"
+    test_packages "$2"
+    exit
+fi
+[[ ${1:-} == run || ${1:-} == test ]] || die "usage: install.sh run|test|list debian|list noetic" 2
 flavour=$(ros_flavour)
 wanted=$(run_packages "$flavour")
 [[ $1 == run ]] || wanted+=" $(test_packages "$flavour")"

@@ -7,21 +7,9 @@ source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
 
 readonly WORK=$1 CORE=$2 ROS=$3
 readonly PARALLEL=(frame ortho threads two_threads) # tests of the core
-FAILED=0
 mkdir -p "$WORK"
-
-# check NAME COMMAND...
-check() {
-    local name=$1
-    shift
-    if "$@" >"$WORK/$name.log" 2>&1; then
-        echo "ok $name"
-    else
-        tail -n 60 "$WORK/$name.log"
-        echo "FAILED $name"
-        FAILED=1
-    fi
-}
+# shellcheck source=tests/check.sh
+source "$ROOT/tests/check.sh"
 
 # build_with SANITIZER C_COMPILER CXX_COMPILER TARGET...: clang's OpenMP tells the thread sanitizer what it orders.
 build_with() {

@@ -36,12 +36,36 @@ check() {
 type_in() {
     case $1 in
         launch/demo.sh* | tests/run.sh*) return ;; # tested elsewhere
+        *again.bag* | *replay*) return ;;          # by tests/ros/test_bags.py
         source*) return ;;                         # done below, for another folder
         'rosrun hdlyap hdlyap_node') run timeout --preserve-status -s INT 8 rosrun hdlyap hdlyap_node ;;
         *bench/run.sh*) run bash -ec "$1 --quick" ;; # fifteen minutes otherwise
+        *rviz:=true*) opens_rviz bash -ec "$1" ;;
+        *'hdlyap view') beside_a_node opens_rviz bash -ec "$1" ;;
         *follow* | rostopic*) beside_a_node bash -ec "timeout 60 $1" ;;
         *) run bash -ec "$1" ;;
     esac
+}
+
+# opens_rviz COMMAND...: on a screen without a monitor; then both are stopped.
+opens_rviz() {
+    local screen command waited status=1
+    mkfifo "$WORK/screen"
+    start Xvfb -displayfd 3 -screen 0 1400x1000x24 3<>"$WORK/screen" 2>/dev/null
+    screen=$CHILD
+    read -r DISPLAY <"$WORK/screen"
+    rm "$WORK/screen"
+    start env "DISPLAY=:$DISPLAY" LIBGL_ALWAYS_SOFTWARE=1 "$@"
+    command=$CHILD
+    for ((waited = 0; waited < 600 && status; waited++)); do
+        sleep 0.1
+        ! rosnode list 2>/dev/null | grep -q '^/rviz_' || status=0
+    done
+    stop "$command"
+    finish "$command" || true
+    stop "$screen"
+    finish "$screen" || true
+    return "$status"
 }
 
 beside_a_node() {

@@ -74,7 +74,7 @@ class Stop(unittest.TestCase):
     def test_during_a_step(self):
         cost = self.listen('cost')
         node = self.start(dict(ENDLESS, wait_for_subscribers=['cost']),
-                          probe={'PROBE_STEP_SECONDS': '2.5'})
+                          probe={'PROBE_STEP_SECONDS': '1.6'})
         self.assertTrue(cost.wait_for(lambda message: True))
         before = cost.messages[-1]
         self.stop(node)

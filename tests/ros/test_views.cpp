@@ -60,13 +60,14 @@ template <class View, class Message> void expect_both_ways(const View &view, con
 
 TEST(views, run_info)
 {
-    const char *const observables[] = {"spectrum", "state"};
+    const char *const observables[] = {"spectrum", "state"}, *const awaited[] = {"cost"};
     const uint32_t nodes[] = {1, 0, 4294967295};
     /* clang-format off: one number a line otherwise */
     const hdr_run_info view = {
         header, "id", "0.1.0", "scene", 780, 0.8, 0.867, 33.5, 29.1, "periodic", "reflecting",
         "18446744073709551615", "all", 3120, 6, 1, 2, 3, 4, 5, 6, 7, {observables, 2}, 0.25,
-        9, {nodes, 3}, {nodes + 1, 2}, "[1, 5]", 8.5, "[T(1,0)]", 2.5, "file", 60, "before", 12.5, 2, 1,
+        9, {nodes, 3}, {nodes + 1, 2}, "[1, 5]", 2.5, {awaited, 1}, 8.5, "[T(1,0)]", 2.5, "file", 60, "before",
+        12.5, 2, 1,
         "blas", "kernel", "openmp"};
     /* clang-format on */
     hdlyap::RunInfo message;
@@ -98,6 +99,8 @@ TEST(views, run_info)
     message.wave_nx = {1, 0, 4294967295};
     message.wave_ny = {0, 4294967295};
     message.field_indices = "[1, 5]";
+    message.field_interval = 2.5;
+    message.wait_for_subscribers = {"cost"};
     message.pace = 8.5;
     message.marker_modes = "[T(1,0)]";
     message.marker_rate = 2.5;

@@ -59,6 +59,8 @@ typedef struct hdr_run_info {
     uint32_t max_node;
     hdr_uints wave_nx, wave_ny;
     const char *field_indices;
+    double field_interval;
+    hdr_strings wait_for_subscribers;
     double pace;
     const char *marker_modes;
     double marker_rate;

@@ -67,7 +67,7 @@ void unsubscribe(hdr_node &node)
 bool drained(const hdr_node &node)
 {
     return std::all_of(node.publishers.begin(), node.publishers.end(),
-                       [](const auto &publisher) { return publisher->newest.use_count() <= 1; });
+                       [](const auto &publisher) { return publisher->backlog.empty(); });
 }
 
 bool has_subscribers(const hdr_node &node)

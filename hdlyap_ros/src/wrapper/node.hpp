@@ -10,15 +10,15 @@
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include "backlog.hpp"
 #include "hdlyap_ros/node.h"
 
 struct hdr_publisher {
     ros::Publisher publisher;
     std::string topic;
     std::string datatype;
-    /** The newest message. Every queue and socket on its way holds a reference, so being the only
-     *  owner means that it, and with it all before it, has been handed to the kernel. */
-    boost::shared_array<uint8_t> newest;
+    int queue;
+    hdr_backlog backlog; /**< not of latched topics */
 };
 
 struct hdr_subscriber {

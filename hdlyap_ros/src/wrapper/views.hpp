@@ -184,8 +184,8 @@ template <> struct message_of<hdr_run_info> {
              v.box_y, v.boundary_x, v.boundary_y, v.seed, v.exponents, v.vectors, v.zero_exponents,
              v.equilibration, v.warmup, v.duration, v.target_std_error, v.interval, v.accuracy,
              v.report_interval, v.observables, v.max_wave_number, v.max_node, v.wave_nx, v.wave_ny,
-             v.field_indices, v.pace, v.marker_modes, v.marker_rate, v.checkpoint,
-             v.checkpoint_interval, v.resume, v.resumed_time, v.threads, v.blas_threads,
+             v.field_indices, v.field_interval, v.wait_for_subscribers, v.pace, v.marker_modes,
+             v.marker_rate, v.checkpoint, v.checkpoint_interval, v.resume, v.resumed_time, v.threads, v.blas_threads,
              v.blas_library, v.blas_kernel, v.blas_threading);
     }
 };

@@ -1,0 +1,16 @@
+# check NAME COMMAND...: prints 'ok NAME', or what the command wrote and 'FAILED NAME'. Sourced by the test scripts, which
+# set WORK and end with exit "$FAILED".
+# shellcheck shell=bash disable=SC2034
+FAILED=0
+
+check() {
+    local name=$1 log=$WORK/$1.log
+    shift
+    if "$@" >"$log" 2>&1; then
+        echo "ok $name"
+    else
+        tail -n 60 "$log"
+        echo "FAILED $name"
+        FAILED=1
+    fi
+}

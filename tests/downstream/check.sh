@@ -1,0 +1,171 @@
+#!/usr/bin/env bash
+# hdlyap as other packages and people meet it: installed below a prefix, in a build folder, in a catkin workspace.
+#   check.sh WORK_FOLDER ROS_BUILD INSTALLED_PREFIX
+set -euo pipefail
+# shellcheck source=launch/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../../launch/common.sh"
+
+readonly WORK=$1 BUILD=$2 PREFIX=$3 HERE=$ROOT/tests/downstream
+readonly SPACE="$WORK/a workspace" STAGE=$WORK/stage ELSEWHERE=/opt/hdlyap_elsewhere # which never exists
+mkdir -p "$WORK"
+# shellcheck source=tests/check.sh
+source "$ROOT/tests/check.sh"
+
+# in_space SETUP COMMAND...: as in a fresh terminal that has sourced nothing else.
+in_space() (
+    unset CMAKE_PREFIX_PATH ROS_PACKAGE_PATH PYTHONPATH LD_LIBRARY_PATH PKG_CONFIG_PATH
+    [[ ! -f $NOETIC/setup.bash ]] || source_setup "$NOETIC/setup.bash"
+    source_setup "$1"
+    "${@:2}"
+)
+
+in_prefix() { in_space "$PREFIX/setup.bash" "$@"; }
+
+# ---- the downstream package ------------------------------------------------------------------
+
+# builds_against SETUP FOLDER
+builds_against() {
+    in_space "$1" cmake -S "$HERE" -B "$2" -DPYTHON_EXECUTABLE=/usr/bin/python3 "-DCMAKE_INSTALL_PREFIX=$2/installed" &&
+        cmake --build "$2" -- -j "$(nproc)" && cmake --install "$2"
+}
+
+# Four disks have (16 - 6) / 2 positive exponents; the largest is 3.35 (tests/core: N = 4, rho = 0.5).
+is_spectrum() { [[ $(wc -l <"$1") == 5 && $(head -n 1 "$1") == 3.* ]]; }
+
+# they_talk SETUP: C through core and wrapper to C++ and Python.
+they_talk() {
+    local talker failed=0 name
+    start in_space "$1" rosrun hdlyap_downstream talker
+    talker=$CHILD
+    for name in listener listener.py; do
+        run in_space "$1" timeout 60 rosrun hdlyap_downstream "$name" >"$WORK/heard" || failed=1
+        is_spectrum "$WORK/heard" || failed=1
+    done
+    stop "$talker"
+    finish "$talker" && ((!failed))
+}
+
+# ---- what an installed hdlyap consists of ----------------------------------------------------
+
+# has_every_file PREFIX: of the folders whose files people open.
+has_every_file() {
+    local share=$1/share/hdlyap include=$1/include file folder
+    cd "$ROOT"
+    for folder in launch/scenes launch msg doc hdlyap_ros/rviz hdlyap_ros/examples; do
+        for file in "$folder"/*; do
+            [[ ! -f $file || $file == *.sh || -s $share/${file#hdlyap_ros/} ]] || { echo "no $share/$file" && return 1; }
+        done
+    done
+    for file in hdlyap_core/include/*/*.h hdlyap_ros/include/*/*.h; do
+        [[ -s $include/${file#*/include/} ]] || { echo "no $include/${file#*/include/}" && return 1; }
+    done
+}
+
+# Programs and scripts of an installed package.
+programs() { find "$PREFIX/lib/hdlyap" -maxdepth 1 -type f -perm /111 -printf '%f\n'; }
+
+# finds_programs SETUP FOLDER: each exactly once, there. rosrun counts scripts of the sources too, if they are executable: they
+# are not.
+finds_programs() {
+    local name found
+    for name in $(programs); do
+        found=$(in_space "$1" rosrun --prefix echo hdlyap "$name" </dev/null)
+        [[ $found == "$2/$name" ]] || { echo "$name: '$found'" && return 1; }
+    done
+    [[ $(programs) == *hdlyap_node* && $(programs) == *plot_bag* ]]
+}
+
+# Each answers by itself; a folder above the package's own on PYTHONPATH would be another one's.
+scripts_run() {
+    local name
+    for name in $(programs); do
+        [[ $(head -c 2 "$PREFIX/lib/hdlyap/$name") == '#!' ]] || continue
+        head -n 1 "$PREFIX/lib/hdlyap/$name" | grep -qxE '#!/usr/bin/(env )?python3' || return 1
+        in_prefix rosrun hdlyap "$name" --help || return 1
+    done
+}
+
+finds_package() {
+    [[ $(in_prefix rospack find hdlyap) == "$PREFIX/share/hdlyap" ]] &&
+        [[ $(in_prefix python3 -c 'import hdlyap.msg; print(hdlyap.msg.__file__)') == "$PREFIX"/lib/* ]]
+}
+
+finds_messages() {
+    local -a names=("$ROOT"/msg/*.msg)
+    names=("${names[@]##*/}")
+    in_prefix python3 "$HERE/messages.py" "$PREFIX" "${names[@]%.msg}" &&
+        [[ $(in_prefix rosmsg show hdlyap/Spectrum) == *'float64[] exponents'* ]] &&
+        [[ $(in_prefix rosmsg md5 hdlyap/Spectrum) == ???????????????????????????????? ]]
+}
+
+# Every launch file is found by name, has all files that it includes, and documents its arguments.
+finds_launch_files() {
+    local file name
+    for file in "$ROOT"/launch/*.launch; do
+        name=$(basename "$file")
+        in_prefix roslaunch --files hdlyap "$name" | grep -Fx "$PREFIX/share/hdlyap/launch/$name" &&
+            in_prefix roslaunch --nodes hdlyap "$name" && in_prefix roslaunch --ros-args hdlyap "$name" || return 1
+    done
+}
+
+headers_stand_alone() {
+    local header
+    while read -r header; do
+        printf '#include <%s>\nint main(void) { return 0; }\n' "${header#"$PREFIX"/include/}" >"$WORK/header.c"
+        cc -std=c11 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$PREFIX/include" "$WORK/header.c" || return 1
+        c++ -x c++ -std=c++14 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$PREFIX/include" "$WORK/header.c" || return 1
+    done < <(find "$PREFIX/include/hdlyap" "$PREFIX/include/hdlyap_ros" -name '[a-z]*.h')
+}
+
+# ---- a workspace: catkin_make, ninja, Debug, a space in its path, DESTDIR ---------------------
+
+workspace_builds() {
+    rm -rf "$SPACE"
+    mkdir -p "$SPACE/src/hdlyap"
+    # the build folder of a clone is not part of it
+    find "$ROOT" -mindepth 1 -maxdepth 1 ! -name build ! -name '.git' -exec cp -r -t "$SPACE/src/hdlyap" {} + &&
+        cp -r "$HERE" "$SPACE/src/downstream" && cd "$SPACE" &&
+        catkin_make --use-ninja -j"$(nproc)" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_BUILD_TYPE=Debug \
+        -DCATKIN_ENABLE_TESTING=OFF "-DCMAKE_INSTALL_PREFIX=$ELSEWHERE" </dev/null
+}
+
+# Configured once more, nothing is compiled again.
+workspace_builds_once() {
+    cmake "$SPACE/build" && cmake --build "$SPACE/build" >"$WORK/again" &&
+        cat "$WORK/again" && ! grep -E 'Building|Linking' "$WORK/again"
+}
+
+installs_below_destdir() {
+    DESTDIR=$STAGE cmake --install "$SPACE/build" &&
+        [[ ! -e $ELSEWHERE && $(ls -A "$STAGE") == opt && $(ls -A "$STAGE/opt") == "${ELSEWHERE##*/}" ]] &&
+        has_every_file "$STAGE$ELSEWHERE"
+}
+
+# Python's caches name the folder that they were made in, as those of every catkin package; debug information has to.
+names_no_build_folder() {
+    find "$STAGE" -type f \( -perm /111 -o -name '*.so*' \) -exec sh -c 'strip --strip-debug "$1" 2>/dev/null; true' - {} \;
+    ! grep -rlF --exclude='*.pyc' "$WORK" "$STAGE"
+}
+
+own_environment "$WORK/home"
+stop_at_exit
+start roscore -p "${ROS_MASTER_URI##*:}" >"$WORK/roscore.log" 2>&1
+until rostopic list >/dev/null 2>&1; do sleep 0.2; done
+check package finds_package
+check messages finds_messages
+check launch_files finds_launch_files
+check files has_every_file "$PREFIX"
+check headers headers_stand_alone
+check programs finds_programs "$PREFIX/setup.bash" "$PREFIX/lib/hdlyap"
+check scripts scripts_run
+check builds_against_install run builds_against "$PREFIX/setup.bash" "$WORK/installed"
+check talks_from_install they_talk "$WORK/installed/installed/setup.bash"
+check builds_against_devel run builds_against "$BUILD/devel/setup.bash" "$WORK/devel"
+check talks_from_devel they_talk "$WORK/devel/devel/setup.bash"
+check workspace run workspace_builds
+check workspace_builds_once workspace_builds_once
+check workspace_programs finds_programs "$SPACE/devel/setup.bash" "$SPACE/devel/lib/hdlyap"
+check talks_in_workspace they_talk "$SPACE/devel/setup.bash"
+check destdir installs_below_destdir
+check no_build_folder names_no_build_folder
+exit "$FAILED"
