@@ -334,7 +334,10 @@ TEST(node, waits)
 /** The last one: who waits for a stop is woken, and goes on being. */
 TEST(node, stops)
 {
-    std::thread other([] { hdr_stop_request(); });
+    std::thread other([] {
+        hdr_node_wait(0.05);
+        hdr_stop_request();
+    });
     EXPECT_FALSE(hdr_node_wait(INFINITY));
     EXPECT_FALSE(hdr_node_wait(INFINITY));
     other.join();
