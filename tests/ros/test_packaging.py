@@ -176,5 +176,19 @@ class Launch(unittest.TestCase):
         self.assertGreater(count, 8)
 
 
+class Suite(unittest.TestCase):
+    """What tests/ros/CMakeLists.txt does not name is not run."""
+
+    def test_every_rostest_is_run(self):
+        cmake = text_of('tests/ros/CMakeLists.txt')
+        run = re.search(r'foreach\(name([^)]*)\)\s*add_rostest\(', cmake).group(1).split()
+        run += re.findall(r'add_rostest\((\w+)\.test', cmake)
+        self.assertEqual(sorted(run), sorted(os.path.basename(path)[:-5] for path in files('.test')))
+
+    def test_every_launch_file_is_checked(self):
+        checked = re.findall(r'roslaunch_add_file_check\(\S*?([\w.]+\.launch)', text_of('tests/ros/CMakeLists.txt'))
+        self.assertEqual(sorted(checked), sorted(os.path.basename(path) for path in files('.launch')))
+
+
 if __name__ == '__main__':
     unittest.main()
