@@ -77,7 +77,7 @@ plot_tests() {
     # shellcheck disable=SC2016
     for file in test_*.py; do
         grep -qF "\"$file\"" ./*.test || echo "${file%.py}"
-    done | WORK=$WORK xargs -P "$(nproc)" -I MODULE sh -c 'status=0
+    done | env "WORK=$WORK" xargs -P "$(nproc)" -I MODULE sh -c 'status=0
         python3 -m unittest -v MODULE >"$WORK/unittest/MODULE.log" 2>&1 || status=1
         cat "$WORK/unittest/MODULE.log"
         exit "$status"'
