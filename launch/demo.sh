@@ -63,7 +63,7 @@ run_scene() {
     start roslaunch hdlyap run.launch "scene:=$scene" "duration:=$duration" \
         record:=true "bag:=$out/run.bag" >"$LOG" 2>&1
     launch=$CHILD
-    start rosrun hdlyap follow
+    start rosrun hdlyap follow --line
     follow=$CHILD
     while is_running "$launch" && is_running "$follow"; do sleep 0.2; done
     finish_soon "$follow" || seen=$?

@@ -70,13 +70,13 @@ interrupted() {
 stop_at_exit
 LOG=$WORK/first.log
 check runs gives_status 0 demo --scene quick --duration 100 --out "$WORK/out"
-check writes_all_files is_complete "$WORK/out" spectrum convergence dispersion modes cost
+check writes_all_files is_complete "$WORK/out" spectrum convergence steps dispersion modes cost
 check prints_the_table grep -q '^lambda_max' "$LOG"
 check names_a_step has_step 'T\(1,0\)'
 LOG=$WORK/channel.log
 check runs_a_channel gives_status 0 demo --scene narrow --duration 200 --out "$WORK/channel"
 check names_an_lp_step has_step 'LP\(1,0\)'
-check writes_lp_figures is_complete "$WORK/channel" spectrum dispersion modes p_mode phases
+check writes_lp_figures is_complete "$WORK/channel" spectrum steps dispersion modes p_mode phases
 LOG=$WORK/second.log
 check runs_again gives_status 0 demo --scene quick --duration 100 --out "$WORK/out"
 check builds_once gives_status 1 grep -E 'Building|Linking' "$ROOT/build/log/build.log"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs what README.md shows: every command of its shell blocks and both of its programs. The two commands
-# at its top are this suite itself and tests/demo.sh.
+# Runs what README.md shows: every command of its shell blocks and all of its programs. The two commands
+# at its top are this suite itself and tests/demo.sh. Then the package that doc/wrapper.md shows.
 #   readme.sh WORK_FOLDER INSTALLED_SETUP
 set -euo pipefail
 # shellcheck source=launch/common.sh
@@ -11,6 +11,14 @@ FAILED=0
 
 # blocks LANGUAGE: the contents of README's fenced blocks of that language.
 blocks() { awk -v fence="\`\`\`$1" '$0 == "```" { on = 0 } on { print } $0 == fence { on = 1 }' "$ROOT/README.md"; }
+
+# block LANGUAGE WORD [FILE]: the first of that language, of README, in which the word occurs.
+block() {
+    awk -v fence="\`\`\`$1" -v word="$2" '
+        $0 == "```" { if (on && index(text, word)) { printf "%s", text; exit } on = 0 }
+        on { text = text $0 "\n" }
+        $0 == fence { on = 1; text = "" }' "${3:-$ROOT/README.md}"
+}
 
 # check NAME COMMAND...
 check() {
@@ -28,12 +36,36 @@ check() {
 type_in() {
     case $1 in
         launch/demo.sh* | tests/run.sh*) return ;; # tested elsewhere
+        *again* | *replay*) return ;;              # by tests/ros/test_bags.py
         source*) return ;;                         # done below, for another folder
         'rosrun hdlyap hdlyap_node') run timeout --preserve-status -s INT 8 rosrun hdlyap hdlyap_node ;;
         *bench/run.sh*) run bash -ec "$1 --quick" ;; # fifteen minutes otherwise
+        *rviz:=true*) opens_rviz bash -ec "$1" ;;
+        *'hdlyap view') beside_a_node opens_rviz bash -ec "$1" ;;
         *follow* | rostopic*) beside_a_node bash -ec "timeout 60 $1" ;;
         *) run bash -ec "$1" ;;
     esac
+}
+
+# opens_rviz COMMAND...: on a screen without a monitor; then both are stopped.
+opens_rviz() {
+    local screen command waited status=1
+    mkfifo "$WORK/screen"
+    start Xvfb -displayfd 3 -screen 0 1400x1000x24 3<>"$WORK/screen" 2>/dev/null
+    screen=$CHILD
+    read -r DISPLAY <"$WORK/screen"
+    rm "$WORK/screen"
+    start env "DISPLAY=:$DISPLAY" LIBGL_ALWAYS_SOFTWARE=1 "$@"
+    command=$CHILD
+    for ((waited = 0; waited < 600 && status; waited++)); do
+        sleep 0.1
+        ! rosnode list 2>/dev/null | grep -q '^/rviz_' || status=0
+    done
+    stop "$command"
+    finish "$command" || true
+    stop "$screen"
+    finish "$screen" || true
+    return "$status"
 }
 
 beside_a_node() {
@@ -47,11 +79,48 @@ beside_a_node() {
     return "$status"
 }
 
-python_program() {
-    blocks python >"$WORK/watch.py"
-    beside_a_node timeout -s INT 15 python3 "$WORK/watch.py" || true # it spins until it is stopped
-    grep -qE 'T\(1,0\) 196-197: lambda = 0\.8[0-9]+ \+- 0\.[0-9]+' "$WORK/log" &&
-        grep -qE 'c_T = [0-9.]+, c_L = [0-9.]+, v = [0-9.]+' "$WORK/log"
+# says PATTERN... -- COMMAND...: within a minute the command has printed lines that match; then it is stopped.
+says() {
+    local -a patterns=()
+    local pid waited pattern missing=1
+    while [[ $1 != -- ]]; do patterns+=("$1") && shift; done
+    shift
+    "$@" >"$WORK/said.txt" 2>&1 &
+    pid=$!
+    for ((waited = 0; waited < 600 && missing; waited++)); do
+        sleep 0.1
+        missing=0
+        for pattern in "${patterns[@]}"; do grep -qE "$pattern" "$WORK/said.txt" || missing=1; done
+    done
+    kill -TERM "$pid"
+    wait "$pid" || true
+    cat "$WORK/said.txt"
+    return "$missing"
+}
+
+readonly STEPS_SAID=('T\(1,0\) 196-197: lambda = 0\.8[0-9]+ \+- 0\.[0-9]+' 'c_T = [0-9.]+, c_L = [0-9.]+, v = [0-9.]+')
+
+# The nodes of doc/wrapper.md as a package of their own, and its other way to build them.
+nodes_in_c_build() {
+    local doc=$ROOT/doc/wrapper.md
+    mkdir -p "$WORK/counting" && cd "$WORK/counting" &&
+        block c '"counter"' "$doc" >counter.c &&
+        block c '"adder"' "$doc" >adder.c &&
+        block cmake project "$doc" >CMakeLists.txt &&
+        block xml package "$doc" >package.xml &&
+        cmake -S . -B build -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_C_FLAGS='-Wall -Wextra -Wpedantic -Werror' &&
+        cmake --build build &&
+        bash -ec "$(block bash cc "$doc")"
+}
+
+nodes_in_c() {
+    local counter status=0
+    nodes_in_c_build || return 1
+    start "$WORK/counting/build/devel/lib/counting/counter"
+    counter=$CHILD
+    says '[1-9][0-9]* heard, together [1-9]' -- ./adder || status=$?
+    stop "$counter"
+    return "$status"
 }
 
 # What README says that it prints, but for the last digits.
@@ -64,11 +133,13 @@ stop_at_exit
 mkdir -p "$WORK/clone"
 cd "$WORK/clone" # a copy, so that README's build folder is not the clone's
 cp -r "$ROOT"/{CMakeLists.txt,package.xml,hdlyap_core,msg,tests} .
-blocks c >steps.c
+block c hdlyap/hdlyap.h >steps.c
+block c hdlyap_ros.h >watch_steps.c
+block python rospy >watch.py
 source_setup "$SETUP"
 start roscore -p "${ROS_MASTER_URI##*:}" >"$WORK/roscore.log" 2>&1
 until rostopic list >/dev/null 2>&1; do sleep 0.2; done
-PKG_CONFIG_PATH=$WORK/clone/build/local/lib/pkgconfig:$WORK/clone/build/local/lib/$(gcc -print-multiarch)/pkgconfig
+PKG_CONFIG_PATH=$WORK/clone/build/local/lib/pkgconfig:$WORK/clone/build/local/lib/$(gcc -print-multiarch)/pkgconfig:${PKG_CONFIG_PATH:-}
 LD_LIBRARY_PATH=$WORK/clone/build/local/lib:$WORK/clone/build/local/lib/$(gcc -print-multiarch):${LD_LIBRARY_PATH:-}
 export PKG_CONFIG_PATH LD_LIBRARY_PATH
 while read -r line; do
@@ -77,5 +148,7 @@ while read -r line; do
     [[ -z $line ]] || check "$line" type_in "$line"
 done < <(blocks bash)
 check c_program c_program_prints_the_steps
-check python_program python_program
+check python_program beside_a_node says "${STEPS_SAID[@]}" -- python3 watch.py
+check c_subscriber beside_a_node says "${STEPS_SAID[@]}" -- ./watch_steps
+check nodes_in_c run nodes_in_c
 exit "$FAILED"

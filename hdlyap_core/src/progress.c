@@ -6,6 +6,7 @@
 #include "run_state.h"
 
 bool hd_run_report_due(const hd_run *run) { return run->report_due; }
+bool hd_run_fields_due(const hd_run *run) { return run->fields_due; }
 hd_phase hd_run_phase(const hd_run *run) { return run->schedule.phase; }
 double hd_run_time(const hd_run *run) { return run->now; }
 const hd_scene_def *hd_run_scene(const hd_run *run) { return &run->scene; }

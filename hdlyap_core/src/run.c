@@ -308,7 +308,8 @@ static void sample_spectrum(hd_run *run)
 /** True where somebody wants all of the vectors of this very time. */
 static bool vectors_wanted(const hd_run *run)
 {
-    return observing(run) && (run->observe & (HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO));
+    const unsigned due = HD_OBSERVE_HYDRO | (run->fields_due ? HD_OBSERVE_FIELDS : 0u);
+    return observing(run) && (run->observe & due);
 }
 
 /** True if the tail will do for `count` phases at this time. */
@@ -383,6 +384,8 @@ static hd_status show(hd_run *run)
 static hd_status take_cut(hd_run *run)
 {
     const bool averaging = run->schedule.phase == HD_AVERAGING, measuring = observing(run);
+    run->fields_due = averaging &&
+                      hd_schedule_reaches_multiple(&run->schedule, run->field_interval);
     if (run->frame && run->now < run->interval_end) HD_TRY(look_or_end(run));
     const bool factored = run->frame && run->now == run->interval_end;
     const unsigned ends = hd_schedule_pass(&run->schedule, phases_due(run));
@@ -390,6 +393,7 @@ static hd_status take_cut(hd_run *run)
     if (averaging && run->spectrum && (ends & HD_ENDS_WHOLE_SAMPLE)) sample_spectrum(run);
     if (measuring && factored) HD_TRY(observe(run, run->report_due));
     const bool reached = averaging && run->report_due && factored && target_reached(run);
+    run->fields_due |= reached;
     if (ends & HD_ENDS_PHASE || reached)
         enter_phase(run, reached ? HD_FINISHED : run->schedule.phase + 1);
     return HD_OK;
@@ -409,7 +413,7 @@ static void plan_interval(hd_run *run)
 
 hd_status hd_run_step(hd_run *run)
 {
-    run->report_due = false;
+    run->report_due = run->fields_due = false;
     run->view.columns.count = 0;
     if (run->schedule.phase == HD_FINISHED) return HD_OK;
     const bool with_frame = run->frame && run->schedule.phase != HD_EQUILIBRATING;
@@ -428,6 +432,8 @@ void hd_run_observe(hd_run *run, unsigned stages)
     if (begun & HD_OBSERVE_PHASES) hd_phases_clear(run->phases); /* not followed in between */
     run->observe = now;
 }
+
+void hd_run_fields_every(hd_run *run, double interval) { run->field_interval = interval; }
 
 hd_status hd_run_reset_average(hd_run *run)
 {

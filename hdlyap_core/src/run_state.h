@@ -42,7 +42,8 @@ struct hd_run {
     hd_view view;
     int vectors, threads;
     double now; /**< simulated time */
-    bool report_due;
+    bool report_due, fields_due;
+    double field_interval;
     double created, frame_started,
         frame_start_time; /**< wall clock, and simulated time, for estimates */
     double condition_max; /**< so far: how well the start of the averaging is known */

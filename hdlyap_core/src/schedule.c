@@ -110,6 +110,22 @@ unsigned hd_schedule_pass(hd_schedule *s, double piece_max)
     return s->samples % s->samples_per_report == 0 ? ends | HD_ENDS_REPORT : ends;
 }
 
+/** Of the phase, by the end of so many pieces of the present sample. */
+static long reports_after(const hd_schedule *s, int pieces)
+{
+    const int per_report = s->pieces / s->reports_per_sample;
+    return (s->samples * s->reports_per_sample + pieces / per_report) / s->samples_per_report;
+}
+
+bool hd_schedule_reaches_multiple(const hd_schedule *s, double interval)
+{
+    const long before = reports_after(s, s->piece), after = reports_after(s, s->piece + 1);
+    const double multiples = s->report_interval / interval; /* in a report */
+    if (hd_schedule_cut(s) >= hd_schedule_phase_end(s)) return true;
+    if (after == before || before == 0 || interval <= s->report_interval) return after > before;
+    return floor((double)after * multiples + CLOSE) > floor((double)before * multiples + CLOSE);
+}
+
 bool hd_schedule_reopen(hd_schedule *s, double now)
 {
     const double last = hd_schedule_phase_end(s), close = CLOSE * s->sample_length;

@@ -42,6 +42,10 @@ int hd_schedule_cuts_per_report(const hd_schedule *schedule);
  *  than piece_max. The phase stays: see hd_schedule_enter. */
 unsigned hd_schedule_pass(hd_schedule *schedule, double piece_max);
 
+/** True if a report ends with the present piece that is the phase's first at or after a multiple of `interval` since
+ *  its start (the first report of all is, of 0), or its last. */
+bool hd_schedule_reaches_multiple(const hd_schedule *schedule, double interval);
+
 /** An averaging that has finished goes on if it has become longer. False if `now` is beyond its end. */
 bool hd_schedule_reopen(hd_schedule *schedule, double now);
 

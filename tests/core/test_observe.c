@@ -216,6 +216,41 @@ static void only_what_is_needed_is_measured(void **state)
     hd_run_free(run);
 }
 
+/** Fields every 10 time units: vectors of these reports are orthonormal then and there, and only for these the
+ *  intervals end early; all else is as without fields. */
+static void fields_are_due_now_and_then(void **state)
+{
+    (void)state;
+    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
+    scene.warmup = 50.0;
+    scene.duration = 95.0;
+    hd_run *without = finished(&scene);
+    scene.observe |= HD_OBSERVE_FIELDS;
+    hd_run *always = finished(&scene), *run = created(&scene);
+    hd_run_fields_every(run, 10.0);
+    int due = 0;
+    while (hd_run_phase(run) != HD_FINISHED) {
+        CHECK_OK(hd_run_step(run));
+        if (!hd_run_fields_due(run)) continue;
+        const double averaged = hd_spectrum_time(hd_run_spectrum(run));
+        assert_true(hd_run_report_due(run));
+        CHECK_CLOSE(averaged, due == 0 ? 1.0 : fmin(10.0 * due, 95.0), 1e-9);
+        CHECK_CLOSE(hd_run_time(run), 150.0 + averaged, 1e-9);
+        due++;
+    }
+    const long ends[] = {hd_run_cost(without).orthonormalisations,
+                         hd_run_cost(run).orthonormalisations,
+                         hd_run_cost(always).orthonormalisations};
+    print_message("orthonormalisations: %ld without fields, %ld every 10, %ld at each report\n",
+                  ends[0], ends[1], ends[2]);
+    assert_int_equal(due, 11);
+    assert_true(ends[1] <= ends[0] + due);
+    assert_true(ends[2] > ends[0] + 20);
+    hd_run_free(without);
+    hd_run_free(always);
+    hd_run_free(run);
+}
+
 static void check_none_coarse(const hd_run *run)
 {
     for (int k = 0; k < hd_phases_count(hd_run_phases(run)); k++)
@@ -364,6 +399,7 @@ int main(void)
         cmocka_unit_test(looking_changes_nothing),
         cmocka_unit_test(a_look_sees_what_a_measured_state_shows),
         cmocka_unit_test(only_what_is_needed_is_measured),
+        cmocka_unit_test(fields_are_due_now_and_then),
         cmocka_unit_test(a_look_away_begins_the_phases_anew),
         cmocka_unit_test(nothing_is_allocated_while_looking),
         cmocka_unit_test(a_reset_forgets_modes_steps_and_phases),

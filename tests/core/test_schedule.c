@@ -111,6 +111,40 @@ static void pieces_are_short_enough_for_the_phases(void **state)
     }
 }
 
+/** Of the reports every `report` time units in an averaging of 50, with cuts as short as piece_max. */
+static void expect_multiples(double report, double sample_max, double piece_max, double interval)
+{
+    hd_schedule s = schedule_of(0.0, 50.0, report);
+    hd_schedule_enter(&s, HD_AVERAGING, 7.0, sample_max);
+    int reports = 0, due = 0;
+    for (unsigned ends = 0; !(ends & HD_ENDS_PHASE);) {
+        const bool reaches = hd_schedule_reaches_multiple(&s, interval);
+        ends = hd_schedule_pass(&s, piece_max);
+        reports += (ends & HD_ENDS_REPORT) != 0;
+        /* whole numbers of thousandths, which round nothing */
+        const long unit = lround(1000.0 * interval), length = lround(1000.0 * report);
+        const long now = reports * length, before = now - length;
+        const bool first = reports == 1 || unit == 0 || now / unit > before / unit;
+        assert_int_equal(reaches, (ends & HD_ENDS_PHASE) || ((ends & HD_ENDS_REPORT) && first));
+        due += reaches;
+    }
+    assert_true(due >= 2 && due <= reports);
+}
+
+/** Once for each, at the first report and at the last, and never between two reports. */
+static void multiples_are_reached_once(void **state)
+{
+    (void)state;
+    const double reports[] = {1.0, 0.3, 0.1, 7.0, 2.5};
+    const double intervals[] = {0.0, 0.5, 1.0, 1.3, 10.0, 1000.0};
+    for (size_t r = 0; r < sizeof reports / sizeof *reports; r++)
+        for (size_t k = 0; k < sizeof intervals / sizeof *intervals; k++) {
+            expect_multiples(reports[r], 0.9, INFINITY, intervals[k]);
+            expect_multiples(reports[r], 2.65, INFINITY, intervals[k]);
+            expect_multiples(reports[r], 2.65, 0.04, intervals[k]);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -119,6 +153,7 @@ int main(void)
         cmocka_unit_test(samples_are_as_long_as_allowed),
         cmocka_unit_test(a_short_averaging_has_samples_all_the_same),
         cmocka_unit_test(pieces_are_short_enough_for_the_phases),
+        cmocka_unit_test(multiples_are_reached_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

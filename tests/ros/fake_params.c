@@ -82,6 +82,7 @@ static const struct known {
     {"max_wave_number", REAL, "1"},
     {"max_node", INTEGER, "1"},
     {"field_indices", STRING, "steps"},
+    {"field_interval", REAL, "10"},
     {"observables", STRINGS, "spectrum"},
     {"threads", INTEGER, "2"},
     {"wait_for_subscribers", STRINGS, "run_info"},

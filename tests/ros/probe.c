@@ -15,7 +15,7 @@
 #include "hdlyap_ros/markers.h"
 #include "memory.h"
 
-static atomic_long steps, states, halves, measures, phases, pmodes, hydros, allocations;
+static atomic_long steps, overlaps, states, halves, measures, phases, pmodes, hydros, allocations;
 
 /** The core's own function of that name, into the pointer that `function` is the address of. */
 static void next(void *function, const char *name)
@@ -38,10 +38,30 @@ hd_status hd_run_step(hd_run *run)
     const double seconds = number("PROBE_STEP_SECONDS"), fault_after = number("PROBE_FAULT_AFTER");
     struct timespec left = {(time_t)seconds, (long)(1e9 * (seconds - floor(seconds)))};
     while (nanosleep(&left, &left)) continue;
-    if (fault_after > 0.0 && (double)atomic_fetch_add(&steps, 1) >= fault_after)
+    if ((double)atomic_fetch_add(&steps, 1) >= fault_after && fault_after > 0.0)
         return HD_ILL_CONDITIONED;
     next(&real, "hd_run_step");
     return real(run);
+}
+
+/** PROBE_OVERLAP: how deep disks overlap once the run has begun [sigma]. */
+double hd_trajectory_overlap(const hd_trajectory *trajectory)
+{
+    double (*real)(const hd_trajectory *);
+    next(&real, "hd_trajectory_overlap");
+    if (atomic_load(&steps) == 0) return real(trajectory);
+    atomic_fetch_add(&overlaps, 1);
+    return getenv("PROBE_OVERLAP") ? number("PROBE_OVERLAP") : real(trajectory);
+}
+
+/** PROBE_STD_ERROR: of the exponents nearest to zero, at all times. */
+hd_cost hd_run_cost(const hd_run *run)
+{
+    hd_cost (*real)(const hd_run *);
+    next(&real, "hd_run_cost");
+    hd_cost cost = real(run);
+    if (getenv("PROBE_STD_ERROR")) cost.std_error = number("PROBE_STD_ERROR");
+    return cost;
 }
 
 /** PROBE_MEMORY_AFTER: blocks of the core before memory is out. */
@@ -133,10 +153,10 @@ __attribute__((destructor)) static void write_counts(void)
         const char *name;
         long calls;
     } counts[] = {
-        {"trajectory_state", atomic_load(&states)},  {"frame_halves", atomic_load(&halves)},
-        {"modes_measure", atomic_load(&measures)},   {"phases_add", atomic_load(&phases)},
-        {"pmode_reconstruct", atomic_load(&pmodes)}, {"hydro_measure", atomic_load(&hydros)},
-        {"memory_alloc", atomic_load(&allocations)},
+        {"trajectory_overlap", atomic_load(&overlaps)}, {"trajectory_state", atomic_load(&states)},
+        {"frame_halves", atomic_load(&halves)},         {"modes_measure", atomic_load(&measures)},
+        {"phases_add", atomic_load(&phases)},           {"pmode_reconstruct", atomic_load(&pmodes)},
+        {"hydro_measure", atomic_load(&hydros)},        {"memory_alloc", atomic_load(&allocations)},
     };
     const char *path = getenv("PROBE_COUNTS");
     FILE *file = path ? fopen(path, "w") : NULL;

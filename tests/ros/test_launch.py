@@ -44,7 +44,6 @@ class Launch(unittest.TestCase):
         params = dict(params, exponents=str(params['exponents']))
         self.assertEqual(params.pop('interval'), 'auto')
         self.assertIn(params.pop('threads'), (0, info.threads))
-        self.assertEqual(params.pop('wait_for_subscribers'), [])
         for name, value in params.items():
             self.assertEqual(getattr(info, name), value, name)
 
@@ -77,7 +76,7 @@ class Launch(unittest.TestCase):
         count = {name: sum(topic == '/hdlyap/' + name for topic, _ in messages)
                  for name in harness.TYPES}
         fields = sum(len(harness.examples(message.steps)) for topic, message in messages
-                     if topic == '/hdlyap/steps')
+                     if topic == '/hdlyap/steps' and message.sim_time - 40 in (1, 10, 20, 30))
         self.assertEqual(count, dict(run_info=1, spectrum=30, modes=30, steps=30, lp_phases=30,
                                      fields=fields, hydro=0, state=70, cost=70))
         info = next(message for topic, message in messages if topic == '/hdlyap/run_info')

@@ -23,7 +23,7 @@ class Agreement(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         listeners = {topic: harness.Listener(topic) for topic in harness.TYPES}
-        node = harness.start(dict(MODES, exponents='all', observables=OBSERVABLES,
+        node = harness.start(dict(MODES, exponents='all', observables=OBSERVABLES, field_interval=0.0,
                                   wait_for_subscribers='all'))
         try:
             status = node.wait()
@@ -302,7 +302,8 @@ class Demand(unittest.TestCase):
         self.check(calls, calls['phases_add'], phases=True)
 
     def test_fields(self):
-        self.check(self.calls(['fields'], observables=OBSERVABLES), REPORTS, pmodes=True)
+        calls = self.calls(['fields'], observables=OBSERVABLES, field_interval=0.0)
+        self.check(calls, REPORTS, pmodes=True)
 
     def test_hydro(self):
         calls = self.calls(['hydro'], observables=['hydro'])
@@ -331,14 +332,14 @@ class Fields(unittest.TestCase):
         listeners = {topic: harness.Listener(topic) for topic in ('fields', 'modes', 'cost', 'run_info')}
         for listener in listeners.values():
             self.addCleanup(listener.close)
-        node = harness.start(dict(MODES, duration=2.0, wait_for_subscribers=list(listeners), **params))
+        node = harness.start({**MODES, 'duration': 2.0, 'wait_for_subscribers': list(listeners), **params})
         self.addCleanup(node.stop)
         self.assertEqual(node.wait(), 0, node.text())
         self.assertTrue(listeners['cost'].wait_for(lambda cost: cost.phase == Cost.FINISHED))
         return {topic: listener.messages for topic, listener in listeners.items()}
 
     def test_of_single_vectors(self):
-        messages = self.fields(field_indices=[117, 1, 113])
+        messages = self.fields(field_indices=[117, 1, 113], field_interval=0.0)
         self.assertEqual(messages['run_info'][0].field_indices, '[117, 1, 113]')
         self.assertEqual([field.index for field in messages['fields']], 2 * [117, 1, 113])
         modes = messages['modes'][-1].modes
@@ -347,6 +348,26 @@ class Fields(unittest.TestCase):
             self.assertEqual((field.kind, field.nx, field.exponent), (mode.kind, mode.nx, mode.exponent))
         self.assertEqual(messages['fields'][1].kind, Mode.NONE)
         self.assertEqual(messages['fields'][1].pairs, 0)
+
+    def test_now_and_then(self):
+        """The first report, the first at or after each multiple of the interval, and the last."""
+        for interval, times in ((10.0, [1, 10, 20, 25]), (2.5, [1, 3, 5, 8, 10, 13, 15, 18, 20, 23, 25]),
+                                (100.0, [1, 25])):
+            with self.subTest(interval=interval):
+                messages = self.fields(duration=25.0, field_indices=[5], field_interval=interval)
+                self.assertEqual(messages['run_info'][0].field_interval, interval)
+                begin = MODES['equilibration'] + MODES['warmup']
+                self.assertEqual([field.sim_time - begin for field in messages['fields']], times)
+                for field in messages['fields']:
+                    norm = sum(sum(v * v for v in part) for part in (field.dqx, field.dqy, field.dpx, field.dpy))
+                    self.assertAlmostEqual(norm, 1.0, delta=1e-5)
+
+    def test_target_reached(self):
+        """The last report has fields also where nobody knew that it would be the last."""
+        messages = self.fields(duration=0.0, field_indices=[5], field_interval=1.0e3, target_std_error=0.05)
+        times = [field.sim_time for field in messages['fields']]
+        self.assertEqual(times, [messages['modes'][0].sim_time, messages['modes'][-1].sim_time])
+        self.assertGreater(len(messages['modes']), 2)
 
     def test_no_nan_is_published(self):
         fields = harness.Listener('fields')

@@ -40,6 +40,7 @@ BAD = dict(
     max_node=[-1, 3, 1000001, 1.0, '2', '', [2], False],
     field_indices=['', 'all', 'Steps', 5, 1.0, [], ['1'], [1.0], [1, 'steps'], [True], [[1]], [0], [-1],
                    [38], [1, 2, 1000000]],
+    field_interval=TIME,
     checkpoint=[5, True, ['file']],
     checkpoint_interval=[-1, 2e12, 'x', NAN, INFINITY],
     resume=[5, True, ['file']],
@@ -91,6 +92,8 @@ GOOD = [
     (dict(field_indices='steps'), dict(field_indices='steps')),
     (dict(field_indices='steps', exponents='none'), dict(field_indices='steps', wave_nx=())),
     (dict(field_indices=[37, 1]), dict(field_indices='[37, 1]')),
+    (dict(field_interval=0, observables=['state']), dict(field_interval=0.0, observables=['state'])),
+    (dict(field_interval='2.5'), dict(field_interval=2.5, wait_for_subscribers=['run_info'])),
     (dict(observables=['hydro', 'steps']), dict(observables=['steps', 'hydro'])),
     (dict(checkpoint='', checkpoint_interval=0.0, resume=''), dict(checkpoint='', checkpoint_interval=0.0, resumed_time=-1.0)),
 ]
@@ -166,7 +169,8 @@ class Parameters(unittest.TestCase):
                     vectors=1557, zero_exponents=6, duration=0.0, target_std_error=0.0,
                     interval=0.0, accuracy=1e-8, report_interval=1.0, pace=0.0,
                     observables=['spectrum', 'modes', 'steps', 'lp_phases', 'fields', 'state'],
-                    max_node=0, max_wave_number=0.0, field_indices='steps',
+                    max_node=0, max_wave_number=0.0, field_indices='steps', field_interval=10.0,
+                    wait_for_subscribers=[],
                     wave_nx=(1, 0, 1, 2, 0, 2, 1, 2), wave_ny=(0, 1, 1, 0, 2, 1, 2, 2))
         for field, value in want.items():
             self.assertEqual(getattr(info, field), value)

@@ -29,7 +29,7 @@ def files(*names):
 
 SPECTRUM_FILES = files('convergence', 'spectrum')
 COST_FILES = files('cost')
-MODES_FILES = files('dispersion', 'modes', 'p_mode', 'phases')
+MODES_FILES = files('dispersion', 'steps', 'modes', 'p_mode', 'phases')
 
 
 class Bags(unittest.TestCase):
@@ -304,7 +304,7 @@ class Figures(Bags):
         step = made.step(info, LP, 1, 0, 35, 38)
         self.write([info, made.spectrum(np.linspace(3, 1, 38), 1.0), made.steps([step]),
                     made.mode_field(info, step)])
-        self.succeeds(SPECTRUM_FILES + files('dispersion', 'modes', 'p_mode'))
+        self.succeeds(SPECTRUM_FILES + files('dispersion', 'steps', 'modes', 'p_mode'))
 
     def test_steps_without_one_resolved(self):
         info = made.run_info()
@@ -319,7 +319,7 @@ class Figures(Bags):
         mirrored = made.step(info, T, 1, 0, 44, 45, conjugate=True, exponent=-step.exponent)
         self.write([info, made.spectrum([*half, *[0.0] * 6, *-half[::-1]], 1.0),
                     made.steps([step, mirrored, made.zero_modes(38)])])
-        self.succeeds(SPECTRUM_FILES + files('dispersion'))
+        self.succeeds(SPECTRUM_FILES + files('dispersion', 'steps'))
 
     def test_panels_are_the_last_fields_of_the_steps(self):
         info = made.run_info()
@@ -356,7 +356,7 @@ class Figures(Bags):
         step = made.step(info, LP, 1, 1, 30, 37)
         self.write([info, made.spectrum(np.linspace(3, 1, 37), 1.0), made.steps([step]),
                     made.mode_field(info, step, modulations=(0, 1, 2, 3))])
-        self.succeeds(SPECTRUM_FILES + files('dispersion', 'modes', 'p_mode'))
+        self.succeeds(SPECTRUM_FILES + files('dispersion', 'steps', 'modes', 'p_mode'))
 
 
 class Phases(Bags):

@@ -20,7 +20,7 @@ BOUND = 1.0     # seconds from a request to stop to the end, the contract
 MB = 1 << 20
 QUEUE_BYTES = 128e6     # of one topic at most, see outlets.c
 SLACK = 32 * MB         # of what is fragmented, and the node's own growth
-EVERY_TOPIC = dict(MODES, equilibration=1.0, warmup=1.0, duration=100.0, report_interval=0.25,
+EVERY_TOPIC = dict(MODES, equilibration=1.0, warmup=1.0, duration=100.0, report_interval=0.25, field_interval=0.0,
                    observables=OBSERVABLES)
 REPORTS, AVERAGED_REPORTS = 408, 400
 # messages of 160 kB, thousands of them in a second

@@ -1,17 +1,18 @@
-/** C views against the generated messages: the same bytes, the same type. */
+/** C views against the generated messages: the same bytes, the same type; and back. */
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "views.hpp"
+#include "received.hpp"
 
 namespace
 {
 const std::vector<double> numbers = {1.5, -2.25, 3e300, 4e-300, 5, 6};
-const hdr_header header = {{1234567890, 987654321}, "box"};
+const hdr_header header = {{1234567890, 987654321}, "box", 7};
 
 template <class Message> void fill_header(Message &message)
 {
+    message.header.seq = header.seq;
     message.header.stamp = ros::Time(header.stamp.sec, header.stamp.nsec);
     message.header.frame_id = header.frame_id;
 }
@@ -40,17 +41,33 @@ template <class View, class Message> void expect_same(const View &view, const Me
     EXPECT_STREQ(traits::datatype<Message>(), traits::datatype(view));
     EXPECT_STREQ(traits::definition<Message>(), traits::definition(view));
 }
+
+/** A view as the message, and the message as a view that is the message again. */
+template <class View, class Message> void expect_both_ways(const View &view, const Message &message)
+{
+    namespace traits = ros::message_traits;
+    using received = hdlyap_ros::received<View>;
+    expect_same(view, message);
+    received got;
+    ros::serialization::deserializeMessage(ros::serialization::serializeMessage(message), got);
+    ASSERT_EQ(1u, got.views.size());
+    expect_same(got.views[0], message);
+    EXPECT_STREQ(traits::md5sum<Message>(), traits::md5sum<received>());
+    EXPECT_STREQ(traits::datatype<Message>(), traits::datatype<received>());
+    EXPECT_EQ(traits::hasHeader<Message>(), traits::hasHeader<received>());
+}
 } // namespace
 
 TEST(views, run_info)
 {
-    const char *const observables[] = {"spectrum", "state"};
+    const char *const observables[] = {"spectrum", "state"}, *const awaited[] = {"cost"};
     const uint32_t nodes[] = {1, 0, 4294967295};
     /* clang-format off: one number a line otherwise */
     const hdr_run_info view = {
         header, "id", "0.1.0", "scene", 780, 0.8, 0.867, 33.5, 29.1, "periodic", "reflecting",
         "18446744073709551615", "all", 3120, 6, 1, 2, 3, 4, 5, 6, 7, {observables, 2}, 0.25,
-        9, {nodes, 3}, {nodes + 1, 2}, "[1, 5]", 8.5, "[T(1,0)]", 2.5, "file", 60, "before", 12.5, 2, 1,
+        9, {nodes, 3}, {nodes + 1, 2}, "[1, 5]", 2.5, {awaited, 1}, 8.5, "[T(1,0)]", 2.5, "file", 60, "before",
+        12.5, 2, 1,
         "blas", "kernel", "openmp"};
     /* clang-format on */
     hdlyap::RunInfo message;
@@ -82,6 +99,8 @@ TEST(views, run_info)
     message.wave_nx = {1, 0, 4294967295};
     message.wave_ny = {0, 4294967295};
     message.field_indices = "[1, 5]";
+    message.field_interval = 2.5;
+    message.wait_for_subscribers = {"cost"};
     message.pace = 8.5;
     message.marker_modes = "[T(1,0)]";
     message.marker_rate = 2.5;
@@ -94,7 +113,7 @@ TEST(views, run_info)
     message.blas_library = "blas";
     message.blas_kernel = "kernel";
     message.blas_threading = "openmp";
-    expect_same(view, message);
+    expect_both_ways(view, message);
 }
 
 TEST(views, spectrum)
@@ -116,7 +135,7 @@ TEST(views, spectrum)
     message.local_exponents = copy(every(3));
     message.cos_theta = copy(every(1));
     message.dp_dq_ratio = copy(every(2, 1));
-    expect_same(view, message);
+    expect_both_ways(view, message);
 }
 
 TEST(views, modes)
@@ -151,9 +170,9 @@ TEST(views, modes)
     lp.null_y = 8;
     lp.null_p = 9;
     lp.step = 10;
-    expect_same(hdr_modes{header, "id", 1.5, 2.5, 3, modes, 2}, message);
+    expect_both_ways(hdr_modes{header, "id", 1.5, 2.5, 3, modes, 2}, message);
     message.modes.clear();
-    expect_same(hdr_modes{header, "id", 1.5, 2.5, 3, nullptr, 0}, message);
+    expect_both_ways(hdr_modes{header, "id", 1.5, 2.5, 3, nullptr, 0}, message);
 }
 
 TEST(views, steps)
@@ -195,9 +214,9 @@ TEST(views, steps)
     message.v = 12;
     message.v_error = 13;
     const hdr_fit t = {1, 2, 3, 4, 5}, l = {6, 7, 8, 9, 10};
-    expect_same(hdr_steps{header, "id", 1.5, 2.5, 0.5, &step, 1, t, l, 11, 12, 13}, message);
+    expect_both_ways(hdr_steps{header, "id", 1.5, 2.5, 0.5, &step, 1, t, l, 11, 12, 13}, message);
     message.steps.clear();
-    expect_same(hdr_steps{header, "id", 1.5, 2.5, 0.5, nullptr, 0, t, l, 11, 12, 13}, message);
+    expect_both_ways(hdr_steps{header, "id", 1.5, 2.5, 0.5, nullptr, 0, t, l, 11, 12, 13}, message);
 }
 
 TEST(views, lp_phases)
@@ -223,9 +242,9 @@ TEST(views, lp_phases)
     want.omega_error = 9;
     want.velocity = 10;
     want.tracked_time = 11;
-    expect_same(hdr_lp_phases{header, "id", 1.5, 2, &phase, 1}, message);
+    expect_both_ways(hdr_lp_phases{header, "id", 1.5, 2, &phase, 1}, message);
     message.phases.clear();
-    expect_same(hdr_lp_phases{header, "id", 1.5, 2, nullptr, 0}, message);
+    expect_both_ways(hdr_lp_phases{header, "id", 1.5, 2, nullptr, 0}, message);
 }
 
 TEST(views, mode_field)
@@ -259,7 +278,7 @@ TEST(views, mode_field)
     message.l_y = message.p_over_px = copy(odd);
     message.p_x = copy(third);
     message.p_y = copy(one);
-    expect_same(view, message);
+    expect_both_ways(view, message);
 }
 
 TEST(views, mode_field_without_pairs)
@@ -272,7 +291,7 @@ TEST(views, mode_field_without_pairs)
     fill_header(message);
     message.run_id = "id";
     message.x = copy(view.x);
-    expect_same(view, message);
+    expect_both_ways(view, message);
 }
 
 TEST(views, hydro)
@@ -294,9 +313,9 @@ TEST(views, hydro)
     want.along = 6;
     want.across = 7;
     want.energy = 8;
-    expect_same(hdr_hydro{header, "id", 1.5, &response, 1}, message);
+    expect_both_ways(hdr_hydro{header, "id", 1.5, &response, 1}, message);
     message.responses.clear();
-    expect_same(hdr_hydro{header, "id", 1.5, nullptr, 0}, message);
+    expect_both_ways(hdr_hydro{header, "id", 1.5, nullptr, 0}, message);
 }
 
 TEST(views, state)
@@ -312,7 +331,7 @@ TEST(views, state)
     message.py = copy(view.py);
     EXPECT_EQ((std::vector<double>{1.5, 3e300, 5}), message.x);
     EXPECT_EQ((std::vector<double>{-2.25, 4e-300, 6}), message.y);
-    expect_same(view, message);
+    expect_both_ways(view, message);
 }
 
 TEST(views, state_without_disks)
@@ -322,7 +341,7 @@ TEST(views, state_without_disks)
     hdlyap::State message;
     fill_header(message);
     message.run_id = "id";
-    expect_same(view, message);
+    expect_both_ways(view, message);
 }
 
 TEST(views, cost)
@@ -354,7 +373,7 @@ TEST(views, cost)
     message.std_error = 0.25;
     message.progress = 0.5;
     message.remaining_seconds = -1;
-    expect_same(view, message);
+    expect_both_ways(view, message);
 }
 
 TEST(views, diagnostic)
@@ -373,7 +392,22 @@ TEST(views, diagnostic)
     message.status[0].values[0].value = "averaging";
     message.status[0].values[1].key = "repairs";
     message.status[0].values[1].value = "0";
-    expect_same(view, message);
+    expect_both_ways(view, message);
+}
+
+TEST(views, float64)
+{
+    std_msgs::Float64 message;
+    message.data = -1.5;
+    expect_both_ways(hdr_float64{-1.5}, message);
+}
+
+TEST(views, string)
+{
+    std_msgs::String message;
+    expect_both_ways(hdr_string{""}, message);
+    message.data = "two words";
+    expect_both_ways(hdr_string{"two words"}, message);
 }
 
 int main(int argc, char **argv)

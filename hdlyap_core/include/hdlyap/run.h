@@ -67,8 +67,17 @@ HD_MUST_CHECK hd_status hd_run_step(hd_run *run);
 
 /** True if the last step ended at a multiple of the report interval. Spectrum, modes, steps and the frame are then
  *  those of the last orthonormalisation, hd_spectrum_time after the averaging began: at most an interval
- *  ago, at once if fields or the hydrodynamic response are looked at. Phases are those of the very time. */
+ *  ago, at once if the hydrodynamic response is looked at, or fields that are due. Phases are those of the very time. */
 bool hd_run_report_due(const hd_run *run);
+
+/** Fields are due from now on with the first report at or after each multiple of so many time units since the
+ *  averaging began, 0 included, and with the last one; with 0 (as at first) at every report. Not kept in a
+ *  checkpoint. */
+void hd_run_fields_every(hd_run *run, double interval);
+
+/** True if the last step ended at such a report: if they are looked at (HD_OBSERVE_FIELDS), the frame is
+ *  orthonormalised at this very time. */
+bool hd_run_fields_due(const hd_run *run);
 
 /** Which of the stages that the scene asks for (HD_OBSERVE_*) are needed from now on; at first all. A stage
  *  that nobody looks at is skipped: its averages miss that time, phases begin anew. */

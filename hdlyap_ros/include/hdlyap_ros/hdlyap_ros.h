@@ -1,4 +1,4 @@
-/** A C API over roscpp: all that a C program needs to be a node that publishes hdlyap's messages. */
+/** A C API over roscpp: all that a C program needs to be a node that hears and publishes hdlyap's messages. */
 #ifndef HDLYAP_ROS_HDLYAP_ROS_H
 #define HDLYAP_ROS_HDLYAP_ROS_H
 
@@ -6,5 +6,6 @@
 #include "hdlyap_ros/params.h"
 #include "hdlyap_ros/publisher.h"
 #include "hdlyap_ros/service.h"
+#include "hdlyap_ros/subscriber.h"
 
 #endif

@@ -1,5 +1,5 @@
-/** Messages as C sees them: views that point into the caller's buffers, one struct per message.
- *  Field by field the .msg files of the same names, where the units are. Strings are never NULL. */
+/** Messages as C sees them: views that point into the publisher's own buffers, or into what was received, one
+ *  struct per message. Field by field the .msg files of the same names, where the units are. Strings are never NULL. */
 #ifndef HDLYAP_ROS_MESSAGES_H
 #define HDLYAP_ROS_MESSAGES_H
 
@@ -37,10 +37,11 @@ typedef struct hdr_strings {
     uint32_t count;
 } hdr_strings;
 
-/** std_msgs/Header; its seq is filled while publishing. */
+/** std_msgs/Header */
 typedef struct hdr_header {
     hdr_time stamp;
     const char *frame_id;
+    uint32_t seq; /**< counts a publisher's messages, filled while publishing: gaps are losses */
 } hdr_header;
 
 /** hdlyap/RunInfo */
@@ -58,6 +59,8 @@ typedef struct hdr_run_info {
     uint32_t max_node;
     hdr_uints wave_nx, wave_ny;
     const char *field_indices;
+    double field_interval;
+    hdr_strings wait_for_subscribers;
     double pace;
     const char *marker_modes;
     double marker_rate;
@@ -237,7 +240,7 @@ typedef struct hdr_key_value {
     const char *key, *value;
 } hdr_key_value;
 
-/** diagnostic_msgs/DiagnosticArray with one status */
+/** diagnostic_msgs/DiagnosticArray with one status; one with several is received as several. */
 typedef struct hdr_diagnostic {
     hdr_header header;
     uint8_t level;
@@ -245,6 +248,16 @@ typedef struct hdr_diagnostic {
     const hdr_key_value *values;
     uint32_t count;
 } hdr_diagnostic;
+
+/** std_msgs/Float64 */
+typedef struct hdr_float64 {
+    double data;
+} hdr_float64;
+
+/** std_msgs/String */
+typedef struct hdr_string {
+    const char *data;
+} hdr_string;
 
 #ifdef __cplusplus
 }

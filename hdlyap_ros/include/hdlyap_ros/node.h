@@ -43,6 +43,10 @@ bool hdr_stop_requested(void);
 /** Asks the process to stop; may be called from a signal handler. */
 void hdr_stop_request(void);
 
+/** Waits so many seconds (INFINITY: for ever), by a clock that nobody sets. False as soon as a stop has been
+ *  requested: while (hdr_node_wait(0.1)) ... */
+bool hdr_node_wait(double seconds);
+
 hdr_time hdr_time_now(void);
 
 /** One line to the console and /rosout, control characters as question marks; format as for printf. */

@@ -20,6 +20,8 @@ void hdr_params_free(hdr_params *params);
 int hdr_params_count(const hdr_params *params);
 /** Name of parameter k, 0 .. count - 1, in alphabetic order; NULL otherwise. */
 const char *hdr_params_name(const hdr_params *params, int k);
+/** The first one whose name is not in the list `known`, which ends with NULL; NULL if all are. */
+const char *hdr_params_unknown(const hdr_params *params, const char *const *known);
 /** The value for a message to the user; "" if there is none. */
 const char *hdr_param_text(const hdr_params *params, const char *name);
 

@@ -36,9 +36,24 @@ HDR_MUST_CHECK hdr_status hdr_cost_advertise(hdr_publisher **out, hdr_node *node
                                              int queue);
 HDR_MUST_CHECK hdr_status hdr_diagnostic_advertise(hdr_publisher **out, hdr_node *node,
                                                    const char *topic, int queue);
+HDR_MUST_CHECK hdr_status hdr_float64_advertise(hdr_publisher **out, hdr_node *node,
+                                                const char *topic, int queue);
+HDR_MUST_CHECK hdr_status hdr_string_advertise(hdr_publisher **out, hdr_node *node,
+                                               const char *topic, int queue);
 
 /** Number of subscribers connected now. */
 int hdr_publisher_subscribers(const hdr_publisher *publisher);
+
+/** How far the slowest subscriber is behind; what waits in buffers of the kernel does not count. */
+typedef struct hdr_lag {
+    const char *topic; /**< resolved and remapped; as long as the publisher lives */
+    double seconds; /**< that a message waits, or has waited; 0 if none does now */
+    int messages;   /**< published meanwhile, with that one */
+    bool losing;    /**< as many as the queue holds: the oldest are lost */
+} hdr_lag;
+
+/** May be called by any thread, the more often the more exactly; does not wait. 0 for latched topics. */
+hdr_lag hdr_publisher_lag(hdr_publisher *publisher);
 
 /* The view is serialised before these return and never waited for. Without a subscriber and without
  * latching they do nothing. HDR_FAULT if the publisher is of another type; HDR_NO_MEMORY. */
@@ -56,6 +71,8 @@ HDR_MUST_CHECK hdr_status hdr_state_publish(hdr_publisher *publisher, const hdr_
 HDR_MUST_CHECK hdr_status hdr_cost_publish(hdr_publisher *publisher, const hdr_cost *view);
 HDR_MUST_CHECK hdr_status hdr_diagnostic_publish(hdr_publisher *publisher,
                                                  const hdr_diagnostic *view);
+HDR_MUST_CHECK hdr_status hdr_float64_publish(hdr_publisher *publisher, const hdr_float64 *view);
+HDR_MUST_CHECK hdr_status hdr_string_publish(hdr_publisher *publisher, const hdr_string *view);
 
 #ifdef __cplusplus
 }

@@ -3,11 +3,9 @@
 import copy
 import io
 
-import numpy as np
-
 from . import steps
 from .deviation import Deviation
-from .recording import RecordingError, known
+from .recording import RecordingError
 
 SAME = 1e-9             # relative: parameters that were given as the same decimal number
 SYSTEM = ('density', 'aspect', 'boundary_x', 'boundary_y')
@@ -106,16 +104,9 @@ def _exponents(a, b):
 
 
 def _sum(a, b):
-    """Of the positive exponents. They fluctuate together in a way that is not recorded: the error
-    of the sum is at most the sum of the errors."""
-    errors = []
-    for run in (a, b):
-        positive = np.asarray(run.spectrum.exponents) > 0
-        error = known(run.spectrum.std_errors)[positive].sum()
-        errors.append(error if np.isfinite(error) else -1.0)
-    whole = a.last_index >= a.positive_end
-    return Deviation('h_KS' if whole else 'sum of exponents',
-                     (a.spectrum.ks_entropy, b.spectrum.ks_entropy), errors)
+    """Of the positive exponents."""
+    return Deviation(a.sum_name, (a.spectrum.ks_entropy, b.spectrum.ks_entropy),
+                     (a.sum_error, b.sum_error))
 
 
 def _resolved(run):

@@ -4,7 +4,7 @@ from math import atan, exp, lgamma, pi, sqrt
 
 import numpy as np
 
-from .recording import known
+from .numbers import known
 
 FREEDOM = 7     # of an error: the node asks blocks for it only while there are at least 8
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(64)

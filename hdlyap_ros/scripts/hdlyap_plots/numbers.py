@@ -2,6 +2,8 @@
 
 from math import floor, isfinite, log10
 
+import numpy as np
+
 PLACES = 9      # with more, only the size of a number can be read
 
 
@@ -19,3 +21,16 @@ def with_error(value, error, decimals=5):
     digits = f'{error:.{places}f}'
     # an error of one unit or more keeps its point: 12.3(1.5)
     return f'{value:.{places}f}({digits if error >= 1 else digits.lstrip("0.")})'
+
+
+def known(errors):
+    """Standard errors with the messages' -1 for 'not yet known' as NaN."""
+    errors = np.asarray(errors, dtype=float)
+    return np.where(errors < 0, np.nan, errors)
+
+
+def clock(seconds):
+    """1:05, 2:00:10"""
+    minutes, seconds = divmod(int(seconds + 0.5), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f'{hours}:{minutes:02d}:{seconds:02d}' if hours else f'{minutes}:{seconds:02d}'

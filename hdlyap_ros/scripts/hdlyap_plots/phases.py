@@ -3,6 +3,7 @@
 import numpy as np
 
 from .course import Course
+from .numbers import known
 
 SHORTEST = 3    # points of a curve
 
@@ -43,3 +44,28 @@ def regression(time, phase):
     """Values of the straight line through the phases."""
     slope, start = np.polyfit(time - time[0], phase, 1)
     return start + slope * (time - time[0])
+
+
+def mean_omega(phases):
+    """(|omega|, its error, number) over the tracked phases of one step, weighted with their
+    errors. The vectors of a step move together, so their errors do not average out."""
+    omega = np.array([[abs(phase.omega), phase.omega_error] for phase in phases
+                      if phase.state == phase.TRACKED]).reshape(-1, 2)
+    if not len(omega):
+        return np.nan, np.nan, 0
+    errors = known(omega[:, 1])
+    if not (errors > 0).any():
+        return omega[:, 0].mean(), np.nan, len(omega)
+    trusted = errors > 0
+    mean, total = np.average(omega[trusted, 0], weights=errors[trusted] ** -2, returned=True)
+    return mean, np.sqrt(trusted.sum() / total), len(omega)
+
+
+def apart(phases, ranked):
+    """Of the numbers in ranked, the first ones that have neither vector nor pair in common."""
+    found = []
+    for number in ranked:
+        if all(phases[number].index != phases[other].index
+               and phases[number].modulation != phases[other].modulation for other in found):
+            found.append(number)
+    return found

@@ -1,49 +1,43 @@
 """bag file -> Recording: what one node said about its last run. Streams, keeps thinned courses of
 scalars and the last of everything else, so a bag may be far larger than the memory."""
 
+import contextlib
+import os
 import struct
-import sys
 
 import genpy
-import numpy as np
 import rosbag
 
 from .course import Course
+from .numbers import known
 from .phases import PhaseCourse
+from .progress import Progress
+from .run import Run
+from .stages import STAGES
 
 RUN_INFO, SPECTRUM, COST = 'hdlyap/RunInfo', 'hdlyap/Spectrum', 'hdlyap/Cost'
 STEPS, PHASES, FIELD = 'hdlyap/Steps', 'hdlyap/LpPhases', 'hdlyap/ModeField'
 TYPES = (RUN_INFO, SPECTRUM, COST, STEPS, PHASES, FIELD)
 SMALLEST = 4    # exponents whose course is kept, counted back from the last positive one
 DAMAGE = (genpy.DeserializationError, struct.error, UnicodeDecodeError, KeyError)
-STAGES = ('events', 'replay', 'ortho', 'spectrum', 'modes', 'publish')
 
 
 class RecordingError(Exception):
     """One line for the user: what is wrong with which bag."""
 
 
-class Recording:
+class Recording(Run):
     """The last run in the bag: its run_info, its last spectrum (None without exponents), the
     course of the averages since their last reset, the cost over time, and of the modes the last
     steps (None if unrecorded), the last field of each vector, and the course of the LP phases."""
 
-    def __init__(self, info):
+    def __init__(self, info, runs=1):
         self.info = info
+        self.runs = runs        # in the bag
         self.spectrum = None
         self.phases = PhaseCourse()
         self._history, self._costs = Course(), Course()
         self._steps, self._fields = None, {}
-
-    @property
-    def positive_end(self):
-        """Lyapunov index of the last positive exponent."""
-        return (4 * self.info.disks - self.info.zero_exponents) // 2
-
-    @property
-    def last_index(self):
-        """Lyapunov index of the last exponent carried."""
-        return self.spectrum.first_index + len(self.spectrum.exponents) - 1
 
     @property
     def smallest(self):
@@ -131,26 +125,41 @@ class Packed:
         return self._pytype().deserialize(self._data)
 
 
-def known(errors):
-    """Standard errors with the messages' -1 for 'not yet known' as NaN."""
-    errors = np.asarray(errors, dtype=float)
-    return np.where(errors < 0, np.nan, errors)
+def read(path, node=None, types=TYPES, number=None):
+    """The last run of the given node, or of the only node in the bag, or the one of that number,
+    from 1; of its messages those of the given types."""
+    with _opened(path) as bag:
+        return _read_run(bag, path, _topics_of_node(bag, path, node, types), number)
 
 
-def read(path, node=None, types=TYPES):
-    """The last run of the given node, or of the only node in the bag; of its messages those of the
-    given types."""
+def run_infos(path, node=None):
+    """The run_info of every run of the given node, or of the only one in the bag, in their order."""
+    with _opened(path) as bag:
+        return _runs(bag, path, _topics_of_node(bag, path, node, TYPES))
+
+
+@contextlib.contextmanager
+def _opened(path):
+    """The bag; whatever is wrong with it is a RecordingError."""
     try:
         with rosbag.Bag(path) as bag:
-            return _read_run(bag, path, _topics_of_node(bag, path, node, types))
+            yield bag
     except rosbag.ROSBagUnindexedException:
-        raise RecordingError(f'{path}: not closed properly; repair it with rosbag reindex')
+        raise RecordingError(f'{path}: not closed, as of a recording that goes on or was cut off; '
+                             f'if it was: rosbag reindex {path}')
     except rosbag.ROSBagException as error:
         raise RecordingError(f'{path}: not a readable bag: {error}')
     except DAMAGE as error:
         raise RecordingError(f'{path}: damaged: {error}')
     except OSError as error:
-        raise RecordingError(f'{path}: {error.strerror or error}')
+        raise RecordingError(f'{path}: {error.strerror or error}{_unfinished(path)}')
+
+
+def _unfinished(path):
+    """rosbag record gives a bag its name when it is whole."""
+    active = path + '.active'
+    return (f'; {active} is there: it is still recorded, or was cut off, and then needs '
+            f'rosbag reindex {active}' if os.path.exists(active) else '')
 
 
 def _topics_of_node(bag, path, node, types):
@@ -171,28 +180,34 @@ def _topics_of_node(bag, path, node, types):
     return nodes['/' + node.strip('/')]
 
 
-def _read_run(bag, path, topics):
-    recording = None
-    messages = bag.read_messages(topics=topics, raw=True)
-    for _, raw, _ in _with_progress(messages, bag.get_message_count(topics)):
-        kind, data, pytype = raw[0], raw[1], raw[-1]
-        packed = Packed(data, pytype)
-        if kind == RUN_INFO:
-            if recording is None or recording.info.run_id != packed.run_id:
-                recording = Recording(packed.message())
-        elif recording is not None and recording.info.run_id == packed.run_id:
+def _read_run(bag, path, topics, number):
+    runs = _runs(bag, path, topics)
+    number = len(runs) if number is None else number
+    if not 1 <= number <= len(runs):
+        raise RecordingError(f'{path}: no run {number} in it, only 1 .. {len(runs)}')
+    info = runs[number - 1]
+    recording = Recording(info, len(runs))
+    for kind, packed in _packed(bag, topics):
+        if kind != RUN_INFO and packed.run_id == info.run_id:
             recording.add(kind, packed)
-    if recording is None:
-        raise RecordingError(f'{path}: no run_info in it; record that topic too')
     return recording
 
 
-def _with_progress(messages, total):
-    """Passes the messages on; a percentage on the terminal where that takes a while."""
-    show = sys.stderr.isatty() and total > 1000
-    for count, message in enumerate(messages):
-        if show and count % (total // 100) == 0:
-            print(f'\rreading {100 * count // total} %', end='', file=sys.stderr, flush=True)
-        yield message
-    if show:
-        print('\r\033[K', end='', file=sys.stderr, flush=True)
+def _runs(bag, path, topics):
+    """RunInfo of every run, in the order of their beginnings; each file of a bag that was split has it."""
+    about = bag.get_type_and_topic_info(topics).topics
+    named = [topic for topic in about if about[topic].msg_type == RUN_INFO]
+    runs = {}
+    for _, packed in _packed(bag, named) if named else ():
+        if packed.run_id not in runs:
+            runs[packed.run_id] = packed.message()
+    if not runs:
+        raise RecordingError(f'{path}: no run_info in it; record that topic too')
+    return list(runs.values())
+
+
+def _packed(bag, topics):
+    """(type, Packed) of the messages of these topics."""
+    messages = bag.read_messages(topics=topics, raw=True)
+    for _, raw, _ in Progress('reading').over(messages, bag.get_message_count(topics)):
+        yield raw[0], Packed(raw[1], raw[-1])

@@ -3,7 +3,7 @@
 import numpy as np
 
 from . import paper, step_table
-from .recording import known
+from .numbers import known
 
 TAIL = 64       # exponents in the table
 COLUMNS = 3
@@ -19,7 +19,10 @@ def report(recording):
 
 
 def _head(recording):
-    return f'scene {recording.info.scene}: {system(recording.info)}\n{origin(recording.info)}'
+    head = f'scene {recording.info.scene}: {system(recording.info)}\n{origin(recording.info)}'
+    if recording.runs > 1:
+        head += f'\none of {recording.runs} runs in the bag; --run 1 .. {recording.runs} chooses'
+    return head
 
 
 def system(info):
@@ -38,7 +41,7 @@ def _sums(recording):
              f'collisions      {spectrum.collisions}',
              f'lambda_max      {spectrum.lambda_max:.6f}{_error(spectrum.std_errors[0])}']
     if recording.last_index >= recording.positive_end:
-        lines += [f'h_KS            {spectrum.ks_entropy:.4f}',
+        lines += [f'h_KS            {spectrum.ks_entropy:.4f}' + _at_most(recording.sum_error),
                   f'h_KS / N        {spectrum.ks_entropy / disks:.6f}']
     elif len(spectrum.exponents) > 1:
         lines.append(f'sum of the {len(spectrum.exponents)} exponents carried '
@@ -50,6 +53,10 @@ def _sums(recording):
 
 def _error(error):
     return f' +- {error:.6f}' if error >= 0 else ''
+
+
+def _at_most(error):
+    return f'  error at most {error:.2g}' if error >= 0 else ''
 
 
 def _tail(recording):

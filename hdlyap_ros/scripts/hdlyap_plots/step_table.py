@@ -1,10 +1,8 @@
 """Recording -> the table of steps: what they are, their exponents, fits, LP dynamics, cost."""
 
-import numpy as np
-
 from . import paper, steps
 from .numbers import with_error
-from .recording import known
+from .phases import mean_omega
 
 WIDTH = 100     # of a line with a list of names
 COLUMNS = (('indices', '<10'), ('measured', '>8'), ('of', '>3'), ('k [1/sigma]', '>12'),
@@ -26,17 +24,23 @@ def _steps(recording):
     fitted = {step.name: step.fitted for step in paper.steps(recording.info)}
     title = (f'steps: at least {100 * message.threshold:.0f} % of the expected multiplicity found '
              '(standard errors)')
-    rows = [_zero_cells(recording)]
-    for block in steps.blocks(message):
-        if len(block.steps) > 1:
-            rows.append(_shared_cells(block))
-        rows += [_cells(block, step, fitted) for step in block.steps]
+    rows = [zero_cells(recording)] + [cells for cells, _ in block_rows(message, fitted)]
     if fitted:
         title += f'\nc k: {paper.FITS} (+-3 %)'
-    return '\n'.join([title, *_layout(rows, bool(fitted)), *_remarks(message)])
+    return '\n'.join([title, *layout(rows, bool(fitted)), *_remarks(message)])
 
 
-def _layout(rows, beside_paper):
+def block_rows(message, fitted):
+    """(cells of a row, kind of its step or None for several), smallest exponent first."""
+    for block in steps.blocks(message):
+        if len(block.steps) > 1:
+            yield _shared_cells(block), block.kind
+        for step in block.steps:
+            yield _cells(block, step, fitted), step.kind
+
+
+def layout(rows, beside_paper=False):
+    """Lines: a heading, then one for each row of cells."""
     columns = COLUMNS + (PAPER_COLUMNS if beside_paper else ())
     width = max(len(row[0]) for row in rows)
     for row in [['step'] + [title for title, _ in columns]] + rows:
@@ -44,10 +48,10 @@ def _layout(rows, beside_paper):
         yield '  ' + ' '.join([f'{row[0]:<{width}}', *cells]).rstrip()
 
 
-def _zero_cells(recording):
-    zero = steps.zero_modes(recording.steps)
+def zero_cells(run):
+    zero = steps.zero_modes(run.steps)
     if zero is None or not zero.resolved:
-        carried = recording.last_index > recording.positive_end
+        carried = run.last_index > run.positive_end
         return ['zero modes', 'not found' if carried else 'not carried']
     return ['zero modes', steps.Block([zero]).indices, f'{zero.multiplicity:.2f}',
             str(zero.expected), '', with_error(zero.exponent, zero.std_error)]
@@ -157,21 +161,6 @@ def _lp_dynamics(recording):
                      f'{with_error(omega / k, error / k):<15} {tracked} of {len(phases)}')
     if len(lines) > 2:
         yield '\n'.join(lines)
-
-
-def mean_omega(phases):
-    """(|omega|, its error, number) over the tracked phases of one step, weighted with their
-    errors. The vectors of a step move together, so their errors do not average out."""
-    omega = np.array([[abs(phase.omega), phase.omega_error] for phase in phases
-                      if phase.state == phase.TRACKED]).reshape(-1, 2)
-    if not len(omega):
-        return np.nan, np.nan, 0
-    errors = known(omega[:, 1])
-    if not (errors > 0).any():
-        return omega[:, 0].mean(), np.nan, len(omega)
-    trusted = errors > 0
-    mean, total = np.average(omega[trusted, 0], weights=errors[trusted] ** -2, returned=True)
-    return mean, np.sqrt(trusted.sum() / total), len(omega)
 
 
 def _cost(recording):

@@ -1,6 +1,7 @@
 """Comparison -> the text that compare prints, and what it comes to."""
 
 import textwrap
+from math import inf
 
 from . import steps
 from .deviation import FREEDOM, chance_of_largest, unlikeliest
@@ -12,6 +13,9 @@ AGREE, DIFFER = 0, 1    # exit status
 # Of two runs of one system at most one pair in a hundred is said to differ.
 CHANCE = 0.01
 LARGEST = 8     # deviations in the list
+# Averaged time in units of 1 / the smallest positive exponent below which the blocks of an error
+# may be shorter than what fluctuates.
+SHORT = 30
 WIDTH = 40      # of a parameter
 ROW = '  {:<14} {:>15} {:>15} {:>15} {:>7}  {}'
 HEAD = ROW.format('', 'a', 'b', 'b - a', 'z', '{}')
@@ -31,9 +35,27 @@ def verdict(comparison):
              f'one of {judged} as unlikely by chance: probability at most {chance:.2g}, however '
              'they fluctuate together\n'
              f'(Bonferroni, and Student\'s t as if every error were of {FREEDOM + 1} blocks)')
+    found = '\n'.join([found, *_warnings(comparison)])
     if chance < CHANCE:
         return f'{found}\ndiffer: less than {CHANCE:g}', DIFFER
     return f'{found}\nagree within their errors: not less than {CHANCE:g}', AGREE
+
+
+def _warnings(comparison):
+    for letter, run in zip('ab', comparison.runs):
+        length = _length_in_slowest(run)
+        if length < SHORT:
+            yield (f'{letter} is short: {length:.2g} times 1 / its smallest positive exponent; below '
+                   f'{SHORT}\n  single errors may be far too small, and runs that agree seem to '
+                   'differ')
+
+
+def _length_in_slowest(run):
+    """Averaged time in units of 1 / the smallest positive exponent; infinite without one."""
+    if run.spectrum is None:
+        return inf
+    positive = run.spectrum.exponents[:run.positive_end + 1 - run.spectrum.first_index]
+    return run.spectrum.averaged_time * min((x for x in positive if x > 0), default=inf)
 
 
 def report(comparison):

@@ -26,6 +26,15 @@ def modulation(info, nx, ny, bits, x, y):
 
 def formula(nx, ny, bits):
     """A as text for a figure."""
-    parts = [('\\sin' if sine else '\\cos') + f' k_{axis} {axis}'
-             for axis, n, sine in (('x', nx, bits & SIN_X), ('y', ny, bits & SIN_Y)) if n]
-    return '$' + r'\,'.join(parts) + '$'
+    return '$' + r'\,'.join(f'\\{function} k_{axis} {axis}'
+                              for function, axis in _factors(nx, ny, bits)) + '$'
+
+
+def plain_formula(nx, ny, bits):
+    """A as text for a terminal."""
+    return ' '.join(f'{function} k{axis} {axis}' for function, axis in _factors(nx, ny, bits))
+
+
+def _factors(nx, ny, bits):
+    return [('sin' if sine else 'cos', axis)
+            for axis, n, sine in (('x', nx, bits & SIN_X), ('y', ny, bits & SIN_Y)) if n]

@@ -1,17 +1,17 @@
-/** OK while it computes, WARN while intervals have to be repaired, ERROR while checkpoints cannot be written and once
- *  a fault has ended it. */
+/** What is wrong with the run (conditions.c), or what it does, and its numbers by key. */
 #include "diagnostics.h"
 
 #include <math.h>
 #include <stdio.h>
 
 #include "clock.h"
+#include "conditions.h"
 
 static const double period = 1.0;
 /** How long a repair is worth a warning [s]. */
 static const double warn_seconds = 10.0;
 
-enum { KEYS = 12, TEXT_SIZE = 32 };
+enum { KEYS = 20, TEXT_SIZE = 32 };
 
 /** Keys and the texts that they point to. */
 typedef struct key_list {
@@ -20,13 +20,13 @@ typedef struct key_list {
     uint32_t count;
 } key_list;
 
-hdr_status diagnostics_advertise(diagnostics *d, hdr_node *ros, const char *run_id,
+hdr_status diagnostics_advertise(diagnostics *d, hdr_node *ros, const report *rep,
                                  const char *blas_kernel)
 {
     const double now = clock_seconds();
     *d = (diagnostics){
         .node_name = hdr_node_name(ros),
-        .run_id = run_id,
+        .rep = rep,
         .blas_kernel = blas_kernel,
         .next = now,
         .measured = now,
@@ -94,46 +94,57 @@ static void fill_keys(diagnostics *d, key_list *list, const worker_state *state,
         add_number(list, "resolved steps", state->last.resolved_steps);
 }
 
-static uint8_t level_of(diagnostics *d, const worker_state *state, double now)
+/** What conditions.c judges. */
+static void fill_watched(key_list *list, const worker_state *state, const hdr_lag *slowest)
 {
-    if (state->status != HD_OK || state->checkpoint.failed) return HDR_DIAGNOSTIC_ERROR;
+    const examination *disks = &state->disks;
+    const double error = state->last.cost.std_error;
+    if (disks->made) {
+        add_number(list, "overlap", disks->overlap);
+        add_number(list, "energy error", disks->energy_error);
+    }
+    if (error >= 0.0) {
+        add_number(list, "averaged time", state->last.averaged);
+        add_number(list, "error of the smallest exponents", error);
+    }
+    add_number(list, "seconds that a subscriber is behind", slowest->seconds);
+    if (*slowest->topic) add_text(list, "topic that it is behind in", slowest->topic);
+}
+
+static bool was_repaired(diagnostics *d, const worker_state *state, double now)
+{
     if (state->last.cost.repairs > d->repairs) d->repaired = now;
     d->repairs = state->last.cost.repairs;
-    return now - d->repaired < warn_seconds ? HDR_DIAGNOSTIC_WARN : HDR_DIAGNOSTIC_OK;
+    return now - d->repaired < warn_seconds;
 }
 
-static const char *message_of(uint8_t level, const worker_state *state)
-{
-    if (state->status != HD_OK) return hd_status_text(state->status);
-    if (state->checkpoint.failed) return state->checkpoint.message;
-    if (level == HDR_DIAGNOSTIC_WARN) return "intervals were too long and had to be repaired";
-    return phase_name(state);
-}
-
-void diagnostics_publish(diagnostics *d, const worker_state *state)
+bool diagnostics_publish(diagnostics *d, const worker_state *state)
 {
     const double now = clock_seconds();
-    const uint8_t level = level_of(d, state, now);
+    const hdr_lag slowest = report_lag(d->rep);
+    const conditions all = conditions_of(state, &slowest, was_repaired(d, state, now));
     key_list list = {.count = 0};
-    if (hdr_publisher_subscribers(d->publisher) == 0) return;
+    if (hdr_publisher_subscribers(d->publisher) == 0) return false;
     fill_keys(d, &list, state, now);
+    fill_watched(&list, state, &slowest);
     const hdr_diagnostic view = {
         .header = {.stamp = hdr_time_now(), .frame_id = ""},
-        .level = level,
+        .level = all.level,
         .name = d->node_name,
-        .message = message_of(level, state),
-        .hardware_id = d->run_id,
+        .message = *all.message ? all.message : phase_name(state),
+        .hardware_id = report_run_id(d->rep),
         .values = list.value,
         .count = list.count,
     };
     if (hdr_diagnostic_publish(d->publisher, &view) != HDR_OK)
         hdr_log(HDR_ERROR, "diagnostics not sent: %s", hdr_error_text());
+    return true;
 }
 
-void diagnostics_update(diagnostics *d, const worker_state *state)
+bool diagnostics_update(diagnostics *d, const worker_state *state)
 {
     const double now = clock_seconds();
-    if (now < d->next) return;
+    if (now < d->next) return false;
     d->next = fmax(d->next + period, now);
-    diagnostics_publish(d, state);
+    return diagnostics_publish(d, state);
 }

@@ -7,8 +7,8 @@
 
 typedef struct diagnostics {
     hdr_publisher *publisher;
-    const char *node_name, *run_id;
-    const char *blas_kernel;
+    const report *rep;
+    const char *node_name, *blas_kernel;
     double next;         /**< when to publish again [s of clock_seconds] */
     double measured;     /**< when collisions was taken */
     uint64_t collisions; /**< at the last message */
@@ -16,13 +16,13 @@ typedef struct diagnostics {
     double repaired;     /**< when it last changed */
 } diagnostics;
 
-/** The strings must live as long as d. */
-HDR_MUST_CHECK hdr_status diagnostics_advertise(diagnostics *d, hdr_node *ros, const char *run_id,
+/** The report and the string must live as long as d. */
+HDR_MUST_CHECK hdr_status diagnostics_advertise(diagnostics *d, hdr_node *ros, const report *rep,
                                                 const char *blas_kernel);
 
-/** Publishes if anybody listens and a second has passed since the last time. */
-void diagnostics_update(diagnostics *d, const worker_state *state);
-/** Publishes now, if anybody listens. */
-void diagnostics_publish(diagnostics *d, const worker_state *state);
+/** Publishes if anybody listens and a second has passed since the last time; true if so. */
+bool diagnostics_update(diagnostics *d, const worker_state *state);
+/** Publishes now, if anybody listens; true if so. */
+bool diagnostics_publish(diagnostics *d, const worker_state *state);
 
 #endif

@@ -76,6 +76,7 @@ static void remember(keeper *k)
     if (stat(k->set->checkpoint, &now) != 0) return;
     k->device = now.st_dev;
     k->number = now.st_ino;
+    k->written = now.st_mtim;
 }
 
 hd_status keeper_begin(keeper *out, const settings *set, hd_run *run, char *message, size_t size)
@@ -103,8 +104,9 @@ bool keeper_due(const keeper *k)
 static bool is_mine(const keeper *k)
 {
     struct stat now;
-    return stat(k->set->checkpoint, &now) != 0 ||
-           (now.st_dev == k->device && now.st_ino == k->number);
+    if (stat(k->set->checkpoint, &now) != 0) return true;
+    return now.st_dev == k->device && now.st_ino == k->number &&
+           now.st_mtim.tv_sec == k->written.tv_sec && now.st_mtim.tv_nsec == k->written.tv_nsec;
 }
 
 static hd_status save(keeper *k, hd_run *run)

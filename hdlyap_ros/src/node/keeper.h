@@ -3,6 +3,7 @@
 #define HDLYAP_KEEPER_H
 
 #include <sys/types.h>
+#include <time.h>
 
 #include "hdlyap/checkpoint.h"
 #include "settings.h"
@@ -19,7 +20,8 @@ typedef struct keeper {
     bool changed; /**< the run is not as in the file */
     double due;   /**< [s of clock_seconds]; INFINITY: only when asked */
     dev_t device; /**< of the file, as it was written */
-    ino_t number; /**< likewise */
+    ino_t number; /**< likewise; a number is given again once its file is gone, so also: */
+    struct timespec written;
     kept state;
 } keeper;
 

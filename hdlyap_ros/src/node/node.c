@@ -100,6 +100,7 @@ static int create_run(app *a)
     else if (status == HD_OK)
         status = hd_run_create(&a->run, &set->def, message, sizeof message);
     if (*set->checkpoint) hdr_node_stop_within(stop_keeping_seconds);
+    if (status == HD_OK) hd_run_fields_every(a->run, set->field_interval);
     if (status == HD_OK) status = keeper_begin(&a->keep, set, a->run, message, sizeof message);
     return fault_logged(status, message);
 }
@@ -109,8 +110,7 @@ static hdr_status advertise(app *a)
 {
     const char *kernel = hd_blas_query().kernel;
     hdr_status status = report_create(&a->rep, a->ros, &a->set, a->run);
-    if (status == HDR_OK)
-        status = diagnostics_advertise(&a->diag, a->ros, report_run_id(a->rep), kernel);
+    if (status == HDR_OK) status = diagnostics_advertise(&a->diag, a->ros, a->rep, kernel);
     if (status == HDR_OK) status = report_run_info(a->rep, a->run);
     if (status == HDR_OK && !worker_create(&a->work, a->run, a->rep, &a->set, &a->keep))
         status = HDR_NO_MEMORY;
@@ -154,7 +154,7 @@ static bool look_after(app *a)
     while (!ended && !hdr_stop_requested()) {
         ended = worker_wait(a->work, poll_seconds);
         const worker_state state = worker_state_now(a->work);
-        diagnostics_update(&a->diag, &state);
+        if (diagnostics_update(&a->diag, &state)) worker_examine(a->work); /* for the next one */
     }
     worker_stop(a->work);
     return ended ||

@@ -71,6 +71,22 @@ unsigned outlets_subscribed(const outlets *out)
     return set;
 }
 
+static bool is_worse(hdr_lag a, hdr_lag b)
+{
+    return a.losing != b.losing ? a.losing : a.seconds > b.seconds;
+}
+
+hdr_lag outlets_lag(const outlets *out)
+{
+    hdr_lag worst = {.topic = ""};
+    for (topic t = 0; t < TOPICS; t++) {
+        if (!out->publisher[t]) continue;
+        const hdr_lag lag = hdr_publisher_lag(out->publisher[t]);
+        if (is_worse(lag, worst)) worst = lag;
+    }
+    return worst;
+}
+
 const char *outlets_frame(void) { return "box"; }
 
 hdr_header outlets_header(void)

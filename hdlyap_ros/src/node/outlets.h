@@ -22,6 +22,10 @@ HDR_MUST_CHECK hdr_status outlets_advertise(outlets *out, hdr_node *ros, unsigne
 /** Set of the topics that have a subscriber now. */
 unsigned outlets_subscribed(const outlets *out);
 
+/** Of the topic whose slowest subscriber is furthest behind, losing messages or else in time; topic "" if nobody
+ *  is. Any thread. */
+hdr_lag outlets_lag(const outlets *out);
+
 /** Name of the frame that positions are in. */
 const char *outlets_frame(void);
 

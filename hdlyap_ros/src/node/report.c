@@ -49,11 +49,13 @@ static int resolved_steps(const hd_run *run)
 
 progress progress_of(const hd_run *run)
 {
+    const hd_spectrum *spectrum = hd_run_spectrum(run);
     return (progress){
         .phase = hd_run_phase(run),
         .time = hd_run_time(run),
         .collisions = hd_trajectory_collisions(hd_run_trajectory(run)),
         .cost = hd_run_cost(run),
+        .averaged = spectrum ? hd_spectrum_time(spectrum) : 0.0,
         .resolved_steps = resolved_steps(run),
     };
 }
@@ -115,6 +117,8 @@ void report_free(report *rep)
 }
 
 const char *report_run_id(const report *rep) { return rep->out.run_id; }
+
+hdr_lag report_lag(const report *rep) { return outlets_lag(&rep->out); }
 
 bool report_awaited_here(const report *rep, unsigned awaited)
 {
@@ -269,6 +273,7 @@ static unsigned topics_due(const report *rep, const hd_run *run)
     unsigned set = outlets_subscribed(&rep->out);
     if (!spectrum || !(hd_spectrum_time(spectrum) > 0.0)) set &= ~topic_bit(TOPIC_SPECTRUM);
     if (!modes || hd_modes_samples(modes) == 0) set &= ~of_modes;
+    if (!hd_run_fields_due(run)) set &= ~topic_bit(TOPIC_FIELDS);
     if (hd_run_phase(run) == HD_FINISHED) set &= ~topic_bit(TOPIC_COST);
     return set & (rep->demand | ~of_modes);
 }

@@ -13,6 +13,7 @@ typedef struct progress {
     double time;         /**< simulated time since the start */
     uint64_t collisions; /**< pairs, since the start */
     hd_cost cost;
+    double averaged;    /**< time; 0 without exponents */
     int resolved_steps; /**< -1 while nobody looks at them */
 } progress;
 
@@ -27,6 +28,9 @@ HDR_MUST_CHECK hdr_status report_create(report **out, hdr_node *ros, const setti
 void report_free(report *rep);
 
 const char *report_run_id(const report *rep);
+
+/** Of the run's topics; any thread. */
+hdr_lag report_lag(const report *rep);
 
 /** True if each topic of the set has a subscriber. */
 bool report_awaited_here(const report *rep, unsigned awaited);

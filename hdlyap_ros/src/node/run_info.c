@@ -87,7 +87,7 @@ static void fill_machine(hdr_run_info *info, const hd_run *run)
 
 hdr_status run_info_publish(const outlets *out, const settings *set, const hd_run *run)
 {
-    const char *names[TOPICS];
+    const char *names[TOPICS], *awaited[TOPICS];
     wave_list waves;
     hdr_status status = waves_create(&waves, &set->def) ? HDR_OK : HDR_NO_MEMORY;
     hdr_run_info info = {
@@ -97,6 +97,8 @@ hdr_status run_info_publish(const outlets *out, const settings *set, const hd_ru
         .wave_nx = {.data = waves.nx, .count = waves.count},
         .wave_ny = {.data = waves.ny, .count = waves.count},
         .field_indices = set->fields.text,
+        .field_interval = set->field_interval,
+        .wait_for_subscribers = {.data = awaited, .count = names_of(awaited, set->awaited)},
         .pace = set->pace,
         .marker_modes = set->markers.text,
         .marker_rate = set->markers.rate,

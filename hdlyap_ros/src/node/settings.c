@@ -248,6 +248,7 @@ static const struct parameter {
     {"field_indices", read_field_indices, offsetof(settings, fields)},
     {"marker_modes", read_marker_modes, offsetof(settings, markers)},
     {"marker_rate", read_double, offsetof(settings, markers.rate)},
+    {"field_interval", read_double, offsetof(settings, field_interval)},
     {"observables", read_observables, offsetof(settings, observables)},
     {"threads", read_int, offsetof(settings, def.threads)},
     {"wait_for_subscribers", read_awaited, offsetof(settings, awaited)},
@@ -285,9 +286,13 @@ static bool read_all(settings *out, reader *r)
     return true;
 }
 
-static bool check_wall_times(const settings *set, reader *r)
+/** Those that the scene does not know of. */
+static bool check_times(const settings *set, reader *r)
 {
     const double most = 1e12;
+    r->name = "field_interval";
+    if (!(set->field_interval >= 0.0 && set->field_interval <= most))
+        return refuse(r, "from 0 (with every report) to 1e12");
     r->name = "pace";
     if (!(set->pace >= 0.0 && set->pace <= most))
         return refuse(r, "from 0 (as fast as it goes) to 1e12");
@@ -404,6 +409,7 @@ static settings defaults(const hd_checkpoint *kept)
         .observables = TOPICS_OBSERVABLE & ~topic_bit(TOPIC_HYDRO),
         .fields = {.text = "steps"},
         .markers = {.text = "lowest", .rate = 10.0},
+        .field_interval = 10.0,
         .checkpoint = "",
         .checkpoint_interval = 600.0,
         .resume = "",
@@ -421,7 +427,7 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
     reader r = {.params = params, .message = message, .size = size};
     *out = defaults(kept);
     if (!check_names(&r) || !read_all(out, &r)) return false;
-    if (!check_wall_times(out, &r) || !check_observables(out, &r) || !check_awaited(out, &r))
+    if (!check_times(out, &r) || !check_observables(out, &r) || !check_awaited(out, &r))
         return false;
     if (!check_modes(out, &r)) return false;
     write_texts(out);

@@ -40,6 +40,7 @@ typedef struct settings {
     unsigned observables; /**< set of topics: all but run_info and cost */
     field_choice fields;
     marker_choice markers;
+    double field_interval;  /**< time units between publications of fields; 0: with every report */
     unsigned awaited;       /**< set of topics that must have a subscriber before the run starts */
     double pace;            /**< time units per wall second, 0 = as fast as it goes */
     const char *checkpoint; /**< file, or ""; in the params, as the next but one */

@@ -14,18 +14,21 @@
 
 /** How often subscribers are looked for [s]. */
 static const double look_seconds = 0.01;
+/** Of the time, at most, for examining disks. */
+static const double examination_share = 0.01;
 
 struct worker {
     hd_run *run;
     report *rep;
     const settings *set;
     pthread_t thread;
-    double due;  /**< wall time before which pace allows no further step; the thread's own */
-    keeper keep; /**< the thread's own */
+    double due;        /**< wall time before which pace allows no further step; the thread's own */
+    double examinable; /**< the same of the next examination; the thread's own */
+    keeper keep;       /**< the thread's own */
 
     pthread_mutex_t lock;
     pthread_cond_t changed;
-    bool stop, pause, reset, save; /**< asked for */
+    bool stop, pause, reset, save, examine; /**< asked for */
     worker_state state;
 
     pthread_mutex_t publishing;
@@ -106,13 +109,31 @@ static bool obey(worker *w)
     return go_on;
 }
 
-static hd_status reset_if_asked(worker *w)
+/** Takes back a request; true if there was one. */
+static bool asked(worker *w, bool *request)
 {
     pthread_mutex_lock(&w->lock);
-    const bool reset = w->reset;
-    w->reset = false;
+    const bool was = *request;
+    *request = false;
     pthread_mutex_unlock(&w->lock);
-    return reset ? hd_run_reset_average(w->run) : HD_OK;
+    return was;
+}
+
+static hd_status reset_if_asked(worker *w)
+{
+    return asked(w, &w->reset) ? hd_run_reset_average(w->run) : HD_OK;
+}
+
+static void examine_if_asked(worker *w)
+{
+    const double begin = clock_seconds();
+    if (!asked(w, &w->examine) || begin < w->examinable) return;
+    const examination disks = examine(hd_run_trajectory(w->run));
+    const double end = clock_seconds();
+    w->examinable = end + (end - begin) / examination_share;
+    pthread_mutex_lock(&w->lock);
+    w->state.disks = disks;
+    pthread_mutex_unlock(&w->lock);
 }
 
 static hd_status publish(worker *w)
@@ -137,6 +158,7 @@ static hd_status paced_step(worker *w)
 
 static hd_status step(worker *w)
 {
+    examine_if_asked(w);
     hd_run_observe(w->run, report_demand(w->rep));
     report_demand_picture(w->rep, w->run);
     hd_status status = reset_if_asked(w);
@@ -146,6 +168,7 @@ static hd_status step(worker *w)
     status = publish(w);
     pthread_mutex_lock(&w->lock);
     w->state.last = progress_of(w->run);
+    error_course_add(&w->state.errors, w->state.last.averaged, w->state.last.cost.std_error);
     pthread_mutex_unlock(&w->lock);
     return status;
 }
@@ -234,6 +257,8 @@ static void ask(worker *w, bool *request, bool value)
 void worker_pause(worker *w, bool pause) { ask(w, &w->pause, pause); }
 
 void worker_reset_average(worker *w) { ask(w, &w->reset, true); }
+
+void worker_examine(worker *w) { ask(w, &w->examine, true); }
 
 /** Lock held. */
 static bool saved(worker *w, double until, char *message, size_t size)

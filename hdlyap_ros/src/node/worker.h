@@ -3,6 +3,8 @@
 #ifndef HDLYAP_WORKER_H
 #define HDLYAP_WORKER_H
 
+#include "error_course.h"
+#include "examination.h"
 #include "keeper.h"
 #include "report.h"
 
@@ -18,6 +20,8 @@ typedef struct worker_state {
     worker_stage stage;
     hd_status status; /**< the fault that ended it, else HD_OK */
     progress last;
+    error_course errors; /**< of the exponents nearest to zero */
+    examination disks;   /**< as of the last worker_examine */
     kept checkpoint;
 } worker_state;
 
@@ -36,6 +40,9 @@ worker_state worker_state_now(worker *w);
 void worker_pause(worker *w, bool pause);
 /** Starts the averages afresh before the next step. */
 void worker_reset_average(worker *w);
+
+/** Examines the disks before the next step, unless that would take more than a hundredth of the time. */
+void worker_examine(worker *w);
 
 /** Writes a checkpoint before the next step, and waits for it at most that long. False if it was not written, with
  *  the reason in message. */

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
+#include <stdexcept>
 
 #include <ros/xmlrpc_manager.h>
 
@@ -52,7 +53,7 @@ hdr_node *node_start()
 bool drained(const hdr_node &node)
 {
     return std::all_of(node.publishers.begin(), node.publishers.end(),
-                       [](const auto &publisher) { return publisher->newest.use_count() <= 1; });
+                       [](const auto &publisher) { return publisher->backlog.empty(); });
 }
 
 bool has_subscribers(const hdr_node &node)
@@ -83,6 +84,20 @@ void drain(const hdr_node &node, double linger)
     if (has_subscribers(node)) ros::WallDuration(reading_seconds).sleep();
 }
 } // namespace
+
+uint32_t queue_length(const std::string &topic, int queue)
+{
+    if (queue < 1)
+        throw std::invalid_argument("queue of " + topic + " = " + std::to_string(queue) +
+                                    ": must be at least 1");
+    return static_cast<uint32_t>(queue);
+}
+
+void throw_of_another_type(const std::string &topic, const std::string &datatype)
+{
+    throw std::invalid_argument(topic + " cannot be " + datatype +
+                                ": this node has it with another type");
+}
 
 hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *name,
                            double stop_seconds, int memory_status)

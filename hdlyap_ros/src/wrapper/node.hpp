@@ -1,22 +1,34 @@
-/** What a node and a publisher are made of; private to the wrapper. */
+/** What a node, a publisher and a subscriber are made of; private to the wrapper. */
 #pragma once
 
+#include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include "backlog.hpp"
 #include "hdlyap_ros/node.h"
 
 struct hdr_publisher {
     ros::Publisher publisher;
     std::string topic;
     std::string datatype;
-    /** The newest message. Every queue and socket on its way holds a reference, so being the only
-     *  owner means that it, and with it all before it, has been handed to the kernel. */
-    boost::shared_array<uint8_t> newest;
+    int queue;
+    hdr_backlog backlog; /**< not of latched topics */
+};
+
+struct hdr_subscriber {
+    ros::Subscriber subscriber;
+    std::string topic;
+    std::string datatype;
+    hdr_node *node;
+    int looks = 0; /**< at it since it was last connected, or not published at all */
+    /** False once it is freed, which its callback outlives when it is the one to do so. */
+    std::shared_ptr<std::atomic<bool>> wanted = std::make_shared<std::atomic<bool>>(true);
 };
 
 struct hdr_node {
@@ -26,4 +38,13 @@ struct hdr_node {
     std::vector<std::unique_ptr<hdr_publisher>> publishers;
     std::vector<ros::ServiceServer> services;
     std::unique_ptr<tf2_ros::StaticTransformBroadcaster> frames;
+    std::vector<std::unique_ptr<hdr_subscriber>> subscribers;
+    ros::WallTimer lookout; /**< for subscribers that cannot be connected */
+    std::mutex mutex;       /**< of subscribers, which callbacks may free, and of lookout */
 };
+
+/** roscpp's: 0 would be without an end. Throws std::invalid_argument. */
+uint32_t queue_length(const std::string &topic, int queue);
+
+/** For what roscpp refuses without saying why to its caller. */
+[[noreturn]] void throw_of_another_type(const std::string &topic, const std::string &datatype);

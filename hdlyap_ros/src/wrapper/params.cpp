@@ -162,6 +162,16 @@ const char *hdr_params_name(const hdr_params *params, int k)
     return std::next(params->entries.begin(), k)->first.c_str();
 }
 
+const char *hdr_params_unknown(const hdr_params *params, const char *const *known)
+{
+    for (const auto &member : params->entries) {
+        const char *const *same = known;
+        while (*same && member.first != *same) same++;
+        if (!*same) return member.first.c_str();
+    }
+    return nullptr;
+}
+
 const char *hdr_param_text(const hdr_params *params, const char *name)
 {
     const entry *found = find(params, name);

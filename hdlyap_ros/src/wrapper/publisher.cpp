@@ -1,6 +1,7 @@
 /** Topics out: each C view is serialised once and handed to roscpp's queues. */
 #include "hdlyap_ros/publisher.h"
 
+#include <chrono>
 #include <stdexcept>
 
 #include <ros/topic_manager.h>
@@ -20,8 +21,10 @@ hdr_status advertise(hdr_publisher **out, hdr_node *node, const char *topic, int
         std::unique_ptr<hdr_publisher> made(new hdr_publisher);
         made->topic = ros::names::resolve(topic);
         made->datatype = ros::message_traits::datatype<message>();
-        made->publisher = node->handle.advertise<message>(made->topic, static_cast<uint32_t>(queue),
-                                                          latch);
+        made->queue = queue;
+        made->publisher = node->handle.advertise<message>(made->topic,
+                                                          queue_length(made->topic, queue), latch);
+        if (!made->publisher) throw_of_another_type(made->topic, made->datatype);
         node->publishers.push_back(std::move(made));
         *out = node->publishers.back().get();
     });
@@ -36,6 +39,12 @@ template <class View> void type_check(const hdr_publisher &publisher)
                                     datatype);
 }
 
+double seconds_now()
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
 /** Past ros::Publisher, which keeps what it has serialised to itself, but for latched topics, whose
  *  last message only it can keep. */
 template <class View> void send(hdr_publisher &publisher, const View &view)
@@ -47,7 +56,7 @@ template <class View> void send(hdr_publisher &publisher, const View &view)
     ros::SerializedMessage message;
     const auto serialise = [&view] { return ros::serialization::serializeMessage(view); };
     ros::TopicManager::instance()->publish(publisher.topic, serialise, message);
-    publisher.newest = message.buf;
+    publisher.backlog.add(message.buf, seconds_now());
 }
 
 template <class View> hdr_status publish(hdr_publisher *publisher, const View *view)
@@ -92,6 +101,8 @@ HDR_TOPIC(hdr_hydro)
 HDR_TOPIC(hdr_state)
 HDR_TOPIC(hdr_cost)
 HDR_TOPIC(hdr_diagnostic)
+HDR_TOPIC(hdr_float64)
+HDR_TOPIC(hdr_string)
 #undef HDR_TOPIC
 #undef HDR_PUBLISH
 
@@ -101,4 +112,13 @@ int hdr_publisher_subscribers(const hdr_publisher *publisher)
     const hdr_status status = hdr_guard(
         [&] { subscribers = static_cast<int>(publisher->publisher.getNumSubscribers()); });
     return status == HDR_OK ? subscribers : 0;
+}
+
+hdr_lag hdr_publisher_lag(hdr_publisher *publisher)
+{
+    hdr_lag lag = publisher->backlog.lag(seconds_now());
+    lag.topic = publisher->topic.c_str();
+    /* a queue of one is meant to lose what is old */
+    lag.losing = publisher->queue > 1 && lag.messages >= publisher->queue;
+    return lag;
 }

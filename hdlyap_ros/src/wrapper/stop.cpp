@@ -2,8 +2,10 @@
  *  nobody catches -> an exit status. */
 #include "stop.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -12,6 +14,8 @@
 #include <exception>
 #include <system_error>
 
+#include <poll.h>
+#include <sys/eventfd.h>
 #include <unistd.h>
 
 #include "guard.hpp"
@@ -23,6 +27,8 @@ namespace
 std::atomic<bool> requested{false};
 timer_t watchdog;
 itimerspec watchdog_time{};
+int stop_event =
+    -1; /**< can be read from the request on: it is never read, and wakes everybody who waits */
 int status_without_memory;
 
 void on_stop(int) { hdr_stop_request(); }
@@ -64,6 +70,14 @@ void on_terminate()
     std::abort();
 }
 
+timespec timespec_of(double seconds)
+{
+    timespec time = {};
+    time.tv_sec = static_cast<time_t>(seconds);
+    time.tv_nsec = static_cast<long>(1e9 * std::fmod(seconds, 1.0));
+    return time;
+}
+
 void handle(int signal, void (*handler)(int))
 {
     struct sigaction action = {};
@@ -83,6 +97,8 @@ void stop_handlers_install(double stop_seconds)
     if (timer_create(CLOCK_MONOTONIC, &event, &watchdog))
         throw std::system_error(errno, std::generic_category(), "timer_create");
     hdr_node_stop_within(stop_seconds);
+    stop_event = eventfd(0, EFD_CLOEXEC);
+    if (stop_event < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
     handle(SIGALRM, on_watchdog);
     handle(SIGINT, on_stop);
     handle(SIGTERM, on_stop);
@@ -98,14 +114,34 @@ void stop_without_memory(int status) noexcept
 
 void hdr_node_stop_within(double stop_seconds)
 {
-    watchdog_time.it_value.tv_sec = static_cast<time_t>(stop_seconds);
-    watchdog_time.it_value.tv_nsec = static_cast<long>(1e9 * std::fmod(stop_seconds, 1.0));
+    watchdog_time.it_value = timespec_of(stop_seconds);
 }
 
 bool hdr_stop_requested(void) { return requested.load(); }
 
-/** A second request must not wind the timer up again. */
+/** A second request must not wind the timer up again. What a signal interrupts keeps its errno. */
 void hdr_stop_request(void)
 {
-    if (!requested.exchange(true)) timer_settime(watchdog, 0, &watchdog_time, nullptr);
+    const int kept = errno;
+    const uint64_t one = 1;
+    if (requested.exchange(true)) return;
+    timer_settime(watchdog, 0, &watchdog_time, nullptr);
+    const auto written = write(stop_event, &one, sizeof one);
+    static_cast<void>(written); /* -1 before there is a node */
+    errno = kept;
+}
+
+bool hdr_node_wait(double seconds)
+{
+    using clock = std::chrono::steady_clock;
+    const double longest = 1e6; /* that a timespec surely holds */
+    const auto began = clock::now();
+    double left = seconds;
+    while (!hdr_stop_requested() && left > 0.0) {
+        pollfd stop = {stop_event, POLLIN, 0};
+        const timespec wait = timespec_of(std::min(left, longest));
+        ppoll(&stop, 1, &wait, nullptr);
+        left = seconds - std::chrono::duration<double>(clock::now() - began).count();
+    }
+    return !hdr_stop_requested();
 }

@@ -1,9 +1,11 @@
 /** C views -> bytes on the wire, through roscpp's traits: type, md5 and definition are those of the
- *  generated messages, and the fields are written straight from the caller's buffers. */
+ *  generated messages, and the fields are written straight from the caller's buffers. What a view consists of is
+ *  listed once: received.hpp reads by the same lists. */
 #pragma once
 
 #include <cstring>
 #include <string>
+#include <type_traits>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <hdlyap/Cost.h>
@@ -16,6 +18,8 @@
 #include <hdlyap/State.h>
 #include <hdlyap/Steps.h>
 #include <ros/serialization.h>
+#include <std_msgs/Float64.h>
+#include <std_msgs/String.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include "hdlyap_ros/markers.h"
@@ -34,8 +38,8 @@ static_assert(int(HDR_MARKER_TEXT) == int(visualization_msgs::Marker::TEXT_VIEW_
 namespace hdlyap_ros
 {
 
-/** What a view stands for: the generated message, unless it is a part of another one only, and how it is
- *  written. */
+/** What a view stands for: the generated message, unless it is a part of another one only, and its fields
+ *  in the order of the message, each passed to the stream or filled from it. */
 template <class View> struct message_of;
 
 template <class Stream> void put(Stream &stream, const char *text)
@@ -49,13 +53,9 @@ template <class Stream> void put(Stream &stream, const hdr_strings &list)
     for (uint32_t k = 0; k < list.count; k++) put(stream, list.data[k]);
 }
 
-template <class Stream> void put(Stream &stream, const hdr_header &header)
-{
-    stream.next(uint32_t(0));
-    stream.next(header.stamp.sec);
-    stream.next(header.stamp.nsec);
-    put(stream, header.frame_id);
-}
+/** Views within views. */
+template <class Stream> void put(Stream &stream, const hdr_header &header);
+template <class Stream> void put(Stream &stream, const hdr_fit &fit);
 
 inline void put(ros::serialization::LStream &stream, const hdr_doubles &array)
 {
@@ -86,8 +86,14 @@ template <class Numbers> void put_block(ros::serialization::LStream &stream, con
     stream.advance(static_cast<uint32_t>(sizeof numbers));
 }
 
-template <class Stream> void put(Stream &stream, const hdr_point &point) { put_block(stream, point); }
-template <class Stream> void put(Stream &stream, const hdr_colour &colour) { put_block(stream, colour); }
+template <class Stream> void put(Stream &stream, const hdr_point &point)
+{
+    put_block(stream, point);
+}
+template <class Stream> void put(Stream &stream, const hdr_colour &colour)
+{
+    put_block(stream, colour);
+}
 
 template <class Stream> void put(Stream &stream, double value) { stream.next(value); }
 template <class Stream> void put(Stream &stream, bool value) { stream.next(uint8_t(value)); }
@@ -96,21 +102,24 @@ template <class Stream> void put(Stream &stream, int32_t value) { stream.next(va
 template <class Stream> void put(Stream &stream, uint32_t value) { stream.next(value); }
 template <class Stream> void put(Stream &stream, uint64_t value) { stream.next(value); }
 
-/** An array of parts of a message. */
-template <class Item> struct items {
-    const Item *data;
-    uint32_t count;
+/** An array of parts of a message: two members of a view. */
+template <class Pointer, class Count> struct items {
+    Pointer &data;
+    Count &count;
 };
 
-template <class Item> items<Item> items_of(const Item *data, uint32_t count)
+template <class Pointer, class Count> items<Pointer, Count> items_of(Pointer &data, Count &count)
 {
     return {data, count};
 }
 
-template <class Stream, class Item> void put(Stream &stream, const items<Item> &list)
+template <class Stream, class Pointer, class Count>
+void put(Stream &stream, const items<Pointer, Count> &list)
 {
+    using item = std::remove_pointer_t<Pointer>;
     stream.next(list.count);
-    for (uint32_t k = 0; k < list.count; k++) message_of<Item>::write(stream, list.data[k]);
+    for (uint32_t k = 0; k < list.count; k++)
+        message_of<std::remove_const_t<item>>::fields(stream, list.data[k]);
 }
 
 template <class Stream, class Number>
@@ -130,167 +139,208 @@ template <class Stream> void put(Stream &stream, const hdr_bytes &list)
     put_numbers(stream, list.data, list.count);
 }
 
-template <class Stream, class First, class Second, class... Rest>
-void put(Stream &stream, const First &first, const Second &second, const Rest &...rest)
+/** A field on its way out; on its way in it is taken, see received.hpp. */
+template <class Stream, class Field> void pass(Stream &stream, const Field &field)
 {
-    put(stream, first);
-    put(stream, second, rest...);
+    put(stream, field);
+}
+
+template <class Stream, class First, class Second, class... Rest>
+void pass(Stream &stream, First &&first, Second &&second, Rest &&...rest)
+{
+    pass(stream, first);
+    pass(stream, second, rest...);
+}
+
+template <> struct message_of<hdr_header> {
+    template <class Stream, class View> static void fields(Stream &s, View &v)
+    {
+        pass(s, v.seq, v.stamp.sec, v.stamp.nsec, v.frame_id);
+    }
+};
+
+template <> struct message_of<hdr_fit> {
+    template <class Stream, class View> static void fields(Stream &s, View &v)
+    {
+        pass(s, v.points, v.c, v.c_error, v.c2, v.c2_error);
+    }
+};
+
+template <class Stream> void put(Stream &stream, const hdr_header &header)
+{
+    message_of<hdr_header>::fields(stream, header);
+}
+
+template <class Stream> void put(Stream &stream, const hdr_fit &fit)
+{
+    message_of<hdr_fit>::fields(stream, fit);
 }
 
 template <> struct message_of<hdr_run_info> {
     using type = hdlyap::RunInfo;
-    template <class Stream> static void write(Stream &s, const hdr_run_info &v)
+    template <class Stream, class View> static void fields(Stream &s, View &v)
     {
-        put(s, v.header, v.run_id, v.version, v.scene, v.disks, v.density, v.aspect, v.box_x,
-            v.box_y, v.boundary_x, v.boundary_y, v.seed, v.exponents, v.vectors, v.zero_exponents,
-            v.equilibration, v.warmup, v.duration, v.target_std_error, v.interval, v.accuracy,
-            v.report_interval, v.observables, v.max_wave_number, v.max_node, v.wave_nx, v.wave_ny,
-            v.field_indices, v.pace, v.marker_modes, v.marker_rate, v.checkpoint, v.checkpoint_interval, v.resume, v.resumed_time,
-            v.threads, v.blas_threads, v.blas_library, v.blas_kernel,
-            v.blas_threading);
+        pass(s, v.header, v.run_id, v.version, v.scene, v.disks, v.density, v.aspect, v.box_x,
+             v.box_y, v.boundary_x, v.boundary_y, v.seed, v.exponents, v.vectors, v.zero_exponents,
+             v.equilibration, v.warmup, v.duration, v.target_std_error, v.interval, v.accuracy,
+             v.report_interval, v.observables, v.max_wave_number, v.max_node, v.wave_nx, v.wave_ny,
+             v.field_indices, v.field_interval, v.wait_for_subscribers, v.pace, v.marker_modes,
+             v.marker_rate, v.checkpoint, v.checkpoint_interval, v.resume, v.resumed_time, v.threads, v.blas_threads,
+             v.blas_library, v.blas_kernel, v.blas_threading);
     }
 };
 
 template <> struct message_of<hdr_spectrum> {
     using type = hdlyap::Spectrum;
-    template <class Stream> static void write(Stream &s, const hdr_spectrum &v)
+    template <class Stream, class View> static void fields(Stream &s, View &v)
     {
-        put(s, v.header, v.run_id, v.sim_time, v.averaged_time, v.collisions, v.lambda_max,
-            v.ks_entropy, v.pairing_error, v.first_index, v.exponents, v.std_errors,
-            v.local_exponents, v.cos_theta, v.dp_dq_ratio);
+        pass(s, v.header, v.run_id, v.sim_time, v.averaged_time, v.collisions, v.lambda_max,
+             v.ks_entropy, v.pairing_error, v.first_index, v.exponents, v.std_errors,
+             v.local_exponents, v.cos_theta, v.dp_dq_ratio);
     }
 };
 
 template <> struct message_of<hdr_mode> {
-    template <class Stream> static void write(Stream &s, const hdr_mode &v)
+    template <class Stream, class View> static void fields(Stream &s, View &v)
     {
-        put(s, v.index, v.exponent, v.kind, v.nx, v.ny, v.wave_number, v.weight, v.weight_l,
-            v.weight_p, v.weight_now, v.null_x, v.null_y, v.null_p, v.step);
+        pass(s, v.index, v.exponent, v.kind, v.nx, v.ny, v.wave_number, v.weight, v.weight_l,
+             v.weight_p, v.weight_now, v.null_x, v.null_y, v.null_p, v.step);
     }
 };
 
 template <> struct message_of<hdr_modes> {
     using type = hdlyap::Modes;
-    template <class Stream> static void write(Stream &s, const hdr_modes &v)
+    template <class Stream, class View> static void fields(Stream &s, View &v)
     {
-        put(s, v.header, v.run_id, v.sim_time, v.averaged_time, v.samples,
-            items_of(v.modes, v.count));
+        pass(s, v.header, v.run_id, v.sim_time, v.averaged_time, v.samples,
+             items_of(v.modes, v.count));
     }
 };
 
 template <> struct message_of<hdr_step> {
-    template <class Stream> static void write(Stream &s, const hdr_step &v)
+    template <class Stream, class View> static void fields(Stream &s, View &v)
     {
-        put(s, v.kind, v.nx, v.ny, v.wave_number, v.conjugate, v.resolved, v.expected,
-            v.first_index, v.last_index, v.multiplicity, v.set, v.members, v.exponent, v.std_error);
+        pass(s, v.kind, v.nx, v.ny, v.wave_number, v.conjugate, v.resolved, v.expected,
+             v.first_index, v.last_index, v.multiplicity, v.set, v.members, v.exponent,
+             v.std_error);
     }
 };
 
 template <> struct message_of<hdr_steps> {
     using type = hdlyap::Steps;
-    template <class Stream> static void write(Stream &s, const hdr_steps &v)
+    template <class Stream, class View> static void fields(Stream &s, View &v)
     {
-        put(s, v.header, v.run_id, v.sim_time, v.averaged_time, v.threshold,
-            items_of(v.steps, v.count));
-        for (const hdr_fit &fit : {v.t, v.l})
-            put(s, fit.points, fit.c, fit.c_error, fit.c2, fit.c2_error);
-        put(s, v.v_phases, v.v, v.v_error);
+        pass(s, v.header, v.run_id, v.sim_time, v.averaged_time, v.threshold,
+             items_of(v.steps, v.count), v.t, v.l, v.v_phases, v.v, v.v_error);
     }
 };
 
 template <> struct message_of<hdr_lp_phase> {
-    template <class Stream> static void write(Stream &s, const hdr_lp_phase &v)
+    template <class Stream, class View> static void fields(Stream &s, View &v)
     {
-        put(s, v.step, v.nx, v.ny, v.modulation, v.index, v.state, v.a, v.b, v.phase, v.omega,
-            v.omega_error, v.velocity, v.tracked_time);
+        pass(s, v.step, v.nx, v.ny, v.modulation, v.index, v.state, v.a, v.b, v.phase, v.omega,
+             v.omega_error, v.velocity, v.tracked_time);
     }
 };
 
 template <> struct message_of<hdr_lp_phases> {
     using type = hdlyap::LpPhases;
-    template <class Stream> static void write(Stream &s, const hdr_lp_phases &v)
+    template <class Stream, class View> static void fields(Stream &s, View &v)
     {
-        put(s, v.header, v.run_id, v.sim_time, v.samples_per_report, items_of(v.phases, v.count));
+        pass(s, v.header, v.run_id, v.sim_time, v.samples_per_report, items_of(v.phases, v.count));
     }
 };
 
 template <> struct message_of<hdr_mode_field> {
     using type = hdlyap::ModeField;
-    template <class Stream> static void write(Stream &s, const hdr_mode_field &v)
+    template <class Stream, class View> static void fields(Stream &s, View &v)
     {
-        put(s, v.header, v.run_id, v.sim_time, v.index, v.kind, v.nx, v.ny, v.wave_number,
-            v.exponent, v.x, v.y, v.px, v.py, v.dqx, v.dqy, v.dpx, v.dpy, v.pairs, v.modulation,
-            v.residual_l, v.residual_p, v.rotation_distance, v.l_x, v.l_y, v.p_x, v.p_y,
-            v.p_over_px, v.p_over_py);
+        pass(s, v.header, v.run_id, v.sim_time, v.index, v.kind, v.nx, v.ny, v.wave_number,
+             v.exponent, v.x, v.y, v.px, v.py, v.dqx, v.dqy, v.dpx, v.dpy, v.pairs, v.modulation,
+             v.residual_l, v.residual_p, v.rotation_distance, v.l_x, v.l_y, v.p_x, v.p_y,
+             v.p_over_px, v.p_over_py);
     }
 };
 
 template <> struct message_of<hdr_hydro_mode> {
-    template <class Stream> static void write(Stream &s, const hdr_hydro_mode &v)
+    template <class Stream, class View> static void fields(Stream &s, View &v)
     {
-        put(s, v.step, v.index, v.kind, v.nx, v.ny, v.modulation, v.density, v.along, v.across,
-            v.energy);
+        pass(s, v.step, v.index, v.kind, v.nx, v.ny, v.modulation, v.density, v.along, v.across,
+             v.energy);
     }
 };
 
 template <> struct message_of<hdr_hydro> {
     using type = hdlyap::Hydro;
-    template <class Stream> static void write(Stream &s, const hdr_hydro &v)
+    template <class Stream, class View> static void fields(Stream &s, View &v)
     {
-        put(s, v.header, v.run_id, v.sim_time, items_of(v.responses, v.count));
+        pass(s, v.header, v.run_id, v.sim_time, items_of(v.responses, v.count));
     }
 };
 
 template <> struct message_of<hdr_state> {
     using type = hdlyap::State;
-    template <class Stream> static void write(Stream &s, const hdr_state &v)
+    template <class Stream, class View> static void fields(Stream &s, View &v)
     {
-        put(s, v.header, v.run_id, v.sim_time, v.kinetic_energy, v.x, v.y, v.px, v.py);
+        pass(s, v.header, v.run_id, v.sim_time, v.kinetic_energy, v.x, v.y, v.px, v.py);
     }
 };
 
 template <> struct message_of<hdr_cost> {
     using type = hdlyap::Cost;
-    template <class Stream> static void write(Stream &s, const hdr_cost &v)
+    template <class Stream, class View> static void fields(Stream &s, View &v)
     {
-        put(s, v.header, v.run_id, v.sim_time, v.phase, v.wall_seconds, v.events_seconds,
-            v.replay_seconds, v.ortho_seconds, v.spectrum_seconds, v.modes_seconds,
-            v.publish_seconds, v.events_per_second, v.interval, v.interval_limit, v.condition,
-            v.orthogonality_defect, v.error_bound, v.orthonormalisations, v.second_passes, v.looks,
-            v.repairs, v.std_error, v.progress, v.remaining_seconds);
+        pass(s, v.header, v.run_id, v.sim_time, v.phase, v.wall_seconds, v.events_seconds,
+             v.replay_seconds, v.ortho_seconds, v.spectrum_seconds, v.modes_seconds,
+             v.publish_seconds, v.events_per_second, v.interval, v.interval_limit, v.condition,
+             v.orthogonality_defect, v.error_bound, v.orthonormalisations, v.second_passes, v.looks,
+             v.repairs, v.std_error, v.progress, v.remaining_seconds);
     }
 };
 
 template <> struct message_of<hdr_key_value> {
-    template <class Stream> static void write(Stream &s, const hdr_key_value &v)
+    template <class Stream, class View> static void fields(Stream &s, View &v)
     {
-        put(s, v.key, v.value);
+        pass(s, v.key, v.value);
     }
 };
 
 template <> struct message_of<hdr_diagnostic> {
     using type = diagnostic_msgs::DiagnosticArray;
-    template <class Stream> static void write(Stream &s, const hdr_diagnostic &v)
+    template <class Stream> static void fields(Stream &s, const hdr_diagnostic &v)
     {
         const uint32_t statuses = 1;
-        put(s, v.header, statuses, v.level, v.name, v.message, v.hardware_id,
-            items_of(v.values, v.count));
+        pass(s, v.header, statuses);
+        status(s, v);
     }
+    template <class Stream, class View> static void status(Stream &s, View &v)
+    {
+        pass(s, v.level, v.name, v.message, v.hardware_id, items_of(v.values, v.count));
+    }
+};
+
+template <> struct message_of<hdr_float64> {
+    using type = std_msgs::Float64;
+    template <class Stream, class View> static void fields(Stream &s, View &v) { pass(s, v.data); }
+};
+
+template <> struct message_of<hdr_string> {
+    using type = std_msgs::String;
+    template <class Stream, class View> static void fields(Stream &s, View &v) { pass(s, v.data); }
 };
 
 /** pose, scale, colour, life time, frame_locked; points, colours, text; no mesh. */
 template <> struct message_of<hdr_marker> {
-    template <class Stream>
-    static void write(Stream &s, const char *frame_id, const hdr_marker &v)
+    template <class Stream> static void write(Stream &s, const char *frame_id, const hdr_marker &v)
     {
         const uint32_t zero = 0;
         const double upright[] = {0.0, 0.0, 0.0, 1.0};
-        put(s, hdr_header{{0, 0}, frame_id}, v.ns, v.id, v.type, v.action, v.position);
+        pass(s, hdr_header{{0, 0}, frame_id, 0}, v.ns, v.id, v.type, v.action, v.position);
         put_block(s, upright);
-        put(s, v.scale, v.colour, zero, zero, false);
+        pass(s, v.scale, v.colour, zero, zero, false);
         put_points(s, v.points, v.count);
         put_points(s, v.colours, v.colours ? v.count : 0);
-        put(s, v.text, "", false);
+        pass(s, v.text, "", false);
     }
 
     template <class Stream, class Item>
@@ -303,7 +353,7 @@ template <> struct message_of<hdr_marker> {
 
 template <> struct message_of<hdr_markers> {
     using type = visualization_msgs::MarkerArray;
-    template <class Stream> static void write(Stream &s, const hdr_markers &v)
+    template <class Stream> static void fields(Stream &s, const hdr_markers &v)
     {
         s.next(v.count);
         for (uint32_t k = 0; k < v.count; k++)
@@ -337,6 +387,8 @@ HDR_VIEW_TRAITS(hdr_hydro)
 HDR_VIEW_TRAITS(hdr_state)
 HDR_VIEW_TRAITS(hdr_cost)
 HDR_VIEW_TRAITS(hdr_diagnostic)
+HDR_VIEW_TRAITS(hdr_float64)
+HDR_VIEW_TRAITS(hdr_string)
 HDR_VIEW_TRAITS(hdr_markers)
 #undef HDR_VIEW_TRAITS
 #undef HDR_VIEW_TRAIT
@@ -347,7 +399,7 @@ namespace serialization
 template <class View> struct ViewSerializer {
     template <class Stream> static void write(Stream &stream, const View &view)
     {
-        hdlyap_ros::message_of<View>::write(stream, view);
+        hdlyap_ros::message_of<View>::fields(stream, view);
     }
     static uint32_t serializedLength(const View &view)
     {
@@ -375,6 +427,10 @@ template <> struct Serializer<hdr_state> : ViewSerializer<hdr_state> {
 template <> struct Serializer<hdr_cost> : ViewSerializer<hdr_cost> {
 };
 template <> struct Serializer<hdr_diagnostic> : ViewSerializer<hdr_diagnostic> {
+};
+template <> struct Serializer<hdr_float64> : ViewSerializer<hdr_float64> {
+};
+template <> struct Serializer<hdr_string> : ViewSerializer<hdr_string> {
 };
 template <> struct Serializer<hdr_markers> : ViewSerializer<hdr_markers> {
 };

@@ -1,17 +1,18 @@
 """Recording -> figures, as PNG and SVG: one file here for each."""
 
-from . import (convergence, cost, dispersion, modes, p_mode, phases, spectrum)
+from . import (convergence, cost, dispersion, modes, p_mode, phases, spectrum,
+               steps)
 from .style import STYLE, plt, save
 
 # in the order in which plot_bag names them; each gives None where the bag has nothing for it
-FIGURES = (spectrum, convergence, dispersion, modes, p_mode, phases, cost)
+FIGURES = (spectrum, convergence, steps, dispersion, modes, p_mode, phases, cost)
 
 
-def draw_all(recording, folder):
+def draw_all(recording, folder, progress):
     """Every figure that the recording has data for; the names of the files written."""
     files = []
     with plt.rc_context(STYLE):
-        for kind in FIGURES:
+        for kind in progress.over(FIGURES, len(FIGURES)):
             figure = kind.draw(recording)
             if figure is not None:
                 files += save(figure, folder, kind.__name__.rpartition('.')[2])

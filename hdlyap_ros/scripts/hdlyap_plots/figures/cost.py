@@ -2,12 +2,9 @@
 
 import numpy as np
 
-from ..recording import STAGES
+from ..stages import LABELS, STAGES
 from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, plt, thinned
 
-STAGE_LABELS = {'events': 'events', 'replay': 'tangent replay', 'ortho': 'orthonormalisation',
-                'spectrum': 'averages', 'modes': 'classification', 'publish': 'publishing',
-                'other': 'other'}
 STAGE_COLOURS = {'events': BLUE, 'replay': SKY, 'ortho': ORANGE, 'spectrum': GREEN,
                  'modes': VERMILION, 'publish': PURPLE, 'other': '#BFBFBF'}
 PHASES = ('equilibration', 'warm-up', 'averaging')
@@ -27,7 +24,7 @@ def draw(recording):
 
 def _course(axes, cost):
     kept = thinned(len(cost['time']))
-    axes.stackplot(cost['time'][kept], *(cost[stage][kept] for stage in STAGE_LABELS),
+    axes.stackplot(cost['time'][kept], *(cost[stage][kept] for stage in LABELS),
                    colors=list(STAGE_COLOURS.values()), linewidth=0)
     for phase, name in enumerate(PHASES):
         during = cost['time'][cost['phase'] == phase]
@@ -44,14 +41,14 @@ def _course(axes, cost):
 
 
 def _shares(axes, cost):
-    seconds = np.array([cost[stage][-1] for stage in STAGE_LABELS])
+    seconds = np.array([cost[stage][-1] for stage in LABELS])
     rows = np.arange(len(seconds))
     axes.barh(rows, seconds, color=list(STAGE_COLOURS.values()))
     for row, value in zip(rows, seconds):
         axes.annotate(f'{value:.3g} s ({100 * value / cost["wall"][-1]:.1f} %)', (value, row),
                       xytext=(3, 0), textcoords='offset points', va='center', fontsize=8)
     axes.set_yticks(rows)
-    axes.set_yticklabels(STAGE_LABELS.values())
+    axes.set_yticklabels(LABELS.values())
     axes.tick_params(axis='y', length=0)
     axes.invert_yaxis()
     axes.set_xlim(0, 1.9 * max(seconds))

@@ -1,7 +1,7 @@
 """Vector fields of the modes with the smallest exponents, one of each step, at the disks."""
 
 import numpy as np
-from matplotlib.collections import PatchCollection
+from matplotlib.collections import EllipseCollection
 
 from .. import steps
 from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, plt, scene
@@ -10,6 +10,8 @@ PANELS = 6
 WIDTH = 7.2         # of the figure [inch]
 TALLEST = 9.0
 LONG = 26           # names do not fit over a panel in the usual size
+ALONE = 4.2         # of a figure with one panel [inch]
+MANY = 10000        # arrows, as curves, would fill megabytes of an SVG file
 ARROW = 1.3         # root mean square length of the arrows [sigma]
 CHANNEL = 2.0       # a box narrower than this, in sigma, has no room for arrows
 
@@ -43,7 +45,7 @@ def draw(recording):
         figure = _channel(panels, info)
     else:
         figure = _fields(panels, info)
-    figure.suptitle(scene(info) + f', $t={panels[0].field.sim_time:g}$', fontsize=9)
+    figure.suptitle(scene(info) + f', $t={panels[0].field.sim_time:g}$: $\\delta q$', fontsize=9)
     return figure
 
 
@@ -68,11 +70,16 @@ def chosen(recording):
 def _fields(panels, info):
     columns = _columns(len(panels), info)
     rows = -(-len(panels) // columns)
-    height = rows * (WIDTH / columns * info.box_y / info.box_x + 0.3) + 0.3
-    figure, grid = plt.subplots(rows, columns, figsize=(WIDTH, min(height, TALLEST)),
+    width = WIDTH if len(panels) > 1 else ALONE
+    height = rows * (width / columns * info.box_y / info.box_x + 0.3) + 0.5
+    figure, grid = plt.subplots(rows, columns, figsize=(width, min(height, TALLEST)),
                                 squeeze=False, constrained_layout=True)
     for axes, panel in zip(grid.flat, panels):
-        _arrows(axes, panel, info)
+        _arrows(axes, panel, info, as_pixels=len(panels) * info.disks > MANY)
+    for axes in grid[:, 0]:
+        axes.set_ylabel(r'$y$  [$\sigma$]', fontsize=7)
+    for column, lowest in zip(grid.T, _lowest(len(panels), columns)):
+        column[lowest].set_xlabel(r'$x$  [$\sigma$]', fontsize=7)
     for axes in grid.flat[len(panels):]:
         axes.set_axis_off()
     return figure
@@ -86,20 +93,34 @@ def _columns(count, info):
     return max(range(1, min(count, 3) + 1), key=lambda columns: (size(columns), columns))
 
 
-def _arrows(axes, panel, info):
+def _lowest(count, columns):
+    """Row of the last panel in each column."""
+    return [(count - 1 - column) // columns for column in range(columns)]
+
+
+def _arrows(axes, panel, info, as_pixels):
     field = panel.field
     dq = np.array([field.dqx, field.dqy])
     dq = dq * ARROW / np.sqrt(np.mean(np.sum(dq ** 2, axis=0)))
-    axes.add_collection(PatchCollection([plt.Circle(q, 0.5) for q in zip(field.x, field.y)],
-                                        facecolors='none', edgecolors=LIGHT, linewidths=0.4))
+    axes.add_collection(_disks(axes, field))
     axes.quiver(field.x, field.y, *dq, angles='xy', scale_units='xy', scale=1, units='xy',
                 width=0.13, headwidth=3.5, headlength=4, headaxislength=3.5, minlength=0,
-                color=panel.colour, zorder=3)
+                color=panel.colour, zorder=3, rasterized=as_pixels)
     axes.set_aspect('equal')
     axes.set_xlim(0, info.box_x)
     axes.set_ylim(0, info.box_y)
     axes.set_title(panel.title, fontsize=8 if len(panel.name) < LONG else 6)
     axes.tick_params(labelsize=6, length=2)
+
+
+def _disks(axes, field):
+    """One outline, repeated: much less of a file than one for each disk."""
+    # matplotlib 3.6 has given it another name
+    transform = ('offset_transform' if hasattr(EllipseCollection, 'set_offset_transform')
+                 else 'transOffset')
+    return EllipseCollection([1.0], [1.0], [0.0], units='xy', offsets=np.c_[field.x, field.y],
+                             facecolors='none', edgecolors=LIGHT, linewidths=0.4,
+                             **{transform: axes.transData})
 
 
 def _channel(panels, info):
@@ -118,6 +139,7 @@ def _channel(panels, info):
         axes.axhline(0, color=GREY, linewidth=0.5)
         axes.set_title(panel.title, fontsize=8)
         axes.set_xlim(0, max(info.box_x, info.box_y))
+        axes.set_ylabel(r'$\delta q$ / rms', fontsize=7)
     rows.flat[0].legend(ncol=2, loc='lower right', bbox_to_anchor=(1, 0.97), borderpad=0,
                         handletextpad=0.2, columnspacing=1)
     rows.flat[-1].set_xlabel(rf'${along}$  [$\sigma$]')

@@ -3,9 +3,8 @@
 import numpy as np
 
 from .. import steps
-from ..phases import regression
+from ..phases import apart, mean_omega, regression
 from ..numbers import with_error
-from ..step_table import mean_omega
 from .style import MEMBER_COLOURS, plt, scene, thinned
 
 STEPS = 4           # are shown
@@ -44,18 +43,8 @@ def chosen(recording):
         ranked = sorted((phase for phase in tracked if tracked[phase] > 0),
                         key=lambda phase: (-tracked[phase], phase))
         if ranked:
-            shown.append((number, _apart(recording.phases.last.phases, ranked)))
+            shown.append((number, apart(recording.phases.last.phases, ranked)[:PER_STEP]))
     return shown[:STEPS]
-
-
-def _apart(phases, ranked):
-    """The first ones that have neither vector nor pair in common."""
-    apart = []
-    for number in ranked:
-        if all(phases[number].index != phases[other].index
-               and phases[number].modulation != phases[other].modulation for other in apart):
-            apart.append(number)
-    return apart[:PER_STEP]
 
 
 def _tracked(recording, number):

@@ -7,7 +7,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt     # noqa: E402
 import numpy as np                  # noqa: E402
 
-from ..recording import known       # noqa: E402
+from ..numbers import known       # noqa: E402
 from .. import steps                # noqa: E402
 
 POINTS = 2000       # of a curve; more cannot be seen
@@ -29,7 +29,8 @@ STYLE = {'font.size': 9, 'axes.titlesize': 9, 'axes.labelsize': 9, 'legend.fonts
 def save(figure, folder, name):
     """Complete files only: a good older one is replaced in one step."""
     files = []
-    for suffix, options in (('png', {'dpi': 250}), ('svg', {'metadata': {'Date': None}})):
+    for suffix, options in (('png', {'dpi': 250}),
+                            ('svg', {'dpi': 200, 'metadata': {'Date': None}})):
         path = os.path.join(folder, f'{name}.{suffix}')
         unfinished = os.path.join(folder, f'.{name}.{os.getpid()}.{suffix}')
         try:

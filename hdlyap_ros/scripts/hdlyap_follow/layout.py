@@ -1,0 +1,47 @@
+"""View and size of the screen -> the lines on it: what matters most has room first, the two tables
+share what is left."""
+
+from . import panels
+
+ORDER = ('head', 'progress', 'numbers', 'table', 'phases', 'cost', 'diagnosis', 'keys')
+TABLES = ('table', 'phases')
+# of the others, by importance where there is not room for all
+FIRST = ('progress', 'diagnosis', 'head', 'numbers', 'keys', 'cost')
+SPACED = ('table', 'phases', 'cost', 'diagnosis', 'numbers', 'keys', 'progress')   # likewise
+
+
+def lines(view, size, glyphs):
+    """At most as many as the screen has."""
+    width, height = size
+    wanted = {'head': panels.head(view), 'progress': panels.progress(view, width, glyphs),
+              'numbers': panels.numbers(view, width), 'table': panels.table(view, width),
+              'phases': panels.phases(view, glyphs), 'cost': panels.cost(view, width, glyphs),
+              'diagnosis': panels.diagnosis(view), 'keys': panels.keys(view)}
+    room = allotted({name: len(panel) for name, panel in wanted.items()}, height)
+    shown = {name: wanted[name][:room[name]] for name in FIRST}
+    shown.update((name, shortened(wanted[name], room[name])) for name in TABLES)
+    spare = height - sum(map(len, shown.values()))
+    spaced = [name for name in SPACED if shown[name]][:max(0, spare)]
+    return [line for name in ORDER for line in ([[]] if name in spaced else []) + shown[name]]
+
+
+def allotted(wanted, height):
+    """{panel: lines}"""
+    room, left = {}, height
+    for name in FIRST:
+        room[name] = min(wanted[name], left)
+        left -= room[name]
+    least = min(wanted['phases'], left // 3)
+    room['phases'] = min(wanted['phases'], max(least, left - wanted['table']))
+    room['table'] = min(wanted['table'], left - room['phases'])
+    return room
+
+
+def shortened(panel, room):
+    """A table that is cut says so in its heading, and is nothing without a row."""
+    if len(panel) <= room:
+        return panel
+    if room < 2:
+        return panel[:room] if len(panel) == 1 else []
+    heading = panel[0] + [(f'   {len(panel) - room} more', 'faint')]
+    return [heading] + panel[1:room]

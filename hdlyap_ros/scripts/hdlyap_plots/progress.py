@@ -1,0 +1,50 @@
+"""What takes a while -> a bar on the terminal with the time left, gone when it is done."""
+
+import sys
+import time
+
+from . import glyphs
+from .numbers import clock
+
+SILENT = 1.0        # seconds without a bar: what is done by then needs none
+PERIOD = 0.2        # seconds between two of them
+COLUMNS = 30
+
+
+class Progress:
+    """Only on a terminal."""
+
+    def __init__(self, what, stream=sys.stderr):
+        self._what, self._stream = what, stream
+        self._glyphs = glyphs.chosen(stream)
+        self._shown = False
+
+    def over(self, things, total):
+        """Passes them on; total: how many there will be."""
+        if not self._stream.isatty():
+            yield from things
+            return
+        began = time.monotonic()
+        due = began + SILENT
+        try:
+            for count, thing in enumerate(things):
+                now = time.monotonic()
+                if now >= due:
+                    due = now + PERIOD
+                    self._show(count / total, now - began)
+                yield thing
+        finally:
+            self._clear()
+
+    def _show(self, share, seconds):
+        left = f'  {clock(seconds * (1 / share - 1))} left' if share > 0 else ''
+        bar = self._glyphs.bar(share, COLUMNS, rest=True)
+        self._write(f'\r{self._what}  {bar} {100 * share:3.0f} %{left}\033[K')
+        self._shown = True
+
+    def _clear(self):
+        if self._shown:
+            self._write('\r\033[K')
+
+    def _write(self, text):
+        print(text, end='', file=self._stream, flush=True)

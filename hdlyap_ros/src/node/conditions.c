@@ -1,0 +1,65 @@
+/** OK while it computes and there is nothing to say. ERROR: a fault has ended it, or what it says or keeps is no longer
+ *  right. WARN: the numbers are right, but not what was hoped for. */
+#include "conditions.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/** A subscriber that is so far behind does not only take its time [s]. */
+static const double behind_seconds = 3.0;
+
+/** Errors are added before warnings. */
+__attribute__((format(printf, 3, 4))) static void add(conditions *all, uint8_t level,
+                                                      const char *format, ...)
+{
+    const size_t length = strlen(all->message);
+    char *end = all->message + length;
+    const size_t room = sizeof all->message - length;
+    const int separator = snprintf(end, room, "%s", length > 0 ? "; " : "");
+    va_list list;
+    va_start(list, format);
+    if ((size_t)separator < room)
+        vsnprintf(end + separator, room - (size_t)separator, format, list);
+    va_end(list);
+    if (level > all->level) all->level = level;
+}
+
+static void add_errors(conditions *all, const worker_state *state)
+{
+    const examination *disks = &state->disks;
+    const uint8_t level = HDR_DIAGNOSTIC_ERROR;
+    if (state->status != HD_OK) add(all, level, "%s", hd_status_text(state->status));
+    if (state->checkpoint.failed) add(all, level, "%s", state->checkpoint.message);
+    if (examination_overlap(disks))
+        add(all, level, "disks overlap by %.2g, rounding explains %.2g", disks->overlap,
+            disks->overlap_max);
+    if (examination_drift(disks))
+        add(all, level, "energy is off by %.2g, rounding explains %.2g", disks->energy_error,
+            disks->energy_error_max);
+}
+
+static void add_warnings(conditions *all, const worker_state *state, const hdr_lag *slowest,
+                         bool repaired)
+{
+    const error_at *last = &state->errors.last;
+    const uint8_t level = HDR_DIAGNOSTIC_WARN;
+    error_at since;
+    if (repaired) add(all, level, "intervals were too long and had to be repaired");
+    if (error_course_stalled(&state->errors, &since))
+        add(all, level,
+            "errors of the smallest exponents do not fall: %.2g after %.3g averaged, %.2g after "
+            "%.3g",
+            since.error, since.time, last->error, last->time);
+    if (slowest->seconds >= behind_seconds || slowest->losing)
+        add(all, level, "a subscriber of %s is %.1f s behind%s", slowest->topic, slowest->seconds,
+            slowest->losing ? " and loses messages" : "");
+}
+
+conditions conditions_of(const worker_state *state, const hdr_lag *slowest, bool repaired)
+{
+    conditions all = {.level = HDR_DIAGNOSTIC_OK, .message = ""};
+    add_errors(&all, state);
+    add_warnings(&all, state, slowest, repaired);
+    return all;
+}

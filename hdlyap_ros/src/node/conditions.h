@@ -1,0 +1,15 @@
+/** All that is wrong with a run now -> one level and one message. */
+#ifndef HDLYAP_CONDITIONS_H
+#define HDLYAP_CONDITIONS_H
+
+#include "worker.h"
+
+typedef struct conditions {
+    uint8_t level;      /**< HDR_DIAGNOSTIC_*, of the worst of them */
+    char message[1024]; /**< of each of them, the worst first; "" if there is none */
+} conditions;
+
+/** repaired: intervals were, lately. The levels are in the README. */
+conditions conditions_of(const worker_state *state, const hdr_lag *slowest, bool repaired);
+
+#endif

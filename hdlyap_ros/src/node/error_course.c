@@ -1,0 +1,43 @@
+/** The rule: over eight times the averaged time an error falls to 0.35, over 32 times to 0.18 of what it was. Errors
+ *  from few blocks are uncertain themselves, most of all the first ones: without them, the error has fallen
+ *  to 0.55 or less in all of 420 runs of 20 scenes and many seeds, with them to 2.1 in one. */
+#include "error_course.h"
+
+#include <math.h>
+
+static const double growth = 8.0;
+/** Of the earlier error: more is no matter of chance. */
+static const double stalled_ratio = 0.8;
+/** Averaged time of errors that are believed, in that of the first one. */
+static const double settling = 4.0;
+/** Binary exponent of the shortest averaged time that has a mark of its own. */
+enum { FIRST_EXPONENT = -20 };
+
+static int mark_of(double time)
+{
+    const int k = ilogb(time) - FIRST_EXPONENT;
+    return k < 0 ? 0 : k < ERROR_COURSE_MARKS ? k : ERROR_COURSE_MARKS - 1;
+}
+
+void error_course_add(error_course *course, double time, double error)
+{
+    if (time < course->last.time) *course = (error_course){.first = 0.0};
+    if (!(time > 0.0) || !(error >= 0.0)) return;
+    course->last = (error_at){time, error};
+    if (course->first == 0.0) course->first = time;
+    if (time < settling * course->first) return;
+    error_at *mark = &course->mark[mark_of(time)];
+    if (mark->time == 0.0) *mark = course->last;
+}
+
+bool error_course_stalled(const error_course *course, error_at *since)
+{
+    const error_at *last = &course->last;
+    if (last->time == 0.0) return false;
+    for (int k = mark_of(last->time); k >= 0; k--) {
+        *since = course->mark[k];
+        if (since->time > 0.0 && since->time * growth <= last->time)
+            return !(last->error < stalled_ratio * since->error);
+    }
+    return false;
+}

@@ -1,0 +1,113 @@
+"""A program on a terminal of its own: what it draws, what is typed, and how it leaves that."""
+
+import codecs
+import fcntl
+import os
+import pty
+import re
+import struct
+import subprocess
+import termios
+import threading
+
+import harness
+
+TOKEN = re.compile(r'\033\[(\??)([0-9;]*)([A-Za-z])|(\r\n|\r|\n)|([^\033\r\n]+)')
+
+
+class Terminal:
+    """command runs in the foreground of it; stopped at the latest by stop()."""
+
+    def __init__(self, command, columns=80, lines=24, **env):
+        self.master, slave = pty.openpty()
+        self.resize(columns, lines)
+        self.before = termios.tcgetattr(slave)
+        self.output = ''
+        self.process = subprocess.Popen(
+            command, stdin=slave, stdout=slave, stderr=slave, start_new_session=True,
+            preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),
+            env={**os.environ, 'TERM': 'xterm-256color', 'PYTHONIOENCODING': 'utf-8', **env})
+        self.slave = slave      # kept open, so that what was drawn last is not lost
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    def _read(self):
+        decoder = codecs.getincrementaldecoder('utf-8')()
+        while True:
+            try:
+                data = os.read(self.master, 65536)
+            except OSError:
+                return
+            self.output += decoder.decode(data)
+
+    def resize(self, columns, lines):
+        fcntl.ioctl(self.master, termios.TIOCSWINSZ, struct.pack('HHHH', lines, columns, 0, 0))
+
+    def press(self, keys):
+        os.write(self.master, keys.encode())
+
+    def screen(self):
+        """Its lines now."""
+        return Picture(self.output).lines
+
+    def wait_for(self, text, seconds=harness.PATIENCE):
+        """Whether it has come to stand on the screen."""
+        return harness.wait_until(lambda: text in '\n'.join(self.screen()), seconds)
+
+    def wait(self, seconds=harness.PATIENCE):
+        """Exit status; raises subprocess.TimeoutExpired."""
+        return self.process.wait(seconds)
+
+    def is_as_before(self):
+        """Keyboard, cursor, wrapping and screen are those of the shell again."""
+        picture = Picture(self.output)
+        return (termios.tcgetattr(self.slave) == self.before and picture.modes <= {7, 25}
+                and {7, 25} <= picture.modes)
+
+    def stop(self):
+        if self.process.poll() is None:
+            self.process.kill()
+            self.process.wait()
+        for descriptor in (self.slave, self.master):
+            os.close(descriptor)
+
+
+class Picture:
+    """What the bytes that went to a terminal amount to."""
+
+    def __init__(self, output):
+        self.lines, self.modes = [''], {7, 25}      # wraps, shows its cursor
+        self._row = self._column = 0
+        self._other = None      # what stands on the screen that is not shown
+        for token in TOKEN.finditer(output):
+            private, numbers, command, newline, text = token.groups()
+            if command:
+                self._obey(private, numbers, command)
+            elif newline:
+                self._column = 0
+                self._row += '\n' in newline
+            else:
+                self._write(text)
+
+    def _write(self, text):
+        self.lines += [''] * (self._row + 1 - len(self.lines))
+        line = self.lines[self._row].ljust(self._column)
+        self.lines[self._row] = line[:self._column] + text + line[self._column + len(text):]
+        self._column += len(text)
+
+    def _obey(self, private, numbers, command):
+        if private:
+            self._switch(int(numbers), command == 'h')
+        elif command == 'H':
+            self._row = self._column = 0
+        elif command == 'K':
+            self._write('')
+            self.lines[self._row] = self.lines[self._row][:self._column]
+        elif command == 'J':
+            del self.lines[0 if numbers == '2' else self._row + 1:]
+
+    def _switch(self, mode, on):
+        (self.modes.add if on else self.modes.discard)(mode)
+        if mode == 1049:
+            self.lines, self._other = self._other or [''], self.lines
+            self._row, self._column = len(self.lines) - 1 if not on else 0, 0

@@ -1,0 +1,319 @@
+#!/usr/bin/env python3
+"""Recording, replaying and repeating runs by the launch files: nothing is lost, nothing is changed, and a bag says all of its run."""
+
+import glob
+import io
+import os
+import re
+import signal
+import tempfile
+import unittest
+import xmlrpc.client
+
+import rosbag
+import roslib.packages
+import rospy
+import rostest
+from std_srvs.srv import SetBool
+
+import harness
+import links
+from harness import MODES, NODE, OBSERVABLES, SHORT, TYPES, Process
+
+README = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../README.md')
+# a second run in the bag, and before it a first one
+FIRST = dict(SHORT, seed='7', observables=OBSERVABLES, wait_for_subscribers='all')
+RUN = dict(MODES, seed='11', threads=1, pace=100.0, observables=OBSERVABLES, field_interval=5.0, wait_for_subscribers='all')
+REPORTS, BEGIN = 90, 70.0      # of RUN; where its averaging begins
+# 64 kB a report
+BULKY = dict(disks=2000, density=0.7, aspect=1.0, exponents=20, equilibration=0.2, warmup=0.2, duration=0.0,
+             report_interval=0.1, pace=10.0, observables=['spectrum', 'state'], wait_for_subscribers='all')
+PROBED = {'fields': 'mode_field'}   # of topics that the probe knows by another name
+
+
+def program(name):
+    return roslib.packages.find_node('hdlyap', name)[0]
+
+
+def launch(folder, *args):
+    return Process(['roslaunch', 'hdlyap', *args], PWD=folder)
+
+
+def end(process):
+    """Ctrl-C; killed, roslaunch would leave others behind."""
+    if process.running():
+        process.send(signal.SIGINT)
+    assert process.wait() == 0, process.text()
+
+
+def is_recorded(node, topics):
+    """True once the recorder is connected to all of these topics."""
+    with xmlrpc.client.ServerProxy(links.node_uri(node)) as proxy:
+        connected = {topic for _, to, _, _, topic, *_ in proxy.getBusInfo('/test')[2] if to == '/record'}
+    return {'/%s/%s' % (NODE, topic) for topic in topics} <= connected
+
+
+class Raw:
+    """Bytes of all messages of some topics, in the order of their arrival."""
+
+    def __init__(self, topics):
+        self.messages = {topic: [] for topic in topics}
+        self.subscribers = [rospy.Subscriber(topic, rospy.AnyMsg, self.keep, topic, queue_size=None)
+                            for topic in topics]
+
+    def keep(self, message, topic):
+        self.messages[topic].append(message._buff)
+
+    def close(self):
+        for subscriber in self.subscribers:
+            subscriber.unregister()
+
+
+def read(path):
+    """By topic, messages as (type name, bytes, md5 sum, class)."""
+    messages = {}
+    with rosbag.Bag(path) as bag:
+        for topic, (kind, data, md5, *_, cls), _ in bag.read_messages(raw=True):
+            messages.setdefault(topic, []).append((kind, bytes(data), md5, cls))
+    return messages
+
+
+def unpacked(packed):
+    return [cls().deserialize(data) for _, data, _, cls in packed]
+
+
+def plain(messages):
+    """Without what the clock and the run's name are."""
+    for message in messages:
+        message.header.seq, message.header.stamp, message.run_id = 0, rospy.Time(), ''
+    return messages
+
+
+class Recorded(unittest.TestCase):
+    """Two runs of one node in one bag."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder, cls.bag = folder.name, os.path.join(folder.name, 'run.bag')
+        recorder = launch(cls.folder, 'record.launch', 'bag:=run.bag')
+        cls.addClassCleanup(end, recorder)
+        cls.counts = [cls.run_of(params) for params in (FIRST, RUN)]
+        end(recorder)
+        cls.messages = read(cls.bag)
+        cls.infos = unpacked(cls.messages['/hdlyap/run_info'])
+
+    @classmethod
+    def run_of(cls, params):
+        """Messages published, by topic; what else listened is left in cls.heard."""
+        counts = os.path.join(cls.folder, 'counts')
+        node = harness.start(params, probe={'PROBE_COUNTS': counts})
+        cls.addClassCleanup(node.stop)
+        topics = [topic for topic in TYPES if topic in ('run_info', 'cost') or topic in params['observables']]
+        assert harness.wait_until(lambda: not node.running() or is_recorded(node, topics))
+        cls.heard = Raw(['/hdlyap/' + topic for topic in TYPES])
+        status = node.wait()
+        cls.heard.close()
+        assert status == 0, node.text()
+        with open(counts) as file:
+            made = {name: int(count) for name, count in map(str.split, file)}
+        return {topic: made[PROBED.get(topic, topic) + '_publish'] for topic in TYPES}
+
+    def of_run(self, topic, number):
+        messages = unpacked(self.messages.get('/hdlyap/' + topic, []))
+        return [message for message in messages if message.run_id == self.infos[number].run_id]
+
+    def test_nothing_is_lost(self):
+        for number, counts in enumerate(self.counts):
+            for topic, count in counts.items():
+                with self.subTest(run=number, topic=topic):
+                    seqs = [message.header.seq for message in self.of_run(topic, number)]
+                    self.assertEqual(len(seqs), count)
+                    self.assertEqual(seqs, list(range(seqs[0], seqs[0] + count)) if seqs else [])
+        self.assertEqual([len(self.of_run('state', k)) for k in (0, 1)], [4, REPORTS])
+        self.assertGreater(self.counts[1]['fields'], 0)
+        self.assertEqual(len(self.messages['/hdlyap/state']), 4 + REPORTS)      # and of no other run
+        self.assertEqual([info.seed for info in self.infos], ['7', '11'])
+
+    def test_first_report(self):
+        """The runs have waited for the recorder."""
+        for number in (0, 1):
+            for topic in ('state', 'cost'):
+                self.assertEqual(self.of_run(topic, number)[0].sim_time, 1.0)
+
+    def test_fields_come_now_and_then(self):
+        times = {message.sim_time - BEGIN for message in self.of_run('fields', 1)}
+        resolved = {message.sim_time - BEGIN for message in self.of_run('steps', 1)
+                    if harness.examples(message.steps)}
+        self.assertEqual(times, resolved & {1.0, 5.0, 10.0, 15.0, 20.0})
+        self.assertIn(20.0, times)
+
+    def test_types_and_definitions(self):
+        with rosbag.Bag(self.bag) as bag:
+            connections = [c for c in bag._get_connections() if c.topic.startswith('/hdlyap/')]
+        self.assertEqual({c.topic.rsplit('/', 1)[1] for c in connections}, set(TYPES))
+        for connection in connections:
+            kind = TYPES[connection.topic.rsplit('/', 1)[1]]
+            self.assertEqual((connection.datatype, connection.md5sum), (kind._type, kind._md5sum))
+            self.assertEqual(connection.msg_def.strip(), kind._full_text.strip())
+            self.assertEqual(connection.header.get('latching', b'0'), b'1' if kind is TYPES['run_info'] else b'0')
+
+    def test_bytes_are_those_of_the_topic(self):
+        """Another subscriber, who came a little later, got the same; read and written again they still are the same."""
+        for topic, heard in self.heard.messages.items():
+            with self.subTest(topic=topic):
+                bytes_in_bag = [data for _, data, _, _ in self.messages[topic]]
+                self.assertGreater(len(heard), 0)
+                self.assertEqual(heard, bytes_in_bag[-len(heard):])
+                for kind, data, md5, _ in self.messages[topic]:
+                    written, generated = io.BytesIO(), TYPES[topic.rsplit('/', 1)[1]]
+                    generated().deserialize(data).serialize(written)
+                    self.assertEqual(written.getvalue(), data)
+                    self.assertEqual((kind, md5), (generated._type, generated._md5sum))
+
+    def test_sizes(self):
+        """Of each message, by what README states."""
+        for number, info in enumerate(self.infos):
+            last = {topic: self.of_run(topic, number)[-1] for topic in ('steps', 'lp_phases')}
+            sizes = expected_sizes(info.disks, info.vectors, len(last['steps'].steps), len(last['lp_phases'].phases))
+            for topic in sizes:
+                for message in self.of_run(topic, number):
+                    written = io.BytesIO()
+                    message.serialize(written)
+                    pairs = getattr(message, 'pairs', 0)
+                    names = 4 + len('box') + 4 + len(info.run_id)
+                    self.assertEqual(len(written.getvalue()) - names, sizes[topic] + pairs * (48 * info.disks + 17), topic)
+
+    def test_sizes_in_readme(self):
+        """Of the paper's scene: 8 waves along an axis or not, each T and LP, and the zero modes."""
+        with open(README) as file:
+            text = file.read()
+        sizes = expected_sizes(780, 1557, 17, 4 * 8 + 4 * 32)
+        fields = [sizes['fields'], sizes['fields'] + 4 * 48 * 780]
+        stated = dict(re.findall(r'^\| `(\w+)` \|.* \| ([0-9.]+(?: to [0-9.]+)?) kB \|$', text, re.MULTILINE))
+        self.assertEqual(stated.pop('fields'), '%.0f to %.0f' % tuple(size / 1e3 for size in fields))
+        self.assertEqual(stated, {topic: '%.3g' % (size / 1e3) for topic, size in sizes.items() if topic != 'fields'})
+        # every step found, T without pairs, LP with 2 along an axis and 4 else, once in ten reports
+        all_fields = 16 * sizes['fields'] + 4 * (2 + 4) * 48 * 780
+        report = sum(size for topic, size in sizes.items() if topic != 'fields') + all_fields / 10
+        most, seconds = re.search(r'below (\d+) GB an hour.*? ([0-9.]+) s per time unit', text, re.DOTALL).groups()
+        self.assertLess(report * 3600 / float(seconds), 1e9 * float(most))
+
+    def test_replay(self):
+        """Waits for those who listen, then tells them what the bag holds, byte for byte; and run_info to who comes late."""
+        raw, clock = Raw(self.messages), Raw(['/clock'])
+        self.addCleanup(clock.close)
+        self.addCleanup(raw.close)
+        replay = launch(self.folder, 'replay.launch', 'bag:=run.bag', 'rate:=20', 'paused:=true', 'keep_alive:=true',
+                        'wait_for_subscribers:=true')
+        self.addCleanup(end, replay)
+        rospy.wait_for_service('/replay/pause_playback', harness.PATIENCE)
+        pause = rospy.ServiceProxy('/replay/pause_playback', SetBool)
+        self.assertFalse(any(raw.messages.values()))
+        self.assertTrue(harness.wait_until(lambda: pause(False) and any(raw.messages.values())))
+        want = {topic: [data for _, data, _, _ in messages] for topic, messages in self.messages.items()}
+        harness.wait_until(lambda: raw.messages == want)
+        for topic in want:
+            self.assertEqual(raw.messages[topic], want[topic], topic)
+        rospy.sleep(0.5)    # by now a replay that does not stay has gone
+        late = Raw(['/hdlyap/run_info'])
+        self.addCleanup(late.close)
+        self.assertTrue(harness.wait_until(lambda: late.messages['/hdlyap/run_info']))
+        self.assertEqual(late.messages['/hdlyap/run_info'], want['/hdlyap/run_info'][-1:])
+        self.assertEqual(clock.messages['/clock'], [])      # advertised, but silent
+        end(replay)
+
+    def test_repeat(self):
+        """From the bag alone: every number of every topic, bit for bit."""
+        repeat = Process([program('repeat'), self.bag, '--run', '2'])
+        self.assertEqual(repeat.wait(), 0, repeat.text())
+        with open(os.path.join(self.folder, 'again.yaml'), 'w') as file:
+            file.write(repeat.text())
+        again = launch(self.folder, 'run.launch', 'scene:=again.yaml', 'record:=true', 'bag:=again.bag')
+        self.addCleanup(end, again)
+        self.assertEqual(again.wait(), 0, again.text())
+        repeated = read(os.path.join(self.folder, 'again.bag'))
+        for topic in OBSERVABLES:
+            with self.subTest(topic=topic):
+                got = plain(unpacked(repeated['/hdlyap/' + topic]))
+                self.assertEqual(got, plain(self.of_run(topic, 1)))
+        compare = Process([program('compare'), self.bag, os.path.join(self.folder, 'again.bag')])
+        self.assertEqual(compare.wait(), 0, compare.text())
+        self.assertIn('identical', compare.text())
+
+
+def expected_sizes(disks, vectors, steps, phases):
+    """Bytes of a message without frame_id and run_id, of fields without pairs: what README says, and single numbers."""
+    begin = 4 + 8 + 8       # seq, stamp, sim_time
+    return dict(spectrum=begin + 8 + 8 + 3 * 8 + 4 + 5 * 4 + 40 * vectors,
+                modes=begin + 8 + 4 + 4 + 89 * vectors,
+                steps=begin + 8 + 8 + 4 + 63 * steps + 2 * 36 + 4 + 2 * 8,
+                lp_phases=begin + 4 + 4 + 74 * phases,
+                fields=begin + 29 + 8 * 4 + 64 * disks + 4 + 3 * 4 + 8 + 6 * 4,
+                state=begin + 8 + 4 * 4 + 32 * disks,
+                cost=begin + 154)
+
+
+class Stopped(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def process(self, process):
+        self.addCleanup(process.stop)
+        return process
+
+    def record(self, *args):
+        recorder = launch(self.folder, 'record.launch', *args)
+        self.addCleanup(end, recorder)
+        return recorder
+
+    def files(self, pattern):
+        return sorted(glob.glob(os.path.join(self.folder, pattern)))
+
+    def test_in_the_middle(self):
+        """A recorder that is asked to end has closed its files; one that comes late is told run_info; when its node is
+        killed, its bag can still be drawn."""
+        first = self.record('bag:=first.bag', 'split_size:=1')
+        node = self.process(harness.start(BULKY))
+        self.assertTrue(harness.wait_until(lambda: len(self.files('first_*')) > 2))
+        end(first)
+        self.assertTrue(node.running())
+        second = self.record('bag:=second.bag')
+        averaged = harness.Listener('spectrum')
+        self.addCleanup(averaged.close)
+        self.assertTrue(harness.wait_until(lambda: is_recorded(node, ['run_info', 'spectrum', 'state', 'cost'])))
+        begin = len(averaged.messages)
+        self.assertTrue(harness.wait_until(lambda: len(averaged.messages) > begin + 5))
+        node.stop()
+        end(second)
+        self.check_parts(self.files('first_*'))
+        self.check_drawn(self.files('second*'))
+
+    def check_parts(self, paths):
+        """Files of one recording: run_info in each, the rest in one of them, nothing left out."""
+        self.assertEqual(self.files('*.active'), [])
+        self.assertGreater(len(paths), 2)
+        parts = [read(path) for path in paths]
+        ids = {message.run_id for part in parts for message in unpacked(part['/hdlyap/run_info'])}
+        self.assertEqual(len(ids), 1)
+        states = [message for part in parts for message in unpacked(part.get('/hdlyap/state', []))]
+        self.assertEqual({message.run_id for message in states}, ids)
+        self.assertEqual(states[0].sim_time, BULKY['report_interval'])
+        seqs = [message.header.seq for message in states]
+        self.assertEqual(seqs, list(range(seqs[0], seqs[0] + len(seqs))))
+
+    def check_drawn(self, paths):
+        self.assertEqual([os.path.basename(path) for path in paths], ['second.bag'])
+        self.assertEqual(len(read(paths[0])['/hdlyap/run_info']), 1)
+        plot = self.process(Process([program('plot_bag'), paths[0], '--out', self.folder]))
+        self.assertEqual(plot.wait(), 0, plot.text())
+        self.assertIn('lambda_max', plot.text())
+        self.assertGreater(len(self.files('spectrum.png')), 0)
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_bags')
+    rostest.rosrun('hdlyap', 'bags', 'test_bags')

@@ -1,0 +1,257 @@
+/** What diagnostics judge, without ROS: errors that fall or do not, disks that overlap or drift, subscribers that
+ *  are behind, and what is made of all of it. */
+#include <gtest/gtest.h>
+
+#include <cfloat>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "backlog.hpp"
+#include "hdlyap/scene.h"
+#include "hdlyap_ros/messages.h"
+
+extern "C" {
+#include "conditions.h"
+}
+
+namespace
+{
+/** As it falls in a stationary run, with errors of a tenth. */
+error_course course_of(double (*error)(double))
+{
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> noise(1.0, 0.1);
+    error_course course = {};
+    for (double t = 16; t < 4000; t += 1) error_course_add(&course, t, error(t) * noise(random));
+    return course;
+}
+
+TEST(ErrorCourse, HealthyFalls)
+{
+    error_at since;
+    const error_course course = course_of([](double t) { return 1 / std::sqrt(t); });
+    EXPECT_FALSE(error_course_stalled(&course, &since));
+    EXPECT_GE(course.last.time, 8 * since.time);
+    EXPECT_LT(course.last.time, 33 * since.time);
+}
+
+TEST(ErrorCourse, StallsAndFallsAgain)
+{
+    error_at since;
+    const error_course course = course_of(
+        [](double t) { return t < 250 ? 1 / std::sqrt(t) : 0.3; });
+    EXPECT_TRUE(error_course_stalled(&course, &since));
+    error_course again = course;
+    for (double t = 4000; t < 1e5; t += 10) error_course_add(&again, t, 19 / std::sqrt(t));
+    EXPECT_FALSE(error_course_stalled(&again, &since));
+}
+
+TEST(ErrorCourse, SaysNothingTooEarly)
+{
+    error_at since;
+    error_course course = {};
+    EXPECT_FALSE(error_course_stalled(&course, &since));
+    for (double t = 16; t < 4 * 8 * 16; t += 1) error_course_add(&course, t, t < 64 ? 0.01 : 1.0);
+    EXPECT_FALSE(error_course_stalled(&course, &since));
+    error_course_add(&course, 4 * 8 * 16, 1.0);
+    EXPECT_TRUE(error_course_stalled(&course, &since));
+    EXPECT_EQ(since.time, 64);
+    error_course_add(&course, 5 * 8 * 16, -1.0); /* not known: as before */
+    EXPECT_TRUE(error_course_stalled(&course, &since));
+    error_course_add(&course, 1.0, -1.0); /* averages reset */
+    EXPECT_FALSE(error_course_stalled(&course, &since));
+    for (double t : {1e-30, 1e-9, 1e3, 1e12, 1e300}) error_course_add(&course, t, 1.0);
+    EXPECT_TRUE(error_course_stalled(&course, &since));
+}
+
+/** Two disks of a dense box, so far apart along x. */
+examination examined(double distance, double momentum)
+{
+    hd_scene_def def = hd_scene_def_default();
+    def.disks = 2;
+    def.density = 0.3;
+    def.aspect = 1.0;
+    const double q[] = {0.1, 1.0, 0.1 + distance, 1.0}, p[] = {-momentum, 0, 0, std::sqrt(3.0)};
+    hd_trajectory *trajectory = nullptr;
+    examination result = {};
+    EXPECT_EQ(hd_trajectory_create_from(&trajectory, &def, q, p), HD_OK);
+    if (trajectory) result = examine(trajectory);
+    hd_trajectory_free(trajectory);
+    return result;
+}
+
+TEST(Examination, RoundingIsNoOverlap)
+{
+    const examination good = examined(1.0 - 32 * DBL_EPSILON, 1.0);
+    EXPECT_TRUE(good.made);
+    EXPECT_FALSE(examination_overlap(&good));
+    EXPECT_FALSE(examination_drift(&good));
+    EXPECT_LT(good.overlap_max, 1e-9); /* before the core gives up */
+    const examination deep = examined(1.0 - 5e-10, 1.0);
+    EXPECT_TRUE(examination_overlap(&deep));
+    EXPECT_NEAR(deep.overlap, 5e-10, 1e-15);
+    const examination warm = examined(1.2, 1.0 + 1e-12);
+    EXPECT_TRUE(examination_drift(&warm));
+    EXPECT_NEAR(warm.energy_error, 0.5e-12, 1e-15);
+    const examination none = {};
+    EXPECT_FALSE(examination_overlap(&none) || examination_drift(&none));
+}
+
+/** Messages in a queue as roscpp keeps it for one subscriber, the oldest dropped first. */
+class Queue
+{
+  public:
+    void publish(double now)
+    {
+        const hdr_backlog::buffer message(new uint8_t[1]);
+        waiting.push_back(message);
+        if (waiting.size() > length) waiting.erase(waiting.begin());
+        backlog.add(message, now);
+    }
+    void take() { waiting.erase(waiting.begin()); }
+    hdr_lag lag(double now) { return backlog.lag(now); }
+    hdr_backlog backlog;
+    std::vector<hdr_backlog::buffer> waiting;
+    size_t length = 1000;
+};
+
+TEST(Backlog, NobodyListens)
+{
+    hdr_backlog backlog;
+    EXPECT_TRUE(backlog.empty());
+    backlog.add({}, 1.0);
+    EXPECT_TRUE(backlog.empty());
+    EXPECT_EQ(backlog.lag(100.0).seconds, 0.0);
+}
+
+TEST(Backlog, TakenAtOnce)
+{
+    Queue queue;
+    for (int k = 0; k < 20; k++) {
+        queue.publish(10.0 * k);
+        EXPECT_FALSE(queue.backlog.empty());
+        queue.take();
+        EXPECT_TRUE(queue.backlog.empty());
+        EXPECT_EQ(queue.lag(10.0 * k + 9.0).seconds, 0.0); /* however late it is asked */
+    }
+}
+
+TEST(Backlog, DeafThenWellAgain)
+{
+    Queue queue;
+    for (int k = 0; k < 30; k++) {
+        queue.publish(k);
+        EXPECT_EQ(queue.lag(k + 0.5).seconds, k + 0.5);
+        EXPECT_EQ(queue.lag(k + 0.5).messages, k + 1);
+    }
+    while (!queue.waiting.empty()) queue.take();
+    EXPECT_EQ(queue.lag(30).seconds, 0.0);
+    queue.publish(31);
+    queue.take();
+    queue.publish(32); /* nothing of the past is left */
+    EXPECT_EQ(queue.lag(32).seconds, 0.0);
+}
+
+TEST(Backlog, AlwaysFiveBehind)
+{
+    Queue queue;
+    for (int k = 0; k < 100; k++) {
+        queue.publish(k);
+        if (k >= 5) queue.take();
+        if (k < 12) continue;
+        EXPECT_GE(queue.lag(k).seconds, 4.0);
+        EXPECT_LE(queue.lag(k).seconds, 5.0);
+    }
+}
+
+TEST(Backlog, FullQueue)
+{
+    Queue queue;
+    queue.length = 10;
+    for (int k = 0; k < 100; k++) {
+        queue.publish(k);
+        if (k < 22) continue;
+        EXPECT_GE(queue.lag(k).messages, 10);
+        EXPECT_GE(queue.lag(k).seconds, 9.0);
+    }
+}
+
+worker_state healthy()
+{
+    worker_state state = {};
+    state.status = HD_OK;
+    state.disks = {true, 1e-16, 1e-13, 1e-15, 1e-12};
+    return state;
+}
+
+TEST(Conditions, NothingToSay)
+{
+    const worker_state state = healthy();
+    const hdr_lag slowest = {"/a", 2.9, 5, false};
+    const conditions all = conditions_of(&state, &slowest, false);
+    EXPECT_EQ(all.level, HDR_DIAGNOSTIC_OK);
+    EXPECT_STREQ(all.message, "");
+}
+
+TEST(Conditions, EachHasItsLevelAndMessage)
+{
+    const hdr_lag prompt = {"", 0, 0, false}, behind = {"/b/fields", 12.34, 5, false},
+                  losing = {"/b/fields", 0.5, 1001, true};
+    worker_state fault = healthy(), unkept = healthy(), deep = healthy(), warm = healthy(),
+                 stalled = healthy();
+    fault.status = HD_ILL_CONDITIONED;
+    unkept.checkpoint.failed = true;
+    snprintf(unkept.checkpoint.message, sizeof unkept.checkpoint.message, "disk full");
+    deep.disks.overlap = 1e-12;
+    warm.disks.energy_error = NAN;
+    for (double t = 1; t <= 32; t++) error_course_add(&stalled.errors, t, 0.5);
+    const worker_state well = healthy();
+    const struct {
+        const worker_state *state;
+        const hdr_lag *lag;
+        bool repaired;
+        uint8_t level;
+        std::string message;
+    } cases[] = {
+        {&fault, &prompt, false, HDR_DIAGNOSTIC_ERROR, hd_status_text(HD_ILL_CONDITIONED)},
+        {&unkept, &prompt, false, HDR_DIAGNOSTIC_ERROR, "disk full"},
+        {&deep, &prompt, false, HDR_DIAGNOSTIC_ERROR,
+         "disks overlap by 1e-12, rounding explains 1e-13"},
+        {&warm, &prompt, false, HDR_DIAGNOSTIC_ERROR,
+         "energy is off by nan, rounding explains 1e-12"},
+        {&well, &prompt, true, HDR_DIAGNOSTIC_WARN,
+         "intervals were too long and had to be repaired"},
+        {&stalled, &prompt, false, HDR_DIAGNOSTIC_WARN,
+         "errors of the smallest exponents do not fall: 0.5 after 4 averaged, 0.5 after 32"},
+        {&well, &behind, false, HDR_DIAGNOSTIC_WARN, "a subscriber of /b/fields is 12.3 s behind"},
+        {&well, &losing, false, HDR_DIAGNOSTIC_WARN,
+         "a subscriber of /b/fields is 0.5 s behind and loses messages"},
+    };
+    for (const auto &one : cases) {
+        const conditions all = conditions_of(one.state, one.lag, one.repaired);
+        EXPECT_EQ(all.level, one.level) << one.message;
+        EXPECT_EQ(all.message, one.message);
+    }
+}
+
+TEST(Conditions, SeveralAtOnce)
+{
+    worker_state state = healthy();
+    const hdr_lag behind = {"/a", 4, 1, false};
+    state.checkpoint.failed = true;
+    memset(state.checkpoint.message, 'x', 400);
+    const conditions all = conditions_of(&state, &behind, true);
+    EXPECT_EQ(all.level, HDR_DIAGNOSTIC_ERROR);
+    EXPECT_EQ(all.message, std::string(400, 'x') +
+                               "; intervals were too long and had to be repaired; "
+                               "a subscriber of /a is 4.0 s behind");
+}
+} // namespace
+
+int main(int argc, char **argv)
+{
+    ::testing::InitGoogleTest(&argc, argv);
+    return RUN_ALL_TESTS();
+}

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""What /diagnostics says of a run on which something is wrong, and that it stops saying so."""
+
+import unittest
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+import rospy
+import rostest
+
+import harness
+import links
+from harness import SHORT
+
+OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
+LIVE = dict(SHORT, duration=0.0, pace=20.0, threads=1)
+# more than the buffers of a socket hold, in a second
+BULKY = dict(disks=20000, density=0.1, exponents='none', observables=['state'], pace=0.5, equilibration=0.0,
+             report_interval=0.025, duration=0.0)
+
+
+class Diagnostics(unittest.TestCase):
+    def setUp(self):
+        self.statuses = []
+        subscriber = rospy.Subscriber('/diagnostics', DiagnosticArray,
+                                      lambda message: self.statuses.append(message.status[0]))
+        self.addCleanup(subscriber.unregister)
+
+    def start(self, params, **kw):
+        node = harness.start(params, **kw)
+        self.addCleanup(node.stop)
+        return node
+
+    def said(self, level, *words):
+        """The first status from now on of that level with these words; its values."""
+        start = len(self.statuses)
+
+        def fits():
+            return [status for status in self.statuses[start:]
+                    if status.level == level and all(word in status.message for word in words)]
+
+        self.assertTrue(harness.wait_until(fits), self.statuses[-1:])
+        return {pair.key: pair.value for pair in fits()[0].values}
+
+    def test_several_at_once(self):
+        """Of a run whose disks overlap and whose errors stay what they are."""
+        self.start(dict(LIVE, pace=200.0), probe=dict(PROBE_OVERLAP='1e-10', PROBE_STD_ERROR='0.25'))
+        values = self.said(ERROR, 'disks overlap by 1e-10, rounding explains ',
+                           '; errors of the smallest exponents do not fall: 0.25 after ')
+        self.assertEqual(values['overlap'], '1e-10')
+        self.assertEqual(values['error of the smallest exponents'], '0.25')
+
+    def test_subscriber_behind(self):
+        """One that does not read for seconds; and then does."""
+        node = self.start(dict(BULKY, wait_for_subscribers=['state']))
+        link = links.Link(links.node_port(node), 'state')
+        self.addCleanup(link.close)
+        link.greet()
+        values = self.said(WARN, 'a subscriber of /hdlyap/state is ', ' s behind')
+        self.assertEqual(values['topic that it is behind in'], '/hdlyap/state')
+        self.assertGreaterEqual(float(values['seconds that a subscriber is behind']), 3.0)
+        self.addCleanup(links.Reader([link]).join, harness.PATIENCE)
+        self.addCleanup(node.stop)
+        values = self.said(OK)
+        self.assertEqual(link.gaps(), 0)
+        for key in ('overlap', 'energy error'):
+            self.assertLess(float(values[key]), 1e-11)
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_diagnostics')
+    rostest.rosrun('hdlyap', 'diagnostics', Diagnostics)

@@ -1,0 +1,213 @@
+#!/usr/bin/env python3
+"""The two examples beside a running node: their numbers are found again from what the test itself hears."""
+
+import math
+import re
+import signal
+import unittest
+import xmlrpc.client
+
+import numpy as np
+import rospy
+import rostest
+from std_msgs.msg import Float64, String
+
+import harness
+import links
+from harness import MODES, Process
+from hdlyap.msg import LpPhase, LpPhases, Mode
+from roslib.packages import find_node
+
+ROUNDING = 1e-6     # of regressions in another order
+PRINTED = 0.51e-4   # of numbers with four digits after the point
+STATES = {LpPhase.UNRESOLVED: 'its step is not resolved', LpPhase.WEAK: 'too weak to have a phase',
+          LpPhase.COARSE: 'turns too far between samples', LpPhase.TRACKED: 'followed'}
+
+
+class OlderPhases(LpPhases):
+    _md5sum = 32 * '0'
+
+
+def example(name):
+    return find_node('hdlyap', name)[0]
+
+
+class Examples(unittest.TestCase):
+    def start(self, params, **kw):
+        process = harness.start(params, **kw)
+        self.addCleanup(process.stop)
+        return process
+
+    def watch(self, name='watch_phase', **params):
+        return self.start(params, name=name, command=[example('watch_phase')])
+
+    def hear(self, topic, kind):
+        heard = []
+        subscriber = rospy.Subscriber(topic, kind, heard.append, queue_size=None)
+        self.addCleanup(subscriber.unregister)
+        return heard, subscriber
+
+    def wait_for(self, condition, process):
+        self.assertTrue(harness.wait_until(condition), process.text())
+
+    def stop(self, process):
+        process.send(signal.SIGINT)
+        self.assertEqual(process.wait(), 0, process.text())
+
+
+class Beside(Examples):
+    """Both examples and the test hear all of one run."""
+
+    def test_numbers_of_a_run(self):
+        watch = self.watch(number=2)
+        fit = Process([example('fit_dispersion'), '__name:=fit_dispersion'])
+        self.addCleanup(fit.stop)
+        deviations, subscriber = self.hear('/watch_phase/deviation', Float64)
+        listeners = {topic: harness.Listener(topic) for topic in ('lp_phases', 'steps')}
+        node = self.start(dict(MODES, duration=250.0, pace=100.0, wait_for_subscribers=['cost']))
+        wanted = {('/hdlyap/' + topic, name) for topic, name in
+                  (('lp_phases', '/watch_phase'), ('steps', '/fit_dispersion'),
+                   ('lp_phases', rospy.get_name()), ('steps', rospy.get_name()))}
+        self.wait_for(lambda: wanted <= self.connections(node), node)
+        self.wait_for(lambda: subscriber.get_num_connections() == 1, watch)
+        cost = harness.Listener('cost')     # the run begins
+        self.addCleanup(cost.close)
+        self.assertEqual(node.wait(), 0, node.text())
+        self.assertTrue(cost.wait_for(lambda message: message.phase == message.FINISHED))
+        phases, steps = (listeners[topic].messages for topic in ('lp_phases', 'steps'))
+        self.assertEqual((len(phases), len(steps)), (250, 250))
+        self.check_deviations(phases, deviations, watch)
+        self.stop(watch)
+        self.stop(fit)
+        self.check_states(phases, watch)
+        self.check_fits(steps, fit)
+
+    @staticmethod
+    def connections(node):
+        with xmlrpc.client.ServerProxy(links.node_uri(node)) as proxy:
+            return {(link[4], link[1]) for link in proxy.getBusInfo('/test')[2] if link[2] == 'o'}
+
+    @staticmethod
+    def ours(message):
+        return [phase for phase in message.phases if (phase.nx, phase.ny) == (1, 0)][1]
+
+    def check_deviations(self, messages, deviations, watch):
+        expected, times, phases, last = [], [], [], None
+        for message in messages:
+            phase = self.ours(message)
+            if phase.state != LpPhase.TRACKED:
+                continue
+            began = message.sim_time - phase.tracked_time
+            if last is None or began > last + 0.5:     # reports are a time unit apart
+                times, phases = [], []
+            last = began
+            times.append(message.sim_time)
+            phases.append(phase.phase)
+            line = np.polyfit(times, phases, 1) if len(times) > 2 else (0.0, phase.phase)
+            expected.append(100 * (phase.phase - np.polyval(line, message.sim_time)) / (2 * math.pi))
+        self.assertGreater(len(expected), 50)
+        self.assertGreater(max(map(abs, expected)), 1.0)
+        self.wait_for(lambda: len(deviations) >= len(expected), watch)
+        np.testing.assert_allclose([each.data for each in deviations], expected, atol=ROUNDING)
+
+    def check_states(self, messages, watch):
+        """A line for each change, a warning unless it is followed."""
+        states = [self.ours(message).state for message in messages]
+        changes = [state for state, before in zip(states, [None] + states) if state != before]
+        said = watch.lines('phase 2 of LP(1,0): ')
+        self.assertEqual([line.split('LP(1,0): ')[1].split('\033')[0] for line in said],
+                         [STATES[state] for state in changes])
+        self.assertEqual(['INFO' in line for line in said], [state == LpPhase.TRACKED for state in changes])
+        self.assertGreater(len(watch.lines('omega = ')), 0, watch.text())
+
+    def check_fits(self, messages, fit):
+        by_time = {'%.6g' % message.averaged_time: message for message in messages}
+        lines = fit.text().splitlines()
+        fitted = 0
+        for line in lines:
+            message = by_time[re.match(r't = (\S+): ', line).group(1)]
+            for name, kind, c, error in (('c_T', Mode.T, message.c_t, message.c_t_error),
+                                         ('c_L', Mode.LP, message.c_l, message.c_l_error)):
+                own = re.search(name + r' = (\S+) \+- (\S+), node: (\S+) \+- (\S+) \((\S+) standard', line)
+                if own is None:
+                    self.assertIn(name + ': not yet', line)
+                    continue
+                wanted = self.fit(message.steps, kind)
+                numbers = [float(number) for number in own.groups()]
+                np.testing.assert_allclose(numbers[:4], [*wanted, c, error], rtol=0, atol=PRINTED)
+                self.assertAlmostEqual(numbers[4], (wanted[0] - c) / error, delta=0.0051)
+                fitted += 1
+        self.assertGreaterEqual(fitted, 3, fit.text())
+
+    @staticmethod
+    def fit(steps, kind):
+        """c and its error, by numpy's own weighted fit of lambda / k, which is c + c2 k."""
+        some = [s for s in steps if s.kind == kind and s.resolved and s.std_error > 0]
+        k, exponent, error = np.array([(s.wave_number, s.exponent, s.std_error) for s in some]).T
+        degree = 1 if len(some) > 1 else 0
+        line, covariance = np.polyfit(k, exponent / k, degree, w=k / error, cov='unscaled')
+        off = (exponent / k - np.polyval(line, k)) * k / error
+        freedom = len(some) - degree - 1
+        scatter = max(1.0, np.sqrt(np.sum(off**2) / freedom)) if freedom else 1.0
+        return line[-1], scatter * np.sqrt(covariance[-1, -1])
+
+
+class Alone(Examples):
+    def test_refused_parameters(self):
+        cases = [('nx', -1), ('nx', 1.5), ('nx', 'x'), ('nx', True), ('ny', -1), ('nx', 0), ('number', 0),
+                 ('number', '1'), ('node', 5), ('node', ['hdlyap']), ('nz', 1), ('Number', 1)]
+        nodes = [self.start({name: value}, name='refused_%d' % k, command=[example('watch_phase')])
+                 for k, (name, value) in enumerate(cases)]
+        for node, (name, value) in zip(nodes, cases):
+            with self.subTest(name=name, value=value):
+                self.assertEqual(node.wait(), 2, node.text())
+                self.assertEqual(len(node.text().splitlines()), 1, node.text())
+                self.assertRegex(node.text(), r'\[FATAL\] \[[0-9.]+\]: %s = .*: must be ' % name)
+
+    def test_refused_names(self):
+        for params, args in ((dict(node='a b'), ()), ({}, ('__name:=a-b',))):
+            node = self.start(params, name='watch_phase', args=args, command=[example('watch_phase')])
+            self.assertEqual(node.wait(), 2, node.text())
+            self.assertEqual(len(node.text().splitlines()), 1, node.text())
+            self.assertIn('[FATAL]', node.text())
+
+    def publisher(self, topic, kind):
+        publisher = rospy.Publisher(topic, kind, queue_size=1)
+        self.addCleanup(publisher.unregister)
+        return publisher
+
+    def test_another_type_under_the_topic(self):
+        """Is refused in one line that says all; the right one is heard when it comes."""
+        wrong = self.publisher('/other/lp_phases', String)
+        self.publisher('/older/lp_phases', OlderPhases)
+        watch, older = self.watch(node='/other'), self.watch('watch_older', node='older')
+        self.wait_for(lambda: watch.lines('[ERROR]'), watch)
+        self.wait_for(lambda: older.lines('[ WARN]'), older)
+        said = watch.lines('[ERROR]') + older.lines('[ WARN]')
+        self.assertIn('/other/lp_phases is published as std_msgs/String, not as hdlyap/LpPhases', said[0])
+        self.assertRegex(said[1], '/older/lp_phases is published, but .* another version of hdlyap/LpPhases')
+        wrong.unregister()
+        right = self.publisher('/other/lp_phases', LpPhases)
+        self.wait_for(lambda: right.get_num_connections() == 1, watch)
+        right.publish(LpPhases(sim_time=1.5))
+        self.wait_for(lambda: watch.lines('t = 1.5: phase 1 of LP(1,0): there is none'), watch)
+        self.assertEqual(watch.lines('[ERROR]') + older.lines('[ WARN]'), said)
+        self.stop(watch)
+        self.stop(older)
+
+    def test_node_dies_and_comes_back(self):
+        watch = self.watch()
+        deviations, _ = self.hear('/watch_phase/deviation', Float64)
+        for _ in range(2):
+            heard, said = len(deviations), len(watch.lines('phase 1 of LP(1,0)'))
+            node = self.start(dict(MODES, duration=0.0, pace=100.0, wait_for_subscribers=['lp_phases']))
+            self.wait_for(lambda: len(deviations) > heard + 3, watch)
+            self.assertGreater(len(watch.lines('phase 1 of LP(1,0)')), said)
+            node.send(signal.SIGKILL)
+            node.wait()
+        self.stop(watch)
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_examples')
+    rostest.rosrun('hdlyap', 'examples', 'test_examples')

@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+"""Nodes beside each other, under other names, at a pace, and in a system that runs on simulated time."""
+
+import os
+import signal
+import statistics
+import time
+import unittest
+
+from diagnostic_msgs.msg import DiagnosticArray
+import rosgraph
+from rosgraph_msgs.msg import Clock
+import roslib.packages
+import rospkg
+import rospy
+import rostest
+from std_srvs.srv import SetBool, Trigger
+import yaml
+
+import harness
+from harness import SHORT, TYPES, Cost, Process, RunInfo
+
+TOPICS = ['spectrum', 'state', 'cost']
+RUN = dict(SHORT, threads=1, duration=10.0, report_interval=0.5, observables=['spectrum', 'state'],
+           wait_for_subscribers='all')
+REPORTS = 24
+PACE = 10.0
+# of a scene: what is no field of run_info, and why
+NOT_ECHOED = {'wait_for_subscribers': 'delays the start and nothing else'}
+
+
+class Run:
+    """One node of any name, and everything that it says."""
+
+    def __init__(self, test, params, name='/hdlyap', args=(), **env):
+        self.name, self.messages = name, {topic: [] for topic in ['run_info', *TOPICS]}
+        for topic, messages in self.messages.items():
+            subscriber = rospy.Subscriber(name + '/' + topic, TYPES[topic], messages.append, queue_size=None)
+            test.addCleanup(subscriber.unregister)
+        if rospy.has_param(name):
+            rospy.delete_param(name)
+        rospy.set_param(name, params)
+        namespace, base = name.rsplit('/', 1)
+        self.node = Process([harness.executable(), '__name:=' + base, '__ns:=' + namespace, *args], **env)
+        test.addCleanup(self.node.stop)
+
+    def service(self, name, kind):
+        rospy.wait_for_service(self.name + '/' + name, harness.PATIENCE)
+        return rospy.ServiceProxy(self.name + '/' + name, kind)
+
+    def has(self, count):
+        return harness.wait_until(lambda: len(self.messages['state']) >= count)
+
+    def numbers(self):
+        """All that does not depend on clocks."""
+        return ([(m.sim_time, m.collisions, m.exponents, m.std_errors) for m in self.messages['spectrum']],
+                [(m.sim_time, m.x, m.y, m.px, m.py) for m in self.messages['state']])
+
+    def stamps(self):
+        return [message.header.stamp.to_sec() for message in self.messages['state']]
+
+
+class Nodes(unittest.TestCase):
+    def run_to_end(self, *args, **kw):
+        run = Run(self, *args, **kw)
+        self.ended(run)
+        return run
+
+    def ended(self, run, reports=REPORTS):
+        self.assertEqual(run.node.wait(), 0, run.node.text())
+        self.assertTrue(run.has(reports))
+        last = run.messages['cost']
+        self.assertTrue(harness.wait_until(lambda: last and last[-1].phase == Cost.FINISHED))
+
+    def test_two_at_once_and_pace(self):
+        """One is paused while the other, of another seed, runs to its end; nothing of that is in the numbers."""
+        alone = [self.run_to_end(dict(RUN, seed=seed), '/alone_' + seed) for seed in ('1', '2')]
+        paced = Run(self, dict(RUN, seed='1', pace=PACE), '/left/hdlyap')
+        self.assertTrue(paced.has(3))
+        self.assertTrue(paced.service('pause', SetBool)(True).success)
+        other = self.run_to_end(dict(RUN, seed='2'), '/right/hdlyap')
+        self.assertLess(len(paced.messages['state']), REPORTS)
+        self.assertTrue(paced.service('pause', SetBool)(False).success)
+        self.ended(paced)
+        for before, beside in zip(alone, (paced, other)):
+            self.assertEqual(len(before.numbers()[1]), REPORTS)
+            self.assertEqual(before.numbers(), beside.numbers())
+        self.assertNotEqual(*(run.numbers() for run in alone))
+        # by stamps: no report comes early, and a busy machine delays only some of them
+        between = [b - a for a, b in zip(paced.stamps(), paced.stamps()[1:])]
+        self.assertAlmostEqual(statistics.median(between) * PACE / RUN['report_interval'], 1.0, delta=0.3)
+        self.assertGreater(paced.stamps()[-1] - paced.stamps()[0], 0.95 * (REPORTS - 1) * RUN['report_interval'] / PACE)
+
+    def test_names(self):
+        elsewhere = []
+        subscriber = rospy.Subscriber('/elsewhere/curve', TYPES['spectrum'], elsewhere.append)
+        self.addCleanup(subscriber.unregister)
+        run = Run(self, dict(RUN, seed='3', duration=0.0, pace=PACE), '/lab/room/two',
+                  args=['/lab/room/two/spectrum:=/elsewhere/curve'])
+        self.assertTrue(run.has(3) and harness.wait_until(lambda: elsewhere))
+        self.assertEqual(run.messages['run_info'][0].seed, '3')
+        self.assertEqual(run.messages['spectrum'], [])
+        topics = {topic for topic, _ in rospy.get_published_topics('/lab')}
+        self.assertEqual(topics, {'/lab/room/two/' + name for name in ('run_info', 'state', 'cost')})
+        self.assertIn('/lab/room/two', dict(rosgraph.Master('/nodes').getSystemState()[0])['/rosout'])
+        status = rospy.wait_for_message('/diagnostics', DiagnosticArray, harness.PATIENCE).status[0]
+        self.assertEqual(status.name, '/lab/room/two')
+        run.service('checkpoint', Trigger)
+        run.node.send(signal.SIGINT)
+        self.assertEqual(run.node.wait(), 0, run.node.text())
+
+    def test_namespace_of_the_environment(self):
+        process = Process([harness.executable(), '_disks:=10', '_density:=0.3', '_duration:=0.0', '_pace:=10.0'],
+                          ROS_NAMESPACE='/lab')
+        self.addCleanup(process.stop)
+        rospy.wait_for_message('/lab/hdlyap/state', TYPES['state'], harness.PATIENCE)
+        process.send(signal.SIGINT)
+        self.assertEqual(process.wait(), 0, process.text())
+
+    def check_simulated_time(self):
+        follow = Process([roslib.packages.find_node('hdlyap', 'follow')[0], '--node', '/timeless'])
+        self.addCleanup(follow.stop)
+        run = Run(self, dict(RUN, duration=0.0, pace=PACE), '/timeless')
+        self.assertTrue(run.has(3))
+        self.assertTrue(run.service('pause', SetBool)(True).success)
+        self.assertTrue(run.service('pause', SetBool)(False).success)
+        self.assertTrue(harness.wait_until(follow.text))
+        run.node.send(signal.SIGINT)
+        self.ended(run, reports=3)
+        self.assertLess(abs(run.stamps()[-1] - time.time()), 600)
+        self.assertEqual(follow.wait(), 0, follow.text())
+
+    def test_simulated_time(self):
+        """Without a clock, and with one that is none; who has set it is left alone."""
+        rospy.set_param('/use_sim_time', True)
+        self.addCleanup(rospy.delete_param, '/use_sim_time')
+        self.check_simulated_time()
+        self.assertNotIn('/clock', dict(rospy.get_published_topics()))
+        clock = rospy.Publisher('/clock', Clock, queue_size=1)
+        self.addCleanup(clock.unregister)
+        ticks = iter(range(10 ** 9, 0, -1))
+        timer = rospy.Timer(rospy.Duration(0.01), lambda event: clock.publish(Clock(rospy.Time(next(ticks)))))
+        self.addCleanup(timer.shutdown)
+        self.check_simulated_time()
+        self.assertIs(rospy.get_param('/use_sim_time'), True)
+
+    def test_parameters_are_echoed(self):
+        """And what is below the node's name on the parameter server stays what was set there."""
+        params = dict(scene='mine', disks=30, density=0.6, aspect=0.5, boundary_x='reflecting',
+                      boundary_y='periodic', seed='12345678901234', exponents='7', equilibration=0.5, warmup=0.75,
+                      duration=2.0, target_std_error=1.0e-6, interval=0.5, accuracy=1.0e-7, report_interval=0.25,
+                      max_node=1, observables=['spectrum', 'modes', 'state'], threads=1, pace=1.0e3,
+                      checkpoint_interval=5.0, wait_for_subscribers=['state'])
+        run = Run(self, params)
+        self.assertEqual(run.node.wait(), 0, run.node.text())
+        self.assertEqual(rospy.get_param('/hdlyap'), params)
+        info = run.messages['run_info'][0]
+        for name, value in params.items():
+            if name not in NOT_ECHOED:
+                self.assertEqual(getattr(info, name), value, name)
+        path = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch/scenes/paper_periodic.yaml')
+        with open(path) as file:
+            self.assertEqual(set(yaml.safe_load(file)) - set(RunInfo.__slots__), set(NOT_ECHOED))
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_nodes')
+    rostest.rosrun('hdlyap', 'nodes', Nodes)

@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+"""The scene file of a recorded run, from its run_info alone."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import yaml
+
+import made
+from hdlyap_plots import recording, repetition
+
+SCENES = os.path.join(made.SCRIPTS, '../../launch/scenes')
+REPEAT = os.path.join(made.SCRIPTS, 'repeat')
+
+
+def info_of(scene, **others):
+    """run_info of a node that was given a scene file."""
+    params = dict(scene, interval=0.0 if scene['interval'] == 'auto' else scene['interval'],
+                  field_indices=str(scene['field_indices']), exponents=str(scene['exponents']), threads=2)
+    return made.run_info(**dict(params, **others))
+
+
+class Repeat(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.bag = os.path.join(folder.name, 'run.bag')
+
+    def command(self, *args):
+        return subprocess.run([sys.executable, REPEAT, self.bag, *args], text=True, capture_output=True)
+
+    def text(self, node=None, number=None):
+        return repetition.scene_file(repetition.chosen(self.bag, node, number))
+
+    def repeated(self, node=None, number=None):
+        return yaml.safe_load(self.text(node, number))
+
+    def refused(self, node=None, number=None):
+        with self.assertRaises(recording.RecordingError) as caught:
+            self.text(node, number)
+        return str(caught.exception)
+
+    def test_command(self):
+        infos = [made.run_info(run_id=run_id, seed=run_id) for run_id in '12']
+        made.write(self.bag, infos)
+        done = self.command('--node', 'hdlyap', '--run', '2')
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        self.assertEqual(done.stdout, repetition.scene_file(infos[1]))
+        done = self.command()
+        self.assertEqual((done.returncode, done.stdout), (1, ''))
+        self.assertEqual(done.stderr, f'repeat: {self.bag}: several runs, choose with --run: 1 (1), 2 (2)\n')
+
+    def test_every_scene(self):
+        """What comes out is what went in, every parameter of it, and of the types that the node wants."""
+        for name in sorted(os.listdir(SCENES)):
+            with self.subTest(scene=name):
+                with open(os.path.join(SCENES, name)) as file:
+                    scene = yaml.safe_load(file)
+                got = yaml.safe_load(repetition.scene_file(info_of(scene)))
+                want = dict(scene, threads=2, exponents=str(scene['exponents']))
+                self.assertEqual(got, want)
+                for key, value in want.items():
+                    self.assertIs(type(got[key]), type(value), key)
+
+    def test_values_that_yaml_may_misread(self):
+        with open(os.path.join(SCENES, 'quick.yaml')) as file:
+            scene = dict(yaml.safe_load(file), seed='18446744073709551615', accuracy=1e-12, scene='off',
+                         exponents='007', field_indices=[37, 1], observables=[], interval=1e-6, density=0.1 + 0.2,
+                         wait_for_subscribers=['cost', 'run_info'])
+        made.write(self.bag, [info_of(scene)])
+        self.assertEqual(self.repeated(), dict(scene, threads=2))
+
+    def test_begins_anew(self):
+        made.write(self.bag, [made.run_info(checkpoint='kept', resume='before', resumed_time=12.5)])
+        got = self.repeated()
+        self.assertEqual((got['checkpoint'], got['resume']), ('', ''))
+        self.assertIn('# That run went on from before at simulated time 12.5', self.text())
+
+    def test_what_it_ran_on(self):
+        """Beside the parameters; texts of a bag cannot add any."""
+        made.write(self.bag, [made.run_info(blas_kernel='Zen\ndisks: 5', version='1.2.3')])
+        first, second, third = self.text().splitlines()[:3]
+        self.assertEqual(first, '# Repeats the run one.')
+        self.assertIn('(1.2.3)', second)
+        self.assertIn('(OPENBLAS_CORETYPE=Zen disks: 5)', second)
+        self.assertEqual(third, 'scene: made')
+
+    def test_several_runs(self):
+        infos = [made.run_info(run_id=run_id, seed=seed) for run_id, seed in
+                 (('one', '1'), ('two', '2'), ('two', '2'))]     # as in files of a bag that was split
+        made.write(self.bag, infos)
+        self.assertIn('several runs, choose with --run: 1 (one), 2 (two)', self.refused())
+        self.assertEqual([self.repeated(number=k)['seed'] for k in (1, 2)], ['1', '2'])
+        for number in (0, 3, -1):
+            self.assertIn(f'no run {number} in it, choose with --run: 1 (one), 2 (two)',
+                          self.refused(number=number))
+
+    def test_several_nodes(self):
+        made.write(self.bag, [made.run_info(seed='1')], node='/one')
+        made.write(self.bag, [made.run_info(seed='2')], node='/group/two', mode='a')
+        self.assertIn('choose one with --node: /group/two, /one', self.refused())
+        self.assertEqual(self.repeated('/group/two')['seed'], '2')
+        self.assertEqual(self.repeated('one')['seed'], '1')
+
+    def test_refused(self):
+        self.assertIn('No such file', self.refused())
+        made.write(self.bag, [made.cost(1.0)])
+        self.assertIn('no run_info in it', self.refused())
+        with open(self.bag, 'wb') as file:
+            file.write(b'no bag')
+        self.assertIn('not a readable bag', self.refused())
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""Several runs in one launch file, each in its own namespace; and what launch files say of themselves."""
+
+import glob
+import os
+import re
+import tempfile
+import unittest
+from xml.etree import ElementTree
+
+import rosbag
+import roslib.packages
+import rospkg
+import rospy
+import rostest
+
+import harness
+from harness import Process
+
+LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
+DENSITIES = ['0.2', '0.65', '0.4']
+GROUPS = ['density_0_2', 'density_0_65', 'density_0_4']
+
+
+class Sweep(unittest.TestCase):
+    def process(self, command, folder='.', **env):
+        process = Process(command, PWD=folder, **env)
+        self.addCleanup(process.stop)
+        return process
+
+    def table(self, text):
+        """Of the lines below its head: densities with lambda_max, as printed."""
+        lines = text.splitlines()
+        head = next(k for k, line in enumerate(lines) if line.startswith('density  lambda_max'))
+        return {line.split()[0]: line.split()[1] for line in lines[head + 1:head + 1 + len(DENSITIES)] if line}
+
+    def sweep(self, folder, *args, **env):
+        return self.process(['roslaunch', 'hdlyap', 'sweep.launch', 'scene:=quick', *args], folder, **env)
+
+    def test_two_sweeps(self):
+        """At once, of which one is recorded; the other, in a namespace of its own, has a density that is refused."""
+        with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as other:
+            recorded = self.sweep(folder, 'densities:=' + ' '.join(DENSITIES), 'record:=true', 'seed:=5',
+                                  'duration:=20')
+            seen = self.sweep(other, 'densities:=0.3 2.5', 'duration:=10', ROS_NAMESPACE='/lab')
+            recorded.wait()
+            seen.wait()
+            self.check_recorded(recorded, folder)
+            self.check_seen(seen)
+            self.assertEqual(os.listdir(other), [])
+
+    def check_recorded(self, launch, folder):
+        """One bag of each, whole, though the runs end one after the other; the table is that of the bags."""
+        table = self.table(launch.text())
+        self.assertEqual(list(table), sorted(DENSITIES), launch.text())
+        paths = [os.path.join(folder, group + '.bag') for group in GROUPS]
+        for path, group, density in zip(paths, GROUPS, DENSITIES):
+            self.check_bag(path, '/%s/hdlyap' % group, float(density))
+        again = self.process([roslib.packages.find_node('hdlyap', 'sweep_table')[0], *paths])
+        self.assertEqual(again.wait(), 0, again.text())
+        self.assertEqual(self.table(again.text()), table)
+
+    def check_seen(self, launch):
+        """The other run goes on to its end, and the table says what is missing."""
+        self.assertEqual(list(self.table(launch.text()))[:1], ['0.3'], launch.text())
+        self.assertEqual(len(launch.lines('sweep_table: density_2_5: no averages')), 1, launch.text())
+        self.assertEqual(len(launch.lines('FATAL')), 1)
+
+    def check_bag(self, path, node, density):
+        with rosbag.Bag(path) as bag:
+            count = {topic: entry.message_count for topic, entry in bag.get_type_and_topic_info()[1].items()}
+            info = next(message for _, message, _ in bag.read_messages(node + '/run_info'))
+        self.assertEqual(count[node + '/spectrum'], 20)
+        self.assertEqual(count[node + '/cost'], 60)
+        self.assertEqual({topic.rsplit('/', 1)[0] for topic in count} - {''}, {node})
+        self.assertEqual((info.density, info.threads, info.seed), (density, 1, '5'))
+
+    def test_arguments_are_documented(self):
+        files = glob.glob(os.path.join(LAUNCH, '*.launch'))
+        self.assertGreaterEqual(len(files), 4)
+        for path in files:
+            for arg in ElementTree.parse(path).getroot().findall('arg'):
+                self.assertTrue(arg.get('doc'), '%s in %s' % (arg.get('name'), path))
+        for name in ('run.launch', 'sweep.launch'):
+            listed = self.process(['roslaunch', '--ros-args', 'hdlyap', name])
+            self.assertEqual(listed.wait(), 0, listed.text())
+            for arg in ElementTree.parse(os.path.join(LAUNCH, name)).getroot().findall('arg'):
+                if arg.get('value') is None:
+                    self.assertRegex(listed.text(), r'(?m)^  %s\b.*: ' % arg.get('name') + re.escape(arg.get('doc')))
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_sweep')
+    rostest.rosrun('hdlyap', 'sweep', Sweep)

@@ -1,0 +1,352 @@
+/** The C API in a node that hears itself: what comes, what is dropped, what may still come, what is refused. */
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include "hdlyap_ros/hdlyap_ros.h"
+#include "received.hpp"
+
+namespace
+{
+hdr_node *node;
+const double patience = 60.0;
+
+bool wait_until(const std::function<bool()> &condition)
+{
+    for (double left = patience; left > 0.0 && !condition(); left -= 1e-3) hdr_node_wait(1e-3);
+    return condition();
+}
+
+/** What a callback saw, in its order. */
+struct seen {
+    std::vector<double> numbers;
+    std::atomic<size_t> count{0};
+    std::atomic<bool> inside{false}, held{false}, gone{false};
+    std::atomic<int> after{0}; /**< calls when it was gone */
+    hdr_subscriber *itself = nullptr;
+};
+
+void on_number(void *context, const hdr_float64 *view)
+{
+    auto *s = static_cast<seen *>(context);
+    s->after += s->gone;
+    s->inside = true;
+    s->numbers.push_back(view->data);
+    s->count++;
+    while (s->held) std::this_thread::yield();
+    s->inside = false;
+}
+
+hdr_publisher *advertise(const char *topic, int queue = 1000)
+{
+    hdr_publisher *publisher;
+    EXPECT_EQ(HDR_OK, hdr_float64_advertise(&publisher, node, topic, queue)) << hdr_error_text();
+    return publisher;
+}
+
+void publish(hdr_publisher *publisher, double number)
+{
+    const hdr_float64 view = {number};
+    EXPECT_EQ(HDR_OK, hdr_float64_publish(publisher, &view)) << hdr_error_text();
+}
+
+hdr_subscriber *subscribe(const char *topic, seen *s, int queue = 1000)
+{
+    hdr_subscriber *subscriber;
+    EXPECT_EQ(HDR_OK, hdr_float64_subscribe(&subscriber, node, topic, queue, on_number, s))
+        << hdr_error_text();
+    return subscriber;
+}
+
+/** Publishes 0, 1, 2 .. until it is told to end. */
+struct flood {
+    explicit flood(const char *topic) : publisher(advertise(topic)) {}
+    ~flood()
+    {
+        end = true;
+        thread.join();
+    }
+    hdr_publisher *publisher;
+    std::atomic<bool> end{false};
+    std::thread thread{[this] {
+        for (double k = 0.0; !end; k++) publish(publisher, k);
+    }};
+};
+} // namespace
+
+/* ---- a view goes out and comes in through the functions of its type ---- */
+
+template <class View> struct functions;
+#define FUNCTIONS(view)                                                                            \
+    template <> struct functions<view> {                                                           \
+        static constexpr auto publish = view##_publish;                                            \
+        static constexpr auto subscribe = view##_subscribe;                                        \
+        static hdr_status advertise(hdr_publisher **out, const char *topic)                        \
+        {                                                                                          \
+            return view##_advertise(out, node, topic, 10);                                         \
+        }                                                                                          \
+    };
+static hdr_status hdr_run_info_advertise(hdr_publisher **out, hdr_node *of, const char *topic, int)
+{
+    return hdr_run_info_advertise(out, of, topic);
+}
+FUNCTIONS(hdr_run_info)
+FUNCTIONS(hdr_spectrum)
+FUNCTIONS(hdr_modes)
+FUNCTIONS(hdr_steps)
+FUNCTIONS(hdr_lp_phases)
+FUNCTIONS(hdr_mode_field)
+FUNCTIONS(hdr_hydro)
+FUNCTIONS(hdr_state)
+FUNCTIONS(hdr_cost)
+FUNCTIONS(hdr_diagnostic)
+FUNCTIONS(hdr_float64)
+FUNCTIONS(hdr_string)
+
+static void prepare(diagnostic_msgs::DiagnosticArray &message) { message.status.resize(1); }
+static void prepare(std_msgs::String &message) { message.data = "a few words"; }
+template <class Message> void prepare(Message &) {}
+
+/** Next to nothing in it, but no string NULL. */
+template <class View> hdlyap_ros::received<View> blank()
+{
+    typename hdlyap_ros::message_of<View>::type message;
+    hdlyap_ros::received<View> view;
+    prepare(message);
+    ros::serialization::deserializeMessage(ros::serialization::serializeMessage(message), view);
+    return view;
+}
+
+/** But for header.seq, which roscpp counts. */
+template <class View> std::string bytes_of(const View &view)
+{
+    const ros::SerializedMessage message = ros::serialization::serializeMessage(view);
+    return std::string(reinterpret_cast<const char *>(message.message_start) + 4,
+                       message.num_bytes - 8);
+}
+
+struct arrival {
+    std::string bytes;
+    std::atomic<bool> came{false};
+};
+
+template <class View> void on_view(void *context, const View *view)
+{
+    auto *a = static_cast<arrival *>(context);
+    a->bytes = bytes_of(*view);
+    a->came = true;
+}
+
+template <class View> struct message : testing::Test {
+};
+using views =
+    testing::Types<hdr_run_info, hdr_spectrum, hdr_modes, hdr_steps, hdr_lp_phases, hdr_mode_field,
+                   hdr_hydro, hdr_state, hdr_cost, hdr_diagnostic, hdr_float64, hdr_string>;
+TYPED_TEST_SUITE(message, views, );
+
+TYPED_TEST(message, comes_back)
+{
+    using api = functions<TypeParam>;
+    std::string topic = std::string("~") + ros::message_traits::DataType<TypeParam>::value();
+    hdr_publisher *publisher;
+    hdr_subscriber *subscriber;
+    arrival got;
+    const auto sent = blank<TypeParam>();
+    std::replace(topic.begin(), topic.end(), '/', '_');
+    ASSERT_EQ(HDR_OK, api::advertise(&publisher, topic.c_str())) << hdr_error_text();
+    ASSERT_EQ(HDR_OK,
+              api::subscribe(&subscriber, node, topic.c_str(), 1, on_view<TypeParam>, &got));
+    EXPECT_EQ(1, hdr_subscriber_publishers(subscriber));
+    EXPECT_EQ(1, hdr_publisher_subscribers(publisher));
+    ASSERT_EQ(HDR_OK, api::publish(publisher, &sent.views.at(0))) << hdr_error_text();
+    EXPECT_TRUE(wait_until([&] { return got.came.load(); }));
+    hdr_subscriber_free(subscriber);
+    EXPECT_EQ(bytes_of(sent.views[0]), got.bytes);
+    EXPECT_EQ(0, hdr_publisher_subscribers(publisher));
+}
+
+/* ---- queues ---- */
+
+TEST(queue, drops_the_oldest)
+{
+    seen slow;
+    std::atomic<int> arrived{0};
+    ros::CallbackQueue apart; /* sees that a message is there while the wrapper's callbacks wait */
+    ros::NodeHandle handle;
+    handle.setCallbackQueue(&apart);
+    hdr_publisher *publisher = advertise("~dropped");
+    hdr_subscriber *subscriber = subscribe("~dropped", &slow, 3);
+    const ros::Subscriber counter = handle.subscribe<std_msgs::Float64>(
+        ros::names::resolve("~dropped"), 100,
+        [&](const std_msgs::Float64ConstPtr &) { arrived++; });
+    slow.held = true;
+    publish(publisher, 0);
+    EXPECT_TRUE(wait_until([&] { return slow.inside.load(); }));
+    for (int k = 1; k < 10; k++) publish(publisher, k);
+    EXPECT_TRUE(wait_until([&] { return apart.callAvailable(), arrived == 10; }));
+    slow.held = false;
+    EXPECT_TRUE(wait_until([&] { return slow.count == 4; }));
+    hdr_subscriber_free(subscriber);
+    EXPECT_EQ((std::vector<double>{0, 7, 8, 9}), slow.numbers);
+}
+
+TEST(queue, long_enough_loses_nothing)
+{
+    seen all;
+    hdr_publisher *publisher = advertise("~whole");
+    hdr_subscriber *subscriber = subscribe("~whole", &all);
+    for (int k = 0; k < 1000; k++) publish(publisher, k);
+    EXPECT_TRUE(wait_until([&] { return all.count == 1000; }));
+    hdr_subscriber_free(subscriber);
+    for (size_t k = 0; k < 1000; k++) EXPECT_EQ(static_cast<double>(k), all.numbers.at(k));
+}
+
+/* ---- nothing comes any more ---- */
+
+TEST(freeing, again_and_again_under_load)
+{
+    const flood source("~flood");
+    for (int k = 0; k < 50; k++) {
+        seen s;
+        hdr_subscriber *subscriber = subscribe("~flood", &s, 10);
+        EXPECT_TRUE(wait_until([&] { return s.count >= 3; }));
+        hdr_subscriber_free(subscriber);
+        s.gone = true;
+        EXPECT_FALSE(s.inside);
+        const size_t count = s.count;
+        std::this_thread::yield();
+        EXPECT_EQ(count, s.count);
+        EXPECT_EQ(0, s.after);
+    }
+}
+
+TEST(freeing, waits_for_the_callback_that_runs)
+{
+    seen s;
+    std::atomic<bool> freed{false};
+    hdr_publisher *publisher = advertise("~waits");
+    hdr_subscriber *subscriber = subscribe("~waits", &s);
+    s.held = true;
+    publish(publisher, 0);
+    publish(publisher, 1);
+    EXPECT_TRUE(wait_until([&] { return s.inside.load(); }));
+    std::thread other([&] {
+        hdr_subscriber_free(subscriber);
+        s.gone = true;
+        freed = true;
+    });
+    hdr_node_wait(0.05);
+    EXPECT_FALSE(freed);
+    s.held = false;
+    other.join();
+    EXPECT_FALSE(s.inside);
+    EXPECT_EQ(0, s.after);
+    EXPECT_EQ(1u, s.count);
+}
+
+static void on_status(void *context, const hdr_diagnostic *)
+{
+    auto *s = static_cast<seen *>(context);
+    hdr_subscriber_free(s->itself);
+    s->count++;
+}
+
+/** At the first of the views of one message. */
+TEST(freeing, by_the_callback_itself)
+{
+    seen s;
+    ros::NodeHandle handle;
+    diagnostic_msgs::DiagnosticArray three;
+    three.status.resize(3);
+    const std::string topic = ros::names::resolve("~statuses");
+    ros::Publisher publisher = handle.advertise<diagnostic_msgs::DiagnosticArray>(topic, 10);
+    ASSERT_EQ(HDR_OK, hdr_diagnostic_subscribe(&s.itself, node, "~statuses", 10, on_status, &s));
+    publisher.publish(three);
+    publisher.publish(three);
+    EXPECT_TRUE(wait_until([&] { return s.count > 0 && publisher.getNumSubscribers() == 0; }));
+    EXPECT_EQ(1u, s.count);
+    hdr_subscriber_free(nullptr);
+}
+
+/* ---- what is refused ---- */
+
+static void on_string(void *, const hdr_string *) {}
+
+static std::string of_another_type(const char *topic)
+{
+    return std::string(hdr_node_name(node)) + "/" + topic +
+           " cannot be std_msgs/String: this node has it with another type";
+}
+
+TEST(refused, another_type_of_this_node)
+{
+    hdr_subscriber *subscriber = nullptr;
+    hdr_publisher *publisher = nullptr;
+    seen s;
+    advertise("~numbers");
+    EXPECT_EQ(HDR_FAULT,
+              hdr_string_subscribe(&subscriber, node, "~numbers", 1, on_string, nullptr));
+    EXPECT_EQ(nullptr, subscriber);
+    EXPECT_EQ(of_another_type("numbers"), hdr_error_text());
+    EXPECT_EQ(HDR_FAULT, hdr_string_advertise(&publisher, node, "~numbers", 1));
+    EXPECT_EQ(of_another_type("numbers"), hdr_error_text());
+    EXPECT_EQ(nullptr, publisher);
+    hdr_subscriber *first = subscribe("~heard", &s);
+    EXPECT_EQ(HDR_FAULT, hdr_string_subscribe(&subscriber, node, "~heard", 1, on_string, nullptr));
+    EXPECT_EQ(of_another_type("heard"), hdr_error_text());
+    hdr_subscriber_free(first);
+}
+
+TEST(refused, queues_and_names)
+{
+    hdr_subscriber *subscriber = nullptr;
+    hdr_publisher *publisher = nullptr;
+    const std::string topic = std::string(hdr_node_name(node)) + "/x";
+    EXPECT_EQ(HDR_FAULT, hdr_float64_subscribe(&subscriber, node, "~x", 0, on_number, nullptr));
+    EXPECT_EQ("queue of " + topic + " = 0: must be at least 1", std::string(hdr_error_text()));
+    EXPECT_EQ(HDR_FAULT, hdr_float64_advertise(&publisher, node, "~x", -1));
+    EXPECT_EQ("queue of " + topic + " = -1: must be at least 1", std::string(hdr_error_text()));
+    EXPECT_EQ(HDR_FAULT,
+              hdr_float64_subscribe(&subscriber, node, "no name", 1, on_number, nullptr));
+    EXPECT_NE(nullptr, strstr(hdr_error_text(), "no name"));
+    EXPECT_EQ(nullptr, subscriber);
+    EXPECT_EQ(nullptr, publisher);
+}
+
+TEST(node, waits)
+{
+    const ros::WallTime began = ros::WallTime::now();
+    EXPECT_TRUE(hdr_node_wait(0.05));
+    EXPECT_TRUE(hdr_node_wait(-1.0));
+    EXPECT_TRUE(hdr_node_wait(0.0 / 0.0));
+    EXPECT_GE((ros::WallTime::now() - began).toSec(), 0.045); /* the clock of the wall may be set */
+}
+
+/** The last one: who waits for a stop is woken, and goes on being. */
+TEST(node, stops)
+{
+    std::thread other([] { hdr_stop_request(); });
+    EXPECT_FALSE(hdr_node_wait(INFINITY));
+    EXPECT_FALSE(hdr_node_wait(INFINITY));
+    other.join();
+}
+
+int main(int argc, char **argv)
+{
+    seen left; /* is subscribed until the node ends */
+    testing::InitGoogleTest(&argc, argv);
+    if (hdr_node_create(&node, &argc, argv, "test_wrapper", 60.0, 3) != HDR_OK || !node) return 1;
+    const int failed = RUN_ALL_TESTS();
+    subscribe("~left", &left);
+    hdr_node_free(node, 0.0);
+    return failed;
+}
