@@ -26,8 +26,8 @@ FIRST = dict(SHORT, seed='7', observables=OBSERVABLES, wait_for_subscribers='all
 RUN = dict(MODES, seed='11', threads=1, pace=100.0, observables=OBSERVABLES, field_interval=5.0, wait_for_subscribers='all')
 REPORTS, BEGIN = 90, 70.0      # of RUN; where its averaging begins
 # 64 kB a report
-BULKY = dict(disks=2000, density=0.7, aspect=1.0, exponents=20, equilibration=0.2, warmup=0.2, duration=0.0,
-             report_interval=0.1, pace=10.0, observables=['spectrum', 'state'], wait_for_subscribers='all')
+BULKY = dict(disks=2000, density=0.7, aspect=1.0, exponents=1, equilibration=0.2, warmup=0.2, duration=0.0,
+             report_interval=0.1, pace=20.0, observables=['spectrum', 'state'], wait_for_subscribers='all')
 PROBED = {'fields': 'mode_field'}   # of topics that the probe knows by another name
 
 
@@ -281,7 +281,7 @@ class Stopped(unittest.TestCase):
         self.assertTrue(harness.wait_until(lambda: len(self.files('first_*')) > 2))
         end(first)
         self.assertTrue(node.running())
-        second = self.record('bag:=second.bag')
+        second = self.record('bag:=second.bag', 'markers:=true')
         averaged = harness.Listener('spectrum')
         self.addCleanup(averaged.close)
         self.assertTrue(harness.wait_until(lambda: is_recorded(node, ['run_info', 'spectrum', 'state', 'cost'])))
@@ -299,6 +299,7 @@ class Stopped(unittest.TestCase):
         parts = [read(path) for path in paths]
         ids = {message.run_id for part in parts for message in unpacked(part['/hdlyap/run_info'])}
         self.assertEqual(len(ids), 1)
+        self.assertFalse(any('/hdlyap/markers' in part for part in parts))
         states = [message for part in parts for message in unpacked(part.get('/hdlyap/state', []))]
         self.assertEqual({message.run_id for message in states}, ids)
         self.assertEqual(states[0].sim_time, BULKY['report_interval'])
@@ -307,7 +308,10 @@ class Stopped(unittest.TestCase):
 
     def check_drawn(self, paths):
         self.assertEqual([os.path.basename(path) for path in paths], ['second.bag'])
-        self.assertEqual(len(read(paths[0])['/hdlyap/run_info']), 1)
+        messages = read(paths[0])
+        self.assertEqual(len(messages['/hdlyap/run_info']), 1)
+        self.assertIn('/hdlyap/markers', messages)
+        self.assertIn('/tf_static', messages)
         plot = self.process(Process([program('plot_bag'), paths[0], '--out', self.folder]))
         self.assertEqual(plot.wait(), 0, plot.text())
         self.assertIn('lambda_max', plot.text())

@@ -15,7 +15,7 @@ OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.E
 LIVE = dict(SHORT, duration=0.0, pace=20.0, threads=1)
 # more than the buffers of a socket hold, in a second
 BULKY = dict(disks=20000, density=0.1, exponents='none', observables=['state'], pace=0.5, equilibration=0.0,
-             report_interval=0.025, duration=0.0)
+             warmup=0.0, report_interval=0.025, duration=0.0)
 
 
 class Diagnostics(unittest.TestCase):

@@ -17,13 +17,15 @@ from made import LP, SCRIPTS, T
 from terminal import Terminal
 from hdlyap_follow import layout, panels
 from hdlyap_follow.screen import clean, cut
-from hdlyap_follow.watch import Speed, View, lazy
+from hdlyap_follow.watch import Speed, View, fill, lazy
 from hdlyap_plots.glyphs import Glyphs
 
 FOLLOW = os.path.join(SCRIPTS, 'follow')
 SIZES = (80, 24), (120, 40), (200, 60), (60, 15), (30, 5), (7, 2), (1, 1)
 OBSERVED = ['spectrum', 'steps', 'lp_phases']
 PACED = dict(harness.MODES, equilibration=1.0, warmup=20.0, duration=0.0, pace=100.0)
+# a short run does not begin before it is watched
+SEEN = dict(wait_for_subscribers=['cost', 'spectrum'])
 SCREEN = 'from hdlyap_follow.screen import Screen\n'
 
 
@@ -196,6 +198,13 @@ class Screens(unittest.TestCase):
                 for wall, time in ((1, 10), (2, 30), (12, 130), (22, 130), (1, 5), (3, 15))]
         self.assertEqual(seen, [None, 20.0, 10.0, 0.0, None, 5.0])
 
+    def test_a_run_before_is_not_shown(self):
+        shown = View()
+        fill(shown, {'steps': made.steps([]), 'run_info': made.run_info(run_id='two'),
+                     'spectrum': made.spectrum([3.0], 1.0), 'cost': cost(run_id='two')})
+        self.assertEqual((shown.info.run_id, shown.cost.run_id), ('two', 'two'))
+        self.assertEqual((shown.steps, shown.spectrum), (None, None))
+
     def test_messages_are_unpacked_when_asked(self):
         class Counted(made.Spectrum):
             unpacked = 0
@@ -320,7 +329,7 @@ class Running(unittest.TestCase):
         self.master.stop()
         self.shows(patient, 'no master  what connected before goes on')
         self.addClassCleanup(harness.Master(self.port).stop)
-        self.node(seed='18', duration=10.0)
+        self.node(seed='18', duration=10.0, **SEEN)
         self.shows(patient, 'seed 18')
         self.shows(patient, 'the run has finished')
         self.assertNotIn('no master', '\n'.join(patient.screen()))
@@ -329,7 +338,7 @@ class Running(unittest.TestCase):
         self.assertTrue(harness.wait_until(patient.is_as_before))
 
     def test_one_line_until_the_end(self):
-        self.node(duration=60.0)
+        self.node(duration=60.0, **SEEN)
         process = harness.Process([sys.executable, FOLLOW], **self.env)
         self.addCleanup(process.stop)
         self.assertTrue(harness.wait_until(lambda: self.listeners() == {'cost', 'spectrum'}))

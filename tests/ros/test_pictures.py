@@ -75,7 +75,7 @@ class Markers(unittest.TestCase):
         for listener in (states, fields):
             self.addCleanup(listener.close)
         pictures = self.look()
-        node = self.start(dict(ENDLESS, marker_rate=100.0, pace=10.0))
+        node = self.start(dict(ENDLESS, marker_rate=100.0, field_interval=0.0, pace=10.0))
         self.assertTrue(harness.wait_until(lambda: sum(len(modes(p)) == 2 for p in pictures.all) > 60), node.text())
         node.stop()
         compared = 0

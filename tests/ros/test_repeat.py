@@ -16,10 +16,15 @@ SCENES = os.path.join(made.SCRIPTS, '../../launch/scenes')
 REPEAT = os.path.join(made.SCRIPTS, 'repeat')
 
 
+def text_of(value):
+    """As the node shows a parameter."""
+    return '[' + ', '.join(map(str, value)) + ']' if isinstance(value, list) else str(value)
+
+
 def info_of(scene, **others):
     """run_info of a node that was given a scene file."""
-    params = dict(scene, interval=0.0 if scene['interval'] == 'auto' else scene['interval'],
-                  field_indices=str(scene['field_indices']), exponents=str(scene['exponents']), threads=2)
+    texts = {name: text_of(scene[name]) for name in ('exponents', 'field_indices', 'marker_modes')}
+    params = dict(scene, **texts, interval=0.0 if scene['interval'] == 'auto' else scene['interval'], threads=2)
     return made.run_info(**dict(params, **others))
 
 
@@ -69,7 +74,7 @@ class Repeat(unittest.TestCase):
         with open(os.path.join(SCENES, 'quick.yaml')) as file:
             scene = dict(yaml.safe_load(file), seed='18446744073709551615', accuracy=1e-12, scene='off',
                          exponents='007', field_indices=[37, 1], observables=[], interval=1e-6, density=0.1 + 0.2,
-                         wait_for_subscribers=['cost', 'run_info'])
+                         wait_for_subscribers=['cost', 'run_info'], marker_modes=['T(1,0)', 'LP(1, 1)'])
         made.write(self.bag, [info_of(scene)])
         self.assertEqual(self.repeated(), dict(scene, threads=2))
 

@@ -4,7 +4,6 @@ late, and from a bag."""
 
 import os
 import subprocess
-import sys
 import tempfile
 import time
 import unittest
@@ -13,6 +12,7 @@ import matplotlib.image
 import numpy as np
 import rosbag
 import rosgraph
+import roslib.packages
 import rospy
 import rostest
 import yaml
@@ -133,9 +133,8 @@ class Rviz(unittest.TestCase):
         return node
 
     def open_rviz(self):
-        view = os.path.join(os.path.dirname(__file__), '..', '..', 'hdlyap_ros', 'scripts', 'view')
-        rviz = harness.Process([sys.executable, view, '--config', config(self.folder.name)], ROS_HOME=self.folder.name,
-                               **self.screen.env)
+        view = roslib.packages.find_node('hdlyap', 'view')[0]
+        rviz = harness.Process([view, '--config', config(self.folder.name)], ROS_HOME=self.folder.name, **self.screen.env)
         self.addCleanup(rviz.stop)
         self.assertTrue(harness.wait_until(lambda: any(name.startswith('/rviz_') for name in self.subscribers())), rviz.text())
         with open(os.path.join(self.folder.name, 'view_hdlyap_markers.rviz')) as file:

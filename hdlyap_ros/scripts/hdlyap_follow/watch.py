@@ -54,23 +54,13 @@ class Watch:
         listened = scout.listened
         last = {topic.rpartition('/')[2]: message.unpacked()
                 for topic, message in dict(self._last).items() if topic in listened}
-        self._fill(view, last)
+        fill(view, last)
         view.node, view.silence = self._node, self._silence()
         view.diagnosis, view.speed = self._diagnosis, self._speed.add(view.cost)
         view.wanted, view.others = scout.wanted, {topic.rpartition('/')[2]
                                                   for topic in scout.others}
         view.is_gone, view.is_master_gone = scout.is_node_gone, scout.is_master_gone
         return view
-
-    @staticmethod
-    def _fill(view, last):
-        """Leaves out what is left of a run before the one that the cost is of."""
-        newest = last.get('cost') or last.get('run_info')
-        last = {name: message for name, message in last.items()
-                if message.run_id == newest.run_id} if newest else {}
-        view.info, view.cost = last.get('run_info'), last.get('cost')
-        view.spectrum, view.steps = last.get('spectrum'), last.get('steps')
-        view.phases = last.get('lp_phases')
 
     def _silence(self):
         return time.monotonic() - self._heard
@@ -84,6 +74,17 @@ class Watch:
             if status.name == self._node:
                 self._heard = time.monotonic()
                 self._diagnosis = status
+
+
+def fill(view, last):
+    """With the last messages of the topics, but those that are left of a run before the one that
+    the cost is of."""
+    newest = last.get('cost') or last.get('run_info')
+    last = {name: message for name, message in last.items()
+            if message.run_id == newest.run_id} if newest else {}
+    view.info, view.cost = last.get('run_info'), last.get('cost')
+    view.spectrum, view.steps = last.get('spectrum'), last.get('steps')
+    view.phases = last.get('lp_phases')
 
 
 class Speed:
