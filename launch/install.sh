@@ -32,10 +32,10 @@ test_packages() {
         debian)
             echo libclang-rt-dev librostest-dev python3-rostest python3-rostopic python3-rosnode \
                 python3-rosservice python3-rosgraph python3-roslib python3-rosmaster python3-rosmsg rospack-tools \
-                python3-tf2-msgs catkin-lint
+                python3-rosgraph-msgs python3-tf2-msgs catkin-lint
             ;;
         noetic)
-            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice rosgraph roslib rosmaster rosmsg rospack tf2-msgs
+            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice rosgraph roslib rosmaster rosmsg rospack rosgraph-msgs tf2-msgs
             echo python3-catkin-lint
             ;;
     esac

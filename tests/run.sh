@@ -12,7 +12,7 @@ readonly LOGS=$WORK/log COUNTS=$WORK/counts
 
 shell_scripts() {
     cd "$ROOT"
-    shellcheck -x --exclude=SC2317 launch/*.sh tests/*.sh tests/install/*.sh tests/fuzz/*.sh tests/downstream/*.sh hdlyap_core/bench/*.sh .ci/run
+    shellcheck -x --exclude=SC2317 launch/*.sh tests/*.sh tests/install/*.sh tests/fuzz/*.sh hdlyap_core/bench/*.sh .ci/run
 }
 
 # without_ros COMMAND...: as on a machine that has no ROS.
@@ -77,17 +77,17 @@ plot_tests() {
     # shellcheck disable=SC2016
     for file in test_*.py; do
         grep -qF "\"$file\"" ./*.test || echo "${file%.py}"
-    done | WORK=$WORK xargs -P "$(nproc)" -I MODULE sh -c 'status=0
+    done | env "WORK=$WORK" xargs -P "$(nproc)" -I MODULE sh -c 'status=0
         python3 -m unittest -v MODULE >"$WORK/unittest/MODULE.log" 2>&1 || status=1
         cat "$WORK/unittest/MODULE.log"
         exit "$status"'
 }
 
-downstream() { "$ROOT/tests/downstream/check.sh" "$WORK/downstream" "$WORK/ros" "$WORK/ros/.install"; }
+downstream() { "$ROOT/tests/install/ros.sh" "$WORK/downstream" "$WORK/ros" "$WORK/ros/.install"; }
 
 lint() {
     # the folder of a clone may have any name
-    catkin_lint --offline --strict -W2 --ignore package_path_name "$ROOT"
+    catkin_lint --offline --strict -W2 --ignore package_path_name "$ROOT" "$ROOT/tests/downstream"
 }
 
 warnings() {

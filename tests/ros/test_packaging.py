@@ -40,7 +40,7 @@ TOOLS = set('build-essential cmake procps libcmocka-dev shellcheck strace valgri
 
 # commands, options and variables that CMake has only since 3.17 or later
 NEWER_CMAKE = re.compile(
-    r'cmake_path\(|cmake_language\(|\bblock\(|ZIP_LISTS|COMMAND_ERROR_IS_FATAL|FILE_SET|RUNTIME_DEPENDENCY_SET|TOP_LEVEL\b|'
+    r'cmake_path\(|cmake_language\(|\bendblock\(|ZIP_LISTS|COMMAND_ERROR_IS_FATAL|FILE_SET|RUNTIME_DEPENDENCY_SET|TOP_LEVEL\b|'
     r'CMAKE_CURRENT_FUNCTION|string\(JSON|file\((REAL_PATH|ARCHIVE_|CHMOD|CONFIGURE|COPY_FILE)|ENVIRONMENT_MODIFICATION|'
     r'find_(library|program|file|path)\([^)]*REQUIRED|\$<CONFIG:[^>]*,|\$<(PATH|LINK_GROUP|LINK_LIBRARY|DEVICE_LINK|IN_LIST_):|'
     r'CMP0(09[89]|1[0-9][0-9])|C_STANDARD (17|23)|CXX_STANDARD (2[0-9])|--test-dir|--preset|--fresh')
@@ -174,6 +174,20 @@ class Launch(unittest.TestCase):
                 self.assertTrue(argument.get('doc'), '%s: %s' % (path, argument.get('name')))
                 count += 1
         self.assertGreater(count, 8)
+
+
+class Suite(unittest.TestCase):
+    """What tests/ros/CMakeLists.txt does not name is not run."""
+
+    def test_every_rostest_is_run(self):
+        cmake = text_of('tests/ros/CMakeLists.txt')
+        run = re.search(r'foreach\(name([^)]*)\)\s*add_rostest\(', cmake).group(1).split()
+        run += re.findall(r'add_rostest\w*\((?:\w+ )?(\w+)\.test', cmake)
+        self.assertEqual(sorted(run), sorted(os.path.basename(path)[:-5] for path in files('.test')))
+
+    def test_every_launch_file_is_checked(self):
+        checked = re.findall(r'roslaunch_add_file_check\(\S*?([\w.]+\.launch)', text_of('tests/ros/CMakeLists.txt'))
+        self.assertEqual(sorted(checked), sorted(os.path.basename(path) for path in files('.launch')))
 
 
 if __name__ == '__main__':

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # hdlyap as other packages and people meet it: installed below a prefix, in a build folder, in a catkin workspace.
-#   check.sh WORK_FOLDER ROS_BUILD INSTALLED_PREFIX
+#   ros.sh WORK_FOLDER ROS_BUILD INSTALLED_PREFIX
 set -euo pipefail
 # shellcheck source=launch/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../../launch/common.sh"
 
-readonly WORK=$1 BUILD=$2 PREFIX=$3 HERE=$ROOT/tests/downstream
+readonly WORK=$1 BUILD=$2 PREFIX=$3 PACKAGE=$ROOT/tests/downstream
 readonly SPACE="$WORK/a workspace" STAGE=$WORK/stage ELSEWHERE=/opt/hdlyap_elsewhere # which never exists
 mkdir -p "$WORK"
 # shellcheck source=tests/check.sh
@@ -25,7 +25,7 @@ in_prefix() { in_space "$PREFIX/setup.bash" "$@"; }
 
 # builds_against SETUP FOLDER
 builds_against() {
-    in_space "$1" cmake -S "$HERE" -B "$2" -DPYTHON_EXECUTABLE=/usr/bin/python3 "-DCMAKE_INSTALL_PREFIX=$2/installed" &&
+    in_space "$1" cmake -S "$PACKAGE" -B "$2" -DPYTHON_EXECUTABLE=/usr/bin/python3 "-DCMAKE_INSTALL_PREFIX=$2/installed" &&
         cmake --build "$2" -- -j "$(nproc)" && cmake --install "$2"
 }
 
@@ -93,7 +93,7 @@ finds_package() {
 finds_messages() {
     local -a names=("$ROOT"/msg/*.msg)
     names=("${names[@]##*/}")
-    in_prefix python3 "$HERE/messages.py" "$PREFIX" "${names[@]%.msg}" &&
+    in_prefix python3 "$ROOT/tests/install/messages.py" "$PREFIX" "${names[@]%.msg}" &&
         [[ $(in_prefix rosmsg show hdlyap/Spectrum) == *'float64[] exponents'* ]] &&
         [[ $(in_prefix rosmsg md5 hdlyap/Spectrum) == ???????????????????????????????? ]]
 }
@@ -124,7 +124,7 @@ workspace_builds() {
     mkdir -p "$SPACE/src/hdlyap"
     # the build folder of a clone is not part of it
     find "$ROOT" -mindepth 1 -maxdepth 1 ! -name build ! -name '.git' -exec cp -r -t "$SPACE/src/hdlyap" {} + &&
-        cp -r "$HERE" "$SPACE/src/downstream" && cd "$SPACE" &&
+        cp -r "$PACKAGE" "$SPACE/src/downstream" && cd "$SPACE" &&
         catkin_make --use-ninja -j"$(nproc)" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_BUILD_TYPE=Debug \
         -DCATKIN_ENABLE_TESTING=OFF "-DCMAKE_INSTALL_PREFIX=$ELSEWHERE" </dev/null
 }
