@@ -1,9 +1,11 @@
 /** Whole runs through grazing collisions, against the exponents in long double (exact.h): thousands of near ones as they
- *  come, and single extreme ones that are prepared. Includes run.c to give it a prepared trajectory. */
-#include "../../hdlyap_core/src/run.c"
+ *  come, and single extreme ones in a trajectory that is prepared. */
+#include <float.h>
 
+#include "check.h"
 #include "exact.h"
 #include "prepared.h"
+#include "run_state.h"
 
 /** To which the reference is known: its own rounding, 1e-19 of a condition below 1e5, and that of sums of 1e6 doubles. */
 static const double EXACT = 1e-13;
@@ -130,13 +132,15 @@ static hd_trajectory *prepared(const hd_scene_def *scene, double impact)
     hd_scene_box(scene, box);
     double q[8] = {0.2 * box[0],  0.2 * box[1], 0,           0, 0.3 * box[0],
                    0.75 * box[1], 0.8 * box[0], 0.7 * box[1]};
-    double p[8] = {0, 0, 0, 0, 1.1, 0.3, -1.1, -0.3};
+    double p[8] = {0, 0, 0, 0, 1.1, 0.3, -1.1, -0.3}, pair = 0.0;
     for (int d = 0; d < 2; d++) {
         const double t = d ? n[0] : -n[1];
         q[2 + d] = q[d] + distance * n[d];
         p[d] = 0.5 * impact * n[d] - 0.8 * t;
         p[2 + d] = -p[d];
     }
+    for (int k = 0; k < 4; k++) pair += p[k] * p[k];
+    for (int k = 4; k < 8; k++) p[k] *= sqrt((8.0 - pair) / 2.6); /* kinetic energy N */
     return started(scene, q, p);
 }
 
