@@ -2,10 +2,12 @@
 """~markers: what the node draws is what it publishes as numbers, only while somebody looks, as often as asked."""
 
 import re
+import signal
 import time
 import unittest
 
 import numpy as np
+import roslib.packages
 import rospy
 import rostest
 from std_srvs.srv import SetBool
@@ -96,6 +98,62 @@ class Markers(unittest.TestCase):
                 np.testing.assert_array_equal(places(picture), np.c_[field[0].x, field[0].y])
                 compared += 1
         self.assertGreater(compared, 5)
+
+    def redraw(self, *args):
+        node = harness.Process([roslib.packages.find_node('hdlyap', 'redraw')[0], '__name:=hdlyap', *args])
+        self.addCleanup(node.stop)
+        return node
+
+    def test_the_same_from_messages(self):
+        """What redraw makes of the messages is what the node drew at the times of fields."""
+        topics = ('run_info', 'state', 'spectrum', 'steps', 'lp_phases', 'fields', 'cost')
+        listeners = {topic: Listener(topic) for topic in topics}
+        live = self.look()
+        node = self.start(dict(ENDLESS, marker_rate=100.0, field_interval=0.0, pace=10.0))
+        self.assertTrue(harness.wait_until(lambda: sum(len(modes(p)) == 2 for p in live.all) > 60), node.text())
+        node.send(signal.SIGINT)
+        node.wait()
+        for listener in (*listeners.values(), live):
+            listener.close()        # what is said again is not heard again
+        originals = {tuple(places(p).flat): p for p in live.all if len(modes(p)) == 2}
+        rospy.delete_param('/hdlyap')
+        again = self.look()
+        redraw = self.redraw()
+        publishers = {topic: rospy.Publisher('/hdlyap/' + topic, harness.TYPES[topic], queue_size=1000)
+                      for topic in topics}
+        for publisher in publishers.values():
+            self.addCleanup(publisher.unregister)
+        self.assertTrue(harness.wait_until(lambda: all(p.get_num_connections() for p in publishers.values())))
+        publishers['run_info'].publish(listeners['run_info'].messages[-1])
+        compared = 0
+        for cost in listeners['cost'].messages:
+            for topic in topics[1:-1]:
+                for message in listeners[topic].messages:
+                    if message.sim_time == cost.sim_time:
+                        publishers[topic].publish(message)
+            time.sleep(0.02)        # topics do not keep step
+            count = len(again.all)
+            publishers['cost'].publish(cost)
+            harness.wait_until(lambda: len(again.all) > count, 0.2)
+            picture = again.all[-1] if again.all else None
+            original = picture and originals.get(tuple(places(picture).flat))
+            if not original or len(modes(picture)) < 2:
+                continue
+            compared += 1
+            self.assertEqual(modes(picture), modes(original))
+            for ns, kind in [(ns, Marker.TRIANGLE_LIST) for ns in modes(picture)] + [('phases', Marker.LINE_LIST)]:
+                for new, old in zip(of(picture, ns, kind), of(original, ns, kind)):
+                    np.testing.assert_allclose([(p.x, p.y) for p in new.points], [(p.x, p.y) for p in old.points],
+                                               atol=1e-9)
+        self.assertGreater(compared, 3, redraw.text())
+
+    def test_redraw_refuses(self):
+        for name, value in (('modes', 'T(1,0)'), ('modes', 3), ('disks', 10)):
+            rospy.set_param('/hdlyap', {name: value})
+            node = self.redraw()
+            self.assertEqual(node.wait(), 2, node.text())
+            self.assertEqual(len(node.lines(name + ' = ')), 1)
+        rospy.delete_param('/hdlyap')
 
     def test_named_modes_in_their_order(self):
         pictures = self.look()

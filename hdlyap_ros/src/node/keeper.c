@@ -2,11 +2,14 @@
 #include "keeper.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "clock.h"
@@ -24,6 +27,31 @@ static hd_status fault(const char *path, const char *what, char *message, size_t
 {
     snprintf(message, size, "%.200s: %s", path, what);
     return HD_FILE_FAULT;
+}
+
+/* ---- one at a time ---------------------------------------------------------------------------- */
+
+/** Locks the file's folder, so that whose the file is does not change between looking and writing; -1 where that
+ *  cannot be had within seconds: then it is only looked at. */
+static int folder_lock(const char *path)
+{
+    const struct timespec pause = {.tv_nsec = 10000000};
+    char folder[PATH_MAX] = ".";
+    const char *slash = strrchr(path, '/');
+    if (slash) snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
+    const int folder_file = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    for (int tries = 0; folder_file >= 0 && tries < 1000; tries++) {
+        if (flock(folder_file, LOCK_EX | LOCK_NB) == 0) return folder_file;
+        if (errno != EWOULDBLOCK) break;
+        nanosleep(&pause, NULL);
+    }
+    if (folder_file >= 0) close(folder_file);
+    return -1;
+}
+
+static void folder_unlock(int folder_file)
+{
+    if (folder_file >= 0) close(folder_file);
 }
 
 /* ---- the first file --------------------------------------------------------------------------- */
@@ -83,9 +111,11 @@ hd_status keeper_begin(keeper *out, const settings *set, hd_run *run, char *mess
 {
     *out = (keeper){.set = set, .due = INFINITY, .state = {.time = -1.0}};
     if (!*set->checkpoint) return HD_OK;
+    const int lock = folder_lock(set->checkpoint);
     const hd_status status = save_first(set, run, message, size);
+    if (status == HD_OK) remember(out);
+    folder_unlock(lock);
     if (status != HD_OK) return status;
-    remember(out);
     out->due = next_due(set);
     out->state.time = hd_run_time(run);
     return HD_OK;
@@ -113,10 +143,14 @@ static hd_status save(keeper *k, hd_run *run)
 {
     kept *state = &k->state;
     const char *path = k->set->checkpoint;
-    if (!is_mine(k))
-        return fault(path, "another process has replaced it", state->message,
-                     sizeof state->message);
-    return hd_run_save(run, path, k->set->scene, state->message, sizeof state->message);
+    const int lock = folder_lock(path);
+    const hd_status status =
+        is_mine(k) ? hd_run_save(run, path, k->set->scene, state->message, sizeof state->message)
+                   : fault(path, "another process has replaced it", state->message,
+                           sizeof state->message);
+    if (status == HD_OK) remember(k);
+    folder_unlock(lock);
+    return status;
 }
 
 void keeper_save(keeper *k, hd_run *run)
@@ -129,7 +163,6 @@ void keeper_save(keeper *k, hd_run *run)
     state->failed = failed;
     k->due = next_due(k->set);
     if (failed) return;
-    remember(k);
     state->time = hd_run_time(run);
     k->changed = false;
 }

@@ -70,7 +70,7 @@ static const hdr_step *step_of(const picture *p, uint32_t index)
     return NULL;
 }
 
-/** From the lowest upwards, above and below in turn: neighbours would overlap. */
+/** From the lowest upwards, above to the right and below to the left in turn: there is no other exponent. */
 static void step_names(const plot *axes, const picture *p, uint32_t last)
 {
     const hdr_step *before = NULL;
@@ -78,12 +78,12 @@ static void step_names(const plot *axes, const picture *p, uint32_t last)
     for (uint32_t i = last; i > axes->min[0] && names < NAMES_MAX; i--) {
         const hdr_step *step = step_of(p, i);
         if (!step || step == before) continue;
-        const double middle = 0.5 * (step->first_index + step->last_index);
-        const double away = (names % 2 ? 1.2 : -1.2) * axes->unit;
-        canvas_text(axes->on, axes->ns, plot_x(axes, middle), plot_y(axes, step->exponent) + away,
-                    0.8 * axes->unit, palette_kind(step->kind), "%s(%u,%u)%s",
-                    step->kind == HDR_MODE_T ? "T" : "LP", (unsigned)step->nx, (unsigned)step->ny,
-                    step->members > 1 ? "+" : "");
+        const double side = names % 2 ? -1.0 : 1.0;
+        const double at = plot_x(axes, names % 2 ? step->first_index : step->last_index);
+        canvas_text(axes->on, axes->ns, at + side * 2.2 * axes->unit,
+                    plot_y(axes, step->exponent) + side * 0.9 * axes->unit, 0.8 * axes->unit,
+                    palette_kind(step->kind), "%s(%u,%u)%s", step->kind == HDR_MODE_T ? "T" : "LP",
+                    (unsigned)step->nx, (unsigned)step->ny, step->members > 1 ? "+" : "");
         before = step;
         names++;
     }
