@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """~markers: what the node draws is what it publishes as numbers, only while somebody looks, as often as asked."""
 
+import os
 import re
 import time
 import unittest
@@ -56,8 +57,8 @@ def arrows(marker):
 
 class Markers(unittest.TestCase):
 
-    def start(self, params):
-        node = harness.start(params)
+    def start(self, params, **kw):
+        node = harness.start(params, **kw)
         self.addCleanup(node.stop)
         return node
 
@@ -140,6 +141,48 @@ class Markers(unittest.TestCase):
         pictures = self.look()
         self.assertTrue(harness.wait_until(lambda: pictures.all, 10))
         self.assertEqual(len(pictures.all), 1)
+
+    def test_late_to_modes_that_rest(self):
+        """Nobody looked when the run was paused: its modes are found, their vectors not known."""
+        before = self.look()
+        self.start(ENDLESS)
+        self.assertTrue(harness.wait_until(lambda: before.all and len(modes(before.all[-1])) == 2))
+        before.close()
+        time.sleep(1.2)     # a picture of less than a second ago is not drawn anew
+        self.pause(True)
+        late = self.look()
+        self.assertTrue(harness.wait_until(lambda: late.all and not modes(late.all[-1]), 10))
+        titles = [m.text for m in late.all[-1].markers if m.ns.startswith('mode/') and m.action == Marker.ADD]
+        self.assertEqual(len(titles), 2)
+        for title in titles:
+            self.assertRegex(title, r'index \d+ .*not known now')
+
+    def test_no_memory_for_it(self):
+        pictures = self.look()
+        node = self.start(dict(ENDLESS, disks=20000, aspect=1.0, exponents='none', warmup=0.0, equilibration=0.1, pace=1.0),
+                          probe={'PROBE_GROWTH': '300000'})
+        self.assertTrue(harness.wait_until(lambda: len(node.lines('markers not drawn: out of memory')) > 1), node.text())
+        self.assertTrue(node.running())
+        self.assertEqual(pictures.all, [])
+
+    def test_at_the_slowest_pace(self):
+        """So slow that a picture's time is no number, and the next step's no wall time."""
+        def seconds():
+            with open('/proc/%d/stat' % node.process.pid) as file:
+                return sum(map(int, file.read().rsplit(')', 1)[1].split()[11:13])) / os.sysconf('SC_CLK_TCK')
+
+        def rests():
+            before = seconds()
+            time.sleep(0.3)
+            return seconds() - before < 0.1
+        for pace in (1e-323, 1e-30):
+            pictures = self.look()
+            node = self.start(dict(harness.SHORT, equilibration=1000.0, duration=0.0, pace=pace))
+            self.assertTrue(harness.wait_until(lambda: pictures.all), node.text())
+            self.assertTrue(harness.wait_until(rests), node.text())
+            self.assertTrue(node.running(), node.text())
+            pictures.close()
+            node.stop()
 
     def test_the_frame_of_the_box_is_known(self):
         frames = []
