@@ -132,8 +132,8 @@ static int first_wanted(const marker_report *r, const hd_run *run)
 void marker_report_demand(marker_report *r, hd_run *run)
 {
     const bool watched = marker_report_watched(r);
-    const double pace = r->set->pace;
-    const double between = pace > 0.0 ? fmax(pace / r->set->markers.rate, DBL_MIN) : INFINITY;
+    const bool paced = r->set->pace > 0.0 && hd_run_phase(run) == HD_AVERAGING;
+    const double between = paced ? fmax(r->set->pace / r->set->markers.rate, DBL_MIN) : INFINITY;
     r->due = watched && clock_seconds() >= r->next;
     hd_run_view(run, watched ? between : INFINITY, r->due ? first_wanted(r, run) : r->vectors);
 }
