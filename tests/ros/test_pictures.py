@@ -179,12 +179,17 @@ class Markers(unittest.TestCase):
             return len(calm) >= 20 and all(calm[-20:])
         for pace in (1e-323, 1e-30):
             pictures = self.look()
-            node = self.start(dict(harness.SHORT, equilibration=1000.0, duration=0.0, pace=pace))
+            node = self.start(dict(harness.SHORT, equilibration=100.0, duration=0.0, pace=pace,
+                                   wait_for_subscribers=['state']))
+            self.assertTrue(harness.wait_until(pictures.subscriber.get_num_connections), node.text())
+            states = Listener('state')      # the run is looked at from its first step
+            self.addCleanup(states.close)
             self.assertTrue(harness.wait_until(lambda: pictures.all), node.text())
             calm = []
             self.assertTrue(harness.wait_until(lambda: all(calm[-20:] or [False]) or rested()), node.text())
             self.assertTrue(node.running(), node.text())
-            pictures.close()
+            for listener in (pictures, states):
+                listener.close()
             node.stop()
 
     def test_the_frame_of_the_box_is_known(self):
