@@ -52,6 +52,14 @@ static void clocks_archive(hd_run *run, hd_archive *archive)
     run->frame_started = carried >= 0 ? now - carried : 0.0;
 }
 
+/** A view can stop a run in the middle of a step that is planned. */
+static void plan_archive(hd_step_plan *plan, hd_archive *archive)
+{
+    hd_archive_double(archive, "run plan begin", &plan->begin);
+    hd_archive_double(archive, "run plan end", &plan->end);
+    hd_archive_bits(archive, "run plan events", &plan->events);
+}
+
 static void numbers_archive(hd_run *run, hd_archive *archive)
 {
     int observe = (int)run->observe;
@@ -59,6 +67,7 @@ static void numbers_archive(hd_run *run, hd_archive *archive)
     run->observe = (unsigned)observe & run->scene.observe;
     hd_archive_double(archive, "run interval end", &run->interval_end);
     hd_archive_double(archive, "run step max", &run->step_max);
+    plan_archive(&run->plan, archive);
     hd_archive_double(archive, "run frame start", &run->frame_start_time);
     hd_archive_double(archive, "run condition max", &run->condition_max);
     hd_archive_double(archive, "run rounding", &run->rounding);
@@ -78,6 +87,19 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     if (run->modes) hd_modes_archive(run->modes, archive);
     if (run->steps) hd_steps_archive(run->steps, archive);
     if (run->phases) hd_phases_archive(run->phases, archive);
+}
+
+static void plan_expect(const hd_run *run, hd_archive *archive)
+{
+    const hd_step_plan *plan = &run->plan;
+    const double cut = run->schedule.phase == HD_FINISHED ? run->now : hd_schedule_cut(&run->schedule);
+    const bool pending = run->log && run->log->duration > 0;
+    const double end = fmax(run->now, pending ? fmin(cut, run->interval_end) : cut);
+    const uint64_t events = hd_trajectory_collisions(run->trajectory) +
+                            hd_trajectory_wall_events(run->trajectory);
+    hd_archive_expect(archive, plan->begin <= run->now && plan->end <= end, "run plan end",
+                      "it does not fit the time");
+    hd_archive_expect(archive, plan->events <= events, "run plan events", "there were not so many");
 }
 
 /** Times fit each other: the run can go on from here. */
@@ -211,11 +233,15 @@ static hd_status restore(hd_run *run, hd_archive *archive, double time, char *me
     hd_archive_expect(archive, run->now == time, "time", "it is not that of the disks");
     if (hd_archive_end(archive) != HD_OK) return inconsistent(archive, message, size);
     HD_TRY(reopen(run, message, size));
-    run->interval_end = fmin(run->interval_end, /* of a duration that has become shorter */
-                             fmax(run->now, hd_schedule_phase_end(&run->schedule)));
+    const double last = fmax(run->now, hd_schedule_phase_end(&run->schedule));
+    run->interval_end = fmin(run->interval_end, last); /* of a duration that has become shorter */
+    run->plan.end = fmin(run->plan.end, last);
     times_expect(run, archive);
-    run->step_max = fmin(run->step_max,
-                         hd_run_step_bound(run)); /* else a file can ask for a step without end */
+    plan_expect(run, archive);
+    /* else a file can ask for a step without end */
+    const double bound = hd_run_step_bound(run);
+    run->step_max = fmin(run->step_max, bound);
+    run->plan.end = fmin(run->plan.end, run->now + bound);
     return hd_archive_good(archive) ? HD_OK : inconsistent(archive, message, size);
 }
 

@@ -101,12 +101,14 @@ static void expect_same_state(hd_run *a, hd_run *b)
 
 /* ---- the run goes on -------------------------------------------------------------------------- */
 
-/** Stopped and taken up again every few steps, beside one that is left alone. */
-static void expect_uninterrupted(const hd_scene_def *def, int every, int least)
+/** Stopped and taken up again every few steps, beside one that is left alone; both with steps no longer than `view`. */
+static void expect_uninterrupted_view(const hd_scene_def *def, int every, int least, double view)
 {
     hd_run *alone = kept_run(def), *other = kept_run(def);
     int times = 0, taken = 0;
+    hd_run_view(alone, view, hd_run_vectors(alone));
     do {
+        hd_run_view(other, view, hd_run_vectors(other));
         kept_steps(alone, every);
         taken = kept_steps(other, every);
         hd_run *resumed = kept_and_resumed(other, PATH, def);
@@ -119,6 +121,11 @@ static void expect_uninterrupted(const hd_scene_def *def, int every, int least)
     assert_true(times >= least);
     hd_run_free(alone);
     hd_run_free(other);
+}
+
+static void expect_uninterrupted(const hd_scene_def *def, int every, int least)
+{
+    expect_uninterrupted_view(def, every, least, INFINITY);
 }
 
 static void a_resumed_run_is_the_uninterrupted_one(void **state)
@@ -142,6 +149,16 @@ static void a_resumed_run_is_the_uninterrupted_one(void **state)
     expect_uninterrupted(&rare, 1, 5);
     expect_uninterrupted(&few, 3, 10);
     expect_uninterrupted(&none, 2, 10);
+}
+
+/** Also where a view has stopped it in the middle of a step that is planned. */
+static void a_run_that_is_looked_at_keeps_its_plan(void **state)
+{
+    (void)state;
+    const hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
+    const hd_scene_def none = kept_scene(50, 0.7, 1.0, HD_EXPONENTS_NONE, 0);
+    expect_uninterrupted_view(&def, 37, 100, 0.01);
+    expect_uninterrupted_view(&none, 37, 100, 0.01);
 }
 
 /** The states that the run above went through are not all the same kind: looks, tracked phases, found steps. */
@@ -409,6 +426,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_resumed_run_is_the_uninterrupted_one),
+        cmocka_unit_test(a_run_that_is_looked_at_keeps_its_plan),
         cmocka_unit_test(what_was_compared_was_there),
         cmocka_unit_test(pending_events_are_kept),
         cmocka_unit_test(clocks_and_costs_go_on),

@@ -75,6 +75,16 @@ void *hd_memory_alloc(size_t count, size_t size)
     return real(count, size);
 }
 
+/** PROBE_GROWTH: bytes that a block of memory which grows may have. */
+void *realloc(void *block, size_t size)
+{
+    void *(*real)(void *, size_t);
+    const double most = number("PROBE_GROWTH");
+    if (most > 0.0 && (double)size > most) return NULL;
+    next(&real, "realloc");
+    return real(block, size);
+}
+
 /** PROBE_NAN: the first momentum is not a number. */
 void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p)
 {

@@ -63,7 +63,7 @@ struct scene {
             picture_mode &m = p.mode[k];
             std::snprintf(m.name, sizeof m.name, k % 2 ? "LP(%d,1)" : "T(%d,0)", k);
             m.kind = k % 2 ? HDR_MODE_LP : HDR_MODE_T;
-            m.known = true;
+            m.found = m.known = true;
             m.index = 7;
             m.pairs = k % 2 ? 2 : 0;
             m.a[0] = 0.6, m.b[0] = 0.3, m.a[1] = -0.4, m.b[1] = 0.1;
@@ -338,7 +338,7 @@ TEST(markers, what_is_gone_is_deleted)
     drawing on;
     EXPECT_EQ(1u, in(on.of(s.p), "mode/T(0,0)", Marker::TRIANGLE_LIST).size());
     std::snprintf(s.p.mode[0].name, sizeof s.p.mode[0].name, "T(0,1)");
-    s.p.mode[1].known = false;
+    s.p.mode[1].found = s.p.mode[1].known = false;
     for (int again = 0; again < 2; again++) { // and stays so for who has missed it
         const MarkerArray array = on.of(s.p);
         std::map<std::string, int> deleted;
@@ -349,6 +349,21 @@ TEST(markers, what_is_gone_is_deleted)
         EXPECT_EQ(1, deleted["mode/LP(1,1)"]);
         EXPECT_EQ(0, deleted["mode/T(0,1)"]);
     }
+}
+
+/** Between two orthonormalisations, of a run that rests: a mode is found although its vector is not known. */
+TEST(markers, a_mode_without_its_vector_keeps_its_number)
+{
+    scene s(20.0, 20.0, 10, 2, 6);
+    drawing on;
+    s.p.mode[1].known = false;
+    const MarkerArray array = on.of(s.p);
+    expect_shown(array);
+    EXPECT_TRUE(in(array, "mode/LP(1,1)", Marker::TRIANGLE_LIST).empty());
+    EXPECT_TRUE(in(array, "phases", Marker::LINE_LIST).empty());
+    const std::string text = in(array, "mode/LP(1,1)", Marker::TEXT_VIEW_FACING).at(0).text;
+    EXPECT_NE(std::string::npos, text.find("index 7")) << text;
+    EXPECT_NE(std::string::npos, text.find("not known now")) << text;
 }
 
 TEST(markers, the_caption_says_what_is_known)

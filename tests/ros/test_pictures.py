@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """~markers: what the node draws is what it publishes as numbers, only while somebody looks, as often as asked."""
 
+import glob
 import re
 import signal
 import time
@@ -58,8 +59,8 @@ def arrows(marker):
 
 class Markers(unittest.TestCase):
 
-    def start(self, params):
-        node = harness.start(params)
+    def start(self, params, **kw):
+        node = harness.start(params, **kw)
         self.addCleanup(node.stop)
         return node
 
@@ -198,6 +199,56 @@ class Markers(unittest.TestCase):
         pictures = self.look()
         self.assertTrue(harness.wait_until(lambda: pictures.all, 10))
         self.assertEqual(len(pictures.all), 1)
+
+    def test_late_to_modes_that_rest(self):
+        """Nobody looked when the run was paused: its modes are found, their vectors not known."""
+        before = self.look()
+        self.start(ENDLESS)
+        self.assertTrue(harness.wait_until(lambda: before.all and len(modes(before.all[-1])) == 2))
+        before.close()
+        time.sleep(1.2)     # a picture of less than a second ago is not drawn anew
+        self.pause(True)
+        late = self.look()
+        self.assertTrue(harness.wait_until(lambda: late.all and not modes(late.all[-1]), 10))
+        titles = [m.text for m in late.all[-1].markers if m.ns.startswith('mode/') and m.action == Marker.ADD]
+        self.assertEqual(len(titles), 2)
+        for title in titles:
+            self.assertRegex(title, r'index \d+ .*not known now')
+
+    def test_no_memory_for_it(self):
+        pictures = self.look()
+        node = self.start(dict(ENDLESS, disks=20000, aspect=1.0, exponents='none', warmup=0.0, equilibration=0.1, pace=1.0),
+                          probe={'PROBE_GROWTH': '300000'})
+        self.assertTrue(harness.wait_until(lambda: len(node.lines('markers not drawn: out of memory')) > 1), node.text())
+        self.assertTrue(node.running())
+        self.assertEqual(pictures.all, [])
+
+    def test_at_the_slowest_pace(self):
+        """So slow that a picture's time is no number, and the next step's no wall time. What comes before the averaging
+        is as fast as ever."""
+        def sleeps(thread):
+            with open(thread) as file:
+                return file.read().rsplit(')', 1)[1].split()[0] == 'S'
+
+        def rested():
+            for _ in range(20):
+                calm.append(all(map(sleeps, glob.glob('/proc/%d/task/*/stat' % node.process.pid))))
+                time.sleep(0.005)
+            return len(calm) >= 20 and all(calm[-20:])
+        for pace in (1e-323, 1e-40):
+            pictures = self.look()
+            node = self.start(dict(harness.SHORT, equilibration=100.0, duration=0.0, pace=pace,
+                                   wait_for_subscribers=['state']))
+            self.assertTrue(harness.wait_until(pictures.subscriber.get_num_connections), node.text())
+            states = Listener('state')      # the run is looked at from its first step
+            self.addCleanup(states.close)
+            self.assertTrue(harness.wait_until(lambda: pictures.all), node.text())
+            calm = []
+            self.assertTrue(harness.wait_until(lambda: all(calm[-20:] or [False]) or rested()), node.text())
+            self.assertTrue(node.running(), node.text())
+            for listener in (pictures, states):
+                listener.close()
+            node.stop()
 
     def test_the_frame_of_the_box_is_known(self):
         frames = []

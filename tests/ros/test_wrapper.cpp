@@ -11,8 +11,10 @@
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <std_srvs/Trigger.h>
 
 #include "hdlyap_ros/hdlyap_ros.h"
+#include "node.hpp"
 #include "received.hpp"
 
 namespace
@@ -331,7 +333,7 @@ TEST(node, waits)
     EXPECT_GE((ros::WallTime::now() - began).toSec(), 0.045); /* the clock of the wall may be set */
 }
 
-/** The last one: who waits for a stop is woken, and goes on being. */
+/** The last one but one: who waits for a stop is woken, and goes on being. */
 TEST(node, stops)
 {
     std::thread other([] {
@@ -343,13 +345,40 @@ TEST(node, stops)
     other.join();
 }
 
+/** A service that frees a subscriber while the node ends, if it is there still. */
+static bool on_service(void *context, char *, size_t)
+{
+    auto *s = static_cast<seen *>(context);
+    const std::weak_ptr<std::atomic<bool>> part = s->itself->wanted;
+    s->inside = true;
+    ros::WallDuration(0.2).sleep(); /* until hdr_node_free has unsubscribed */
+    s->gone = part.expired();
+    if (!s->gone) hdr_subscriber_free(s->itself);
+    return true;
+}
+
+/** The end: subscribers stay until no callback runs. */
+TEST(node, subscribers_outlive_callbacks)
+{
+    seen s;
+    s.itself = subscribe("~left", &s);
+    EXPECT_EQ(HDR_OK, hdr_service_trigger(node, "~frees", on_service, &s)) << hdr_error_text();
+    std::thread caller([] {
+        std_srvs::Trigger call;
+        ros::service::call(ros::names::resolve("~frees"), call);
+    });
+    while (!s.inside) std::this_thread::yield();
+    hdr_node_free(node, 0.0);
+    node = nullptr;
+    caller.join();
+    EXPECT_FALSE(s.gone);
+}
+
 int main(int argc, char **argv)
 {
-    seen left; /* is subscribed until the node ends */
     testing::InitGoogleTest(&argc, argv);
     if (hdr_node_create(&node, &argc, argv, "test_wrapper", 60.0, 3) != HDR_OK || !node) return 1;
     const int failed = RUN_ALL_TESTS();
-    subscribe("~left", &left);
     hdr_node_free(node, 0.0);
     return failed;
 }

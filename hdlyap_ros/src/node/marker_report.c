@@ -1,6 +1,7 @@
 /** The run -> pictures for rviz. */
 #include "marker_report.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -131,7 +132,8 @@ static int first_wanted(const marker_report *r, const hd_run *run)
 void marker_report_demand(marker_report *r, hd_run *run)
 {
     const bool watched = marker_report_watched(r);
-    const double between = r->set->pace > 0.0 ? r->set->pace / r->set->markers.rate : INFINITY;
+    const bool paced = r->set->pace > 0.0 && hd_run_phase(run) == HD_AVERAGING;
+    const double between = paced ? fmax(r->set->pace / r->set->markers.rate, DBL_MIN) : INFINITY;
     r->due = watched && clock_seconds() >= r->next;
     hd_run_view(run, watched ? between : INFINITY, r->due ? first_wanted(r, run) : r->vectors);
 }
@@ -168,10 +170,12 @@ static void fill_mode(picture_mode *mode, const marker_report *r, const hd_run *
     const size_t disks = (size_t)r->set->def.disks, stride = (size_t)known.stride;
     *mode = (picture_mode){.kind = (uint8_t)kind_of(r, k)};
     fill_name(mode, r, steps, k, s);
-    if (s < 0 || col < known.first || col >= known.first + known.count) return;
-    mode->known = true;
+    if (s < 0) return;
+    mode->found = true;
     mode->index = (uint32_t)col + 1;
     mode->exponent = hd_spectrum_exponent(hd_run_spectrum(run), col);
+    if (col < known.first || col >= known.first + known.count) return;
+    mode->known = true;
     mode->dx = outlets_array(known.data + (col - known.first), disks, 4 * stride);
     mode->dy = outlets_array(known.data + stride + (size_t)(col - known.first), disks, 4 * stride);
     if (mode->kind == HDR_MODE_LP) fill_pairs(mode, hd_run_modes(run), hd_steps_step(steps, s), col);
@@ -234,8 +238,9 @@ static hd_status draw(marker_report *r, const hd_run *run)
     if (r->modes && !mode_report_steps(r->modes, &steps, run)) return HD_NOT_FINITE;
     if (r->modes) p.steps = &steps;
     if (!is_finite(&p, r->q, disks)) return HD_NOT_FINITE;
-    if (!view_draw(r->view, &markers, &p, outlets_frame())) return HD_NO_MEMORY;
-    if (hdr_markers_publish(r->publisher, &markers) != HDR_OK)
+    if (!view_draw(r->view, &markers, &p, outlets_frame()))
+        hdr_log(HDR_ERROR, "markers not drawn: out of memory");
+    else if (hdr_markers_publish(r->publisher, &markers) != HDR_OK)
         hdr_log(HDR_ERROR, "markers not sent: %s", hdr_error_text());
     return HD_OK;
 }

@@ -19,7 +19,8 @@ bool marker_report_watched(const marker_report *r);
 /** Tells the run which vectors the next step is to end with. */
 void marker_report_demand(marker_report *r, hd_run *run);
 
-/** Draws the run as it is after a step, if it is time to. HD_NOT_FINITE, HD_NO_MEMORY. */
+/** Draws the run as it is after a step, if it is time to. HD_NOT_FINITE; one that is not drawn for want of memory is
+ *  only logged. */
 HD_MUST_CHECK hd_status marker_report_publish(marker_report *r, const hd_run *run);
 
 /** Draws a run that will stand still, unless that has just been done: who comes while it does gets this picture. */

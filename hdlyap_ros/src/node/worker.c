@@ -14,6 +14,8 @@
 
 /** How often subscribers are looked for [s]. */
 static const double look_seconds = 0.01;
+/** Wall times after this do not come, nor fit a time_t all. */
+static const double end_of_time = 1e15;
 /** Of the time, at most, for examining disks. */
 static const double examination_share = 0.01;
 
@@ -38,7 +40,7 @@ struct worker {
 /** Waits for a change until a wall time, if it is one; false once that has come. Lock held. */
 static bool wait_until(worker *w, double wall)
 {
-    if (wall == INFINITY) return pthread_cond_wait(&w->changed, &w->lock) == 0;
+    if (!(wall < end_of_time)) return pthread_cond_wait(&w->changed, &w->lock) == 0;
     const double whole = floor(wall);
     const struct timespec until = {.tv_sec = (time_t)whole,
                                    .tv_nsec = (long)(1e9 * (wall - whole))};

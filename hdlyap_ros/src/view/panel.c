@@ -130,10 +130,13 @@ void panel_mode(canvas *on, const layout *l, const picture *p, int k)
     if (m->known) {
         canvas_layer(on, ns, HDR_MARKER_TRIANGLE_LIST, colour_of(m), 1.0);
         arrows(on, r, p, m);
-        canvas_text(on, ns, r->x + 0.5 * r->width, top, 1.2 * l->unit, palette_kind(m->kind),
-                    "%s   index %u   lambda = %.4f", m->name, (unsigned)m->index, m->exponent);
         if (m->pairs > 0) dials(on, r->x + r->width, top, l->unit, m);
-    } else
+    }
+    if (m->found)
+        canvas_text(on, ns, r->x + 0.5 * r->width, top, 1.2 * l->unit, palette_kind(m->kind),
+                    "%s   index %u   lambda = %.4f%s", m->name, (unsigned)m->index, m->exponent,
+                    m->known ? "" : "   (vector not known now)");
+    else
         canvas_text(on, ns, r->x + 0.5 * r->width, top, 1.2 * l->unit, PALETTE_INK, "%s: not resolved",
                     m->name);
 }

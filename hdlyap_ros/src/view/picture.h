@@ -12,9 +12,10 @@ enum { PICTURE_MODES_MAX = 8, PICTURE_PAIRS_MAX = 4 };
 typedef struct picture_mode {
     char name[24];     /**< e.g. T(1,0); or of what is looked for, e.g. T */
     uint8_t kind;      /**< HDR_MODE_T or HDR_MODE_LP */
-    bool known;        /**< found, and its vector is of this very time; else nothing of the rest is */
-    uint32_t index;    /**< Lyapunov index of the vector, from 1 */
+    bool found;        /**< its step is resolved; else nothing of the rest is known */
+    uint32_t index;    /**< Lyapunov index of its vector, from 1 */
     double exponent;   /**< of it [1/time unit] */
+    bool known;        /**< the vector, at this very time; else nothing of the rest is */
     hdr_doubles dx, dy; /**< [N] dq half of the vector */
     uint32_t pairs;    /**< of an LP mode */
     double a[PICTURE_PAIRS_MAX], b[PICTURE_PAIRS_MAX]; /**< as in LpPhase */

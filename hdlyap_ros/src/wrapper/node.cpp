@@ -50,8 +50,8 @@ hdr_node *node_start()
     return node.release();
 }
 
-/** Waits for a callback that is running, which may free subscribers: they stay until all are shut down. */
-void unsubscribe(hdr_node &node)
+/** Waits for a callback of theirs that is running. They are to stay until no callback runs at all: one may free them. */
+std::vector<std::unique_ptr<hdr_subscriber>> unsubscribe(hdr_node &node)
 {
     std::vector<std::unique_ptr<hdr_subscriber>> all;
     {
@@ -62,6 +62,7 @@ void unsubscribe(hdr_node &node)
         subscriber->wanted->store(false);
         subscriber->subscriber.shutdown();
     }
+    return all;
 }
 
 bool drained(const hdr_node &node)
@@ -130,7 +131,7 @@ void hdr_node_free(hdr_node *node, double linger)
     if (!node) return;
     const hdr_status status = hdr_guard([&] {
         const std::unique_ptr<hdr_node> owned(node);
-        unsubscribe(*node); /* callbacks publish, too */
+        const auto ended = unsubscribe(*node); /* callbacks publish, too */
         drain(*node, linger);
         node->spinner.stop();
         ros::shutdown();
