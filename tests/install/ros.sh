@@ -81,7 +81,7 @@ scripts_run() {
     for name in $(programs); do
         [[ $(head -c 2 "$PREFIX/lib/hdlyap/$name") == '#!' ]] || continue
         head -n 1 "$PREFIX/lib/hdlyap/$name" | grep -qxE '#!/usr/bin/(env )?python3' || return 1
-        in_prefix rosrun hdlyap "$name" --help || return 1
+        in_prefix timeout 60 rosrun hdlyap "$name" --help || return 1
     done
 }
 
