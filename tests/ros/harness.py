@@ -68,8 +68,9 @@ class Process:
         return self.process.poll() is None
 
     def text(self):
-        self.output.seek(0)
-        return self.output.read()
+        # opened again: a process shares its place in the file, and would write over what is read from the start
+        with open('/proc/self/fd/%d' % self.output.fileno(), errors='replace') as file:
+            return file.read()
 
     def lines(self, word):
         return [line for line in self.text().splitlines() if word in line]

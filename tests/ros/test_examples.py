@@ -73,6 +73,14 @@ class Examples(unittest.TestCase):
         self.assertEqual(process.wait(), 0, process.text())
 
 
+class Help(unittest.TestCase):
+    def test_python_example_explains_itself_without_a_master(self):
+        fit = Process([example('fit_dispersion'), '--help'], ROS_MASTER_URI='http://localhost:1')
+        self.addCleanup(fit.stop)
+        self.assertEqual(fit.wait(), 0)
+        self.assertIn('_node:=', fit.text())
+
+
 class Beside(Examples):
     """Both examples and the test hear all of one run."""
 

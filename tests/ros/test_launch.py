@@ -7,6 +7,7 @@ import tempfile
 import unittest
 
 import rosbag
+import roslaunch.config
 import rospkg
 import rospy
 import rostest
@@ -69,6 +70,18 @@ class Launch(unittest.TestCase):
             replay = self.roslaunch(folder, 'replay.launch', 'bag:=' + bag, 'rate:=10')
             self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
             self.assertEqual(replay.wait(), 0, replay.text())
+
+    def replayed(self, *args):
+        """Type of a node of replay.launch -> its arguments."""
+        config = roslaunch.config.load_config_default(
+            [(os.path.join(LAUNCH, 'replay.launch'), ['bag:=q.bag', *args])], 0)
+        return {node.type: node.args for node in config.nodes}
+
+    def test_replay_in_rviz_stays(self):
+        self.assertNotIn('--keep-alive', self.replayed()['play'])
+        looked_at = self.replayed('rviz:=true', 'node:=/other')
+        self.assertIn('--keep-alive', looked_at['play'])
+        self.assertEqual(looked_at['view'], '--node /other')
 
     def check_bag(self, path):
         with rosbag.Bag(path) as bag:

@@ -3,6 +3,7 @@
 late, and from a bag."""
 
 import os
+import signal
 import subprocess
 import tempfile
 import time
@@ -21,6 +22,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 import harness
 
+VIEW = roslib.packages.find_node('hdlyap', 'view')[0]
 SCREEN = (1360, 960)
 PAPER = (250, 251, 255)     # a background that nothing else has
 # steps within seconds, then slow enough to look on
@@ -133,8 +135,7 @@ class Rviz(unittest.TestCase):
         return node
 
     def open_rviz(self):
-        view = roslib.packages.find_node('hdlyap', 'view')[0]
-        rviz = harness.Process([view, '--config', config(self.folder.name)], ROS_HOME=self.folder.name, **self.screen.env)
+        rviz = harness.Process([VIEW, '--config', config(self.folder.name)], ROS_HOME=self.folder.name, **self.screen.env)
         self.addCleanup(rviz.stop)
         self.assertTrue(harness.wait_until(lambda: any(name.startswith('/rviz_') for name in self.subscribers())), rviz.text())
         with open(os.path.join(self.folder.name, 'view_hdlyap_markers.rviz')) as file:
@@ -194,6 +195,20 @@ class Rviz(unittest.TestCase):
         self.assertTrue(rviz.running())
 
 
+class View(unittest.TestCase):
+    def test_without_a_config_or_a_master(self):
+        view = harness.Process([VIEW, '--config', 'none.rviz'])
+        self.addCleanup(view.stop)
+        self.assertEqual(view.wait(), 1)
+        self.assertEqual(view.text().strip(), "view: [Errno 2] No such file or directory: 'none.rviz'")
+        view = harness.Process([VIEW], ROS_MASTER_URI='http://localhost:1')
+        self.addCleanup(view.stop)
+        self.assertTrue(harness.wait_until(lambda: 'Will keep trying' in view.text()), view.text())
+        view.send(signal.SIGINT)
+        self.assertEqual(view.wait(), 130)
+        self.assertNotIn('Traceback', view.text())
+
+
 if __name__ == '__main__':
     rospy.init_node('test_rviz')
-    rostest.rosrun('hdlyap', 'rviz', Rviz)
+    rostest.rosrun('hdlyap', 'rviz', 'test_rviz')
