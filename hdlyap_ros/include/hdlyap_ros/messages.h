@@ -206,6 +206,13 @@ typedef struct hdr_state {
 /** hdr_cost.phase */
 enum { HDR_EQUILIBRATING, HDR_WARMING_UP, HDR_AVERAGING, HDR_FINISHED };
 
+/** In words. */
+static inline const char *hdr_phase_name(unsigned phase)
+{
+    static const char *const names[] = {"equilibrating", "warming up", "averaging", "finished"};
+    return phase <= HDR_FINISHED ? names[phase] : "unknown";
+}
+
 /** hdr_cost.interval_limit */
 enum {
     HDR_LIMIT_SCHEDULE,

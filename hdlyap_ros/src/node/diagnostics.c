@@ -49,10 +49,9 @@ static void add_number(key_list *list, const char *key, double number)
 
 static const char *phase_name(const worker_state *state)
 {
-    static const char *const names[] = {"equilibrating", "warming up", "averaging", "finished"};
     if (state->stage == WORKER_WAITING) return "waiting for subscribers";
     if (state->stage == WORKER_PAUSED) return "paused";
-    return names[state->last.phase];
+    return hdr_phase_name((unsigned)state->last.phase);
 }
 
 /** Since the last message, which this call makes the present one. */

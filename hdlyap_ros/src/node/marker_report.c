@@ -181,12 +181,6 @@ static void fill_mode(picture_mode *mode, const marker_report *r, const hd_run *
     if (mode->kind == HDR_MODE_LP) fill_pairs(mode, hd_run_modes(run), hd_steps_step(steps, s), col);
 }
 
-static const char *phase_name(hd_phase phase)
-{
-    static const char *const names[] = {"equilibrating", "warming up", "averaging", "finished"};
-    return names[phase];
-}
-
 static void fill_exponents(picture *p, marker_report *r, const hd_run *run)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
@@ -222,7 +216,7 @@ static hd_status draw(marker_report *r, const hd_run *run)
 {
     const size_t disks = (size_t)r->set->def.disks;
     picture p = {
-        .phase = phase_name(hd_run_phase(run)),
+        .phase = hdr_phase_name((unsigned)hd_run_phase(run)),
         .time = hd_run_time(run),
         .progress = hd_run_cost(run).progress,
         .x = outlets_array(r->q, disks, 2),

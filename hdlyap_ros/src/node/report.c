@@ -11,9 +11,9 @@
 #include "outlets.h"
 #include "run_info.h"
 
-/** Topics whose messages are made of positions and momenta. */
 _Static_assert((int)HD_LIMIT_REPAIR == (int)HDR_LIMIT_REPAIR, "limits as in the core");
 
+/** Topics whose messages are made of positions and momenta. */
 static const unsigned of_state = 1u << TOPIC_STATE | 1u << TOPIC_FIELDS | 1u << TOPIC_HYDRO;
 
 /** Arrays of a spectrum message, all of length n in one block. */

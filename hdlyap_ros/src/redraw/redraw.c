@@ -120,7 +120,6 @@ static void fill_places(picture *p, const heard *h, double time)
 
 static void draw(redraw *r, const hdr_cost *cost)
 {
-    static const char *const phases[] = {"equilibrating", "warming up", "averaging", "finished"};
     const heard *h = &r->said;
     const double time = newest(h);
     hdr_markers markers;
@@ -128,7 +127,7 @@ static void draw(redraw *r, const hdr_cost *cost)
     if (!h->begun || time < 0.0 || (time == r->drawn && fields == r->drawn_fields)) return;
     picture p = {
         .scene = h->scene,
-        .phase = phases[cost->phase % 4],
+        .phase = hdr_phase_name(cost->phase),
         .box = {h->box[0], h->box[1]},
         .periodic = {h->periodic[0], h->periodic[1]},
         .time = time,

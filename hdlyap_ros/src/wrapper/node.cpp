@@ -32,8 +32,11 @@ bool master_wait()
 }
 
 /** roscpp's own answer leaves the graph at once, with messages still queued. */
-void on_rosnode_kill(XmlRpc::XmlRpcValue &, XmlRpc::XmlRpcValue &result)
+void on_rosnode_kill(XmlRpc::XmlRpcValue &params, XmlRpc::XmlRpcValue &result)
 {
+    const bool says_why = params.size() > 1 && params[1].getType() == XmlRpc::XmlRpcValue::TypeString;
+    const std::string why = says_why ? std::string(params[1]) : "";
+    hdr_log(HDR_WARN, "asked to shut down: %s", why.c_str());
     hdr_stop_request();
     result = ros::xmlrpc::responseInt(1, "", 0);
 }
