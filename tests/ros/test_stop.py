@@ -58,11 +58,15 @@ class Stop(unittest.TestCase):
         self.stops_with_last_message(lambda node: node.send(signal.SIGTERM))
 
     def test_rosnode_kill(self):
+        killed = []
+
         def kill(node):
             uri = rosgraph.Master('/test').lookupNode('/' + harness.NODE)
             xmlrpc.client.ServerProxy(uri).shutdown('/test', 'killed by a test')
+            killed.append(node)
 
         self.stops_with_last_message(kill)
+        self.assertEqual(len(killed[0].lines('asked to shut down: killed by a test')), 1)
 
     def test_twice(self):
         node = self.start(ENDLESS)
