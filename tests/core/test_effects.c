@@ -4,6 +4,7 @@
 #include "testing.h"
 
 #include "hdlyap/hdlyap.h"
+#include "runs.h"
 
 enum { DISKS = 100, HALF = 2 * DISKS - 3, EVERYTHING = 31 };
 
@@ -17,13 +18,6 @@ static hd_scene_def small(int exponents, unsigned observe)
     scene.duration = 100.0;
     scene.threads = 1;
     return scene;
-}
-
-static hd_run *created(const hd_scene_def *scene)
-{
-    hd_run *run = NULL;
-    CHECK_OK(hd_run_create(&run, scene, NULL, 0));
-    return run;
 }
 
 static void until(hd_run *run, double time)

@@ -8,6 +8,7 @@
 #include "testing.h"
 
 #include "exact.h"
+#include "runs.h"
 #include "scenes.h"
 
 enum { VECTORS_MAX = 64 };
@@ -23,13 +24,6 @@ static hd_scene_def small_scene(int disks, int exponents, uint64_t seed)
     scene.warmup = scene.duration = scene.report_interval = 50.0;
     scene.threads = 1;
     return scene;
-}
-
-static hd_run *created(const hd_scene_def *scene)
-{
-    hd_run *run = NULL;
-    CHECK_OK(hd_run_create(&run, scene, NULL, 0));
-    return run;
 }
 
 /** The controller is made to believe that twice `forced` / 2 is right; 0: it is left alone. */

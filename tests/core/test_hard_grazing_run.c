@@ -6,6 +6,7 @@
 #include "exact.h"
 #include "prepared.h"
 #include "run_state.h"
+#include "runs.h"
 
 /** To which the reference is known: its own rounding, 1e-19 of a condition below 1e5, and that of sums of 1e6 doubles. */
 static const double EXACT = 1e-13;
@@ -65,13 +66,6 @@ static hd_scene_def averaged_at_once(hd_boundary boundary, double duration)
     scene.report_interval = 10.0;
     scene.threads = 1;
     return scene;
-}
-
-static hd_run *created(const hd_scene_def *scene)
-{
-    hd_run *run = NULL;
-    CHECK_OK(hd_run_create(&run, scene, NULL, 0));
-    return run;
 }
 
 static hd_status finish(hd_run *run)

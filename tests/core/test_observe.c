@@ -3,6 +3,7 @@
 
 #include "hdlyap/hdlyap.h"
 #include "memory.h"
+#include "runs.h"
 
 enum { DISKS = 50 };
 static const double PI = 3.14159265358979323846;
@@ -23,13 +24,6 @@ static hd_scene_def channel(hd_boundary x, hd_boundary y)
     scene.duration = 600.0;
     scene.observe = EVERYTHING;
     return scene;
-}
-
-static hd_run *created(const hd_scene_def *scene)
-{
-    hd_run *run = NULL;
-    CHECK_OK(hd_run_create(&run, scene, NULL, 0));
-    return run;
 }
 
 static hd_run *finished(const hd_scene_def *scene)

@@ -3,6 +3,7 @@
 #include "../../hdlyap_core/src/run.c"
 
 #include "testing.h"
+#include "runs.h"
 
 static hd_scene_def scene_of(int disks, int exponents)
 {
@@ -15,13 +16,6 @@ static hd_scene_def scene_of(int disks, int exponents)
     scene.warmup = 10.0;
     scene.duration = 20.0;
     return scene;
-}
-
-static hd_run *created(const hd_scene_def *scene)
-{
-    hd_run *run = NULL;
-    CHECK_OK(hd_run_create(&run, scene, NULL, 0));
-    return run;
 }
 
 static hd_run *until(hd_run *run, hd_phase phase)

@@ -5,6 +5,7 @@
 
 #include "hdlyap/hdlyap.h"
 #include "scenes.h"
+#include "runs.h"
 
 static const unsigned EVERYTHING = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
 enum { WANTED = 12 };
@@ -19,13 +20,6 @@ static hd_scene_def long_box(double duration)
     scene.observe = EVERYTHING;
     scene.threads = 1;
     return scene;
-}
-
-static hd_run *created(const hd_scene_def *scene)
-{
-    hd_run *run = NULL;
-    CHECK_OK(hd_run_create(&run, scene, NULL, 0));
-    return run;
 }
 
 /** Steps to the end, and returns their number. */
