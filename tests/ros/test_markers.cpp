@@ -252,6 +252,31 @@ TEST(markers, arrows_are_the_field)
     EXPECT_NEAR(1.3 * std::sqrt(20.0 * 15.0 / 60), std::sqrt(square / 60), 1e-9);
 }
 
+/** A box too long for arrows: each component against x, in proportion, below the box and above the plots. */
+TEST(markers, the_field_of_a_long_box_is_plotted)
+{
+    scene s(200.0, 1.5, 60, 2, 8);
+    s.measure(97);
+    const MarkerArray array = drawing().of(s.p);
+    const Marker boxes = in(array, "box", Marker::LINE_LIST).at(0);
+    const std::vector<Marker> dots = in(array, "mode/LP(1,1)", Marker::POINTS);
+    const double left = boxes.points[16].x, bottom = boxes.points[24].y, top = boxes.points[28].y;
+    ASSERT_EQ(32u, boxes.points.size());
+    ASSERT_EQ(2u, dots.size()); // across, along
+    EXPECT_TRUE(in(array, "mode/LP(1,1)", Marker::TRIANGLE_LIST).empty());
+    EXPECT_LT(top, boxes.points[16].y);
+    EXPECT_GT(bottom, in(array, "spectrum", Marker::LINE_LIST).at(0).points[3].y);
+    double square = 0;
+    for (int k = 120; k < 240; k++) square += s.vectors[k] * s.vectors[k] / 60;
+    for (int i = 0; i < 60; i++)
+        for (const int along : {0, 1}) {
+            const auto &point = dots[along].points[i];
+            const double wanted = 0.3 * s.vectors[120 + 2 * i + 1 - along] / std::sqrt(square);
+            EXPECT_NEAR(left + s.q[2 * i], point.x, 1e-9);
+            EXPECT_NEAR(wanted, (2 * point.y - top - bottom) / (top - bottom), 1e-9);
+        }
+}
+
 TEST(markers, an_lp_mode_shows_its_phase)
 {
     scene s(20.0, 20.0, 10, 2, 4);

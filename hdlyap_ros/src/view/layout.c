@@ -6,6 +6,8 @@
 /** In units of the text's height. */
 static const double WIDTH_UNITS = 80.0, GAP = 4.0, TITLE = 4.0, AXIS = 6.0, CAPTION = 6.0;
 static const double LONG = 2.5; /* boxes this much longer than high lie above each other */
+static const double TOO_LONG = 40.0; /* arrows of neighbours would cover each other */
+static const double STRIP = 8.0;     /* height */
 static const double PLOT_HEIGHT = 0.8; /* of its width */
 
 /** Columns of a grid of panels that is not much higher than wide. */
@@ -25,13 +27,18 @@ static double grid_width(const picture *p, int columns, double unit)
 /** Left to right, then downwards; panel 0 at the origin. */
 static void place_panels(layout *l, const picture *p, int columns)
 {
-    for (int k = 0; k < l->panels; k++)
+    const double strip = l->strips ? (STRIP + 1.0) * l->unit : 0.0;
+    for (int k = 0; k < l->panels; k++) {
         l->panel[k] = (rect){
             .x = k % columns * (p->box[0] + GAP * l->unit),
-            .y = -(k / columns) * (p->box[1] + TITLE * l->unit),
+            .y = -(k / columns) * (p->box[1] + strip + TITLE * l->unit),
             .width = p->box[0],
             .height = p->box[1],
         };
+        l->strip[k] = l->panel[k];
+        l->strip[k].y -= strip;
+        l->strip[k].height = STRIP * l->unit;
+    }
 }
 
 static void place_plots(layout *l, double width, double bottom)
@@ -46,13 +53,13 @@ static void place_plots(layout *l, double width, double bottom)
 
 layout layout_of(const picture *p)
 {
-    layout l = {.panels = p->modes > 0 ? p->modes : 1};
+    layout l = {.panels = p->modes > 0 ? p->modes : 1, .strips = p->modes > 0 && p->box[0] > TOO_LONG * p->box[1]};
     const int columns = columns_of(p, l.panels);
     const double least = fmax(p->box[0], 0.8 * p->box[1]); /* plots need room beside a high box too */
     l.unit = fmax(grid_width(p, columns, 0.0), least) / (WIDTH_UNITS - (columns - 1) * GAP);
     const double width = fmax(grid_width(p, columns, l.unit), WIDTH_UNITS * l.unit);
     place_panels(&l, p, columns);
-    place_plots(&l, width, l.panel[l.panels - 1].y);
+    place_plots(&l, width, l.strips ? l.strip[l.panels - 1].y : l.panel[l.panels - 1].y);
     l.caption_x = 0.5 * width;
     l.caption_y = p->box[1] + (TITLE + 0.5 * CAPTION) * l.unit;
     return l;

@@ -12,6 +12,8 @@ typedef struct layout {
     double unit; /**< height of text */
     rect panel[PICTURE_MODES_MAX];
     int panels; /**< one per mode, at least one */
+    bool strips;                   /**< the boxes are too long for arrows: their field is plotted below them */
+    rect strip[PICTURE_MODES_MAX]; /**< the same x as the panel's */
     rect spectrum, lowest, dispersion;
     double caption_x, caption_y; /**< middle of the caption's text */
 } layout;

@@ -14,6 +14,8 @@ static const double HEAD = 0.4, HEAD_WIDTH = 0.16, SHAFT_WIDTH = 0.05;
 static const double LINE = 0.12; /* in units of the text's height */
 static const double DIAL = 1.2;  /* radius, in the same */
 enum { DIAL_SIDES = 32 };
+/** Of a strip: part of its half height that the root mean square takes; size of a dot. */
+static const double STRIP_SCALE = 0.3, STRIP_DOT = 0.35;
 static const double TURN = 6.283185307179586;
 
 static void outline(canvas *on, const rect *r)
@@ -29,7 +31,10 @@ void panel_boxes(canvas *on, const layout *l, const picture *p)
 {
     (void)p;
     canvas_layer(on, "box", HDR_MARKER_LINE_LIST, PALETTE_INK, LINE * l->unit);
-    for (int k = 0; k < l->panels; k++) outline(on, &l->panel[k]);
+    for (int k = 0; k < l->panels; k++) {
+        outline(on, &l->panel[k]);
+        if (l->strips) outline(on, &l->strip[k]);
+    }
 }
 
 static double element(const hdr_doubles *array, uint32_t i)
@@ -100,6 +105,26 @@ static void arrows(canvas *on, const rect *r, const picture *p, const picture_mo
     }
 }
 
+/** One component against x, between the edges of a strip. */
+static void dots(canvas *on, const rect *strip, const picture *p, const hdr_doubles *d, double scale)
+{
+    for (uint32_t i = 0; i < d->count; i++) {
+        const double off = fmax(-1.0, fmin(1.0, scale * element(d, i)));
+        canvas_point(on, strip->x + element(&p->x, i), strip->y + 0.5 * (1.0 + off) * strip->height, 0.0);
+    }
+}
+
+/** Both components of a long box's mode: along it in colour, across it in grey. */
+static void components(canvas *on, const layout *l, const picture *p, int k, const char *ns)
+{
+    const picture_mode *m = &p->mode[k];
+    const double square = mean_square(m), scale = square > 0.0 ? STRIP_SCALE / sqrt(square) : 0.0;
+    canvas_layer(on, ns, HDR_MARKER_POINTS, PALETTE_INK, STRIP_DOT * l->unit);
+    dots(on, &l->strip[k], p, &m->dy, scale);
+    canvas_layer(on, ns, HDR_MARKER_POINTS, colour_of(m), STRIP_DOT * l->unit);
+    dots(on, &l->strip[k], p, &m->dx, scale);
+}
+
 /** Coefficients (a, b) of each pair in their unit circle, in a row that ends at x. */
 static void dials(canvas *on, double x, double y, double unit, const picture_mode *m)
 {
@@ -127,15 +152,18 @@ void panel_mode(canvas *on, const layout *l, const picture *p, int k)
     const double top = r->y + r->height + 1.8 * l->unit;
     char ns[32];
     snprintf(ns, sizeof ns, "mode/%s", m->name);
-    if (m->known) {
+    if (m->known && l->strips) {
+        components(on, l, p, k, ns);
+    } else if (m->known) {
         canvas_layer(on, ns, HDR_MARKER_TRIANGLE_LIST, colour_of(m), 1.0);
         arrows(on, r, p, m);
-        if (m->pairs > 0) dials(on, r->x + r->width, top, l->unit, m);
     }
+    if (m->known && m->pairs > 0) dials(on, r->x + r->width, top, l->unit, m);
     if (m->found)
         canvas_text(on, ns, r->x + 0.5 * r->width, top, 1.2 * l->unit, palette_kind(m->kind),
-                    "%s   index %u   lambda = %.4f%s", m->name, (unsigned)m->index, m->exponent,
-                    m->known ? "" : "   (vector not known now)");
+                    "%s   index %u   lambda = %.4f%s%s", m->name, (unsigned)m->index, m->exponent,
+                    m->known ? "" : "   (vector not known now)",
+                    l->strips ? "   below: dq along the box, across it grey" : "");
     else
         canvas_text(on, ns, r->x + 0.5 * r->width, top, 1.2 * l->unit, PALETTE_INK, "%s: not resolved",
                     m->name);
