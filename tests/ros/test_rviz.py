@@ -201,7 +201,7 @@ class View(unittest.TestCase):
         self.addCleanup(view.stop)
         self.assertEqual(view.wait(), 1)
         self.assertEqual(view.text().strip(), "view: [Errno 2] No such file or directory: 'none.rviz'")
-        view = harness.Process([VIEW], ROS_MASTER_URI='http://localhost:1')
+        view = harness.Process([VIEW], ROS_MASTER_URI='http://localhost:1', PYTHONUNBUFFERED='1')
         self.addCleanup(view.stop)
         self.assertTrue(harness.wait_until(lambda: 'Will keep trying' in view.text()), view.text())
         view.send(signal.SIGINT)
