@@ -192,6 +192,15 @@ class Markers(unittest.TestCase):
         self.start(dict(ENDLESS, exponents='none'))
         self.assertTrue(harness.wait_until(lambda: any(not of(p, 'spectrum', Marker.LINE_LIST) for p in pictures.all)))
 
+    def test_only_modes_that_there_can_be(self):
+        """Between close walls there are no transverse ones, and no panel for them."""
+        pictures = self.look()
+        self.start(dict(ENDLESS, aspect=0.05, boundary_y='reflecting', pace=20.0))
+        self.assertTrue(harness.wait_until(lambda: pictures.all))
+        titles = {m.ns for m in pictures.all[0].markers if m.ns.startswith('mode/')}
+        self.assertEqual(titles, {'mode/LP'})
+        self.assertEqual(len(of(pictures.all[0], 'box', Marker.LINE_LIST)[0].points), 8)
+
     def test_late_to_a_run_that_rests(self):
         self.start(ENDLESS)
         self.pause(True)

@@ -23,6 +23,8 @@ struct marker_report {
     view *view;
     double *q, *p, *exponents; /**< [2N], [2N], [n] in one block at q */
     int vectors;
+    hd_mode_kind kind[2]; /**< of the modes that there can be in this box */
+    int kinds;
     bool due;          /**< for the step under way */
     double next, last; /**< wall times of pictures */
 };
@@ -37,12 +39,24 @@ static bool parts_create(marker_report *r)
     return true;
 }
 
+/** Between walls that are close there are no transverse modes. */
+static void kinds_find(marker_report *r, const hd_steps *steps)
+{
+    const hd_mode_kind kinds[] = {HD_MODE_T, HD_MODE_LP};
+    for (int k = 0; k < 2; k++) {
+        bool found = false;
+        for (int s = 0; s < hd_steps_count(steps); s++) found |= hd_steps_step(steps, s)->kind == kinds[k];
+        if (found) r->kind[r->kinds++] = kinds[k];
+    }
+}
+
 hdr_status marker_report_create(marker_report **out, hdr_node *ros, const settings *set,
                                 const hd_run *run, mode_report *modes)
 {
     marker_report *r = *out = calloc(1, sizeof *r);
     if (!r) return HDR_NO_MEMORY;
     *r = (marker_report){.set = set, .modes = modes, .vectors = hd_run_vectors(run), .last = -HUGE_VAL};
+    if (modes) kinds_find(r, hd_run_steps(run));
     hdr_status status = parts_create(r) ? HDR_OK : HDR_NO_MEMORY;
     if (status == HDR_OK) status = hdr_markers_advertise(&r->publisher, ros, "~markers");
     if (status == HDR_OK) status = hdr_frame_publish(ros, "world", outlets_frame());
@@ -101,13 +115,13 @@ static int named(const hd_steps *steps, const marker_mode *mode)
 static int modes_count(const marker_report *r)
 {
     if (!r->modes) return 0;
-    return r->set->markers.count > 0 ? r->set->markers.count : 2;
+    return r->set->markers.count > 0 ? r->set->markers.count : r->kinds;
 }
 
 static hd_mode_kind kind_of(const marker_report *r, int k)
 {
     if (r->set->markers.count > 0) return (hd_mode_kind)r->set->markers.mode[k].kind;
-    return k == 0 ? HD_MODE_T : HD_MODE_LP;
+    return r->kind[k];
 }
 
 /** Step that mode k of the picture belongs to; -1 while it is not found. */
