@@ -187,9 +187,10 @@ static hd_status verify(FILE *file, uint64_t *bytes, const char *path, char *mes
         return fault(message, size, path, "is of a machine with another byte order");
     if (h.head_crc != hd_checkpoint_head_crc(&h))
         return fault(message, size, path, "is damaged: its head is");
-    if (h.format > HD_CHECKPOINT_FORMAT)
-        return fault(message, size, path, "is of format %u, of a newer hdlyap: this one reads %d",
-                     (unsigned)h.format, HD_CHECKPOINT_FORMAT);
+    if (h.format != HD_CHECKPOINT_FORMAT)
+        return fault(message, size, path, "is of format %u, of %s hdlyap: this one reads %d",
+                     (unsigned)h.format, h.format > HD_CHECKPOINT_FORMAT ? "a newer" : "an older",
+                     HD_CHECKPOINT_FORMAT);
     const uint32_t crc = rest_crc(file, bytes);
     const uint64_t length = sizeof h + *bytes;
     if (ferror(file)) return fault(message, size, path, "%s", strerror(EIO));

@@ -102,18 +102,23 @@ static void what_is_no_checkpoint_is_refused(void **state)
     remove(PATH);
 }
 
-/** As a later hdlyap will write it: another format, and a head that is right. */
-static void a_newer_format_is_refused_as_such(void **state)
+/** As another hdlyap writes it: another format, and a head that is right. */
+static void expect_format_refused(uint32_t format, const char *word)
 {
-    (void)state;
     const bytes whole = checkpoint_bytes();
-    uint32_t format = HD_CHECKPOINT_FORMAT + 1;
     memcpy(whole.data + 24, &format, sizeof format);
     const uint32_t crc = hd_checkpoint_head_crc(whole.data);
     memcpy(whole.data + 44, &crc, sizeof crc);
     file_write(PATH, whole.data, whole.size);
-    expect_refused("newer hdlyap");
+    expect_refused(word);
     free(whole.data);
+}
+
+static void another_format_is_refused_as_such(void **state)
+{
+    (void)state;
+    expect_format_refused(HD_CHECKPOINT_FORMAT + 1, "a newer hdlyap");
+    expect_format_refused(HD_CHECKPOINT_FORMAT - 1, "an older hdlyap");
 }
 
 /* ---- files that cannot be written ------------------------------------------------------------- */
@@ -228,7 +233,7 @@ int main(void)
         cmocka_unit_test(a_truncated_file_is_refused),
         cmocka_unit_test(a_flipped_bit_is_noticed),
         cmocka_unit_test(what_is_no_checkpoint_is_refused),
-        cmocka_unit_test(a_newer_format_is_refused_as_such),
+        cmocka_unit_test(another_format_is_refused_as_such),
         cmocka_unit_test(what_cannot_be_written_is_named),
         cmocka_unit_test(a_write_that_fails_leaves_the_file),
         cmocka_unit_test(a_run_that_is_no_number_is_not_written),

@@ -80,6 +80,14 @@ class Help(unittest.TestCase):
         self.assertEqual(fit.wait(), 0)
         self.assertIn('_node:=', fit.text())
 
+    def test_python_example_is_interrupted_without_a_master(self):
+        fit = Process([example('fit_dispersion')], ROS_MASTER_URI='http://localhost:1', PYTHONUNBUFFERED='1')
+        self.addCleanup(fit.stop)
+        self.assertTrue(harness.wait_until(lambda: 'Will keep trying' in fit.text()), fit.text())
+        fit.send(signal.SIGINT)
+        self.assertEqual(fit.wait(), 130)
+        self.assertNotIn('Traceback', fit.text())
+
 
 class Beside(Examples):
     """Both examples and the test hear all of one run."""
