@@ -107,6 +107,15 @@ static void remember(keeper *k)
     k->written = now.st_mtim;
 }
 
+hd_status keeper_check(const settings *set, char *message, size_t size)
+{
+    if (!*set->checkpoint) return HD_OK;
+    const int lock = folder_lock(set->checkpoint);
+    const hd_status status = hd_checkpoint_writable(set->checkpoint, message, size);
+    folder_unlock(lock);
+    return status;
+}
+
 hd_status keeper_begin(keeper *out, const settings *set, hd_run *run, char *message, size_t size)
 {
     *out = (keeper){.set = set, .due = INFINITY, .state = {.time = -1.0}};

@@ -93,8 +93,7 @@ static int create_run(app *a)
 {
     char message[512] = "";
     const settings *set = &a->set;
-    hd_status status = HD_OK;
-    if (*set->checkpoint) status = hd_checkpoint_writable(set->checkpoint, message, sizeof message);
+    hd_status status = keeper_check(set, message, sizeof message);
     if (status == HD_OK && *set->resume)
         status = hd_run_resume(&a->run, set->resume, &set->def, message, sizeof message);
     else if (status == HD_OK)
