@@ -2,6 +2,7 @@
 #ifndef HDLYAP_ROS_HDLYAP_ROS_H
 #define HDLYAP_ROS_HDLYAP_ROS_H
 
+#include "hdlyap_ros/markers.h"
 #include "hdlyap_ros/node.h"
 #include "hdlyap_ros/params.h"
 #include "hdlyap_ros/publisher.h"
