@@ -210,6 +210,17 @@ TEST(markers, rviz_takes_every_picture)
             }
 }
 
+/** Steps are looked for and none is found: rviz takes an empty list for an error. */
+TEST(markers, nothing_is_found_yet)
+{
+    scene s(20.0, 20.0, 10, 2, 9);
+    s.measure(40);
+    for (hdr_step &step : s.step) step.resolved = false;
+    const MarkerArray array = drawing().of(s.p);
+    expect_shown(array);
+    EXPECT_TRUE(in(array, "dispersion", Marker::POINTS).empty());
+}
+
 TEST(markers, disks_and_boxes_lie_where_they_are)
 {
     scene s(20.0, 10.0, 40, 2, 2);
