@@ -367,6 +367,12 @@ double hd_trajectory_kinetic_energy(const hd_trajectory *tr)
     return 0.5 * twice;
 }
 
+double hd_trajectory_energy_rounding(const hd_trajectory *tr)
+{
+    const double events = (double)(tr->collisions + tr->wall_events);
+    return DBL_EPSILON * (64.0 + 16.0 * sqrt(events));
+}
+
 /** Distance squared from disk i to disk j, `edges` of the box further, now; to itself infinite. */
 static double distance_squared(const hd_trajectory *tr, int32_t i, int32_t j,
                                const int32_t edges[2])

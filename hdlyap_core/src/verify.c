@@ -20,14 +20,6 @@ static void expect_at_most(double value, double limit, const char *what)
 
 /* ---- disks ------------------------------------------------------------------------------------ */
 
-/** Each event rounds the energy by some eps of the two disks' part; the roundings add up as a random walk. Seen:
- *  0.01 of this. */
-static double walk(const hd_trajectory *tr)
-{
-    const double events = (double)(hd_trajectory_collisions(tr) + hd_trajectory_wall_events(tr));
-    return DBL_EPSILON * (64.0 + 16.0 * sqrt(events));
-}
-
 static void expect_momentum(const hd_trajectory *tr, const hd_scene_def *scene)
 {
     const int n = hd_trajectory_disks(tr);
@@ -36,14 +28,14 @@ static void expect_momentum(const hd_trajectory *tr, const hd_scene_def *scene)
         for (int d = 0; d < 2; d++) sum[d] += tr->disk[i].p[d];
     for (int d = 0; d < 2; d++)
         if (scene->boundary[d] == HD_PERIODIC)
-            expect_at_most(fabs(sum[d]), n * walk(tr), "momentum");
+            expect_at_most(fabs(sum[d]), n * hd_trajectory_energy_rounding(tr), "momentum");
 }
 
 void hd_verify_disks(const hd_trajectory *tr, const hd_scene_def *scene)
 {
     const double n = hd_trajectory_disks(tr);
     expect_at_most(hd_trajectory_overlap(tr), HD_OVERLAP_MAX, "overlap");
-    expect_at_most(fabs(hd_trajectory_kinetic_energy(tr) - n), n * walk(tr), "energy");
+    expect_at_most(fabs(hd_trajectory_kinetic_energy(tr) - n), n * hd_trajectory_energy_rounding(tr), "energy");
     expect_momentum(tr, scene);
 }
 

@@ -70,6 +70,9 @@ double hd_trajectory_collision_rate(const hd_trajectory *trajectory);
 void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p);
 
 double hd_trajectory_kinetic_energy(const hd_trajectory *trajectory); /**< sum p^2 / 2, = N */
+/** More than rounding makes of its relative error: each event so far rounds the energy of its disks by some eps, and the
+ *  roundings add up as a random walk. Seen: 0.01 of this. */
+double hd_trajectory_energy_rounding(const hd_trajectory *trajectory);
 /** Deepest overlap of any pair now: max(0, 1 - distance) over all pairs and images. Cost O(N). */
 double hd_trajectory_overlap(const hd_trajectory *trajectory);
 

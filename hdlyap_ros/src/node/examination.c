@@ -22,14 +22,6 @@ static double overlap_of_rounding(const hd_trajectory *trajectory)
     return roundings * DBL_EPSILON * (fmax(box[0], box[1]) + speed_max * epoch);
 }
 
-/** A random walk of events that each round the energy of two disks. */
-static double energy_error_of_rounding(const hd_trajectory *trajectory)
-{
-    const double events = (double)(hd_trajectory_collisions(trajectory) +
-                                   hd_trajectory_wall_events(trajectory));
-    return DBL_EPSILON * (64.0 + 16.0 * sqrt(events));
-}
-
 examination examine(const hd_trajectory *trajectory)
 {
     const double disks = hd_trajectory_disks(trajectory);
@@ -38,6 +30,6 @@ examination examine(const hd_trajectory *trajectory)
         .overlap = hd_trajectory_overlap(trajectory),
         .overlap_max = overlap_of_rounding(trajectory),
         .energy_error = fabs(hd_trajectory_kinetic_energy(trajectory) - disks) / disks,
-        .energy_error_max = energy_error_of_rounding(trajectory),
+        .energy_error_max = hd_trajectory_energy_rounding(trajectory),
     };
 }
