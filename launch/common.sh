@@ -51,6 +51,30 @@ build() {
     cmake --build "$dir" -- -j "$(nproc)"
 }
 
+# build_or_die DIR: and installs, because rosrun sees no program in a folder build/ of the package itself; into a hidden
+# folder, because roslaunch would find each launch file twice. Its programs are then on the path.
+build_or_die() {
+    say "building in $1"
+    run build_and_install "$1" >"$1/log/build.log" 2>&1 ||
+        die "the build failed; its log is $1/log/build.log:
+$(tail -n 20 "$1/log/build.log")"
+    echo "source \"\$(dirname \"\${BASH_SOURCE[0]}\")/.install/setup.bash\"" >"$1/setup.bash"
+    source_setup "$1/setup.bash"
+}
+
+build_and_install() {
+    build "$1" -DCATKIN_ENABLE_TESTING=OFF -DHDLYAP_CORE_TESTS=OFF "-DCMAKE_INSTALL_PREFIX=$1/.install" &&
+        cmake --install "$1"
+}
+
+# commit_here: the short hash of what is checked out, with + if the files differ from it; empty without git.
+commit_here() {
+    local hash
+    hash=$(git -C "$ROOT" rev-parse --short HEAD 2>/dev/null) || return 0
+    git -C "$ROOT" diff --quiet HEAD || hash+=+
+    echo "$hash"
+}
+
 is_configured() {
     [[ -f $1/Makefile ]] && grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$ROOT" "$1/CMakeCache.txt"
 }

@@ -52,11 +52,6 @@ check_run() {
     die "the run failed; everything it said is in $LOG"
 }
 
-build_and_install() {
-    build "$BUILD" -DCATKIN_ENABLE_TESTING=OFF -DHDLYAP_CORE_TESTS=OFF \
-        "-DCMAKE_INSTALL_PREFIX=$BUILD/.install" && cmake --install "$BUILD"
-}
-
 run_scene() {
     local launch follow seen=0
     rm -f "$out/run.bag" "$out/run.bag.active"
@@ -91,14 +86,7 @@ stop_at_exit
 
 [[ $install == no ]] || "$ROOT/launch/install.sh" run
 own_environment "$BUILD/home"
-say "building in $BUILD"
-# installed, because rosrun sees no program in a folder build/ of the package itself; into a hidden
-# folder, because roslaunch would find each launch file twice
-run build_and_install >"$BUILD/log/build.log" 2>&1 ||
-    die "the build failed; its log is $BUILD/log/build.log:
-$(tail -n 20 "$BUILD/log/build.log")"
-echo "source \"\$(dirname \"\${BASH_SOURCE[0]}\")/.install/setup.bash\"" >"$BUILD/setup.bash"
-source_setup "$BUILD/setup.bash"
+build_or_die "$BUILD"
 
 say "running scene $scene, $duration time units"
 run_scene

@@ -138,6 +138,16 @@ def run_infos(path, node=None):
         return _runs(bag, path, _topics_of_node(bag, path, node, TYPES))
 
 
+def messages(path, kind, node=None):
+    """Every message of one type of the last run of the given node, or of the only one in the bag."""
+    with _opened(path) as bag:
+        topics = _topics_of_node(bag, path, node, (RUN_INFO, kind))
+        run_id = _runs(bag, path, topics)[-1].run_id
+        for name, packed in _packed(bag, topics):
+            if name == kind and packed.run_id == run_id:
+                yield packed.message()
+
+
 @contextlib.contextmanager
 def _opened(path):
     """The bag; whatever is wrong with it is a RecordingError."""

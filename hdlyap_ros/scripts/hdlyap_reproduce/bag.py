@@ -1,0 +1,42 @@
+"""The bag of one run, read as often as the parts of the paper need and no more."""
+
+from hdlyap_plots import recording, repetition
+
+# parameters that make no difference to what is measured, or that run_info has as they were resolved
+HERE = ('threads', 'wait_for_subscribers', 'checkpoint', 'resume')
+FINISHED = 3        # phase of the last message of Cost of a run that was not stopped
+
+
+class Bag:
+    """Also of a run that is not there: then it is not complete."""
+
+    def __init__(self, path):
+        self.path = path
+        self._recording = None
+
+    @property
+    def recording(self):
+        """All of it, thinned."""
+        if self._recording is None:
+            self._recording = recording.read(self.path)
+        return self._recording
+
+    def messages(self, kind):
+        """Every message of a type, 'hdlyap/LpPhases' say, of the last run in its order."""
+        yield from recording.messages(self.path, kind)
+
+    def is_complete(self):
+        """Whether the run went to its end."""
+        try:
+            last = None
+            for last in self.messages(recording.COST):
+                pass
+            return last is not None and last.phase == FINISHED and last.progress >= 1
+        except recording.RecordingError:
+            return False
+
+    def was_run_with(self, parameters):
+        """Whether its run had these parameters of the node."""
+        asked = repetition.parameters(self.recording.info)
+        return all(str(asked[name]) == str(value) for name, value in parameters.items()
+                   if name not in HERE and name in asked)

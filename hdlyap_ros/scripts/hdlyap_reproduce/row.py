@@ -1,0 +1,66 @@
+"""Rows of the comparison: published, measured, error, verdict."""
+
+from math import isfinite
+
+from hdlyap_plots.numbers import with_error
+
+SIGMAS = 3.0        # standard errors of ours that numbers may be apart, beyond what the paper leaves open
+AGREES, DIFFERS, MISSING, SHOWN = 'agrees', 'differs', 'not measured', ''
+HEADER = ('part', 'quantity', 'published', 'published_error', 'measured', 'error', 'unit', 'verdict', 'remark')
+
+
+class Row:
+    """One number (or word) of the paper beside ours with its standard error. published_error: what the paper leaves open to
+    either side: the scatter round its fits, half of the last digit, 0 for counts. measured None: not found in the bags.
+    published None: the paper has none, ours is only shown."""
+
+    def __init__(self, quantity, published=None, measured=None, error=0.0, published_error=0.0, unit='', remark=''):
+        self.part = None        # set by who collects the rows
+        self.quantity, self.unit, self.remark = quantity, unit, remark
+        self.published, self.published_error = published, published_error
+        self.measured, self.error = measured, error
+
+    def _agrees(self):
+        if isinstance(self.published, str) or isinstance(self.measured, str):
+            return self.published == self.measured
+        return abs(self.measured - self.published) <= self.published_error + SIGMAS * max(self.error, 0.0)
+
+    @property
+    def verdict(self):
+        if self.measured is None or not (isinstance(self.measured, str) or isfinite(self.measured)):
+            return MISSING
+        if self.published is None:
+            return SHOWN
+        return AGREES if self._agrees() else DIFFERS
+
+    def cells(self):
+        """As text, for the page."""
+        return (self.quantity, _bounded(self.published, self.published_error), _number(self.measured, self.error),
+                self.unit, self.verdict, self.remark)
+
+    def values(self):
+        """As in HEADER, for the CSV file."""
+        return (self.part, self.quantity, *_plain(self.published, self.published_error),
+                *_plain(self.measured, self.error), self.unit, self.verdict, self.remark)
+
+
+def _number(value, error):
+    if value is None:
+        return '-'
+    if isinstance(value, str):
+        return value
+    if isinstance(value, int) and not error:
+        return str(value)
+    return with_error(value, error) if isfinite(value) else '-'
+
+
+def _bounded(value, bound):
+    if value is None or isinstance(value, str) or not bound:
+        return _number(value, 0.0)
+    return f'{value:.4g} +-{bound:.2g}'
+
+
+def _plain(value, error):
+    if value is None or isinstance(value, str):
+        return value or '', ''
+    return (value, '') if isinstance(value, int) and not error else (f'{value:.7g}', f'{error:.3g}')
