@@ -54,6 +54,14 @@ def pack(fields):
     return LENGTH.pack(len(body)) + body
 
 
+def register(test, topic, name):
+    """As a subscriber, with the master alone, until the test ends."""
+    master, nowhere = rosgraph.Master(name), 'http://localhost:%d' % harness.free_port()
+    full = '/%s/%s' % (harness.NODE, topic)
+    master.registerSubscriber(full, harness.TYPES[topic]._type, nowhere)
+    test.addCleanup(master.unregisterSubscriber, full, nowhere)
+
+
 class Link:
     """One subscriber of one topic. Of each message it keeps header.seq, which roscpp counts for each of them."""
 

@@ -4,13 +4,16 @@
 import os
 import signal
 import tempfile
+import time
 import unittest
 
 import rosbag
+import rosgraph
 import rospy
 import rostest
 
 import harness
+import links
 from harness import MODES, OBSERVABLES, SHORT, TYPES, Cost, Process
 
 # some hundred messages of each topic, in less than a second
@@ -137,6 +140,70 @@ class Delivery(unittest.TestCase):
         spectrum = self.listen('spectrum')
         self.assertEqual(node.wait(), 0, node.text())
         self.assertEqual((len(state.messages), len(spectrum.messages)), (4, 2))
+
+    def links(self, node, topics, name, master=None):
+        port = links.node_port(node, master)
+        some = [links.Link(port, topic, name) for topic in topics]
+        for link in some:
+            self.addCleanup(link.close)
+            link.greet()
+        return some
+
+    def test_waits_for_all_who_have_subscribed(self):
+        """Each topic has a subscriber at once, but that is not the only one."""
+        for topic in TYPES:
+            links.register(self, topic, '/early')
+            links.register(self, topic, '/late')
+        node = self.start(MANY)
+        early = self.links(node, TYPES, '/early')
+        reader = links.Reader(early)
+        time.sleep(0.5)     # as long as the whole run
+        late = self.links(node, TYPES, '/late')
+        readers = [reader, links.Reader(late)]
+        self.assertEqual(node.wait(), 0, node.text())
+        for reader in readers:
+            reader.join(harness.PATIENCE)
+        for first, second in zip(early, late):
+            with self.subTest(topic=first.topic):
+                self.assertEqual(len(second.seqs) >= AVERAGED_REPORTS / 2, first.topic != 'run_info')
+                self.assertEqual(first.seqs, second.seqs)
+        self.assertEqual(node.lines('WARN'), [])
+
+    def test_does_not_wait_for_ever(self):
+        """For one that has subscribed and is gone."""
+        links.register(self, 'cost', '/gone')
+        cost, state = self.listen('cost'), self.listen('state')
+        node = self.start(dict(SHORT, wait_for_subscribers=['cost', 'state']))
+        self.assertEqual(node.wait(), 0, node.text())
+        warnings = node.lines('WARN')
+        self.assertEqual(len(warnings), 1, node.text())
+        self.assertIn('cost: 1 of 2 subscribers connected after 3 s', warnings[0])
+        self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
+        self.assertEqual((len(cost.messages), len(state.messages)), (4, 4))
+
+    def has_services(self, master):
+        """The last that the node asks its master for: until then it would wait for another one."""
+        services = rosgraph.Master('/test', master.uri).getSystemState()[2]
+        return '/%s/checkpoint' % harness.NODE in dict(services)
+
+    def test_master_dies_before_the_run(self):
+        """Or hangs: nobody knows who else has subscribed."""
+        for number in (signal.SIGKILL, signal.SIGSTOP):
+            with self.subTest(signal=number):
+                master = harness.Master()
+                self.addCleanup(master.stop)
+                node = self.start(dict(SHORT, wait_for_subscribers=['run_info', 'cost']), ROS_MASTER_URI=master.uri)
+                cost = self.links(node, ['cost'], '/cost', master.uri)[0]
+                self.assertTrue(harness.wait_until(lambda: self.has_services(master)))
+                master.send(number)
+                info = links.Link(cost.socket.getpeername()[1], 'run_info')
+                self.addCleanup(info.close)
+                while len(cost.seqs) < 4 and not cost.closed:
+                    cost.read()
+                self.assertEqual(len(cost.seqs), 4)
+                self.assertEqual(len(node.lines('the run starts with the subscribers connected now')), 1, node.text())
+                master.send(signal.SIGCONT)
+                self.assertEqual(node.wait(), 0, node.text())
 
 
 if __name__ == '__main__':

@@ -11,6 +11,7 @@ import rospy
 import rostest
 
 import harness
+import links
 from harness import SHORT, Cost
 
 BOUND = 1.0     # seconds, the contract
@@ -107,6 +108,15 @@ class Stop(unittest.TestCase):
         node = self.start(dict(SHORT, wait_for_subscribers=['state']))
         self.assertTrue(harness.wait_until(lambda: node.lines('waiting for subscribers')))
         self.stop(node)
+
+    def test_while_waiting_for_the_second_subscriber(self):
+        links.register(self, 'state', '/gone')
+        state = self.listen('state')
+        node = self.start(dict(SHORT, wait_for_subscribers=['state']))
+        self.assertTrue(harness.wait_until(lambda: state.subscriber.get_num_connections() == 1))
+        time.sleep(0.3)
+        self.stop(node)
+        self.assertEqual((state.messages, node.lines('WARN')), ([], []))
 
     def test_while_keeping_pace(self):
         cost = self.listen('cost')

@@ -212,6 +212,41 @@ TEST(queue, long_enough_loses_nothing)
     for (size_t k = 0; k < 1000; k++) EXPECT_EQ(static_cast<double>(k), all.numbers.at(k));
 }
 
+/* ---- who has subscribed ---- */
+
+/** A subscriber that the master alone knows. */
+static void at_master(const char *call, const std::string &topic)
+{
+    XmlRpc::XmlRpcValue request, response, payload;
+    request[0] = "/elsewhere";
+    request[1] = topic;
+    if (strcmp(call, "registerSubscriber") == 0) request[2] = "std_msgs/Float64";
+    request[request.size()] = "http://localhost:1/";
+    EXPECT_TRUE(ros::master::execute(call, request, response, payload, false));
+}
+
+TEST(publishers, registered)
+{
+    seen s;
+    hdr_publisher *const publishers[] = {advertise("~lonely"), nullptr, advertise("~crowded")};
+    hdr_subscriber *subscriber = subscribe("~crowded", &s);
+    const std::string topic = std::string(hdr_node_name(node)) + "/crowded";
+    const auto registered = [&publishers] {
+        std::vector<int> counts{-1, -1, -1};
+        EXPECT_EQ(HDR_OK, hdr_publishers_registered(counts.data(), publishers, 3, patience))
+            << hdr_error_text();
+        return counts;
+    };
+    EXPECT_EQ((std::vector<int>{0, 0, 1}), registered());
+    at_master("registerSubscriber", topic);
+    EXPECT_EQ((std::vector<int>{0, 0, 2}), registered());
+    EXPECT_EQ(1, hdr_publisher_subscribers(publishers[2]));
+    hdr_subscriber_free(subscriber);
+    EXPECT_EQ((std::vector<int>{0, 0, 1}), registered());
+    at_master("unregisterSubscriber", topic);
+    EXPECT_EQ((std::vector<int>{0, 0, 0}), registered());
+}
+
 /* ---- nothing comes any more ---- */
 
 TEST(freeing, again_and_again_under_load)

@@ -44,6 +44,13 @@ HDR_MUST_CHECK hdr_status hdr_string_advertise(hdr_publisher **out, hdr_node *no
 /** Number of subscribers connected now. */
 int hdr_publisher_subscribers(const hdr_publisher *publisher);
 
+/** Asks the master how many nodes have subscribed to each topic, whether they are connected yet or not: registered[k]
+ *  of publishers[k], 0 where that is NULL. Waits that long at most, and no longer than until a stop is requested.
+ *  HDR_FAULT if the master has not answered by then; HDR_NO_MEMORY. */
+HDR_MUST_CHECK hdr_status hdr_publishers_registered(int registered[],
+                                                    hdr_publisher *const publishers[], int count,
+                                                    double seconds);
+
 /** How far the slowest subscriber is behind; what waits in buffers of the kernel does not count. */
 typedef struct hdr_lag {
     const char *topic; /**< resolved and remapped; as long as the publisher lives */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "attendance.h"
 #include "clock.h"
 #include "field_report.h"
 #include "marker_report.h"
@@ -32,6 +33,7 @@ struct report {
     mode_report *modes;   /**< NULL unless some of its topics are asked for */
     field_report *fields; /**< NULL unless asked for */
     marker_report *markers;
+    attendance awaited;
     unsigned demand;      /**< set of topics that the step under way is made for */
     double seconds;       /**< spent here */
 };
@@ -120,9 +122,9 @@ const char *report_run_id(const report *rep) { return rep->out.run_id; }
 
 hdr_lag report_lag(const report *rep) { return outlets_lag(&rep->out); }
 
-bool report_awaited_here(const report *rep, unsigned awaited)
+bool report_awaited_here(report *rep)
 {
-    return !(awaited & ~outlets_subscribed(&rep->out));
+    return attendance_complete(&rep->awaited, &rep->out, rep->set->awaited);
 }
 
 /** The message of steps has the velocity of the LP phases in it, and pictures have the steps. */

@@ -32,8 +32,8 @@ const char *report_run_id(const report *rep);
 /** Of the run's topics; any thread. */
 hdr_lag report_lag(const report *rep);
 
-/** True if each topic of the set has a subscriber. */
-bool report_awaited_here(const report *rep, unsigned awaited);
+/** True once those are connected whom the settings say to wait for; may ask the master. */
+bool report_awaited_here(report *rep);
 
 /** Publishes everything needed to repeat the run; latched. */
 HDR_MUST_CHECK hdr_status report_run_info(report *rep, const hd_run *run);

@@ -54,11 +54,20 @@ static void enter(worker *w, worker_stage stage)
     pthread_cond_broadcast(&w->changed);
 }
 
+/** Lock held, but not during the look, which may ask the master. */
+static bool awaited_here(worker *w)
+{
+    pthread_mutex_unlock(&w->lock);
+    const bool here = report_awaited_here(w->rep);
+    pthread_mutex_lock(&w->lock);
+    return here;
+}
+
 /** False if asked to stop. */
 static bool wait_for_subscribers(worker *w)
 {
     pthread_mutex_lock(&w->lock);
-    while (!w->stop && !report_awaited_here(w->rep, w->set->awaited))
+    while (!w->stop && !awaited_here(w))
         wait_until(w, clock_seconds() + look_seconds);
     const bool go_on = !w->stop;
     enter(w, go_on ? WORKER_RUNNING : WORKER_ENDED);
