@@ -57,6 +57,12 @@ def blocks(message, conjugate=False):
                   key=lambda block: abs(block.height))
 
 
+def resolved(message, conjugate=False):
+    """{name: step} of one half of the spectrum without the zero modes; empty without a message."""
+    return {name(step): step for step in (message.steps if message is not None else ())
+            if step.resolved and step.kind != ZERO and step.conjugate == conjugate}
+
+
 def unresolved(message, conjugate=False):
     return [step for step in message.steps
             if not step.resolved and step.kind != ZERO and step.conjugate == conjugate]

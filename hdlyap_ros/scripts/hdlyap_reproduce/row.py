@@ -5,6 +5,7 @@ from math import isfinite
 from hdlyap_plots.numbers import with_error
 
 SIGMAS = 3.0        # standard errors of ours that numbers may be apart, beyond what the paper leaves open
+SMALL = 1e-3        # without an error: below, the usual decimals would show little of a number
 AGREES, DIFFERS, MISSING, SHOWN = 'agrees', 'differs', 'not measured', ''
 HEADER = ('part', 'quantity', 'published', 'published_error', 'measured', 'error', 'unit', 'verdict', 'remark')
 
@@ -51,6 +52,8 @@ def _number(value, error):
         return value
     if isinstance(value, int) and not error:
         return str(value)
+    if not error and 0 < abs(value) < SMALL:
+        return f'{value:.1e}'
     return with_error(value, error) if isfinite(value) else '-'
 
 

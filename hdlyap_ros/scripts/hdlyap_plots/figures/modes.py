@@ -36,8 +36,9 @@ class Panel:
         return kind_colour(self.block.kind) if self.block else GREY
 
 
-def draw(recording):
-    panels = chosen(recording)
+def draw(recording, names=None):
+    """names: of the steps to be shown, in their order; without, the smallest."""
+    panels = chosen(recording) if names is None else named(recording, names)
     if not panels:
         return None
     info = recording.info
@@ -52,6 +53,21 @@ def draw(recording):
 def chosen(recording):
     """The latest field of each set, smallest exponents first; then what the user asked for by
     index and belongs to none."""
+    panels, others = _latest(recording)
+    # with one field of each step, a vector without one had a step only for a while
+    if recording.info.field_indices != 'steps':
+        panels += [panel for panel in others if panel.field.index <= recording.positive_end]
+    return panels[:PANELS]
+
+
+def named(recording, names):
+    """The latest field of each of these steps, as far as it has its set for itself."""
+    panels = {panel.name: panel for panel in _latest(recording)[0]}
+    return [panels[name] for name in names if name in panels]
+
+
+def _latest(recording):
+    """Panels of the latest field of each set, and of the vectors outside every step."""
     latest, others = {}, []
     blocks = steps.blocks(recording.steps)
     for field in recording.fields():
@@ -60,11 +76,7 @@ def chosen(recording):
             others.append(Panel(field))
         elif block.first not in latest or field.sim_time > latest[block.first].field.sim_time:
             latest[block.first] = Panel(field, block)
-    panels = [latest[block.first] for block in blocks if block.first in latest]
-    # with one field of each step, a vector without one had a step only for a while
-    if recording.info.field_indices != 'steps':
-        panels += [panel for panel in others if panel.field.index <= recording.positive_end]
-    return panels[:PANELS]
+    return [latest[block.first] for block in blocks if block.first in latest], others
 
 
 def _fields(panels, info):

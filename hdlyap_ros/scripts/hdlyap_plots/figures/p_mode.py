@@ -4,9 +4,12 @@ momenta."""
 import numpy as np
 
 from .. import steps, waves
-from .style import BLUE, GREY, INK, VERMILION, plt, scene
+from .pattern import pattern
+from .style import BLUE, GREY, VERMILION, plt, scene
 
 CUT = 2.5       # amplitudes shown: where a momentum is tiny, the quotient is not
+EPSILON = 1e-2  # of the mean square of a momentum component, in the quotients: HD_PMODE_EPSILON
+TINY = 1e-30    # a momentum of 0 has no weight, as its quotient is 0 too
 NOISE = 4.0     # root mean squares shown of the mode itself
 
 
@@ -14,8 +17,7 @@ def draw(recording):
     field = chosen(recording)
     if field is None:
         return None
-    pair = int(np.argmin(field.residual_p))
-    mode = PMode(field, pair, recording.info)
+    mode = PMode(field, clearest(field), recording.info)
     figure, grid = plt.subplots(2, 2, figsize=(7.2, 4.6 if mode.along else 6.2), sharex=True,
                                 sharey='row' if mode.along else True, constrained_layout=True)
     panel = _curve if mode.along else _map
@@ -44,6 +46,11 @@ def chosen(recording):
     return min(fields, default=None,
                key=lambda field: (field.nx > 0 and field.ny > 0, numbers[field.nx, field.ny],
                                   -field.sim_time))
+
+
+def clearest(field):
+    """Number of the pair whose P mode is best."""
+    return int(np.argmin(field.residual_p))
 
 
 class PMode:
@@ -75,9 +82,29 @@ class PMode:
 
     def amplitude(self, component):
         """Of A in a quotient, by least squares: its noise is as large as the momentum is small."""
-        a = self.modulation(self.x, self.y) * np.ones_like(self.x)
-        weights = self._p[component] ** 2
-        return np.sum(weights * a * self.divided[component]) / np.sum(weights * a * a)
+        return self.fit(component).amplitude
+
+    def fit(self, component, divided=True):
+        """Of A to a quotient, or to the mode itself, whose noise is alike everywhere."""
+        a = self.modulation(self.x, self.y)
+        if not divided:
+            return Fit(a, self.raw[component], np.ones_like(a))
+        # p^2 / (p^2 + eps): what the division has left of A
+        p2 = self._p[component] ** 2
+        more = p2 + EPSILON * np.mean(self._p ** 2)
+        return Fit(a * p2 / more, self.divided[component], more ** 2 / np.maximum(p2, TINY))
+
+
+class Fit:
+    """values = amplitude A + noise, by weighted least squares."""
+
+    def __init__(self, a, values, weights):
+        self.amplitude = np.sum(weights * a * values) / np.sum(weights * a * a)
+        rest = np.sum(weights * (values - self.amplitude * a) ** 2)
+        # of the amplitude, if the noise at one disk knows nothing of the next
+        self.error = np.sqrt(rest / (len(a) - 1) / np.sum(weights * a * a))
+        # of the values, their root mean square being 1
+        self.scatter = np.sqrt(rest / np.sum(weights * values ** 2))
 
 
 def _curve(axes, mode, values, limit, name):
@@ -98,12 +125,8 @@ def _modulation(axes, mode, amplitude):
 
 
 def _map(axes, mode, values, limit, name):
-    """Over the box, coloured by value."""
-    picture = axes.scatter(mode.x, mode.y, c=values, s=9, cmap='RdBu_r', vmin=-limit, vmax=limit,
-                           edgecolors=INK, linewidths=0.15)
-    axes.set_aspect('equal')
+    pattern(axes, mode.x, mode.y, values, limit)
     axes.set_title(name, loc='left', fontsize=8)
-    axes.figure.colorbar(picture, ax=axes, shrink=0.8)
 
 
 def _label(grid, mode):
