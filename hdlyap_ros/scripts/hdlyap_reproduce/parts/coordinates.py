@@ -64,7 +64,7 @@ def rows(bags):
     yield _cos(halves, 'above', halves.behind_zeros, -1.0)
     yield Row('first zero mode', FIRST_ZERO if of_paper else None, zero and zero.first_index)
     yield Row('last zero mode', LAST_ZERO if of_paper else None, zero and zero.last_index)
-    yield _mean(halves, 'C / C\'', 1.0, lambda: halves.ratio / halves.conjugate)
+    yield _mean(halves, 'ln(C / C\')', 0.0, lambda: np.log(halves.ratio / halves.conjugate))
     yield _mean(halves, 'cos Theta_l + cos Theta_(4N+1-l)', 0.0, lambda: halves.sums)
     yield _largest(halves, '|C / C\' - 1|', lambda: halves.ratio / halves.conjugate - 1)
     yield _largest(halves, '|cos Theta_l + cos Theta_(4N+1-l)|', lambda: halves.sums)
@@ -92,8 +92,8 @@ def _largest(halves, what, values):
     mean, error = averages.of_series(values())
     index = int(np.abs(mean).argmax())
     return Row(quantity, None, float(abs(mean[index])), float(error[index]),
-               remark=f'index {1 + index}; median of one report {np.median(np.abs(values())):.1e}: inside of steps '
-                      'vectors have not settled')
+               remark=f'index {1 + index}; median of one report {np.median(np.abs(values())):.1e}; vectors of close '
+                      'exponents have not settled')
 
 
 def _cos(halves, where, index, published):
@@ -138,7 +138,7 @@ def _near(axes, halves):
                  label=f'zero modes {halves.positive_end + 1}-{halves.behind_zeros - 1}')
     axes.xaxis.set_major_locator(ticker.MaxNLocator(nbins=6, integer=True))
     _cos_axes(axes)
-    axes.legend(loc='lower left')
+    axes.legend(loc='upper right')
 
 
 def _cos_axes(axes):

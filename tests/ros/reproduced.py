@@ -1,0 +1,61 @@
+"""Parts of the reproduction over bags that are made."""
+
+import os
+import tempfile
+import unittest
+
+import made     # also finds the scripts
+from hdlyap_plots.figures.style import STYLE, plt
+from hdlyap_reproduce.bag import Bag
+from hdlyap_reproduce.row import HEADER
+
+
+class Part(unittest.TestCase):
+    of = None       # the module of the part
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(plt.close, 'all')
+        self.folder = folder.name
+
+    def bag(self, name, messages):
+        path = os.path.join(self.folder, name + '.bag')
+        made.write(path, messages)
+        return Bag(path)
+
+    def rows(self, bags):
+        """{quantity: Row}"""
+        rows = list(self.of.rows(bags))
+        found = {row.quantity: row for row in rows}
+        self.assertEqual(len(found), len(rows))
+        for row in rows:
+            self.assertEqual(len(row.values()), len(HEADER))
+            row.cells()
+        return found
+
+    def tables(self, bags):
+        """{name: (header, lines)}, each line as long as its header."""
+        found = {name: (header, [tuple(map(str, line)) for line in lines])
+                 for name, header, lines in self.of.tables(bags)}
+        for header, lines in found.values():
+            for line in lines:
+                self.assertEqual(len(line), len(header))
+        return found
+
+    def figures(self, bags):
+        """{name: figure}; each is drawn, and not in one colour."""
+        with plt.rc_context(STYLE):
+            found = dict(self.of.figures(bags))
+            for figure in found.values():
+                figure.canvas.draw()
+                pixels = memoryview(figure.canvas.buffer_rgba())
+                self.assertGreater(len(set(bytes(pixels)[::4])), 1)
+        return found
+
+    def measures_nothing(self, bags):
+        """What a bag without the topics gives."""
+        for row in self.of.rows(bags):
+            self.assertEqual(row.verdict, 'not measured', row.quantity)
+        self.assertEqual(self.figures(bags), {})
+        self.tables(bags)

@@ -1,0 +1,73 @@
+"""Part 2 of the reproduction: slopes of single steps, fits, and the table of steps."""
+
+import unittest
+
+import made
+from made import LP, T
+from reproduced import Part
+from hdlyap_reproduce.parts import dispersion
+
+
+class Dispersion(Part):
+    of = dispersion
+
+    def bags(self, *found, **fields):
+        info = made.paper_info()
+        message = made.steps([step(info) if callable(step) else step for step in found])
+        for name, value in fields.items():
+            setattr(message, name, value)
+        return info, {'periodic': self.bag('periodic', [info, made.cost(1), message])}
+
+    def full(self):
+        info = made.paper_info()
+        return self.bags(made.step(info, T, 1, 0, 1556, 1557, exponent=0.62),
+                         made.step(info, T, 0, 1, 1554, 1555, exponent=0.9),
+                         made.step(info, LP, 1, 0, 1550, 1553, exponent=0.86),
+                         made.unresolved(info, LP, 0, 1, 4))
+
+    def test_slope_of_a_step_beside_the_papers(self):
+        info, bags = self.full()
+        k = made.wave_number(info, 1, 0)
+        row = self.rows(bags)['lambda / k of T(1,0)']
+        self.assertAlmostEqual(row.published, 3.285, delta=5e-4)
+        self.assertAlmostEqual(row.published_error, 0.03 * 3.285, delta=1e-4)
+        self.assertAlmostEqual(row.measured, 0.62 / k)
+        self.assertAlmostEqual(row.error, made.ERROR / k)
+        self.assertEqual(row.verdict, 'agrees')
+
+    def test_verdicts(self):
+        rows = self.rows(self.full()[1])
+        self.assertAlmostEqual(rows['lambda / k of LP(1,0)'].published, 4.624, delta=5e-4)
+        self.assertEqual([rows[f'lambda / k of {name}'].verdict for name in ('T(0,1)', 'LP(1,0)', 'LP(0,1)')],
+                         ['differs', 'agrees', 'not measured'])
+
+    def test_fits_are_the_runs(self):
+        _, bags = self.full()
+        rows = self.rows(bags)
+        found = [rows[f'{name} of lambda = c k + c2 k^2'] for name in ('c_T', 'c_T2', 'c_L', 'c_L2')]
+        self.assertEqual([(row.measured, row.error) for row in found],
+                         [(1.4, 0.012), (0.1, 0.034), (1.5, 0.02), (0.5, 0.1)])
+        self.assertEqual([row.remark for row in found], ['over 3 wave numbers'] * 2 + ['over 2 wave numbers'] * 2)
+        self.assertEqual([row.verdict for row in found], [''] * 4)
+
+    def test_a_fit_needs_its_wave_numbers(self):
+        rows = self.rows(self.bags(made.step(made.paper_info(), T, 1, 0, 1556, 1557), t_points=1, l_points=0)[1])
+        self.assertEqual([rows[f'{name} of lambda = c k + c2 k^2'].verdict for name in ('c_T', 'c_T2', 'c_L', 'c_L2')],
+                         ['', 'not measured', 'not measured', 'not measured'])
+        self.assertEqual(rows['c_T of lambda = c k + c2 k^2'].remark, 'over 1 wave number')
+
+    def test_table_and_figure(self):
+        info, bags = self.full()
+        header, lines = self.tables(bags)['steps']
+        self.assertEqual(header[:4], ('kind', 'nx', 'ny', 'k'))
+        self.assertEqual(lines[0], ('T', '1', '0', f'{made.wave_number(info, 1, 0):.6f}', '0.62', '0.002', '1.9800', '2',
+                                    '1'))
+        self.assertEqual([line[0] for line in lines], ['T', 'T', 'LP'])
+        self.assertEqual(list(self.figures(bags)), ['dispersion'])
+
+    def test_without_steps(self):
+        self.measures_nothing({'periodic': self.bag('periodic', [made.paper_info(), made.cost(1)])})
+
+
+if __name__ == '__main__':
+    unittest.main()
