@@ -28,7 +28,7 @@ def field(info, amplitudes, sim_time=150.0, noise=0.0, seed=1, nodes=(1, 0)):
         raw.append(phi)
         over.append([part * p / (p * p + eps) for part, p in zip(phi, momenta)])
     parts = [np.concatenate([pair[axis] for pair in values]) for values in (raw, over) for axis in (0, 1)]
-    return made.mode_field(info, one, sim_time=sim_time, residual_p=[RESIDUAL, RESIDUAL + 0.1],
+    return made.mode_field(info, one, sim_time=sim_time, modulations=(0, 1 if nodes[0] else 2), residual_p=[RESIDUAL, RESIDUAL + 0.1],
                            **dict(zip(('p_x', 'p_y', 'p_over_px', 'p_over_py'), parts)))
 
 

@@ -1,0 +1,136 @@
+"""Part 3 of the reproduction: angles and ratios of the two halves of made vectors."""
+
+import unittest
+
+import numpy as np
+
+import made
+from reproduced import Part
+from hdlyap_reproduce.parts import coordinates
+
+DISKS, END = 20, 37         # of 80 vectors 38 .. 43 are zero modes
+COUNT = 4 * DISKS
+REPORTS = 20
+ACCURACY = 1e-8
+ROUNDING = 1e3 * np.finfo(float).eps
+EXPONENTS = np.linspace(9, -9, COUNT)
+ANGLES = 'cos Theta_l + cos Theta_(4N+1-l)'
+
+
+def symmetric():
+    """(cos Theta, ratio) of vectors as the symplectic symmetry wants them."""
+    cos = np.concatenate([np.linspace(0.8, 0.99, COUNT // 2), -np.linspace(0.99, 0.8, COUNT // 2)])
+    ratio = np.concatenate([np.linspace(8, 0.5, COUNT // 2), 1 / np.linspace(0.5, 8, COUNT // 2)])
+    return cos, ratio
+
+
+def spectrum(cos, ratio, time):
+    made_spectrum = made.spectrum(EXPONENTS, time, pairing_error=0.25)
+    made_spectrum.cos_theta, made_spectrum.dp_dq_ratio = cos, ratio
+    return made_spectrum
+
+
+class Coordinates(Part):
+    of = coordinates
+
+    def bags(self, *spectra, zeros=38, **fields):
+        info = made.run_info(accuracy=ACCURACY, **fields)
+        return {'halves': self.bag('halves', [info, made.cost(1), *spectra, made.steps([made.zero_modes(zeros)])])}
+
+    def full(self, change=lambda cos, ratio, report: None):
+        """A report of before the averaging, and all of it; change(cos, ratio, number of the report) in place."""
+        spectra = [spectrum(-symmetric()[0], symmetric()[1], 0.0)]
+        for report in range(REPORTS):
+            cos, ratio = symmetric()
+            change(cos, ratio, report)
+            spectra.append(spectrum(cos, ratio, 2.0 * (report + 1)))
+        return self.bags(*spectra)
+
+    def test_cosines_beside_the_zero_modes(self):
+        def change(cos, ratio, report):
+            cos[END - 1] = 1.0 - 0.01 * (report // 2)       # pairs of reports are a block
+            cos[END + 6] = -0.95
+        rows = self.rows(self.full(change))
+        below, above = (rows[f'cos Theta just {where} the zero modes, index {index}']
+                        for where, index in (('below', 37), ('above', 44)))
+        self.assertEqual((below.published, above.published, below.published_error), (1.0, -1.0, 0.02))
+        self.assertAlmostEqual(below.measured, 1 - 0.045, delta=ROUNDING)
+        self.assertAlmostEqual(below.error, 0.01 * np.std(range(10), ddof=1) / np.sqrt(10), delta=ROUNDING)
+        self.assertAlmostEqual(above.measured, -0.95, delta=ROUNDING)
+        self.assertEqual(above.verdict, 'differs')
+        self.assertEqual(below.remark, 'mean over 20 reports')
+
+    def test_symmetric_vectors(self):
+        rows = self.rows(self.full())
+        for quantity in ("ln(C / C'), mean over the positive half", f'{ANGLES}, mean over the positive half',
+                         "largest mean |C / C' - 1|", f'largest mean |{ANGLES}|',
+                         'sum of |dq|^2 less |dp|^2 of the conjugates, positive half'):
+            self.assertAlmostEqual(rows[quantity].measured, 0.0, delta=ROUNDING)
+        self.assertEqual(rows['pairing error, max |lambda_l + lambda_(4N+1-l)|'].measured, 0.25)
+
+    def test_one_vector_off_in_one_report(self):
+        def change(cos, ratio, report):
+            if report == 7:
+                ratio[4] *= 2
+                cos[10] += 0.1
+        symmetric_ratio = symmetric()[1][4]
+        rows = self.rows(self.full(change))
+        self.assertAlmostEqual(rows["ln(C / C'), mean over the positive half"].measured, np.log(2) / END / REPORTS,
+                               delta=ROUNDING)
+        largest = rows["largest mean |C / C' - 1|"]
+        self.assertAlmostEqual(largest.measured, 1 / REPORTS, delta=ROUNDING)
+        self.assertTrue(largest.remark.startswith('index 5;'), largest.remark)
+        angle = rows[f'largest mean |{ANGLES}|']
+        self.assertAlmostEqual(angle.measured, 0.1 / REPORTS, delta=ROUNDING)
+        self.assertTrue(angle.remark.startswith('index 11;'), angle.remark)
+        excess = rows['sum of |dq|^2 less |dp|^2 of the conjugates, positive half']
+        self.assertAlmostEqual(excess.measured, 1 / (1 + symmetric_ratio ** 2) - 1 / (1 + 4 * symmetric_ratio ** 2),
+                               delta=ROUNDING)
+        self.assertEqual((excess.verdict, excess.published_error), ('differs', ACCURACY))
+
+    def test_two_vectors_that_mix_leave_what_they_span(self):
+        """Of |dq|^2 the one has more by what the other has less: no excess, though C and C' differ."""
+        def change(cos, ratio, report):
+            dq2 = 1 / (1 + ratio[4:6] ** 2)
+            ratio[4:6] = np.sqrt(1 / (dq2 + [0.01, -0.01]) - 1)
+        rows = self.rows(self.full(change))
+        self.assertGreater(rows["largest mean |C / C' - 1|"].measured, 0.1)
+        self.assertAlmostEqual(rows['sum of |dq|^2 less |dp|^2 of the conjugates, positive half'].measured, 0.0,
+                               delta=ROUNDING)
+
+    def test_zero_modes_beside_the_papers_of_its_size_alone(self):
+        rows = self.rows(self.full())
+        self.assertEqual([(row.published, row.measured) for row in (rows['first zero mode'], rows['last zero mode'])],
+                         [(None, 38), (None, 43)])
+        rows = self.rows(self.bags(zeros=1558, disks=780))
+        self.assertEqual([(row.published, row.measured, row.verdict)
+                          for row in (rows['first zero mode'], rows['last zero mode'])],
+                         [(1558, 1558, 'agrees'), (1563, 1563, 'agrees')])
+        self.assertEqual(rows['cos Theta just below the zero modes, index 1557'].verdict, 'not measured')
+
+    def test_figure(self):
+        def change(cos, ratio, report):
+            ratio[-5] *= 2
+        whole, near, ratio = self.figures(self.full(change))['coordinates'].axes
+        cos, symmetric_ratio = symmetric()
+        np.testing.assert_allclose(whole.lines[0].get_ydata(), cos)
+        np.testing.assert_allclose(near.lines[0].get_xdata(), range(END + 1 - 20, END + 6 + 21))
+        np.testing.assert_allclose(near.lines[0].get_ydata(), cos[END - 20:END + 26])
+        conjugate, own = (line.get_ydata() for line in ratio.lines[:2])
+        np.testing.assert_allclose(own, symmetric_ratio[:END])
+        np.testing.assert_allclose(conjugate, symmetric_ratio[:END] / np.where(np.arange(END) == 4, 2, 1))
+
+    def test_tables(self):
+        tables = self.tables(self.full())
+        self.assertEqual(len(tables['cos_theta'][1]), COUNT)
+        self.assertEqual(tables['cos_theta'][1][0][:2], ('1', '0.80000'))
+        self.assertEqual(tables['ratios'][1][0][:4:3], ('1', '8'))
+        self.assertEqual(len(tables['ratios'][1]), END)
+
+    def test_half_of_the_vectors(self):
+        info = made.run_info()
+        self.measures_nothing({'halves': self.bag('halves', [info, made.spectrum(EXPONENTS[:END], 1.0)])})
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,107 @@
+"""Part 14 of the reproduction: runs of one trajectory that deviate by what is known."""
+
+import unittest
+
+import numpy as np
+
+import made
+from made import LP, T
+from reproduced import Part
+from hdlyap_reproduce.parts import intervals
+
+EXPONENTS = np.linspace(9, 3, 37)
+ACCURACY = 1e-8
+
+
+class Intervals(Part):
+    of = intervals
+
+    def trial(self, interval, deviation=0.0, index=20, first=36, times=(10.0, 20.0), extra=()):
+        """One run; its exponents are those of the time, and one of them is off."""
+        info = made.run_info(interval=interval, accuracy=ACCURACY)
+        messages = [info]
+        for number, (phase, in_use) in enumerate(((0, 9.0), (1, 2.5), (2, 0.5), (2, 0.75), (3, 0.5))):
+            cost = made.cost(100.0 + number)
+            cost.phase, cost.interval, cost.orthonormalisations = phase, min(in_use, interval), 4 * number
+            cost.error_bound = 3e-10
+            messages.append(cost)
+        for time in times:
+            exponents = EXPONENTS + 0.1 / time
+            exponents[index - 1] += deviation
+            messages.append(made.spectrum(exponents, time))
+        steps = [made.step(info, T, 1, 0, first, first + 1), made.step(info, LP, 1, 0, 32, 35)]
+        return self.bag(f'interval_{interval:g}', [*messages, made.steps(steps), *extra])
+
+    def bags(self, *trials):
+        return {f'interval_{number}': trial for number, trial in enumerate(trials)}
+
+    def test_runs(self):
+        self.assertEqual(intervals.runs(['periodic', 'interval_8', 'interval_0_25']), ['interval_8', 'interval_0_25'])
+
+    def test_deviations_are_of_one_time(self):
+        """The last run has averaged for longer; that is no deviation."""
+        rows = self.rows(self.bags(self.trial(8.0, 1e-9, times=(10.0, 20.0, 20.5)), self.trial(0.25),
+                                   self.trial(1.0, -3e-8, index=5)))
+        far, near = (rows[f'largest deviation of an exponent, interval {name} from 0.25'] for name in (1, 8))
+        rounding = 10 * np.finfo(float).eps * 10
+        self.assertAlmostEqual(far.measured, 3e-8, delta=rounding)
+        self.assertAlmostEqual(near.measured, 1e-9, delta=rounding)
+        self.assertEqual((far.verdict, near.verdict, far.published, far.published_error),
+                         ('differs', 'agrees', 0.0, 2 * ACCURACY))
+        self.assertTrue(far.remark.startswith('index 5 of 37, averaged over 20'), far.remark)
+        self.assertTrue(near.remark.startswith('index 20 of 37, averaged over 20'), near.remark)
+        self.assertEqual(near.cells()[2], '1.0e-09')
+
+    def test_no_common_time(self):
+        bags = self.bags(self.trial(0.25, times=(10.0,)), self.trial(1.0, times=(11.0,)))
+        row = self.rows(bags)['largest deviation of an exponent, interval 1 from 0.25']
+        self.assertEqual(row.verdict, 'not measured')
+        self.assertEqual(self.figures(bags), {})
+
+    def test_interval_in_use(self):
+        """Of the frame, not of the time before it; the mean is that of the averaging."""
+        rows = self.rows(self.bags(self.trial(0.25), self.trial(8.0)))
+        row = rows['longest interval in use, asked 8']
+        self.assertEqual((row.measured, row.remark), (2.5, 'mean of the averaging 0.25'))
+        self.assertEqual(rows['longest interval in use, asked 0.25'].measured, 0.25)
+
+    def test_what_other_programs_get_where_the_interval_was_not_taken(self):
+        rows = self.rows(self.bags(self.trial(0.25), self.trial(1.0), self.trial(8.0)))
+        said = {name: '2.36' in rows[f'largest deviation of an exponent, interval {name} from 0.25'].remark
+                for name in (1, 8)}
+        self.assertEqual(said, {1: False, 8: True})
+
+    def test_indices(self):
+        rows = self.rows(self.bags(self.trial(0.25), self.trial(1.0), self.trial(8.0, first=35)))
+        same, other = (rows[f'indices of all steps, interval {name} and 0.25'] for name in (1, 8))
+        self.assertEqual((same.measured, same.verdict, same.remark), ('the same', 'agrees', '2 sets'))
+        self.assertEqual((other.measured, other.verdict, other.remark), ('1 differ', 'differs', '2 sets; differ: T(1,0)'))
+
+    def test_figure(self):
+        axes, = self.figures(self.bags(self.trial(0.25), self.trial(1.0, 1e-9)))['intervals'].axes
+        drawn = axes.lines[0].get_ydata()
+        self.assertEqual(np.argmax(drawn), 19)
+        self.assertAlmostEqual(drawn[19] / 1e-9, 1, delta=1e-4)
+        self.assertEqual(drawn[0], intervals.ROUNDING)
+
+    def test_tables(self):
+        tables = self.tables(self.bags(self.trial(0.25), self.trial(1.0, 1e-9)))
+        header, lines = tables['runs']
+        line = dict(zip(header, lines[1]))
+        info = made.run_info()
+        self.assertEqual([line[name] for name in ('interval', 'longest_in_use', 'mean_in_use', 'error_bound', 'c_T', 'c_L',
+                                                  'v', 'lambda_max')],
+                         ['1', '1', '0.25', '3e-10', '1.4', '1.5', '1.612', '9.005'])
+        self.assertAlmostEqual(float(line['T(1,0)_exponent']), made.exponent(info, T, 1, 0), delta=1e-8)
+        self.assertEqual((line['T(1,0)_multiplicity'], line['LP(1,0)_multiplicity']), ('1.98', '3.96'))
+        self.assertEqual(tables['indices'][1][0], ('0.25', 'T(1,0)', '36-37'))
+        self.assertEqual(tables['deviations'][1][19], ('20', '1.0e-09'))
+
+    def test_without_spectrum_and_steps(self):
+        bags = {f'interval_{number}': self.bag(f'interval_{number}', [made.run_info(interval=number)])
+                for number in (1.0, 2.0)}
+        self.measures_nothing(bags)
+
+
+if __name__ == '__main__':
+    unittest.main()
