@@ -14,6 +14,7 @@ REPORTS = 20
 ACCURACY = 1e-8
 ROUNDING = 1e3 * np.finfo(float).eps
 EXPONENTS = np.linspace(9, -9, COUNT)
+EXPONENTS[29] += 0.5
 ANGLES = 'cos Theta_l + cos Theta_(4N+1-l)'
 
 
@@ -66,7 +67,9 @@ class Coordinates(Part):
                          "largest mean |C / C' - 1|", f'largest mean |{ANGLES}|',
                          'sum of |dq|^2 less |dp|^2 of the conjugates, positive half'):
             self.assertAlmostEqual(rows[quantity].measured, 0.0, delta=ROUNDING)
-        self.assertEqual(rows['pairing error, max |lambda_l + lambda_(4N+1-l)|'].measured, 0.25)
+        pairing = rows['pairing error, max |lambda_l + lambda_(4N+1-l)|']
+        self.assertEqual(pairing.measured, 0.25)
+        self.assertTrue(pairing.remark.endswith('all of the half: 5.0e-01'), pairing.remark)
 
     def test_one_vector_off_in_one_report(self):
         def change(cos, ratio, report):

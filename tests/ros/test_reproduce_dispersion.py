@@ -60,8 +60,8 @@ class Dispersion(Part):
         info, bags = self.full()
         header, lines = self.tables(bags)['steps']
         self.assertEqual(header[:4], ('kind', 'nx', 'ny', 'k'))
-        self.assertEqual(lines[0], ('T', '1', '0', f'{made.wave_number(info, 1, 0):.6f}', '0.62', '0.002', '1.9800', '2',
-                                    '1'))
+        k = f'{made.wave_number(info, 1, 0):.6f}'
+        self.assertEqual(lines[0], ('T', '1', '0', k, '0.62', '0.002', '1.9800', '2', '1'))
         self.assertEqual([line[0] for line in lines], ['T', 'T', 'LP'])
         self.assertEqual(list(self.figures(bags)), ['dispersion'])
 

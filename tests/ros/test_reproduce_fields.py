@@ -28,8 +28,9 @@ class Waves(unittest.TestCase):
         for info in boxes():
             for bits in range(4):
                 where = info, 2, 1, bits
-                slopes = [(waves.modulation(*where, x + dx, y + dy) - waves.modulation(*where, x - dx, y - dy)) / (2 * h)
-                          for dx, dy in ((h, 0), (0, h))]
+                ends = [[waves.modulation(*where, x + sign * dx, y + sign * dy) for sign in (1, -1)]
+                        for dx, dy in ((h, 0), (0, h))]
+                slopes = [(after - before) / (2 * h) for after, before in ends]
                 # of the differences: k^3 h^2 / 6, and rounding / h
                 self.assertLess(np.abs(np.subtract(waves.gradient(*where, x, y), slopes)).max(), 1e-9)
 
@@ -54,9 +55,9 @@ class Averages(unittest.TestCase):
         self.assertEqual(averages.of_snapshots([1.0, 3.0]), (2.0, 1.0))
         self.assertEqual(averages.of_snapshots([5.0]), (5.0, 0.0))
 
-    def test_series_in_pairs_is_as_long_as_its_pairs(self):
+    def test_series_of_fours_is_as_long_as_its_fours(self):
         values = np.random.default_rng(1).normal(size=(10, 3))
-        mean, error = averages.of_series(np.repeat(values, 2, axis=0))
+        mean, error = averages.of_series(np.repeat(values, 4, axis=0))
         np.testing.assert_allclose(mean, values.mean(axis=0), rtol=0, atol=1e-15)
         np.testing.assert_allclose(error, values.std(axis=0, ddof=1) / np.sqrt(10), rtol=1e-12)
 
@@ -75,7 +76,7 @@ def by_hand(info, letter, x, y, momenta):
 
 
 def field(info, one, share, letter, others, sim_time=150.0):
-    """A vector of (1,0) with so much of it in its last field by hand; the rest knows nothing of any field of `others`."""
+    """A vector of (1,0), so much of it in its last field by hand; the rest knows nothing of any field of `others`."""
     made_field = made.mode_field(info, one, sim_time=sim_time)
     x, y, *momenta = made.disks(info)
     inside = by_hand(info, letter, x, y, momenta)[-1]
@@ -100,8 +101,8 @@ class Fields(Part):
         found = self.found(info)
         messages = [info, made.cost(1), made.steps(found)]
         for share, sim_time in ((0.9, 150.0), (0.8, 170.0)):
-            messages += [field(info, found[0], share, 'T', 'TL', sim_time), field(info, found[1], share - 0.2, 'P', 'LP',
-                                                                             sim_time)]
+            messages += [field(info, found[0], share, 'T', 'TL', sim_time),
+                         field(info, found[1], share - 0.2, 'P', 'LP', sim_time)]
         messages += [made.mode_field(info, one, modulations=(0, 1) if one.nx else (0, 2)) for one in found[2:]]
         return {'periodic': self.bag('periodic', messages)}
 
@@ -122,6 +123,13 @@ class Fields(Part):
         rows = self.rows({'periodic': self.bag('periodic', [info, field(info, one, 1.0, 'L', 'TL')])})
         self.assertAlmostEqual(rows['weight of T(1,0) in the L fields, curl-free'].measured, 1.0, delta=ROUNDING)
         self.assertLess(rows['weight of T(1,0) in its T fields'].measured, 0.5)
+
+    def test_curl_of_a_diagonal_wave(self):
+        """Made by small differences, which are right to h^2."""
+        info = made.run_info()
+        one = made.mode_field(info, made.step(info, T, 1, 1, 22, 25), modulations=(0, 3), noise=0.0)
+        self.assertAlmostEqual(projection.weight(info, one, 'T'), 1.0, delta=1e-6)
+        self.assertLess(projection.weight(info, one, 'L'), 0.5)
 
     def test_continued_between_the_disks(self):
         info = made.run_info()

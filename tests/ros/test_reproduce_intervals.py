@@ -75,7 +75,8 @@ class Intervals(Part):
         rows = self.rows(self.bags(self.trial(0.25), self.trial(1.0), self.trial(8.0, first=35)))
         same, other = (rows[f'indices of all steps, interval {name} and 0.25'] for name in (1, 8))
         self.assertEqual((same.measured, same.verdict, same.remark), ('the same', 'agrees', '2 sets'))
-        self.assertEqual((other.measured, other.verdict, other.remark), ('1 differ', 'differs', '2 sets; differ: T(1,0)'))
+        self.assertEqual((other.measured, other.verdict), ('1 differ', 'differs'))
+        self.assertEqual(other.remark, '2 sets; differ: T(1,0)')
 
     def test_figure(self):
         axes, = self.figures(self.bags(self.trial(0.25), self.trial(1.0, 1e-9)))['intervals'].axes
@@ -89,9 +90,9 @@ class Intervals(Part):
         header, lines = tables['runs']
         line = dict(zip(header, lines[1]))
         info = made.run_info()
-        self.assertEqual([line[name] for name in ('interval', 'longest_in_use', 'mean_in_use', 'error_bound', 'c_T', 'c_L',
-                                                  'v', 'lambda_max')],
-                         ['1', '1', '0.25', '3e-10', '1.4', '1.5', '1.612', '9.005'])
+        expected = {'interval': '1', 'longest_in_use': '1', 'mean_in_use': '0.25', 'error_bound': '3e-10', 'c_T': '1.4',
+                    'c_L': '1.5', 'v': '1.612', 'lambda_max': '9.005'}
+        self.assertEqual({name: line[name] for name in expected}, expected)
         self.assertAlmostEqual(float(line['T(1,0)_exponent']), made.exponent(info, T, 1, 0), delta=1e-8)
         self.assertEqual((line['T(1,0)_multiplicity'], line['LP(1,0)_multiplicity']), ('1.98', '3.96'))
         self.assertEqual(tables['indices'][1][0], ('0.25', 'T(1,0)', '36-37'))

@@ -28,7 +28,8 @@ def field(info, amplitudes, sim_time=150.0, noise=0.0, seed=1, nodes=(1, 0)):
         raw.append(phi)
         over.append([part * p / (p * p + eps) for part, p in zip(phi, momenta)])
     parts = [np.concatenate([pair[axis] for pair in values]) for values in (raw, over) for axis in (0, 1)]
-    return made.mode_field(info, one, sim_time=sim_time, modulations=(0, 1 if nodes[0] else 2), residual_p=[RESIDUAL, RESIDUAL + 0.1],
+    return made.mode_field(info, one, sim_time=sim_time, modulations=(0, 1 if nodes[0] else 2),
+                           residual_p=[RESIDUAL, RESIDUAL + 0.1],
                            **dict(zip(('p_x', 'p_y', 'p_over_px', 'p_over_py'), parts)))
 
 
@@ -48,7 +49,8 @@ class PMode(Part):
             self.assertAlmostEqual(rows[name].measured, expected, delta=ROUNDING)
             self.assertAlmostEqual(rows[name].error, 0, delta=ROUNDING)
             self.assertEqual(rows[name].published, 1.0)
-        self.assertIn('amplitude 0.640, residual 0.600', rows['amplitude of phi_P,x / p_x on A / (1 - residual^2)'].remark)
+        self.assertIn('amplitude 0.640, residual 0.600',
+                      rows['amplitude of phi_P,x / p_x on A / (1 - residual^2)'].remark)
 
     def test_means_over_snapshots(self):
         info = made.run_info()

@@ -54,7 +54,8 @@ def figures(bags):
 
 def tables(bags):
     found = steps.resolved(bags['periodic'].recording.steps)
-    yield ('steps', ('kind', 'nx', 'ny', 'k', 'exponent', 'std_error', 'multiplicity', 'expected', 'steps_of_its_vectors'),
-           [(steps.NAMES[step.kind], step.nx, step.ny, f'{step.wave_number:.6f}', f'{step.exponent:.7g}',
-             f'{step.std_error:.2g}', f'{step.multiplicity:.4f}', step.expected, step.members)
-            for step in sorted(found.values(), key=lambda step: (step.kind, step.wave_number))])
+    header = ('kind', 'nx', 'ny', 'k', 'exponent', 'std_error', 'multiplicity', 'expected', 'steps_of_its_vectors')
+    yield 'steps', header, [
+        (steps.NAMES[step.kind], step.nx, step.ny, f'{step.wave_number:.6f}', f'{step.exponent:.7g}',
+         f'{step.std_error:.2g}', f'{step.multiplicity:.4f}', step.expected, step.members)
+        for step in sorted(found.values(), key=lambda step: (step.kind, step.wave_number))]

@@ -41,7 +41,8 @@ def rows(bags):
     shown = _shown(bags['periodic'])
     for axis, name in enumerate('xy'):
         yield _amplitude(shown, axis, name)
-    yield Row('ratio of these amplitudes', 1.0, shown and shown.ratio, shown.ratio_error if shown else 0.0)
+    yield Row('ratio of these amplitudes', 1.0, shown and shown.ratio, shown.ratio_error if shown else 0.0,
+              remark='tells more than both: weighted with p^2 they are 1 together, by least squares')
     times = _times(bags['periodic'])
     yield _mean(times, 'amplitude along x / (1 - residual^2), mean', 1.0,
                 lambda one: one.after[0].amplitude / one.spanned)
