@@ -118,6 +118,7 @@ class Coordinates(Part):
         cos, symmetric_ratio = symmetric()
         np.testing.assert_allclose(whole.lines[0].get_ydata(), cos)
         np.testing.assert_allclose(near.lines[0].get_xdata(), range(END + 1 - 20, END + 6 + 21))
+        self.assertEqual(near.get_title(loc='left'), '(b) shaded: zero modes 38-43')
         np.testing.assert_allclose(near.lines[0].get_ydata(), cos[END - 20:END + 26])
         conjugate, own = (line.get_ydata() for line in ratio.lines[:2])
         np.testing.assert_allclose(own, symmetric_ratio[:END])

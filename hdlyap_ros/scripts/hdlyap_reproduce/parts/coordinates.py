@@ -117,8 +117,9 @@ def figures(bags):
     _whole(whole, halves)
     _near(near, halves)
     _ratio(ratio, halves)
-    for axes, name in zip((whole, near, ratio), 'abc'):
-        axes.set_title(f'({name})', loc='left')
+    shaded = f'(b) shaded: zero modes {halves.positive_end + 1}-{halves.behind_zeros - 1}'
+    for axes, title in ((whole, '(a)'), (near, shaded), (ratio, '(c)')):
+        axes.set_title(title, loc='left')
     figure.suptitle(f'{scene(halves.info)}, mean over {halves.reports} reports', fontsize=9)
     yield 'coordinates', figure
 
@@ -137,11 +138,9 @@ def _near(axes, halves):
     inside = slice(first - 1, last)
     axes.errorbar(indices, halves.cos[inside], halves.cos_error[inside], fmt='o', color=BLUE, markersize=2.6,
                   elinewidth=0.8, capsize=1.5)
-    axes.axvspan(halves.positive_end + 0.5, halves.behind_zeros - 0.5, color=ZERO, alpha=0.2, linewidth=0,
-                 label=f'zero modes {halves.positive_end + 1}-{halves.behind_zeros - 1}')
+    axes.axvspan(halves.positive_end + 0.5, halves.behind_zeros - 0.5, color=ZERO, alpha=0.2, linewidth=0)
     axes.xaxis.set_major_locator(ticker.MaxNLocator(nbins=6, integer=True))
     _cos_axes(axes)
-    axes.legend(loc='upper right')
 
 
 def _cos_axes(axes):
