@@ -5,9 +5,9 @@
   figures(bags)    (name, matplotlib figure)
   tables(bags)     (name, header, lines) of CSV files: the numbers behind the figures"""
 
-from . import coordinates, dispersion, fields, intervals, p_mode, spectrum
+from . import coordinates, dispersion, fields, intervals, multiplicities, p_mode, spectrum
 
-PARTS = (spectrum, dispersion, coordinates, fields, p_mode, intervals)
+PARTS = (spectrum, dispersion, coordinates, fields, p_mode, multiplicities, intervals)
 
 
 def chosen(numbers):
