@@ -114,6 +114,11 @@ class Curve:
         self.covariance = inverse * max(1.0, self.chi2 / self.freedom if self.freedom else 1.0)
         self.c_error, self.c2_error = np.sqrt(np.diag(self.covariance))
 
+    @property
+    def correlation(self):
+        """Of c and c2."""
+        return float(self.covariance[0, 1] / (self.c_error * self.c2_error))
+
     def at(self, k):
         """(lambda, its error) at a wave number."""
         powers = np.array([k, k * k])

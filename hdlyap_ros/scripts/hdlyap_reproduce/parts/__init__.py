@@ -5,9 +5,10 @@
   figures(bags)    (name, matplotlib figure)
   tables(bags)     (name, header, lines) of CSV files: the numbers behind the figures"""
 
-from . import coordinates, dispersion, fields, intervals, multiplicities, p_mode, spectrum
+from . import (aspect, coordinates, densities, dispersion, fields, intervals, multiplicities, p_mode, smallest,
+               spectrum)
 
-PARTS = (spectrum, dispersion, coordinates, fields, p_mode, multiplicities, intervals)
+PARTS = (spectrum, dispersion, coordinates, fields, p_mode, densities, smallest, aspect, multiplicities, intervals)
 
 
 def chosen(numbers):
