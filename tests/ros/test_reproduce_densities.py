@@ -1,0 +1,144 @@
+"""Part 8 of the reproduction against runs that are known exactly."""
+
+import unittest
+
+import numpy as np
+
+import made
+import recorded
+from made import LP, T
+from hdlyap_plots import paper
+from hdlyap_reproduce import crossing
+from hdlyap_reproduce.parts import densities
+
+OFF = 1.01      # our slopes over the paper's fits
+ERROR = 0.001   # relative, of exponents
+V_OVER_C = {0.7: 1.08, 0.8: 1.14}
+
+
+def info_of(density):
+    return recorded.info(780, density, 0.867)
+
+
+def run(density, resolved=(T, LP), levels=None, velocity=None):
+    info = info_of(density)
+    k = made.wave_number(info, 1, 0)
+    exponents = {T: OFF * k * paper.slope_t(density), LP: OFF * k * paper.slope_l(density)}
+    found = [made.step(info, kind, 1, 0, first, last, exponent=exponents[kind], std_error=ERROR * exponents[kind])
+             if kind in resolved else made.unresolved(info, kind, 1, 0, last - first + 1)
+             for kind, first, last in ((T, 1556, 1557), (LP, 1550, 1553))]
+    phases = made.lp_phases(info, found, 50.0)
+    v = velocity or OFF * paper.slope_l(density) * V_OVER_C.get(density, 1.0)
+    for phase in phases.phases:
+        phase.omega, phase.omega_error = v * k, 0.002 * v * k
+    spectrum = recorded.stairs(info, levels or [(exponents[T], 2), (exponents[LP], 4)])
+    return recorded.Bag(recorded.Recorded(info, made.steps(found), spectrum, phases))
+
+
+def bags(**replaced):
+    found = {name: run(tenths / 10) for tenths, name in enumerate(densities.RUNS, start=1)}
+    return {**found, **replaced}
+
+
+class Densities(unittest.TestCase):
+    def test_slopes(self):
+        rows = recorded.by_quantity(densities, bags())
+        for kind, slope in (('c_T', paper.slope_t), ('c_L', paper.slope_l)):
+            for density in np.arange(1, 9) / 10:
+                row = rows[f'{kind} at density {density:.1f}']
+                self.assertAlmostEqual(row.published, slope(density), places=9)
+                self.assertAlmostEqual(row.published_error, 0.03 * slope(density), places=9)
+                self.assertAlmostEqual(row.measured, OFF * slope(density), places=9)
+                self.assertAlmostEqual(row.error, ERROR * row.measured, places=9)
+                self.assertEqual((row.verdict, row.remark), ('agrees', '+1.0 % of the fit'))
+
+    def test_velocity_and_its_ratio(self):
+        rows = recorded.by_quantity(densities, bags())
+        v = rows['v at density 0.7']
+        self.assertAlmostEqual(v.measured, 1.08 * OFF * paper.slope_l(0.7), places=9)
+        self.assertAlmostEqual(v.error, 0.002 * v.measured, places=9)
+        self.assertEqual(v.remark, '8 phases of LP(1,0); all 8 phases: 1.612 +- 0.02')      # of made.steps
+        close = rows['v / c_L at density 0.5']
+        self.assertAlmostEqual(close.measured, 1.0, places=9)
+        self.assertAlmostEqual(close.error, np.hypot(0.001, 0.002), places=9)
+        self.assertEqual((close.published, close.published_error, close.verdict), (1.0, 0.03, 'agrees'))
+        self.assertEqual(rows['v / c_L at density 0.6'].verdict, '')
+        for density, said in ((0.7, '1.0800 +- 0.002'), (0.8, '1.1400 +- 0.003')):
+            above = rows[f'v / c_L at density {density}']
+            self.assertEqual((above.published, above.measured, above.remark), ('above 1', 'above 1', said))
+
+    def test_a_velocity_elsewhere_differs(self):
+        far = run(0.5, velocity=1.05 * OFF * paper.slope_l(0.5))
+        below = run(0.8, velocity=1.005 * OFF * paper.slope_l(0.8))     # 2.2 standard errors above
+        rows = recorded.by_quantity(densities, bags(density_05=far, density_08=below))
+        self.assertEqual(rows['v / c_L at density 0.5'].verdict, 'differs')
+        self.assertEqual(rows['v / c_L at density 0.8'].measured, 'not above 1')
+        self.assertEqual(rows['v / c_L at density 0.8'].verdict, 'differs')
+
+    def test_largest_errors(self):
+        rows = recorded.by_quantity(densities, bags())
+        for symbol, measured in (('c_T', 0.1), ('c_L', 0.1), ('v', 0.2)):
+            row = rows[f'largest error of {symbol}']
+            self.assertAlmostEqual(row.measured, measured, places=9)
+            self.assertAlmostEqual(row.published_error, 0.6)
+            self.assertEqual(row.verdict, 'agrees')
+
+    def test_an_error_too_large_differs(self):
+        loose = run(0.3)
+        for step in loose.recording.steps.steps:
+            step.std_error *= 7
+        rows = recorded.by_quantity(densities, bags(density_03=loose))
+        row = rows['largest error of c_L']
+        self.assertAlmostEqual(row.measured, 0.7, places=9)
+        self.assertEqual(row.verdict, 'differs')
+        self.assertIn('at density 0.3', row.remark)
+
+    def test_crossing(self):
+        row = recorded.by_quantity(densities, bags())['c_T = c_L at density']
+        low, high = crossing.of_fits_between()
+        place = crossing.of_fits()
+        self.assertAlmostEqual(row.published, place)
+        self.assertAlmostEqual(row.published_error, max(place - low, high - place))
+        self.assertLess(abs(row.measured - place), 3 * row.error)      # both branches are off by the same factor
+        self.assertLess(row.error, 0.01)
+
+    def test_by_degeneracy_where_unresolved(self):
+        k = made.wave_number(info_of(0.1), 1, 0)
+        low = run(0.1, resolved=(T,), levels=[(0.9 * k, 4), (1.0 * k, 2)])
+        row = recorded.by_quantity(densities, bags(density_01=low))['c_L at density 0.1']
+        self.assertAlmostEqual(row.measured, 0.9, places=9)
+        self.assertIn('not resolved; by its 4 equal exponents', row.remark)
+
+    def test_not_measured(self):
+        k = made.wave_number(info_of(0.1), 1, 0)
+        low = run(0.1, resolved=(), levels=[(0.9 * k, 6)])
+        bare = recorded.Bag(recorded.Recorded(info_of(0.2)))
+        found = bags(density_01=low, density_02=bare)
+        rows = recorded.by_quantity(densities, found)
+        for quantity in ('c_T at density 0.1', 'c_L at density 0.1', 'c_T at density 0.2', 'v at density 0.2',
+                         'v / c_L at density 0.1', 'v / c_L at density 0.2'):
+            verdict = rows[quantity].verdict
+            self.assertEqual(verdict, 'not measured', quantity)
+        self.assertIn('not known at 2 densities', rows['largest error of c_T'].remark)
+        self.assertEqual(recorded.pictures(self, densities, found), ['densities'])
+
+    def test_nothing_at_all(self):
+        found = {name: recorded.Bag(recorded.Recorded(info_of(0.1))) for name in densities.RUNS}
+        self.assertEqual({row.verdict for row in densities.rows(found)}, {'not measured'})
+        self.assertEqual(recorded.pictures(self, densities, found), [])
+
+    def test_table(self):
+        (name, header, lines), = densities.tables(bags())
+        self.assertEqual((name, len(lines)), ('densities', 8))
+        line = dict(zip(header, lines[6]))
+        self.assertEqual(line['density'], '0.7')
+        self.assertAlmostEqual(float(line['c_l']), OFF * paper.slope_l(0.7), places=4)
+        self.assertAlmostEqual(float(line['c_t_fit']), paper.slope_t(0.7), places=4)
+        self.assertAlmostEqual(float(line['v']), 1.08 * OFF * paper.slope_l(0.7), places=4)
+
+    def test_figure(self):
+        self.assertEqual(recorded.pictures(self, densities, bags()), ['densities'])
+
+
+if __name__ == '__main__':
+    unittest.main()

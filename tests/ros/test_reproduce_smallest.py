@@ -1,0 +1,120 @@
+"""Part 9 of the reproduction against runs that are known exactly."""
+
+import unittest
+
+import numpy as np
+
+import made
+import recorded
+from made import LP, T
+from hdlyap_plots import paper
+from hdlyap_reproduce import slopes
+from hdlyap_reproduce.parts import smallest
+
+SHAPES = {'400_05': (400, 0.5), '400_1': (400, 1.0), '600_075': (600, 0.75), '780_05': (780, 0.5),
+          '780_0867': (780, 0.867), '780_1': (780, 1.0)}
+ERROR = 2e-4
+
+
+def run(box, boundary, factor):
+    """Steps on the paper's curves times a factor; T(1,1) is the smallest one between walls."""
+    info = recorded.info(*[SHAPES[box][0], 0.4, SHAPES[box][1]], boundaries=(boundary, boundary))
+    waves = {'periodic': ((T, 1, 0), (LP, 1, 0), (LP, 0, 1)), 'reflecting': ((T, 1, 1), (LP, 1, 0), (LP, 1, 1))}
+    found = []
+    for number, (kind, nx, ny) in enumerate(waves[boundary]):
+        k = made.wave_number(info, nx, ny)
+        c, c2 = paper.CURVES['T' if kind == T else 'LP']
+        found.append(made.step(info, kind, nx, ny, 100 - 4 * number, 101 - 4 * number,
+                               exponent=factor * (c * k + c2 * k * k), std_error=ERROR))
+    return recorded.Bag(recorded.Recorded(info, made.steps(found)))
+
+
+def bags(**factors):
+    return {smallest.run_of(boundary, box): run(box, boundary, factors.get(boundary, 1.0))
+            for boundary in smallest.BOUNDARIES for box in SHAPES}
+
+
+class Smallest(unittest.TestCase):
+    def test_the_runs_are_those_of_the_plan(self):
+        self.assertEqual(sorted(bags()), sorted(smallest.runs(None)))
+        self.assertIn('density_04', smallest.runs(None))
+
+    def test_fits(self):
+        rows = recorded.by_quantity(smallest, bags(periodic=1.01, reflecting=1.01))
+        for symbol, kind in (('lambda_T', 'T'), ('lambda_L', 'LP')):
+            c, c2 = paper.CURVES[kind]
+            self.assertAlmostEqual(rows[f'c of {symbol}, both'].measured, 1.01 * c, places=9)
+            self.assertAlmostEqual(rows[f'c2 of {symbol}, both'].measured, 1.01 * c2, places=8)
+            self.assertLess(rows[f'c of {symbol}, both'].error, 0.01)
+            self.assertEqual(rows[f'c2 of {symbol}, both'].verdict, 'agrees')
+
+    def test_exponents_at_the_ends_of_the_range(self):
+        rows = list(smallest.rows(bags(periodic=1.05)))
+        info = recorded.info(780, 0.4, 0.5)
+        k = 2 * np.pi / info.box_x      # the smallest of the periodic ones
+        row, = [row for row in rows if row.quantity == f'lambda_L, periodic at smallest k = {k:.4f}']
+        there = 1.422 * k + 0.55 * k * k
+        self.assertAlmostEqual(row.published, there, places=9)
+        self.assertAlmostEqual(row.published_error, 0.03 * there, places=9)
+        self.assertAlmostEqual(row.measured, 1.05 * there, places=9)
+        self.assertEqual(row.verdict, 'differs')
+        walls = np.pi / (info.box_x - 1)
+        row, = [row for row in rows if row.quantity == f'lambda_L, reflecting at smallest k = {walls:.4f}']
+        self.assertEqual(row.verdict, 'agrees')
+        self.assertEqual(sum('both at' in row.quantity for row in rows), 4)
+
+    def test_alike(self):
+        rows = recorded.by_quantity(smallest, bags(reflecting=1.02))
+        for symbol in ('lambda_T', 'lambda_L'):
+            row = rows[f'{symbol}: reflecting over periodic at equal k, less 1']
+            self.assertAlmostEqual(row.measured, 2.0, places=6)
+            self.assertEqual(row.verdict, 'differs')
+        rows = recorded.by_quantity(smallest, bags())
+        self.assertEqual(rows['lambda_T: reflecting over periodic at equal k, less 1'].verdict, 'agrees')
+
+    def test_common_range(self):
+        self.assertEqual(smallest.common([(0.1, 0.2), (0.05, 0.13)]), (0.1, 0.13))
+        low, high = smallest.common([(0.1, 0.2), None])
+        self.assertLess(high, low)
+
+    def test_what_three_percent_leave_open(self):
+        rows = recorded.by_quantity(smallest, bags())
+        low, high = slopes.span(smallest.Branch(bags(), 'T').points['both'])
+        # 3 % more of lambda at one end and less at the other, without curvature
+        matrix = np.array([[low, low ** 2], [high, high ** 2]])
+        opens = np.abs(np.linalg.solve(matrix, [0.03 * 1.412 * low, -0.03 * 1.412 * high]))
+        self.assertAlmostEqual(rows['c of lambda_T, both'].published_error, opens[0], places=9)
+        self.assertAlmostEqual(rows['c2 of lambda_T, both'].published_error, opens[1], places=9)
+
+    def test_not_measured(self):
+        bare = {name: recorded.Bag(recorded.Recorded(bag.recording.info)) for name, bag in bags().items()}
+        verdicts = {row.verdict for row in smallest.rows(bare)}
+        self.assertEqual(verdicts, {'not measured'})
+        self.assertEqual(recorded.pictures(self, smallest, bare), [])
+        (_, _, lines), = smallest.tables(bare)
+        self.assertEqual({line[4] for line in lines}, {'none resolved'})
+
+    def test_one_run_without_steps(self):
+        found = bags()
+        name = smallest.run_of('reflecting', '780_1')
+        found[name] = recorded.Bag(recorded.Recorded(found[name].recording.info))
+        rows = recorded.by_quantity(smallest, found)
+        self.assertAlmostEqual(rows['c of lambda_T, both'].measured, 1.412, places=9)
+        self.assertEqual(recorded.pictures(self, smallest, found), ['smallest'])
+
+    def test_table(self):
+        (name, header, lines), = smallest.tables(bags())
+        self.assertEqual((name, len(lines)), ('smallest', 24))
+        line = dict(zip(header, lines[6]))
+        self.assertEqual((line['boundaries'], line['disks'], line['kind'], line['step']), ('reflecting', 400, 'T', 'T(1,1)'))
+        info = recorded.info(400, 0.4, 0.5)
+        k = np.pi * np.hypot(1 / (info.box_x - 1), 1 / (info.box_y - 1))
+        self.assertAlmostEqual(float(line['wave_number']), k, places=5)
+        self.assertAlmostEqual(float(line['slope']), 1.412 + 0.086 * k, places=5)
+
+    def test_figure(self):
+        self.assertEqual(recorded.pictures(self, smallest, bags()), ['smallest'])
+
+
+if __name__ == '__main__':
+    unittest.main()
