@@ -98,7 +98,8 @@ class Aspect(unittest.TestCase):
         (name, header, lines), = aspect.tables(bags())
         self.assertEqual((name, len(lines)), ('aspect', 20))
         line = dict(zip(header, lines[1]))
-        self.assertEqual((line['boundaries'], line['step'], line['aspect'], line['disks']), ('periodic', 'LP(1,0)', '0.5', 197))
+        self.assertEqual((line['boundaries'], line['step'], line['aspect'], line['disks']),
+                         ('periodic', 'LP(1,0)', '0.5', 197))
         k = float(line['wave_number'])
         self.assertAlmostEqual(float(line['slope']), 1.422 + 0.55 * k, places=4)
 

@@ -100,7 +100,7 @@ class Densities(unittest.TestCase):
         self.assertAlmostEqual(row.published, place)
         self.assertAlmostEqual(row.published_error, max(place - low, high - place))
         self.assertLess(abs(row.measured - place), 3 * row.error)      # both branches are off by the same factor
-        self.assertLess(row.error, 0.01)
+        self.assertLess(row.error, 0.003)
 
     def test_by_degeneracy_where_unresolved(self):
         k = made.wave_number(info_of(0.1), 1, 0)

@@ -11,7 +11,6 @@ import numpy as np
 import made
 import recorded
 from made import LP, T, ZERO
-from hdlyap_plots import recording, steps
 from hdlyap_reproduce.bag import Bag
 from hdlyap_reproduce.parts import multiplicities as part
 
@@ -77,7 +76,8 @@ def run(levels, *made_steps, aspect=0.867, boundaries=(PERIODIC, PERIODIC)):
     for step in found:
         inside = slice(step.first_index - spectrum.first_index, step.last_index + 1 - spectrum.first_index)
         step.exponent = float(np.mean(spectrum.exponents[inside]))
-    return recorded.Recorded(info, made.steps([*found, made.unresolved(info, LP, 2, 2, 8), made.zero_modes()]), spectrum)
+    return recorded.Recorded(info, made.steps([*found, made.unresolved(info, LP, 2, 2, 8), made.zero_modes()]),
+                             spectrum)
 
 
 def usual(**more):
@@ -198,7 +198,8 @@ class Whole(unittest.TestCase):
         (_, header, lines), (_, _, zeros) = part.tables(bags())
         self.assertEqual(len(lines), 4 * len(part.BOXES))
         line = dict(zip(header, lines[1]))
-        self.assertEqual((line['step'], line['prescribed'], line['trace'], line['first_index']), ('LP(1,0)', 4, '3.390', 192))
+        self.assertEqual((line['step'], line['prescribed'], line['trace'], line['first_index']),
+                         ('LP(1,0)', 4, '3.390', 192))
         self.assertEqual(dict(zip(header, lines[3]))['resolved'], 'no')
         self.assertEqual(zeros[-1][:2], ('both directions reflecting', '100'))
         self.assertAlmostEqual(float(zeros[-1][2]), 0.02)

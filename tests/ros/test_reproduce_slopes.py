@@ -52,9 +52,10 @@ class Points(unittest.TestCase):
 
     def test_a_square_box_has_both_directions(self):
         self.info = recorded.info(400, 0.4, 1.0)
-        shared = dict(set=3, members=2, first_index=790, last_index=797)
-        run = self.recorded(made.step(self.info, LP, 1, 0, 1, 4, exponent=0.3, std_error=0.001, multiplicity=3.0, **shared),
-                            made.step(self.info, LP, 0, 1, 1, 4, exponent=0.4, std_error=0.002, multiplicity=1.0, **shared))
+        shared = dict(set=3, members=2)
+        run = self.recorded(
+            made.step(self.info, LP, 1, 0, 790, 797, exponent=0.3, std_error=0.001, multiplicity=3.0, **shared),
+            made.step(self.info, LP, 0, 1, 790, 797, exponent=0.4, std_error=0.002, multiplicity=1.0, **shared))
         point = slopes.smallest(run, LP)
         self.assertEqual((point.name, point.members, point.remark), ('LP(1,0)+LP(0,1)', 8, ''))
         self.assertAlmostEqual(point.exponent, 0.325)
@@ -193,16 +194,26 @@ class Crossings(unittest.TestCase):
 
     def test_measured(self):
         density = np.arange(0.1, 0.85, 0.1)
-        place, error = crossing.measured(density, density - 0.37, np.full(8, 0.01))
+        place, error = crossing.measured(density, density - 0.37, np.zeros(8))
         self.assertAlmostEqual(place, 0.37)
-        self.assertAlmostEqual(error, 0.1 * np.hypot(0.03 * 0.01, 0.07 * 0.01) / 0.1 ** 2)
+        self.assertAlmostEqual(error, 0.0)
         self.assertEqual(crossing.measured(density, density + 1, density), (None, 0.0))
+        place, error = crossing.measured(density[2:4], density[2:4] - 0.37, np.array([0.01, 0.02]))
+        self.assertAlmostEqual(place, 0.37)
+        self.assertAlmostEqual(error, np.hypot(0.3 * 0.01, 0.7 * 0.02), delta=3e-3)     # a straight line through both
 
-    def test_what_the_straight_line_leaves_out_is_in_the_error(self):
+    def test_error_from_those_of_the_slopes(self):
+        density, rng = np.arange(0.1, 0.85, 0.1), np.random.default_rng(1)
+        apart = (density - 0.37) * (1 + density)
+        _, error = crossing.measured(density, apart, np.full(8, 0.001))
+        places = [crossing.measured(density, apart + 0.001 * rng.normal(size=8), np.zeros(8))[0] for _ in range(300)]
+        self.assertAlmostEqual(error / np.std(places), 1.0, delta=0.13)     # the deviation of 300 is known to 4 %
+
+    def test_a_curve_that_a_parabola_misses(self):
         density = np.arange(0.1, 0.85, 0.1)
-        place, error = crossing.measured(density, density ** 2 - 0.37 ** 2, np.zeros(8))
-        self.assertGreater(abs(place - 0.37), 1e-3)
-        self.assertAlmostEqual(error, abs(place - 0.37), places=9)
+        place, error = crossing.measured(density, density ** 6 - 0.37 ** 6, np.zeros(8))
+        self.assertGreater(abs(place - 0.37), 1e-4)
+        self.assertLess(abs(place - 0.37), error)
 
 
 if __name__ == '__main__':

@@ -106,7 +106,8 @@ class Smallest(unittest.TestCase):
         (name, header, lines), = smallest.tables(bags())
         self.assertEqual((name, len(lines)), ('smallest', 24))
         line = dict(zip(header, lines[6]))
-        self.assertEqual((line['boundaries'], line['disks'], line['kind'], line['step']), ('reflecting', 400, 'T', 'T(1,1)'))
+        self.assertEqual((line['boundaries'], line['disks'], line['kind'], line['step']),
+                         ('reflecting', 400, 'T', 'T(1,1)'))
         info = recorded.info(400, 0.4, 0.5)
         k = np.pi * np.hypot(1 / (info.box_x - 1), 1 / (info.box_y - 1))
         self.assertAlmostEqual(float(line['wave_number']), k, places=5)

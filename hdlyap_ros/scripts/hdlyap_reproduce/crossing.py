@@ -25,26 +25,26 @@ def of_fits_between():
 
 
 def measured(density, apart, errors):
-    """(where a difference goes through zero from below, its standard error), by a straight line between the two
-    neighbours; the change by a parabola through a third is part of the error. (None, 0) if nowhere."""
+    """(where a smooth difference goes through zero from below, its standard error): a polynomial through the four
+    densities round it; how far that of three of them moves the crossing is part of the error. (None, 0) if nowhere."""
     density, apart, errors = (np.asarray(values, dtype=float) for values in (density, apart, errors))
     behind = np.flatnonzero((apart[:-1] < 0) & (apart[1:] >= 0))
     if not len(behind):
         return None, 0.0
-    i = behind[0]
-    fall, width = apart[i] - apart[i + 1], density[i + 1] - density[i]
-    place = density[i] + width * apart[i] / fall
-    statistical = width * np.hypot(apart[i + 1] * errors[i], apart[i] * errors[i + 1]) / fall ** 2
-    return float(place), float(np.hypot(statistical, _bend(density, apart, i, place)))
+    between = density[behind[0]:behind[0] + 2]
+    near = np.argsort(np.abs(density - between.mean()), kind='stable')     # the two neighbours first
+    place = _root(density, apart, near[:4], between)
+    if place is None:
+        return None, 0.0
+    fewer = _root(density, apart, near[:max(2, min(len(near), 4) - 1)], between)
+    moved = [place - (_root(density, apart + errors * (np.arange(len(density)) == k), near[:4], between) or place)
+             for k in near[:4]]
+    return place, float(np.linalg.norm([*moved, place - (fewer or place)]))
 
 
-def _bend(density, apart, i, place):
-    """How far a parabola through the nearest third density moves the crossing."""
-    others = [k for k in range(len(density)) if k not in (i, i + 1)]
-    if not others:
-        return 0.0
-    third = min(others, key=lambda k: abs(density[k] - place))
-    chosen = [i, i + 1, third]
-    roots = np.roots(np.polyfit(density[chosen], apart[chosen], 2))
-    inside = [root.real for root in roots if density[i] <= root.real <= density[i + 1] and abs(root.imag) < 1e-12]
-    return abs(inside[0] - place) if inside else 0.0
+def _root(density, values, chosen, between):
+    """Zero, between two densities, of the polynomial through the chosen ones."""
+    roots = np.roots(np.polyfit(density[chosen], values[chosen], len(chosen) - 1))
+    inside = [float(root.real) for root in roots
+              if abs(root.imag) < 1e-12 and between[0] <= root.real <= between[1]]
+    return inside[0] if inside else None

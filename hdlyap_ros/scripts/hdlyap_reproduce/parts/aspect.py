@@ -12,6 +12,7 @@ TITLE = 'Slopes c_T, c_L against the aspect ratio, density 0.4, k = 0.2'
 ASPECTS = ('025', '050', '075', '100')
 WAVE_NUMBER = 0.2
 UNIT = 'sigma/time unit'
+BESIDE = 0.012      # aspect ratio: so that error bars can be seen beside each other
 SYMBOLS = {'T': 'c_T', 'LP': 'c_L'}
 KINDS = {'T': steps.T, 'LP': steps.LP}
 # runs, kind, nodes: the T modes of walls need nodes along both directions
@@ -104,11 +105,11 @@ def _figure(series):
         axes.axhspan((1 - paper.FIT_ACCURACY) * published, (1 + paper.FIT_ACCURACY) * published,
                      color=KIND_COLOURS[kind], alpha=0.15, linewidth=0,
                      label=f'${SYMBOLS[kind]}$, fit of Eckmann et al. at $k={WAVE_NUMBER}$, $\\pm3$ %')
-    for one in series:
-        _points(axes, one)
+    for place, one in enumerate(series):
+        _points(axes, one, BESIDE * (place - (len(series) - 1) / 2))
     axes.set_xlim(0.15, 1.1)
     low, high = axes.get_ylim()
-    axes.set_ylim(low, high + 0.75 * (high - low))      # room for the names
+    axes.set_ylim(low, high + 0.7 * (high - low))      # room for the names
     axes.set_xlabel(r'aspect ratio $L_y/L_x$')
     axes.set_ylabel(r'$\lambda/k$  [$\sigma$/time unit]')
     axes.legend(loc='upper center', ncol=1)
@@ -116,10 +117,10 @@ def _figure(series):
     return figure
 
 
-def _points(axes, series):
+def _points(axes, series, beside):
     marker, filled = MARKS[series.which, series.nodes]
     colour = KIND_COLOURS[series.kind]
-    found = [(aspect, point.slope, max(0.0, point.slope_error))
+    found = [(aspect + beside, point.slope, max(0.0, point.slope_error))
              for aspect, point in zip(series.aspects, series.points) if point]
     if found:
         aspects, values, errors = zip(*found)

@@ -17,6 +17,7 @@ DEMANDED = 0.2          # of the scatter of the fits: largest error
 UNIT = 'sigma/time unit'
 FITS = {'T': paper.slope_t, 'LP': paper.slope_l}
 SYMBOLS = {'T': 'c_T', 'LP': 'c_L'}
+BESIDE = 0.005          # density: so that error bars can be seen beside each other
 EDGE = 1e-6             # relative: densities that are one
 
 
@@ -154,7 +155,8 @@ def _against_density(axes, found):
         values = [(one.density, one.branch[kind].slope, one.branch[kind].slope_error)
                   for one in found if one.branch[kind]]
         _points(axes, values, 'o' if kind == 'T' else 's', colour, f'${SYMBOLS[kind]}$')
-    _points(axes, [(one.density, one.v, one.v_error) for one in found if one.phases], '^', GREEN, '$v$')
+    _points(axes, [(one.density, one.v, one.v_error) for one in found if one.phases], '^', GREEN, '$v$', face='none',
+            markersize=6)
     axes.set_xlim(0, 0.85)
     axes.set_ylim(bottom=0)
     axes.tick_params(labelbottom=False)
@@ -163,11 +165,11 @@ def _against_density(axes, found):
     axes.set_title('(a)', loc='left')
 
 
-def _points(axes, values, marker, colour, label):
+def _points(axes, values, marker, colour, label, face=None, markersize=4):
     if values:
         x, y, error = zip(*values)
-        axes.errorbar(x, y, _shown(error), fmt=marker, color=colour, markersize=4, elinewidth=0.9, capsize=2,
-                      label=label)
+        axes.errorbar(x, y, _shown(error), fmt=marker, color=colour, markerfacecolor=face or colour, elinewidth=0.9,
+                      markersize=markersize, capsize=2, label=label)
 
 
 def _shown(errors):
@@ -179,12 +181,12 @@ def _deviations(axes, found):
     bound = 100 * paper.FIT_ACCURACY
     axes.axhspan(-bound, bound, color=GREY, alpha=0.2, linewidth=0)
     axes.axhline(0, color=GREY, linewidth=0.6)
-    for kind, fit in FITS.items():
-        values = [(one.density, 100 * (one.branch[kind].slope / fit(one.density) - 1),
+    for (kind, fit), side in zip(FITS.items(), (-BESIDE, BESIDE)):
+        values = [(one.density + side, 100 * (one.branch[kind].slope / fit(one.density) - 1),
                    100 * one.branch[kind].slope_error / fit(one.density)) for one in found if one.branch[kind]]
         _points(axes, values, 'o' if kind == 'T' else 's', KIND_COLOURS[kind], '_')
     axes.set_xlabel(r'density $\rho$  [1/$\sigma^2$]')
-    axes.set_ylabel('less the fit  [%]')
+    axes.set_ylabel('deviation from\nthe fit  [%]')
 
 
 def _against_c_l(axes, found):

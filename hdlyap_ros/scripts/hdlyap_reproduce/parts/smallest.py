@@ -1,5 +1,6 @@
 """Part 9: the smallest steps at density 0.4 against the wave number, periodic and between walls."""
 
+from matplotlib import ticker
 import numpy as np
 
 from hdlyap_plots import paper, steps
@@ -89,9 +90,9 @@ def _alike_row(branch):
     spans = [slopes.span(branch.points[boundary]) for boundary in BOUNDARIES]
     low, high = common(spans)
     if None in curves or not low < high:
-        return Row(quantity, 0.0, None, unit='%')
+        return Row(quantity, 0, None, unit='%')
     difference, error = slopes.mean_difference(*curves, low, high)
-    return Row(quantity, 0.0, 100 * difference, 100 * error, 0.0, '%',
+    return Row(quantity, 0, 100 * difference, 100 * error, 0.0, '%',
                f'mean of the fits from k = {low:.4f} to {high:.4f}')
 
 
@@ -118,6 +119,7 @@ def _figure(branches):
         _lines(right, branch, np.linspace(0, end, 100)[1:], power=1)
     for axes, letter in ((left, 'a'), (right, 'b')):
         axes.set_xlim(0, end)
+        axes.xaxis.set_major_locator(ticker.MaxNLocator(5))
         axes.set_xlabel(r'wave number $k$  [1/$\sigma$]')
         axes.set_title(f'({letter})', loc='left')
     left.set_ylim(bottom=0)
