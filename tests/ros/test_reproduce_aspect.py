@@ -69,6 +69,12 @@ class Aspect(unittest.TestCase):
         rows = recorded.by_quantity(aspect, bags())
         self.assertEqual(rows['c_T, periodic, T(1,0): largest deviation from the mean over A'].verdict, 'agrees')
 
+    def test_one_below_the_mean_deviates_too(self):
+        row = recorded.by_quantity(aspect, bags((1.0, 0.92, 1.0, 1.0)))[
+            'c_T, periodic, T(1,0): largest deviation from the mean over A']
+        self.assertAlmostEqual(row.measured, 100 * (0.92 / 0.98 - 1), delta=0.3)
+        self.assertIn('at A = 0.50', row.remark)
+
     def test_mean_and_chi2(self):
         series = aspect.Series(bags(), 'walls_lp', 'LP', (1, 0))
         for point, slope, error in zip(series.points, (1.5, 1.5, 1.6, 1.6), (0.01, 0.01, 0.01, 0.02)):

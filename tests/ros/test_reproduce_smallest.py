@@ -48,6 +48,16 @@ class Smallest(unittest.TestCase):
             self.assertLess(rows[f'c of {symbol}, both'].error, 0.01)
             self.assertEqual(rows[f'c2 of {symbol}, both'].verdict, 'agrees')
 
+    def test_the_coefficients_are_of_both_boundaries(self):
+        found = bags(reflecting=1.02)
+        curve = slopes.curve(smallest.points(found, 'LP', 'periodic') + smallest.points(found, 'LP', 'reflecting'))
+        rows = recorded.by_quantity(smallest, found)
+        for name, value, error in (('c', curve.c, curve.c_error), ('c2', curve.c2, curve.c2_error)):
+            row = rows[f'{name} of lambda_L, both']
+            self.assertAlmostEqual(row.measured, value, places=12)
+            self.assertAlmostEqual(row.error, error, places=12)
+            self.assertIn(f'correlated: {curve.correlation:.2f}', row.remark)
+
     def test_exponents_at_the_ends_of_the_range(self):
         rows = list(smallest.rows(bags(periodic=1.05)))
         info = recorded.info(780, 0.4, 0.5)
