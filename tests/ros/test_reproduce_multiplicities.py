@@ -137,11 +137,11 @@ class Zeros(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.path = os.path.join(folder.name, 'run.bag')
 
-    def bag(self, count, size=0.5, with_steps=True):
+    def bag(self, count, size=0.5, with_steps=True, warmup=20.0):
         half = np.linspace(3, 1, 20 - count // 2)
-        messages = [made.run_info(disks=10, zero_exponents=count)]
+        messages = [made.run_info(disks=10, zero_exponents=count, warmup=warmup)]
         for time in (10.0, 30.0, 100.0):
-            small = size * log(time) / time * np.linspace(1, 0.1, count // 2)
+            small = size * log((20 + time) / 20 if warmup else time) / time * np.linspace(1, 0.1, count // 2)
             messages.append(made.spectrum([*half, *small, *-small[::-1], *-half[::-1]], time))
         if with_steps:
             zero = made.zero_modes(21 - count // 2)
@@ -157,7 +157,11 @@ class Zeros(unittest.TestCase):
             self.assertEqual((mode.measured, mode.verdict), (count, 'agrees'))
             self.assertEqual(mode.remark, 'trace 6.000 in the exact null space')    # of made.zero_modes
             self.assertAlmostEqual(size.measured, 0.5)
-            self.assertEqual(size.remark, '0.5 at t = 10, 0.5 at t = 30, 0.5 at t = 100')
+            self.assertEqual(size.remark, 'w = 20, the warm-up; 0.5 at t = 10, 0.5 at t = 30, 0.5 at t = 100')
+
+    def test_without_a_warm_up(self):
+        size = list(part._zero_rows(self.bag(4, warmup=0.0), 4, 'so'))[-1]
+        self.assertAlmostEqual(size.measured, 0.5)
 
     def test_another_number_differs(self):
         number, mode, _ = part._zero_rows(self.bag(4), 6, 'so')
@@ -203,7 +207,7 @@ class Whole(unittest.TestCase):
         self.assertEqual(dict(zip(header, lines[3]))['resolved'], 'no')
         self.assertEqual(zeros[-1][:2], ('both directions reflecting', '100'))
         self.assertAlmostEqual(float(zeros[-1][2]), 0.02)
-        self.assertAlmostEqual(float(zeros[-1][3]), 0.02 * 100 / log(100), places=3)
+        self.assertAlmostEqual(float(zeros[-1][3]), log(100) / 100, places=4)
 
     def test_figure(self):
         self.assertEqual(recorded.pictures(self, part, bags()), ['stairs'])

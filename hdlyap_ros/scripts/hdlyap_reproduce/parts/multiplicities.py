@@ -16,7 +16,7 @@ BOXES = {'periodic': 'periodic', 'reflecting': 'reflecting', 'mixed': 'mixed', '
 ZEROS = {'zeros_periodic': (6, 'both directions periodic'), 'zeros_mixed': (4, 'one direction periodic'),
          'zeros_reflecting': (2, 'both directions reflecting')}
 NARROW = 2.0        # diameters: disks cannot pass each other
-SMALL = 10.0        # times ln(t)/t: an exponent that may be zero after the time t
+SMALL = 10.0        # times what linear growth gives: an exponent that may be zero
 SHOWN = 36          # exponents in a panel of the figure
 SPECTRUM = 'hdlyap/Spectrum'
 
@@ -133,10 +133,10 @@ def _zero_rows(bag, count, boundaries):
         yield Row(f'zero exponents, {boundaries}', count)
         return
     size = np.abs(spectrum.exponents)
-    scale = log(spectrum.averaged_time) / spectrum.averaged_time
+    scale = linear_growth(recording.info, spectrum.averaged_time)
     vanish = size < SMALL * scale
     largest = float(size[vanish].max()) if vanish.any() else None
-    remark = f'smaller than {SMALL:g} ln(t)/t = {SMALL * scale:.2g}; the next is {size[~vanish].min():.2g}' \
+    remark = f'smaller than {SMALL * scale:.2g}; the next is {size[~vanish].min():.2g}' \
         if not vanish.all() else ''
     yield Row(f'zero exponents, {boundaries}', count, int(vanish.sum()), remark=remark)
     if zero is not None and zero.resolved:
@@ -144,8 +144,14 @@ def _zero_rows(bag, count, boundaries):
                   remark=f'trace {zero.multiplicity:.3f} in the exact null space')
     else:
         yield Row(f'zero modes, {boundaries}', count)
-    yield Row(f'largest zero exponent over ln(t)/t, {boundaries}', None, largest and largest / scale,
+    yield Row(f'largest zero exponent over ln(1 + t/w)/t, {boundaries}', None, largest and largest / scale,
               remark=_course_remark(bag, int(vanish.sum())))
+
+
+def linear_growth(info, time):
+    """Mean exponent, over a time, of a vector that grows linearly, as the zero modes do: ln(t)/t; less in a frame
+    that is as old as the warm-up w when averaging begins, ln((w + t)/w)/t."""
+    return log((info.warmup + time) / (info.warmup or 1.0)) / time
 
 
 def zero_course(bag, count):
@@ -156,16 +162,15 @@ def zero_course(bag, count):
 
 
 def _course_remark(bag, count):
-    """The same at earlier times: constant if zero exponents fall like ln(t)/t."""
+    """The same at earlier times: constant if zero exponents fall so."""
     course = list(zero_course(bag, count))
     if not course:
         return ''
-    end = course[-1][0]
-    said = []
+    info, end, said = bag.recording.info, course[-1][0], []
     for part in (0.1, 0.3, 1.0):
         time, size = min(course, key=lambda point: abs(point[0] - part * end))
-        said.append(f'{size * time / log(time):.2g} at t = {time:.0f}')
-    return ', '.join(said)
+        said.append(f'{size / linear_growth(info, time):.2g} at t = {time:.0f}')
+    return f'w = {info.warmup:g}, the warm-up; ' + ', '.join(said)
 
 
 # ---- figure and tables ---------------------------------------------------------------------------
@@ -219,8 +224,8 @@ def tables(bags):
     header = ('box', 'step', 'wave_number', 'prescribed', 'resolved', 'first_index', 'last_index', 'members', 'trace',
               'exponent', 'std_error')
     yield 'multiplicities', header, [line for name, box in BOXES.items() for line in _lines(bags[name].recording, box)]
-    yield 'zero_exponents', ('boundaries', 'averaged_time', 'largest_zero_exponent', 'over_ln_t_by_t'), [
-        (boundaries, f'{time:g}', f'{size:.4g}', f'{size * time / log(time):.4g}')
+    yield 'zero_exponents', ('boundaries', 'averaged_time', 'largest_zero_exponent', 'linear_growth'), [
+        (boundaries, f'{time:g}', f'{size:.4g}', f'{linear_growth(bags[name].recording.info, time):.4g}')
         for name, (count, boundaries) in ZEROS.items() for time, size in _thinned(bags[name], count)]
 
 
