@@ -57,13 +57,13 @@ class Densities(unittest.TestCase):
         v = rows['v at density 0.7']
         self.assertAlmostEqual(v.measured, 1.08 * OFF * paper.slope_l(0.7), places=9)
         self.assertAlmostEqual(v.error, 0.002 * v.measured, places=9)
-        self.assertEqual(v.remark, '8 phases of LP(1,0); all 8 phases: 1.612 +- 0.02')      # of made.steps
+        self.assertEqual(v.remark, '8 phases of LP(1,0); all 8 phases: 1.612(23)')      # of made.steps
         close = rows['v / c_L at density 0.5']
         self.assertAlmostEqual(close.measured, 1.0, places=9)
         self.assertAlmostEqual(close.error, np.hypot(0.001, 0.002), places=9)
         self.assertEqual((close.published, close.published_error, close.verdict), (1.0, 0.03, 'agrees'))
         self.assertEqual(rows['v / c_L at density 0.6'].verdict, '')
-        for density, said in ((0.7, '1.0800 +- 0.002'), (0.8, '1.1400 +- 0.003')):
+        for density, said in ((0.7, '1.0800(24)'), (0.8, '1.1400(25)')):
             above = rows[f'v / c_L at density {density}']
             self.assertEqual((above.published, above.measured, above.remark), ('above 1', 'above 1', said))
 

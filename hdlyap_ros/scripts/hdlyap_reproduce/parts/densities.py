@@ -5,7 +5,8 @@ from math import hypot, isfinite
 import numpy as np
 
 from hdlyap_plots import paper, steps
-from hdlyap_plots.figures.style import GREY, KIND_COLOURS, GREEN, plt
+from hdlyap_plots.figures.style import GREEN, GREY, KIND_COLOURS, plt
+from hdlyap_plots.numbers import with_error
 
 from .. import crossing, slopes
 from ..row import SIGMAS, Row
@@ -81,7 +82,7 @@ def _slope_row(kind, one):
 
 def _velocity_row(one):
     v, error, count = one.v_all
-    remark = f'{one.phases} phases of LP(1,0)' + (f'; all {count} phases: {v:.4g} +- {error:.1g}' if count else '')
+    remark = f'{one.phases} phases of LP(1,0)' + (f'; all {count} phases: {with_error(v, error)}' if count else '')
     return Row(f'v at density {one.density:.1f}', None, one.v if one.phases else None, one.v_error, unit=UNIT,
                remark=remark if one.phases else '')
 
@@ -95,7 +96,7 @@ def _ratio_row(one):
     if one.density <= CLOSE_BELOW * (1 + EDGE):
         return Row(quantity, None, measured, error)
     word = measured and ('above 1' if ratio > 1 + SIGMAS * error else 'not above 1')
-    return Row(quantity, 'above 1', word, remark=f'{ratio:.4f} +- {error:.1g}' if measured else '')
+    return Row(quantity, 'above 1', word, remark=with_error(ratio, error) if measured else '')
 
 
 def _error_row(symbol, values):
