@@ -205,7 +205,7 @@ def _panel(axes, recording):
         if first <= block.first:
             _step(axes, block, exponents[block.first - first:block.last + 1 - first])
     axes.set_xlim(first - 1, last + 1)
-    axes.set_ylim(0, 1.22 * exponents.max())
+    axes.set_ylim(0, 1.4 * exponents.max())
     axes.set_xlabel(r'index $\ell$')
     axes.set_ylabel(r'$\lambda_\ell$  [1/time unit]')
     axes.ticklabel_format(axis='x', useOffset=False)
