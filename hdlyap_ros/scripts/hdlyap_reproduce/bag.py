@@ -21,6 +21,11 @@ class Bag:
             self._recording = recording.read(self.path)
         return self._recording
 
+    @property
+    def info(self):
+        """Its run_info, without reading the rest."""
+        return recording.run_infos(self.path)[-1]
+
     def messages(self, kind):
         """Every message of a type, 'hdlyap/LpPhases' say, of the last run in its order."""
         yield from recording.messages(self.path, kind)

@@ -45,7 +45,7 @@ def draw(recording, names=None):
     if min(info.box_x, info.box_y) < CHANNEL:
         figure = _channel(panels, info)
     else:
-        figure = _fields(panels, info)
+        figure = draw_panels(panels, info)
     figure.suptitle(scene(info) + f', $t={panels[0].field.sim_time:g}$: $\\delta q$', fontsize=9)
     return figure
 
@@ -79,7 +79,8 @@ def _latest(recording):
     return [latest[block.first] for block in blocks if block.first in latest], others
 
 
-def _fields(panels, info):
+def draw_panels(panels, info):
+    """The arrows of each, beside and below one another."""
     columns = _columns(len(panels), info)
     rows = -(-len(panels) // columns)
     width = WIDTH if len(panels) > 1 else ALONE

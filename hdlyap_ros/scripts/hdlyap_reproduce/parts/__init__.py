@@ -5,10 +5,11 @@
   figures(bags)    (name, matplotlib figure)
   tables(bags)     (name, header, lines) of CSV files: the numbers behind the figures"""
 
-from . import (aspect, coordinates, densities, dispersion, fields, intervals, multiplicities, p_mode, smallest,
-               spectrum)
+from . import (aspect, coordinates, densities, dispersion, fields, hydro, intervals, multiplicities, p_mode, phases,
+               smallest, spectrum, travelling, turning)
 
-PARTS = (spectrum, dispersion, coordinates, fields, p_mode, densities, smallest, aspect, multiplicities, intervals)
+PARTS = (spectrum, dispersion, coordinates, fields, p_mode, turning, phases, densities, smallest, aspect,
+         multiplicities, hydro, travelling, intervals)
 
 
 def chosen(numbers):

@@ -1,0 +1,165 @@
+"""Part 13: in a periodic box the L part of an LP mode travels."""
+
+import numpy as np
+
+from hdlyap_plots.figures.style import BLUE, INK, VERMILION, plt, scene
+from hdlyap_plots.waves import SIN_X
+
+from .. import blocks, rotation
+from ..row import Row
+from ..velocity import against_slope
+
+TITLE = 'Travelling wave of the periodic LP dynamics'
+RUN = 'travelling'
+WAVE = (1, 0)
+SHOWN = 25.0        # of the space-time diagram [time units]
+PLACES = 200        # of it, along x
+LONG = 0.8          # of the longest stretch: vectors tracked for less are not considered
+
+
+def runs(plan):
+    return [RUN]
+
+
+class Front:
+    """One vector over a stretch of time. Its L part is a_cos d/dx cos(k x) + a_sin d/dx sin(k x), in proportion to
+    -r sin(k x - theta), theta = angle(a_cos, a_sin): the front, where it goes through zero, is at theta / k. With
+    z = a + i b turning at omega, r^2 dtheta/dt = omega Im(z_cos conj z_sin). Its size over that of a circle is the
+    handedness: 1 for a wave that runs evenly towards +x, -1 towards -x, 0 for one that stands. A vector that runs towards
+    -x is looked at in a mirror: it is `sign` times theta that is followed."""
+
+    def __init__(self, turning, columns, piece):
+        cos, sin = turning.z[piece][:, columns].T
+        self.columns, self.time, self.wave_number = columns, turning.time[piece], turning.wave_number
+        self.l_part = np.array([cos.real, sin.real])
+        self.turns = turning.turns()[piece.start:piece.stop - 1]
+        self.way = 1.0 if np.nansum(self.turns) >= 0 else -1.0
+        circular = 2 * np.imag(cos * np.conj(sin)) / (np.abs(cos) ** 2 + np.abs(sin) ** 2)
+        self.handedness = float(self.way * np.mean(circular))
+        self.sign = 1 if self.handedness >= 0 else -1
+        self.theta = np.unwrap(np.arctan2(self.l_part[1], self.l_part[0]))
+        self.index = turning.index[piece, columns[0]].astype(int)
+
+    @property
+    def length(self):
+        return self.time[-1] - self.time[0]
+
+    @property
+    def place(self):
+        """Of the front, as it goes on [sigma]."""
+        return self.sign * self.theta / self.wave_number
+
+    def velocity(self):
+        """Mean slope of the front, and its standard error from blocks of time."""
+        return blocks.quotient(np.diff(self.place), np.diff(self.time))
+
+    def against_turns(self):
+        """Its mean slope over |omega| / k at the same times, and the standard error of that."""
+        return blocks.quotient(self.sign * np.diff(self.theta), self.way * self.turns)
+
+
+def fronts(turning):
+    """Of each vector the longest stretch over which both of its pairs are tracked."""
+    found = []
+    for begin in range(0, turning.z.shape[1], turning.pairs):
+        columns = sorted(range(begin, begin + turning.pairs), key=lambda column: turning.modulation[column] & SIN_X)
+        pieces = rotation.stretches(np.isfinite(turning.z[:, columns]), shortest=blocks.BLOCKS + 1)
+        if pieces:
+            found.append(Front(turning, columns, max(pieces, key=lambda piece: piece.stop - piece.start)))
+    return found
+
+
+def chosen(turning):
+    """The front tracked about as long as any that is the least like a standing wave; None without one."""
+    found = fronts(turning) if turning else []
+    longest = max((one.length for one in found), default=0.0)
+    return max((one for one in found if one.length >= LONG * longest), default=None,
+               key=lambda one: abs(one.handedness))
+
+
+def rows(bags):
+    turning = rotation.read(bags[RUN]).get(WAVE)
+    front = chosen(turning)
+    v, v_error = turning.velocity() if turning else (None, 0.0)
+    slope, slope_error = front.velocity() if front else (None, 0.0)
+    ratio, ratio_error = front.against_turns() if front else (None, 0.0)
+    remark = f'{front.length:.1f} time units, {_direction(front)}' if front else ''
+    yield Row('front velocity / (omega / k), same times', 1.0, ratio, ratio_error, remark=remark)
+    yield Row('front velocity, mean slope', None, slope, slope_error, unit='sigma/time unit', remark=remark)
+    yield Row('omega / k of LP(1,0), same run', None, v, v_error, unit='sigma/time unit')
+    yield against_slope('front velocity', slope, slope_error, bags[RUN].recording)
+    yield Row('unevenness of the front, rms', None, _unevenness(front) if front else None, unit='sigma',
+              remark='about the straight line, while shown')
+
+
+def _direction(front):
+    way = 'towards +x' if front.sign > 0 else 'towards -x, mirrored'
+    return f'{way}, handedness {front.handedness:+.2f}'
+
+
+def _unevenness(front):
+    first = _shown(front)
+    time, place = front.time[first], front.place[first]
+    return float(np.std(place - np.polyval(np.polyfit(time, place, 1), time)))
+
+
+def _shown(front):
+    """The first SHOWN of it."""
+    return slice(0, int(np.searchsorted(front.time, front.time[0] + SHOWN, side='right')))
+
+
+def figures(bags):
+    bag = bags[RUN]
+    turning = rotation.read(bag).get(WAVE)
+    front = chosen(turning)
+    if front:
+        yield 'wave', _draw(bag.info, turning, front)
+
+
+def tables(bags):
+    turning = rotation.read(bags[RUN]).get(WAVE)
+    found = fronts(turning) if turning else []
+    lines = []
+    for one in found:
+        v, error = one.velocity()
+        ratio, ratio_error = one.against_turns()
+        lines.append((one.index[-1], f'{one.length:.4g}', f'{one.handedness:.3f}', f'{v:.5g}', f'{error:.2g}',
+                      *((f'{ratio:.5g}', f'{ratio_error:.2g}') if ratio else ('', ''))))
+    yield 'vectors', ('index', 'stretch', 'handedness', 'front_velocity', 'error', 'over_omega_by_k', 'error'), lines
+    front = chosen(turning)
+    yield 'front', ('time', 'a_cos', 'a_sin', 'place'), [
+        (f'{time:.6g}', f'{cos:.4f}', f'{sin:.4f}', f'{place:.4f}') for time, cos, sin, place in
+        (zip(front.time, *front.l_part, front.place) if front else ())]
+
+
+def _draw(info, turning, front):
+    figure, (top, bottom) = plt.subplots(2, 1, figsize=(6.4, 6.4), sharex=True, constrained_layout=True)
+    part = _shown(front)
+    time, k = front.time[part], front.wave_number
+    x = np.linspace(0, info.box_x, PLACES + 1)
+    cos, sin = front.l_part[:, part]
+    field = -np.outer(np.sin(k * x), cos) + np.outer(np.cos(k * x), sin)
+    largest = np.abs(field).max()
+    picture = top.pcolormesh(time, x, field, cmap='RdBu_r', vmin=-largest, vmax=largest, shading='auto', rasterized=True)
+    figure.colorbar(picture, ax=top, label='L part along $x$  [arb. units]')
+    front_x = np.mod(front.theta[part] / k, info.box_x)
+    top.plot(time, np.where(np.abs(np.diff(front_x, append=front_x[-1])) > info.box_x / 2, np.nan, front_x),
+             color=INK, linewidth=1.2)
+    top.set_ylabel(r'$x$  [$\sigma$]')
+    top.set_title(f'(a) {turning.name}, L part of one vector; line: its front $\\theta/k$', loc='left')
+    _line(bottom, turning, front, part)
+    bottom.set_xlabel('simulated time  [time units]')
+    figure.suptitle(scene(info), fontsize=9)
+    return figure
+
+
+def _line(axes, turning, front, part):
+    time, place = front.time[part], front.place[part]
+    v, _ = turning.velocity()
+    axes.plot(time, place, color=BLUE, label=r'front $\theta/k$')
+    if v:
+        middle = np.mean(place - v * time)
+        axes.plot(time, middle + v * time, color=VERMILION, linewidth=0.9, label=rf'slope $|\omega|/k = {v:.3f}$')
+    axes.set_ylabel(r'place of the front  [$\sigma$]')
+    axes.set_title('(b)', loc='left')
+    axes.legend(loc='upper left')
