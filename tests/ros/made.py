@@ -8,7 +8,7 @@ import numpy as np
 import rosbag
 import rospy
 
-from hdlyap.msg import (Cost, LpPhase, LpPhases, ModeField, RunInfo, Spectrum, Step, Steps)
+from hdlyap.msg import (Cost, Hydro, LpPhase, LpPhases, ModeField, RunInfo, Spectrum, Step, Steps)
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../hdlyap_ros/scripts')
 sys.path.insert(0, SCRIPTS)
@@ -19,7 +19,7 @@ CURVES = {T: (1.4, 0.1), LP: (1.5, 0.5)}    # c, c2
 ERROR = 0.002           # of the exponents of steps
 VELOCITY = 1.6
 TOPICS = {RunInfo: 'run_info', Spectrum: 'spectrum', Cost: 'cost', Steps: 'steps',
-          LpPhases: 'lp_phases', ModeField: 'fields'}
+          LpPhases: 'lp_phases', ModeField: 'fields', Hydro: 'hydro'}
 
 
 def write(path, messages, node='/hdlyap', mode='w'):

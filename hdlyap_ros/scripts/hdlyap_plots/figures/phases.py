@@ -11,7 +11,8 @@ STEPS = 4           # are shown
 PER_STEP = 2        # phases of each: more would hide one another
 
 
-def draw(recording):
+def draw(recording, speeds=None):
+    """speeds: {name of a step: (v, its error)}, if they are known better than from its phases."""
     shown = chosen(recording)
     if not shown:
         return None
@@ -21,7 +22,7 @@ def draw(recording):
         for number in numbers:
             for time, phase in recording.phases.curves(number):
                 _curve(top, bottom, time, phase, colour)
-        top.plot([], [], color=colour, label=_label(recording, step))
+        top.plot([], [], color=colour, label=_label(recording, step, speeds or {}))
     top.set_ylabel(r'phase $\varphi / 2\pi$')
     top.legend(loc='lower right', bbox_to_anchor=(1, 1), ncol=2)
     bottom.set_ylabel(r'deviation from even turning  [% of $2\pi$]')
@@ -59,10 +60,14 @@ def _curve(top, bottom, time, phase, colour):
     bottom.plot(time[kept], off[kept], color=colour, linewidth=0.8, alpha=0.8)
 
 
-def _label(recording, number):
-    step = recording.steps.steps[number]
+def _label(recording, number, speeds):
+    name = steps.name(recording.steps.steps[number])
+    speed = speeds.get(name) or _speed(recording, number)
+    return name + (f': $v = {with_error(*speed, decimals=3)}$' if speed else '')
+
+
+def _speed(recording, number):
     phases = [recording.phases.last.phases[i] for i in recording.phases.of_step(number)]
     omega, error, tracked = mean_omega(phases)
-    k = step.wave_number
-    speed = f': $v = {with_error(omega / k, error / k, decimals=3)}$' if tracked else ''
-    return steps.name(step) + speed
+    k = recording.steps.steps[number].wave_number
+    return (omega / k, error / k) if tracked else None

@@ -18,7 +18,7 @@ RUN = 'hydro'
 HYDRO = 'hdlyap/Hydro'
 WAVES = ((1, 0), (0, 1))
 SMALL = 0.05        # of the largest response of a kind: less than this is zero
-ZERO, NOT_ZERO, UNCLEAR = 'zero', 'not zero', 'unclear'
+ZERO, NOT_ZERO, BOTH = 'zero', 'not zero', 'zero at one wave, not at the other'
 # one HydroMode field each: the momentum's part along grad A, and along curl A
 KINDS = ('density', 'along', 'across', 'energy')
 NAMES = {'density': 'density', 'along': 'momentum along grad A', 'across': 'momentum along curl A', 'energy': 'energy'}
@@ -37,18 +37,18 @@ def rows(bags):
     for mode, there in TABLE.items():
         for kind in KINDS:
             words = {_word(found[wave], mode, kind) for wave in WAVES if wave in found}
-            word = words.pop() if len(words) == 1 else UNCLEAR if words else None
+            word = BOTH if words == {ZERO, NOT_ZERO} else None if None in words else next(iter(words), None)
             yield Row(f'{NAMES[kind]}: {mode}', NOT_ZERO if kind in there else ZERO, word, remark=_remark(found, mode, kind))
 
 
 def _word(found, mode, kind):
-    """Less than SMALL of the largest of its kind is zero, if known as well as that."""
+    """Less than SMALL of the largest of its kind is zero, if known as well as that; None if not known well enough."""
     one = found[mode, kind]
     small = SMALL * max(abs(found[other, kind].value) for other in TABLE)
     uncertain = SIGMAS * one.error
     if abs(one.value) < small:
-        return ZERO if uncertain < small else UNCLEAR
-    return NOT_ZERO if uncertain < abs(one.value) else UNCLEAR
+        return ZERO if uncertain < small else None
+    return NOT_ZERO if uncertain < abs(one.value) else None
 
 
 def _remark(found, mode, kind):
@@ -143,7 +143,7 @@ def figures(bags):
 def tables(bags):
     yield 'responses', ('wave', 'mode', 'response', 'value', 'error', 'published', 'found'), [
         ('({},{})'.format(*wave), mode, kind, f'{one.value:.5g}', f'{one.error:.2g}',
-         NOT_ZERO if kind in TABLE[mode] else ZERO, _word(found, mode, kind))
+         NOT_ZERO if kind in TABLE[mode] else ZERO, _word(found, mode, kind) or 'not known')
         for wave, found in responses(bags[RUN]).items() for (mode, kind), one in found.items()]
 
 

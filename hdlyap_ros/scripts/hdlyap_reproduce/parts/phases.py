@@ -14,6 +14,7 @@ TITLE = 'Phases of LP pairs of the periodic system; their rate in proportion to 
 RUN = 'periodic'
 HOLDS, FAILS = 'yes', 'no'
 WINDOW = 50.0       # over which a phase that diffuses is compared with even turning [time units]
+KEPT = 200          # of a curve in the table
 SHORTEST = 10       # reports in it
 MODULATIONS = ('cos cos', 'sin cos', 'cos sin', 'sin sin')
 
@@ -37,9 +38,9 @@ def rows(bags):
     yield Row('chi^2 / freedom of omega = v k', None, line.chi2, remark=f'{line.count - 1} degrees of freedom')
     yield Row('v, common', None, line.v, line.error, unit='sigma/time unit')
     yield against_slope('v', line.v, line.error, bag.recording)
-    for name, rms, error in _fluctuations(bag.recording):
+    for name, rms, error, whole in _fluctuations(bag.recording):
         yield Row(f'phase fluctuation of {name}', None, rms, error, unit='% of 2 pi',
-                  remark=f'rms about even turning, over windows of {WINDOW:g} time units')
+                  remark=f'rms about even turning over {WINDOW:g} time units; {whole}')
 
 
 class Line:
@@ -67,23 +68,35 @@ class Line:
 
 
 def _fluctuations(recording):
-    """(step and pair, rms deviation from even turning in percent of a turn, its standard error)."""
-    squares, last = {}, recording.phases.last
+    """(step and pair, rms deviation from even turning in percent of a turn, its standard error, that of the longest
+    curve as text)."""
+    curves, last = {}, recording.phases.last
     for number, phase in enumerate(last.phases if last else ()):
-        of_pair = squares.setdefault((phase.step, phase.nx, phase.ny, phase.modulation), [])
-        for time, course in recording.phases.curves(number):
-            of_pair += _windows(time, course)
-    for (_, nx, ny, bits), found in squares.items():
-        if found:
-            yield f'LP({nx},{ny}), {waves.plain_formula(nx, ny, bits)}', *_root(found, _length(recording) / WINDOW)
+        curves.setdefault((phase.step, phase.nx, phase.ny, phase.modulation), []).extend(recording.phases.curves(number))
+    for (_, nx, ny, bits), found in curves.items():
+        squares = [square for curve in found for square in _windows(*curve)]
+        if squares:
+            time, phase = max(found, key=lambda curve: curve[0][-1] - curve[0][0])
+            whole = f'{_square(time, phase) ** 0.5:.1f} % over the {time[-1] - time[0]:.0f} of the longest curve'
+            rms, error = _root(squares, _length(recording) / WINDOW)
+            yield f'LP({nx},{ny}), {waves.plain_formula(nx, ny, bits)}', rms, error, whole
+
+
+def _thinned(times, course):
+    every = -(-len(times) // KEPT)
+    return zip(times[::every], course[::every])
 
 
 def _windows(time, phase):
-    """Mean squares of the deviation, in percent of a turn, of as many whole windows as there are."""
+    """Mean squares of as many whole windows as there are."""
     count = int((time[-1] - time[0]) / WINDOW)
     edges = np.searchsorted(time, time[0] + WINDOW * np.arange(count + 1))
-    return [np.mean((100 * (phase[a:b] - regression(time[a:b], phase[a:b])) / (2 * np.pi)) ** 2)
-            for a, b in zip(edges, edges[1:]) if b - a > SHORTEST]
+    return [_square(time[a:b], phase[a:b]) for a, b in zip(edges, edges[1:]) if b - a > SHORTEST]
+
+
+def _square(time, phase):
+    """Mean square of the deviation from even turning, in percent of a turn."""
+    return np.mean((100 * (phase - regression(time, phase)) / (2 * np.pi)) ** 2)
 
 
 def _length(recording):
@@ -98,17 +111,18 @@ def _root(squares, independent):
 
 
 def figures(bags):
-    figure = figure_of_phases.draw(bags[RUN].recording)
+    speeds = {one.name: one.velocity() for one in rotation.read(bags[RUN]).values()}
+    figure = figure_of_phases.draw(bags[RUN].recording, {name: v for name, v in speeds.items() if v[0]})
     if figure is not None:
         yield 'phases', figure
 
 
 def tables(bags):
-    """The phases that the figure shows."""
+    """The phases that the figure shows, thinned."""
     recording = bags[RUN].recording
     lines = [(steps.name(recording.steps.steps[step]), last[number].index, MODULATIONS[last[number].modulation],
               f'{time:.6g}', f'{phase:.4f}')
              for last in [recording.phases.last and recording.phases.last.phases]
              for step, numbers in figure_of_phases.chosen(recording) for number in numbers
-             for times, course in recording.phases.curves(number) for time, phase in zip(times, course)]
+             for times, course in recording.phases.curves(number) for time, phase in _thinned(times, course)]
     yield 'phases', ('step', 'index', 'modulation', 'time', 'phase'), lines

@@ -64,7 +64,7 @@ class Quarters:
 
     def _measure_spread(self, turning):
         single = [quarter for column in range(turning.phase.shape[1])
-                  for piece in rotation.stretches(turning.phase[:, [column]])
+                  for piece in rotation.stretches(np.isfinite(turning.phase[:, [column]]))
                   for quarter in rotation.quarters(turning.time[piece], turning.phase[piece, column])]
         if len(single) < blocks.BLOCKS:
             return
