@@ -53,6 +53,7 @@ class Wave:
         self.amplitudes = np.array(amplitudes, dtype=complex)
         self.turned = rate if callable(rate) else lambda t: rate * t
         self.weak = lambda t, vector, pair: False
+        self.sign = 1       # of the vectors, against that with which their tracking began
 
     def at(self, t):
         for vector, row in enumerate(self.amplitudes):
@@ -62,6 +63,7 @@ class Wave:
                 one = LpPhase(step=self.step, nx=self.nx, ny=self.ny, modulation=self.bits[pair],
                               index=self.index + vector, state=LpPhase.TRACKED, a=z.real, b=z.imag, phase=phase,
                               omega=1.0, omega_error=0.1, tracked_time=t)
+                one.a, one.b = self.sign * one.a, self.sign * one.b
                 if self.weak(t, vector, pair):
                     one.state, one.phase, one.a, one.b = WEAK, 1e3 * np.sin(1e3 * t), 0.1, -0.1
                 yield one
@@ -147,9 +149,11 @@ class Turning(Made):
                 for t in times for one in (step, other)]
 
     def test_snapshots(self):
-        # L at 9.6, P at 12.8, ..; one quarter late, -L: the sign of the vector in its field is what counts
+        # L at 9.6, P at 12.8, .. in the fields; in the course of the phase the vector has the other sign
         wave, _ = self.waves(3.2, 2.1, 1.0)
         wave.amplitudes = np.array([[np.exp(-3j * np.pi / 2)], [1.0]])
+        wave.turned = lambda t, even=wave.turned: even(t) + np.pi
+        wave.sign = -1
         bag = self.measured(wave, fields=self.fields(np.arange(1.6, 25, 1.6)))
         found = turning._chosen(bag, rotation.read(bag))
         np.testing.assert_allclose([one.field.sim_time for one in found], [9.6, 12.8, 16.0, 19.2])
@@ -246,6 +250,8 @@ class Phases(Made):
         rates = np.array([piece.mean() for piece in np.array_split(np.diff(turned), blocks.BLOCKS)])
         self.assertAlmostEqual(row.error, rates.std(ddof=1) / 4, delta=0.1 * row.error)
         self.assertGreater(row.error, 0)
+        velocity = self.rows(phases, Bag(self.path))['omega / k of LP(1,0)']
+        self.assertAlmostEqual(velocity.error * made.wave_number(self.INFO, 1, 0), row.error, 12)
 
     def test_velocity_that_depends_on_k(self):
         rows = self.rows(phases, self.measured(*self.waves(1.5, 1.6, wobble=0.02)))
@@ -285,7 +291,9 @@ class Phases(Made):
         wave.weak = lambda t, vector, pair: 100 < t < 120
         rows = self.rows(phases, self.measured(wave))
         self.assertAlmostEqual(rows['omega / k of LP(1,0)'].measured, 1.5, 6)
-        self.assertLess(rows['phase fluctuation of LP(1,0), cos kx x'].measured, 1e-6)
+        row = rows['phase fluctuation of LP(1,0), cos kx x']
+        self.assertLess(row.measured, 1e-6)
+        self.assertIn('over the 180 of the longest curve', row.remark)
 
     def test_figure_and_table(self):
         bag = self.measured(*self.waves(1.5, 1.6))
@@ -344,6 +352,7 @@ class Travelling(Made):
         rows = self.rows(travelling, self.measured(self.STANDING, self.LEFT))
         self.assertAlmostEqual(rows['front velocity / (omega / k), same times'].measured, 1.0, 6)
         self.assertIn('towards -x, mirrored, handedness -1.00', rows['front velocity, mean slope'].remark)
+        self.assertAlmostEqual(rows['front velocity, mean slope'].measured, 5.2, 6)
         # the same field if everything turns backwards
         rows = self.rows(travelling, self.measured(self.RIGHT, omega=-self.OMEGA))
         self.assertIn('towards -x', rows['front velocity, mean slope'].remark)
@@ -354,31 +363,41 @@ class Travelling(Made):
         # theta of an ellipse is never further than a quarter turn from the phase
         self.assertAlmostEqual(rows['front velocity, mean slope'].measured, 5.2, delta=2 * rotation.QUARTER / self.K / 39.8)
         self.assertIn(f'handedness {2 * 0.5 / 1.25:+.2f}', rows['front velocity, mean slope'].remark)
+        # blocks of a turn hardly see the steps
+        self.assertLess(rows['front velocity, mean slope'].error, 0.1)
         # rms of theta - omega t: tan theta = 0.5 tan omega t
         turn = np.linspace(0, 2 * np.pi, 100001)
         off = np.std(np.unwrap(np.arctan2(0.5 * np.sin(turn), np.cos(turn))) - turn) / self.K
         self.assertAlmostEqual(rows['unevenness of the front, rms'].measured, off, delta=0.05 * off)
 
-    def test_wave_that_turns_round_differs(self):
-        """Of two halves with opposite handedness the mean slope is nothing."""
+    def test_wave_that_turns_round(self):
+        """Of two stretches the longer counts."""
         wave = Wave(1, 0, (0, 1), [(1.0, -1.0j)], self.OMEGA)
-        half = self.TIMES[len(self.TIMES) // 2]
+        half = 24.95
         right, left = np.array([self.RIGHT]), np.array([self.LEFT])
         messages = []
         for t in self.TIMES:
             wave.amplitudes = right if t < half else left
             messages += course([t], wave)
         row = self.rows(travelling, self.bag(self.INFO, *messages))['front velocity / (omega / k), same times']
-        self.assertLess(abs(row.measured), 0.1)
+        self.assertAlmostEqual(row.measured, 1.0, 6)
+        self.assertIn('24.8 time units, towards +x', row.remark)
+
+    def test_handedness(self):
+        for amplitudes, size in (((self.RIGHT, self.LEFT), 1.0), ((self.STANDING, self.RIGHT), 0.5),
+                                 (((1.0, -0.5j), (0.5j, 1.0)), 0.8)):
+            row = self.rows(travelling, self.measured(*amplitudes))['handedness of LP(1,0), mean size']
+            self.assertAlmostEqual(row.measured, size, 9)
 
     def test_vector_tracked_throughout_is_chosen(self):
         bag = self.measured(self.RIGHT, (1.0, -0.6j), weak=lambda t, vector, pair: vector == 0 and pair == 1 and 10 < t < 12)
         rows = self.rows(travelling, bag)
         self.assertIn(f'handedness {1.2 / 1.36:+.2f}', rows['front velocity, mean slope'].remark)
-        _, lines = self.tables(travelling, bag)['vectors']
-        # index, and how long both pairs of each have been tracked without a break
-        self.assertEqual([line[:2] for line in lines], [(32, '27.9'), (33, '39.8')])
-        self.assertEqual(lines[0][2:4], ('1.000', '5.2'))
+        header, lines = self.tables(travelling, bag)['stretches']
+        self.assertEqual(len(header), len(lines[0]))
+        # index, from when and how long both pairs of each have been tracked without a break
+        self.assertEqual([line[:3] for line in lines], [(33, '0.1', '39.8'), (32, '12', '27.9'), (32, '0.1', '9.9')])
+        self.assertEqual(lines[1][3:5], ('1.000', '5.2'))
 
     def test_front_is_where_the_field_vanishes(self):
         bag = self.measured((0.8, 0.6 * np.exp(-1.2j)))

@@ -17,9 +17,10 @@ def of_sums(estimate, statistics, blocks=BLOCKS):
     return estimate(total), np.sqrt((blocks - 1) * without.var(axis=0))
 
 
-def quotient(above, below):
+def quotient(above, below, blocks=BLOCKS):
     """(sum of above / sum of below, its standard error)."""
-    value, error = of_sums(lambda sums: sums[0] / sums[1], np.column_stack([above, below]))
+    value, error = of_sums(lambda sums: sums[0] / sums[1], np.column_stack([above, below]),
+                           blocks)
     return value if value is None else float(value), float(error)
 
 

@@ -13,8 +13,9 @@ TITLE = 'Travelling wave of the periodic LP dynamics'
 RUN = 'travelling'
 WAVE = (1, 0)
 SHOWN = 25.0        # of the space-time diagram [time units]
+FEWEST = 4          # blocks of time for an error
+LISTED = 20         # stretches in the table, the longest first
 PLACES = 200        # of it, along x
-LONG = 0.8          # of the longest stretch: vectors tracked for less are not considered
 
 
 def runs(plan):
@@ -34,8 +35,7 @@ class Front:
         self.l_part = np.array([cos.real, sin.real])
         self.turns = turning.turns()[piece.start:piece.stop - 1]
         self.way = 1.0 if np.nansum(self.turns) >= 0 else -1.0
-        circular = 2 * np.imag(cos * np.conj(sin)) / (np.abs(cos) ** 2 + np.abs(sin) ** 2)
-        self.handedness = float(self.way * np.mean(circular))
+        self.handedness = float(self.way * np.mean(circular(cos, sin)))
         self.sign = 1 if self.handedness >= 0 else -1
         self.theta = np.unwrap(np.arctan2(self.l_part[1], self.l_part[0]))
         self.index = turning.index[piece, columns[0]].astype(int)
@@ -49,32 +49,54 @@ class Front:
         """Of the front, as it goes on [sigma]."""
         return self.sign * self.theta / self.wave_number
 
+    @property
+    def blocks(self):
+        """Of a turn or more each: shorter ones would see the steps, which recur."""
+        turns = np.nansum(self.way * self.turns) / (2 * np.pi)
+        return int(np.clip(turns, FEWEST, blocks.BLOCKS))
+
     def velocity(self):
         """Mean slope of the front, and its standard error from blocks of time."""
-        return blocks.quotient(np.diff(self.place), np.diff(self.time))
+        return blocks.quotient(np.diff(self.place), np.diff(self.time), self.blocks)
 
     def against_turns(self):
         """Its mean slope over |omega| / k at the same times, and the standard error of that."""
-        return blocks.quotient(self.sign * np.diff(self.theta), self.way * self.turns)
+        return blocks.quotient(self.sign * np.diff(self.theta), self.way * self.turns, self.blocks)
+
+
+def circular(cos, sin):
+    """Handedness at every time if omega > 0."""
+    return 2 * np.imag(cos * np.conj(sin)) / (np.abs(cos) ** 2 + np.abs(sin) ** 2)
+
+
+def vectors(turning):
+    """Columns of each vector: the pair with the cosine, the pair with the sine."""
+    for begin in range(0, turning.z.shape[1], turning.pairs):
+        yield sorted(range(begin, begin + turning.pairs), key=lambda column: turning.modulation[column] & SIN_X)
 
 
 def fronts(turning):
-    """Of each vector the longest stretch over which both of its pairs are tracked."""
+    """Every stretch over which a vector has both of its pairs tracked and runs one way: vectors are superpositions of
+    waves of both directions, in parts that change slowly."""
     found = []
-    for begin in range(0, turning.z.shape[1], turning.pairs):
-        columns = sorted(range(begin, begin + turning.pairs), key=lambda column: turning.modulation[column] & SIN_X)
-        pieces = rotation.stretches(np.isfinite(turning.z[:, columns]), shortest=blocks.BLOCKS + 1)
-        if pieces:
-            found.append(Front(turning, columns, max(pieces, key=lambda piece: piece.stop - piece.start)))
+    for columns in vectors(turning):
+        way = circular(*turning.z[:, columns].T)
+        for on in (way > 0, way < 0):
+            pieces = rotation.stretches(on[:, np.newaxis], shortest=blocks.BLOCKS + 1)
+            found += [Front(turning, columns, piece) for piece in pieces]
     return found
 
 
 def chosen(turning):
-    """The front tracked about as long as any that is the least like a standing wave; None without one."""
-    found = fronts(turning) if turning else []
-    longest = max((one.length for one in found), default=0.0)
-    return max((one for one in found if one.length >= LONG * longest), default=None,
-               key=lambda one: abs(one.handedness))
+    """The front that runs the farthest for the least part of the other direction; None without one."""
+    return max(fronts(turning) if turning else (), default=None, key=lambda one: one.length * abs(one.handedness))
+
+
+def one_way(turning):
+    """Mean size of the handedness over vectors and times: 1 if all run one way, 1/2 of random superpositions."""
+    ways = np.array([np.abs(circular(*turning.z[:, columns].T)) for columns in vectors(turning)])
+    known = np.isfinite(ways).any(axis=0)
+    return blocks.mean(np.nanmean(ways[:, known], axis=0))
 
 
 def rows(bags):
@@ -88,6 +110,9 @@ def rows(bags):
     yield Row('front velocity, mean slope', None, slope, slope_error, unit='sigma/time unit', remark=remark)
     yield Row('omega / k of LP(1,0), same run', None, v, v_error, unit='sigma/time unit')
     yield against_slope('front velocity', slope, slope_error, bags[RUN].recording)
+    size, size_error = one_way(turning) if turning else (None, 0.0)
+    yield Row('handedness of LP(1,0), mean size', None, size, size_error,
+              remark='1: every vector runs one way; 1/2: random parts of both directions')
     yield Row('unevenness of the front, rms', None, _unevenness(front) if front else None, unit='sigma',
               remark='about the straight line, while shown')
 
@@ -118,14 +143,14 @@ def figures(bags):
 
 def tables(bags):
     turning = rotation.read(bags[RUN]).get(WAVE)
-    found = fronts(turning) if turning else []
+    found = sorted(fronts(turning) if turning else [], key=lambda one: -one.length)[:LISTED]
     lines = []
     for one in found:
         v, error = one.velocity()
         ratio, ratio_error = one.against_turns()
-        lines.append((one.index[-1], f'{one.length:.4g}', f'{one.handedness:.3f}', f'{v:.5g}', f'{error:.2g}',
+        lines.append((one.index[-1], f'{one.time[0]:.6g}', f'{one.length:.4g}', f'{one.handedness:.3f}', f'{v:.5g}', f'{error:.2g}',
                       *((f'{ratio:.5g}', f'{ratio_error:.2g}') if ratio else ('', ''))))
-    yield 'vectors', ('index', 'stretch', 'handedness', 'front_velocity', 'error', 'over_omega_by_k', 'error'), lines
+    yield 'stretches', ('index', 'from', 'for', 'handedness', 'front_velocity', 'error', 'over_omega_by_k', 'error'), lines
     front = chosen(turning)
     yield 'front', ('time', 'a_cos', 'a_sin', 'place'), [
         (f'{time:.6g}', f'{cos:.4f}', f'{sin:.4f}', f'{place:.4f}') for time, cos, sin, place in
