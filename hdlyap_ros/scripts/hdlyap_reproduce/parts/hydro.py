@@ -38,7 +38,8 @@ def rows(bags):
         for kind in KINDS:
             words = {_word(found[wave], mode, kind) for wave in WAVES if wave in found}
             word = BOTH if words == {ZERO, NOT_ZERO} else None if None in words else next(iter(words), None)
-            yield Row(f'{NAMES[kind]}: {mode}', NOT_ZERO if kind in there else ZERO, word, remark=_remark(found, mode, kind))
+            yield Row(f'{NAMES[kind]}: {mode}', NOT_ZERO if kind in there else ZERO, word,
+                      remark=_remark(found, mode, kind))
 
 
 def _word(found, mode, kind):
@@ -59,7 +60,7 @@ def _remark(found, mode, kind):
 def responses(bag):
     """{wave: {(mode, kind): Response}}: to a vector that is a T, an L or a P field alone, normalised [T15].
     Responses of the vectors of LP(n) are regressed on their coefficients (a, b) at the same modulation and time.
-    Those of T(n) have no published coefficients, but their response along curl A is in proportion to that of the field of A."""
+    Of those of T(n) no coefficients are in the bag, but their response along curl A is in proportion to them."""
     coefficients = _coefficients(bag)
     sums = {wave: ([], []) for wave in WAVES}
     for message in bag.messages(HYDRO):
@@ -165,6 +166,6 @@ def _draw(info, found):
         axes.set_title(NAMES[kind] + (f'\n[{unit}]' if unit else '\n'), fontsize=8)
     row[0].legend(fontsize=7, title='wave', title_fontsize=7)
     row[0].set_ylabel('response to a pure mode')
-    figure.suptitle(f'{scene(info)}; grey: less than {100 * SMALL:g} % of the largest, bars: {SIGMAS:g} standard errors',
-                    fontsize=9)
+    figure.suptitle(f'{scene(info)}; grey: less than {100 * SMALL:g} % of the largest, '
+                    f'bars: {SIGMAS:g} standard errors', fontsize=9)
     return figure

@@ -72,7 +72,8 @@ def _fluctuations(recording):
     curve as text)."""
     curves, last = {}, recording.phases.last
     for number, phase in enumerate(last.phases if last else ()):
-        curves.setdefault((phase.step, phase.nx, phase.ny, phase.modulation), []).extend(recording.phases.curves(number))
+        of_pair = curves.setdefault((phase.step, phase.nx, phase.ny, phase.modulation), [])
+        of_pair += recording.phases.curves(number)
     for (_, nx, ny, bits), found in curves.items():
         squares = [square for curve in found for square in _windows(*curve)]
         if squares:

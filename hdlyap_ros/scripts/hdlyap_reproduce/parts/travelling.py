@@ -26,8 +26,8 @@ class Front:
     """One vector over a stretch of time. Its L part is a_cos d/dx cos(k x) + a_sin d/dx sin(k x), in proportion to
     -r sin(k x - theta), theta = angle(a_cos, a_sin): the front, where it goes through zero, is at theta / k. With
     z = a + i b turning at omega, r^2 dtheta/dt = omega Im(z_cos conj z_sin). Its size over that of a circle is the
-    handedness: 1 for a wave that runs evenly towards +x, -1 towards -x, 0 for one that stands. A vector that runs towards
-    -x is looked at in a mirror: it is `sign` times theta that is followed."""
+    handedness: 1 for a wave that runs evenly towards +x, -1 towards -x, 0 for one that stands. A vector that runs
+    towards -x is looked at in a mirror: it is `sign` times theta that is followed."""
 
     def __init__(self, turning, columns, piece):
         cos, sin = turning.z[piece][:, columns].T
@@ -148,9 +148,10 @@ def tables(bags):
     for one in found:
         v, error = one.velocity()
         ratio, ratio_error = one.against_turns()
-        lines.append((one.index[-1], f'{one.time[0]:.6g}', f'{one.length:.4g}', f'{one.handedness:.3f}', f'{v:.5g}', f'{error:.2g}',
+        lines.append((one.index[-1], f'{one.time[0]:.6g}', f'{one.length:.4g}', f'{one.handedness:.3f}',
+                      f'{v:.5g}', f'{error:.2g}',
                       *((f'{ratio:.5g}', f'{ratio_error:.2g}') if ratio else ('', ''))))
-    yield 'stretches', ('index', 'from', 'for', 'handedness', 'front_velocity', 'error', 'over_omega_by_k', 'error'), lines
+    yield 'stretches', ('index', 'from', 'for', 'handedness', 'velocity', 'error', 'over_omega_by_k', 'error'), lines
     front = chosen(turning)
     yield 'front', ('time', 'a_cos', 'a_sin', 'place'), [
         (f'{time:.6g}', f'{cos:.4f}', f'{sin:.4f}', f'{place:.4f}') for time, cos, sin, place in
@@ -165,7 +166,8 @@ def _draw(info, turning, front):
     cos, sin = front.l_part[:, part]
     field = -np.outer(np.sin(k * x), cos) + np.outer(np.cos(k * x), sin)
     largest = np.abs(field).max()
-    picture = top.pcolormesh(time, x, field, cmap='RdBu_r', vmin=-largest, vmax=largest, shading='auto', rasterized=True)
+    picture = top.pcolormesh(time, x, field, cmap='RdBu_r', vmin=-largest, vmax=largest, shading='auto',
+                             rasterized=True)
     figure.colorbar(picture, ax=top, label='L part along $x$  [arb. units]')
     front_x = np.mod(front.theta[part] / k, info.box_x)
     top.plot(time, np.where(np.abs(np.diff(front_x, append=front_x[-1])) > info.box_x / 2, np.nan, front_x),

@@ -59,8 +59,9 @@ class Quarters:
         self.error = self.mean * error / abs(omega)
         self._measure_spread(turning)
         k = turning.wave_number
-        self.remark = (f'k = {k:.5f}, omega / k = {with_error(abs(omega) / k, error / k)}; 3.20 is '
-                       f'{100 * (QUARTER / self.mean - 1):+.1f} % off, or {self.off:.1f} standard deviations of a quarter')
+        self.remark = (f'k = {k:.5f}, omega / k = {with_error(abs(omega) / k, error / k)}; '
+                       f'3.20 is {100 * (QUARTER / self.mean - 1):+.1f} % off, or {self.off:.1f} standard deviations '
+                       'of a quarter')
 
     def _measure_spread(self, turning):
         single = [quarter for column in range(turning.phase.shape[1])
