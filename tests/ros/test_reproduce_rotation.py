@@ -114,7 +114,7 @@ class Turning(Made):
         k = made.wave_number(self.WALLS, 1, 0)
         with_wobble = np.pi / 2 / 3.15 + 0.1 * (np.sin(1.7 * 59.8) - np.sin(1.7 * 0.2)) / 59.6
         self.assertIn(f'k = {k:.5f}, omega / k = {with_wobble / k:.5f}', remark)
-        self.assertRegex(remark, r'is \+1\.[4-8] % off, or 0\.[2-9] standard deviations')
+        self.assertRegex(remark, r'is \+1\.[4-8] % off, or 0\.[2-9] standard deviations of single quarters')
         row = self.owner(4.4, 3.25)
         self.assertEqual((row.measured, row.verdict), ('LP(1,1)', 'differs'))
         self.assertEqual(self.owner(5.0, 2.0).measured, 'neither')
@@ -126,6 +126,13 @@ class Turning(Made):
         # nine of 3.0 and eight of 3.5
         self.assertAlmostEqual(row.measured, np.std([3.0] * 9 + [3.5] * 8), 6)
         self.assertEqual(row.verdict, '')
+
+    def test_short_run(self):
+        self.TIMES = self.TIMES[:60]
+        rows = self.rows(turning, self.measured(*self.waves(3.2, 2.1)))
+        self.assertEqual(rows['3.20 is a quarter period of'].verdict, 'not measured')
+        self.assertEqual(rows['single quarters of LP(1,0), standard deviation'].verdict, 'not measured')
+        self.assertAlmostEqual(rows['quarter period of LP(1,0)'].measured, 3.2, 6)
 
     def test_strength(self):
         for strength, verdict in ((0.95, 'agrees'), (0.8, 'differs')):
@@ -273,6 +280,9 @@ class Phases(Made):
             row = phases.against_slope('v', v, 0.001, _Recording(info, steps))
             self.assertEqual((row.measured, row.published), (word, 'above c_L'))
             self.assertEqual(row.verdict, 'agrees' if word == 'above c_L' else 'differs')
+            # one standard error of 3 %: what is within 12 % cannot be told
+            row = phases.against_slope('v', v, 0.03 * slope, _Recording(info, steps))
+            self.assertEqual(row.measured, word if word == 'above c_L' else None)
             self.assertIn(f'v / c_L = {v / slope:.3f} with the paper\'s', row.remark)
             self.assertIn(f'{v * made.wave_number(info, 1, 0) / 4.0:.3f} with our LP(1,0)', row.remark)
 

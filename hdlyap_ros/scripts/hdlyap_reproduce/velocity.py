@@ -19,9 +19,12 @@ def against_slope(quantity, v, error, recording):
     own = [step for _, step in steps.resolved_lp(recording.steps)] if recording.steps else []
     if own:
         remark += f', {v * own[0].wave_number / own[0].exponent:.3f} with our {steps.name(own[0])}'
-    return Row(f'{quantity} against c_L', published, _word(v - slope, paper.FIT_ACCURACY * slope + SIGMAS * error),
+    return Row(f'{quantity} against c_L', published, _word(v - slope, paper.FIT_ACCURACY * slope, SIGMAS * error),
                remark=remark)
 
 
-def _word(off, margin):
-    return NEAR if abs(off) <= margin else ABOVE if off > 0 else BELOW
+def _word(off, scatter, uncertain):
+    """None where v is known less well than the slope, and so not told from it."""
+    if abs(off) > scatter + uncertain:
+        return ABOVE if off > 0 else BELOW
+    return NEAR if uncertain <= scatter else None

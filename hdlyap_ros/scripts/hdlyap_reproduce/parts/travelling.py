@@ -188,5 +188,5 @@ def _line(axes, turning, front, part):
         middle = np.mean(place - v * time)
         axes.plot(time, middle + v * time, color=VERMILION, linewidth=0.9, label=rf'slope $|\omega|/k = {v:.3f}$')
     axes.set_ylabel(r'place of the front  [$\sigma$]')
-    axes.set_title('(b)', loc='left')
+    axes.set_title('(b)' + ('' if front.sign > 0 else ' with $x$ reversed: the wave runs towards $-x$'), loc='left')
     axes.legend(loc='upper left')

@@ -59,9 +59,9 @@ class Quarters:
         self.error = self.mean * error / abs(omega)
         self._measure_spread(turning)
         k = turning.wave_number
+        scatter = f', or {self.off:.1f} standard deviations of single quarters' if self.spread else ''
         self.remark = (f'k = {k:.5f}, omega / k = {with_error(abs(omega) / k, error / k)}; '
-                       f'3.20 is {100 * (QUARTER / self.mean - 1):+.1f} % off, or {self.off:.1f} standard deviations '
-                       'of a quarter')
+                       f'3.20 is {100 * (QUARTER / self.mean - 1):+.1f} % off{scatter}')
 
     def _measure_spread(self, turning):
         single = [quarter for column in range(turning.phase.shape[1])
@@ -75,13 +75,13 @@ class Quarters:
 
     @property
     def off(self):
-        """How far 3.20 is from the mean, in standard deviations of single quarters."""
-        return abs(QUARTER - self.mean) / self.spread if self.spread else np.inf
+        """How far 3.20 is from the mean, in standard deviations of single quarters; None if those are not known."""
+        return abs(QUARTER - self.mean) / self.spread if self.spread else None
 
 
 def _owner(found):
     """The step among whose single quarters 3.20 is nearest to the mean; 'neither' beyond three deviations."""
-    measured = {wave: one for wave, one in found.items() if one.mean}
+    measured = {wave: one for wave, one in found.items() if one.spread}
     if not measured:
         return None
     nearest = min(measured, key=lambda wave: measured[wave].off)
