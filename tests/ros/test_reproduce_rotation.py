@@ -96,6 +96,8 @@ class Turning(Made):
         self.assertEqual((one.published, one.published_error, one.verdict), (3.2, 0.005, 'agrees'))
         self.assertEqual(other.verdict, 'differs')
         self.assertIn('the text', one.remark)
+        # a wave number of pi / L instead of pi / (L - 1)
+        self.assertIn(f'{3.2 * 40 ** 0.5 / (40 ** 0.5 - 1):.3f} if centres reached the walls', one.remark)
         self.assertIn('+52.4 % off', other.remark)
         self.assertLess(one.error, 1e-6)
 

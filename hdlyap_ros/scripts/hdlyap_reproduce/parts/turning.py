@@ -26,7 +26,8 @@ def runs(plan):
 
 def rows(bags):
     turning = rotation.read(bags[RUN])
-    found = {wave: Quarters(turning.get(wave)) for wave in WAVES}
+    info = bags[RUN].info
+    found = {wave: Quarters(turning.get(wave), info) for wave in WAVES}
     for wave, one in found.items():
         yield Row(f'quarter period of {_name(wave)}', QUARTER, one.mean, one.error, LAST_DIGIT, 'time units',
                   f'{WAVES[wave]}; {one.remark}' if one.mean else '')
@@ -48,7 +49,7 @@ def _name(wave):
 class Quarters:
     """Quarter period of a step: pi / 2 over its mean rate, and how single quarters of single vectors scatter."""
 
-    def __init__(self, turning):
+    def __init__(self, turning, info):
         self.mean = self.spread = None
         self.error = self.spread_error = 0.0
         self.remark = ''
@@ -61,7 +62,14 @@ class Quarters:
         k = turning.wave_number
         scatter = f', or {self.off:.1f} standard deviations of single quarters' if self.spread else ''
         self.remark = (f'k = {k:.5f}, omega / k = {with_error(abs(omega) / k, error / k)}; '
-                       f'3.20 is {100 * (QUARTER / self.mean - 1):+.1f} % off{scatter}')
+                       f'3.20 is {100 * (QUARTER / self.mean - 1):+.1f} % off{scatter}; '
+                       f'{self._in_whole_box(turning, info):.3f} if centres reached the walls')
+
+    def _in_whole_box(self, turning, info):
+        """The quarter period of this v at wave numbers pi n / L: what a box would have whose edges are counted
+        between the centres."""
+        whole = np.pi * np.hypot(turning.nx / info.box_x, turning.ny / info.box_y)
+        return self.mean * turning.wave_number / whole
 
     def _measure_spread(self, turning):
         single = [quarter for column in range(turning.phase.shape[1])
@@ -124,7 +132,7 @@ def _circles(info, turning):
                   label=f'{one.time[piece][-1] - one.time[piece][0]:.1f} time units of one')
         axes.set(aspect='equal', xlim=(-1.25, 1.25), ylim=(-1.25, 1.25), xlabel='$a$  (on the L field)',
                  ylabel='$b$  (on the P field)', title=one.name)
-    row.flat[0].legend(loc='upper left', fontsize=7, markerscale=1.5)
+    row.flat[0].legend(loc='center', fontsize=7, markerscale=1.5)
     figure.suptitle(scene(info), fontsize=9)
     return figure
 
