@@ -128,8 +128,8 @@ class Responses(unittest.TestCase):
         self.assertEqual((row.measured, row.verdict), ('zero', 'differs'))
 
     def test_what_is_small_and_what_is_known(self):
-        for value, error, word in ((0.04, 0.01, 'zero'), (0.04, 0.02, None), (0.06, 0.01, 'not zero'), (0.06, 0.03, None),
-                                   (-0.06, 0.01, 'not zero')):
+        for value, error, word in ((0.04, 0.01, 'zero'), (0.04, 0.02, None), (0.06, 0.01, 'not zero'),
+                                   (0.06, 0.03, None), (-0.06, 0.01, 'not zero')):
             found = {('T', 'energy'): (value, error), ('L', 'energy'): (0.1, 0.01), ('P', 'energy'): (-1.0, 0.1)}
             found = {key: hydro.Response(*one) for key, one in found.items()}
             self.assertEqual(hydro._word(found, 'T', 'energy'), word)

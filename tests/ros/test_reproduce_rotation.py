@@ -74,6 +74,12 @@ def course(times, *waves):
                      phases=[one for wave in waves for one in wave.at(t)]) for t in times]
 
 
+def _alternating(t, first, second):
+    """Quarters done by the time t if every other one takes longer."""
+    periods, rest = divmod(t, first + second)
+    return 2 * periods + (rest / first if rest < first else 1 + (rest - first) / second)
+
+
 # ---- turning -----------------------------------------------------------------------------------------------------
 
 class Turning(Made):
@@ -128,6 +134,13 @@ class Turning(Made):
         # nine of 3.0 and eight of 3.5
         self.assertAlmostEqual(row.measured, np.std([3.0] * 9 + [3.5] * 8), 6)
         self.assertEqual(row.verdict, '')
+
+    def test_uneven_quarters(self):
+        wave = Wave(1, 0, (0,), [[1.0]], lambda t: np.pi / 2 * _alternating(t, 2.9, 3.3))
+        self.TIMES = np.arange(0.1, 250, 0.1)
+        rows = self.rows(turning, self.measured(wave))
+        self.assertAlmostEqual(rows['quarters of LP(1,0) from L to P, vector 1'].measured, 2.9, 6)
+        self.assertAlmostEqual(rows['quarters of LP(1,0) from P to -L, vector 1'].measured, 3.3, 6)
 
     def test_short_run(self):
         self.TIMES = self.TIMES[:60]
@@ -200,13 +213,14 @@ class Quarters(unittest.TestCase):
         time = np.arange(0.5, 6, 0.001)
         crossed = np.sqrt(rotation.QUARTER * np.arange(1, 23))
         for sign in (1, -1):
-            found = rotation.quarters(time, sign * time ** 2)
+            from_l, found = rotation.quarters(time, sign * time ** 2)
+            self.assertEqual(list(from_l[:4]), [False, True, False, True])      # the first level is a quarter turn
             np.testing.assert_allclose(found, np.diff(crossed)[:len(found)], atol=1e-5)
             self.assertEqual(len(found), 21)
 
     def test_back_and_forth_over_a_multiple_counts_once(self):
         phase = np.array([0.1, 1.5, 1.6, 1.5, 1.6, 3.0, 3.2])
-        np.testing.assert_allclose(rotation.quarters(np.arange(7.0), phase),
+        np.testing.assert_allclose(rotation.quarters(np.arange(7.0), phase)[1],
                                    [5 + (np.pi - 3) / 0.2 - 1 - (np.pi / 2 - 1.5) / 0.1])
 
 

@@ -79,12 +79,14 @@ def read(bag):
 
 
 def quarters(time, phase):
-    """Times that a tracked phase takes from each multiple of a quarter turn to the next, whichever way it turns."""
+    """(from L, time) of a tracked phase from each multiple of a quarter turn to the next, whichever way it turns; from
+    L: whether the quarter begins at L or -L, and ends at P or -P."""
     reached = np.maximum.accumulate(phase if phase[-1] >= phase[0] else -phase)
     levels = QUARTER * np.arange(np.floor(reached[0] / QUARTER) + 1, np.floor(reached[-1] / QUARTER) + 1)
     at = np.searchsorted(reached, levels)
     share = (levels - reached[at - 1]) / (reached[at] - reached[at - 1])
-    return np.diff(time[at - 1] + share * (time[at] - time[at - 1]))
+    times = np.diff(time[at - 1] + share * (time[at] - time[at - 1]))
+    return np.round(levels[:-1] / QUARTER).astype(int) % 2 == 0, times
 
 
 def stretches(known, shortest=3):

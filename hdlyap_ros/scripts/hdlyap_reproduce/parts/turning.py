@@ -36,6 +36,9 @@ def rows(bags):
     for wave, one in found.items():
         yield Row(f'single quarters of {_name(wave)}, standard deviation', None, one.spread, one.spread_error,
                   unit='time units')
+    for name, mean, error in _uneven(found[1, 0]):
+        yield Row(f'quarters of LP(1,0) from {name}', None, mean, error, unit='time units',
+                  remark='from either sign to the next')
     for wave in WAVES:
         strength, error = turning[wave].strength() if wave in turning else (None, 0.0)
         yield Row(f'a^2 + b^2 of {_name(wave)}, mean', 1.0, strength, error, NEAR_ONE,
@@ -51,6 +54,7 @@ class Quarters:
 
     def __init__(self, turning, info):
         self.mean = self.spread = None
+        self.of_vector = []     # (from L, time) of each
         self.error = self.spread_error = 0.0
         self.remark = ''
         omega, error = turning.omega() if turning else (None, 0.0)
@@ -72,12 +76,11 @@ class Quarters:
         return self.mean * turning.wave_number / whole
 
     def _measure_spread(self, turning):
-        single = [quarter for column in range(turning.phase.shape[1])
-                  for piece in rotation.stretches(np.isfinite(turning.phase[:, [column]]))
-                  for quarter in rotation.quarters(turning.time[piece], turning.phase[piece, column])]
+        self.of_vector = [_quarters_of(turning, column) for column in range(turning.phase.shape[1])]
+        single = np.concatenate([times for _, times in self.of_vector])
         if len(single) < blocks.BLOCKS:
             return
-        variance, error = blocks.mean((np.array(single) - np.mean(single)) ** 2)
+        variance, error = blocks.mean((single - single.mean()) ** 2)
         self.spread = float(np.sqrt(variance))
         self.spread_error = 0.5 * error / self.spread if self.spread else 0.0
 
@@ -85,6 +88,21 @@ class Quarters:
     def off(self):
         """How far 3.20 is from the mean, in standard deviations of single quarters; None if those are not known."""
         return abs(QUARTER - self.mean) / self.spread if self.spread else None
+
+
+def _quarters_of(turning, column):
+    found = [rotation.quarters(turning.time[piece], turning.phase[piece, column])
+             for piece in rotation.stretches(np.isfinite(turning.phase[:, [column]]))]
+    return tuple(np.concatenate([[], *parts]) for parts in zip(*found)) if found else (np.zeros(0), np.zeros(0))
+
+
+def _uneven(one):
+    """(which quarters of which vector, mean, standard error): a vector does not turn evenly within a period."""
+    for number, (from_l, times) in enumerate(one.of_vector, start=1):
+        for name, which in (('L to P', from_l > 0), ('P to -L', from_l == 0)):
+            mean, error = blocks.mean(times[which])
+            if mean is not None:
+                yield f'{name}, vector {number}', mean, error
 
 
 def _owner(found):
