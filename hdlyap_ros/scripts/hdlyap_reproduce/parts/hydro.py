@@ -164,7 +164,7 @@ def _draw(info, found):
         axes.set_xticklabels(TABLE)
         unit = UNITS[kind].replace('^2', '$^2$').replace('sigma', r'$\sigma$')
         axes.set_title(NAMES[kind] + (f'\n[{unit}]' if unit else '\n'), fontsize=8)
-    row[0].legend(fontsize=7, title='wave', title_fontsize=7)
+    row[KINDS.index('across')].legend(fontsize=7, title='wave', title_fontsize=7)      # where there is room
     row[0].set_ylabel('response to a pure mode')
     figure.suptitle(f'{scene(info)}; grey: less than {100 * SMALL:g} % of the largest, '
                     f'bars: {SIGMAS:g} standard errors', fontsize=9)
