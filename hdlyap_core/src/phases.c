@@ -4,7 +4,7 @@
  *  rotor follows one step: its slots are vectors, which may change their columns; each slot and pair is a
  *  track with a phase of its own. The sum over all tracks of conj(z) z' between two samples turns by omega dt
  *  too, weighs each track with its strength and does not mind which vector is which: it predicts the tracks' next
- *  phases, and its mean rate is the velocity. */
+ *  phases. The velocity is the mean rate of the tracks. */
 #include "hdlyap/phases.h"
 
 #include <complex.h>
@@ -35,7 +35,8 @@ typedef struct track {
     double begin; /**< of the tracking */
     long count;
     double mean_t, mean_phase, square_t, product;
-    hd_blocks rate; /**< one series: increments of the phase per time */
+    double rate_now; /**< last increment of the phase per time */
+    hd_blocks rate;  /**< one series: all of them */
 } track;
 
 /** One LP step. */
@@ -49,8 +50,9 @@ typedef struct rotor {
     double sign[SLOTS_MAX]; /**< of the vector in a slot against the one it began with */
     double complex z[SLOTS_MAX][PAIRS_MAX]; /**< at the last sample, times sign */
     double time, dt;
-    double omega;   /**< mean rate of the whole step */
-    hd_blocks rate; /**< one series: of the whole step */
+    double omega;   /**< mean turn of the whole step per time: what phases are unwrapped by */
+    hd_blocks rate; /**< one series: of these turns */
+    hd_blocks velocity; /**< one series: mean rate of the tracks, which adds up to their phases */
 } rotor;
 
 struct hd_phases {
@@ -71,6 +73,7 @@ static hd_status rotor_create(rotor *r, track *tracks, const hd_step *step, int 
                  .track = tracks,
                  .col = -1};
     for (int t = 0; t < r->slots * r->pairs; t++) HD_TRY(hd_blocks_create(&tracks[t].rate, 1));
+    HD_TRY(hd_blocks_create(&r->velocity, 1));
     return hd_blocks_create(&r->rate, 1);
 }
 
@@ -123,7 +126,10 @@ void hd_phases_free(hd_phases *phases)
     if (!phases) return;
     for (int t = 0; phases->track && t < phases->tracks; t++)
         hd_blocks_clear(&phases->track[t].rate);
-    for (int k = 0; k < phases->rotors; k++) hd_blocks_clear(&phases->rotor[k].rate);
+    for (int k = 0; phases->rotor && k < phases->rotors; k++) {
+        hd_blocks_clear(&phases->rotor[k].rate);
+        hd_blocks_clear(&phases->rotor[k].velocity);
+    }
     hd_memory_free(phases->rotor);
     hd_memory_free(phases->track);
     hd_memory_free(phases);
@@ -177,26 +183,27 @@ static double slope_error(const track *t)
     return error < 0 ? -1.0 : sqrt(1.2) * error;
 }
 
-/** z: with sign; r->omega predicts. */
-static void track_add(track *t, const rotor *r, double complex z, double time)
+/** z: with sign; r->omega predicts. True if the phase has gone on. */
+static bool track_add(track *t, const rotor *r, double complex z, double time)
 {
     const double strength = creal(z) * creal(z) + cimag(z) * cimag(z);
     if (t->count > 0 && time - t->last > GAP_MAX * r->dt) track_restart(t, HD_LP_WEAK);
     t->out.state = strength < WEAK ? HD_LP_WEAK : HD_LP_TRACKED;
-    if (strength < WEAK) return;
+    if (strength < WEAK) return false;
     if (t->count == 0) {
         track_begin(t, time, carg(z));
-        return;
+        return false;
     }
     const double dt = time - t->last;
     const double phase = unwrapped(carg(z), t->out.phase + r->omega * dt);
-    double rate = (phase - t->out.phase) / dt;
+    double rate = t->rate_now = (phase - t->out.phase) / dt;
     hd_blocks_add(&t->rate, &rate);
     track_regress(t, time, phase);
     t->out.phase = phase;
     t->last = time;
     t->out.time = time - t->begin;
     t->out.omega_error = slope_error(t);
+    return true;
 }
 
 /* ---- one rotor -------------------------------------------------------------------------------- */
@@ -206,6 +213,7 @@ static void rotor_restart(rotor *r, hd_lp_state state)
     r->col = -1;
     r->samples = 0;
     hd_blocks_restart(&r->rate);
+    hd_blocks_restart(&r->velocity);
     for (int t = 0; t < r->slots * r->pairs; t++) track_restart(&r->track[t], state);
 }
 
@@ -304,10 +312,12 @@ static void rotor_turn(rotor *r, const hd_modes *modes, double dt)
 }
 
 /** Takes over the snapshot as the last sample. A vector that is something else for a while goes on as
- *  predicted: it is recognised when it comes back. */
+ *  predicted: it is recognised when it comes back. The velocity is the mean rate of the tracks: unlike the turn
+ *  of the whole, where longer vectors weigh more, it has no bias if |z| depends on the phase. */
 static void rotor_store(rotor *r, const hd_modes *modes, double time)
 {
     const double complex turn = cexp(I * r->omega * (time - r->time));
+    double sum = 0.0, count = 0.0;
     for (int v = 0; v < r->slots; v++) {
         const int col = r->slot_col[v];
         const bool away = r->samples > 0 && strength_of(r, modes, col) < WEAK;
@@ -315,12 +325,13 @@ static void rotor_store(rotor *r, const hd_modes *modes, double time)
             track *t = &r->track[v * r->pairs + c];
             const double complex z = coefficient(r, modes, col, c);
             r->z[v][c] = away ? r->z[v][c] * turn : r->sign[v] * z;
-            track_add(t, r, r->sign[v] * z, time);
+            if (track_add(t, r, r->sign[v] * z, time)) sum += t->rate_now, count++;
             t->out.col = col;
             t->out.a = creal(z);
             t->out.b = cimag(z);
         }
     }
+    if (count > 0) hd_blocks_add(&r->velocity, &(double){sum / count});
     r->time = time;
     r->samples++;
 }
@@ -400,9 +411,9 @@ hd_velocity hd_phases_velocity(const hd_phases *phases)
     int steps = 0;
     for (int k = 0; k < phases->rotors; k++) {
         const rotor *r = &phases->rotor[k];
-        const double error = hd_blocks_long_error(&r->rate, 0) / r->wave_number;
+        const double error = hd_blocks_long_error(&r->velocity, 0) / r->wave_number;
         if (!(error > 0)) continue;
-        const double v = fabs(r->omega) / r->wave_number, w = 1.0 / (error * error);
+        const double v = fabs(hd_blocks_mean(&r->velocity, 0)) / r->wave_number, w = 1.0 / (error * error);
         out.phases += tracked(r);
         steps++;
         weights += w;
@@ -474,6 +485,7 @@ static void rotor_archive(rotor *r, hd_archive *archive, int vectors)
     hd_archive_double(archive, "rotor dt", &r->dt);
     hd_archive_double(archive, "rotor omega", &r->omega);
     hd_blocks_archive(&r->rate, archive);
+    hd_blocks_archive(&r->velocity, archive);
 }
 
 void hd_phases_archive(hd_phases *phases, hd_archive *archive)

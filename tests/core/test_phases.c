@@ -179,6 +179,28 @@ static void predictions_unwrap_far_turns(void **state)
 
 /* ---- velocity --------------------------------------------------------------------------------- */
 
+/** Vectors that turn the slower the more of them lies in the fields, as at low density: what their whole turns
+ *  on average is less than their phases show. */
+static void strength_that_goes_with_the_rate_is_no_bias(void **state)
+{
+    (void)state;
+    enum { SAMPLES = 400 };
+    const double omega = 0.7, unevenness = 0.4;
+    rotating r = pairs(1);
+    for (int t = 0; t < SAMPLES; t++) {
+        for (int m = 0; m < 2; m++) {
+            const double phase = atan2(r.im[m][0], r.re[m][0]) + r.angle[m][0];
+            r.angle[m][0] += omega * unevenness * cos(2.0 * phase);
+            r.strength[m] = 0.75 - 0.2 * cos(2.0 * phase);
+        }
+        turn(&r, omega);
+    }
+    /* only the ends count, which what is no field turns by less than this */
+    const double end = 0.5, mean = 0.5 * (r.angle[0][0] + r.angle[1][0]) / SAMPLES;
+    CHECK_CLOSE(hd_phases_velocity(r.phases).v * r.step->wave.number, mean, 2.0 * end / SAMPLES);
+    rotating_free(&r);
+}
+
 /** LP(1,0) and LP(2,0) of a channel, at rates of their own. */
 typedef struct channel {
     world w;
@@ -346,6 +368,7 @@ int main(void)
         cmocka_unit_test(errors_of_diffusing_phases_are_honest),
         cmocka_unit_test(errors_of_trembling_phases_are_never_too_small),
         cmocka_unit_test(predictions_unwrap_far_turns),
+        cmocka_unit_test(strength_that_goes_with_the_rate_is_no_bias),
         cmocka_unit_test(velocity_is_the_weighted_mean_of_the_steps),
         cmocka_unit_test(contradictions_raise_the_error_of_the_velocity),
         cmocka_unit_test(sampling_follows_the_largest_exponent),
