@@ -44,8 +44,20 @@ class Reproduce(unittest.TestCase):
         """All parts of the plan of these runs, under the master of this test unless env names another."""
         with open(self.plan, 'w') as file:
             yaml.safe_dump(runs, file, sort_keys=False)
-        return Process([sys.executable, os.path.join(HERE, 'parts_of.py'), ','.join(runs), '--plan', self.plan,
-                        '--out', self.out, *options], HDLYAP_MARK=self.mark, **env)
+        return Process([*self.command(runs).split(), '--plan', self.plan, '--out', self.out, *options],
+                       HDLYAP_MARK=self.mark, **env)
+
+    @staticmethod
+    def command(runs):
+        return ' '.join([sys.executable, os.path.join(HERE, 'parts_of.py'), ','.join(runs)])
+
+    def stand_in(self, name, script):
+        """A PATH on which a shell script of that name comes first."""
+        folder = os.path.dirname(self.plan)
+        with open(os.path.join(folder, name), 'w') as file:
+            file.write('#!/bin/sh\n' + script + '\n')
+        os.chmod(file.name, 0o755)
+        return folder + ':' + os.environ['PATH']
 
     def reproduce(self, runs, *options, status=0, **env):
         """What it printed."""
@@ -91,11 +103,14 @@ class Reproduce(unittest.TestCase):
     # ---- runs ------------------------------------------------------------------------------------
 
     def test_done_once(self):
-        """A run that fails stops no other; what is there and the same is not run again, what has changed is."""
+        """A run that fails stops no other, nor does a part; what is there and the same is not run again, what has changed
+        is, and a bag that was cut off."""
         runs = entries(wide=dict(threads=0), first={}, second={}, refused=dict(density=2.5))
-        said = self.reproduce(runs, '--jobs', '2', status=1)
-        self.check_failure(said)
-        self.check_results(['first', 'second', 'wide'])
+        os.makedirs(self.out)
+        with open(self.path('first.bag'), 'wb') as file:
+            file.write(b'#ROSBAG V2.0\n' + bytes(5000))
+        self.check_failure(self.reproduce(runs, '--jobs', '2', status=1, HDLYAP_TEST_BROKEN='first'))
+        self.check_results(['first', 'second', 'wide'], broken=['first'])
         before = self.times('first', 'second', 'wide')
         runs['refused']['density'] = 0.5
         runs['second']['full'] = dict(duration=3.0)
@@ -114,76 +129,68 @@ class Reproduce(unittest.TestCase):
     def check_failure(self, said):
         log = self.path('log', 'refused.log')
         lines = [line for line in said.splitlines() if line.startswith('reproduce: ')]
-        self.assertEqual(len(lines), 2, said)       # when it failed, and at the end
+        self.assertEqual(len(lines), 3, said)       # when it failed, and at the end
+        self.assertEqual(lines.pop(), 'reproduce: part 2: ValueError: no such column; more in ' + self.path('log', 'part_02.log'))
         for line in lines:
             self.assertRegex(line, r"^reproduce: refused: the run has not come to its end; .*FATAL.*density = 2\.5: .*; "
                              f'all that it said is in {log}$')
         self.assertRegex(said, r'(?m)^3 of 4 runs done, 1 failed in 0:\d\d$')
         self.assertIn('part 4: not drawn, the run refused is missing', said)
 
-    def check_results(self, names):
+    def check_results(self, names, broken=()):
         wanted = [f'{name}.{ending}' for name in names for ending in ('bag', 'json', 'yaml')]
         self.assertLessEqual(set(wanted), set(self.files()))
         self.assertEqual([name for name in self.files() if name.endswith('.bag')], [name + '.bag' for name in names])
         with open(self.path('results', 'results.txt')) as file:
             text = file.read()
         for name in names:
-            self.assertIn(f'all about {name}\n', text)
-            self.assertRegex(text, rf'(?m)^  {name} +0:0\d')
+            self.assertEqual(f'all about {name}\n' in text, name not in broken)
+            self.assertRegex(text, rf'(?m)^  {name} +0:\d\d')
             self.assertEqual(len(glob.glob(self.path('results', f'*_{name}.*'))), 3)    # png, svg, csv
-
-    def test_other_ends(self):
-        """A bag that was cut off, and one of a run that was stopped: done again; a part that fails takes no other with it."""
-        runs = entries(cut={}, stopped={}, broken={})
-        os.makedirs(self.out)
-        with open(self.path('cut.bag'), 'wb') as file:
-            file.write(b'#ROSBAG V2.0\n' + bytes(5000))
-        said = self.reproduce(runs, status=1)
-        self.assertIn('reproduce: part 3: ValueError: no such column; more in ' + self.path('log', 'part_03.log'), said)
-        self.assertEqual(said.count('all about'), 2)
-        with open(self.path('results', 'rows.csv')) as file:
-            self.assertEqual([line.split(',')[0] for line in file], ['part', '1', '2'])
 
     def test_queue(self):
         """Runs made elsewhere with the files of --write: by one launch, and as tasks of a queue, one of which fails."""
-        runs = entries(one={}, two={}, periodic=dict(threads=0), refused=dict(density=2.5))
+        runs = entries(one={}, two={}, wide=dict(threads=0), refused=dict(density=2.5))
         names = self.reproduce(runs, '--write')
-        self.assertEqual(names, 'one\ntwo\nperiodic\nrefused\n')
-        self.assertEqual(self.files(), ['one.yaml', 'periodic.yaml', 'refused.yaml', 'two.yaml'])
+        self.assertEqual(names, 'one\ntwo\nwide\nrefused\n')
+        self.assertEqual(self.files(), ['one.yaml', 'refused.yaml', 'two.yaml', 'wide.yaml'])
         launch = Process(['roslaunch', 'hdlyap', 'reproduce.launch', 'runs:=one two', 'folder:=' + self.out],
                          HDLYAP_MARK=self.mark)
-        with open(self.plan + '.names', 'w') as file:
-            file.write(names)
-        tasks = [self.task(file.name, number) for number in '34']
+        tasks = [self.task(runs, names, number) for number in (3, 4)]
         self.assertEqual(launch.wait(), 0, launch.text())
         for task, status in zip(tasks, (0, 1)):
             self.assertEqual(task.wait(), status, task.text())
+        self.assertEqual(len(tasks[1].lines('FATAL')), 1, tasks[1].text())
         self.assert_none_left()
-        self.assertEqual(self.reproduce(runs, '--write'), 'refused\n')
         self.assertEqual(self.reproduce(runs, '--draw').count('elsewhere'), 3)
 
-    def task(self, names, number):
-        return Process(['bash', os.path.join(ROOT, 'launch/reproduce.sbatch'), self.out, names, '--plan', self.plan],
-                       HDLYAP_MARK=self.mark, SLURM_ARRAY_TASK_ID=number)
+    def task(self, runs, names, number):
+        """Of launch/reproduce.sbatch, as Slurm would start it; with our parts instead of the installed ones."""
+        with open(self.plan + '.names', 'w') as file:
+            file.write(names)
+        path = self.stand_in('rosrun', f'shift 2; exec {self.command(runs)} "$@"')
+        return Process(['bash', os.path.join(ROOT, 'launch/reproduce.sbatch'), self.out, file.name, '--plan', self.plan],
+                       HDLYAP_MARK=self.mark, SLURM_ARRAY_TASK_ID=str(number), PATH=path)
 
     # ---- ends ------------------------------------------------------------------------------------
 
-    def test_signals(self):
+    def test_interrupted(self):
         """Nothing is left of it, nor of a bag that was not whole; the run that was done stays done."""
-        for number, status in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
-            with self.subTest(number=number):
-                self.check_signal(number, status)
-
-    def check_signal(self, number, status):
         process = self.start(dict(entries(first={}), long=LONG), '--jobs', '2', ROS_MASTER_URI=self.nobodys_master())
         self.assertTrue(wait_until(lambda: os.path.exists(self.path('first.json')) or not process.running()), process.text())
         self.await_averaging(process)
-        process.send(number)
-        self.assertEqual(process.wait(SOON), status, process.text())
+        process.send(signal.SIGINT)
+        self.assertEqual(process.wait(SOON), 130, process.text())
         self.assertRegex(process.text(), r'(?m)^1 of 2 runs done in 0:\d\d$')
         self.assert_none_left()
-        self.assertEqual(self.files(), ['first.bag', 'first.json', 'first.yaml', 'log/.lock', 'log/first.log', 'log/long.log',
-                                        'long.yaml'])
+        self.assertEqual(self.files(), ['first.bag', 'first.json', 'first.yaml', 'log/first.log', 'log/long.log', 'long.yaml'])
+
+    def test_terminated(self):
+        process = self.start(dict(long=LONG))
+        self.await_averaging(process)
+        process.send(signal.SIGTERM)
+        self.assertEqual(process.wait(SOON), 143, process.text())
+        self.assert_none_left()
 
     def nobodys_master(self):
         return 'http://localhost:%d' % harness.free_port()
@@ -222,11 +229,8 @@ class Reproduce(unittest.TestCase):
 
     def test_node_does_not_come(self):
         """A roslaunch that does nothing."""
-        folder = os.path.dirname(self.plan)
-        with open(os.path.join(folder, 'roslaunch'), 'w') as file:
-            file.write('#!/bin/sh\nexec sleep 1000\n')
-        os.chmod(file.name, 0o755)
-        said = self.reproduce(entries(one={}), status=1, PATH=folder + ':' + os.environ['PATH'], HDLYAP_TEST_SILENCE='1')
+        path = self.stand_in('roslaunch', 'exec sleep 1000')
+        said = self.reproduce(entries(one={}), status=1, PATH=path, HDLYAP_TEST_SILENCE='1')
         self.assertIn('reproduce: one: no word of its node within 1 s', said)
         self.assert_none_left()
 
