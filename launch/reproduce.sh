@@ -10,8 +10,8 @@ OPTIONS=$ROOT/hdlyap_ros/scripts/hdlyap_reproduce/options.py
 usage() {
     cat <<END
 usage: reproduce.sh [--no-install] [OPTION]...
-Installs what is missing, builds, and does what rosrun hdlyap reproduce does, in build/reproduction (build/reproduction_quick)
-and under a ROS master of its own.
+Installs what is missing, builds, and does what rosrun hdlyap reproduce does, in build/reproduction
+(build/reproduction_quick) and under a ROS master of its own.
   --no-install    do not install packages
 
 END

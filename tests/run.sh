@@ -202,6 +202,7 @@ ros_lane() {
     stage lint one lint
     stage downstream checks downstream
     stage demo checks "$ROOT/tests/demo.sh" "$WORK/demo"
+    stage reproduce checks "$ROOT/tests/reproduce.sh" "$WORK/reproduce"
     stage readme checks "$ROOT/tests/readme.sh" "$WORK/readme" "$WORK/ros/.install/setup.bash"
 }
 

@@ -81,8 +81,8 @@ class Reproduce(unittest.TestCase):
         for folder in glob.glob('/proc/[0-9]*'):
             with contextlib.suppress(OSError), open(folder + '/environ', 'rb') as environ, \
                     open(folder + '/cmdline', 'rb') as command:
-                has = environ.read().decode(errors='replace').split('\0')
-                if 'HDLYAP_MARK=' + self.mark in has and (not variable or variable in has) and word.encode() in command.read():
+                has = environ.read().decode(errors='replace').split('\0') + ['']
+                if {'HDLYAP_MARK=' + self.mark, variable} <= set(has) and word.encode() in command.read():
                     found.append(int(os.path.basename(folder)))
         return found
 
@@ -130,7 +130,8 @@ class Reproduce(unittest.TestCase):
         log = self.path('log', 'refused.log')
         lines = [line for line in said.splitlines() if line.startswith('reproduce: ')]
         self.assertEqual(len(lines), 3, said)       # when it failed, and at the end
-        self.assertEqual(lines.pop(), 'reproduce: part 2: ValueError: no such column; more in ' + self.path('log', 'part_02.log'))
+        self.assertEqual(lines.pop(), 'reproduce: part 2: ValueError: no such column; more in ' +
+                         self.path('log', 'part_02.log'))
         for line in lines:
             self.assertRegex(line, r"^reproduce: refused: the run has not come to its end; .*FATAL.*density = 2\.5: .*; "
                              f'all that it said is in {log}$')
@@ -177,13 +178,14 @@ class Reproduce(unittest.TestCase):
     def test_interrupted(self):
         """Nothing is left of it, nor of a bag that was not whole; the run that was done stays done."""
         process = self.start(dict(entries(first={}), long=LONG), '--jobs', '2', ROS_MASTER_URI=self.nobodys_master())
-        self.assertTrue(wait_until(lambda: os.path.exists(self.path('first.json')) or not process.running()), process.text())
+        wait_until(lambda: os.path.exists(self.path('first.json')) or not process.running())
         self.await_averaging(process)
         process.send(signal.SIGINT)
         self.assertEqual(process.wait(SOON), 130, process.text())
         self.assertRegex(process.text(), r'(?m)^1 of 2 runs done in 0:\d\d$')
         self.assert_none_left()
-        self.assertEqual(self.files(), ['first.bag', 'first.json', 'first.yaml', 'log/first.log', 'log/long.log', 'long.yaml'])
+        self.assertEqual(self.files(), ['first.bag', 'first.json', 'first.yaml', 'log/first.log', 'log/long.log',
+                                        'long.yaml'])
 
     def test_terminated(self):
         process = self.start(dict(long=LONG))
@@ -213,7 +215,8 @@ class Reproduce(unittest.TestCase):
         os.kill(self.ours('runs:=launch')[0], signal.SIGKILL)
         self.assertEqual(process.wait(), 1, process.text())
         said = process.text()
-        self.assertRegex(said, r'reproduce: node: the run has not come to its end; .*process has died \[pid \d+, exit code -9\]; all')
+        self.assertRegex(said, r'reproduce: node: the run has not come to its end; '
+                         r'process has died \[pid \d+, exit code -9\]; all that it said')
         self.assertRegex(said, r'reproduce: launch: the run has not come to its end; all that it said is in')
         self.assertRegex(said, r'(?m)^1 of 3 runs done, 2 failed')
         self.assert_none_left()

@@ -54,7 +54,8 @@ class Bag:
     def was_run_with(self, parameters):
         """Whether its run had these parameters of the node."""
         asked = repetition.parameters(self.info)
-        return all(_same(asked[name], value) for name, value in parameters.items() if name not in HERE and name in asked)
+        return all(_same(asked[name], value) for name, value in parameters.items()
+                   if name not in HERE and name in asked)
 
 
 def _same(one, other):

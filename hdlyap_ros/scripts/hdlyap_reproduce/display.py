@@ -1,4 +1,4 @@
-"""What is under way, in a line: how many runs are done, which are not, how much of all, about how long the rest takes."""
+"""What is under way, in a line: how many runs are done, how much of all, about how long the rest takes."""
 
 import os
 import sys

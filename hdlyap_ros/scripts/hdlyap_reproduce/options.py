@@ -1,4 +1,4 @@
-"""The options of `reproduce`. Needs no ROS: launch/reproduce.sh has them looked at by this file before it installs or builds."""
+"""The options of `reproduce`. Needs no ROS: launch/reproduce.sh has this file look at them before it builds."""
 
 import argparse
 import os
@@ -6,8 +6,9 @@ import sys
 
 PARTS = len([name for name in os.listdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), 'parts'))
              if name.endswith('.py') and not name.startswith('_')])
-ABOUT = """The figures and tables of the paper (Eckmann, Forster, Posch, Zabey 2005), measured again: does the runs that are
-missing, then draws the figures and writes published beside measured numbers. What has been done is not done again."""
+ABOUT = """The figures and tables of the paper (Eckmann, Forster, Posch, Zabey 2005), measured again: does the
+runs that are missing, then draws the figures and writes published beside measured numbers. What has been done is
+not done again."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -19,7 +20,8 @@ class Parser(argparse.ArgumentParser):
 
 def parser():
     made = Parser(prog='reproduce', description=ABOUT, allow_abbrev=False)
-    made.add_argument('--quick', action='store_true', help='shorter runs, larger errors: about ten minutes, not an hour')
+    made.add_argument('--quick', action='store_true',
+                      help='shorter runs, larger errors: about ten minutes, not an hour')
     made.add_argument('--part', type=_part, action='append', metavar='N',
                       help=f'only this part, 1 .. {PARTS}; may be given several times')
     made.add_argument('--out', type=_folder, metavar='DIR',
@@ -29,8 +31,8 @@ def parser():
     made.add_argument('--plan', type=_file, metavar='FILE', help='other runs than those of launch/reproduce.yaml')
     what = made.add_mutually_exclusive_group()
     what.add_argument('--list', action='store_true', help='only say what the parts are and which runs they need')
-    what.add_argument('--write', action='store_true', help='only write the scene files, for reproduce.launch, and print the '
-                                                           'names of the runs that are missing')
+    what.add_argument('--write', action='store_true',
+                      help='only write the scene files, for reproduce.launch, and print which runs are missing')
     what.add_argument('--draw', action='store_true', help='only draw from the bags that are there')
     return made
 

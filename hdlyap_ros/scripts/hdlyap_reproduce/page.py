@@ -74,7 +74,7 @@ def _part(number, part, runs, bags, results):
     """Its rows; its figures and tables are written."""
     absent = [name for name in part.runs(runs) if name not in bags]
     if absent:
-        raise _Absent(f'the runs {", ".join(absent)} are missing' if len(absent) > 1 else f'the run {absent[0]} is missing')
+        raise _Absent(f'the runs {", ".join(absent)} are missing' if absent[1:] else f'the run {absent[0]} is missing')
     for name, figure in part.figures(bags):
         save(figure, results, f'{number:02d}_{name}')
     for name, header, lines in part.tables(bags):
@@ -88,8 +88,9 @@ def _part(number, part, runs, bags, results):
 def _head(commit, command):
     made = ' '.join(['launch/reproduce.sh', *command, *(['at commit', commit] if commit else [])])
     return ('Eckmann, Forster, Posch, Zabey, Lyapunov modes in hard-disk systems, J. Stat. Phys. 118, 813 (2005): '
-            f'published and measured.\nMade by {made}. In brackets: standard errors of the last digits; +-: what the paper '
-            f'leaves open.\nA row agrees if the numbers are apart by no more than that and {row.SIGMAS:g} standard errors.')
+            f'published and measured.\nMade by {made}. In brackets: standard errors of the last digits; +-: what the '
+            f'paper leaves open.\nA row agrees if the numbers are apart by no more than that and {row.SIGMAS:g} '
+            'standard errors.')
 
 
 def _block(number, part, rows):
@@ -116,7 +117,8 @@ def _times(chosen, runs, folder):
             total += noted['seconds']
             marks = ['all cores'] * runs[name].is_wide + ['elsewhere'] * noted.get('elsewhere', False)
             made = [f'at {noted["commit"]}'] if noted.get('commit') else []
-            lines.append('  '.join([f'  {name:<28} {clock(noted["seconds"]):>9}', f'{", ".join(marks):<9}', *made]).rstrip())
+            time = f'  {name:<28} {clock(noted["seconds"]):>9}'
+            lines.append('  '.join([time, f'{", ".join(marks):<9}', *made]).rstrip())
     return '\n'.join(['wall time of the runs'] + lines + [f'  {"sum":<28} {clock(total):>9}'])
 
 

@@ -83,7 +83,7 @@ class Run:
 
 
 def runs(package, quick, path=None):
-    """{name: Run} of all, in their order; package: the folder of the package hdlyap; path: another plan than its own."""
+    """{name: Run} of all, in their order; package: folder of the package hdlyap; path: another plan than its own."""
     launch = os.path.join(package, 'launch')
     path = path or os.path.join(launch, 'reproduce.yaml')
     entries = _load(path)

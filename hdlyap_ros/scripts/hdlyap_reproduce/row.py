@@ -12,8 +12,8 @@ HEADER = ('part', 'quantity', 'published', 'published_error', 'measured', 'error
 
 
 class Row:
-    """One number (or word) of the paper beside ours with its standard error. published_error: what the paper leaves open to
-    either side: the scatter round its fits, half of the last digit, 0 for counts. measured None: not found in the bags.
+    """One number (or word) of the paper beside ours with its standard error. published_error: what the paper leaves
+    open to either side: the scatter round its fits, half of the last digit, 0 for counts. measured None: not in the bags.
     published None: the paper has none, ours is only shown."""
 
     def __init__(self, quantity, published=None, measured=None, error=0.0, published_error=0.0, unit='', remark=''):

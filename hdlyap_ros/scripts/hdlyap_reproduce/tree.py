@@ -1,4 +1,4 @@
-"""A command and all that it begins: roslaunch gives every node a session of its own, which no signal to a group reaches."""
+"""A command and all that it begins: roslaunch gives each node a session of its own, a signal to a group is not enough."""
 
 import os
 import signal
@@ -71,8 +71,8 @@ def _send(pid, number):
 
 
 def _stat(pid):
-    """Fields of /proc/PID/stat behind the name, state first; None if there is no such process, or it is dead but for its
-    parent's wait."""
+    """Fields of /proc/PID/stat behind the name, state first; None if there is no such process, or a dead one that its
+    parent has not seen yet."""
     try:
         with open(f'/proc/{pid}/stat', errors='replace') as file:
             fields = file.read().rpartition(')')[2].split()

@@ -41,7 +41,8 @@ class Job:
         run.write(self._new)
         self._subscriber = rospy.Subscriber(run.node + '/cost', Cost, self._hear, queue_size=10)
         with open(log, 'w') as file:
-            self.tree = Tree(['roslaunch', 'hdlyap', 'reproduce.launch', f'runs:={run.name}', f'folder:={self._new}'], file)
+            self.tree = Tree(['roslaunch', 'hdlyap', 'reproduce.launch',
+                              f'runs:={run.name}', f'folder:={self._new}'], file)
 
     def _hear(self, message):
         self.cost = message
@@ -68,7 +69,9 @@ class Job:
         self.tree.insist()      # nothing is left of it, unless roslaunch was killed
         made = Bag(self.run.bag(self._new))
         if not made.is_complete():
-            why = f'no word of its node within {SILENCE:.0f} s' if self.is_silent() else 'the run has not come to its end'
+            why = 'the run has not come to its end'
+            if self.is_silent():
+                why = f'no word of its node within {SILENCE:.0f} s'
             raise WorkError(f'{self.run.name}: {why}; {last_words(self.log)}all that it said is in {self.log}')
         os.replace(made.path, self.run.bag(self._folder))
         self.run.note(self._folder, seconds=round(self.seconds, 1), commit=commit,
@@ -143,8 +146,8 @@ class Work:
 
 
 def work(runs, folder, logs, jobs, commit, show):
-    """Does the runs. show(jobs under way, seconds of work done, of all) is called some times a second, show.say(line) when
-    a run has failed, which stops none of the others; WorkError at the end names all that did."""
+    """Does the runs. show(jobs under way, seconds of work done, of all) is called some times a second, show.say(line)
+    when a run has failed, which stops none of the others; WorkError at the end names all that did."""
     if not runs:
         return
     with signals.held() as came:
