@@ -5,8 +5,8 @@ run of reproduce.launch goes to. Needs no ROS master."""
 import contextlib
 import glob
 import io
-import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -17,17 +17,18 @@ from unittest import mock
 import roslaunch.config
 import yaml
 
+import harness
 import made
 from terminal import Terminal
 from hdlyap.msg import Cost
 from hdlyap_plots.figures import plt
-from hdlyap_reproduce import display, files, options, page, parts, plan, row, work
+from hdlyap_reproduce import display, files, options, page, parts, plan, row, tree, work
 from hdlyap_reproduce.bag import Bag
 from hdlyap_reproduce.row import Row
 
 ROOT = os.path.realpath(os.path.join(made.SCRIPTS, '../..'))
 LAUNCH = os.path.join(ROOT, 'launch')
-ENTRY = dict(base='quick', duration=7.0, full=dict(disks=20), quick=dict(disks=10), seconds=[4, 9])
+ENTRY = dict(base='quick', duration=7.0, disks=30, full=dict(disks=20), quick=dict(disks=10), seconds=[4, 9])
 
 
 class Folder(unittest.TestCase):
@@ -176,6 +177,7 @@ class Rows(unittest.TestCase):
                 ((1.0, 0.0), (1.3, 0.11), 'agrees'), ((1.0, 0.0), (1.3, 0.09), 'differs'),
                 ((1.0, 0.1), (1.3, 0.07), 'agrees'), ((1.0, 0.1), (0.7, 0.06), 'differs'),
                 ((1.0, 0.1), (1.09, -1.0), 'agrees'), ((1.0, 0.1), (1.11, nan), 'differs'),
+                ((1.0, 0.1), (1.11, float('inf')), 'differs'),
                 ((1558, 0), (1558, 0), 'agrees'), ((1558, 0), (1557, 0), 'differs'), (('a', 0), ('a', 0), 'agrees'),
                 (('a', 0), ('b', 0), 'differs'),
                 ((1.0, 0), (None, 0), 'not measured'), ((1.0, 0), (nan, 0.1), 'not measured'),
@@ -321,9 +323,24 @@ show([Made(run=Made(name=name), share=0.5) for name in ('first', 'second', 'thir
         self.assertLess(len(terminal.screen()[0]), 64)
 
 
+class Trees(unittest.TestCase):
+    def test_end(self):
+        """Of a command that hears, of one that does not, and of what outlives a command, in a session of its own."""
+        deaf = 'trap "" INT; sleep 1000 & setsid sleep 1000 & echo; wait'
+        trees = [tree.Tree(['sleep', '1000']), tree.Tree(['sh', '-c', deaf]), tree.Tree(['sh', '-c', deaf])]
+        self.assertTrue(harness.wait_until(lambda: [len(tree._descendants(one._process.pid)) for one in trees] == [1, 3, 3]))
+        trees[2]._look()
+        trees[2]._process.kill()
+        self.assertTrue(harness.wait_until(trees[2].has_ended))
+        self.assertFalse(trees[2].is_gone())
+        tree.end(trees, 0.5)
+        self.assertTrue(harness.wait_until(lambda: all(one.is_gone() for one in trees)))
+        self.assertEqual([one._process.returncode for one in trees], [-signal.SIGINT, -signal.SIGKILL, -signal.SIGKILL])
+
+
 class Log(Folder):
     def test_last_words(self):
-        for lines, said in ((['[ INFO] a', '\033[31m[FATAL] [1.5]: b\033[0m', '[ERROR] c', 'd'], '[ERROR] c; '),
+        for lines, said in ((['[ INFO] a', '[FATAL] [1.5]: b', '\033[31m[ERROR] c\033[0m', 'd'], '[ERROR] c; '),
                             (['[x/hdlyap-1] process has died [pid 7, exit code -9, cmd /a b].'],
                              'process has died [pid 7, exit code -9]; '),
                             (['process has finished cleanly'], '')):

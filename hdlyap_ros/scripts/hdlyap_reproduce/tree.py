@@ -46,7 +46,7 @@ class Tree:
             self._process.kill()
             self._process.wait()
         for pid in self._left():
-            _kill(pid)
+            _send(pid, signal.SIGKILL)
 
     def _left(self):
         return [pid for pid, began in self._members.items() if pid != self._process.pid and _began(pid) == began]

@@ -66,7 +66,6 @@ class Job:
 
     def close(self, commit):
         """After its end: notes it. WorkError if the run did not go to its end."""
-        self.tree.insist()      # nothing is left of it, unless roslaunch was killed
         made = Bag(self.run.bag(self._new))
         if not made.is_complete():
             why = 'the run has not come to its end'
