@@ -328,8 +328,7 @@ class Trees(unittest.TestCase):
         """Of a command that hears, of one that does not, and of what outlives a command, in a session of its own."""
         deaf = 'trap "" INT; sleep 1000 & setsid sleep 1000 & echo; wait'
         trees = [tree.Tree(['sleep', '1000']), tree.Tree(['sh', '-c', deaf]), tree.Tree(['sh', '-c', deaf])]
-        self.assertTrue(harness.wait_until(lambda: [len(tree._descendants(one._process.pid)) for one in trees] == [1, 3, 3]))
-        trees[2]._look()
+        self.assertTrue(harness.wait_until(lambda: [len(one._members()) for one in trees] == [1, 3, 3]))
         trees[2]._process.kill()
         self.assertTrue(harness.wait_until(trees[2].has_ended))
         self.assertFalse(trees[2].is_gone())

@@ -4,52 +4,45 @@ import os
 import signal
 import subprocess
 import time
+import uuid
 
-LOOK = 2.0          # seconds between two looks at what there is
-POLL = 0.05
+MARK = 'HDLYAP_TREE'    # of the environment, which its processes inherit, whatever becomes of their parents
+POLL = 0.1
 
 
 class Tree:
     """Runs the command. It is asked to end, as by Ctrl-C, also where who began it is killed."""
 
     def __init__(self, command, output=subprocess.DEVNULL):
+        mark = uuid.uuid4().hex
+        self._entry = f'{MARK}={mark}'.encode()
         self._process = subprocess.Popen(['setpriv', '--pdeathsig', 'INT', *command], stdin=subprocess.DEVNULL,
-                                         stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
-        self._members, self._due = {}, 0.0
+                                         stdout=output, stderr=subprocess.STDOUT, start_new_session=True,
+                                         env={**os.environ, MARK: mark})
 
     def has_ended(self):
-        """Whether the command has; to be called often, so that none of its processes is unknown when it ends."""
-        ended = self._process.poll() is not None
-        if not ended and time.monotonic() >= self._due:
-            self._look()
-        return ended
-
-    def _look(self):
-        self._due = time.monotonic() + LOOK
-        self._members.update(_descendants(self._process.pid))
+        """Whether the command has."""
+        return self._process.poll() is not None
 
     def ask(self):
         """To end: the command, which asks its processes; them, if it is no more."""
-        self._look()
-        ended = self._process.poll() is not None
-        for pid in self._left() if ended else [self._process.pid]:
+        for pid in self._members() if self.has_ended() else [self._process.pid]:
             _send(pid, signal.SIGINT)
 
     def is_gone(self):
         """Whether nothing of it is left."""
-        return self._process.poll() is not None and not self._left()
+        return self.has_ended() and not self._members()
 
     def insist(self):
         """The end of all of it at once."""
-        self._look()
-        if self._process.poll() is None:
-            self._process.kill()
-            self._process.wait()
-        for pid in self._left():
-            _send(pid, signal.SIGKILL)
+        while not self.is_gone():
+            for pid in self._members():
+                _send(pid, signal.SIGKILL)
+            time.sleep(POLL)
 
-    def _left(self):
-        return [pid for pid, began in self._members.items() if pid != self._process.pid and _began(pid) == began]
+    def _members(self):
+        """Processes; not those that are dead but for their parents' wait, which have no environment."""
+        return [int(entry) for entry in os.listdir('/proc') if entry.isdecimal() and self._entry in _environment(entry)]
 
 
 def end(trees, patience, is_pressed=lambda: False):
@@ -70,34 +63,9 @@ def _send(pid, number):
         pass
 
 
-def _stat(pid):
-    """Fields of /proc/PID/stat behind the name, state first; None if there is no such process, or a dead one that its
-    parent has not seen yet."""
+def _environment(pid):
     try:
-        with open(f'/proc/{pid}/stat', errors='replace') as file:
-            fields = file.read().rpartition(')')[2].split()
-    except OSError:
-        return None
-    return fields if fields and fields[0] not in 'ZX' else None
-
-
-def _began(pid):
-    """When, in the clock ticks of the machine: ids are used again."""
-    fields = _stat(pid)
-    return fields and fields[19]
-
-
-def _descendants(pid):
-    """{process: when it began}, of it and all below it."""
-    below, found = {}, {}
-    for entry in os.listdir('/proc'):
-        fields = _stat(entry) if entry.isdecimal() else None
-        if fields:
-            below.setdefault(int(fields[1]), []).append((int(entry), fields[19]))
-    todo = [(pid, _began(pid))]
-    while todo:
-        member, began = todo.pop()
-        if began:
-            found[member] = began
-            todo += below.get(member, [])
-    return found
+        with open(f'/proc/{pid}/environ', 'rb') as file:
+            return file.read()
+    except OSError:     # it has ended, or is somebody else's
+        return b''
