@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs what README.md shows: every command of its shell blocks and all of its programs. The two commands
-# at its top are this suite itself and tests/demo.sh. Then the package that doc/wrapper.md shows.
+# Runs what README.md shows: every command of its shell blocks and all of its programs. Those of launch/ are
+# tests/demo.sh's and tests/reproduce.sh's, tests/run.sh is this suite itself. Then the package that doc/wrapper.md shows.
 #   readme.sh WORK_FOLDER INSTALLED_SETUP
 set -euo pipefail
 # shellcheck source=launch/common.sh
@@ -35,7 +35,7 @@ check() {
 # A command of README as a user would type it, in the folder of the clone's copy.
 type_in() {
     case $1 in
-        launch/demo.sh* | tests/run.sh*) return ;; # tested elsewhere
+        launch/demo.sh* | launch/reproduce.sh* | tests/run.sh*) return ;; # tested elsewhere
         *again.bag* | *replay*) return ;;          # by tests/ros/test_bags.py
         source*) return ;;                         # done below, for another folder
         'rosrun hdlyap hdlyap_node') run timeout --preserve-status -s INT 8 rosrun hdlyap hdlyap_node ;;

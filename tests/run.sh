@@ -13,7 +13,7 @@ readonly LOGS=$WORK/log COUNTS=$WORK/counts SECOND=$WORK/second
 
 shell_scripts() {
     cd "$ROOT"
-    shellcheck -x --exclude=SC2317 launch/*.sh tests/*.sh tests/install/*.sh tests/fuzz/*.sh hdlyap_core/bench/*.sh .ci/run
+    shellcheck -x --exclude=SC2317 launch/*.sh launch/*.sbatch tests/*.sh tests/install/*.sh tests/fuzz/*.sh hdlyap_core/bench/*.sh .ci/run
 }
 
 # without_ros COMMAND...: as on a machine that has no ROS.
@@ -202,6 +202,7 @@ ros_lane() {
     stage lint one lint
     stage downstream checks downstream
     stage demo checks "$ROOT/tests/demo.sh" "$WORK/demo"
+    stage reproduce checks "$ROOT/tests/reproduce.sh" "$WORK/reproduce"
     stage readme checks "$ROOT/tests/readme.sh" "$WORK/readme" "$WORK/ros/.install/setup.bash"
 }
 

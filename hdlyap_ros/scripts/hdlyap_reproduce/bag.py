@@ -30,18 +30,39 @@ class Bag:
         """Every message of a type, 'hdlyap/LpPhases' say, of the last run in its order."""
         yield from recording.messages(self.path, kind)
 
-    def is_complete(self):
-        """Whether the run went to its end."""
+    @property
+    def cost(self):
+        """The last message about it; None if there is none."""
+        last = None
         try:
-            last = None
             for last in self.messages(recording.COST):
                 pass
-            return last is not None and last.phase == FINISHED and last.progress >= 1
         except recording.RecordingError:
-            return False
+            return None
+        return last
+
+    def is_complete(self):
+        """Whether the run went to its end."""
+        last = self.cost
+        return last is not None and last.phase == FINISHED and last.progress >= 1
+
+    @property
+    def info(self):
+        """Its run_info."""
+        return recording.run_infos(self.path)[-1]
 
     def was_run_with(self, parameters):
         """Whether its run had these parameters of the node."""
-        asked = repetition.parameters(self.recording.info)
-        return all(str(asked[name]) == str(value) for name, value in parameters.items()
+        asked = repetition.parameters(self.info)
+        return all(_same(asked[name], value) for name, value in parameters.items()
                    if name not in HERE and name in asked)
+
+
+def _same(one, other):
+    """400 and 400.0 are, as 5 and '5'; lists in their order."""
+    if str(one) == str(other):
+        return True
+    try:
+        return float(one) == float(other)
+    except (TypeError, ValueError):
+        return False

@@ -1,31 +1,57 @@
-"""What is under way, in a line: which runs, how much of all is done, about how long the rest takes."""
+"""What is under way, in a line: how many runs are done, how much of all, about how long the rest takes."""
 
+import os
+import sys
 import time
 
 from hdlyap_follow.line import Display as Line
 from hdlyap_plots.numbers import clock
 
-TRUSTED = 0.02      # of the whole: before that nothing is said about the rest
+PLANNED = 60.0      # seconds of work that the plan's own estimate counts for, beside what has been seen
 
 
 class Display:
-    """For work.work: shows progress through `count` runs."""
+    """For work.work: shows progress through `count` runs; `before`: those that were there before."""
 
-    def __init__(self, count):
-        self._count, self._line = count, Line()
+    def __init__(self, count, before=0):
+        self._count, self._before, self._line = count + before, before, Line()
         self._began = time.monotonic()
-        self._ended = set()
-        self._seen = set()
+        self._seen, self._failed, self._ended = set(), 0, 0
 
     def __call__(self, under_way, done, total):
-        self._seen.update(job.run.name for job in under_way)
-        self._ended = self._seen - {job.run.name for job in under_way}
-        parts = [f'{len(self._ended)} of {self._count} runs done']
-        parts += [f'{job.run.name} {100 * job.share:.0f} %' for job in under_way]
-        share = done / total if total else 1.0
-        if share > TRUSTED:
-            spent = time.monotonic() - self._began
-            parts.append(f'all {100 * share:.0f} %, about {clock(spent * (1 / share - 1))} left')
-        self._line.show('  '.join(parts), last=not under_way)
-        if not under_way and len(self._ended) == self._count:
-            self._line.close()
+        names = {job.run.name for job in under_way}
+        self._seen |= names
+        self._ended = len(self._seen - names)
+        shares = [f'{job.run.name} {100 * job.share:.0f} %' for job in under_way]
+        rest = f'all {100 * done / total:.0f} %, about {clock(self._left(done, total))} left'
+        self._line.show(_fitting(self._count_of_runs(), shares, rest))
+
+    def _left(self, done, total):
+        """Seconds, by the plan's and those that have passed for what is done of it."""
+        return (total - done) * (time.monotonic() - self._began + PLANNED) / (done + PLANNED)
+
+    def _count_of_runs(self):
+        failed = f', {self._failed} failed' if self._failed else ''
+        return f'{self._before + self._ended - self._failed} of {self._count} runs done{failed}'
+
+    def say(self, line):
+        """That a run has failed."""
+        self._failed += 1
+        self._line.close()
+        print(f'reproduce: {line}', file=sys.stderr, flush=True)
+
+    def end(self):
+        """The total."""
+        self._line.show(f'{self._count_of_runs()} in {clock(time.monotonic() - self._began)}', last=True)
+        self._line.close()
+
+
+def _fitting(count, shares, rest):
+    """As many of the runs as a terminal has room for; the rest is what one wants to know."""
+    width = os.get_terminal_size(sys.stdout.fileno()).columns - 1 if sys.stdout.isatty() else 10 ** 6
+    for shown in range(len(shares), -1, -1):
+        others = [f'{len(shares) - shown} more'] if shown < len(shares) else []
+        line = '  '.join([count, *shares[:shown], *others, rest])
+        if len(line) <= width:
+            break
+    return line

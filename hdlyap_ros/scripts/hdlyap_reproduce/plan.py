@@ -2,8 +2,11 @@
 
 import json
 import os
+import re
 
 import yaml
+
+from . import files
 
 # of an entry, what is no parameter of the node
 OWN = ('base', 'quick', 'full', 'seconds')
@@ -24,6 +27,8 @@ class Run:
         base = _load(os.path.join(scenes, entry['base'] + '.yaml'))
         asked = {key: value for key, value in entry.items() if key not in OWN}
         self.parameters = {**base, 'threads': 1, **asked, **entry.get(which, {}), 'scene': name}
+        if not self.parameters['duration'] > 0:
+            raise ValueError('duration is 0: it would never end')
 
     @property
     def is_wide(self):
@@ -49,49 +54,60 @@ class Run:
 
     def write(self, folder):
         """The scene file, if it is not there with these very parameters."""
-        text = (f'# A run of the reproduction of the paper: launch/reproduce.yaml.\n'
+        text = ('# A run of the reproduction of the paper: launch/reproduce.yaml.\n'
                 + yaml.safe_dump(self.parameters, sort_keys=False, default_flow_style=None))
-        path = self.scene_file(folder)
-        if _text(path) != text:
-            with open(path + '.new', 'w') as file:
-                file.write(text)
-            os.replace(path + '.new', path)
+        if files.read(self.scene_file(folder)) != text:
+            files.write(self.scene_file(folder), text)
+
+    def noted(self, folder):
+        """What was noted when it was last done with these parameters, of this bag or another; {} if it was not."""
+        try:
+            noted = json.loads(files.read(self.record(folder)) or '{}')
+        except ValueError:
+            return {}
+        return noted if isinstance(noted, dict) and noted.get('parameters') == self.parameters else {}
 
     def done(self, folder):
-        """What was noted of it when it ended; None if it has not been done with these parameters."""
+        """What was noted of it when it ended; None if it has not been done with these parameters, or if something has
+        been written to its bag since."""
+        noted = self.noted(folder)
         try:
-            with open(self.record(folder)) as file:
-                noted = json.load(file)
-        except (OSError, ValueError):
+            is_older = os.path.getmtime(self.bag(folder)) <= os.path.getmtime(self.record(folder))
+        except OSError:
             return None
-        same = noted.get('parameters') == self.parameters and os.path.exists(self.bag(folder))
-        return noted if same else None
+        return noted if noted and is_older else None
 
     def note(self, folder, **facts):
-        path = self.record(folder)
-        with open(path + '.new', 'w') as file:
-            json.dump({**facts, 'parameters': self.parameters}, file, indent=1)
-        os.replace(path + '.new', path)
+        """To be called when the bag is whole; facts: seconds, run_id, commit, and whether it was made elsewhere."""
+        files.write(self.record(folder), json.dumps({**facts, 'parameters': self.parameters}, indent=1) + '\n')
 
 
-def runs(package, quick):
-    """{name: Run} of all, in their order; package: the folder of the package hdlyap."""
+def runs(package, quick, path=None):
+    """{name: Run} of all, in their order; package: folder of the package hdlyap; path: another plan than its own."""
     launch = os.path.join(package, 'launch')
-    entries = _load(os.path.join(launch, 'reproduce.yaml'))
-    return {name: Run(name, entry, os.path.join(launch, 'scenes'), quick) for name, entry in entries.items()}
+    path = path or os.path.join(launch, 'reproduce.yaml')
+    entries = _load(path)
+    if not isinstance(entries, dict):
+        raise PlanError(f'{path}: no runs in it')
+    return {name: _run(path, name, entry, os.path.join(launch, 'scenes'), quick) for name, entry in entries.items()}
+
+
+def _run(path, name, entry, scenes, quick):
+    try:
+        if not re.fullmatch('[A-Za-z][A-Za-z0-9_]*', name):     # of a namespace of ROS
+            raise ValueError('a name consists of letters, digits and underscores')
+        return Run(name, entry, scenes, quick)
+    except KeyError as error:
+        raise PlanError(f'{path}: {name}: {error} is missing')
+    except (TypeError, ValueError, AttributeError, IndexError) as error:
+        raise PlanError(f'{path}: {name}: {error}')
 
 
 def _load(path):
     try:
         with open(path) as file:
             return yaml.safe_load(file)
-    except (OSError, yaml.YAMLError) as error:
-        raise PlanError(f'{path}: {error}')
-
-
-def _text(path):
-    try:
-        with open(path) as file:
-            return file.read()
-    except OSError:
-        return None
+    except OSError as error:
+        raise PlanError(f'{path}: {error.strerror}')
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise PlanError(f'{path}: {" ".join(str(error).split())}')

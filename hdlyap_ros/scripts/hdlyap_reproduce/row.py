@@ -1,6 +1,7 @@
 """Rows of the comparison: published, measured, error, verdict."""
 
 from math import isfinite
+from numbers import Integral, Real
 
 from hdlyap_plots.numbers import with_error
 
@@ -11,8 +12,8 @@ HEADER = ('part', 'quantity', 'published', 'published_error', 'measured', 'error
 
 
 class Row:
-    """One number (or word) of the paper beside ours with its standard error. published_error: what the paper leaves open to
-    either side: the scatter round its fits, half of the last digit, 0 for counts. measured None: not found in the bags.
+    """One number (or word) of the paper beside ours with its standard error. published_error: what the paper leaves
+    open to either side: the scatter round its fits, half of the last digit, 0 for counts. measured None: not in the bags.
     published None: the paper has none, ours is only shown."""
 
     def __init__(self, quantity, published=None, measured=None, error=0.0, published_error=0.0, unit='', remark=''):
@@ -24,7 +25,8 @@ class Row:
     def _agrees(self):
         if isinstance(self.published, str) or isinstance(self.measured, str):
             return self.published == self.measured
-        return abs(self.measured - self.published) <= self.published_error + SIGMAS * max(self.error, 0.0)
+        error = self.error if isfinite(self.error) and self.error > 0 else 0.0      # not known yet: none to forgive
+        return abs(self.measured - self.published) <= self.published_error + SIGMAS * error
 
     @property
     def verdict(self):
@@ -50,7 +52,7 @@ def _number(value, error):
         return '-'
     if isinstance(value, str):
         return value
-    if isinstance(value, int) and not error:
+    if isinstance(value, Integral) and not error:
         return str(value)
     if not error and 0 < abs(value) < SMALL:
         return f'{value:.1e}'
@@ -58,12 +60,14 @@ def _number(value, error):
 
 
 def _bounded(value, bound):
-    if value is None or isinstance(value, str) or not bound:
-        return _number(value, 0.0)
-    return f'{value:.4g} +-{bound:.2g}'
+    if bound and not isinstance(value, (str, type(None))):
+        return f'{value:.4g} +-{bound:.2g}'
+    return f'{value:.6g}' if isinstance(value, Real) and not isinstance(value, Integral) else _number(value, 0.0)
 
 
 def _plain(value, error):
-    if value is None or isinstance(value, str):
-        return value or '', ''
-    return (value, '') if isinstance(value, int) and not error else (f'{value:.7g}', f'{error:.3g}')
+    if not isinstance(value, Real) or not isfinite(value):
+        return value if isinstance(value, str) else '', ''
+    if isinstance(value, Integral) and not error:
+        return value, ''
+    return f'{value:.7g}', f'{error:.3g}' if error >= 0 else ''

@@ -1,0 +1,31 @@
+"""Files that are whole or not there: a good older one is replaced in one step."""
+
+import csv
+import io
+import os
+
+
+def write(path, text):
+    unfinished = f'{path}.{os.getpid()}.new'
+    try:
+        with open(unfinished, 'w') as file:
+            file.write(text)
+        os.replace(unfinished, path)
+    finally:
+        if os.path.exists(unfinished):
+            os.remove(unfinished)
+
+
+def write_csv(path, header, lines):
+    text = io.StringIO()
+    csv.writer(text, lineterminator='\n').writerows([header, *lines])
+    write(path, text.getvalue())
+
+
+def read(path):
+    """Its text; None if there is none."""
+    try:
+        with open(path) as file:
+            return file.read()
+    except (OSError, UnicodeDecodeError):
+        return None
