@@ -10,6 +10,7 @@ from hdlyap_plots.progress import Progress
 from . import files, parts, row
 from .bag import Bag
 
+DPI = 130       # of PNG files small enough to be kept
 COLUMNS = ('quantity', 'published', 'measured', 'unit', 'verdict', 'remark')
 
 
@@ -76,7 +77,7 @@ def _part(number, part, runs, bags, results):
     if absent:
         raise _Absent(f'the runs {", ".join(absent)} are missing' if absent[1:] else f'the run {absent[0]} is missing')
     for name, figure in part.figures(bags):
-        save(figure, results, f'{number:02d}_{name}')
+        save(figure, results, f'{number:02d}_{name}', DPI)
     for name, header, lines in part.tables(bags):
         files.write_csv(os.path.join(results, f'{number:02d}_{name}.csv'), header, lines)
     found = list(part.rows(bags))

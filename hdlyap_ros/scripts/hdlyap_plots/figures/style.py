@@ -26,10 +26,10 @@ STYLE = {'font.size': 9, 'axes.titlesize': 9, 'axes.labelsize': 9, 'legend.fonts
          'svg.hashsalt': 'hdlyap'}
 
 
-def save(figure, folder, name):
-    """Complete files only: a good older one is replaced in one step."""
+def save(figure, folder, name, dpi=250):
+    """Complete files only: a good older one is replaced in one step. dpi: of the PNG file."""
     files = []
-    for suffix, options in (('png', {'dpi': 250}),
+    for suffix, options in (('png', {'dpi': dpi}),
                             ('svg', {'dpi': 200, 'metadata': {'Date': None}})):
         path = os.path.join(folder, f'{name}.{suffix}')
         unfinished = os.path.join(folder, f'.{name}.{os.getpid()}.{suffix}')
