@@ -98,13 +98,16 @@ finds_messages() {
         [[ $(in_prefix rosmsg md5 hdlyap/Spectrum) == ???????????????????????????????? ]]
 }
 
-# Every launch file is found by name, has all files that it includes, and documents its arguments.
+# Every launch file is found by name, has all files that it includes, and documents its arguments. reproduce.launch reads the
+# scene file of a run, which reproduce writes.
 finds_launch_files() {
-    local file name
+    local file name scenes="$WORK/scenes"
+    mkdir -p "$scenes"
+    cp "$ROOT/launch/scenes/quick.yaml" "$scenes/periodic.yaml"
     for file in "$ROOT"/launch/*.launch; do
         name=$(basename "$file")
-        in_prefix roslaunch --files hdlyap "$name" | grep -Fx "$PREFIX/share/hdlyap/launch/$name" &&
-            in_prefix roslaunch --nodes hdlyap "$name" && in_prefix roslaunch --ros-args hdlyap "$name" || return 1
+        in_prefix roslaunch --files hdlyap "$name" "folder:=$scenes" | grep -Fx "$PREFIX/share/hdlyap/launch/$name" &&
+            in_prefix roslaunch --nodes hdlyap "$name" "folder:=$scenes" && in_prefix roslaunch --ros-args hdlyap "$name" || return 1
     done
 }
 

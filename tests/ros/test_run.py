@@ -142,7 +142,7 @@ class Run(unittest.TestCase):
 
     def test_diagnostics_once_per_second(self):
         stamps = []
-        rospy.Subscriber('/diagnostics', DiagnosticArray, stamps.append)
+        self.addCleanup(rospy.Subscriber('/diagnostics', DiagnosticArray, stamps.append).unregister)
         self.start(ENDLESS)
         self.assertTrue(harness.wait_until(lambda: len(stamps) >= 4))
         times = [message.header.stamp.to_sec() for message in stamps[1:4]]
@@ -184,7 +184,7 @@ class Run(unittest.TestCase):
 
     def test_fault_in_diagnostics(self):
         errors = []
-        rospy.Subscriber('/diagnostics', DiagnosticArray, errors.append)
+        self.addCleanup(rospy.Subscriber('/diagnostics', DiagnosticArray, errors.append).unregister)
         node = self.start(dict(ENDLESS), probe={'PROBE_FAULT_AFTER': '30'})
         self.assertEqual(node.wait(), 3)
         self.assertTrue(harness.wait_until(
