@@ -59,7 +59,7 @@ does_nothing_again() {
 interrupted() {
     local status=0 waited
     plan 1000000
-    rm "$OUT/log/periodic.log"
+    rm -f "$OUT/log/periodic.log"
     start "${COMMAND[@]}"
     for ((waited = 0; waited < 600; waited++)); do
         ! grep -qs 'waiting for subscribers' "$OUT/log/periodic.log" || break
@@ -67,7 +67,7 @@ interrupted() {
     done
     kill "-$1" "$CHILD"
     finish "$CHILD" || status=$?
-    [[ $status == "$2" && -s $OUT/periodic.bag ]] && none_is_left
+    grep -qs 'waiting for subscribers' "$OUT/log/periodic.log" && [[ $status == "$2" && -s $OUT/periodic.bag ]] && none_is_left
 }
 
 none_is_left() { [[ -z $(grep -lzs "^ROS_HOME=$ROOT/build/home/" /proc/[0-9]*/environ || true) ]]; }

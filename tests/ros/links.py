@@ -2,6 +2,7 @@
 as fast as they come, or not at all."""
 
 import selectors
+import signal
 import socket
 import struct
 import threading
@@ -54,12 +55,24 @@ def pack(fields):
     return LENGTH.pack(len(body)) + body
 
 
-def register(test, topic, name):
-    """As a subscriber, with the master alone, until the test ends."""
-    master, nowhere = rosgraph.Master(name), 'http://localhost:%d' % harness.free_port()
+NOWHERE = {}    # by name: with another address the master forgets what a node has registered before
+
+
+def register(test, topic, name, uri=None):
+    """As a subscriber, with the master alone, until the test ends, or the master."""
+    master = rosgraph.Master(name, uri)
+    nowhere = NOWHERE.setdefault(name, 'http://localhost:%d' % harness.free_port())
     full = '/%s/%s' % (harness.NODE, topic)
     master.registerSubscriber(full, harness.TYPES[topic]._type, nowhere)
-    test.addCleanup(master.unregisterSubscriber, full, nowhere)
+    if uri is None:
+        test.addCleanup(master.unregisterSubscriber, full, nowhere)
+
+
+def end(stopped):
+    """A subscriber that was stopped by a signal: so that the master does not keep it."""
+    stopped.send(signal.SIGCONT)
+    stopped.send(signal.SIGINT)
+    stopped.wait()
 
 
 class Link:

@@ -128,6 +128,7 @@ class Delivery(unittest.TestCase):
         self.assertEqual(node.wait(), 0, node.text())
         self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
         self.assertEqual(len(cost.messages), 808)
+        links.end(stopped)
 
     def test_waits_for_subscribers(self):
         info = self.listen('run_info')
@@ -140,6 +141,7 @@ class Delivery(unittest.TestCase):
         spectrum = self.listen('spectrum')
         self.assertEqual(node.wait(), 0, node.text())
         self.assertEqual((len(state.messages), len(spectrum.messages)), (4, 2))
+        self.assertEqual(node.lines('WARN'), [])
 
     def links(self, node, topics, name, master=None):
         port = links.node_port(node, master)

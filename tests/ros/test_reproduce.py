@@ -120,6 +120,9 @@ class Plan(Folder):
     def test_refused(self):
         for entry, what in ((dict(ENTRY, base='nowhere'), r'nowhere\.yaml: No such file'), ([], 'one: '),
                             (dict(ENTRY, duration=0.0), 'one: duration is 0'), (dict(ENTRY, quick=3), 'one: '),
+                            (dict(ENTRY, seconds=['x', 'y']), 'one: seconds is'),
+                            (dict(ENTRY, seconds=[0, 1]), 'one: seconds is'), (dict(ENTRY, seconds=[1]), 'one: '),
+                            (dict(ENTRY, warmup='x'), 'one: warmup is x, must be a number'),
                             ({}, "one: 'seconds' is missing")):
             with self.subTest(entry=entry), self.assertRaisesRegex(plan.PlanError, what) as caught:
                 self.runs(True, one=entry)

@@ -24,7 +24,8 @@ ROOT = os.path.realpath(os.path.join(HERE, '../..'))
 TINY = dict(base='quick', disks=20, equilibration=1.0, warmup=1.0, full=dict(duration=2.0), quick=dict(duration=1.0),
             observables=['spectrum'], seconds=[1, 1])
 LONG = dict(TINY, full=dict(duration=1e6))
-SOON = 15.0     # seconds within which all has ended that was asked to
+SOON = 90.0     # seconds within which all has ended that was asked to, on a busy machine: roslaunch alone takes up to 17
+LATEST = 240.0  # that some runs of a second take there
 
 
 def entries(**runs):
@@ -62,7 +63,7 @@ class Reproduce(unittest.TestCase):
     def reproduce(self, runs, *options, status=0, **env):
         """What it printed."""
         process = self.start(runs, *options, **env)
-        self.assertEqual(process.wait(), status, process.text())
+        self.assertEqual(process.wait(LATEST), status, process.text())
         return process.text()
 
     def path(self, *names):
@@ -115,7 +116,7 @@ class Reproduce(unittest.TestCase):
         runs['refused']['density'] = 0.5
         runs['second']['full'] = dict(duration=3.0)
         said = self.reproduce(runs, '--jobs', '2')
-        self.assertRegex(said, r'(?m)^4 of 4 runs done in 0:\d\d$')
+        self.assertRegex(said, r'(?m)^4 of 4 runs done in \d+:\d\d$')
         after = self.times('first', 'second', 'wide')
         self.assertEqual([a == b for a, b in zip(before, after)], [True, False, True])
         self.check_results(['first', 'refused', 'second', 'wide'])
@@ -135,7 +136,7 @@ class Reproduce(unittest.TestCase):
         for line in lines:
             self.assertRegex(line, r"^reproduce: refused: the run has not come to its end; .*FATAL.*density = 2\.5: .*; "
                              f'all that it said is in {log}$')
-        self.assertRegex(said, r'(?m)^3 of 4 runs done, 1 failed in 0:\d\d$')
+        self.assertRegex(said, r'(?m)^3 of 4 runs done, 1 failed in \d+:\d\d$')
         self.assertIn('part 4: not drawn, the run refused is missing', said)
 
     def check_results(self, names, broken=()):
@@ -146,7 +147,7 @@ class Reproduce(unittest.TestCase):
             text = file.read()
         for name in names:
             self.assertEqual(f'all about {name}\n' in text, name not in broken)
-            self.assertRegex(text, rf'(?m)^  {name} +0:\d\d')
+            self.assertRegex(text, rf'(?m)^  {name} +\d+:\d\d')
             self.assertEqual(len(glob.glob(self.path('results', f'*_{name}.*'))), 3)    # png, svg, csv
 
     def test_queue(self):
@@ -158,9 +159,9 @@ class Reproduce(unittest.TestCase):
         launch = Process(['roslaunch', 'hdlyap', 'reproduce.launch', 'runs:=one two', 'folder:=' + self.out],
                          HDLYAP_MARK=self.mark)
         tasks = [self.task(runs, names, number) for number in (3, 4)]
-        self.assertEqual(launch.wait(), 0, launch.text())
+        self.assertEqual(launch.wait(LATEST), 0, launch.text())
         for task, status in zip(tasks, (0, 1)):
-            self.assertEqual(task.wait(), status, task.text())
+            self.assertEqual(task.wait(LATEST), status, task.text())
         self.assertEqual(len(tasks[1].lines('FATAL')), 1, tasks[1].text())
         self.assert_none_left()
         self.assertEqual(self.reproduce(runs, '--draw').count('elsewhere'), 3)
@@ -182,7 +183,7 @@ class Reproduce(unittest.TestCase):
         self.await_averaging(process)
         process.send(signal.SIGINT)
         self.assertEqual(process.wait(SOON), 130, process.text())
-        self.assertRegex(process.text(), r'(?m)^1 of 2 runs done in 0:\d\d$')
+        self.assertRegex(process.text(), r'(?m)^1 of 2 runs done in \d+:\d\d$')
         self.assert_none_left()
         self.assertEqual(self.files(), ['first.bag', 'first.json', 'first.yaml', 'log/first.log', 'log/long.log',
                                         'long.yaml'])
@@ -211,9 +212,12 @@ class Reproduce(unittest.TestCase):
         """Two runs that fail, each in its way; no node is left of the second."""
         process = self.start(dict(node=LONG, launch=LONG, **entries(good={})), '--jobs', '3')
         self.await_averaging(process, 2)
+        names = ('node', 'launch')
+        self.assertTrue(wait_until(lambda: all(self.ours('hdlyap_node', 'ROS_NAMESPACE=/' + name) for name in names)))
+        time.sleep(1.5)
         os.kill(self.ours('hdlyap_node', 'ROS_NAMESPACE=/node')[0], signal.SIGKILL)
         os.kill(self.ours('runs:=launch')[0], signal.SIGKILL)
-        self.assertEqual(process.wait(), 1, process.text())
+        self.assertEqual(process.wait(LATEST), 1, process.text())
         said = process.text()
         self.assertRegex(said, r'reproduce: node: the run has not come to its end; '
                          r'process has died \[pid \d+, exit code -9\]; all that it said')
@@ -226,7 +230,7 @@ class Reproduce(unittest.TestCase):
         process = self.start(dict(long=LONG), ROS_MASTER_URI=self.nobodys_master())
         self.await_averaging(process)
         os.kill(self.ours('rosmaster')[0], signal.SIGKILL)
-        self.assertEqual(process.wait(40), 1, process.text())
+        self.assertEqual(process.wait(SOON), 1, process.text())
         self.assertRegex(process.text(), r'(?m)^reproduce: the ROS master at http://localhost:\d+ has gone')
         self.assert_none_left()
 

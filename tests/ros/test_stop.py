@@ -103,6 +103,7 @@ class Stop(unittest.TestCase):
         self.assertTrue(cost.wait_for(lambda message: message.sim_time > 60))
         self.stop(node)
         self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
+        links.end(echo)
 
     def test_while_waiting_for_subscribers(self):
         node = self.start(dict(SHORT, wait_for_subscribers=['state']))
@@ -117,6 +118,24 @@ class Stop(unittest.TestCase):
         time.sleep(0.3)
         self.stop(node)
         self.assertEqual((state.messages, node.lines('WARN')), ([], []))
+
+    def test_while_a_stopped_master_is_asked(self):
+        """Who else has subscribed: no answer is no reason to start what is to stop."""
+        master = harness.Master()
+        self.addCleanup(master.stop)
+        for name in ('/gone', '/gone_too'):
+            links.register(self, 'cost', name, master.uri)
+        node = self.start(dict(SHORT, wait_for_subscribers=['cost']), ROS_MASTER_URI=master.uri)
+        cost = links.Link(links.node_port(node, master.uri), 'cost')
+        self.addCleanup(cost.close)
+        cost.greet()
+        reader = links.Reader([cost])
+        time.sleep(0.3)
+        master.send(signal.SIGSTOP)
+        time.sleep(0.3)     # the next question is out
+        self.stop(node)
+        reader.join(harness.PATIENCE)
+        self.assertEqual((cost.seqs, node.lines('WARN')), ([0], []))     # the last word alone
 
     def test_while_keeping_pace(self):
         cost = self.listen('cost')

@@ -32,7 +32,7 @@ class Display:
 
     def _count_of_runs(self):
         failed = f', {self._failed} failed' if self._failed else ''
-        return f'{self._before + self._ended - self._failed} of {self._count} runs done{failed}'
+        return f'{self._before + max(0, self._ended - self._failed)} of {self._count} runs done{failed}'
 
     def say(self, line):
         """That a run has failed."""

@@ -3,10 +3,11 @@
 import csv
 import io
 import os
+import uuid
 
 
 def write(path, text):
-    unfinished = f'{path}.{os.getpid()}.new'
+    unfinished = f'{path}.{uuid.uuid4().hex}.new'       # other computers may write it too
     try:
         with open(unfinished, 'w') as file:
             file.write(text)

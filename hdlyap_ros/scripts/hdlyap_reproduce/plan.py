@@ -1,6 +1,7 @@
 """launch/reproduce.yaml -> the runs that the parts of the paper need, as scene files."""
 
 import json
+from math import isfinite
 import os
 import re
 
@@ -27,6 +28,11 @@ class Run:
         base = _load(os.path.join(scenes, entry['base'] + '.yaml'))
         asked = {key: value for key, value in entry.items() if key not in OWN}
         self.parameters = {**base, 'threads': 1, **asked, **entry.get(which, {}), 'scene': name}
+        if not all(is_number(seconds) and seconds > 0 for seconds in entry['seconds']) or len(entry['seconds']) != 2:
+            raise ValueError(f'seconds is {entry["seconds"]}, must be two positive numbers')
+        for name in ('equilibration', 'warmup', 'duration'):
+            if not is_number(self.parameters[name]):
+                raise ValueError(f'{name} is {self.parameters[name]}, must be a number')
         if not self.parameters['duration'] > 0:
             raise ValueError('duration is 0: it would never end')
 
@@ -80,6 +86,10 @@ class Run:
     def note(self, folder, **facts):
         """To be called when the bag is whole; facts: seconds, run_id, commit, and whether it was made elsewhere."""
         files.write(self.record(folder), json.dumps({**facts, 'parameters': self.parameters}, indent=1) + '\n')
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and isfinite(value)
 
 
 def runs(package, quick, path=None):

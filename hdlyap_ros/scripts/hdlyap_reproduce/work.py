@@ -33,7 +33,7 @@ class Job:
 
     def __init__(self, run, folder, log):
         self.run, self.log = run, log
-        self._folder, self._new = folder, os.path.join(folder, UNDER_WAY, run.name)
+        self._folder, self._new = folder, os.path.join(folder, UNDER_WAY, f'{run.name}.{os.getpid()}')
         self.cost = None        # its last message
         self._began = time.monotonic()
         os.makedirs(self._new, exist_ok=True)
@@ -67,7 +67,7 @@ class Job:
     def close(self, commit):
         """After its end: notes it. WorkError if the run did not go to its end."""
         made = Bag(self.run.bag(self._new))
-        if not made.is_complete():
+        if not (made.is_complete() and made.was_run_with(self.run.parameters)):
             why = 'the run has not come to its end'
             if self.is_silent():
                 why = f'no word of its node within {SILENCE:.0f} s'
@@ -78,10 +78,10 @@ class Job:
 
     def leave(self):
         """No trace but the log, and the bag if it is whole."""
-        self._subscriber.unregister()
         shutil.rmtree(self._new, ignore_errors=True)
         with contextlib.suppress(OSError):
             os.rmdir(os.path.dirname(self._new))    # the last one
+        self._subscriber.unregister()
 
 
 def last_words(log):
@@ -157,8 +157,9 @@ def work(runs, folder, logs, jobs, commit, show):
                 rospy.init_node('reproduce', anonymous=True, disable_signals=True)
                 _go_on(all_of_it, master, came, show)
             finally:
-                show.end()
                 all_of_it.stop(came)
+                with contextlib.suppress(OSError):      # a terminal that is gone
+                    show.end()
                 rospy.signal_shutdown('the work is done')
                 master.stop()
         except (MasterError, rospy.ROSException) as error:

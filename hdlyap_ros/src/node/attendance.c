@@ -42,6 +42,7 @@ static bool all_connected(attendance *a, const outlets *out, unsigned awaited)
     int registered[TOPICS];
     const double left = fmax(a->until - clock_seconds(), ask_seconds);
     if (hdr_publishers_registered(registered, out->publisher, TOPICS, left) != HDR_OK) {
+        if (hdr_stop_requested()) return false; /* that is why: it does not start */
         hdr_log(HDR_WARN, "the run starts with the subscribers connected now: %s",
                 hdr_error_text());
         return true;

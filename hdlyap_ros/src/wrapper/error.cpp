@@ -2,6 +2,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <new>
+#include <system_error>
 
 #include <boost/system/system_error.hpp>
 
@@ -15,8 +16,10 @@ thread_local char error_text[512] = "";
 bool hdr_error_of_memory(const std::exception &error) noexcept
 {
     if (dynamic_cast<const std::bad_alloc *>(&error)) return true;
-    const auto *system = dynamic_cast<const boost::system::system_error *>(&error); /* threads */
-    return system && (system->code().value() == EAGAIN || system->code().value() == ENOMEM);
+    int code = 0; /* of threads */
+    if (const auto *boosts = dynamic_cast<const boost::system::system_error *>(&error)) code = boosts->code().value();
+    if (const auto *ours = dynamic_cast<const std::system_error *>(&error)) code = ours->code().value();
+    return code == EAGAIN || code == ENOMEM;
 }
 
 void hdr_error_keep(const char *text) noexcept
