@@ -46,7 +46,11 @@ class Made(unittest.TestCase):
 
 
 class Wave:
-    """z = amplitude exp(i phase(t)) for every vector and pair; phase: a rate, or a function of time."""
+    """z = amplitude exp(i phase(t)) for every vector and pair; phase: a rate, or a function of time. With short below 1
+    a circle becomes an ellipse with that axis along b, on which |z| and the rate depend on the phase."""
+
+    short = 1.0
+    begun = ()          # times at which tracking begins anew
 
     def __init__(self, nx, ny, bits, amplitudes, rate, step=0, index=32):
         self.nx, self.ny, self.bits, self.step, self.index = nx, ny, bits, step, index
@@ -58,11 +62,16 @@ class Wave:
     def at(self, t):
         for vector, row in enumerate(self.amplitudes):
             for pair, amplitude in enumerate(row):
-                phase = float(np.angle(amplitude) + self.turned(t))
-                z = abs(amplitude) * np.exp(1j * phase)
+                turn = float(np.angle(amplitude) + self.turned(t))
+                on_circle = np.exp(1j * turn)
+                z = abs(amplitude) * (on_circle.real + 1j * self.short * on_circle.imag)
+                phase = turn + np.angle(z / on_circle)
+                since = max((begin for begin in self.begun if begin <= t), default=0.0)
+                if since:
+                    phase -= 2 * np.pi * round((np.angle(amplitude) + self.turned(since)) / (2 * np.pi))
                 one = LpPhase(step=self.step, nx=self.nx, ny=self.ny, modulation=self.bits[pair],
                               index=self.index + vector, state=LpPhase.TRACKED, a=z.real, b=z.imag, phase=phase,
-                              omega=1.0, omega_error=0.1, tracked_time=t)
+                              omega=1.0, omega_error=0.1, tracked_time=t - since)
                 one.a, one.b = self.sign * one.a, self.sign * one.b
                 if self.weak(t, vector, pair):
                     one.state, one.phase, one.a, one.b = WEAK, 1e3 * np.sin(1e3 * t), 0.1, -0.1
@@ -106,6 +115,36 @@ class Turning(Made):
         self.assertIn(f'{3.2 * 40 ** 0.5 / (40 ** 0.5 - 1):.3f} if centres reached the walls', one.remark)
         self.assertIn('+52.4 % off', other.remark)
         self.assertLess(one.error, 1e-6)
+
+    def test_strength_that_goes_with_the_rate(self):
+        """Five turns of two vectors a quarter turn apart: on average each turns as on a circle. Weighed with |z|^2 the
+        rate would be lower by (1 - 0.6)^2 / (1 + 0.6^2)."""
+        self.TIMES = 0.2 * np.arange(321)
+        one, _ = self.waves(3.2, 2.1)
+        one.short = 0.6
+        bag = self.measured(one)
+        self.assertAlmostEqual(self.rows(turning, bag)['quarter period of LP(1,0)'].measured, 3.2, 6)
+        # each phase alike, also with others unknown
+        one.weak = lambda t, vector, pair: vector == 1 and 6.5 < t < 38
+        turns = rotation.read(self.measured(one))[1, 0].turns()
+        theta = np.pi / 2 / 3.2 * self.TIMES[50:52]
+        self.assertAlmostEqual(turns[50], np.diff(np.unwrap(np.arctan2(0.6 * np.sin(theta), np.cos(theta))))[0], 9)
+        one.weak = lambda t, vector, pair: vector == int(t / 0.2 + 0.5) % 2
+        self.assertTrue(np.isnan(rotation.read(self.measured(one))[1, 0].turns()).all())
+
+    def test_phase_that_begins_anew(self):
+        """Whole turns are lost then, and with them a quarter that has not been seen to its end."""
+        one, _ = self.waves(3.2, 2.1)
+        one.begun = (30.1,)
+        bag = self.measured(one)
+        rows = self.rows(turning, bag)
+        self.assertAlmostEqual(rows['quarter period of LP(1,0)'].measured, 3.2, 6)
+        self.assertLess(rows['single quarters of LP(1,0), standard deviation'].measured, 1e-6)
+        found = rotation.read(bag)[1, 0]
+        first = np.searchsorted(found.time, 30.1)
+        self.assertEqual(np.flatnonzero(np.isnan(found.phase).any(axis=1)).tolist(), [first])
+        self.assertTrue(np.isnan(found.z[first]).all())
+        self.assertEqual(np.flatnonzero(np.isnan(found.turns())).tolist(), [first - 1, first])
 
     def owner(self, quarter, other):
         # single quarters that scatter by a few percent
