@@ -166,6 +166,20 @@ class Turning(Made):
         self.assertEqual((row.measured, row.verdict), ('LP(1,1)', 'differs'))
         self.assertEqual(self.owner(5.0, 2.0).measured, 'neither')
 
+    def test_no_owner_without_a_rival(self):
+        for nearest in (3.15, 2.1):
+            wave, _ = self.waves(nearest, 2.1)
+            wave.turned = lambda t, even=wave.turned: even(t) + 0.1 * np.sin(1.7 * t)
+            rows = self.rows(turning, self.measured(wave))
+            self.assertTrue(rows['single quarters of LP(1,0), standard deviation'].measured)
+            self.assertEqual(rows['3.20 is a quarter period of'].verdict, 'not measured')
+
+    def test_other_steps_alone(self):
+        bag = self.measured(Wave(0, 1, (0,), [[1.0]], 0.5))
+        self.assertEqual(sorted(rotation.read(bag)), [(0, 1)])
+        self.assertEqual(self.figures(turning, bag), {})
+        self.assertEqual(self.tables(turning, bag)['phases'][1], [])
+
     def test_scatter_of_single_quarters(self):
         fast, slow = np.pi / 2 / 3.0, np.pi / 2 / 3.5
         wave = Wave(1, 0, (0,), [[1.0]], lambda t: fast * t if t < 30 else fast * 30 + slow * (t - 30))
@@ -173,6 +187,21 @@ class Turning(Made):
         # nine of 3.0 and eight of 3.5
         self.assertAlmostEqual(row.measured, np.std([3.0] * 9 + [3.5] * 8), 6)
         self.assertEqual(row.verdict, '')
+
+    def test_vectors_scatter_as_one(self):
+        """The standard deviation is known no better from a second vector that does the same at the same times."""
+        lengths = 0.2 * np.random.default_rng(1).integers(12, 20, 50)
+        ends = np.cumsum(lengths)
+        wave = Wave(1, 0, (0,), [[1.0], [1.0]],
+                    lambda t: np.pi / 2 * np.interp(t, np.r_[0, ends], np.arange(51)))
+        self.TIMES = np.arange(0.0, ends[-1] - 0.5, 0.2)
+        row = self.rows(turning, self.measured(wave))['single quarters of LP(1,0), standard deviation']
+        # from the first multiple of a quarter turn after the beginning to the last before the end
+        both = np.tile(lengths[1:49], 2)
+        self.assertAlmostEqual(row.measured, both.std(), 6)
+        squares = ((both - both.mean()) ** 2).reshape(blocks.BLOCKS, -1).mean(axis=1)
+        alone = 0.5 * squares.std(ddof=1) / 4 / both.std()
+        self.assertAlmostEqual(row.error / alone, 2 ** 0.5, 4)
 
     def test_uneven_quarters(self):
         wave = Wave(1, 0, (0,), [[1.0]], lambda t: np.pi / 2 * _alternating(t, 2.9, 3.3))
@@ -194,6 +223,9 @@ class Turning(Made):
             row = rows['a^2 + b^2 of LP(1,0), mean']
             self.assertAlmostEqual(row.measured, strength, 6)
             self.assertEqual(row.verdict, verdict)
+            # of this wave the paper does not say it
+            self.assertEqual((rows['a^2 + b^2 of LP(1,1), mean'].published, row.published), (None, 1.0))
+            self.assertAlmostEqual(rows['a^2 + b^2 of LP(1,1), mean'].measured, strength, 6)
 
     def test_untracked_is_left_out(self):
         one, other = self.waves(3.2, 2.1)
@@ -202,7 +234,20 @@ class Turning(Made):
         rows = self.rows(turning, bag)
         self.assertAlmostEqual(rows['quarter period of LP(1,0)'].measured, 3.2, 6)
         self.assertLess(rows['single quarters of LP(1,0), standard deviation'].measured, 1e-6)
-        self.assertAlmostEqual(rows['a^2 + b^2 of LP(1,0), mean'].measured, 0.9, 6)
+
+    def test_strength_of_weak_times(self):
+        one, _ = self.waves(3.2, 2.1)
+        one.weak = lambda t, vector, pair: vector == 0 and 20 < t < 30
+        bag = self.measured(one)
+        weak = np.mean((self.TIMES > 20) & (self.TIMES < 30))
+        row = self.rows(turning, bag)['a^2 + b^2 of LP(1,0), mean']
+        self.assertAlmostEqual(row.measured, 0.9 - 0.5 * weak * (0.9 - 0.02), 6)
+        # what is not resolved or not followed is left out
+        found = rotation.read(bag)[1, 0]
+        for state in (LpPhase.UNRESOLVED, LpPhase.COARSE):
+            found.state[found.state == WEAK] = state
+            self.assertAlmostEqual(found.strength()[0], 0.9, 6)
+            found.state[found.state == state] = WEAK
 
     def fields(self, times):
         step = made.step(self.WALLS, LP, 1, 0, 32, 33)

@@ -59,8 +59,10 @@ class Rotation:
         return (None, 0.0) if omega is None else (abs(omega) / self.wave_number, error / self.wave_number)
 
     def strength(self):
-        """Mean over the vectors of a^2 + b^2, added up over the pairs, and its standard error."""
-        whole = np.abs(self.z) ** 2
+        """Mean over the vectors of a^2 + b^2, added up over the pairs, and its standard error; times at which it is too
+        small for a phase count as well."""
+        measured = (self.state == LpPhase.TRACKED) | (self.state == LpPhase.WEAK)
+        whole = np.where(measured, self.a ** 2 + self.b ** 2, np.nan)
         per_vector = whole.reshape(len(whole), -1, self.pairs).sum(axis=2)
         known = np.isfinite(per_vector).any(axis=1)
         return blocks.mean(np.nanmean(per_vector[known], axis=1)) if known.any() else (None, 0.0)
