@@ -127,6 +127,30 @@ class Responses(unittest.TestCase):
         row = self.rows(self.bag(Run(known).messages()))['momentum along grad A: P']
         self.assertEqual((row.measured, row.verdict), ('zero', 'differs'))
 
+    def test_noise_is_no_response_along_curl_a(self):
+        """The root of a mean square is above zero of noise alone, the more certainly the more there is of it."""
+        known = {**KNOWN, 'T': (0.0, 0.0, 0.0, 0.0)}
+        bag = self.bag(Run(known, noise=0.05).messages())
+        found = hydro.responses(bag)[1, 0]
+        # two modulations; every vector alike
+        for one in (found['T', 'across'], found['LP', 'across']):
+            self.assertAlmostEqual(one.value, 0.05 * 2 ** 0.5, delta=4 * one.error)
+            self.assertLess(one.error, 0.1 * one.value)
+        rows = self.rows(bag)
+        for mode in 'TLP':
+            self.assertEqual(rows[f'momentum along curl A: {mode}'].verdict, 'not measured')
+        self.assertRegex(rows['momentum along curl A: T'].remark, r'; rms of LP vectors: 0\.0[67]\d+\(\d+\) at \(1,0\)')
+
+    def test_response_above_the_noise(self):
+        row = self.rows(self.bag(Run(noise=0.05).messages()))['momentum along curl A: T']
+        self.assertEqual((row.measured, row.verdict), ('not zero', 'agrees'))
+
+    def test_what_stands_out(self):
+        for t, error, noise, noise_error, word in ((0.7, 0.01, 0.66, 0.0, True), (0.7, 0.01, 0.68, 0.0, False),
+                                                   (0.7, 0.0, 0.66, 0.01, True), (0.7, 0.01, 0.66, 0.01, False)):
+            found = {('T', 'across'): hydro.Response(t, error), hydro.FLOOR: hydro.Response(noise, noise_error)}
+            self.assertEqual(bool(hydro._stands_out(found)), word)
+
     def test_what_is_small_and_what_is_known(self):
         for value, error, word in ((0.04, 0.01, 'zero'), (0.04, 0.02, None), (0.06, 0.01, 'not zero'),
                                    (0.06, 0.03, None), (-0.06, 0.01, 'not zero')):

@@ -8,6 +8,12 @@ from .numbers import known
 SHORTEST = 3    # points of a curve
 
 
+def goes_on(time, tracked_time):
+    """From each report to the next, whether the tracking is the same: one that began anew knows a shorter time than
+    has gone by. tracked_time: of one phase, or columns of several."""
+    return (np.diff(tracked_time, axis=0).T > 0.5 * np.diff(time)).T
+
+
 class PhaseCourse:
     """What the last message says, and phase and tracked time of every phase at every report."""
 
@@ -33,9 +39,8 @@ class PhaseCourse:
         time, phase = table[:, 0], table[:, 1 + number]
         tracked = table[:, 1 + len(self.last.phases) + number]
         on = np.isfinite(phase)
-        # tracking that began anew knows a shorter time than has gone by since the last report
-        goes_on = on[1:] & on[:-1] & (np.diff(tracked) > 0.5 * np.diff(time))
-        for piece in np.split(np.arange(len(time)), 1 + np.flatnonzero(~goes_on)):
+        unbroken = on[1:] & on[:-1] & goes_on(time, tracked)
+        for piece in np.split(np.arange(len(time)), 1 + np.flatnonzero(~unbroken)):
             if len(piece) >= SHORTEST and on[piece[0]]:
                 yield time[piece], phase[piece]
 

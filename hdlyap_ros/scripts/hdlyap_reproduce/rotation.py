@@ -5,6 +5,7 @@ import numpy as np
 from hdlyap.msg import LpPhase
 
 from hdlyap_plots import waves
+from hdlyap_plots.phases import goes_on
 from hdlyap_plots.recording import PHASES
 from hdlyap_plots.steps import wave_name
 
@@ -15,7 +16,8 @@ QUARTER = np.pi / 2
 
 class Rotation:
     """One LP step. Columns are its phases, vectors outside and pairs inside. z = a + i b where a phase is tracked,
-    else NaN, with a vector's sign as it was when its tracking began, so that it is continuous."""
+    else NaN, with a vector's sign as it was when its tracking began, so that it is continuous. Where tracking begins
+    anew the first report is left out: what is known on both sides of a step in time is one phase that has gone on."""
 
     def __init__(self, info, first, time, table):
         self.nx, self.ny, self.time = first[0].nx, first[0].ny, time
@@ -23,9 +25,11 @@ class Rotation:
         self.wave_number = float(np.hypot(*waves.wave_vector(info, self.nx, self.ny)))
         self.modulation = np.array([phase.modulation for phase in first])
         self.pairs = len(set(self.modulation))
-        self.a, self.b, self.phase, self.index, state = np.moveaxis(table, 2, 0)
-        off = state != LpPhase.TRACKED
-        self.phase = np.where(off, np.nan, self.phase)
+        self.a, self.b, phase, tracked_time, self.index, self.state = np.moveaxis(table, 2, 0)
+        on = self.state == LpPhase.TRACKED
+        anew = np.zeros_like(on)
+        anew[1:] = on[1:] & on[:-1] & ~goes_on(time, tracked_time)
+        self.phase = np.where(on & ~anew, phase, np.nan)
         self.z = np.hypot(self.a, self.b) * np.exp(1j * self.phase)
 
     @property
@@ -37,10 +41,11 @@ class Rotation:
         return np.flatnonzero(self.modulation == bits)
 
     def turns(self):
-        """Turn of the whole step from each report to the next, NaN if unknown: of the sum over all vectors and pairs of
-        conj(z) z', which weighs each with its strength, as they turn together."""
-        products = np.nansum(np.conj(self.z[:-1]) * self.z[1:], axis=1)
-        return np.where(products != 0, np.angle(products), np.nan)
+        """Turn from each report to the next, NaN if unknown: the mean over the phases that are known at both, each of
+        them alike. The turn of sum conj(z) z' would weigh with |z|^2, which is biased where |z| goes with the rate."""
+        steps = np.diff(self.phase, axis=0)
+        known = np.isfinite(steps).sum(axis=1)
+        return np.where(known > 0, np.nansum(steps, axis=1) / np.maximum(known, 1), np.nan)
 
     def omega(self):
         """Mean rate and its standard error; (None, 0) if it has not been tracked for long."""
@@ -54,8 +59,10 @@ class Rotation:
         return (None, 0.0) if omega is None else (abs(omega) / self.wave_number, error / self.wave_number)
 
     def strength(self):
-        """Mean over the vectors of a^2 + b^2, added up over the pairs, and its standard error."""
-        whole = np.abs(self.z) ** 2
+        """Mean over the vectors of a^2 + b^2, added up over the pairs, and its standard error; times at which it is too
+        small for a phase count as well."""
+        measured = (self.state == LpPhase.TRACKED) | (self.state == LpPhase.WEAK)
+        whole = np.where(measured, self.a ** 2 + self.b ** 2, np.nan)
         per_vector = whole.reshape(len(whole), -1, self.pairs).sum(axis=2)
         known = np.isfinite(per_vector).any(axis=1)
         return blocks.mean(np.nanmean(per_vector[known], axis=1)) if known.any() else (None, 0.0)
@@ -67,8 +74,8 @@ def read(bag):
     if not messages:
         return {}
     time = np.array([message.sim_time for message in messages])
-    table = np.array([[(phase.a, phase.b, phase.phase, phase.index, phase.state) for phase in message.phases]
-                      for message in messages]).reshape(len(messages), -1, 5)
+    table = np.array([[(phase.a, phase.b, phase.phase, phase.tracked_time, phase.index, phase.state)
+                       for phase in message.phases] for message in messages]).reshape(len(messages), -1, 6)
     columns = {}
     for column, phase in enumerate(messages[0].phases):
         columns.setdefault((phase.nx, phase.ny), []).append(column)

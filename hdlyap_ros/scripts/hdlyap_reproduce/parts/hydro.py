@@ -26,6 +26,7 @@ UNITS = {'density': '', 'along': 'sigma/time unit', 'across': 'sigma/time unit',
 # T: 0, curl A, 0; L: laplacian A, grad A, laplacian A; P: 0, grad A, A
 TABLE = {'T': ('across',), 'L': ('density', 'along', 'energy'), 'P': ('along', 'energy')}
 Response = namedtuple('Response', 'value error')
+FLOOR = 'LP', 'across'      # what noise alone is like along curl A
 
 
 def runs(plan):
@@ -44,6 +45,8 @@ def rows(bags):
 
 def _word(found, mode, kind):
     """Less than SMALL of the largest of its kind is zero, if known as well as that; None if not known well enough."""
+    if kind == 'across' and not _stands_out(found):
+        return None
     one = found[mode, kind]
     small = SMALL * max(abs(found[other, kind].value) for other in TABLE)
     uncertain = SIGMAS * one.error
@@ -52,17 +55,31 @@ def _word(found, mode, kind):
     return NOT_ZERO if uncertain < abs(one.value) else None
 
 
+def _stands_out(found):
+    """Whether T answers along curl A by more than LP vectors do. It is the root of a mean square, which noise alone
+    makes larger than zero; so is theirs."""
+    one, noise = found['T', 'across'], found[FLOOR]
+    return one.value - noise.value > SIGMAS * np.hypot(one.error, noise.error)
+
+
 def _remark(found, mode, kind):
-    numbers = [f'{with_error(*found[wave][mode, kind])} at ({wave[0]},{wave[1]})' for wave in WAVES if wave in found]
-    return ', '.join(numbers) + (f' {UNITS[kind]}' if numbers else '')
+    numbers = _numbers(found, mode, kind)
+    noise = f'; rms of LP vectors: {_numbers(found, *FLOOR)}' if numbers and (mode, kind) == ('T', 'across') else ''
+    return numbers + (f' {UNITS[kind]}' if numbers else '') + noise
+
+
+def _numbers(found, mode, kind):
+    return ', '.join(f'{with_error(*found[wave][mode, kind])} at ({wave[0]},{wave[1]})'
+                     for wave in WAVES if wave in found)
 
 
 def responses(bag):
     """{wave: {(mode, kind): Response}}: to a vector that is a T, an L or a P field alone, normalised [T15].
     Responses of the vectors of LP(n) are regressed on their coefficients (a, b) at the same modulation and time.
-    Of those of T(n) no coefficients are in the bag, but their response along curl A is in proportion to them."""
+    Of those of T(n) no coefficients are in the bag, but their response along curl A is in proportion to them.
+    FLOOR: root of the mean square of the LP vectors' own along curl A, as that of T is found."""
     coefficients = _coefficients(bag)
-    sums = {wave: ([], []) for wave in WAVES}
+    sums = {wave: ([], [], []) for wave in WAVES}
     for message in bag.messages(HYDRO):
         now = coefficients.get(message.sim_time, {})
         of_wave = {}
@@ -70,12 +87,12 @@ def responses(bag):
             if one.index and (one.nx, one.ny) in sums:
                 of_wave.setdefault((one.nx, one.ny), []).append(one)
         for wave, ones in of_wave.items():
-            of_t, of_lp = sums[wave]
+            of_t, of_lp, noise = sums[wave]
             of_t.append(_t_sums([one for one in ones if one.kind == Mode.T]))
             of_lp.append(_lp_sums([(one, now[_key(one)]) for one in ones if _key(one) in now]))
-    estimated = {wave: {**_estimated(_t_estimate, of_t, 'T'), **_estimated(_lp_estimate, of_lp, 'LP')}
-                 for wave, (of_t, of_lp) in sums.items()}
-    return {wave: found for wave, found in estimated.items() if len(found) == len(TABLE) * len(KINDS)}
+            noise.append(_squares([one for one in ones if one.kind == Mode.LP]))
+    estimated = {wave: _all_estimated(*of_wave) for wave, of_wave in sums.items()}
+    return {wave: found for wave, found in estimated.items() if len(found) == len(TABLE) * len(KINDS) + 1}
 
 
 def _key(one):
@@ -98,6 +115,11 @@ def _t_sums(ones):
     """Products with the response along curl A, and vectors."""
     products = sum((one.across * _values(one) for one in ones), np.zeros(len(KINDS)))
     return np.r_[products, len({one.index for one in ones})]
+
+
+def _squares(ones):
+    """Of responses along curl A, and vectors."""
+    return np.array([sum(one.across ** 2 for one in ones), len({one.index for one in ones})], dtype=float)
 
 
 def _lp_sums(pairs):
@@ -123,13 +145,18 @@ def _lp_estimate(sums):
     return np.linalg.solve(gram, sums[3:].reshape(2, -1)).ravel()
 
 
-def _estimated(estimate, sums, modes):
-    """{(mode, kind): Response}; nothing where there is nothing to estimate from."""
+def _all_estimated(of_t, of_lp, noise):
+    every = {mode: [(one, kind) for one in mode for kind in KINDS] for mode in ('T', 'LP')}
+    return {**_estimated(_t_estimate, of_t, every['T']), **_estimated(_lp_estimate, of_lp, every['LP']),
+            **_estimated(lambda sums: np.sqrt(sums[:1] / sums[1]), noise, [FLOOR])}
+
+
+def _estimated(estimate, sums, keys):
+    """{(mode, kind): Response} of keys; nothing where there is nothing to estimate from."""
     sums = np.array([one for one in sums if np.any(one)])
     values, errors = blocks.of_sums(estimate, sums)
     if values is None:
         return {}
-    keys = [(mode, kind) for mode in modes for kind in KINDS]
     return {key: Response(float(value), float(error)) for key, value, error in zip(keys, values, errors)}
 
 
@@ -145,7 +172,7 @@ def tables(bags):
     yield 'responses', ('wave', 'mode', 'response', 'value', 'error', 'published', 'found'), [
         ('({},{})'.format(*wave), mode, kind, f'{one.value:.5g}', f'{one.error:.2g}',
          NOT_ZERO if kind in TABLE[mode] else ZERO, _word(found, mode, kind) or 'not known')
-        for wave, found in responses(bags[RUN]).items() for (mode, kind), one in found.items()]
+        for wave, found in responses(bags[RUN]).items() for (mode, kind), one in found.items() if mode in TABLE]
 
 
 def _draw(info, found):
