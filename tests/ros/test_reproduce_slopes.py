@@ -202,7 +202,7 @@ class Crossings(unittest.TestCase):
         self.assertEqual(crossing.measured(density, density + 1, density), (None, 0.0))
         place, error = crossing.measured(density[2:4], density[2:4] - 0.37, np.array([0.01, 0.02]))
         self.assertAlmostEqual(place, 0.37)
-        self.assertAlmostEqual(error, np.hypot(0.3 * 0.01, 0.7 * 0.02), delta=3e-3)     # a straight line through both
+        self.assertAlmostEqual(error, np.hypot(0.3 * 0.01, 0.7 * 0.02))     # a straight line through both
 
     def test_error_from_those_of_the_slopes(self):
         density = np.arange(0.1, 0.85, 0.1)
@@ -212,7 +212,15 @@ class Crossings(unittest.TestCase):
         # on its way through zero it rises by 1.37: Lagrange's polynomials of the four nearest, over that
         near = density[1:5]
         weights = [np.prod([(0.37 - other) / (one - other) for other in near if other != one]) for one in near]
-        self.assertAlmostEqual(error, np.linalg.norm(weights * errors[1:5]) / 1.37, delta=1e-3 * error)
+        expected = np.linalg.norm(weights * errors[1:5]) / 1.37
+        self.assertAlmostEqual(error / expected, 1.0)
+        # however large they are: none is lost where it moves the crossing beyond the densities
+        self.assertAlmostEqual(crossing.measured(density, apart, 1e5 * errors)[1] / (1e5 * expected), 1.0)
+
+    def test_a_crossing_at_a_density_that_was_run(self):
+        density = np.arange(0.1, 0.85, 0.1)
+        for root in density[1:]:
+            self.assertAlmostEqual(crossing.measured(density, density - root, np.zeros(8))[0], root)
 
     def test_a_curve_that_a_parabola_misses(self):
         density = np.arange(0.1, 0.85, 0.1)
