@@ -62,6 +62,26 @@ class Points(unittest.TestCase):
         self.assertAlmostEqual(point.error, 0.002)
         self.assertEqual(slopes.find(run, LP, 1, 0).remark, 'shares its vectors with LP(0,1)')
 
+    def test_smallest_says_what_is_smaller_and_not_resolved(self):
+        run = self.recorded(made.unresolved(self.info, LP, 1, 0, 4), made.unresolved(self.info, T, 1, 0, 2),
+                            made.unresolved(self.info, T, 1, 1, 4), made.step(self.info, T, 0, 1, 796, 797),
+                            made.step(self.info, LP, 0, 1, 788, 791))
+        self.assertEqual(slopes.smallest(run, T).remark, 'T(1,0) not resolved')
+        self.assertEqual(slopes.find(run, T, 0, 1).remark, '')
+        # one that the boundaries do not have is not missed
+        run = self.recorded(made.unresolved(self.info, T, 1, 0, 0), made.step(self.info, T, 0, 1, 796, 797))
+        self.assertEqual(slopes.smallest(run, T).remark, '')
+
+    def test_noted(self):
+        plain = slopes.Point('T(1,0)', 0.1, 0.2, 0.001, 2)
+        shared = slopes.Point('T(1,0)', 0.1, 0.2, 0.001, 2, 'so', shares=['LP(0,1)'])
+        beyond = slopes.Point('T(0,1)', 0.1, 0.2, 0.001, 2, shares=['LP(0,1)'], skipped=['T(1,0)'])
+        self.assertEqual(slopes.noted([plain, None]), '')
+        self.assertEqual(slopes.noted([plain, shared]), '1 of them share vectors')
+        self.assertEqual(slopes.noted([plain, shared, beyond]),
+                         '2 of them share vectors; 1 of them beyond a smaller step that is not resolved')
+        self.assertEqual(shared.remark, 'so; shares its vectors with LP(0,1)')
+
     def test_unknown_error(self):
         run = self.recorded(made.step(self.info, T, 1, 0, 796, 797, std_error=-1.0))
         self.assertEqual(slopes.find(run, T, 1, 0).slope_error, -1.0)
@@ -107,6 +127,12 @@ class ByIndex(unittest.TestCase):
         other = made.step(info, LP, 0, 1, 794, 797)
         _, run = self.run_of([(0.10, 4), (0.12, 2), (0.15, 4)], other)
         self.assertAlmostEqual(slopes.by_index(run, LP, 1, 0).exponent, 0.15)
+
+    def test_nothing_where_another_step_has_a_part_of_the_stair(self):
+        info = recorded.info(400, 0.1, 0.867)
+        for first, last in ((794, 795), (796, 797)):
+            _, run = self.run_of([(0.10, 4), (0.12, 2), (0.15, 4)], made.step(info, T, 0, 1, first, last))
+            self.assertIsNone(slopes.by_index(run, LP, 1, 0))
 
 
 class Stairs(unittest.TestCase):
