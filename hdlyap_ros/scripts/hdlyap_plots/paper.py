@@ -8,8 +8,11 @@ from math import hypot, isclose, pi
 DISKS, DENSITY, ASPECT = 780, 0.8, 0.867
 FIT_ACCURACY = 0.03     # of the fitted slopes
 FITS = 'fits of Eckmann, Forster, Posch, Zabey 2005'
-STEPS = (('T', 1, 0, 1556, 1557), ('T', 0, 1, 1554, 1555), ('LP', 1, 0, 1550, 1553),
-         ('T', 1, 1, 1546, 1549), ('LP', 0, 1, 1542, 1545))
+# kind, nodes, first and last index
+INDICES = (('T', 1, 0, 1556, 1557), ('T', 0, 1, 1554, 1555), ('LP', 1, 0, 1550, 1553),
+           ('T', 1, 1, 1546, 1549), ('LP', 0, 1, 1542, 1545), ('T', 2, 0, 1540, 1541),
+           ('LP', 1, 1, 1532, 1539))
+STEPS = INDICES[:5]     # small enough for slopes without curvature
 # lambda = c k + c2 k^2; c2 is None where only a slope is given
 Branch = namedtuple('Branch', 'c c2')
 CURVES = {'T': Branch(1.412, 0.086), 'LP': Branch(1.422, 0.55)}
