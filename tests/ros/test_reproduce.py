@@ -177,8 +177,8 @@ class Rows(unittest.TestCase):
     def test_verdicts(self):
         nan = float('nan')
         for published, measured, verdict in (
-                ((1.0, 0.0), (1.3, 0.11), 'agrees'), ((1.0, 0.0), (1.3, 0.09), 'differs'),
-                ((1.0, 0.1), (1.3, 0.07), 'agrees'), ((1.0, 0.1), (0.7, 0.06), 'differs'),
+                ((1.0, 0.0), (1.09, 0.031), 'agrees'), ((1.0, 0.0), (1.09, 0.029), 'differs'),
+                ((1.0, 0.1), (1.19, 0.031), 'agrees'), ((1.0, 0.1), (0.81, 0.029), 'differs'),
                 ((1.0, 0.1), (1.09, -1.0), 'agrees'), ((1.0, 0.1), (1.11, nan), 'differs'),
                 ((1.0, 0.1), (1.11, float('inf')), 'differs'),
                 ((1558, 0), (1558, 0), 'agrees'), ((1558, 0), (1557, 0), 'differs'), (('a', 0), ('a', 0), 'agrees'),
@@ -189,6 +189,19 @@ class Rows(unittest.TestCase):
                 one = Row('q', published[0], measured[0], measured[1], published[1])
                 self.assertEqual(one.verdict, verdict)
                 self.assertEqual((one.cells()[4], one.values()[7]), (verdict, verdict))
+
+    def test_an_error_with_which_nothing_would_differ(self):
+        for published, measured, verdict in (
+                ((2.0, 0.0), (2.1, 0.066), 'agrees'), ((2.0, 0.0), (2.1, 0.067), 'known too poorly'),   # a tenth
+                ((-2.0, 0.0), (-2.1, 0.067), 'known too poorly'), ((2.0, 0.0), (9.0, 1.0), 'differs'),
+                ((2.0, 0.6), (2.1, 0.19), 'agrees'), ((2.0, 0.6), (2.1, 0.21), 'known too poorly'),     # what is open
+                ((0.0, 0.3), (0.1, 0.09), 'agrees'), ((0.0, 0.3), (0.1, 0.11), 'known too poorly'),
+                ((0.0, 0.0), (0.1, 9.0), 'agrees')):    # nothing to go by
+            self.assertEqual(Row('q', published[0], measured[0], measured[1], published[1]).verdict, verdict)
+        for error, verdict in ((0.5, 'agrees'), (0.51, 'known too poorly'), (-1.0, 'agrees')):
+            self.assertEqual(Row('q', 0, 0.1, error, 0.2, enough=0.5).verdict, verdict)
+        self.assertEqual(Row('q', 100.0, 100.0, 0.6, enough=0.5).verdict, 'known too poorly')
+        self.assertEqual(Row('q', 'so', 'so', 9.0, enough=0.5).verdict, 'agrees')
 
     def test_cells(self):
         self.assertEqual(Row('c', 3.285, 3.2316, 0.0043, 0.09855, 'sigma', 'why').cells(),
@@ -249,7 +262,8 @@ class Page(Folder):
         self.assertIn('\n1. a part\n  quantity  published  measured  unit  verdict       remark\n'
                       '  disks     20         20              agrees\n', text)
         self.assertIn('\npart 3: not drawn, the run three is missing\n', text)
-        self.assertIn('\nof the rows with a published number 2 agree, 0 differ, 0 not measured\n', text)
+        self.assertIn('\nof the rows with a published number 2 agree, 0 differ, 0 known too poorly, 0 not measured\n',
+                      text)
         self.assertRegex(text, r'\n  one +1:02 +at abc\n  two +1:02  all cores, elsewhere  at abc\n  sum +2:04\n')
         self.assertEqual(self.listed(), ['01_one.csv', '01_one.png', '01_one.svg', '02_two.csv', '02_two.png', '02_two.svg',
                                          'results.txt', 'rows.csv'])

@@ -1,5 +1,6 @@
 """Part 10 of the reproduction against runs that are known exactly."""
 
+import os
 import unittest
 
 import numpy as np
@@ -8,17 +9,19 @@ import made
 import recorded
 from made import LP, T
 from hdlyap_plots import paper
+from hdlyap_reproduce import plan
 from hdlyap_reproduce.parts import aspect
 
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..')
 DISKS = {'periodic': (99, 197, 296, 395), 'walls_lp': (28, 56, 84, 112), 'walls_t': (471, 273, 225, 216)}
 STEPS = {'periodic': ((LP, 1, 0), (T, 1, 0)), 'walls_lp': ((LP, 1, 0),), 'walls_t': ((LP, 1, 1), (T, 1, 1))}
 ASPECTS = (0.25, 0.5, 0.75, 1.0)
 ERROR = 0.002       # relative
 
 
-def run(which, i, factor):
+def run(which, i, factor, disks=None):
     boundary = 'periodic' if which == 'periodic' else 'reflecting'
-    info = recorded.info(DISKS[which][i], 0.4, ASPECTS[i], boundaries=(boundary, boundary))
+    info = recorded.info(disks or DISKS[which][i], 0.4, ASPECTS[i], boundaries=(boundary, boundary))
     found = []
     for number, (kind, nx, ny) in enumerate(STEPS[which]):
         k = made.wave_number(info, nx, ny)
@@ -39,24 +42,49 @@ class Aspect(unittest.TestCase):
         self.assertEqual(sorted(bags()), sorted(aspect.runs(None)))
 
     def test_wave_numbers_of_the_plan(self):
-        """All within what the rounding of N moves."""
-        for series in aspect._series(bags()):
-            for point in series.points:
-                self.assertAlmostEqual(point.wave_number, aspect.WAVE_NUMBER, delta=0.002)
+        """All within what the rounding of N moves: k falls as N^-1/2, and N is rounded by a half."""
+        for quick in (False, True):
+            planned = plan.runs(ROOT, quick)
+            for which, _, nodes in aspect.SERIES:
+                for name, ratio in zip(aspect.ASPECTS, ASPECTS):
+                    asked = planned[f'aspect_{name}_{which}'].parameters
+                    self.assertEqual(asked['aspect'], ratio)
+                    walls = 'periodic' if which == 'periodic' else 'reflecting'
+                    self.assertEqual([asked.get('boundary_x', 'periodic'), asked.get('boundary_y', 'periodic')],
+                                     [walls] * 2)
+                    info = recorded.info(asked['disks'], asked['density'], ratio, boundaries=(walls, walls))
+                    self.assertAlmostEqual(made.wave_number(info, *nodes) / aspect.WAVE_NUMBER, 1,
+                                           delta=1.5 * 0.5 / 2 / asked['disks'])
 
     def test_slopes(self):
         rows = recorded.by_quantity(aspect, bags((1.0, 1.01, 1.0, 1.04)))
         row = rows['c_T, reflecting, T(1,1), A = 0.50']
-        k = float(row.remark.rpartition('k = ')[2])
-        self.assertAlmostEqual(row.published, 1.412 + 0.086 * k, places=4)
-        self.assertAlmostEqual(row.published_error, 0.03 * row.published, places=9)
-        self.assertAlmostEqual(row.measured, 1.01 * row.published, places=9)
+        k = float(row.remark.rpartition('k = ')[2].partition(';')[0])
+        self.assertAlmostEqual(row.measured, 1.01 * (1.412 + 0.086 * k), places=4)
         self.assertAlmostEqual(row.error, ERROR * row.measured, places=9)
-        self.assertEqual(row.verdict, 'agrees')
         self.assertTrue(row.remark.startswith('N = 273, k = 0.'))
-        self.assertAlmostEqual(rows['c_L, periodic, LP(1,0), A = 0.25'].published, 1.422 + 0.55 * 0.2, delta=0.001)
-        self.assertEqual(rows['c_L, reflecting, LP(1,0), A = 1.00'].verdict, 'differs')
         self.assertEqual(len(rows), 5 * 5)
+
+    def test_published_are_smallest_steps_of_the_papers_boxes(self):
+        for which, disks, i, said in (('periodic', 400, 3, {(T, 1, 0), (LP, 1, 0)}), ('periodic', 800, 1,
+                                      {(T, 1, 0), (LP, 1, 0)}), ('periodic', 801, 1, ()), ('periodic', 399, 3, ()),
+                                      ('periodic', 471, 0, ()), ('walls_lp', 400, 1, {(LP, 1, 0)}),
+                                      ('walls_t', 400, 2, {(T, 1, 1)})):   # LP(1,1) is not the smallest
+            name = f'aspect_{aspect.ASPECTS[i]}_{which}'
+            rows = recorded.by_quantity(aspect, {**bags(), name: run(which, i, 1.0, disks)})
+            boundary = 'periodic' if which == 'periodic' else 'reflecting'
+            for kind, nx, ny in STEPS[which]:
+                symbol, text = ('c_T', 'T') if kind == T else ('c_L', 'LP')
+                row = rows[f'{symbol}, {boundary}, {text}({nx},{ny}), A = {ASPECTS[i]:.2f}']
+                self.assertTrue(row.remark.startswith(f'N = {disks}, '))
+                if (kind, nx, ny) in said:
+                    self.assertAlmostEqual(row.published, row.measured, places=9)   # of made: on the curves
+                    self.assertAlmostEqual(row.published_error, 0.03 * row.published, places=9)
+                    self.assertIn('; 3 %: that of the density fits', row.remark)
+                    self.assertEqual(row.verdict, 'agrees')
+                else:
+                    self.assertEqual((row.published, row.verdict), (None, ''))
+                    self.assertIn('; outside of the paper\'s range', row.remark)
 
     def test_constant(self):
         rows = recorded.by_quantity(aspect, bags((1.0, 1.0, 1.0, 1.08)))
@@ -67,7 +95,21 @@ class Aspect(unittest.TestCase):
             self.assertEqual(row.verdict, 'differs')
             self.assertIn('at A = 1.00', row.remark)
         rows = recorded.by_quantity(aspect, bags())
-        self.assertEqual(rows['c_T, periodic, T(1,0): largest deviation from the mean over A'].verdict, 'agrees')
+        row = rows['c_T, periodic, T(1,0): largest deviation from the mean over A']
+        self.assertEqual((row.verdict, row.enough), ('agrees', 1.0))
+        self.assertTrue(row.remark.endswith(' for 3; 3 %: that of the density fits'), row.remark)
+
+    def test_slopes_that_share_their_vectors_are_said(self):
+        found = bags()
+        lp, t = found['aspect_100_periodic'].recording.steps.steps
+        lp.set = t.set
+        rows = recorded.by_quantity(aspect, found)
+        self.assertIn('mean 1.4', rows['c_T, periodic, T(1,0): largest deviation from the mean over A'].remark)
+        for name in ('c_T, periodic, T(1,0)', 'c_L, periodic, LP(1,0)'):
+            remark = rows[f'{name}: largest deviation from the mean over A'].remark
+            self.assertIn(' of 4 boxes, ', remark)
+            self.assertIn(' for 3; 1 of them share vectors; ', remark)
+        self.assertIn('shares its vectors with LP(1,0)', rows['c_T, periodic, T(1,0), A = 1.00'].remark)
 
     def test_one_below_the_mean_deviates_too(self):
         row = recorded.by_quantity(aspect, bags((1.0, 0.92, 1.0, 1.0)))[

@@ -1,6 +1,7 @@
 """Part 3 of the reproduction: angles and ratios of the two halves of made vectors."""
 
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -13,7 +14,7 @@ COUNT = 4 * DISKS
 REPORTS = 20
 ACCURACY = 1e-8
 ROUNDING = 1e3 * np.finfo(float).eps
-EXPONENTS = np.linspace(9, -9, COUNT)
+EXPONENTS = np.concatenate([np.linspace(9, 2, END), [0.04, 0.02, 0.01, -0.01, -0.02, -0.04], np.linspace(-2, -9, END)])
 EXPONENTS[29] += 0.5
 ANGLES = 'cos Theta_l + cos Theta_(4N+1-l)'
 
@@ -54,12 +55,19 @@ class Coordinates(Part):
         rows = self.rows(self.full(change))
         below, above = (rows[f'cos Theta just {where} the zero modes, index {index}']
                         for where, index in (('below', 37), ('above', 44)))
-        self.assertEqual((below.published, above.published, below.published_error), (1.0, -1.0, 0.02))
+        self.assertEqual((below.published, above.published, below.verdict), (None, None, ''))
         self.assertAlmostEqual(below.measured, 1 - 0.045, delta=ROUNDING)
         self.assertAlmostEqual(below.error, 0.01 * np.std(range(10), ddof=1) / np.sqrt(10), delta=ROUNDING)
         self.assertAlmostEqual(above.measured, -0.95, delta=ROUNDING)
-        self.assertEqual(above.verdict, 'differs')
         self.assertEqual(below.remark, 'mean over 20 reports')
+
+    def test_cosines_beside_the_papers_of_its_size_alone(self):
+        with mock.patch.object(coordinates.paper, 'DISKS', DISKS):      # as if its run had been as small
+            rows = self.rows(self.full(lambda cos, ratio, report: cos.__setitem__([END - 1, END + 6], [0.99, -0.95])))
+        below, above = (rows[f'cos Theta just {where} the zero modes, index {index}']
+                        for where, index in (('below', 37), ('above', 44)))
+        self.assertEqual((below.published, above.published, below.published_error), (1.0, -1.0, 0.02))
+        self.assertEqual((below.verdict, above.verdict), ('agrees', 'differs'))
 
     def test_symmetric_vectors(self):
         rows = self.rows(self.full())
@@ -102,13 +110,20 @@ class Coordinates(Part):
                                delta=ROUNDING)
 
     def test_zero_modes_beside_the_papers_of_its_size_alone(self):
+        ends = ('first zero exponent', 'last zero exponent')
         rows = self.rows(self.full())
-        self.assertEqual([(row.published, row.measured) for row in (rows['first zero mode'], rows['last zero mode'])],
-                         [(None, 38), (None, 43)])
+        self.assertEqual([(rows[name].published, rows[name].measured) for name in ends], [(None, 38), (None, 43)])
+        self.assertEqual(rows[ends[0]].remark, '38-43, by their size')
+        large = np.linspace(9, 2, 1557)
+        for zeros, found, verdict in (([0.04, 0.02, 0.01], [1558, 1563], 'agrees'),
+                                      ([1.9, 0.02, 0.01], [1559, 1562], 'differs')):    # whatever the scene says
+            exponents = [*large, *zeros, *-np.array(zeros[::-1]), *-large[::-1]]
+            rows = self.rows(self.bags(made.spectrum(exponents, 20.0), zeros=1558, disks=780))
+            self.assertEqual([rows[name].published for name in ends], [1558, 1563])
+            self.assertEqual([(rows[name].measured, rows[name].verdict) for name in ends],
+                             [(index, verdict) for index in found])
         rows = self.rows(self.bags(zeros=1558, disks=780))
-        self.assertEqual([(row.published, row.measured, row.verdict)
-                          for row in (rows['first zero mode'], rows['last zero mode'])],
-                         [(1558, 1558, 'agrees'), (1563, 1563, 'agrees')])
+        self.assertEqual([rows[name].verdict for name in ends], ['not measured'] * 2)
         self.assertEqual(rows['cos Theta just below the zero modes, index 1557'].verdict, 'not measured')
 
     def test_figure(self):

@@ -62,6 +62,26 @@ class Points(unittest.TestCase):
         self.assertAlmostEqual(point.error, 0.002)
         self.assertEqual(slopes.find(run, LP, 1, 0).remark, 'shares its vectors with LP(0,1)')
 
+    def test_smallest_says_what_is_smaller_and_not_resolved(self):
+        run = self.recorded(made.unresolved(self.info, LP, 1, 0, 4), made.unresolved(self.info, T, 1, 0, 2),
+                            made.unresolved(self.info, T, 1, 1, 4), made.step(self.info, T, 0, 1, 796, 797),
+                            made.step(self.info, LP, 0, 1, 788, 791))
+        self.assertEqual(slopes.smallest(run, T).remark, 'T(1,0) not resolved')
+        self.assertEqual(slopes.find(run, T, 0, 1).remark, '')
+        # one that the boundaries do not have is not missed
+        run = self.recorded(made.unresolved(self.info, T, 1, 0, 0), made.step(self.info, T, 0, 1, 796, 797))
+        self.assertEqual(slopes.smallest(run, T).remark, '')
+
+    def test_noted(self):
+        plain = slopes.Point('T(1,0)', 0.1, 0.2, 0.001, 2)
+        shared = slopes.Point('T(1,0)', 0.1, 0.2, 0.001, 2, 'so', shares=['LP(0,1)'])
+        beyond = slopes.Point('T(0,1)', 0.1, 0.2, 0.001, 2, shares=['LP(0,1)'], skipped=['T(1,0)'])
+        self.assertEqual(slopes.noted([plain, None]), '')
+        self.assertEqual(slopes.noted([plain, shared]), '1 of them share vectors')
+        self.assertEqual(slopes.noted([plain, shared, beyond]),
+                         '2 of them share vectors; 1 of them beyond a smaller step that is not resolved')
+        self.assertEqual(shared.remark, 'so; shares its vectors with LP(0,1)')
+
     def test_unknown_error(self):
         run = self.recorded(made.step(self.info, T, 1, 0, 796, 797, std_error=-1.0))
         self.assertEqual(slopes.find(run, T, 1, 0).slope_error, -1.0)
@@ -107,6 +127,12 @@ class ByIndex(unittest.TestCase):
         other = made.step(info, LP, 0, 1, 794, 797)
         _, run = self.run_of([(0.10, 4), (0.12, 2), (0.15, 4)], other)
         self.assertAlmostEqual(slopes.by_index(run, LP, 1, 0).exponent, 0.15)
+
+    def test_nothing_where_another_step_has_a_part_of_the_stair(self):
+        info = recorded.info(400, 0.1, 0.867)
+        for first, last in ((794, 795), (796, 797)):
+            _, run = self.run_of([(0.10, 4), (0.12, 2), (0.15, 4)], made.step(info, T, 0, 1, first, last))
+            self.assertIsNone(slopes.by_index(run, LP, 1, 0))
 
 
 class Stairs(unittest.TestCase):
@@ -202,7 +228,7 @@ class Crossings(unittest.TestCase):
         self.assertEqual(crossing.measured(density, density + 1, density), (None, 0.0))
         place, error = crossing.measured(density[2:4], density[2:4] - 0.37, np.array([0.01, 0.02]))
         self.assertAlmostEqual(place, 0.37)
-        self.assertAlmostEqual(error, np.hypot(0.3 * 0.01, 0.7 * 0.02), delta=3e-3)     # a straight line through both
+        self.assertAlmostEqual(error, np.hypot(0.3 * 0.01, 0.7 * 0.02))     # a straight line through both
 
     def test_error_from_those_of_the_slopes(self):
         density = np.arange(0.1, 0.85, 0.1)
@@ -212,7 +238,15 @@ class Crossings(unittest.TestCase):
         # on its way through zero it rises by 1.37: Lagrange's polynomials of the four nearest, over that
         near = density[1:5]
         weights = [np.prod([(0.37 - other) / (one - other) for other in near if other != one]) for one in near]
-        self.assertAlmostEqual(error, np.linalg.norm(weights * errors[1:5]) / 1.37, delta=1e-3 * error)
+        expected = np.linalg.norm(weights * errors[1:5]) / 1.37
+        self.assertAlmostEqual(error / expected, 1.0)
+        # however large they are: none is lost where it moves the crossing beyond the densities
+        self.assertAlmostEqual(crossing.measured(density, apart, 1e5 * errors)[1] / (1e5 * expected), 1.0)
+
+    def test_a_crossing_at_a_density_that_was_run(self):
+        density = np.arange(0.1, 0.85, 0.1)
+        for root in density[1:]:
+            self.assertAlmostEqual(crossing.measured(density, density - root, np.zeros(8))[0], root)
 
     def test_a_curve_that_a_parabola_misses(self):
         density = np.arange(0.1, 0.85, 0.1)

@@ -80,7 +80,36 @@ class Smallest(unittest.TestCase):
             self.assertAlmostEqual(row.measured, 2.0, places=6)
             self.assertEqual(row.verdict, 'differs')
         rows = recorded.by_quantity(smallest, bags())
-        self.assertEqual(rows['lambda_T: reflecting over periodic at equal k, less 1'].verdict, 'agrees')
+        row = rows['lambda_T: reflecting over periodic at equal k, less 1']
+        self.assertEqual((row.verdict, row.enough), ('agrees', 1.0))
+        self.assertTrue(row.remark.endswith('; 12 boxes'), row.remark)
+
+    def test_hardly_known_is_not_alike(self):
+        loose = bags()
+        for bag in loose.values():
+            for step in bag.recording.steps.steps:
+                step.std_error *= 30
+        row = recorded.by_quantity(smallest, loose)['lambda_T: reflecting over periodic at equal k, less 1']
+        self.assertGreater(row.error, 1.0)
+        self.assertEqual(row.verdict, 'known too poorly')
+
+    def test_what_the_fits_go_through(self):
+        found = bags()
+        one, other = (found[smallest.run_of('periodic', box)].recording.steps.steps for box in ('400_05', '600_075'))
+        one[0].set = one[1].set                             # T(1,0) with LP(1,0)
+        other[1].resolved = False                           # LP(1,0), so that LP(0,1) is taken
+        rows = list(smallest.rows(found))
+        remarks = {row.quantity.partition(' at ')[0]: row.remark for row in rows}
+        beyond = '1 of them beyond a smaller step that is not resolved'
+        for name, said in (('lambda_T, periodic', '6 boxes, 1 of them share vectors, chi^2'),
+                           ('lambda_T, reflecting', '6 boxes, chi^2'),
+                           ('lambda_L, periodic', f'6 boxes, 1 of them share vectors; {beyond}, chi^2'),
+                           ('c of lambda_T, both', '12 boxes, 1 of them share vectors; c and c2 are correlated'),
+                           ('c2 of lambda_L, both', f'12 boxes, 1 of them share vectors; {beyond}; c and c2')):
+            self.assertTrue(remarks[name].startswith(said), remarks[name])
+        self.assertTrue(remarks['lambda_T: reflecting over periodic'].endswith('12 boxes, 1 of them share vectors'))
+        for name in ('lambda_T, both', 'c of lambda_T, both', 'c2 of lambda_L, both'):
+            self.assertTrue(remarks[name].endswith('3 %: that of the density fits'), remarks[name])
 
     def test_common_range(self):
         self.assertEqual(smallest.common([(0.1, 0.2), (0.05, 0.13)]), (0.1, 0.13))

@@ -8,12 +8,16 @@ from math import hypot, isclose, pi
 DISKS, DENSITY, ASPECT = 780, 0.8, 0.867
 FIT_ACCURACY = 0.03     # of the fitted slopes
 FITS = 'fits of Eckmann, Forster, Posch, Zabey 2005'
-STEPS = (('T', 1, 0, 1556, 1557), ('T', 0, 1, 1554, 1555), ('LP', 1, 0, 1550, 1553),
-         ('T', 1, 1, 1546, 1549), ('LP', 0, 1, 1542, 1545))
+# kind, nodes, first and last index
+INDICES = (('T', 1, 0, 1556, 1557), ('T', 0, 1, 1554, 1555), ('LP', 1, 0, 1550, 1553),
+           ('T', 1, 1, 1546, 1549), ('LP', 0, 1, 1542, 1545), ('T', 2, 0, 1540, 1541),
+           ('LP', 1, 1, 1532, 1539))
+STEPS = INDICES[:5]     # small enough for slopes without curvature
 # lambda = c k + c2 k^2; c2 is None where only a slope is given
 Branch = namedtuple('Branch', 'c c2')
 CURVES = {'T': Branch(1.412, 0.086), 'LP': Branch(1.422, 0.55)}
 CURVES_DENSITY = 0.4
+CURVES_DISKS, CURVES_ASPECTS = (400, 800), (0.5, 1.0)     # from, to; of the smallest steps
 
 
 class Step:
@@ -46,12 +50,21 @@ def steps(info):
 
 def branches(info):
     """{kind: Branch} where the paper's fits hold for the run, else none."""
-    if isclose(info.density, CURVES_DENSITY, rel_tol=1e-6) and 400 <= info.disks <= 800:
+    if isclose(info.density, CURVES_DENSITY, rel_tol=1e-6) and _within(info.disks, CURVES_DISKS):
         return CURVES
     if info.density <= DENSITY * (1 + 1e-6) and info.disks >= 400:
         return {'T': Branch(slope_t(info.density), None),
                 'LP': Branch(slope_l(info.density), None)}
     return {}
+
+
+def is_of_curves(disks, aspect):
+    """Whether the curves are fits through smallest steps of such boxes."""
+    return _within(disks, CURVES_DISKS) and _within(aspect, CURVES_ASPECTS)
+
+
+def _within(value, ends):
+    return ends[0] * (1 - 1e-6) <= value <= ends[1] * (1 + 1e-6)
 
 
 def _is_periodic_scene(info):

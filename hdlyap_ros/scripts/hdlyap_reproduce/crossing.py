@@ -4,6 +4,7 @@ import numpy as np
 
 from hdlyap_plots import paper
 
+REAL = 1e-9         # imaginary part of a zero that is real
 STEPS = 4000        # of the densities in which a sign change of the fits is looked for
 
 
@@ -26,25 +27,34 @@ def of_fits_between():
 
 def measured(density, apart, errors):
     """(where a smooth difference goes through zero from below, its standard error): a polynomial through the four
-    densities round it; how far that of three of them moves the crossing is part of the error. (None, 0) if nowhere."""
+    densities round it. Errors are taken through its slope there, since a crossing that moves far may leave the densities
+    that were run; how far that of three of them moves it is part of the error. (None, 0) if nowhere."""
     density, apart, errors = (np.asarray(values, dtype=float) for values in (density, apart, errors))
     behind = np.flatnonzero((apart[:-1] < 0) & (apart[1:] >= 0))
     if not len(behind):
         return None, 0.0
-    between = density[behind[0]:behind[0] + 2]
-    near = np.argsort(np.abs(density - between.mean()), kind='stable')     # the two neighbours first
-    place = _root(density, apart, near[:4], between)
-    if place is None:
-        return None, 0.0
-    fewer = _root(density, apart, near[:max(2, min(len(near), 4) - 1)], between)
-    moved = [place - (_root(density, apart + errors * (np.arange(len(density)) == k), near[:4], between) or place)
-             for k in near[:4]]
-    return place, float(np.linalg.norm([*moved, place - (fewer or place)]))
+    middle = density[behind[0]:behind[0] + 2].mean()
+    near = np.argsort(np.abs(density - middle), kind='stable')[:4]      # the two neighbours first
+    curve = _through(density[near], apart[near])
+    fewer = near[:max(2, len(near) - 1)]
+    place = _root(curve, middle)
+    moved = errors[near] * _weights(density[near], place) / np.polyval(np.polyder(curve), place)
+    return place, float(np.linalg.norm([*moved, place - _root(_through(density[fewer], apart[fewer]), place)]))
 
 
-def _root(density, values, chosen, between):
-    """Zero, between two densities, of the polynomial through the chosen ones."""
-    roots = np.roots(np.polyfit(density[chosen], values[chosen], len(chosen) - 1))
-    inside = [float(root.real) for root in roots
-              if abs(root.imag) < 1e-12 and between[0] <= root.real <= between[1]]
-    return inside[0] if inside else None
+def _through(density, values):
+    """Coefficients of the polynomial."""
+    return np.polyfit(density, values, len(density) - 1)
+
+
+def _root(curve, beside):
+    """The real zero of a polynomial nearest to a density; there is one where it changes its sign."""
+    roots = np.roots(curve)
+    real = roots.real[np.abs(roots.imag) < REAL]
+    return float(real[np.argmin(np.abs(real - beside))])
+
+
+def _weights(density, place):
+    """How much a polynomial moves there with each of the values that it goes through: Lagrange's polynomials."""
+    return np.array([np.prod([(place - other) / (one - other) for other in density if other != one])
+                     for one in density])

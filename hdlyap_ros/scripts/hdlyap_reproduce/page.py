@@ -91,7 +91,8 @@ def _head(commit, command):
     return ('Eckmann, Forster, Posch, Zabey, Lyapunov modes in hard-disk systems, J. Stat. Phys. 118, 813 (2005): '
             f'published and measured.\nMade by {made}. In brackets: standard errors of the last digits; +-: what the '
             f'paper leaves open.\nA row agrees if the numbers are apart by no more than that and {row.SIGMAS:g} '
-            'standard errors.')
+            'standard errors;\nit is known too poorly where so many exceed both '
+            f'what the paper leaves open and {row.TELLING:.0%} of the number, or what the row says is enough.')
 
 
 def _block(number, part, rows):
@@ -105,7 +106,7 @@ def _block(number, part, rows):
 def _verdicts(rows):
     given = [one.verdict for one in rows if one.published is not None]
     counts = [(given.count(verdict), text) for verdict, text in
-              ((row.AGREES, 'agree'), (row.DIFFERS, 'differ'), (row.MISSING, 'not measured'))]
+              ((row.AGREES, 'agree'), (row.DIFFERS, 'differ'), (row.POOR, row.POOR), (row.MISSING, row.MISSING))]
     return 'of the rows with a published number ' + ', '.join(f'{count} {text}' for count, text in counts)
 
 

@@ -6,27 +6,44 @@ from numbers import Integral, Real
 from hdlyap_plots.numbers import with_error
 
 SIGMAS = 3.0        # standard errors of ours that numbers may be apart, beyond what the paper leaves open
+TELLING = 0.1       # of the published number, or what the paper leaves open if that is more: agreeing says little if
+                    # our uncertainty is larger
 SMALL = 1e-3        # without an error: below, the usual decimals would show little of a number
 AGREES, DIFFERS, MISSING, SHOWN = 'agrees', 'differs', 'not measured', ''
+POOR = 'known too poorly'   # not apart, but hardly any number would have been
 HEADER = ('part', 'quantity', 'published', 'published_error', 'measured', 'error', 'unit', 'verdict', 'remark')
 
 
 class Row:
     """One number (or word) of the paper beside ours with its standard error. published_error: what the paper leaves
-    open to either side: the scatter round its fits, half of the last digit, 0 for counts. measured None: not in the bags.
-    published None: the paper has none, ours is only shown."""
+    open to either side: the scatter round its fits, half of the last digit, 0 for counts. measured None: not in the
+    bags. published None: the paper has none, ours is only shown. enough: the largest standard error with which agreeing
+    says something; None: by the published number."""
 
-    def __init__(self, quantity, published=None, measured=None, error=0.0, published_error=0.0, unit='', remark=''):
+    def __init__(self, quantity, published=None, measured=None, error=0.0, published_error=0.0, unit='', remark='',
+                 enough=None):
         self.part = None        # set by who collects the rows
         self.quantity, self.unit, self.remark = quantity, unit, remark
         self.published, self.published_error = published, published_error
-        self.measured, self.error = measured, error
+        self.measured, self.error, self.enough = measured, error, enough
 
     def _agrees(self):
         if isinstance(self.published, str) or isinstance(self.measured, str):
             return self.published == self.measured
-        error = self.error if isfinite(self.error) and self.error > 0 else 0.0      # not known yet: none to forgive
-        return abs(self.measured - self.published) <= self.published_error + SIGMAS * error
+        return abs(self.measured - self.published) <= self.published_error + SIGMAS * self._known_error
+
+    @property
+    def _known_error(self):
+        """Not known yet: none to forgive."""
+        return self.error if isfinite(self.error) and self.error > 0 else 0.0
+
+    def _is_poor(self):
+        if isinstance(self.published, str) or isinstance(self.measured, str):
+            return False
+        if self.enough is not None:
+            return self._known_error > self.enough
+        matters = max(self.published_error, TELLING * abs(self.published))
+        return 0 < matters < SIGMAS * self._known_error
 
     @property
     def verdict(self):
@@ -34,7 +51,9 @@ class Row:
             return MISSING
         if self.published is None:
             return SHOWN
-        return AGREES if self._agrees() else DIFFERS
+        if not self._agrees():
+            return DIFFERS
+        return POOR if self._is_poor() else AGREES
 
     def cells(self):
         """As text, for the page."""

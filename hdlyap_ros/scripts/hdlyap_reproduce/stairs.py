@@ -18,9 +18,6 @@ class Stair:
     def count(self):
         return self.last - self.first + 1
 
-    def holds(self, first, last):
-        return self.first <= first and last <= self.last
-
 
 def stairs(recording):
     """Of the positive exponents carried, smallest first; the largest ones are one stair with many."""

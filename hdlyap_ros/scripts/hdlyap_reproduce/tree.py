@@ -1,4 +1,5 @@
-"""A command and all that it begins: roslaunch gives each node a session of its own, a signal to a group is not enough."""
+"""A command and all that it begins: roslaunch gives each node a session of its own, so a signal to a group is not
+enough."""
 
 import os
 import signal

@@ -12,6 +12,8 @@ TITLE = 'Slopes c_T, c_L against the aspect ratio, density 0.4, k = 0.2'
 ASPECTS = ('025', '050', '075', '100')
 WAVE_NUMBER = 0.2
 UNIT = 'sigma/time unit'
+ENOUGH = 1.0        # %: a third of the scatter of the fits; with a larger error, 'insensitive' says little
+OPENS = f'{100 * paper.FIT_ACCURACY:g} %: that of the density fits'     # with which the paper says nothing of these
 BESIDE = 0.012      # aspect ratio: so that error bars can be seen beside each other
 SYMBOLS = {'T': 'c_T', 'LP': 'c_L'}
 KINDS = {'T': steps.T, 'LP': steps.LP}
@@ -34,6 +36,11 @@ class Series:
         self.aspects = [recording.info.aspect for recording in recordings]
         self.disks = [recording.info.disks for recording in recordings]
         self.points = [slopes.find(recording, KINDS[kind], *nodes) for recording in recordings]
+
+    @property
+    def is_smallest(self):
+        """Of its kind, in such boxes."""
+        return self.kind == 'T' or self.nodes == (1, 0)
 
     @property
     def name(self):
@@ -72,10 +79,12 @@ def rows(bags):
 
 def _slope_row(series, aspect, disks, point):
     published = fitted(series.kind, point.wave_number if point else WAVE_NUMBER)
-    quantity, bound = f'{series.name}, A = {aspect:.2f}', paper.FIT_ACCURACY * published
+    quantity, bound, about = f'{series.name}, A = {aspect:.2f}', paper.FIT_ACCURACY * published, OPENS
+    if not (series.is_smallest and paper.is_of_curves(disks, aspect)):
+        published, bound, about = None, 0.0, 'outside of the paper\'s range'
     if point is None:
-        return Row(quantity, published, None, 0.0, bound, UNIT, f'N = {disks}')
-    remark = f'N = {disks}, k = {point.wave_number:.4f}' + (f'; {point.remark}' if point.remark else '')
+        return Row(quantity, published, None, 0.0, bound, UNIT, f'N = {disks}; {about}')
+    remark = '; '.join(filter(None, (f'N = {disks}, k = {point.wave_number:.4f}', about, point.remark)))
     return Row(quantity, published, point.slope, point.slope_error, bound, UNIT, remark)
 
 
@@ -83,11 +92,14 @@ def _constant_row(series):
     """The paper says 'insensitive', with the scatter of its fits."""
     quantity, bound = f'{series.name}: largest deviation from the mean over A', 100 * paper.FIT_ACCURACY
     if len(series.known) < 2:
-        return Row(quantity, 0.0, None, 0.0, bound, '%')
+        return Row(quantity, 0.0, None, 0.0, bound, '%', OPENS, ENOUGH)
     mean, chi2 = series.mean()
+    points = [point for _, point in series.known]
     aspect, point = max(series.known, key=lambda one: abs(one[1].slope - mean))
     return Row(quantity, 0.0, 100 * (point.slope / mean - 1), 100 * point.slope_error / mean, bound, '%',
-               f'at A = {aspect:.2f}; mean {mean:.4f}, chi^2 {chi2:.1f} for {len(series.known) - 1}')
+               '; '.join(filter(None, (f'at A = {aspect:.2f}; mean {mean:.4f} of {len(series.known)} boxes, '
+                                       f'chi^2 {chi2:.1f} for {len(series.known) - 1}', slopes.noted(points), OPENS))),
+               ENOUGH)
 
 
 # ---- figure and table ----------------------------------------------------------------------------

@@ -3,10 +3,10 @@
 import numpy as np
 from matplotlib import ticker
 
-from hdlyap_plots import paper, recording, steps
+from hdlyap_plots import paper, recording
 from hdlyap_plots.figures.style import BLUE, GREY, VERMILION, ZERO, plt, scene
 
-from .. import averages
+from .. import averages, zeros
 from ..row import Row
 
 TITLE = 'Angle and ratio of the dq and dp halves, all 4N vectors'
@@ -25,7 +25,7 @@ class Halves:
         messages = [message for message in bag.messages(recording.SPECTRUM) if message.averaged_time > 0]
         run = bag.recording
         self.info, self.positive_end = run.info, run.positive_end
-        self.zero = steps.zero_modes(run.steps) if run.steps else None
+        self.zeros = zeros.indices(run.info, run.spectrum) if run.spectrum is not None else []
         self.count = 4 * run.info.disks
         self.is_known = bool(messages) and len(messages[-1].cos_theta) == self.count
         if self.is_known:
@@ -61,11 +61,9 @@ def runs(plan):
 def rows(bags):
     halves = Halves(bags['halves'])
     of_paper = halves.info.disks == paper.DISKS
-    zero = halves.zero if halves.zero and halves.zero.resolved else None
-    yield _cos(halves, 'below', halves.positive_end, 1.0)
-    yield _cos(halves, 'above', halves.behind_zeros, -1.0)
-    yield Row('first zero mode', FIRST_ZERO if of_paper else None, zero and zero.first_index)
-    yield Row('last zero mode', LAST_ZERO if of_paper else None, zero and zero.last_index)
+    yield _cos(halves, 'below', halves.positive_end, 1.0 if of_paper else None)
+    yield _cos(halves, 'above', halves.behind_zeros, -1.0 if of_paper else None)
+    yield from _zero_rows(halves, of_paper)
     yield _mean(halves, 'ln(C / C\')', 0.0, lambda: np.log(halves.ratio / halves.conjugate))
     yield _mean(halves, 'cos Theta_l + cos Theta_(4N+1-l)', 0.0, lambda: halves.sums)
     yield _largest(halves, '|C / C\' - 1|', lambda: halves.ratio / halves.conjugate - 1)
@@ -77,6 +75,15 @@ def rows(bags):
               halves.pairing_error if halves.is_known else None, unit=UNIT,
               remark=f'vectors of close exponents have not settled; all of the half: {halves.all_pairs:.1e}'
               if halves.is_known else '')
+
+
+def _zero_rows(halves, of_paper):
+    """By the size of the exponents of all 4N vectors."""
+    found = halves.zeros if halves.is_known else []
+    ends = (int(found[0]), int(found[-1])) if len(found) else (None, None)
+    for name, published, index in zip(('first', 'last'), (FIRST_ZERO, LAST_ZERO), ends):
+        yield Row(f'{name} zero exponent', published if of_paper else None, index,
+                  remark=f'{zeros.span(found)}, by their size' if len(found) else '')
 
 
 def _mean(halves, what, published, values):

@@ -1,12 +1,11 @@
 """Part 11: how many exponents each step has, by the boundaries; how many vanish, and how small those are."""
 
-from math import log
-
 import numpy as np
 
 from hdlyap_plots import steps
 from hdlyap_plots.figures.style import GREY, INK, bars, kind_colour, plt
 
+from .. import zeros
 from ..row import Row
 from ..stairs import stairs
 
@@ -16,7 +15,6 @@ BOXES = {'periodic': 'periodic', 'reflecting': 'reflecting', 'mixed': 'mixed', '
 ZEROS = {'zeros_periodic': (6, 'both directions periodic'), 'zeros_mixed': (4, 'one direction periodic'),
          'zeros_reflecting': (2, 'both directions reflecting')}
 NARROW = 2.0        # diameters: disks cannot pass each other
-SMALL = 10.0        # times what linear growth gives: an exponent that may be zero
 SHOWN = 36          # exponents in a panel of the figure
 SPECTRUM = 'hdlyap/Spectrum'
 
@@ -47,10 +45,10 @@ def _functions(nodes, boundary, kind):
 # ---- steps ---------------------------------------------------------------------------------------
 
 class Level:
-    """Resolved steps whose exponents are one stair: mostly one step."""
+    """Resolved steps that have stairs of exponents in common: mostly one step on one stair."""
 
-    def __init__(self, stair, blocks):
-        self.stair, self.blocks = stair, blocks
+    def __init__(self, pieces, blocks):
+        self.pieces, self.blocks = pieces, blocks
 
     @property
     def name(self):
@@ -59,11 +57,6 @@ class Level:
     @property
     def steps(self):
         return [step for block in self.blocks for step in block.steps]
-
-    @property
-    def vectors(self):
-        """Of the sets that were found by projection."""
-        return sum(block.last - block.first + 1 for block in self.blocks)
 
     @property
     def trace(self):
@@ -75,17 +68,35 @@ class Level:
     @property
     def stands_apart(self):
         """Whether no vectors that no step was found for go on without a jump."""
-        return self.stair is not None and self.stair.count == self.vectors
+        return all(stair.count == self._of(stair) for stair in self.pieces)
+
+    @property
+    def measured(self):
+        """How many exponents there are: the number; as text those of the pieces, smallest exponents first, if it breaks;
+        None where vectors that no step was found for go on without a jump."""
+        if not self.stands_apart:
+            return None
+        counts = [stair.count for stair in self.pieces]
+        return counts[0] if len(counts) == 1 else ' + '.join(map(str, counts))
+
+    def _of(self, stair):
+        """How many of a stair's vectors belong to the steps."""
+        return sum(max(0, min(stair.last, block.last) - max(stair.first, block.first) + 1) for block in self.blocks)
 
 
 def levels(recording):
     """Of all resolved steps, smallest exponent first."""
     flights = stairs(recording) if recording.spectrum is not None else []
-    found = {}
+    found = []
     for block in steps.blocks(recording.steps):
-        stair = next((one for one in flights if one.holds(block.first, block.last)), None)
-        found.setdefault(stair.first if stair else -block.first, (stair, []))[1].append(block)
-    return [Level(stair, blocks) for stair, blocks in found.values()]
+        pieces = [one for one in flights if one.first <= block.last and block.first <= one.last]
+        joined = [level for level in found if set(level.pieces) & set(pieces)]
+        blocks = [one for level in joined for one in level.blocks] + [block]
+        every = {stair for level in joined for stair in level.pieces} | set(pieces)
+        place = found.index(joined[0]) if joined else len(found)
+        found = [level for level in found if level not in joined]
+        found.insert(place, Level([one for one in flights if one in every], blocks))
+    return found
 
 
 def rows(bags):
@@ -114,14 +125,15 @@ def steps_of(found):
 def _level_row(recording, box, level):
     """Counted by the exponents alone where they stand apart from all others: the node takes as many vectors as the
     rule has. Between unknown neighbours nothing can be counted."""
-    measured = level.vectors if level.stair is None else level.stair.count
     remark = f'trace {level.trace:.2f}'
-    if level.stair is None:     # the stair breaks within the set
-        measured, remark = None, remark + f'; exponents {level.blocks[0].indices} are no stair'
+    indices = f'{level.pieces[-1].first}-{level.pieces[0].last}' if level.pieces else ''
+    if not level.pieces:
+        remark += '; exponents not known'
     elif not level.stands_apart:
-        measured = None
-        remark += f'; goes on without a jump in the other exponents of {level.stair.first}-{level.stair.last}'
-    return Row(f'{box}: {level.name}', level.prescribed(recording.info), measured, remark=remark)
+        remark += f'; goes on without a jump in the other exponents of {indices}'
+    elif len(level.pieces) > 1:
+        remark += f'; the exponents {indices} are no stair'
+    return Row(f'{box}: {level.name}', level.prescribed(recording.info), level.measured, remark=remark)
 
 
 # ---- zero modes ----------------------------------------------------------------------------------
@@ -132,26 +144,24 @@ def _zero_rows(bag, count, boundaries):
     if spectrum is None:
         yield Row(f'zero exponents, {boundaries}', count)
         return
-    size = np.abs(spectrum.exponents)
-    scale = linear_growth(recording.info, spectrum.averaged_time)
-    vanish = size < SMALL * scale
-    largest = float(size[vanish].max()) if vanish.any() else None
-    remark = f'smaller than {SMALL * scale:.2g}; the next is {size[~vanish].min():.2g}' \
-        if not vanish.all() else ''
-    yield Row(f'zero exponents, {boundaries}', count, int(vanish.sum()), remark=remark)
-    if zero is not None and zero.resolved:
-        yield Row(f'zero modes, {boundaries}', count, zero.last_index - zero.first_index + 1,
-                  remark=f'trace {zero.multiplicity:.3f} in the exact null space')
-    else:
-        yield Row(f'zero modes, {boundaries}', count)
-    yield Row(f'largest zero exponent over ln(1 + t/w)/t, {boundaries}', None, largest and largest / scale,
-              remark=_course_remark(bag, int(vanish.sum())))
+    size, found = np.abs(spectrum.exponents), zeros.indices(recording.info, spectrum)
+    vanish = np.isin(spectrum.first_index + np.arange(len(size)), found)
+    remark = f'indices {zeros.span(found)}, smaller than {zeros.threshold(recording.info, spectrum):.2g}'
+    if not vanish.all():
+        remark += f'; the next is {size[~vanish].min():.2g}'
+    yield Row(f'zero exponents, {boundaries}', count, len(found), remark=remark)
+    yield _trace_row(zero, boundaries)
+    scale = zeros.linear_growth(recording.info, spectrum.averaged_time)
+    yield Row(f'largest zero exponent over ln(1 + t/w)/t, {boundaries}', None,
+              float(size[vanish].max()) / scale if vanish.any() else None, remark=_course_remark(bag, len(found)))
 
 
-def linear_growth(info, time):
-    """Mean exponent, over a time, of a vector that grows linearly, as the zero modes do: ln(t)/t; less in a frame
-    that is as old as the warm-up w when averaging begins, ln((w + t)/w)/t."""
-    return log((info.warmup + time) / (info.warmup or 1.0)) / time
+def _trace_row(zero, boundaries):
+    """Of vectors that the scene's number chooses, so not beside the paper's."""
+    quantity = f'trace of the zero modes in the exact null space, {boundaries}'
+    if zero is None or not zero.resolved:
+        return Row(quantity)
+    return Row(quantity, None, zero.multiplicity, remark=f'vectors {zero.first_index}-{zero.last_index}')
 
 
 def zero_course(bag, count):
@@ -169,7 +179,7 @@ def _course_remark(bag, count):
     info, end, said = bag.recording.info, course[-1][0], []
     for part in (0.1, 0.3, 1.0):
         time, size = min(course, key=lambda point: abs(point[0] - part * end))
-        said.append(f'{size / linear_growth(info, time):.2g} at t = {time:.0f}')
+        said.append(f'{size / zeros.linear_growth(info, time):.2g} at t = {time:.0f}')
     return f'w = {info.warmup:g}, the warm-up; ' + ', '.join(said)
 
 
@@ -225,7 +235,7 @@ def tables(bags):
               'exponent', 'std_error')
     yield 'multiplicities', header, [line for name, box in BOXES.items() for line in _lines(bags[name].recording, box)]
     yield 'zero_exponents', ('boundaries', 'averaged_time', 'largest_zero_exponent', 'linear_growth'), [
-        (boundaries, f'{time:g}', f'{size:.4g}', f'{linear_growth(bags[name].recording.info, time):.4g}')
+        (boundaries, f'{time:g}', f'{size:.4g}', f'{zeros.linear_growth(bags[name].recording.info, time):.4g}')
         for name, (count, boundaries) in ZEROS.items() for time, size in _thinned(bags[name], count)]
 
 

@@ -15,6 +15,8 @@ BOUNDARIES = ('periodic', 'reflecting')
 KINDS = {'T': steps.T, 'LP': steps.LP}
 SYMBOLS = {'T': 'lambda_T', 'LP': 'lambda_L'}
 UNIT = '1/time unit'
+ENOUGH = 1.0    # %: a third of the scatter of the fits; with a larger error, 'alike' says little
+OPENS = f'{100 * paper.FIT_ACCURACY:g} %: that of the density fits'     # with which the paper says nothing of these
 
 
 def run_of(boundary, box):
@@ -43,6 +45,10 @@ class Branch:
     def found(self, which):
         return [point for point in self.points[which] if point is not None]
 
+    def noted(self, which):
+        """What a fit goes through."""
+        return ', '.join(filter(None, (f'{len(self.found(which))} boxes', slopes.noted(self.points[which]))))
+
 
 # ---- rows ----------------------------------------------------------------------------------------
 
@@ -62,7 +68,7 @@ def _curve_rows(branch, which):
     if curve is None:
         yield Row(quantity + ', smallest and largest k')
         return
-    fitted = f'{len(branch.found(which))} boxes, chi^2 {curve.chi2:.1f} for {curve.freedom}'
+    fitted = f'{branch.noted(which)}, chi^2 {curve.chi2:.1f} for {curve.freedom}; {OPENS}'
     for end, k in zip(('smallest', 'largest'), slopes.span(branch.points[which])):
         there = published.c * k + published.c2 * k * k
         value, error = curve.at(k)
@@ -77,7 +83,8 @@ def _coefficient_rows(branch):
     if curve is None:
         yield from (Row(name, value, None) for name, value in zip(names, published))
         return
-    remark = f'c and c2 are correlated: {curve.correlation:.2f}; +-: 3 % of lambda at both ends'
+    remark = (f'{branch.noted("both")}; c and c2 are correlated: {curve.correlation:.2f}; +-: of lambda at both ends '
+              f'{OPENS}')
     opens = paper.FIT_ACCURACY * published.c / (high - low)
     yield Row(names[0], published.c, curve.c, curve.c_error, opens * (low + high), 'sigma/time unit', remark)
     yield Row(names[1], published.c2, curve.c2, curve.c2_error, 2 * opens, 'sigma^2/time unit', remark)
@@ -90,10 +97,10 @@ def _alike_row(branch):
     spans = [slopes.span(branch.points[boundary]) for boundary in BOUNDARIES]
     low, high = common(spans)
     if None in curves or not low < high:
-        return Row(quantity, 0, None, unit='%')
+        return Row(quantity, 0, None, unit='%', enough=ENOUGH)
     difference, error = slopes.mean_difference(*curves, low, high)
     return Row(quantity, 0, 100 * difference, 100 * error, 0.0, '%',
-               f'mean of the fits from k = {low:.4f} to {high:.4f}')
+               f'mean of the fits from k = {low:.4f} to {high:.4f}; {branch.noted("both")}', ENOUGH)
 
 
 def common(spans):
