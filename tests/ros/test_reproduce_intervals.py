@@ -20,7 +20,7 @@ class Intervals(Part):
         """One run; its exponents are those of the time, and one of them is off."""
         info = made.run_info(interval=interval, accuracy=ACCURACY)
         messages = [info]
-        for number, (phase, in_use) in enumerate(((0, 9.0), (1, 2.5), (2, 0.5), (2, 0.75), (3, 0.5))):
+        for number, (phase, in_use) in enumerate(((0, 9.0), (1, 5.0), (2, 2.5), (2, 0.75), (3, 0.5))):
             cost = made.cost(100.0 + number)
             cost.phase, cost.interval, cost.orthonormalisations = phase, min(in_use, interval), 4 * number
             cost.error_bound = 3e-10
@@ -59,11 +59,11 @@ class Intervals(Part):
         self.assertEqual(self.figures(bags), {})
 
     def test_interval_in_use(self):
-        """Of the frame, not of the time before it; the mean is that of the averaging."""
+        """Of the averaging, not of the time before it."""
         rows = self.rows(self.bags(self.trial(0.25), self.trial(8.0)))
-        row = rows['longest interval in use, asked 8']
-        self.assertEqual((row.measured, row.remark), (2.5, 'mean of the averaging 0.25'))
-        self.assertEqual(rows['longest interval in use, asked 0.25'].measured, 0.25)
+        row = rows['longest interval of the averaging, asked 8']
+        self.assertEqual((row.measured, row.remark), (2.5, 'mean 0.25'))
+        self.assertEqual(rows['longest interval of the averaging, asked 0.25'].measured, 0.25)
 
     def test_what_other_programs_get_where_the_interval_was_not_taken(self):
         rows = self.rows(self.bags(self.trial(0.25), self.trial(1.0), self.trial(8.0)))

@@ -10,7 +10,7 @@ import numpy as np
 
 import made
 import recorded
-from made import LP, T, ZERO
+from made import LP, T
 from hdlyap_reproduce.bag import Bag
 from hdlyap_reproduce.parts import multiplicities as part
 

@@ -46,11 +46,6 @@ class Bag:
         last = self.cost
         return last is not None and last.phase == FINISHED and last.progress >= 1
 
-    @property
-    def info(self):
-        """Its run_info."""
-        return recording.run_infos(self.path)[-1]
-
     def was_run_with(self, parameters):
         """Whether its run had these parameters of the node."""
         asked = repetition.parameters(self.info)

@@ -27,8 +27,8 @@ def of_fits_between():
 
 def measured(density, apart, errors):
     """(where a smooth difference goes through zero from below, its standard error): a polynomial through the four
-    densities round it. Errors are taken through its slope there, since a crossing that moves far may leave the densities
-    that were run; how far that of three of them moves it is part of the error. (None, 0) if nowhere."""
+    densities round it. Errors are taken through its slope there, since a crossing that moves far may leave the
+    densities that were run; how far that of three of them moves it is part of the error. (None, 0) if nowhere."""
     density, apart, errors = (np.asarray(values, dtype=float) for values in (density, apart, errors))
     behind = np.flatnonzero((apart[:-1] < 0) & (apart[1:] >= 0))
     if not len(behind):

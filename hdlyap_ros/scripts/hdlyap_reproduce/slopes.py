@@ -82,7 +82,8 @@ def _point(recording, found, skipped=()):
 def by_index(recording, kind, nx, ny):
     """A step that was not resolved, by its degeneracy alone: the first stair, from the smallest exponent on, of
     as many exponents as it has that no other step is found in; None if a stair before it has a number that belongs
-    to neither branch, or exponents of another step among others: those could be any. For the smallest steps of a periodic box that is not square: T two exponents, LP four."""
+    to neither branch, or exponents of another step among others: those could be any. For the smallest steps of a
+    periodic box that is not square: T two exponents, LP four."""
     counts = {steps.T: 2, steps.LP: 4}
     wave = next((step for step in (recording.steps.steps if recording.steps else ())
                  if (step.kind, step.nx, step.ny) == (kind, nx, ny)), None)

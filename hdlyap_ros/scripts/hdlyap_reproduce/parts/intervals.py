@@ -27,9 +27,9 @@ class Trial:
         # exponents by averaged time: they end at the last orthonormalisation
         self.spectra = {message.averaged_time: np.array(message.exponents)
                         for message in bag.messages(recording.SPECTRUM) if message.averaged_time > 0}
-        costs = [message for message in bag.messages(recording.COST) if message.phase >= message.WARMING_UP]
+        costs = [message for message in bag.messages(recording.COST) if message.phase >= message.AVERAGING]
         self.longest = max((message.interval for message in costs), default=None)
-        self.mean = _mean_interval([message for message in costs if message.phase >= message.AVERAGING])
+        self.mean = _mean_interval(costs)
         self.bound = costs[-1].error_bound if costs else None
         self.indices = {block.name: block.indices for block in steps.blocks(self.steps)}
         self.found = steps.resolved(self.steps)
@@ -79,8 +79,8 @@ def runs(plan):
 def rows(bags):
     trials = Trials(bags)
     for trial in (trials.first, *trials.others):
-        yield Row(f'longest interval in use, asked {trial.name}', None, trial.longest, unit='time unit',
-                  remark=f'mean of the averaging {trial.mean:.3g}' if trial.mean else '')
+        yield Row(f'longest interval of the averaging, asked {trial.name}', None, trial.longest, unit='time unit',
+                  remark=f'mean {trial.mean:.3g}' if trial.mean else '')
     for trial in trials.others:
         yield _deviation(trials, trial)
     for trial in trials.others:

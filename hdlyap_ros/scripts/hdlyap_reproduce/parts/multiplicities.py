@@ -72,8 +72,8 @@ class Level:
 
     @property
     def measured(self):
-        """How many exponents there are: the number; as text those of the pieces, smallest exponents first, if it breaks;
-        None where vectors that no step was found for go on without a jump."""
+        """How many exponents there are: the number; as text those of the pieces, smallest exponents first, if it
+        breaks; None where vectors that no step was found for go on without a jump."""
         if not self.stands_apart:
             return None
         counts = [stair.count for stair in self.pieces]

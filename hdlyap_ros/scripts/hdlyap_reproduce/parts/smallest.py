@@ -4,7 +4,7 @@ from matplotlib import ticker
 import numpy as np
 
 from hdlyap_plots import paper, steps
-from hdlyap_plots.figures.style import GREY, KIND_COLOURS, plt
+from hdlyap_plots.figures.style import KIND_COLOURS, plt
 
 from .. import slopes
 from ..row import Row
