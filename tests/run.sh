@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every test of hdlyap, built afresh below build/check. Its last line is 'N passed, N failed'. The machine may be busy: what
-# fails runs once more, alone, and if it passes then counts as passed, but is named.
+# Every test of hdlyap, built afresh below build/check. Its last line is 'N passed, N failed'. The machine may be busy: tests
+# of core and node, of tools and README that fail run once more, alone; what passes then counts, but is named.
 #   run.sh [--no-install]
 set -euo pipefail
 # shellcheck source=launch/common.sh

@@ -7,12 +7,13 @@ import numpy as np
 import made
 from made import LP
 from hdlyap_reproduce import blocks
-from hdlyap_reproduce.bag import Bag
 from hdlyap_reproduce.parts import phases
-from turned import Made, Wave, course
+from turned import Turned, Wave, course
 
 
-class Phases(Made):
+class Phases(Turned):
+    of = phases
+
     INFO = made.run_info(density=0.8)
     TIMES = np.arange(1.0, 301.0)
     FOUND = [made.step(INFO, LP, 1, 0, 32, 35), made.step(INFO, LP, 1, 1, 24, 31)]
@@ -32,7 +33,7 @@ class Phases(Made):
 
     def test_rates(self):
         bag = self.measured(*self.waves(1.5, 1.5, wobble=0.02))
-        rows = self.rows(phases, bag)
+        rows = self.rows(bag)
         k = made.wave_number(self.INFO, 1, 0)
         self.assertAlmostEqual(rows['omega of LP(1,0)'].measured, 1.5 * k, 3)
         self.assertAlmostEqual(rows['omega / k of LP(1,0)'].measured, 1.5, 3)
@@ -43,16 +44,16 @@ class Phases(Made):
 
     def test_errors_are_of_blocks_of_time(self):
         wave, = self.waves(1.5, wobble=0.02)
-        row = self.rows(phases, self.measured(wave))['omega of LP(1,0)']
+        rows = self.rows(self.measured(wave))
+        row, velocity = rows['omega of LP(1,0)'], rows['omega / k of LP(1,0)']
         turned = np.array([wave.turned(t) for t in self.TIMES])
         rates = np.array([piece.mean() for piece in np.array_split(np.diff(turned), blocks.BLOCKS)])
         self.assertAlmostEqual(row.error, rates.std(ddof=1) / 4, delta=0.1 * row.error)
         self.assertGreater(row.error, 0)
-        velocity = self.rows(phases, Bag(self.path))['omega / k of LP(1,0)']
         self.assertAlmostEqual(velocity.error * made.wave_number(self.INFO, 1, 0), row.error, 12)
 
     def test_velocity_that_depends_on_k(self):
-        rows = self.rows(phases, self.measured(*self.waves(1.5, 1.6, wobble=0.02)))
+        rows = self.rows(self.measured(*self.waves(1.5, 1.6, wobble=0.02)))
         row = rows['omega in proportion to k']
         self.assertEqual((row.measured, row.verdict), ('no', 'differs'))
         one, other = rows['omega / k of LP(1,0)'], rows['omega / k of LP(1,1)']
@@ -70,7 +71,7 @@ class Phases(Made):
             line = phases.Line([_Velocity(1.5, 1.5 * 0.005), _Velocity(1.5 * (1 + off), 1.5 * (1 + off) * error)])
             self.assertEqual(line.holds, word)
             self.assertIn(f'largest error is {100 * error:.2g} %', line.known_to)
-        row = self.rows(phases, self.measured(*self.waves(1.5, 1.5, wobble=0.02)))['omega in proportion to k']
+        row = self.rows(self.measured(*self.waves(1.5, 1.5, wobble=0.02)))['omega in proportion to k']
         self.assertIn('largest error is 0.', row.remark)
 
     def test_against_the_slope(self):
@@ -87,7 +88,7 @@ class Phases(Made):
             self.assertIn(f'{v * made.wave_number(info, 1, 0) / 4.0:.3f} with our LP(1,0)', row.remark)
 
     def test_fluctuation(self):
-        rows = self.rows(phases, self.measured(*self.waves(1.5, 1.5, wobble=0.2)))
+        rows = self.rows(self.measured(*self.waves(1.5, 1.5, wobble=0.2)))
         row = rows['phase fluctuation of LP(1,0), sin kx x']
         # of a sine over whole periods, in percent of a turn; the straight line takes a little of it
         self.assertAlmostEqual(row.measured, 100 * 0.2 / 2 ** 0.5 / (2 * np.pi), delta=0.1)
@@ -105,10 +106,10 @@ class Phases(Made):
     def test_untracked_is_left_out(self):
         wave, = self.waves(1.5)
         wave.weak = lambda t, vector, pair: (vector + pair + int(t / 30)) % 3 == 0
-        rows = self.rows(phases, self.measured(wave))
+        rows = self.rows(self.measured(wave))
         self.assertAlmostEqual(rows['omega / k of LP(1,0)'].measured, 1.5, 6)
         wave.weak = lambda t, vector, pair: 100 < t < 120
-        rows = self.rows(phases, self.measured(wave))
+        rows = self.rows(self.measured(wave))
         self.assertAlmostEqual(rows['omega / k of LP(1,0)'].measured, 1.5, 6)
         row = rows['phase fluctuation of LP(1,0), cos kx x']
         self.assertLess(row.measured, 1e-6)
@@ -116,10 +117,9 @@ class Phases(Made):
 
     def test_figure_and_table(self):
         bag = self.measured(*self.waves(1.5, 1.6))
-        figure = self.figures(phases, bag)['phases']
-        self.assertDrawn(figure)
+        figure = self.figures(bag)['phases']
         self.assertTrue(figure.axes[0].get_legend().get_texts()[0].get_text().startswith('LP(1,0): $v = 1.5'))
-        header, lines = self.tables(phases, bag)['phases']
+        header, lines = self.tables(bag)['phases']
         self.assertEqual(len(header), len(lines[0]))
         name, index, bits, time, phase = lines[1]
         self.assertEqual((name, bits, time), ('LP(1,0)', 'cos cos', '3'))   # every other of 300
@@ -127,11 +127,11 @@ class Phases(Made):
 
     def test_nothing_measured(self):
         bag = self.bag(self.INFO, made.cost(1))
-        rows = self.rows(phases, bag)
+        rows = self.rows(bag)
         self.assertEqual({row.verdict for row in rows.values()}, {'not measured'})
         self.assertIn('v, common', rows)
-        self.assertEqual(self.figures(phases, bag), {})
-        self.assertEqual(self.tables(phases, bag)['phases'][1], [])
+        self.assertEqual(self.figures(bag), {})
+        self.assertEqual(self.tables(bag)['phases'][1], [])
 
 
 class _Velocity:

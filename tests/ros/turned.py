@@ -1,45 +1,28 @@
 """Bags whose LP phases turn as is known; for the tests of parts 6, 7 and 13 of the reproduction."""
 
-import os
-import tempfile
-import unittest
-
 import numpy as np
 
 from hdlyap.msg import LpPhase, LpPhases
 
-import made
-from hdlyap_plots.figures.style import plt
-from hdlyap_reproduce.bag import Bag
+from reproduced import Part
 
 WEAK = LpPhase.WEAK
 
 
-class Made(unittest.TestCase):
-    """Bags with waves of known angular velocity."""
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.path = os.path.join(folder.name, 'run.bag')
-        self.addCleanup(plt.close, 'all')
+class Turned(Part):
+    """A part that needs one run: bags with waves of known angular velocity."""
 
     def bag(self, *messages):
-        made.write(self.path, messages)
-        return Bag(self.path)
+        return super().bag('run', messages)
 
-    def rows(self, part, bag):
-        return {row.quantity: row for row in part.rows({part.RUN: bag})}
+    def rows(self, bag):
+        return super().rows({self.of.RUN: bag})
 
-    def figures(self, part, bag):
-        return dict(part.figures({part.RUN: bag}))
+    def figures(self, bag):
+        return super().figures({self.of.RUN: bag})
 
-    def tables(self, part, bag):
-        return {name: (header, list(lines)) for name, header, lines in part.tables({part.RUN: bag})}
-
-    def assertDrawn(self, figure):
-        figure.canvas.draw()
-        self.assertGreater(np.unique(np.asarray(figure.canvas.buffer_rgba())).size, 10)
+    def tables(self, bag):
+        return super().tables({self.of.RUN: bag})
 
 
 class Wave:
