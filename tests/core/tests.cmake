@@ -27,6 +27,9 @@ foreach(name IN ITEMS
     spectrum
     interval
     ortho
+    backward
+    angles
+    store
     tail
     threads
     two_threads
