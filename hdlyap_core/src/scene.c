@@ -10,7 +10,7 @@
 #include "lattice.h"
 #include "scene_box.h"
 
-enum { DISKS_MIN = 2, DISKS_MAX = 1000000, THREADS_MAX = 1024, OBSERVE_ALL = 31 };
+enum { DISKS_MIN = 2, DISKS_MAX = 1000000, THREADS_MAX = 1024, OBSERVE_ALL = 63 };
 
 /** Room between walls beyond a diameter: less is crossed more often than there are times to tell apart. It is
  *  1e-9 but for the rounding of an edge that density and aspect give. */
@@ -36,6 +36,12 @@ hd_scene_def hd_scene_def_default(void)
         .max_wave_number = 0.0,
         .max_node = 0,
         .threads = 0,
+        .covariant_window = 50.0,
+        .covariant_transient = 100.0,
+        .covariant_sampling = 5.0,
+        .covariant_memory = 4e9,
+        .covariant_storage = HD_STORAGE_MEMORY,
+        .covariant_folder = "/tmp",
     };
 }
 

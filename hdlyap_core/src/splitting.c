@@ -1,5 +1,5 @@
 /** C and the growth over finite times -> angles and their distributions, order of finite-time exponents [T18]. */
-#include "splitting.h"
+#include "hdlyap/splitting.h"
 
 #include <math.h>
 #include <string.h>

@@ -27,6 +27,7 @@ foreach(name IN ITEMS
     spectrum
     interval
     ortho
+    covariant
     backward
     angles
     store

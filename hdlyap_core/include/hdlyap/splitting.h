@@ -1,8 +1,12 @@
 /** How the covariant vectors split tangent space: angles, and whose finite-time exponents keep their order [T18]. */
-#ifndef HD_SPLITTING_H
-#define HD_SPLITTING_H
+#ifndef HDLYAP_SPLITTING_H
+#define HDLYAP_SPLITTING_H
 
 #include "hdlyap/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /** Pairs of the spaces of positive, vanishing and negative exponents. */
 typedef enum hd_pair_of_spaces {
@@ -49,4 +53,7 @@ const double *hd_splitting_violations(const hd_splitting *splitting);
  *  there is dominated, so that what is on either side is isolated from the other. */
 const double *hd_splitting_entangled(const hd_splitting *splitting);
 
+#ifdef __cplusplus
+}
+#endif
 #endif
