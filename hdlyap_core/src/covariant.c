@@ -379,6 +379,7 @@ hd_status hd_covariant_step(hd_covariant *c)
 /* ---- results ---------------------------------------------------------------------------------- */
 
 bool hd_covariant_is_going_back(const hd_covariant *c) { return c->way != FORWARD; }
+int hd_covariant_vectors(const hd_covariant *c) { return c->vectors; }
 long hd_covariant_windows(const hd_covariant *c) { return c->windows; }
 long hd_covariant_lost(const hd_covariant *c) { return c->lost; }
 double hd_covariant_window_end(const hd_covariant *c) { return c->window; }

@@ -29,6 +29,9 @@ static const double CONDITION_TAIL = 1e4;
 /** Householder reflections stay right to eps * condition: 1e-3 of one interval, once. */
 static const double CONDITION_STABLE = 1e13;
 enum { PIECES_MAX = 64, TAIL_MAX = 60 };
+/** What modes are needed for. */
+static const unsigned OF_MODES = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES |
+                                 HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO;
 
 /* ---- creation --------------------------------------------------------------------------------- */
 
@@ -98,7 +101,7 @@ static hd_status prepare(hd_run *run, char *message, size_t size)
     HD_TRY(prepare_frame(run));
     HD_TRY(hd_lookback_create(run, message, size));
     run->observe = scene->observe;
-    return scene->observe & ~HD_OBSERVE_COVARIANT ? prepare_modes(run) : HD_OK;
+    return scene->observe & OF_MODES ? prepare_modes(run) : HD_OK;
 }
 
 static void averages_clear(hd_run *run)
@@ -231,7 +234,7 @@ static void piece_accepted(hd_run *run, double length)
 /** True while modes are looked at. */
 static bool observing(const hd_run *run)
 {
-    return run->modes && run->observe & ~HD_OBSERVE_COVARIANT && run->schedule.phase == HD_AVERAGING;
+    return run->modes && run->observe & OF_MODES && run->schedule.phase == HD_AVERAGING;
 }
 
 /** The whole log. An interval that turned out too long is taken back and replayed in pieces; a shortest
@@ -307,7 +310,7 @@ static hd_status observe(hd_run *run, bool report)
 static void sample_spectrum(hd_run *run)
 {
     hd_spectrum_sample(run->spectrum);
-    if (run->observe & ~HD_OBSERVE_COVARIANT) hd_steps_sample(run->steps, run->spectrum, run->schedule.sample_length);
+    if (run->observe & OF_MODES) hd_steps_sample(run->steps, run->spectrum, run->schedule.sample_length);
 }
 
 /** True where somebody wants all of the vectors of this very time. */
