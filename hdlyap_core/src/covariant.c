@@ -5,10 +5,12 @@
 #include "hdlyap/covariant.h"
 
 #include <cblas.h>
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
 #include "angles.h"
+#include "archive.h"
 #include "backward.h"
 #include "check.h"
 #include "memory.h"
@@ -392,3 +394,20 @@ double hd_covariant_null_most(const hd_covariant *c) { return c->null_apart_most
 const hd_modes *hd_covariant_half(const hd_covariant *c, int half) { return c->half[half]; }
 const double *hd_covariant_widths(const hd_covariant *c) { return hd_shape_widths(c->shape); }
 const double *hd_covariant_cosines(const hd_covariant *c) { return hd_shape_cosines(c->shape); }
+
+/** The averages; the window under way is lost. */
+void hd_covariant_archive(hd_covariant *c, hd_archive *archive)
+{
+    double *const numbers[] = {&c->window,           &c->spaces_apart.most, &c->spaces_apart.centre,
+                               &c->spaces_apart.stable, &c->null_apart,        &c->null_apart_most};
+    hd_archive_long(archive, "covariant windows", &c->windows, 0, LONG_MAX / 2);
+    hd_archive_long(archive, "covariant lost", &c->lost, 0, LONG_MAX / 2);
+    hd_archive_bits(archive, "covariant starts", &c->starts);
+    hd_archive_of_doubles(archive, "covariant numbers", sizeof numbers / sizeof *numbers);
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) hd_archive_next_doubles(archive, numbers[k], 1);
+    hd_archive_doubles(archive, "covariant apart", c->apart, (size_t)c->vectors);
+    hd_spectrum_archive(c->spectrum, archive);
+    hd_splitting_archive(c->splitting, archive);
+    hd_shape_archive(c->shape, archive);
+    for (int k = 0; k < 2; k++) hd_modes_archive(c->half[k], archive);
+}

@@ -2,8 +2,10 @@
 #include "shape.h"
 
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 
+#include "archive.h"
 #include "check.h"
 #include "memory.h"
 
@@ -85,3 +87,10 @@ const double *hd_shape_widths(hd_shape *shape)
 }
 
 const double *hd_shape_cosines(const hd_shape *shape) { return shape->cosine; }
+
+void hd_shape_archive(hd_shape *shape, hd_archive *archive)
+{
+    hd_archive_long(archive, "shape samples", &shape->samples, 0, LONG_MAX / 2);
+    hd_archive_doubles(archive, "shape entropy", shape->entropy, (size_t)shape->vectors);
+    hd_archive_doubles(archive, "shape cosine", shape->cosine, (size_t)shape->vectors);
+}

@@ -1,10 +1,12 @@
 /** C and the growth over finite times -> angles and their distributions, order of finite-time exponents [T18]. */
 #include "hdlyap/splitting.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
 #include "angles.h"
+#include "archive.h"
 #include "blocks.h"
 #include "check.h"
 #include "memory.h"
@@ -175,4 +177,28 @@ const double *hd_splitting_entangled(const hd_splitting *s) { return s->entangle
 const hd_angle_of_spaces *hd_splitting_angle(const hd_splitting *s, hd_pair_of_spaces pair)
 {
     return &s->angle[pair];
+}
+
+static void angle_archive(hd_angle_of_spaces *angle, hd_archive *archive)
+{
+    double *const numbers[] = {&angle->last, &angle->mean, &angle->std_error, &angle->least, &angle->mean_of_all};
+    hd_archive_of_doubles(archive, "angle of spaces", sizeof numbers / sizeof *numbers);
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) hd_archive_next_doubles(archive, numbers[k], 1);
+    for (int bin = 0; bin < HD_ANGLE_BINS; bin++) {
+        hd_archive_long(archive, "angle smallest", &angle->smallest[bin], 0, LONG_MAX / 2);
+        hd_archive_long(archive, "angle all", &angle->all[bin], 0, LONG_MAX / 2);
+    }
+}
+
+void hd_splitting_archive(hd_splitting *s, hd_archive *archive)
+{
+    const size_t n = (size_t)s->vectors;
+    hd_archive_long(archive, "splitting samples", &s->samples, 0, LONG_MAX / 2);
+    hd_archive_long(archive, "splitting times", &s->times, 0, LONG_MAX / 2);
+    hd_archive_doubles(archive, "splitting neighbours", s->mean, n);
+    hd_archive_doubles(archive, "splitting least", s->least, n);
+    hd_archive_doubles(archive, "splitting violations", s->violations, n);
+    hd_archive_doubles(archive, "splitting entangled", s->entangled, n);
+    for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) angle_archive(&s->angle[pair], archive);
+    hd_blocks_archive(&s->blocks, archive);
 }
