@@ -36,7 +36,7 @@ struct hd_covariant {
     hd_angles *spaces;    /**< of C's rows; NULL where there is no centre, as the next two */
     hd_angles *null;      /**< of the vectors' rows */
     double *null_columns; /**< [2 * centre][rows]: the covariant centre, the null space */
-    double *factor;       /**< [vectors * vectors] */
+    double *factor;       /**< [vectors * vectors]; room for the centres of both starts, too */
     double *growth, *grown; /**< [vectors]: of one interval, since the last look */
     double *apart;          /**< [vectors]: sines between both starts where the last window ended */
     double *frame, *q, *p;  /**< vectors [rows * vectors], state of a look */
@@ -81,11 +81,11 @@ hd_status hd_covariant_check_room(const hd_scene_def *def, double interval, char
 
 static hd_status allocate_arrays(hd_covariant *c)
 {
-    const size_t n = (size_t)c->vectors, rows = (size_t)c->rows;
+    const size_t n = (size_t)c->vectors, rows = (size_t)c->rows, centres = 2 * (size_t)c->centre;
     const struct {
         double **array;
         size_t size;
-    } wanted[] = {{&c->factor, n * n}, {&c->growth, n}, {&c->grown, n},    {&c->apart, n},
+    } wanted[] = {{&c->factor, n * (n > centres ? n : centres)}, {&c->growth, n}, {&c->grown, n},    {&c->apart, n},
                   {&c->frame, rows * n}, {&c->q, rows / 2}, {&c->p, rows / 2}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
         if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double)))) return HD_NO_MEMORY;
