@@ -127,8 +127,8 @@ hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int t
     c->threads = threads;
     c->rows = 4 * def->disks;
     c->vectors = hd_scene_vectors(def);
-    c->unstable = c->vectors < positive ? c->vectors : positive;
     c->centre = c->vectors >= positive + zero ? zero : 0;
+    c->unstable = c->centre > 0 ? positive : c->vectors; /* a part of the centre is no space of its own */
     const hd_status status = allocate(c);
     if (status != HD_OK) {
         hd_covariant_free(c);
