@@ -210,6 +210,7 @@ static void begin_way_back(hd_covariant *c)
     c->at = hd_past_end(c->past) - 1;
     c->last = hd_past_first(c->past);
     while (!hd_past_has_snapshot(c->past, c->last) || hd_past_time(c->past, c->last) < window_end(c)) c->last++;
+    memset(c->grown, 0, (size_t)c->vectors * sizeof *c->grown); /* a way back may have been given up */
     c->grown_time = 0.0;
     c->way = THROUGH_TRANSIENT;
 }
