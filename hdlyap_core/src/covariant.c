@@ -56,7 +56,8 @@ struct hd_covariant {
 
 static hd_past_def past_of(const hd_scene_def *def, double interval)
 {
-    const double both = def->covariant_window + def->covariant_transient;
+    /* each ends with a look */
+    const double both = def->covariant_window + def->covariant_transient + 2.0 * def->covariant_sampling;
     const double intervals = ceil(SPARE * both / interval) + 8.0, looks = ceil(both / def->covariant_sampling) + 4.0;
     const double most = 1e9; /* far beyond any room */
     return (hd_past_def){.disks = def->disks,
@@ -198,18 +199,31 @@ hd_status hd_covariant_begin(hd_covariant *c, hd_columns frame, double time, dou
     return begin_window(c, frame, time);
 }
 
-/** When it is at least as long as asked; it ends with the first look from then on. */
-static double window_end(const hd_covariant *c)
+/** The interval that the window ends with, at the first look at which it is as long as asked; the past's end if that is yet
+ *  to come. */
+static long window_last(const hd_covariant *c)
 {
-    return c->window + c->scene.covariant_window - CLOSE * c->scene.covariant_sampling;
+    const double asked = c->window + c->scene.covariant_window - CLOSE * c->scene.covariant_sampling;
+    long last = hd_past_first(c->past);
+    while (last < hd_past_end(c->past) &&
+           (!hd_past_has_snapshot(c->past, last) || hd_past_time(c->past, last) < asked))
+        last++;
+    return last;
+}
+
+/** The transient is that from the window's last look on. */
+static bool is_complete(const hd_covariant *c)
+{
+    const long last = window_last(c);
+    const double transient = c->scene.covariant_transient - CLOSE * c->scene.covariant_sampling;
+    return last < hd_past_end(c->past) && c->now >= hd_past_time(c->past, last) + transient;
 }
 
 static void begin_way_back(hd_covariant *c)
 {
     for (int k = 0; k < 2; k++) hd_backward_start(c->start[k], c->scene.seed, c->starts++);
     c->at = hd_past_end(c->past) - 1;
-    c->last = hd_past_first(c->past);
-    while (!hd_past_has_snapshot(c->past, c->last) || hd_past_time(c->past, c->last) < window_end(c)) c->last++;
+    c->last = window_last(c);
     memset(c->grown, 0, (size_t)c->vectors * sizeof *c->grown); /* a way back may have been given up */
     c->grown_time = 0.0;
     c->way = THROUGH_TRANSIENT;
@@ -239,7 +253,7 @@ hd_status hd_covariant_state(hd_covariant *c, hd_columns frame, const hd_traject
     hd_trajectory_state(trajectory, c->q, c->p);
     HD_TRY(hd_past_snapshot(c->past, frame, c->q, c->p));
     while (c->due <= c->now + CLOSE * c->scene.covariant_sampling) c->due += c->scene.covariant_sampling;
-    if (c->now >= window_end(c) + c->scene.covariant_transient) begin_way_back(c);
+    if (is_complete(c)) begin_way_back(c);
     return HD_OK;
 }
 
