@@ -43,6 +43,7 @@ struct hd_covariant {
     double window, due;     /**< start of the window; time of the next look */
     double grown_time;
     double now; /**< of the forward pass */
+    double bytes;
     way way;
     long at;  /**< interval that is next on the way back */
     long last; /**< interval that the window ends with */
@@ -179,6 +180,7 @@ static hd_status take_room(hd_covariant *c, double interval)
     hd_past_free(c->past);
     c->past = NULL;
     c->intervals = past.intervals;
+    c->bytes = hd_past_bytes(&past);
     return hd_past_create(&c->past, &past);
 }
 
@@ -399,6 +401,7 @@ bool hd_covariant_is_going_back(const hd_covariant *c) { return c->way != FORWAR
 int hd_covariant_vectors(const hd_covariant *c) { return c->vectors; }
 long hd_covariant_windows(const hd_covariant *c) { return c->windows; }
 long hd_covariant_lost(const hd_covariant *c) { return c->lost; }
+double hd_covariant_bytes(const hd_covariant *c) { return c->bytes; }
 double hd_covariant_window_end(const hd_covariant *c) { return c->window; }
 const hd_spectrum *hd_covariant_spectrum(const hd_covariant *c) { return c->spectrum; }
 const hd_splitting *hd_covariant_splitting(const hd_covariant *c) { return c->splitting; }

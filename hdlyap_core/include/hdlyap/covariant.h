@@ -51,6 +51,7 @@ HD_MUST_CHECK hd_status hd_covariant_step(hd_covariant *covariant);
 int hd_covariant_vectors(const hd_covariant *covariant); /**< n */
 long hd_covariant_windows(const hd_covariant *covariant); /**< whole ones in the averages */
 long hd_covariant_lost(const hd_covariant *covariant); /**< that found no room, as the intervals had become shorter */
+double hd_covariant_bytes(const hd_covariant *covariant); /**< what may wait for the way back; 0 before the first window */
 double hd_covariant_window_end(const hd_covariant *covariant); /**< simulated time, of the last one */
 
 /** Growth rates of the covariant vectors; their means are the exponents of the frame. Local: between two looks. */
