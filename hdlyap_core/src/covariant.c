@@ -231,14 +231,20 @@ static void begin_way_back(hd_covariant *c)
     c->way = THROUGH_TRANSIENT;
 }
 
+/** The next one gets room for intervals like those of this one, if there is so much. */
+static hd_status lose_window(hd_covariant *c, hd_columns frame, double time)
+{
+    const double count = (double)(hd_past_end(c->past) - hd_past_first(c->past) + 1);
+    const hd_status status = hd_covariant_begin(c, frame, time, (time - c->window) / count);
+    c->lost++;
+    return status == HD_NO_ROOM ? begin_window(c, frame, time) : status;
+}
+
 hd_status hd_covariant_add(hd_covariant *c, const hd_ortho *ortho, hd_columns frame, const hd_event_log *log,
                            double t_begin, double t_end)
 {
     HD_ASSERT(c->way == FORWARD);
-    if (hd_past_is_full(c->past)) {
-        c->lost++;
-        return begin_window(c, frame, c->now + t_end - t_begin);
-    }
+    if (hd_past_is_full(c->past)) return lose_window(c, frame, c->now + t_end - t_begin);
     HD_TRY(hd_past_add(c->past, hd_ortho_factor(ortho), frame, log, t_begin, t_end));
     c->now = hd_past_time(c->past, hd_past_end(c->past) - 1);
     return HD_OK;

@@ -28,9 +28,15 @@ foreach(name IN ITEMS
     interval
     ortho
     covariant
+    covariant_windows
+    lookback
     backward
     angles
     store
+    past
+    recompute
+    splitting
+    shape
     tail
     threads
     two_threads
