@@ -38,7 +38,9 @@ static inline forward_pass forward_started(const hd_scene_def *scene, uint64_t s
 {
     forward_pass f = {0};
     const int n = hd_scene_vectors(scene);
-    CHECK_OK(hd_trajectory_create(&f.trajectory, scene));
+    hd_scene_def bare = *scene; /* what a run would refuse is not asked for here */
+    bare.observe = 0;
+    CHECK_OK(hd_trajectory_create(&f.trajectory, &bare));
     CHECK_OK(hd_event_log_create(&f.log));
     CHECK_OK(hd_frame_create(&f.frame, scene->disks, n, seed, 1));
     CHECK_OK(hd_ortho_create(&f.ortho, 4 * scene->disks, n));
