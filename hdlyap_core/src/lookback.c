@@ -39,29 +39,43 @@ void hd_lookback_interrupt(hd_run *run)
     run->lookback_due = true;
 }
 
-/** What the next intervals are expected to be. */
+/** What the next intervals are expected to be: reports that need all vectors end one each. */
 static double expected(const hd_run *run)
 {
-    return fmin(hd_interval_longest(&run->interval).length, run->schedule.sample_length);
+    const double longest = fmin(hd_interval_longest(&run->interval).length, run->schedule.sample_length);
+    const bool at_reports = run->observe & (HD_OBSERVE_HYDRO | HD_OBSERVE_FIELDS);
+    return at_reports ? fmin(longest, run->scene.report_interval) : longest;
+}
+
+/** Adds the seconds since then to the cost. */
+static hd_status timed(hd_run *run, double start, hd_status status)
+{
+    run->cost.covariant += hd_clock_now() - start;
+    return status;
 }
 
 hd_status hd_lookback_start(hd_run *run)
 {
+    const double start = hd_clock_now();
     if (!is_watched(run) || !run->lookback_due) return HD_OK;
     run->lookback_due = false;
-    return hd_covariant_begin(run->covariant, hd_frame_columns(run->frame), run->now - run->log->duration, expected(run));
+    const double begin = run->now - run->log->duration;
+    return timed(run, start, hd_covariant_begin(run->covariant, hd_frame_columns(run->frame), begin, expected(run)));
 }
 
 hd_status hd_lookback_add(hd_run *run, double t_begin, double t_end)
 {
+    const double start = hd_clock_now();
+    const hd_columns columns = hd_frame_columns(run->frame);
     if (!is_watched(run)) return HD_OK;
-    return hd_covariant_add(run->covariant, run->ortho, hd_frame_columns(run->frame), run->log, t_begin, t_end);
+    return timed(run, start, hd_covariant_add(run->covariant, run->ortho, columns, run->log, t_begin, t_end));
 }
 
 hd_status hd_lookback_end(hd_run *run)
 {
+    const double start = hd_clock_now();
     if (!is_watched(run) || !hd_covariant_wants_state(run->covariant)) return HD_OK;
-    return hd_covariant_state(run->covariant, hd_frame_columns(run->frame), run->trajectory);
+    return timed(run, start, hd_covariant_state(run->covariant, hd_frame_columns(run->frame), run->trajectory));
 }
 
 bool hd_lookback_is_going(const hd_run *run)
@@ -72,6 +86,7 @@ bool hd_lookback_is_going(const hd_run *run)
 hd_status hd_lookback_go(hd_run *run, bool to_its_end)
 {
     const double start = hd_clock_now();
+    if (!hd_lookback_is_going(run)) return HD_OK;
     while (hd_lookback_is_going(run) && (to_its_end || hd_clock_now() - start < GO_SECONDS))
         HD_TRY(hd_covariant_step(run->covariant));
     run->cost.covariant += hd_clock_now() - start;
