@@ -9,60 +9,20 @@
 #include <string.h>
 
 #include "hdlyap/fields.h"
+#include "reader.h"
 #include "topic.h"
 
 enum {
-    OF_EXPONENTS = 1u << TOPIC_SPECTRUM | TOPICS_OF_MODES,
+    OF_WAVES = TOPICS_OF_MODES | 1u << TOPIC_COVARIANT,
+    OF_EXPONENTS = 1u << TOPIC_SPECTRUM | OF_WAVES,
     ALL_PUBLISHED = 1u << TOPICS /**< in a set of topics: whatever the others are */
 };
 
-#define OF_MODES_TEXT "modes, steps, lp_phases, fields, hydro"
-#define OBSERVABLES_TEXT "spectrum, " OF_MODES_TEXT ", state"
-
-/** One parameter on its way in. */
-typedef struct reader {
-    const hdr_params *params;
-    const char *name;
-    char *message;
-    size_t size;
-} reader;
+#define OF_WAVES_TEXT "modes, steps, lp_phases, fields, hydro, covariant"
+#define OBSERVABLES_TEXT "spectrum, " OF_WAVES_TEXT ", state"
 
 /** Reads into field of settings; a missing parameter leaves the default. False if refused. */
 typedef bool (*read_function)(const reader *r, void *field);
-
-static bool is_control(char c) { return (unsigned char)c < ' ' || c == 0x7f; }
-
-static bool is_one_line(const char *text)
-{
-    while (*text && !is_control(*text)) text++;
-    return !*text;
-}
-
-/** In one line whatever it shows: names and values are anybody's, and may hold line ends. */
-static bool refuse(const reader *r, const char *allowed)
-{
-    if (r->size == 0) return false;
-    snprintf(r->message, r->size, "%.100s = %.150s: must be %s", r->name,
-             hdr_param_text(r->params, r->name), allowed);
-    for (char *c = r->message; *c; c++)
-        if (is_control(*c)) *c = '?';
-    return false;
-}
-
-static bool accept(const reader *r, hdr_status status, const char *allowed)
-{
-    return status == HDR_OK || status == HDR_MISSING || refuse(r, allowed);
-}
-
-static bool read_int(const reader *r, void *field)
-{
-    return accept(r, hdr_param_int(r->params, r->name, field), "an integer");
-}
-
-static bool read_double(const reader *r, void *field)
-{
-    return accept(r, hdr_param_double(r->params, r->name, field), "a number");
-}
 
 static bool read_scene(const reader *r, void *field)
 {
@@ -153,8 +113,7 @@ static bool read_topics(const reader *r, unsigned *set, unsigned allowed, const 
 
 static bool read_observables(const reader *r, void *field)
 {
-    return read_topics(r, field, TOPICS_OBSERVABLE,
-                       "a list out of " OBSERVABLES_TEXT " (this version computes no covariant)");
+    return read_topics(r, field, TOPICS_OBSERVABLE, "a list out of " OBSERVABLES_TEXT);
 }
 
 static bool read_awaited(const reader *r, void *field)
@@ -223,6 +182,43 @@ static bool read_path(const reader *r, void *field)
     return accept(r, status, "a string") && (is_one_line(*path) || refuse(r, "a path in one line"));
 }
 
+static const char *const storage_names[] = {
+    [HD_STORAGE_MEMORY] = "memory", [HD_STORAGE_FILE] = "file", [HD_STORAGE_RECOMPUTE] = "recompute"};
+
+const char *settings_storage_name(hd_storage storage) { return storage_names[storage]; }
+
+static bool read_storage(const reader *r, void *field)
+{
+    hd_storage *storage = field;
+    const char *text = NULL;
+    const hdr_status status = hdr_param_string(r->params, r->name, &text);
+    if (status == HDR_MISSING) return true;
+    for (hd_storage s = HD_STORAGE_MEMORY; status == HDR_OK && s <= HD_STORAGE_RECOMPUTE; s++)
+        if (strcmp(text, storage_names[s]) == 0) return *storage = s, true;
+    return refuse(r, "memory, file or recompute");
+}
+
+/** GB of a parameter, bytes of the core. */
+static bool read_gigabytes(const reader *r, void *field)
+{
+    double *bytes = field, gigabytes = 0.0;
+    const hdr_status status = hdr_param_double(r->params, r->name, &gigabytes);
+    if (status == HDR_MISSING) return true;
+    *bytes = gigabytes * BYTES_PER_GB;
+    return (status == HDR_OK && gigabytes >= 1e-3 && gigabytes <= 1e6) || refuse(r, "from 0.001 to 1e6 [GB]");
+}
+
+static bool read_folder(const reader *r, void *field)
+{
+    const char *path = NULL;
+    const hdr_status status = hdr_param_string(r->params, r->name, &path);
+    if (status == HDR_MISSING) return true;
+    if (status != HDR_OK || !*path || !is_one_line(path) || strlen(path) >= HD_FOLDER_MAX)
+        return refuse(r, "a path in one line, of at most 511 bytes");
+    strcpy(field, path);
+    return true;
+}
+
 static const struct parameter {
     const char *name;
     read_function read;
@@ -245,6 +241,12 @@ static const struct parameter {
     {"report_interval", read_double, offsetof(settings, def.report_interval)},
     {"max_wave_number", read_double, offsetof(settings, def.max_wave_number)},
     {"max_node", read_int, offsetof(settings, def.max_node)},
+    {"covariant_window", read_double, offsetof(settings, def.covariant_window)},
+    {"covariant_transient", read_double, offsetof(settings, def.covariant_transient)},
+    {"covariant_sampling", read_double, offsetof(settings, def.covariant_sampling)},
+    {"covariant_memory", read_gigabytes, offsetof(settings, def.covariant_memory)},
+    {"covariant_storage", read_storage, offsetof(settings, def.covariant_storage)},
+    {"covariant_folder", read_folder, offsetof(settings, def.covariant_folder)},
     {"field_indices", read_field_indices, offsetof(settings, fields)},
     {"marker_modes", read_marker_modes, offsetof(settings, markers)},
     {"marker_rate", read_double, offsetof(settings, markers.rate)},
@@ -328,8 +330,8 @@ static bool check_awaited(settings *set, reader *r)
 /** What is asked for of modes that nobody observes. */
 static bool check_modes(const settings *set, reader *r)
 {
-    const char *const allowed = "0 without an observable out of " OF_MODES_TEXT;
-    const bool observed = set->observables & TOPICS_OF_MODES;
+    const char *const allowed = "0 without an observable out of " OF_WAVES_TEXT;
+    const bool observed = set->observables & OF_WAVES;
     r->name = "max_wave_number";
     if (set->def.max_wave_number != 0.0 && !observed) return refuse(r, allowed);
     r->name = "max_node";
@@ -337,6 +339,32 @@ static bool check_modes(const settings *set, reader *r)
     r->name = "field_indices";
     return set->fields.count == 0 || (set->observables & topic_bit(TOPIC_FIELDS)) ||
            refuse(r, "steps unless fields is an observable");
+}
+
+/** What is given of covariant vectors that nobody observes; defaults may be. */
+static bool check_covariant(const settings *set, reader *r)
+{
+    const hd_scene_def usual = hd_scene_def_default(), *def = &set->def;
+    const struct {
+        const char *name;
+        bool changed;
+        const char *allowed;
+    } table[] = {
+#define UNLESS " unless covariant is an observable"
+        {"covariant_window", def->covariant_window != usual.covariant_window, "50" UNLESS},
+        {"covariant_transient", def->covariant_transient != usual.covariant_transient, "100" UNLESS},
+        {"covariant_sampling", def->covariant_sampling != usual.covariant_sampling, "5" UNLESS},
+        {"covariant_memory", def->covariant_memory != usual.covariant_memory, "4" UNLESS},
+        {"covariant_storage", def->covariant_storage != usual.covariant_storage, "memory" UNLESS},
+        {"covariant_folder", strcmp(def->covariant_folder, usual.covariant_folder) != 0, "/tmp" UNLESS},
+#undef UNLESS
+    };
+    if (set->observables & topic_bit(TOPIC_COVARIANT)) return true;
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        r->name = table[k].name;
+        if (table[k].changed && *hdr_param_text(r->params, r->name)) return refuse(r, table[k].allowed);
+    }
+    return true;
 }
 
 /** Of a scene that is right. */
@@ -354,7 +382,7 @@ static bool check_field_indices(const settings *set, reader *r)
 
 static bool is_looked_for(const settings *set, const marker_mode *mode)
 {
-    const int count = set->def.observe ? hd_waves(&set->def, NULL, 0) : 0;
+    const int count = set->observables & TOPICS_OF_MODES ? hd_waves(&set->def, NULL, 0) : 0;
     hd_wave *waves = malloc(((size_t)count + 1) * sizeof *waves);
     bool found = !waves; /* the run will say so */
     if (waves && count > 0) hd_waves(&set->def, waves, count);
@@ -391,13 +419,12 @@ bool settings_resume(const char **path, const hdr_params *params, char *message,
     return read_path(&r, path);
 }
 
-/** What the modes of a checkpoint are published as; the rest as documented. */
+/** What the stages of a checkpoint are published as, and what needs none. */
 static unsigned topics_of(unsigned stages)
 {
-    unsigned set = TOPICS_OBSERVABLE & ~(unsigned)TOPICS_OF_MODES;
+    unsigned set = TOPICS_OBSERVABLE;
     for (topic t = 0; t < TOPICS; t++)
-        if ((topic_bit(t) & TOPICS_OF_MODES) && !(topic_stages(topic_bit(t)) & ~stages))
-            set |= topic_bit(t);
+        if (topic_stages(topic_bit(t)) & ~stages) set &= ~topic_bit(t);
     return set;
 }
 
@@ -406,7 +433,7 @@ static settings defaults(const hd_checkpoint *kept)
     settings set = {
         .def = hd_scene_def_default(),
         .scene = "paper_periodic",
-        .observables = TOPICS_OBSERVABLE & ~topic_bit(TOPIC_HYDRO),
+        .observables = TOPICS_OBSERVABLE & ~topic_bit(TOPIC_HYDRO) & ~topic_bit(TOPIC_COVARIANT),
         .fields = {.text = "steps"},
         .markers = {.text = "lowest", .rate = 10.0},
         .field_interval = 10.0,
@@ -429,7 +456,7 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
     if (!check_names(&r) || !read_all(out, &r)) return false;
     if (!check_times(out, &r) || !check_observables(out, &r) || !check_awaited(out, &r))
         return false;
-    if (!check_modes(out, &r)) return false;
+    if (!check_modes(out, &r) || !check_covariant(out, &r)) return false;
     write_texts(out);
     return hd_scene_check(&out->def, message, size) == HD_OK && check_field_indices(out, &r) &&
            check_marker_modes(out, &r);
