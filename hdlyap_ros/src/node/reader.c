@@ -12,7 +12,7 @@ bool is_one_line(const char *text)
 }
 
 /** In one line whatever it shows: names and values are anybody's, and may hold line ends. */
-bool refuse(const reader *r, const char *allowed)
+bool reader_refuse(const reader *r, const char *allowed)
 {
     if (r->size == 0) return false;
     snprintf(r->message, r->size, "%.100s = %.150s: must be %s", r->name,
@@ -22,17 +22,17 @@ bool refuse(const reader *r, const char *allowed)
     return false;
 }
 
-bool accept(const reader *r, hdr_status status, const char *allowed)
+bool reader_accepts(const reader *r, hdr_status status, const char *allowed)
 {
-    return status == HDR_OK || status == HDR_MISSING || refuse(r, allowed);
+    return status == HDR_OK || status == HDR_MISSING || reader_refuse(r, allowed);
 }
 
 bool read_int(const reader *r, void *field)
 {
-    return accept(r, hdr_param_int(r->params, r->name, field), "an integer");
+    return reader_accepts(r, hdr_param_int(r->params, r->name, field), "an integer");
 }
 
 bool read_double(const reader *r, void *field)
 {
-    return accept(r, hdr_param_double(r->params, r->name, field), "a number");
+    return reader_accepts(r, hdr_param_double(r->params, r->name, field), "a number");
 }

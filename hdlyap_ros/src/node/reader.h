@@ -15,10 +15,10 @@ typedef struct reader {
 } reader;
 
 /** Writes the line: the parameter, its value, what is allowed. Always false. */
-bool refuse(const reader *r, const char *allowed);
+bool reader_refuse(const reader *r, const char *allowed);
 
 /** Refused unless the value has been read, or is missing. */
-bool accept(const reader *r, hdr_status status, const char *allowed);
+bool reader_accepts(const reader *r, hdr_status status, const char *allowed);
 
 /** Without line ends and other control characters. */
 bool is_one_line(const char *text);
