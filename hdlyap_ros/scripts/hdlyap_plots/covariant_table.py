@@ -102,8 +102,8 @@ def _order(recording):
     names = ' '.join(map(str, isolated[:LISTED]))
     more = f' and {len(isolated) - LISTED} more' if len(isolated) > LISTED else ''
     changed = int((violations > 0).sum())
-    return '\n'.join([f'order of finite-time exponents: {changed} of {len(violations)} pairs of neighbours ever changed it, '
-                      f'{100 * violations.mean():.1f} % of the time on average',
+    return '\n'.join([f'order of finite-time exponents: {changed} of {len(violations)} pairs of neighbours ever '
+                      f'changed it, {100 * violations.mean():.1f} % of the time on average',
                       f'  dominated splittings ({len(isolated)})' + (f': behind {names}{more}' if names else '')])
 
 
