@@ -106,6 +106,14 @@ void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p)
     if (p && getenv("PROBE_NAN")) p[0] = NAN;
 }
 
+/** PROBE_NAN_ANGLE: the one between covariant centre and null space is not a number. */
+double hd_covariant_null(const hd_covariant *covariant)
+{
+    double (*real)(const hd_covariant *);
+    next(&real, "hd_covariant_null");
+    return getenv("PROBE_NAN_ANGLE") ? NAN : real(covariant);
+}
+
 void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_ratio)
 {
     void (*real)(const hd_frame *, double *, double *);

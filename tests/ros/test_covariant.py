@@ -16,7 +16,7 @@ from hdlyap.msg import CovariantAngle, Mode
 
 START, WINDOW, TRANSIENT, SAMPLING, DURATION = 30.0, 5.0, 20.0, 1.0, 200.0
 SCENE = dict(disks=16, density=0.7, aspect=0.866, exponents='all', equilibration=10.0, warmup=20.0, duration=DURATION,
-             covariant_window=WINDOW, covariant_transient=TRANSIENT, covariant_sampling=SAMPLING,
+             interval=0.5, covariant_window=WINDOW, covariant_transient=TRANSIENT, covariant_sampling=SAMPLING,
              observables=['spectrum', 'covariant'], wait_for_subscribers=['covariant'])
 WINDOWS = round((DURATION - TRANSIENT) / WINDOW)    # the last one is complete when the run ends
 LOOKS = round(WINDOW / SAMPLING)
@@ -26,6 +26,7 @@ OF_NEIGHBOURS = ('neighbour_angles', 'least_neighbour_angles', 'violations', 'en
 RIGHT = math.pi / 2
 CONVERGED = 1e-8    # beyond what a transient of 20 leaves of the least rate, 2.2
 ROUNDING = 1e-9
+CLOCK = 1e-4        # seconds, for asking what time it is
 NOT_OF_THE_RUN = ('header', 'run_id', 'seconds')
 
 
@@ -109,12 +110,14 @@ class Windows(unittest.TestCase):
             self.assertEqual({len(getattr(message, name)) for name in OF_NEIGHBOURS}, {VECTORS - 1})
 
     def test_exponents_are_those_of_the_way_there(self):
-        """Averages over nearly the same time of nearly the same fluctuations: five errors are far more than chance takes."""
+        """Averages over nearly the same time of nearly the same fluctuations: five errors are far more than chance takes.
+        Vanishing ones fall like ln(t) / t, which is no matter of chance."""
         last = self.last
         for k, (back, there) in enumerate(zip(last.exponents, self.spectrum.exponents)):
             error = math.hypot(last.std_errors[k], self.spectrum.std_errors[k])
             self.assertGreater(last.std_errors[k], 0.0)
-            self.assertLess(abs(back - there), 5 * error + ROUNDING, k + 1)
+            falling = 2 * math.log(DURATION) / DURATION if POSITIVE <= k < POSITIVE + CENTRE else ROUNDING
+            self.assertLess(abs(back - there), 5 * error + falling, k + 1)
         self.assertGreater(last.exponents[0], 4.5)
         self.assertAlmostEqual(sum(last.exponents), sum(self.spectrum.exponents), delta=0.1)
 
@@ -170,13 +173,12 @@ class Windows(unittest.TestCase):
         last = self.last
         for least, mean in zip(last.least_neighbour_angles, last.neighbour_angles):
             self.assertLess(0.0, least)
-            self.assertLess(least, mean)
-            self.assertLess(mean, RIGHT)
+            self.assertLessEqual(least, mean + ROUNDING)
+            self.assertLessEqual(mean, RIGHT + ROUNDING)
         for violated, entangled in zip(last.violations, last.entangled):
             self.assertLessEqual(0.0, violated)
             self.assertLessEqual(violated, entangled)
             self.assertLessEqual(entangled, 1.0 + ROUNDING)
-        self.assertEqual(last.entangled[0] > 0.0, any(v > 0.0 for v in last.entangled[:1]))
 
     def test_shapes(self):
         for width, cosine in zip(self.last.widths, self.last.cos_theta):
@@ -235,7 +237,7 @@ class Demand(Case):
         cost = self.listen('cost')
         calls = harness.counts(self, dict(SCENE, wait_for_subscribers=['cost']))
         self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
-        self.assertEqual({message.covariant_seconds for message in cost.messages}, {0.0})
+        self.assertLess(max(message.covariant_seconds for message in cost.messages), CLOCK)
         self.assertEqual((calls['covariant_publish'], calls['modes_measure']), (0, 0))
 
     def test_somebody(self):
@@ -276,7 +278,7 @@ class Faults(Case):
     def test_no_room(self):
         """Triangles of every interval need more than those of the longest ones, which it was begun with."""
         self.listen('covariant')
-        node = self.start(dict(SCENE, covariant_window=50.0, duration=0.0, covariant_memory=0.003))
+        node = self.start(dict(SCENE, interval='auto', covariant_window=50.0, duration=0.0, covariant_memory=0.003))
         self.refused(node, 3, 'at simulated time 30', 'covariant_memory = 0.003 GB', 'covariant_window = 50 ',
                      'triangles and', ' need 0.00')
 
@@ -288,13 +290,13 @@ class Faults(Case):
     def test_full_disk(self):
         self.listen('covariant')
         with tempfile.TemporaryDirectory() as folder:
-            node = self.start(dict(SCENE, covariant_storage='file', covariant_folder=folder), probe={'PROBE_DISK_FULL': '1'})
+            node = self.start(dict(SCENE, covariant_storage='file', covariant_folder=folder),
+                              probe={'PROBE_DISK_FULL': '1'})
             self.refused(node, 4, 'covariant_folder = %s: No space left on device' % folder)
 
     def test_not_a_number(self):
-        """Positions and momenta of a look are copied before they are spoilt: nothing of the window is published."""
         covariant = self.listen('covariant')
-        node = self.start(SCENE, probe={'PROBE_NAN': '1'})
+        node = self.start(SCENE, probe={'PROBE_NAN_ANGLE': '1'})
         self.refused(node, 3, 'not finite')
         self.assertEqual(covariant.messages, [])
 
