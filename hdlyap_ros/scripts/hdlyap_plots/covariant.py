@@ -124,6 +124,20 @@ def weights_over(run, block):
                      np.array(found.dp)[inside].mean(), chance(run, found))
 
 
+def unresolved_weights(run):
+    """(weight, indices, weights) of waves without a step among the positive exponents: of as many vectors as their
+    space has dimensions, those with the largest dq weights; lowest waves first."""
+    numbers = indices(run.covariant)
+    carried = int((numbers <= run.positive_end).sum())
+    resolved = steps.resolved(run.steps)
+    for weight in run.covariant.weights:
+        if weight_name(weight) in resolved or weight.dimension > carried:
+            continue
+        best = np.sort(np.argsort(weight.dq[:carried], kind='stable')[carried - weight.dimension:])
+        yield weight, numbers[best], (np.nan, np.array(weight.dq)[best].mean(), np.array(weight.dp)[best].mean(),
+                                      chance(run, weight))
+
+
 # ---- angles, order ----------------------------------------------------------------------------
 
 def edges(counts):

@@ -8,7 +8,9 @@ from . import covariant, steps
 from .numbers import known, with_error
 
 STEPS = 12      # steps and conjugate steps in a table
+UNRESOLVED = 4  # waves without a step
 LISTED = 8      # indices in a line
+ROUNDING = 1e-9     # of an angle [rad]
 
 
 def blocks(recording):
@@ -67,13 +69,27 @@ def _weights(recording):
     rows = []
     for name, block in _chosen(recording):
         half = name[:-len(block.name)] if name.endswith(block.name) else ''
-        for step, weights in covariant.weights_over(recording, block):
-            rows.append(f'  {half + steps.name(step):<18} {block.indices:<11} '
-                        + ' '.join(f'{weight:>13.3f}' if isfinite(weight) else f'{"-":>13}' for weight in weights))
+        rows += [_weight_row(half + steps.name(step), block.indices, weights)
+                 for step, weights in covariant.weights_over(recording, block)]
+    remark = []
+    for weight, indices, weights in list(covariant.unresolved_weights(recording))[:UNRESOLVED]:
+        rows.append(_weight_row(covariant.weight_name(weight) + ' *', _listed(indices), weights))
+        remark = ['  * no step found: as many vectors as its fields have dimensions, those with the largest dq weights']
     if rows:
         yield '\n'.join(['weights in the fields of the step, means over its vectors (halves normalised)',
                          f'  {"step":<18} {"indices":<11} {"Gram-Schmidt":>13} {"covariant dq":>13} '
-                         f'{"covariant dp":>13} {"by chance":>13}', *rows])
+                         f'{"covariant dp":>13} {"by chance":>13}', *rows, *remark])
+
+
+def _weight_row(name, indices, weights):
+    return f'  {name:<18} {indices:<11} ' + ' '.join(
+        f'{weight:>13.3f}' if isfinite(weight) else f'{"-":>13}' for weight in weights)
+
+
+def _listed(indices):
+    """386-389, or the first of them."""
+    together = indices[-1] - indices[0] == len(indices) - 1
+    return f'{indices[0]}-{indices[-1]}' if together else f'{indices[0]} ..'
 
 
 def _spaces(recording):
@@ -85,12 +101,17 @@ def _spaces(recording):
     for angle in message.angles:
         at = covariant.only_bin(angle.all_counts)
         remark = f'   all within {np.degrees(at[0]):.0f} .. {np.degrees(at[1]):.0f} degrees' if at else ''
-        lines.append(f'  {covariant.SPACES[angle.spaces]:<16} {with_error(angle.mean, angle.std_error):>15} '
+        lines.append(f'  {covariant.SPACES[angle.spaces]:<16} {_angle(angle):>15} '
                      f'{angle.least:>9.5f} {angle.mean_of_all:>10.5f}{remark}')
     if message.null_angle >= 0:
         lines.append(f'  covariant centre to exact null space: {message.null_angle:.1e} at the last look, '
                      f'{message.largest_null_angle:.1e} at most')
     return '\n'.join(lines)
+
+
+def _angle(angle):
+    """Mean of the smallest one; where it never varies, its error is rounding."""
+    return with_error(angle.mean, angle.std_error if angle.std_error > ROUNDING else -1.0)
 
 
 def _order(recording):

@@ -6,6 +6,7 @@ from .. import covariant
 from .style import BLUE, GREEN, VERMILION, plt, scene
 
 COLOURS = (VERMILION, BLUE, GREEN)      # of the pairs of spaces
+ROOM = 1.4     # above the curves, for what is said
 
 
 def draw(run):
@@ -18,7 +19,7 @@ def draw(run):
         _histograms(axes, message.angles, counts)
         axes.set_title(title, loc='left')
         axes.set_xlim(0, covariant.RIGHT_ANGLE)
-        axes.set_ylim(bottom=0)
+        axes.set_ylim(0, ROOM * axes.get_ylim()[1])
         axes.set_xticks(covariant.RIGHT_ANGLE * np.linspace(0, 1, 5))
         axes.set_xticklabels(['0', r'$\pi/8$', r'$\pi/4$', r'$3\pi/8$', r'$\pi/2$'])
         axes.set_xlabel('angle  [rad]')
@@ -29,19 +30,16 @@ def draw(run):
 
 def _histograms(axes, angles, name):
     """What is all in one bin is said instead of drawn: its peak would hide the others."""
-    said = []
     for angle in angles:
         counts, colour = getattr(angle, name), COLOURS[angle.spaces]
         at = covariant.only_bin(counts)
         if at:
-            said.append(_said(angle, at))
+            axes.plot([], [], linestyle='', label=_said(angle, at))
         elif sum(counts):
-            edges = covariant.edges(counts)
-            axes.step(edges, np.append(covariant.density(counts), 0), where='post', color=colour, linewidth=1,
-                      label=covariant.SPACES[angle.spaces])
+            axes.step(covariant.edges(counts), np.append(covariant.density(counts), 0), where='post',
+                      color=colour, linewidth=1, label=covariant.SPACES[angle.spaces])
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc='upper left')
-    axes.annotate('\n'.join(said), (0.97, 0.97), xycoords='axes fraction', ha='right', va='top', fontsize=7)
+        axes.legend(loc='upper left', handlelength=1, borderaxespad=0.2, fontsize=7)
 
 
 def _said(angle, at):

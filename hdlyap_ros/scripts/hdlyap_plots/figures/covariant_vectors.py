@@ -6,6 +6,8 @@ from .. import covariant
 from .over_index import Panels
 from .style import BLUE, INK, SKY, VERMILION
 
+ROUNDING = 1e-16    # what is less is no more known
+
 
 def draw(run):
     message = run.covariant
@@ -18,16 +20,17 @@ def draw(run):
     panels.plot(2, places, message.neighbour_angles, '.', color=VERMILION, markersize=3, label='mean')
     panels.plot(2, places, message.least_neighbour_angles, '.', color=SKY, markersize=3, label='smallest so far')
     apart = np.array(message.apart, dtype=float)
-    panels.plot(3, indices, np.where(apart > 0, apart, np.nan), '.', color=INK, markersize=3, label='apart')
+    panels.plot(3, indices, np.where(apart > 0, np.maximum(apart, ROUNDING), np.nan), '.', color=INK, markersize=3,
+                label='apart')
     for axes in panels.grid[0]:
         axes.set_ylim(0, 1.04)
     for axes in panels.grid[1]:
         axes.set_ylim(0, 1.04)
     for axes in panels.grid[2]:
-        axes.set_ylim(0, covariant.RIGHT_ANGLE)
+        axes.set_ylim(0, 1.3 * covariant.RIGHT_ANGLE)   # room for the legend
     if (apart > 0).any():
         for axes in panels.grid[3]:
             axes.set_yscale('log')
-    panels.grid[2, 0].legend(handletextpad=0.4)
+    panels.grid[2, 0].legend(loc='upper left', ncol=2, handletextpad=0.2, fontsize=7)
     return panels.finish('localisation width\n$e^S/N$', r'$|\cos\Theta|$ of $\delta q$, $\delta p$',
                          'angle to the next\n[rad]', 'two starts apart\n[sine]')
