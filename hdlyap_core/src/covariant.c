@@ -32,7 +32,8 @@ struct hd_covariant {
     hd_spectrum *spectrum;
     hd_splitting *splitting;
     hd_shape *shape;
-    hd_modes *half[2];    /**< weights of the dq and of the dp halves; NULL without waves */
+    hd_modes *half[2];    /**< weights of the dq and of the dp halves */
+    hd_modes *of_frame;   /**< of the dq halves of the frame, at the same times */
     hd_angles *spaces;    /**< of C's rows; NULL where there is no centre, as the next two */
     hd_angles *null;      /**< of the vectors' rows */
     double *null_columns; /**< [2 * centre][rows]: the covariant centre, the null space */
@@ -114,6 +115,7 @@ static hd_status allocate(hd_covariant *c)
         HD_TRY(hd_backward_create(&c->start[k], c->vectors));
         HD_TRY(hd_modes_create(&c->half[k], &c->scene, c->vectors, c->threads));
     }
+    HD_TRY(hd_modes_create(&c->of_frame, &c->scene, c->vectors, c->threads));
     HD_TRY(hd_spectrum_create(&c->spectrum, c->rows, c->vectors));
     HD_TRY(hd_splitting_create(&c->splitting, c->vectors, c->unstable, c->centre));
     return hd_shape_create(&c->shape, c->scene.disks, c->vectors);
@@ -148,6 +150,7 @@ void hd_covariant_free(hd_covariant *c)
         hd_backward_free(c->start[k]);
         hd_modes_free(c->half[k]);
     }
+    hd_modes_free(c->of_frame);
     double *arrays[] = {c->factor, c->growth, c->grown, c->apart, c->frame, c->q, c->p, c->null_columns};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) hd_memory_free(arrays[k]);
     hd_past_free(c->past);
@@ -190,6 +193,7 @@ void hd_covariant_clear(hd_covariant *c)
     hd_splitting_clear(c->splitting);
     hd_shape_clear(c->shape);
     for (int k = 0; k < 2; k++) hd_modes_clear(c->half[k]);
+    hd_modes_clear(c->of_frame);
     c->windows = c->lost = 0;
     c->null_apart = c->null_apart_most = -1.0;
     c->spaces_apart = (hd_covariant_apart){-1.0, -1.0, -1.0};
@@ -301,10 +305,10 @@ static hd_status measure_null(hd_covariant *c)
     return HD_OK;
 }
 
-static hd_status measure_half(hd_covariant *c, int half)
+static hd_status measure_weights(hd_covariant *c, hd_modes *weights)
 {
-    HD_TRY(hd_modes_measure(c->half[half], vectors_of(c), c->q, c->p));
-    hd_modes_add(c->half[half]);
+    HD_TRY(hd_modes_measure(weights, vectors_of(c), c->q, c->p));
+    hd_modes_add(weights);
     return HD_OK;
 }
 
@@ -333,13 +337,14 @@ static hd_status look(hd_covariant *c, long interval)
     end_growth(c);
     HD_TRY(hd_splitting_add(c->splitting, coefficients));
     HD_TRY(hd_past_vectors(c->past, c->frame, c->q, c->p, interval));
+    HD_TRY(measure_weights(c, c->of_frame));
     cblas_dtrmm(CblasRowMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, c->rows, c->vectors, 1.0, coefficients,
                 c->vectors, c->frame, c->vectors);
     hd_shape_add(c->shape, vectors_of(c));
     HD_TRY(measure_null(c));
-    HD_TRY(measure_half(c, 0));
+    HD_TRY(measure_weights(c, c->half[0]));
     swap_halves(c);
-    return measure_half(c, 1);
+    return measure_weights(c, c->half[1]);
 }
 
 /* ---- the way back ----------------------------------------------------------------------------- */
@@ -416,6 +421,7 @@ const double *hd_covariant_met_each(const hd_covariant *c) { return c->apart; }
 double hd_covariant_null(const hd_covariant *c) { return c->null_apart; }
 double hd_covariant_null_most(const hd_covariant *c) { return c->null_apart_most; }
 const hd_modes *hd_covariant_half(const hd_covariant *c, int half) { return c->half[half]; }
+const hd_modes *hd_covariant_of_frame(const hd_covariant *c) { return c->of_frame; }
 const double *hd_covariant_widths(const hd_covariant *c) { return hd_shape_widths(c->shape); }
 const double *hd_covariant_cosines(const hd_covariant *c) { return hd_shape_cosines(c->shape); }
 
@@ -434,4 +440,5 @@ void hd_covariant_archive(hd_covariant *c, hd_archive *archive)
     hd_splitting_archive(c->splitting, archive);
     hd_shape_archive(c->shape, archive);
     for (int k = 0; k < 2; k++) hd_modes_archive(c->half[k], archive);
+    hd_modes_archive(c->of_frame, archive);
 }

@@ -106,13 +106,15 @@ def modes(made, count, weight=0.9, averaged_time=50.0):
     return Modes(run_id='one', sim_time=100 + averaged_time, averaged_time=averaged_time, modes=found)
 
 
-def covariant_weight(made, count, dq=0.8, dp=0.3, elsewhere=0.02):
+def covariant_weight(made, count, dq=0.8, dp=0.3, elsewhere=0.02, gram_schmidt=0.9):
     """Of the fields of one step, in its vectors and elsewhere."""
     weight = CovariantWeight(kind=made.kind, nx=made.nx, ny=made.ny, wave_number=made.wave_number,
-                             dimension=made.expected, dq=[elsewhere] * count, dp=[elsewhere] * count)
+                             dimension=made.expected, dq=[elsewhere] * count, dp=[elsewhere] * count,
+                             gram_schmidt=[elsewhere] * count)
     inside = slice(made.first_index - 1, made.last_index)
     weight.dq[inside] = [dq] * (made.last_index - made.first_index + 1)
     weight.dp[inside] = [dp] * (made.last_index - made.first_index + 1)
+    weight.gram_schmidt[inside] = [gram_schmidt] * (made.last_index - made.first_index + 1)
     return weight
 
 

@@ -194,9 +194,12 @@ class Windows(unittest.TestCase):
             order = [(weight.wave_number, weight.kind) for weight in message.weights]
             self.assertEqual(order, sorted(order))
             for weight in message.weights:
-                self.assertEqual((len(weight.dq), len(weight.dp)), (VECTORS, VECTORS))
-                self.assertGreaterEqual(min(weight.dq + weight.dp), 0.0)
-                self.assertLessEqual(max(weight.dq + weight.dp), 1.0 + ROUNDING)
+                for weights in (weight.dq, weight.dp, weight.gram_schmidt):
+                    self.assertEqual(len(weights), VECTORS)
+                    self.assertGreaterEqual(min(weights), 0.0)
+                    self.assertLessEqual(max(weights), 1.0 + ROUNDING)
+                # the first covariant vector is the first of the frame
+                self.assertAlmostEqual(weight.dq[0], weight.gram_schmidt[0], delta=ROUNDING)
         for weight in self.last.weights:
             self.assertEqual(weight.dimension, (4 if weight.kind == Mode.T else 8) // (1 if weight.nx and weight.ny else 2))
             k = 2 * math.pi * math.hypot(weight.nx / self.info.box_x, weight.ny / self.info.box_y)

@@ -374,6 +374,7 @@ TEST(views, covariant)
     message.weights[0].dimension = 8;
     message.weights[0].dq = copy(every(2));
     message.weights[0].dp = copy(every(1));
+    message.weights[0].gram_schmidt = copy(every(3));
     expect_both_ways(view, message);
     view.angle_count = view.weight_count = 0;
     message.angles.clear();

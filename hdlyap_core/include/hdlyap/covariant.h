@@ -73,9 +73,10 @@ const double *hd_covariant_met_each(const hd_covariant *covariant); /**< sine of
 double hd_covariant_null(const hd_covariant *covariant);
 double hd_covariant_null_most(const hd_covariant *covariant);
 
-/** Weights [T11] of the dq half (0) and of the dp half (1), each normalised by itself; running averages of all looks. NULL
- *  where the box has no waves. */
+/** Weights [T11] of the dq half (0) and of the dp half (1), each normalised by itself; running averages of all looks. */
 const hd_modes *hd_covariant_half(const hd_covariant *covariant, int half);
+/** The same of the dq half of the frame, the Gram-Schmidt vectors, at the same times. */
+const hd_modes *hd_covariant_of_frame(const hd_covariant *covariant);
 /** Localisation widths, [n], 1 / N .. 1, and mean |cos| of the angle between both halves. */
 const double *hd_covariant_widths(const hd_covariant *covariant);
 const double *hd_covariant_cosines(const hd_covariant *covariant);

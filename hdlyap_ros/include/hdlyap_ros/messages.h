@@ -219,7 +219,7 @@ typedef struct hdr_covariant_weight {
     uint32_t nx, ny;
     double wave_number;
     uint32_t dimension;
-    hdr_doubles dq, dp;
+    hdr_doubles dq, dp, gram_schmidt;
 } hdr_covariant_weight;
 
 /** hdlyap/Covariant */

@@ -101,27 +101,16 @@ def chance(run, weight):
     return weight.dimension / (2.0 * run.info.disks)
 
 
-def gram_schmidt(run, wave):
-    """(indices, weights of the dq halves) of the Gram-Schmidt vectors classified as this kind and wave."""
-    modes = run.modes.modes if run.modes is not None else ()
-    found = [(mode.index, mode.weight) for mode in modes
-             if (mode.kind, mode.nx, mode.ny) == (wave.kind, wave.nx, wave.ny)]
-    return np.array(found, dtype=float).reshape(-1, 2).T
-
-
 def weights_over(run, block):
-    """(step, weights) of a block whose vectors are carried: means over them of the Gram-Schmidt dq (NaN if unknown),
-    of the covariant dq and dp halves, and what chance would give."""
+    """(step, weights) of a block whose vectors are carried: means over them of the Gram-Schmidt dq, of the covariant dq
+    and dp halves, and what chance would give."""
     inside = within(indices(run.covariant), block)
     for step in block.steps if inside is not None else ():
         found = next((weight for weight in run.covariant.weights
                       if weight_name(weight) == steps.name(step)), None)
         if found is None:
             continue
-        numbers, ours = gram_schmidt(run, found)
-        ours = ours[(numbers >= block.first) & (numbers <= block.last)]
-        yield step, (ours.mean() if ours.size else np.nan, np.array(found.dq)[inside].mean(),
-                     np.array(found.dp)[inside].mean(), chance(run, found))
+        yield step, (*_means(found, inside), chance(run, found))
 
 
 def unresolved_weights(run):
@@ -134,8 +123,11 @@ def unresolved_weights(run):
         if weight_name(weight) in resolved or weight.dimension > carried:
             continue
         best = np.sort(np.argsort(weight.dq[:carried], kind='stable')[carried - weight.dimension:])
-        yield weight, numbers[best], (np.nan, np.array(weight.dq)[best].mean(), np.array(weight.dp)[best].mean(),
-                                      chance(run, weight))
+        yield weight, numbers[best], (*_means(weight, best), chance(run, weight))
+
+
+def _means(weight, chosen):
+    return tuple(np.array(values)[chosen].mean() for values in (weight.gram_schmidt, weight.dq, weight.dp))
 
 
 # ---- angles, order ----------------------------------------------------------------------------

@@ -59,7 +59,7 @@ void covariant_report_free(covariant_report *r)
 
 double covariant_report_size(const covariant_report *r)
 {
-    return (10.0 + 2.0 * r->weights) * r->vectors + 2.0 * HD_ANGLE_BINS * r->angles;
+    return (10.0 + 3.0 * r->weights) * r->vectors + 2.0 * HD_ANGLE_BINS * r->angles;
 }
 
 /** An error that is not known has one value, as an angle of what is not carried. */
@@ -100,6 +100,7 @@ static void gather_angles(covariant_report *r, const hd_splitting *splitting)
 static void gather_weights(covariant_report *r, const hd_covariant *covariant)
 {
     const hd_modes *dq = hd_covariant_half(covariant, 0), *dp = hd_covariant_half(covariant, 1);
+    const hd_modes *frame = hd_covariant_of_frame(covariant);
     for (uint32_t k = 0; k < r->weights; k++) {
         const int s = (int)k;
         const hd_subspace *subspace = hd_fields_subspace(hd_modes_fields(dq), s);
@@ -111,6 +112,7 @@ static void gather_weights(covariant_report *r, const hd_covariant *covariant)
             .dimension = (uint32_t)subspace->dimension,
             .dq = outlets_array(hd_modes_average(dq, s, HD_WEIGHT), r->vectors, 1),
             .dp = outlets_array(hd_modes_average(dp, s, HD_WEIGHT), r->vectors, 1),
+            .gram_schmidt = outlets_array(hd_modes_average(frame, s, HD_WEIGHT), r->vectors, 1),
         };
     }
 }
@@ -170,9 +172,12 @@ static bool view_finite(const hdr_covariant *v)
         const hdr_covariant_angle *angle = &v->angles[k];
         finite = finite && isfinite(angle->last + angle->mean + angle->std_error + angle->least + angle->mean_of_all);
     }
-    for (uint32_t k = 0; k < v->weight_count; k++)
-        finite = finite && outlets_finite(v->weights[k].dq.data, v->weights[k].dq.count) &&
-                 outlets_finite(v->weights[k].dp.data, v->weights[k].dp.count);
+    for (uint32_t k = 0; k < v->weight_count; k++) {
+        const hdr_covariant_weight *weight = &v->weights[k];
+        finite = finite && outlets_finite(weight->dq.data, weight->dq.count) &&
+                 outlets_finite(weight->dp.data, weight->dp.count) &&
+                 outlets_finite(weight->gram_schmidt.data, weight->gram_schmidt.count);
+    }
     return finite;
 }
 

@@ -298,7 +298,7 @@ template <> struct message_of<hdr_covariant_angle> {
 template <> struct message_of<hdr_covariant_weight> {
     template <class Stream, class View> static void fields(Stream &s, View &v)
     {
-        pass(s, v.kind, v.nx, v.ny, v.wave_number, v.dimension, v.dq, v.dp);
+        pass(s, v.kind, v.nx, v.ny, v.wave_number, v.dimension, v.dq, v.dp, v.gram_schmidt);
     }
 };
 

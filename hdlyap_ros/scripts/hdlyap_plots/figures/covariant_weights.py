@@ -35,12 +35,11 @@ def draw(run):
 
 
 def _panel(axes, run, weight, indices):
-    numbers, ours = covariant.gram_schmidt(run, weight)
     axes.plot(indices, weight.dq, 'o', color=KIND_COLOURS[steps.NAMES[weight.kind]], markersize=3,
               label=r'covariant, $\delta q$')
     axes.plot(indices, weight.dp, 'x', color=GREY, markersize=3.5, markeredgewidth=0.8, label=r'covariant, $\delta p$')
-    axes.plot(numbers, ours, 'o', color=INK, markerfacecolor='none', markersize=5, markeredgewidth=0.7,
-              label='Gram-Schmidt, $\\delta q$\n(where it is its kind)')
+    axes.plot(indices, weight.gram_schmidt, 'o', color=INK, markerfacecolor='none', markersize=5, markeredgewidth=0.7,
+              label=r'Gram-Schmidt, $\delta q$')
     level(axes, covariant.chance(run, weight), 'by chance')
     axes.set_ylim(-0.03, 1.03)
     axes.annotate(covariant.weight_name(weight), (0.03, 0.95), xycoords='axes fraction', va='top',
