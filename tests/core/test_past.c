@@ -61,21 +61,34 @@ static void freed(forward *x)
     free(x);
 }
 
-static void add(forward *x, double length, bool snapshot)
+/** One interval: from t_begin to t_end of the log, which the frame is yet to be carried through. */
+static void add_piece(forward *x, double t_begin, double t_end, bool snapshot)
 {
+    const hd_event_log *log = x->f.log;
     left *new = &x->left[x->end++];
-    forward_interval(&x->f, length);
+    CHECK_OK(hd_frame_replay(x->f.frame, log, t_begin, t_end));
+    forward_factor(&x->f);
     new->factor = triangle_copy(hd_ortho_factor(x->f.ortho), forward_vectors(&x->f));
     new->vectors = forward_copy(&x->f);
-    new->time = hd_trajectory_time(x->f.trajectory);
-    new->length = x->f.log->duration;
-    hd_trajectory_state(x->f.trajectory, new->q, new->p);
+    new->length = t_end - t_begin;
+    new->time = hd_trajectory_time(x->f.trajectory) - log->duration + t_end;
+    hd_trajectory_state(x->f.trajectory, new->q, new->p); /* of the log's end: whatever they are, they come back */
     for (int way = 0; way < PASTS; way++) {
         const hd_columns columns = hd_frame_columns(x->f.frame);
         assert_false(hd_past_is_full(x->past[way]));
-        CHECK_OK(hd_past_add(x->past[way], hd_ortho_factor(x->f.ortho), columns, x->f.log, 0.0, x->f.log->duration));
+        CHECK_OK(hd_past_add(x->past[way], hd_ortho_factor(x->f.ortho), columns, log, t_begin, t_end));
         if (snapshot) CHECK_OK(hd_past_snapshot(x->past[way], columns, new->q, new->p));
     }
+}
+
+/** One interval or, as a log that was too long, two; a snapshot is that of every third. */
+static void add(forward *x, double length, bool cut)
+{
+    const double end = hd_trajectory_time(x->f.trajectory) + length;
+    CHECK_OK(hd_trajectory_advance(x->f.trajectory, x->f.log, end));
+    const double duration = x->f.log->duration, first = cut ? 0.4 * duration : duration;
+    add_piece(x, 0.0, first, x->end % 3 == 0);
+    if (cut) add_piece(x, first, duration, x->end % 3 == 0);
 }
 
 static void check_snapshot(const forward *x, hd_past *past, long interval)
@@ -120,8 +133,8 @@ static void check_rings(int exponents)
 {
     forward *x = started(exponents);
     long first = 0;
-    while (x->end < STEPS) {
-        add(x, 0.3 + 0.05 * (double)(x->end % 5), x->end % 3 == 0);
+    while (x->end + 1 < STEPS) {
+        add(x, 0.3 + 0.05 * (double)(x->end % 5), x->end % 4 == 1);
         if (x->end - first < INTERVALS - 2) continue;
         for (int way = 0; way < PASTS; way++) check_past(x, way, first);
         first += 7;
@@ -143,7 +156,7 @@ static void a_past_is_full_with_so_many_intervals(void **state)
 {
     (void)state;
     forward *x = started(HD_EXPONENTS_ALL);
-    while (x->end < INTERVALS) add(x, 0.2, x->end % 3 == 0);
+    while (x->end < INTERVALS) add(x, 0.2, false);
     for (int way = 0; way < PASTS; way++) {
         assert_true(hd_past_is_full(x->past[way]));
         check_past(x, way, 0);
@@ -165,7 +178,7 @@ static void a_new_beginning_forgets_everything(void **state)
             assert_int_equal(hd_past_end(x->past[way]), 0);
         }
         forget(x);
-        while (x->end < 9 + 2 * again) add(x, 0.2, x->end % 3 == 0);
+        while (x->end < 9 + 2 * again) add(x, 0.2, false);
         for (int way = 0; way < PASTS; way++) check_past(x, way, 0);
     }
     freed(x);
