@@ -28,6 +28,16 @@ def found_steps(info):
             made.step(info, T, 1, 0, 44, 45, conjugate=True), made.zero_modes(38)]
 
 
+def with_other_modes(messages):
+    """Gram-Schmidt vectors of the conjugate step, and of a wave along y, have other weights."""
+    for mode in messages[3].modes:
+        if mode.index > POSITIVE + 6:
+            mode.weight -= 0.2
+    stray = messages[3].modes[35]       # index 36
+    stray.ny, stray.weight = 1, 0.1
+    return messages
+
+
 def angles():
     """Smallest ones: 30 in [0.1745, 0.1920) and 10 in the next bin; the centre is at right angles."""
     last = {made.BINS - 1: 40}
@@ -180,6 +190,12 @@ class Table(Bags):
         self.assertEqual(lines['T(1,0)'][1], ['36-37', '0.930', '0.810', '0.270', '0.050'])
         self.assertEqual(lines['LP(1,0)'][1], ['32-35', '0.930', '0.630', '0.190', '0.100'])
         self.assertEqual(lines['conj. T(1,0)'][1], ['44-45', '0.930', '0.770', '0.020', '0.050'])
+
+    def test_weights_of_the_vectors_of_the_step_alone(self):
+        """Not those of the other half, nor of a wave that only shares nodes along x."""
+        lines, _ = self.lines(self.read(with_other_modes(everything())))
+        self.assertEqual(lines['T(1,0)'][1][1], '0.930')
+        self.assertEqual(lines['conj. T(1,0)'][1][1], '0.730')
 
     def test_weights_without_modes(self):
         lines, _ = self.lines(self.without(Modes))
