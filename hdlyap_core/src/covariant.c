@@ -205,8 +205,8 @@ hd_status hd_covariant_begin(hd_covariant *c, hd_columns frame, double time, dou
     return begin_window(c, frame, time);
 }
 
-/** The interval that the window ends with, at the first look at which it is as long as asked; the past's end if that is yet
- *  to come. */
+/** The interval that the window ends with, at the first look at which it is as long as asked; the past's end if that is
+ *  yet to come. */
 static long window_last(const hd_covariant *c)
 {
     const double asked = c->window + c->scene.covariant_window - CLOSE * c->scene.covariant_sampling;
@@ -317,7 +317,8 @@ static void swap_halves(hd_covariant *c)
 {
     const int n = c->vectors;
     for (int disk = 0; disk < c->scene.disks; disk++)
-        cblas_dswap(2 * n, c->frame + 4 * (size_t)disk * (size_t)n, 1, c->frame + (4 * (size_t)disk + 2) * (size_t)n, 1);
+        cblas_dswap(2 * n, c->frame + 4 * (size_t)disk * (size_t)n, 1,
+                    c->frame + (4 * (size_t)disk + 2) * (size_t)n, 1);
 }
 
 /** What the vectors grew by since the look before, which came later. */

@@ -1,4 +1,4 @@
-/** Covariant vectors are what they are called: by the tangent flow, by sums that must hold, and by another way to find them. */
+/** Covariant vectors are what they are called: by the tangent flow, by sums that must hold, by another way to them. */
 #include <float.h>
 #include <stdbool.h>
 
@@ -38,8 +38,9 @@ static double map_size(const passage *x, int from, int to)
     return size;
 }
 
-/** Vectors of one passage carried from point `from` to point `to` are those that another one finds there. What lies between
- *  both at first, by their transients and by rounding, can grow as much as anything can while the vector grows as it does. */
+/** Vectors of one passage carried from point `from` to point `to` are those that another one finds there. What lies
+ *  between both at first, by their transients and by rounding, can grow as much as anything can while the vector grows
+ *  as it does. Returns how many of them say something. */
 static int check_covariance(const passage *one, const passage *other, int from, int to)
 {
     const int n = one->vectors, rows = one->rows;
@@ -80,8 +81,8 @@ static void vectors_are_carried_into_vectors(void **state)
 
 /* ---- sums --------------------------------------------------------------------------------------- */
 
-/** V_l .. span what Q_l .. do, and det C is the product of its diagonal: over any time the growth of the first l vectors sums
- *  to that of their volume, sum ln R_kk, but for what their own volume in that span changes. */
+/** The first l vectors span what those of Q do, and det C is the product of its diagonal: over any time their growth
+ *  sums to that of their volume, sum ln R_kk, but for what their own volume in that span changes. */
 static void growth_sums_to_that_of_the_volume(void **state)
 {
     (void)state;
@@ -110,8 +111,8 @@ static void growth_sums_to_that_of_the_volume(void **state)
 
 /* ---- transients --------------------------------------------------------------------------------- */
 
-/** What two starts differ by in the second vector shrinks, on the way back, just as its growth stays behind the first one's:
- *  by exp -sum (ln R_11 - ln R_22). */
+/** What two starts differ by in the second vector shrinks, on the way back, just as its growth stays behind the first
+ *  one's: by exp -sum (ln R_11 - ln R_22). */
 static void starts_meet_as_their_exponents_say(void **state)
 {
     (void)state;
@@ -124,7 +125,8 @@ static void starts_meet_as_their_exponents_say(void **state)
         const int end = transient[k];
         double ratio[2][2], gap = 0.0;
         for (int stream = 0; stream < 2; stream++) {
-            hd_backward *c = passage_back(&x, end, end, (uint64_t)stream), *met = passage_back(&x, end, 0, (uint64_t)stream);
+            hd_backward *c = passage_back(&x, end, end, (uint64_t)stream);
+            hd_backward *met = passage_back(&x, end, 0, (uint64_t)stream);
             ratio[0][stream] = hd_backward_read(c)[n] / hd_backward_read(c)[n + 1];
             ratio[1][stream] = hd_backward_read(met)[n] / hd_backward_read(met)[n + 1];
             hd_backward_free(c);
@@ -156,8 +158,8 @@ static void reverse(hd_event_log *into, const hd_event_log *log)
     }
 }
 
-/** Vectors that random ones become, in extended precision: from point 0 on forwards to `at`, or from the last point backwards
- *  in time. */
+/** Vectors that random ones become, in extended precision: from point 0 on forwards to `at`, or from the last point
+ *  backwards in time. */
 static exact_frame *converged(const passage *x, int at, bool backwards)
 {
     hd_frame *frame;
@@ -206,8 +208,8 @@ static void null_vector(hd_exact *a, hd_exact *x, int n)
     for (int k = 0; k < n - 1; k++) x[order[k]] = -a[k * n + n - 1] / a[k * n + k];
 }
 
-/** Column `col` of v <- what lies in the span of the first col + 1 vectors forwards and of the first n - col backwards, that is
- *  at right angles to the last col of those (whose momenta are reversed). */
+/** Column `col` of v <- what lies in the span of the first col + 1 vectors forwards and of the first n - col backwards,
+ *  that is at right angles to the last col of those (whose momenta are reversed). */
 static void intersect(double *v, const hd_exact *forwards, const hd_exact *backwards, int n, int col)
 {
     hd_exact a[64 * 64] = {0}, x[64];
@@ -225,8 +227,8 @@ static void intersect(double *v, const hd_exact *forwards, const hd_exact *backw
     }
 }
 
-/** The Oseledec splitting by its definition: what the past has made grow, cut with what the future lets grow no more. Q is
- *  known to eps condition; a vector that hardly leans out of those before it is known less. */
+/** The Oseledec splitting by its definition: what the past has made grow, cut with what the future lets grow no more. Q
+ *  is known to eps condition; a vector that hardly leans out of those before it is known less. */
 static void intersections_of_past_and_future_are_the_same(void **state)
 {
     (void)state;

@@ -41,6 +41,24 @@ static void add_shape(twin *t, const double *v)
 
 enum { FIELDS = 6, LENGTH = 2 * DISKS };
 
+static double row_dot(const double *a, const double *b)
+{
+    double sum = 0.0;
+    for (int k = 0; k < LENGTH; k++) sum += a[k] * b[k];
+    return sum;
+}
+
+/** Row `last`, to those from `first` on: twice. */
+static void orthonormalise(double field[FIELDS][LENGTH], int first, int last)
+{
+    for (int k = 0; k < 2 * (last - first); k++) {
+        const double *before = field[first + k % (last - first)], overlap = row_dot(before, field[last]);
+        for (int row = 0; row < LENGTH; row++) field[last][row] -= overlap * before[row];
+    }
+    const double length = sqrt(row_dot(field[last], field[last]));
+    for (int row = 0; row < LENGTH; row++) field[last][row] /= length;
+}
+
 /** Rows: curl of cos kx and sin kx; grad of them; p times them. Each block orthonormal in itself. */
 static void fill_fields(double field[FIELDS][LENGTH], const double *q, const double *p, double k)
 {
@@ -52,16 +70,7 @@ static void fill_fields(double field[FIELDS][LENGTH], const double *q, const dou
             field[2 + phase][2 * disk] = slope;
             for (int d = 0; d < 2; d++) field[4 + phase][2 * disk + d] = p[2 * disk + d] * a;
         }
-    for (int one = 0; one < FIELDS; one++)
-        for (int pass = 0; pass < 2; pass++) {
-            for (int before = one < 2 ? 0 : 2; before <= one; before++) {
-                double overlap = 0.0;
-                for (int row = 0; row < LENGTH; row++) overlap += field[before][row] * field[one][row];
-                for (int row = 0; row < LENGTH; row++)
-                    field[one][row] = before < one ? field[one][row] - overlap * field[before][row]
-                                                   : field[one][row] / sqrt(overlap);
-            }
-        }
+    for (int one = 0; one < FIELDS; one++) orthonormalise(field, one < 2 ? 0 : 2, one);
 }
 
 static void add_weights(twin *t, const double *v, double field[FIELDS][LENGTH])
@@ -220,9 +229,9 @@ static void looks_that_fall_elsewhere_shorten_nothing(void **state)
     windows_free(&w);
 }
 
-/** Both give the growth of the same spaces over nearly the same time. In the centre pairs of vectors shear: on the way back a
- *  start grows with the time since, so over a window it has ln((window + transient) / transient) to lose; nearest to the
- *  unstable ones there are those that do not turn. */
+/** Both give the growth of the same spaces over nearly the same time. In the centre pairs of vectors shear: on the way
+ *  back a start grows with the time since, so over a window it has ln((window + transient) / transient) to lose; the
+ *  first three do not turn. */
 static void check_exponent(const hd_spectrum *back, const hd_spectrum *forward, int col, int positive)
 {
     const double one = hd_spectrum_std_error(forward, col), other = hd_spectrum_std_error(back, col);
@@ -326,7 +335,8 @@ static void too_little_room_is_refused_with_the_numbers(void **state)
     CHECK_OK(hd_covariant_check_room(&scene, 0.25, message, sizeof message));
     scene.covariant_memory = 1e5;
     assert_int_equal(hd_covariant_check_room(&scene, 0.25, message, sizeof message), HD_REFUSED);
-    const char *numbers[] = {"covariant_window = 10", "covariant_transient = 20", "16 vectors", "covariant_memory = 0.0001 GB"};
+    const char *numbers[] = {"covariant_window = 10", "covariant_transient = 20", "16 vectors",
+                             "covariant_memory = 0.0001 GB"};
     for (int k = 0; k < 4; k++) assert_non_null(strstr(message, numbers[k]));
     hd_covariant *c;
     forward_pass f = forward_started(&scene, 1);

@@ -61,8 +61,8 @@ static void freed(kept *k)
     free(k);
 }
 
-/** The events' times are those since the piece began, known to eps of their log; Q follows its neighbours as the condition
- *  says, from where its stretch begins. */
+/** The events' times are those since the piece began, known to eps of their log; Q follows its neighbours as the
+ *  condition says, from where its stretch begins. */
 static double rounding_of(const kept *k) { return 64.0 * DBL_EPSILON * STRETCH * k->f.worst; }
 
 static void check_slot(kept *k, double *found, long interval)
@@ -111,13 +111,14 @@ static void triangles_are_those_of_the_forward_pass(void **state)
 
 /* ---- logs written by hand --------------------------------------------------------------------- */
 
-/** Two disks that meet at these times, a normal turned a little further each time; `graze` is p.n of the second. */
+/** Two disks that meet at these times, a normal turned a little further each time; `graze` is -p.n of the second. */
 static void write_log(hd_event_log *log, const double *times, int count, double duration, double graze)
 {
     static hd_event event[8];
     for (int k = 0; k < count; k++) {
         const double turn = 0.7 * k, nx = cos(turn), ny = sin(turn), b = k == 1 ? -graze : -0.8;
-        event[k] = (hd_event){.t = times[k], .i = 0, .j = 1, .n = {nx, ny}, .p = {b * nx - 0.9 * ny, b * ny + 0.9 * nx}};
+        event[k] = (hd_event){
+            .t = times[k], .i = 0, .j = 1, .n = {nx, ny}, .p = {b * nx - 0.9 * ny, b * ny + 0.9 * nx}};
     }
     *log = (hd_event_log){.event = event, .count = (size_t)count, .capacity = (size_t)count, .duration = duration};
 }
