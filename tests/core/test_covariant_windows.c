@@ -14,7 +14,7 @@ enum { WARMUP = 400, DISKS = 12, ROWS = 4 * DISKS, LOOKS = 5, PER_LOOK = 8, LAST
 /** Means over the looks of one window. */
 typedef struct twin {
     double exponent[ROWS], local[ROWS], entropy[ROWS], cosine[ROWS], neighbours[ROWS], violations[ROWS], met[ROWS];
-    double weight[2][2][ROWS]; /* T(1,0), LP(1,0) of dq, dp */
+    double weight[2][3][ROWS]; /* T(1,0), LP(1,0) of dq, of dp, of the frame's dq */
 } twin;
 
 static double half_dot(const double *v, int col, int one, int other)
@@ -73,16 +73,15 @@ static void fill_fields(double field[FIELDS][LENGTH], const double *q, const dou
     for (int one = 0; one < FIELDS; one++) orthonormalise(field, one < 2 ? 0 : 2, one);
 }
 
-static void add_weights(twin *t, const double *v, double field[FIELDS][LENGTH])
+static void add_weights(twin *t, int set, const double *v, int half, double field[FIELDS][LENGTH])
 {
-    for (int half = 0; half < 2; half++)
-        for (int col = 0; col < ROWS; col++)
-            for (int k = 0; k < FIELDS; k++) {
-                double overlap = 0.0;
-                for (int row = 0; row < LENGTH; row++)
-                    overlap += field[k][row] * v[(4 * (row / 2) + 2 * half + row % 2) * ROWS + col];
-                t->weight[k >= 2][half][col] += overlap * overlap / half_dot(v, col, half, half) / LOOKS;
-            }
+    for (int col = 0; col < ROWS; col++)
+        for (int k = 0; k < FIELDS; k++) {
+            double overlap = 0.0;
+            for (int row = 0; row < LENGTH; row++)
+                overlap += field[k][row] * v[(4 * (row / 2) + 2 * half + row % 2) * ROWS + col];
+            t->weight[k >= 2][set][col] += overlap * overlap / half_dot(v, col, half, half) / LOOKS;
+        }
 }
 
 static void add_look(twin *t, const hd_scene_def *scene, const passage *x, const hd_backward *c, int at)
@@ -96,7 +95,9 @@ static void add_look(twin *t, const hd_scene_def *scene, const passage *x, const
     hd_trajectory_free(trajectory);
     add_shape(t, v);
     fill_fields(field, q, p, 2.0 * PI / box[0]);
-    add_weights(t, v, field);
+    add_weights(t, 0, v, 0, field);
+    add_weights(t, 1, v, 1, field);
+    add_weights(t, 2, x->q[at], 0, field);
     for (int col = 0; col + 1 < ROWS; col++) {
         double dot = 0.0; /* of C's columns: Q is orthonormal */
         for (int row = 0; row < ROWS; row++)
@@ -156,13 +157,14 @@ static void check_means(const hd_covariant *c, const twin *t)
         CHECK_CLOSE(hd_splitting_neighbours(s)[col], t->neighbours[col], 1e-7); /* small ones by their cosine */
         CHECK_CLOSE(hd_splitting_violations(s)[col], t->violations[col], 1e-14);
     }
-    for (int half = 0; half < 2; half++)
+    const hd_modes *const sets[] = {hd_covariant_half(c, 0), hd_covariant_half(c, 1), hd_covariant_of_frame(c)};
+    for (int set = 0; set < 3; set++)
         for (int kind = 0; kind < 2; kind++) {
-            const hd_modes *modes = hd_covariant_half(c, half);
+            const hd_modes *modes = sets[set];
             const int space = subspace_of(modes, kind ? HD_MODE_LP : HD_MODE_T);
             assert_int_equal(hd_modes_samples(modes), LOOKS);
             for (int col = 0; col < ROWS; col++)
-                CHECK_CLOSE(hd_modes_average(modes, space, HD_WEIGHT)[col], t->weight[kind][half][col], 10 * ROUNDING);
+                CHECK_CLOSE(hd_modes_average(modes, space, HD_WEIGHT)[col], t->weight[kind][set][col], 10 * ROUNDING);
         }
 }
 
@@ -183,9 +185,12 @@ static void a_window_is_what_is_computed_by_hand(void **state)
     CHECK_CLOSE(hd_spectrum_time(hd_covariant_spectrum(w.c)), 10.0, 1e-12);
     CHECK_CLOSE(hd_covariant_window_end(w.c), begin + 10.0, 1e-12);
     check_means(w.c, &t);
-    double halves = 0.0; /* what would not be seen if both were the same */
-    for (int col = 0; col < ROWS; col++) halves = fmax(halves, fabs(t.weight[0][0][col] - t.weight[0][1][col]));
-    assert_true(halves > 0.01);
+    double halves = 0.0, kinds = 0.0; /* what would not be seen if they were the same */
+    for (int col = 0; col < ROWS; col++) {
+        halves = fmax(halves, fabs(t.weight[0][0][col] - t.weight[0][1][col]));
+        kinds = fmax(kinds, fabs(t.weight[0][0][col] - t.weight[0][2][col]));
+    }
+    assert_true(halves > 0.01 && kinds > 0.01);
     passage_free(&x);
     windows_free(&w);
 }

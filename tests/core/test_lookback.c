@@ -65,6 +65,7 @@ static void check_windows(const hd_run *run, long windows, double start)
     assert_int_equal(hd_splitting_samples(hd_covariant_splitting(c)), 10 * windows);
     assert_int_equal(hd_modes_samples(hd_covariant_half(c, 0)), 10 * windows);
     assert_int_equal(hd_modes_samples(hd_covariant_half(c, 1)), 10 * windows);
+    assert_int_equal(hd_modes_samples(hd_covariant_of_frame(c)), 10 * windows);
 }
 
 /** As many as fit with the last one's transient; all are done before the run is finished. */
