@@ -5,6 +5,7 @@
 #include "hdlyap/covariant.h"
 
 #include <cblas.h>
+#include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <string.h>
@@ -16,6 +17,7 @@
 #include "memory.h"
 #include "past.h"
 #include "shape.h"
+#include "store.h"
 
 /** Intervals that there is room for, over those that are expected: they vary. */
 static const double SPARE = 1.5;
@@ -70,16 +72,27 @@ static hd_past_def past_of(const hd_scene_def *def, double interval)
                          .folder = def->covariant_storage == HD_STORAGE_FILE ? def->covariant_folder : NULL};
 }
 
+static hd_status refuse_room(const hd_scene_def *def, const hd_past_def *past, const char *allowed, double most,
+                             char *message, size_t size)
+{
+    return hd_refuse(message, size,
+                     "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and %ld frames of %d "
+                     "vectors need %.3g GB, must be at most %s %.3g GB",
+                     def->covariant_window, def->covariant_transient, past->intervals, past->snapshots, past->vectors,
+                     1e-9 * hd_past_bytes(past), allowed, 1e-9 * most);
+}
+
 hd_status hd_covariant_check_room(const hd_scene_def *def, double interval, char *message, size_t size)
 {
     const hd_past_def past = past_of(def, interval);
     const double bytes = hd_past_bytes(&past);
-    if (bytes <= def->covariant_memory) return HD_OK;
-    return hd_refuse(message, size,
-                     "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and %ld frames of %d "
-                     "vectors need %.3g GB, must be at most covariant_memory = %.3g GB",
-                     def->covariant_window, def->covariant_transient, past.intervals, past.snapshots, past.vectors,
-                     1e-9 * bytes, 1e-9 * def->covariant_memory);
+    if (!(bytes <= def->covariant_memory))
+        return refuse_room(def, &past, "covariant_memory =", def->covariant_memory, message, size);
+    if (!past.folder) return HD_OK;
+    const double left = hd_store_folder_room(past.folder);
+    if (left < 0) return hd_refuse(message, size, "covariant_folder = %s: %s", past.folder, strerror(errno));
+    if (bytes > left) return refuse_room(def, &past, "what is free in covariant_folder,", left, message, size);
+    return HD_OK;
 }
 
 static hd_status allocate_arrays(hd_covariant *c)

@@ -22,7 +22,7 @@ hd_status hd_lookback_create(hd_run *run, char *message, size_t size)
     return hd_covariant_create(&run->covariant, scene, run->threads);
 }
 
-static bool is_watched(const hd_run *run)
+bool hd_lookback_is_watched(const hd_run *run)
 {
     return run->covariant && (run->observe & HD_OBSERVE_COVARIANT) && run->schedule.phase == HD_AVERAGING;
 }
@@ -57,7 +57,7 @@ static hd_status timed(hd_run *run, double start, hd_status status)
 hd_status hd_lookback_start(hd_run *run)
 {
     const double start = hd_clock_now();
-    if (!is_watched(run) || !run->lookback_due) return HD_OK;
+    if (!hd_lookback_is_watched(run) || !run->lookback_due) return HD_OK;
     run->lookback_due = false;
     const double begin = run->now - run->log->duration;
     return timed(run, start, hd_covariant_begin(run->covariant, hd_frame_columns(run->frame), begin, expected(run)));
@@ -67,20 +67,20 @@ hd_status hd_lookback_add(hd_run *run, double t_begin, double t_end)
 {
     const double start = hd_clock_now();
     const hd_columns columns = hd_frame_columns(run->frame);
-    if (!is_watched(run)) return HD_OK;
+    if (!hd_lookback_is_watched(run)) return HD_OK;
     return timed(run, start, hd_covariant_add(run->covariant, run->ortho, columns, run->log, t_begin, t_end));
 }
 
 hd_status hd_lookback_end(hd_run *run)
 {
     const double start = hd_clock_now();
-    if (!is_watched(run) || !hd_covariant_wants_state(run->covariant)) return HD_OK;
+    if (!hd_lookback_is_watched(run) || !hd_covariant_wants_state(run->covariant)) return HD_OK;
     return timed(run, start, hd_covariant_state(run->covariant, hd_frame_columns(run->frame), run->trajectory));
 }
 
 bool hd_lookback_is_going(const hd_run *run)
 {
-    return is_watched(run) && !run->lookback_due && hd_covariant_is_going_back(run->covariant);
+    return hd_lookback_is_watched(run) && !run->lookback_due && hd_covariant_is_going_back(run->covariant);
 }
 
 hd_status hd_lookback_go(hd_run *run, bool to_its_end)

@@ -7,6 +7,9 @@
 /** HD_REFUSED with a line in message where no interval that can be expected makes the windows fit. */
 HD_MUST_CHECK hd_status hd_lookback_create(hd_run *run, char *message, size_t size);
 
+/** True while covariant vectors are wanted of what is carried. */
+bool hd_lookback_is_watched(const hd_run *run);
+
 /** The averages begin anew with the next interval. */
 void hd_lookback_clear(hd_run *run);
 /** Nothing is known of the time before the next interval. */

@@ -242,7 +242,8 @@ static bool observing(const hd_run *run)
 static hd_status frame_interval(hd_run *run)
 {
     const double duration = run->log->duration;
-    const double defect = observing(run) ? DEFECT_MEASURED : DEFECT_LOOSE;
+    const bool looked_at = observing(run) || hd_lookback_is_watched(run);
+    const double defect = looked_at ? DEFECT_MEASURED : DEFECT_LOOSE;
     double begin = 0.0, end = duration;
     HD_TRY(hd_lookback_start(run));
     while (begin < duration) {

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include "check.h"
@@ -33,6 +34,16 @@ static int nameless_file(const char *folder)
     const int named = mkostemp(path, O_CLOEXEC);
     if (named >= 0) (void)unlink(path);
     return named;
+}
+
+double hd_store_folder_room(const char *folder)
+{
+    struct statvfs about;
+    const int file = nameless_file(folder);
+    if (file < 0) return -1.0;
+    const int status = fstatvfs(file, &about);
+    (void)close(file);
+    return status == 0 ? (double)about.f_bavail * (double)about.f_frsize : -1.0;
 }
 
 static hd_status open_file(hd_store *store, const char *folder)

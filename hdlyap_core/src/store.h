@@ -8,6 +8,9 @@
 
 typedef struct hd_store hd_store;
 
+/** Bytes that are free in a folder; negative (errno) where no file can be made. */
+double hd_store_folder_room(const char *folder);
+
 /** Room for `most` records of `doubles` numbers. In memory (folder NULL) it is taken as it is needed; in a file in the folder
  *  all of it at once, so that what begins can end. The file has no name and is gone with the process.
  *  HD_NO_MEMORY; HD_FILE_FAULT (errno says why). */
