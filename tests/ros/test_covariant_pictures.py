@@ -231,6 +231,9 @@ class Table(Bags):
         _, text = self.lines(self.read())
         self.assertIn('sine 1.0e-09 in the middle, 1.0e+00 at most', text)
         self.assertIn('spaces: centre 3.0e-12, stable 5.0e-11 rad', text)
+        self.assertNotIn('too short', text)
+        for which in ('centre_apart', 'stable_apart'):
+            self.assertIn(' rad: covariant_transient is too short', report.report(self.changed(**{which: 0.3})))
         self.assertNotIn('spaces: ', report.report(self.changed(centre_apart=-1.0, stable_apart=-1.0)))
 
     def test_seconds(self):
