@@ -8,8 +8,8 @@ import numpy as np
 import rosbag
 import rospy
 
-from hdlyap.msg import (Cost, Covariant, CovariantAngle, CovariantWeight, Hydro, LpPhase, LpPhases, Mode,
-                        ModeField, Modes, RunInfo, Spectrum, Step, Steps)
+from hdlyap.msg import (Cost, Covariant, CovariantAngle, CovariantWeight, Hydro, LpPhase, LpPhases,
+                        ModeField, RunInfo, Spectrum, Step, Steps)
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../hdlyap_ros/scripts')
 sys.path.insert(0, SCRIPTS)
@@ -20,8 +20,7 @@ CURVES = {T: (1.4, 0.1), LP: (1.5, 0.5)}    # c, c2
 ERROR = 0.002           # of the exponents of steps
 VELOCITY = 1.6
 TOPICS = {RunInfo: 'run_info', Spectrum: 'spectrum', Cost: 'cost', Steps: 'steps',
-          LpPhases: 'lp_phases', ModeField: 'fields', Hydro: 'hydro', Modes: 'modes',
-          Covariant: 'covariant'}
+          LpPhases: 'lp_phases', ModeField: 'fields', Hydro: 'hydro', Covariant: 'covariant'}
 BINS = 90               # of the histograms of angles
 
 
@@ -95,15 +94,6 @@ def steps(made, averaged_time=50.0, run_id='one'):
                  threshold=0.5, steps=made, t_points=3, c_t=1.4, c_t_error=0.012, c_t2=0.1,
                  c_t2_error=0.034, l_points=2, c_l=1.5, c_l_error=0.02, c_l2=0.5, c_l2_error=0.1,
                  v_phases=8, v=1.612, v_error=0.023)
-
-
-def modes(made, count, weight=0.9, averaged_time=50.0):
-    """Vectors of the steps, all of the same weight; the others belong to none."""
-    found = [Mode(index=index, kind=Mode.NONE, step=-1) for index in range(1, count + 1)]
-    for number, one in enumerate(made):
-        for mode in found[one.first_index - 1:one.last_index] if one.resolved else ():
-            mode.kind, mode.nx, mode.ny, mode.weight, mode.step = one.kind, one.nx, one.ny, weight, number
-    return Modes(run_id='one', sim_time=100 + averaged_time, averaged_time=averaged_time, modes=found)
 
 
 def covariant_weight(made, count, dq=0.8, dp=0.3, elsewhere=0.02, gram_schmidt=0.9):

@@ -1,6 +1,5 @@
 """Covariant vectors in plot_bag, from messages that are made here: what it prints, and what it draws."""
 
-import copy
 import os
 import subprocess
 import sys
@@ -9,7 +8,7 @@ import unittest
 
 import numpy as np
 
-from hdlyap.msg import Cost, CovariantAngle, Modes, Spectrum, Steps
+from hdlyap.msg import Cost, Spectrum, Steps
 
 import made
 from made import LP, SCRIPTS, T
@@ -26,16 +25,6 @@ UNSTABLE_STABLE, UNSTABLE_CENTRE, CENTRE_STABLE = range(3)
 def found_steps(info):
     return [made.step(info, T, 1, 0, 36, 37), made.step(info, LP, 1, 0, 32, 35),
             made.step(info, T, 1, 0, 44, 45, conjugate=True), made.zero_modes(38)]
-
-
-def with_other_modes(messages):
-    """Gram-Schmidt vectors of the conjugate step, and of a wave along y, have other weights."""
-    for mode in messages[3].modes:
-        if mode.index > POSITIVE + 6:
-            mode.weight -= 0.2
-    stray = messages[3].modes[35]       # index 36
-    stray.ny, stray.weight = 1, 0.1
-    return messages
 
 
 def angles():
@@ -59,13 +48,13 @@ def everything():
     info, steps = made.run_info(exponents='all'), found_steps(made.run_info())
     message = made.covariant(backward(), angles=angles(), centre_apart=3e-12, stable_apart=5e-11, null_angle=4e-13,
                              largest_null_angle=7e-13,
-                             weights=[made.covariant_weight(steps[0], ALL, 0.81, 0.27),
-                                      made.covariant_weight(steps[1], ALL, 0.63, 0.19)])
+                             weights=[made.covariant_weight(steps[0], ALL, 0.81, 0.27, gram_schmidt=0.93),
+                                      made.covariant_weight(steps[1], ALL, 0.63, 0.19, gram_schmidt=0.55)])
     message.weights[0].dq[43:45] = [0.77] * 2       # of the conjugate step
+    message.weights[0].gram_schmidt[43:45] = [0.73] * 2
     message.entangled[6] = message.violations[6] = message.entangled[36] = 0.0
     message.apart[3], message.widths[2], message.cos_theta[2] = 1.0, 0.123, 0.456
-    return [info, made.spectrum(FORWARD, 400.0), made.steps(steps), made.modes(steps, ALL, 0.93), made.cost(500.0),
-            message]
+    return [info, made.spectrum(FORWARD, 400.0), made.steps(steps), made.cost(500.0), message]
 
 
 def line(axes, label):
@@ -135,11 +124,6 @@ class Recorded(Bags):
         self.assertIsNone(self.read(messages).covariant)
         self.assertIsNotNone(self.read([*messages, made.covariant(FORWARD)]).covariant)
 
-    def test_modes_are_only_read_beside_them(self):
-        self.assertEqual(len(self.read().modes.modes), ALL)
-        self.assertIsNone(self.read(everything()[:-1]).modes)
-        self.assertEqual(len(list(recording.messages(self.path, recording.MODES))), 1)
-
 
 class Table(Bags):
     def lines(self, run):
@@ -188,27 +172,17 @@ class Table(Bags):
     def test_weights(self):
         lines, text = self.lines(self.read())
         self.assertEqual(lines['T(1,0)'][1], ['36-37', '0.930', '0.810', '0.270', '0.050'])
-        self.assertEqual(lines['LP(1,0)'][1], ['32-35', '0.930', '0.630', '0.190', '0.100'])
-        self.assertEqual(lines['conj. T(1,0)'][1], ['44-45', '0.930', '0.770', '0.020', '0.050'])
-
-    def test_weights_of_the_vectors_of_the_step_alone(self):
-        """Not those of the other half, nor of a wave that only shares nodes along x."""
-        lines, _ = self.lines(self.read(with_other_modes(everything())))
-        self.assertEqual(lines['T(1,0)'][1][1], '0.930')
-        self.assertEqual(lines['conj. T(1,0)'][1][1], '0.730')
-
-    def test_weights_without_modes(self):
-        lines, _ = self.lines(self.without(Modes))
-        self.assertEqual(lines['T(1,0)'][1], ['36-37', '-', '0.810', '0.270', '0.050'])
+        self.assertEqual(lines['LP(1,0)'][1], ['32-35', '0.550', '0.630', '0.190', '0.100'])
+        self.assertEqual(lines['conj. T(1,0)'][1], ['44-45', '0.730', '0.770', '0.020', '0.050'])
 
     def test_weights_of_a_wave_without_a_step(self):
         """The largest of as many vectors as there are dimensions: here in places that are apart."""
         weight = made.covariant_weight(made.step(made.run_info(), T, 0, 1, 30, 31), ALL, 0.4, 0.2)
         lines, _ = self.lines(self.changed(weights=[weight]))
-        self.assertEqual(lines['T(0,1) *'][0], ['30-31', '-', '0.400', '0.200', '0.050'])
+        self.assertEqual(lines['T(0,1) *'][0], ['30-31', '0.900', '0.400', '0.200', '0.050'])
         weight.dq[10], weight.dp[10], weight.dq[50] = 0.6, 0.4, 0.9     # the last one is of the negative half
         lines, text = self.lines(self.changed(weights=[weight]))
-        self.assertEqual(lines['T(0,1) *'][0], ['11', '..', '-', '0.500', '0.300', '0.050'])
+        self.assertEqual(lines['T(0,1) *'][0], ['11', '..', '0.460', '0.500', '0.300', '0.050'])
         self.assertIn('* no step found', text)
 
     def test_angles(self):
@@ -231,6 +205,9 @@ class Table(Bags):
         _, text = self.lines(self.read())
         self.assertIn('sine 1.0e-09 in the middle, 1.0e+00 at most', text)
         self.assertIn('spaces: centre 3.0e-12, stable 5.0e-11 rad', text)
+        self.assertNotIn('too short', text)
+        for which in ('centre_apart', 'stable_apart'):
+            self.assertIn(' rad: covariant_transient is too short', report.report(self.changed(**{which: 0.3})))
         self.assertNotIn('spaces: ', report.report(self.changed(centre_apart=-1.0, stable_apart=-1.0)))
 
     def test_seconds(self):
@@ -271,8 +248,8 @@ class Figures(Bags):
                 self.assertAlmostEqual(at(line(axes, r'covariant, $\delta q$'), index), dq)
                 self.assertAlmostEqual(at(line(axes, r'covariant, $\delta p$'), index), dp)
             self.assertAlmostEqual(at(line(axes, r'covariant, $\delta p$'), 30), 0.02)
-        ours = line(first, 'Gram-Schmidt, $\\delta q$\n(where it is its kind)')
-        np.testing.assert_allclose(ours, [(index, 0.93) for index in (36, 37, 44, 45)])
+        ours = line(first, r'Gram-Schmidt, $\delta q$')
+        self.assertEqual([at(ours, index) for index in (35, 36, 37, 44)], [0.02, 0.93, 0.93, 0.73])
         self.assertEqual(line(first, 'by chance')[0, 1], 2 / 40)
 
     def test_angles_are_a_density(self):
@@ -345,9 +322,9 @@ class Partly(Bags):
         np.testing.assert_allclose(line(axes[0], 'backward (covariant)')[:, 1], backward())
 
     def test_each_topic_may_be_missing(self):
-        for kind in (Modes, Steps, Spectrum, Cost):
+        for kind in (Steps, Spectrum, Cost):
             self.complete(self.without(kind))
-        self.complete(self.without(Modes, Steps, Spectrum, Cost), on_paper=True)
+        self.complete(self.without(Steps, Spectrum, Cost), on_paper=True)
 
     def test_empty_histograms(self):
         none = made.covariant_angle(UNSTABLE_STABLE, {}, {})

@@ -5,12 +5,13 @@ from math import isfinite
 import numpy as np
 
 from . import covariant, steps
-from .numbers import known, with_error
+from .numbers import with_error
 
 STEPS = 12      # steps and conjugate steps in a table
 UNRESOLVED = 4  # waves without a step
 LISTED = 8      # indices in a line
 ROUNDING = 1e-9     # of an angle [rad]
+MET = 1e-3      # angle between spaces of two starts that are taken for one [rad]
 
 
 def blocks(recording):
@@ -134,11 +135,11 @@ def _convergence(recording):
     lines = ['how far two random starts are apart where the last window ended',
              f'  vectors: sine {np.median(apart):.1e} in the middle, {apart.max():.1e} at most '
              '(those of equal exponents never meet)']
-    spaces = [f'{name} {value:.1e}' for name, value in zip(('centre', 'stable'), known((message.centre_apart,
-                                                                                       message.stable_apart)))
-              if isfinite(value)]
+    spaces = {name: value for name, value in (('centre', message.centre_apart), ('stable', message.stable_apart))
+              if value >= 0}
     if spaces:
-        lines.append(f'  spaces: {", ".join(spaces)} rad')
+        lines.append('  spaces: ' + ', '.join(f'{name} {value:.1e}' for name, value in spaces.items()) + ' rad'
+                     + (': covariant_transient is too short' if max(spaces.values()) > MET else ''))
     return '\n'.join([*lines, _seconds(recording)])
 
 

@@ -17,8 +17,8 @@ from .stages import STAGES
 
 RUN_INFO, SPECTRUM, COST = 'hdlyap/RunInfo', 'hdlyap/Spectrum', 'hdlyap/Cost'
 STEPS, PHASES, FIELD = 'hdlyap/Steps', 'hdlyap/LpPhases', 'hdlyap/ModeField'
-MODES, COVARIANT = 'hdlyap/Modes', 'hdlyap/Covariant'
-TYPES = (RUN_INFO, SPECTRUM, COST, STEPS, PHASES, FIELD, MODES, COVARIANT)
+COVARIANT = 'hdlyap/Covariant'
+TYPES = (RUN_INFO, SPECTRUM, COST, STEPS, PHASES, FIELD, COVARIANT)
 SMALLEST = 4    # exponents whose course is kept, counted back from the last positive one
 DAMAGE = (genpy.DeserializationError, struct.error, UnicodeDecodeError, KeyError)
 
@@ -30,8 +30,8 @@ class RecordingError(Exception):
 class Recording(Run):
     """The last run in the bag: its run_info, its last spectrum (None without exponents), the
     course of the averages since their last reset, the cost over time, and of the modes the last
-    steps (None if unrecorded), the last field of each vector, and the course of the LP phases; of
-    all vectors the last classification, and the last of covariant vectors."""
+    steps (None if unrecorded), the last field of each vector, and the course of the LP phases,
+    and the last of covariant vectors."""
 
     def __init__(self, info, runs=1):
         self.info = info
@@ -53,11 +53,6 @@ class Recording(Run):
         return self._averaged(STEPS)
 
     @property
-    def modes(self):
-        """The last Modes message, likewise."""
-        return self._averaged(MODES)
-
-    @property
     def covariant(self):
         """The last Covariant message, likewise: there is at least one window."""
         return self._averaged(COVARIANT)
@@ -73,7 +68,7 @@ class Recording(Run):
 
     def add(self, kind, packed):
         """A message of one of TYPES. What counts only if it is the last one stays packed."""
-        if kind in (STEPS, MODES, COVARIANT):
+        if kind in (STEPS, COVARIANT):
             self._last[kind] = packed
         elif kind == FIELD:
             self._fields[packed.field_index()] = packed
@@ -145,7 +140,7 @@ def read(path, node=None, types=TYPES, number=None):
     """The last run of the given node, or of the only node in the bag, or the one of that number,
     from 1; of its messages those of the given types."""
     with _opened(path) as bag:
-        return _read_run(bag, path, _needed(bag, _topics_of_node(bag, path, node, types)), number)
+        return _read_run(bag, path, _topics_of_node(bag, path, node, types), number)
 
 
 def run_infos(path, node=None):
@@ -204,13 +199,6 @@ def _topics_of_node(bag, path, node, types):
     if '/' + node.strip('/') not in nodes:
         raise RecordingError(f'{path}: no node {node} in it, only {names}')
     return nodes['/' + node.strip('/')]
-
-
-def _needed(bag, topics):
-    """Modes are half of what is in many a bag, and only wanted beside covariant vectors."""
-    about = bag.get_type_and_topic_info(topics).topics
-    beside = any(about[topic].msg_type == COVARIANT for topic in topics)
-    return [topic for topic in topics if beside or about[topic].msg_type != MODES]
 
 
 def _read_run(bag, path, topics, number):
