@@ -15,9 +15,6 @@
 
 enum { PANEL = 96 };
 
-/** Of a random column of length 1. */
-static const double DIAGONAL_LEAST = 1e-3;
-
 struct hd_backward {
     int vectors;
     double *c; /**< [n * n] */
@@ -66,9 +63,8 @@ void hd_backward_start(hd_backward *backward, uint64_t seed, uint64_t stream)
     memset(backward->c, 0, (size_t)n * (size_t)n * sizeof(double));
     for (int col = 0; col < n; col++) {
         double *column = column_of(backward, col);
-        for (int row = 0; row <= col; row++) column[row] = hd_random_symmetric(&random);
-        const double least = 2.0 * DIAGONAL_LEAST * sqrt(col + 1.0);
-        if (fabs(column[col]) < least) column[col] = copysign(least, column[col]);
+        for (int row = 0; row < col; row++) column[row] = hd_random_symmetric(&random) / sqrt(col + 1.0);
+        column[col] = 1.0;
         (void)normalise(column, col + 1);
     }
 }

@@ -12,7 +12,6 @@
 #include "checkpoint_file.h"
 #include "clock.h"
 #include "hdlyap/blas.h"
-#include "lookback.h"
 #include "run_state.h"
 
 /* ---- a run's own numbers ---------------------------------------------------------------------- */
@@ -139,7 +138,7 @@ void hd_run_write(hd_run *run, hd_archive *archive, const char *label)
 hd_status hd_run_save(hd_run *run, const char *path, const char *label, char *message, size_t size)
 {
     hd_checkpoint_file file;
-    HD_TRY(hd_lookback_go(run, true)); /* half of a window is none */
+    HD_TRY(hd_run_settle(run));
     HD_TRY(hd_checkpoint_file_begin(&file, path, message, size));
     hd_archive archive = hd_archive_writer(file.file);
     hd_run_write(run, &archive, label);

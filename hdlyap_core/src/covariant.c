@@ -375,20 +375,25 @@ static hd_status spaces_apart(hd_covariant *c, double *angle, int first, int cou
     return HD_OK;
 }
 
-/** At the window's end: how far the two starts have met. */
+/** At the window's end: how far the two starts have met; the worst of all windows is kept. */
 static hd_status meet(hd_covariant *c)
 {
     hd_covariant_apart *apart = &c->spaces_apart;
     const int stable = c->vectors - c->unstable - c->centre;
-    *apart = (hd_covariant_apart){0.0, -1.0, -1.0};
+    double now;
+    apart->most = 0.0;
     for (int col = 0; col < c->vectors; col++) {
         c->apart[col] = hd_backward_apart(c->start[0], c->start[1], col);
         apart->most = fmax(apart->most, c->apart[col]);
     }
     c->way = THROUGH_WINDOW;
     if (c->centre == 0) return HD_OK;
-    HD_TRY(spaces_apart(c, &apart->centre, c->unstable, c->centre));
-    return stable > 0 ? spaces_apart(c, &apart->stable, c->unstable + c->centre, stable) : HD_OK;
+    HD_TRY(spaces_apart(c, &now, c->unstable, c->centre));
+    apart->centre = fmax(apart->centre, now);
+    if (stable == 0) return HD_OK;
+    HD_TRY(spaces_apart(c, &now, c->unstable + c->centre, stable));
+    apart->stable = fmax(apart->stable, now);
+    return HD_OK;
 }
 
 /** The next window begins where this one ended. */

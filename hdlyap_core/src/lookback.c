@@ -39,12 +39,12 @@ void hd_lookback_interrupt(hd_run *run)
     run->lookback_due = true;
 }
 
-/** What the next intervals are expected to be: reports that need all vectors end one each. */
+/** What the next intervals are expected to be: equal shares of a sample, or of a report that needs all vectors. */
 static double expected(const hd_run *run)
 {
-    const double longest = fmin(hd_interval_longest(&run->interval).length, run->schedule.sample_length);
     const bool at_reports = run->observe & (HD_OBSERVE_HYDRO | HD_OBSERVE_FIELDS);
-    return at_reports ? fmin(longest, run->scene.report_interval) : longest;
+    const double sample = run->schedule.sample_length;
+    return hd_interval_next(&run->interval, at_reports ? fmin(sample, run->scene.report_interval) : sample).length;
 }
 
 /** Adds the seconds since then to the cost. */

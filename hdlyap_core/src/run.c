@@ -130,6 +130,7 @@ static double sample_longest(const hd_run *run)
 
 static void enter_phase(hd_run *run, hd_phase phase)
 {
+    run->phase_ends = false;
     hd_schedule_enter(&run->schedule, phase, run->now, sample_longest(run));
     run->plan.end = run->now;
     phase = run->schedule.phase;
@@ -389,6 +390,27 @@ static hd_status show(hd_run *run)
     return run->now == run->interval_end ? measure(run) : HD_OK;
 }
 
+/** Once covariant vectors have gone their way back, if a phase is to end. The last one may end early. */
+static void leave_phase(hd_run *run)
+{
+    if (!run->phase_ends || hd_lookback_is_going(run)) return;
+    enter_phase(run, run->schedule.phase + 1);
+}
+
+static hd_status go_back(hd_run *run)
+{
+    HD_TRY(hd_lookback_go(run, false));
+    leave_phase(run);
+    return HD_OK;
+}
+
+hd_status hd_run_settle(hd_run *run)
+{
+    HD_TRY(hd_lookback_go(run, true));
+    leave_phase(run);
+    return HD_OK;
+}
+
 /** At the end of a piece: what is measured there, and what ends. */
 static hd_status take_cut(hd_run *run)
 {
@@ -403,10 +425,8 @@ static hd_status take_cut(hd_run *run)
     if (measuring && factored) HD_TRY(observe(run, run->report_due));
     const bool reached = averaging && run->report_due && factored && target_reached(run);
     run->fields_due |= reached;
-    if (ends & HD_ENDS_PHASE || reached) {
-        HD_TRY(hd_lookback_go(run, true));
-        enter_phase(run, reached ? HD_FINISHED : run->schedule.phase + 1);
-    }
+    run->phase_ends = ends & HD_ENDS_PHASE || reached;
+    leave_phase(run);
     return HD_OK;
 }
 
@@ -427,9 +447,9 @@ hd_status hd_run_step(hd_run *run)
     run->report_due = run->fields_due = false;
     run->view.columns.count = 0;
     if (run->schedule.phase == HD_FINISHED) return HD_OK;
-    if (hd_lookback_is_going(run)) return hd_lookback_go(run, false);
     const bool with_frame = run->frame && run->schedule.phase != HD_EQUILIBRATING;
     if (with_frame) hd_blas_use_threads(run->threads); /* with OpenMP: of the calling thread */
+    if (hd_lookback_is_going(run) || run->phase_ends) return go_back(run);
     const double cut = hd_schedule_cut(&run->schedule);
     if (with_frame && run->now >= run->interval_end) plan_interval(run);
     if (run->now >= run->plan.end) hd_advance_plan(run, with_frame ? fmin(cut, run->interval_end) : cut);

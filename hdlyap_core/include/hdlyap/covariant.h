@@ -59,10 +59,10 @@ const hd_spectrum *hd_covariant_spectrum(const hd_covariant *covariant);
 /** Angles, order: from every look. */
 const hd_splitting *hd_covariant_splitting(const hd_covariant *covariant);
 
-/** How far two starts were apart where the last window ended, after the transient. */
+/** How far two starts were apart where windows ended, after the transient. */
 typedef struct hd_covariant_apart {
-    double most;   /**< largest sine of single vectors: those of equal exponents never meet */
-    double centre; /**< largest angle between the spaces of vanishing exponents [radians]; negative if not carried */
+    double most;   /**< last window: largest sine of single vectors; those of equal exponents never meet */
+    double centre; /**< any window: largest angle between the spaces of vanishing exponents [radians]; negative if not carried */
     double stable; /**< the same of negative exponents */
 } hd_covariant_apart;
 hd_covariant_apart hd_covariant_met(const hd_covariant *covariant);
