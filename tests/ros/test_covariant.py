@@ -129,6 +129,7 @@ class Windows(unittest.TestCase):
         means = [sum(m.local_exponents[0] for m in self.messages) / WINDOWS, self.last.exponents[0]]
         self.assertGreater(len({m.local_exponents[0] for m in self.messages}), WINDOWS - 2)
         self.assertLess(abs(means[0] - means[1]), 1.0)
+        self.assertTrue(all(m.local_exponents[0] != m.exponents[0] for m in self.messages))
 
     def test_two_starts_have_met(self):
         """Spaces do; single vectors only where exponents are apart."""
@@ -143,6 +144,8 @@ class Windows(unittest.TestCase):
             self.assertGreater(message.null_angle, 0.0)
             self.assertLess(message.largest_null_angle, CONVERGED)
             self.assertLessEqual(message.null_angle, message.largest_null_angle)
+        largest = [message.largest_null_angle for message in self.messages]
+        self.assertEqual(largest, sorted(largest))
 
     def test_angles(self):
         pairs = {CovariantAngle.UNSTABLE_STABLE: POSITIVE, CovariantAngle.UNSTABLE_CENTRE: CENTRE,
@@ -156,6 +159,11 @@ class Windows(unittest.TestCase):
                 self.check_angle(angle)
         unstable_stable, *of_centre = self.last.angles
         self.assertLess(unstable_stable.mean, 1.0)
+        self.assertLess(unstable_stable.mean, 0.9 * unstable_stable.mean_of_all)    # one of 29, and the smallest
+        last = [message.angles[0].last for message in self.messages]
+        self.assertEqual([m.angles[0].smallest_counts[int(90 * a / RIGHT)] > 0 for m, a in zip(self.messages, last)],
+                         [True] * WINDOWS)
+        self.assertFalse(set(last) & {message.angles[0].mean for message in self.messages})
         for angle in of_centre:
             self.assertAlmostEqual(angle.least, RIGHT, delta=1e-6)
 
@@ -178,6 +186,8 @@ class Windows(unittest.TestCase):
             self.assertLessEqual(0.0, violated)
             self.assertLessEqual(violated, entangled)
             self.assertLessEqual(entangled, 1.0 + ROUNDING)
+        self.assertNotEqual(last.violations, last.entangled)
+        self.assertNotEqual(last.least_neighbour_angles, last.neighbour_angles)
 
     def test_shapes(self):
         for width, cosine in zip(self.last.widths, self.last.cos_theta):
