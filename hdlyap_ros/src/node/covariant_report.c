@@ -11,6 +11,9 @@ typedef struct histograms {
     uint64_t smallest[HD_ANGLE_BINS], all[HD_ANGLE_BINS];
 } histograms;
 
+/** Angles of spaces are known to a thousandth then [rad]. */
+static const double SPACES_APART = 1e-3;
+
 struct covariant_report {
     const outlets *to;
     uint32_t vectors, angles, weights;                  /**< lengths of the arrays below */
@@ -18,7 +21,8 @@ struct covariant_report {
     hdr_covariant_angle angle[HD_PAIRS_OF_SPACES];
     histograms counts[HD_PAIRS_OF_SPACES];
     hdr_covariant_weight *weight;
-    long windows; /**< when it was last looked at */
+    long windows, lost; /**< when they were last looked at */
+    bool warned;        /**< of a transient that is too short */
 };
 
 static uint32_t subspaces_of(const hd_covariant *covariant)
@@ -181,11 +185,30 @@ static bool view_finite(const hdr_covariant *v)
     return finite;
 }
 
+/** Spaces that have not met are those of the random starts; windows that find no room are missed. */
+static void warn(covariant_report *r, const hd_run *run)
+{
+    const hd_covariant *covariant = hd_run_covariant(run);
+    const hd_covariant_apart apart = hd_covariant_met(covariant);
+    const double worst = fmax(apart.centre, apart.stable);
+    const long lost = hd_covariant_lost(covariant);
+    if (worst > SPACES_APART && !r->warned)
+        hdr_log(HDR_WARN,
+                "covariant_transient = %g: too short, spaces of two starts are %.2g rad apart where a window ends",
+                hd_run_scene(run)->covariant_transient, worst);
+    if (lost > r->lost)
+        hdr_log(HDR_WARN, "covariant vectors: a window found no room, orthonormalisations have become more frequent "
+                          "(%ld so far)", lost);
+    r->warned = worst > SPACES_APART;
+    r->lost = lost;
+}
+
 hd_status covariant_report_publish(covariant_report *r, const hd_run *run)
 {
     const long before = r->windows;
     hdr_publisher *publisher = r->to->publisher[TOPIC_COVARIANT];
     r->windows = hd_covariant_windows(hd_run_covariant(run));
+    warn(r, run);
     /* a reset takes them back to none */
     if (r->windows == 0 || r->windows == before || hdr_publisher_subscribers(publisher) == 0) return HD_OK;
     const hdr_covariant view = view_of(r, run);
