@@ -278,7 +278,7 @@ class Demand(Case):
     def test_somebody(self):
         self.listen('covariant')
         calls = harness.counts(self, SCENE)
-        self.assertEqual((calls['covariant_publish'], calls['modes_measure']), (WINDOWS, 2 * WINDOWS * LOOKS))
+        self.assertEqual((calls['covariant_publish'], calls['modes_measure']), (WINDOWS, 3 * WINDOWS * LOOKS))
 
     def test_who_comes_late_and_goes(self):
         """Is told of windows that began when he was there, and paid for until he goes."""
