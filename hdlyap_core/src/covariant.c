@@ -30,7 +30,7 @@ struct hd_covariant {
     hd_scene_def scene;
     int rows, vectors, threads, unstable, centre;
     hd_past *past;
-    hd_backward *start[2]; /**< two of them through the transient, the first through the window */
+    hd_backward *start[2]; /**< two through the transient, the first through the window */
     hd_spectrum *spectrum;
     hd_splitting *splitting;
     hd_shape *shape;
@@ -238,9 +238,11 @@ static bool is_complete(const hd_covariant *c)
     return last < hd_past_end(c->past) && c->now >= hd_past_time(c->past, last) + transient;
 }
 
+/** The first start goes on from the vectors of the window before: those of another time, but as oblique as covariant ones are.
+ *  Vectors that do not settle within the transient would otherwise bring a random triangle's volume into the mean growth. */
 static void begin_way_back(hd_covariant *c)
 {
-    for (int k = 0; k < 2; k++) hd_backward_start(c->start[k], c->scene.seed, c->starts++);
+    for (int k = c->windows > 0; k < 2; k++) hd_backward_start(c->start[k], c->scene.seed, c->starts++);
     c->at = hd_past_end(c->past) - 1;
     c->last = window_last(c);
     memset(c->grown, 0, (size_t)c->vectors * sizeof *c->grown); /* a way back may have been given up */
