@@ -249,7 +249,7 @@ class Choices(Case):
                          [(weight.kind, weight.nx, weight.ny) for weight in message.weights])
 
     def test_goes_on_from_a_checkpoint(self):
-        """With the averages of its windows, what was observed, and the parameters; windows may wait at another place."""
+        """With the averages of its windows, what was observed and the parameters; windows may wait elsewhere."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, 'run.checkpoint')
             first = self.run_of(duration=60.0, checkpoint=path)
