@@ -329,7 +329,7 @@ TEST(views, covariant)
     const std::vector<uint64_t> bins = {1, 18446744073709551615u, 3};
     const hdr_counts some = {bins.data(), 2}, all = {bins.data(), 3};
     const hdr_covariant_angle angle = {HDR_CENTRE_STABLE, 1, 2, 3, 4, 5, some, all};
-    const hdr_covariant_weight weight = {HDR_MODE_LP, 1, 2, 3.5, 8, every(2), every(1)};
+    const hdr_covariant_weight weight = {HDR_MODE_LP, 1, 2, 3.5, 8, every(2), every(1), every(3)};
     hdr_covariant view = {header, "id", 1.5, 2.5, 3, 4, 5, 6.5, 7, every(1), every(2), every(3), every(1, 1), every(1, 2),
                           every(1, 3), every(1, 4), every(2, 1), every(3, 1), every(3, 2), 8.5, 9.5, 10.5, 11.5,
                           &angle, 1, &weight, 1};

@@ -186,7 +186,7 @@ static hd_status step(worker *w)
     return status;
 }
 
-/** The checkpoint of the end, and what that has ended: a window of covariant vectors that was being gone back through. */
+/** The checkpoint of the end, and what it has ended: the way back through a window of covariant vectors. */
 static hd_status finish(worker *w)
 {
     hd_status status = HD_OK;
