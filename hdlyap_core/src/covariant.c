@@ -48,7 +48,6 @@ struct hd_covariant {
     double now; /**< of the forward pass */
     double bytes;
     way way;
-    bool settled; /**< the first start has been through a window */
     long at;  /**< interval that is next on the way back */
     long last; /**< interval that the window ends with */
     long windows, lost, intervals;
@@ -239,11 +238,9 @@ static bool is_complete(const hd_covariant *c)
     return last < hd_past_end(c->past) && c->now >= hd_past_time(c->past, last) + transient;
 }
 
-/** The first start goes on from the vectors of the window before: those of another time, but as oblique as covariant ones are.
- *  Vectors that do not settle within the transient would otherwise bring a random triangle's volume into the mean growth. */
 static void begin_way_back(hd_covariant *c)
 {
-    for (int k = c->settled; k < 2; k++) hd_backward_start(c->start[k], c->scene.seed, c->starts++);
+    for (int k = 0; k < 2; k++) hd_backward_start(c->start[k], c->scene.seed, c->starts++);
     c->at = hd_past_end(c->past) - 1;
     c->last = window_last(c);
     memset(c->grown, 0, (size_t)c->vectors * sizeof *c->grown); /* a way back may have been given up */
@@ -406,7 +403,6 @@ static void end_window(hd_covariant *c)
     c->window = hd_past_time(c->past, c->last);
     hd_past_drop(c->past, c->window);
     c->windows++;
-    c->settled = true;
     c->way = FORWARD;
 }
 

@@ -321,6 +321,14 @@ class Faults(Case):
             node = self.start(dict(SCENE, covariant_storage='file', covariant_folder=folder))
             self.refused(node, 4, 'covariant_folder = %s: %s' % (folder, word))
 
+    def test_too_short_a_transient_is_warned_of(self):
+        """Once; a long one is not."""
+        for transient, lines in ((0.5, 1), (TRANSIENT, 0)):
+            self.listen('covariant')
+            node = self.start(dict(SCENE, covariant_transient=transient, wait_for_subscribers=['covariant']))
+            self.assertEqual(node.wait(), 0, node.text())
+            self.assertEqual(len(node.lines('covariant_transient = %g: too short' % transient)), lines, node.text())
+
     def test_full_disk(self):
         self.listen('covariant')
         with tempfile.TemporaryDirectory() as folder:

@@ -66,7 +66,9 @@ typedef struct hd_covariant_apart {
     double stable; /**< the same of negative exponents */
 } hd_covariant_apart;
 hd_covariant_apart hd_covariant_met(const hd_covariant *covariant);
-const double *hd_covariant_met_each(const hd_covariant *covariant); /**< sine of each vector, [n] */
+/** Sine of each vector, [n], at the end of the last window. A lower bound of what the start still matters, as both starts lean
+ *  towards the frame. */
+const double *hd_covariant_met_each(const hd_covariant *covariant);
 
 /** Largest angle between the covariant centre and the exact null space [T9] at the last look, and of all; negative if not
  *  carried. */
