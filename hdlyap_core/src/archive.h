@@ -68,6 +68,7 @@ void hd_archive_next_int(hd_archive *archive, int *x, int min, int max);
 /* The parts of a run. */
 
 struct hd_blocks;
+struct hd_covariant;
 struct hd_event_log;
 struct hd_frame;
 struct hd_interval;
@@ -75,11 +76,14 @@ struct hd_modes;
 struct hd_phases;
 struct hd_scene_def;
 struct hd_schedule;
+struct hd_shape;
 struct hd_spectrum;
+struct hd_splitting;
 struct hd_steps;
 struct hd_trajectory;
 
 void hd_blocks_archive(struct hd_blocks *blocks, hd_archive *archive);
+void hd_covariant_archive(struct hd_covariant *covariant, hd_archive *archive);
 void hd_event_log_archive(struct hd_event_log *log, hd_archive *archive, int disks);
 void hd_frame_archive(struct hd_frame *frame, hd_archive *archive);
 void hd_interval_archive(struct hd_interval *interval, hd_archive *archive);
@@ -87,7 +91,9 @@ void hd_modes_archive(struct hd_modes *modes, hd_archive *archive);
 void hd_phases_archive(struct hd_phases *phases, hd_archive *archive);
 void hd_scene_archive(struct hd_scene_def *def, hd_archive *archive);
 void hd_schedule_archive(struct hd_schedule *schedule, hd_archive *archive);
+void hd_shape_archive(struct hd_shape *shape, hd_archive *archive);
 void hd_spectrum_archive(struct hd_spectrum *spectrum, hd_archive *archive);
+void hd_splitting_archive(struct hd_splitting *splitting, hd_archive *archive);
 void hd_steps_archive(struct hd_steps *steps, hd_archive *archive);
 void hd_trajectory_archive(struct hd_trajectory *trajectory, hd_archive *archive);
 

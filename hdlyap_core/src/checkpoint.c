@@ -27,7 +27,8 @@ static void cost_archive(hd_run *run, hd_archive *archive)
 {
     hd_cost *c = &run->cost;
     double *const numbers[] = {&c->events, &c->replay,   &c->ortho,     &c->spectrum,
-                               &c->modes,  &c->interval, &c->condition, &c->defect};
+                               &c->modes,  &c->interval, &c->condition, &c->defect,
+                               &c->covariant};
     long *const counts[] = {&c->orthonormalisations, &c->second_passes, &c->looks, &c->repairs};
     int limit = (int)c->limit;
     hd_archive_of_doubles(archive, "cost", sizeof numbers / sizeof *numbers);
@@ -87,6 +88,7 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     if (run->modes) hd_modes_archive(run->modes, archive);
     if (run->steps) hd_steps_archive(run->steps, archive);
     if (run->phases) hd_phases_archive(run->phases, archive);
+    if (run->covariant) hd_covariant_archive(run->covariant, archive);
 }
 
 static void plan_expect(const hd_run *run, hd_archive *archive)
@@ -136,6 +138,7 @@ void hd_run_write(hd_run *run, hd_archive *archive, const char *label)
 hd_status hd_run_save(hd_run *run, const char *path, const char *label, char *message, size_t size)
 {
     hd_checkpoint_file file;
+    HD_TRY(hd_run_settle(run));
     HD_TRY(hd_checkpoint_file_begin(&file, path, message, size));
     hd_archive archive = hd_archive_writer(file.file);
     hd_run_write(run, &archive, label);
@@ -172,6 +175,9 @@ static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept,
         SAME(report_interval),
         SAME(max_wave_number),
         SAME(max_node),
+        SAME(covariant_window),
+        SAME(covariant_transient),
+        SAME(covariant_sampling),
 #undef SAME
         {"boundary_x", asked->boundary[0], kept->boundary[0]},
         {"boundary_y", asked->boundary[1], kept->boundary[1]},

@@ -6,8 +6,8 @@
  *  A_rest -= S A_p (dgemm). That is 2 m n^2 flops nearly all in dgemm, and, as in the modified
  *  Gram-Schmidt process, each panel meets vectors that the earlier ones have cleaned: it loses orthogonality in
  *  proportion to the condition, where one Cholesky factorisation of all loses its square.
- *  diag(L) > 0, so Q and R are unique; R is used up on the way. The stable step factors A = L Q by
- *  reflections instead (dgelqf, dorglq). Equations [T5]-[T7]. */
+ *  diag(L) > 0, so Q and R = L^T are unique; R is used up on the way unless somebody keeps it. The stable step factors
+ *  A = L Q by reflections instead (dgelqf, dorglq). Equations [T5]-[T7]. */
 #include "hdlyap/ortho.h"
 
 #include <cblas.h>
@@ -42,6 +42,7 @@ struct hd_ortho {
     double *probe;                 /**< [PROBES][vectors]: R^-T D x, see condition_of */
     double *log_stretch;           /**< [vectors] */
     double *reflector;             /**< [vectors], of the stable step */
+    double *factor[2];             /**< [vectors * vectors], column-major: L of each pass; NULL unless kept */
     int lwork;                     /**< of projection */
     double condition, defect;
     double panel_condition; /**< largest of the panels as they were accepted, at least PANEL_CONDITION_LEAST */
@@ -111,6 +112,8 @@ void hd_ortho_free(hd_ortho *ortho)
     hd_memory_free(ortho->probe);
     hd_memory_free(ortho->log_stretch);
     hd_memory_free(ortho->reflector);
+    hd_memory_free(ortho->factor[0]);
+    hd_memory_free(ortho->factor[1]);
     hd_memory_free(ortho);
 }
 
@@ -154,6 +157,38 @@ typedef struct panel {
     int lda, first, width;
 } panel;
 
+/** Entry of L of the present pass at a row and the panel's first column. */
+static double *factor_at(const hd_ortho *ortho, panel x, int row)
+{
+    return ortho->factor[ortho->passes] + (size_t)x.first * (size_t)ortho->vectors + row;
+}
+
+/** The panel's own triangle in gram, of its first or second Cholesky pass: L = L_1 L_2. */
+static void keep_panel(const hd_ortho *ortho, panel x, bool again)
+{
+    if (!ortho->factor[0]) return;
+    double *own = factor_at(ortho, x, x.first);
+    const int n = ortho->vectors, w = x.width;
+    if (again)
+        cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, w, w, 1.0, ortho->gram, w, own,
+                    n);
+    else
+        for (int col = 0; col < w; col++) {
+            memset(own + (size_t)col * (size_t)n, 0, (size_t)col * sizeof *own);
+            memcpy(own + (size_t)col * (size_t)n + col, ortho->gram + (size_t)col * (size_t)w + col,
+                   (size_t)(w - col) * sizeof *own);
+        }
+}
+
+/** S, `count` rows of L from row `next` on. */
+static void keep_projection(const hd_ortho *ortho, panel x, int next, int count)
+{
+    if (!ortho->factor[0]) return;
+    for (int col = 0; col < x.width; col++)
+        memcpy(factor_at(ortho, x, next) + (size_t)col * (size_t)ortho->vectors,
+               ortho->projection + (size_t)col * (size_t)count, (size_t)count * sizeof(double));
+}
+
 /** gram <- A_p A_p^T. */
 static hd_status panel_gram(hd_ortho *ortho, panel x)
 {
@@ -183,12 +218,13 @@ static double panel_condition(const hd_ortho *ortho, int width)
 }
 
 /** gram <- L^-1; adds ln L_kk. */
-static hd_status panel_factor(hd_ortho *ortho, panel x)
+static hd_status panel_factor(hd_ortho *ortho, panel x, bool again)
 {
     const int w = x.width;
     if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', w, ortho->gram, w) != 0)
         return HD_ILL_CONDITIONED;
     for (int k = 0; k < w; k++) ortho->log_stretch[x.first + k] += log(ortho->gram[k * (w + 1)]);
+    keep_panel(ortho, x, again);
     return LAPACKE_dtrtri_work(LAPACK_COL_MAJOR, 'L', 'N', w, ortho->gram, w) == 0
                ? HD_OK
                : HD_ILL_CONDITIONED;
@@ -216,7 +252,7 @@ static hd_status panel_orthonormalise(hd_ortho *ortho, panel x)
     for (int pass = 0; pass < 2 && !good; pass++) {
         HD_TRY(panel_gram(ortho, x));
         if (pass == 0) probe_panel(ortho, x);
-        HD_TRY(panel_factor(ortho, x));
+        HD_TRY(panel_factor(ortho, x, pass > 0));
         const double condition = panel_condition(ortho, x.width);
         if (!(condition <= PANEL_CONDITION_MAX)) return HD_ILL_CONDITIONED;
         panel_solve(ortho, x, ortho->probe + x.first, ortho->vectors, PROBES);
@@ -233,6 +269,7 @@ static void panel_project(hd_ortho *ortho, panel x, int next, int count)
     double *later = x.a + (next - x.first), *s = ortho->projection;
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, count, x.width, ortho->rows, 1.0, later,
                 x.lda, x.a, x.lda, 0.0, s, count);
+    keep_projection(ortho, x, next, count);
     for (int col = 0; col < x.width; col++)
         for (int row = 0; row < count; row++) {
             const double entry = s[(size_t)col * (size_t)count + (size_t)row];
@@ -283,6 +320,16 @@ static void step_start(hd_ortho *ortho, const hd_frame *frame)
     ortho->passes = 0;
 }
 
+/** V = Q (L_1 L_2)^T. */
+static void factors_multiply(const hd_ortho *ortho)
+{
+    const int n = ortho->vectors;
+    if (!ortho->factor[0]) return;
+    for (int col = 1; col < n; col++) memset(ortho->factor[0] + (size_t)col * (size_t)n, 0, (size_t)col * sizeof(double));
+    cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, n, n, 1.0, ortho->factor[1], n,
+                ortho->factor[0], n);
+}
+
 static double defect_foreseen(const hd_ortho *ortho)
 {
     return DBL_EPSILON * ortho->condition * ortho->panel_condition * ortho->panel_condition;
@@ -298,6 +345,7 @@ hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits
         HD_TRY(pass(ortho, frame, limits.condition));
         ortho->defect = defect_foreseen(ortho);
         ortho->condition = condition;
+        factors_multiply(ortho);
     }
     return HD_OK;
 }
@@ -327,6 +375,16 @@ static void examine_lq(hd_ortho *ortho, const double *a, int stride)
     ortho->condition = condition_of(ortho);
 }
 
+/** Column k of L takes the sign of L_kk. */
+static void keep_lq(const hd_ortho *ortho, const double *a, int stride, const double *sign)
+{
+    if (!ortho->factor[0]) return;
+    for (int col = 0; col < ortho->vectors; col++)
+        for (int row = col; row < ortho->vectors; row++)
+            ortho->factor[0][(size_t)col * (size_t)ortho->vectors + (size_t)row] =
+                a[(size_t)col * (size_t)stride + (size_t)row] * sign[col];
+}
+
 /** Row l of Q^T (column l of the row-major frame) takes the sign of L_ll. */
 static void apply_signs(const hd_ortho *ortho, double *a, int stride, const double *sign)
 {
@@ -347,6 +405,7 @@ hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame, double conditio
     if (!(ortho->condition <= condition_max)) return HD_ILL_CONDITIONED;
     for (int col = 0; col < n; col++)
         sign[col] = a[(size_t)col * (size_t)(stride + 1)] < 0 ? -1.0 : 1.0;
+    keep_lq(ortho, a, stride, sign);
     if (LAPACKE_dorglq_work(LAPACK_COL_MAJOR, n, ortho->rows, n, a, stride, ortho->reflector,
                             ortho->projection, ortho->lwork) != 0)
         return HD_ILL_CONDITIONED;
@@ -356,6 +415,15 @@ hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame, double conditio
     return HD_OK;
 }
 
+hd_status hd_ortho_keep_factor(hd_ortho *ortho)
+{
+    const size_t n = (size_t)ortho->vectors;
+    for (int pass = 0; pass < 2; pass++)
+        if (!ortho->factor[pass] && !(ortho->factor[pass] = hd_memory_alloc(n * n, sizeof(double)))) return HD_NO_MEMORY;
+    return HD_OK;
+}
+
+const double *hd_ortho_factor(const hd_ortho *ortho) { return ortho->factor[0]; }
 const double *hd_ortho_log_stretch(const hd_ortho *ortho) { return ortho->log_stretch; }
 double hd_ortho_condition(const hd_ortho *ortho) { return ortho->condition; }
 double hd_ortho_defect(const hd_ortho *ortho) { return ortho->defect; }

@@ -18,6 +18,7 @@ const hd_spectrum *hd_run_spectrum(const hd_run *run) { return run->spectrum; }
 const hd_modes *hd_run_modes(const hd_run *run) { return run->modes; }
 const hd_steps *hd_run_steps(const hd_run *run) { return run->steps; }
 const hd_phases *hd_run_phases(const hd_run *run) { return run->phases; }
+const hd_covariant *hd_run_covariant(const hd_run *run) { return run->covariant; }
 
 hd_columns hd_run_columns(const hd_run *run) { return run->view.columns; }
 

@@ -13,6 +13,7 @@
 #include "check.h"
 #include "clock.h"
 #include "hdlyap/blas.h"
+#include "lookback.h"
 #include "memory.h"
 #include "run_state.h"
 #include "threads.h"
@@ -25,10 +26,12 @@ static const double DEFECT_LOOSE = 1e-4;
 static const double DEFECT_MEASURED = 1e-6;
 /** Single precision leaves a tenth of the tail's vectors astray there, and a thousandth of their phases. */
 static const double CONDITION_TAIL = 1e4;
-static const double COLLISIONS_PER_SAMPLE = 64.0; /* of one disk, at most */
 /** Householder reflections stay right to eps * condition: 1e-3 of one interval, once. */
 static const double CONDITION_STABLE = 1e13;
 enum { PIECES_MAX = 64, TAIL_MAX = 60 };
+/** What modes are needed for. */
+static const unsigned OF_MODES = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES |
+                                 HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO;
 
 /* ---- creation --------------------------------------------------------------------------------- */
 
@@ -73,7 +76,6 @@ static hd_status prepare_modes(hd_run *run)
 {
     const hd_scene_def *scene = &run->scene;
     const size_t size = 2 * (size_t)scene->disks;
-    run->observe = scene->observe;
     run->q = hd_memory_alloc(size, sizeof(double));
     run->p = hd_memory_alloc(size, sizeof(double));
     if (!run->q || !run->p) return HD_NO_MEMORY;
@@ -82,7 +84,7 @@ static hd_status prepare_modes(hd_run *run)
     return scene->observe & HD_OBSERVE_PHASES ? prepare_phases(run) : HD_OK;
 }
 
-static hd_status prepare(hd_run *run)
+static hd_status prepare(hd_run *run, char *message, size_t size)
 {
     const hd_scene_def *scene = &run->scene;
     HD_TRY(hd_trajectory_create(&run->trajectory, scene));
@@ -90,14 +92,16 @@ static hd_status prepare(hd_run *run)
     run->threads = 1;
     const double per_disk = 2.0 * hd_trajectory_collision_rate(run->trajectory) / scene->disks;
     const double limit = scene->interval > 0 ? scene->interval : INFINITY;
-    run->sample_max = COLLISIONS_PER_SAMPLE / per_disk;
+    run->sample_max = HD_COLLISIONS_PER_SAMPLE / per_disk;
     hd_advance_first(run, per_disk);
     run->view = (hd_view){.interval = INFINITY, .first = run->vectors};
     run->interval = hd_interval_first(2.0 / per_disk, limit, scene->accuracy);
     run->schedule = hd_schedule_of(scene);
     if (run->vectors == 0) return HD_OK;
     HD_TRY(prepare_frame(run));
-    return scene->observe ? prepare_modes(run) : HD_OK;
+    HD_TRY(hd_lookback_create(run, message, size));
+    run->observe = scene->observe;
+    return scene->observe & OF_MODES ? prepare_modes(run) : HD_OK;
 }
 
 static void averages_clear(hd_run *run)
@@ -106,12 +110,13 @@ static void averages_clear(hd_run *run)
     if (run->modes) hd_modes_clear(run->modes);
     if (run->steps) hd_steps_clear(run->steps);
     if (run->phases) hd_phases_clear(run->phases);
+    hd_lookback_clear(run);
 }
 
 /** Intervals shorter than a collision of each disk, because the warm-up was, have taught nothing yet. */
 static bool interval_is_learnt(const hd_run *run)
 {
-    const double collision = run->sample_max / COLLISIONS_PER_SAMPLE;
+    const double collision = run->sample_max / HD_COLLISIONS_PER_SAMPLE;
     return run->cost.orthonormalisations > 0 &&
            run->interval.last >= fmin(collision, run->interval.limit);
 }
@@ -125,6 +130,7 @@ static double sample_longest(const hd_run *run)
 
 static void enter_phase(hd_run *run, hd_phase phase)
 {
+    run->phase_ends = false;
     hd_schedule_enter(&run->schedule, phase, run->now, sample_longest(run));
     run->plan.end = run->now;
     phase = run->schedule.phase;
@@ -143,7 +149,7 @@ hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, si
     if (!run) return HD_NO_MEMORY;
     run->scene = *def;
     run->created = hd_clock_now();
-    const hd_status status = prepare(run);
+    const hd_status status = prepare(run, message, size);
     if (status != HD_OK) {
         hd_run_free(run);
         return status;
@@ -160,6 +166,7 @@ void hd_run_free(hd_run *run)
     hd_event_log_free(run->log);
     hd_frame_free(run->frame);
     hd_ortho_free(run->ortho);
+    hd_covariant_free(run->covariant);
     hd_spectrum_free(run->spectrum);
     hd_tail_free(run->tail);
     hd_phases_free(run->phases);
@@ -184,7 +191,7 @@ static hd_status replay(hd_run *run, double t_begin, double t_end)
 /** Pieces of the log that are taken back no more: a collision of each disk is the least that can be divided. */
 static double shortest_piece(const hd_run *run)
 {
-    return fmin(run->log->duration / PIECES_MAX, run->sample_max / COLLISIONS_PER_SAMPLE);
+    return fmin(run->log->duration / PIECES_MAX, run->sample_max / HD_COLLISIONS_PER_SAMPLE);
 }
 
 /** Carries the frame from t_begin to t_end of the log and orthonormalises it. */
@@ -228,7 +235,7 @@ static void piece_accepted(hd_run *run, double length)
 /** True while modes are looked at. */
 static bool observing(const hd_run *run)
 {
-    return run->observe && run->schedule.phase == HD_AVERAGING;
+    return run->modes && run->observe & OF_MODES && run->schedule.phase == HD_AVERAGING;
 }
 
 /** The whole log. An interval that turned out too long is taken back and replayed in pieces; a shortest
@@ -236,14 +243,17 @@ static bool observing(const hd_run *run)
 static hd_status frame_interval(hd_run *run)
 {
     const double duration = run->log->duration;
-    const double defect = observing(run) ? DEFECT_MEASURED : DEFECT_LOOSE;
+    const bool looked_at = observing(run) || hd_lookback_is_watched(run);
+    const double defect = looked_at ? DEFECT_MEASURED : DEFECT_LOOSE;
     double begin = 0.0, end = duration;
+    HD_TRY(hd_lookback_start(run));
     while (begin < duration) {
         const double piece = end - begin;
         const hd_status status = frame_piece(run, begin, end, defect);
         if (status != HD_OK && status != HD_ILL_CONDITIONED) return status;
         if (status == HD_OK) {
             piece_accepted(run, piece);
+            HD_TRY(hd_lookback_add(run, begin, end));
             begin = end;
             end = duration - end < 1.5 * piece ? duration
                                                : end + piece; /* no crumb of rounding is left */
@@ -258,7 +268,7 @@ static hd_status frame_interval(hd_run *run)
     }
     hd_event_log_clear(run->log);
     run->interval_end = run->plan.end = run->now;
-    return HD_OK;
+    return hd_lookback_end(run);
 }
 
 /** True if the exponents nearest to zero are known as well as the scene asks. */
@@ -302,7 +312,7 @@ static hd_status observe(hd_run *run, bool report)
 static void sample_spectrum(hd_run *run)
 {
     hd_spectrum_sample(run->spectrum);
-    if (run->observe) hd_steps_sample(run->steps, run->spectrum, run->schedule.sample_length);
+    if (run->observe & OF_MODES) hd_steps_sample(run->steps, run->spectrum, run->schedule.sample_length);
 }
 
 /** True where somebody wants all of the vectors of this very time. */
@@ -380,6 +390,27 @@ static hd_status show(hd_run *run)
     return run->now == run->interval_end ? measure(run) : HD_OK;
 }
 
+/** Once covariant vectors have gone their way back, if a phase is to end. The last one may end early. */
+static void leave_phase(hd_run *run)
+{
+    if (!run->phase_ends || hd_lookback_is_going(run)) return;
+    enter_phase(run, run->schedule.phase + 1);
+}
+
+static hd_status go_back(hd_run *run)
+{
+    HD_TRY(hd_lookback_go(run, false));
+    leave_phase(run);
+    return HD_OK;
+}
+
+hd_status hd_run_settle(hd_run *run)
+{
+    HD_TRY(hd_lookback_go(run, true));
+    leave_phase(run);
+    return HD_OK;
+}
+
 /** At the end of a piece: what is measured there, and what ends. */
 static hd_status take_cut(hd_run *run)
 {
@@ -394,8 +425,8 @@ static hd_status take_cut(hd_run *run)
     if (measuring && factored) HD_TRY(observe(run, run->report_due));
     const bool reached = averaging && run->report_due && factored && target_reached(run);
     run->fields_due |= reached;
-    if (ends & HD_ENDS_PHASE || reached)
-        enter_phase(run, reached ? HD_FINISHED : run->schedule.phase + 1);
+    run->phase_ends = ends & HD_ENDS_PHASE || reached;
+    leave_phase(run);
     return HD_OK;
 }
 
@@ -418,6 +449,7 @@ hd_status hd_run_step(hd_run *run)
     if (run->schedule.phase == HD_FINISHED) return HD_OK;
     const bool with_frame = run->frame && run->schedule.phase != HD_EQUILIBRATING;
     if (with_frame) hd_blas_use_threads(run->threads); /* with OpenMP: of the calling thread */
+    if (hd_lookback_is_going(run) || run->phase_ends) return go_back(run);
     const double cut = hd_schedule_cut(&run->schedule);
     if (with_frame && run->now >= run->interval_end) plan_interval(run);
     if (run->now >= run->plan.end) hd_advance_plan(run, with_frame ? fmin(cut, run->interval_end) : cut);
@@ -430,6 +462,7 @@ void hd_run_observe(hd_run *run, unsigned stages)
 {
     const unsigned now = stages & run->scene.observe, begun = now & ~run->observe;
     if (begun & HD_OBSERVE_PHASES) hd_phases_clear(run->phases); /* not followed in between */
+    if (begun & HD_OBSERVE_COVARIANT) hd_lookback_interrupt(run);
     run->observe = now;
 }
 

@@ -2,6 +2,7 @@
 #ifndef HD_RUN_STATE_H
 #define HD_RUN_STATE_H
 
+#include "hdlyap/covariant.h"
 #include "hdlyap/run.h"
 #include "interval.h"
 #include "schedule.h"
@@ -31,6 +32,8 @@ struct hd_run {
     hd_steps *steps;
     hd_phases *phases;
     hd_tail *tail;    /**< NULL without phases, and where it does not apply */
+    hd_covariant *covariant; /**< NULL unless observed */
+    bool lookback_due;       /**< a window begins with the next interval */
     double *q, *p;    /**< [2N], state of a snapshot */
     unsigned observe; /**< stages needed now */
     hd_schedule schedule;
@@ -43,6 +46,7 @@ struct hd_run {
     int vectors, threads;
     double now; /**< simulated time */
     bool report_due, fields_due;
+    bool phase_ends; /**< once the covariant vectors have gone their way back */
     double field_interval;
     double created, frame_started,
         frame_start_time; /**< wall clock, and simulated time, for estimates */
@@ -52,6 +56,12 @@ struct hd_run {
 };
 
 enum { SMALLEST_EXPONENTS = 8 };
+
+/** Of one disk, at most. */
+#define HD_COLLISIONS_PER_SAMPLE 64.0
+
+/** Ends what a step has begun, so that the run can be kept: half of a way back is none. */
+HD_MUST_CHECK hd_status hd_run_settle(hd_run *run);
 
 /** More than a run of this scene learns of how long a step may be: several times the events of the longest step. */
 double hd_run_step_bound(const hd_run *run);

@@ -10,7 +10,7 @@
 #include "lattice.h"
 #include "scene_box.h"
 
-enum { DISKS_MIN = 2, DISKS_MAX = 1000000, THREADS_MAX = 1024, OBSERVE_ALL = 31 };
+enum { DISKS_MIN = 2, DISKS_MAX = 1000000, THREADS_MAX = 1024, OBSERVE_ALL = 63 };
 
 /** Room between walls beyond a diameter: less is crossed more often than there are times to tell apart. It is
  *  1e-9 but for the rounding of an edge that density and aspect give. */
@@ -36,6 +36,12 @@ hd_scene_def hd_scene_def_default(void)
         .max_wave_number = 0.0,
         .max_node = 0,
         .threads = 0,
+        .covariant_window = 50.0,
+        .covariant_transient = 100.0,
+        .covariant_sampling = 5.0,
+        .covariant_memory = 4e9,
+        .covariant_storage = HD_STORAGE_MEMORY,
+        .covariant_folder = "/tmp",
     };
 }
 
@@ -64,9 +70,20 @@ typedef struct range {
 } range;
 
 /** The negated comparisons refuse NaN too. */
+static hd_status check_table(const range *table, size_t count, char *message, size_t size)
+{
+    for (size_t k = 0; k < count; k++) {
+        const range *r = &table[k];
+        if (r->value >= r->min && r->value <= r->max) continue;
+        return hd_refuse(message, size, "%s = %.15g: must be %s", r->name, r->value, r->allowed);
+    }
+    return HD_OK;
+}
+
+static const double huge = 1e12;
+
 static hd_status check_ranges(const hd_scene_def *def, char *message, size_t size)
 {
-    const double huge = 1e12;
     const range table[] = {
         {"disks", "an integer from 2 to 1000000", def->disks, DISKS_MIN, DISKS_MAX},
         {"density", "from 1e-6 to 2/sqrt(3) = 1.1547", def->density, 1e-6, 2.0 / sqrt(3.0)},
@@ -86,12 +103,7 @@ static hd_status check_ranges(const hd_scene_def *def, char *message, size_t siz
         {"observe", "a set of HD_OBSERVE_*", def->observe, 0, OBSERVE_ALL},
         {"threads", "from 0 (all cores) to 1024", def->threads, 0, THREADS_MAX},
     };
-    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
-        const range *r = &table[k];
-        if (r->value >= r->min && r->value <= r->max) continue;
-        return hd_refuse(message, size, "%s = %.15g: must be %s", r->name, r->value, r->allowed);
-    }
-    return HD_OK;
+    return check_table(table, sizeof table / sizeof *table, message, size);
 }
 
 static bool is_wide_enough(const hd_scene_def *def, int d, double edge)
@@ -140,6 +152,33 @@ static hd_status check_waves(const hd_scene_def *def, char *message, size_t size
     return HD_OK;
 }
 
+/** What covariant vectors need, where they are asked for. */
+static hd_status check_covariant(const hd_scene_def *def, char *message, size_t size)
+{
+    const double window = def->covariant_window, transient = def->covariant_transient;
+    const range table[] = {
+        {"covariant_window", "from 1e-6 to 1e12", window, 1e-6, huge},
+        {"covariant_transient", "from 1e-6 to 1e12", transient, 1e-6, huge},
+        {"covariant_sampling", "from 1e-6 to covariant_window", def->covariant_sampling, 1e-6, window},
+        {"covariant_memory", "from 1e6 to 1e15 bytes", def->covariant_memory, 1e6, 1e15},
+        {"covariant_storage", "one of HD_STORAGE_*", def->covariant_storage, HD_STORAGE_MEMORY, HD_STORAGE_RECOMPUTE},
+    };
+    if (!(def->observe & HD_OBSERVE_COVARIANT)) return HD_OK;
+    HD_TRY(check_table(table, sizeof table / sizeof *table, message, size));
+    if (!(def->warmup >= transient))
+        return hd_refuse(message, size,
+                         "warmup = %.15g: must be at least covariant_transient = %.15g: vectors converge forwards no "
+                         "faster than backwards",
+                         def->warmup, transient);
+    if (def->duration > 0 && !(def->duration >= window + transient))
+        return hd_refuse(message, size,
+                         "duration = %.15g: must be 0 or at least covariant_window + covariant_transient = %.15g",
+                         def->duration, window + transient);
+    if (def->covariant_storage == HD_STORAGE_FILE && !*def->covariant_folder)
+        return hd_refuse(message, size, "covariant_folder = : must be a folder with covariant_storage = file");
+    return HD_OK;
+}
+
 hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
 {
     double box[2];
@@ -150,6 +189,7 @@ hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
                       "exponents = %d: must be positive, all, none or from 1 to 4 disks = %d",
                       def->exponents, 4 * def->disks);
     HD_TRY(check_waves(def, message, size));
+    HD_TRY(check_covariant(def, message, size));
     if (hd_lattice_best(def->disks, box, def->boundary).distance < HD_LATTICE_DISTANCE_MIN)
         return hd_refuse(message, size,
                       "density = %.15g: must be at most %.6g with disks = %d, aspect = %.15g and "
@@ -173,8 +213,13 @@ void hd_scene_archive(hd_scene_def *def, hd_archive *archive)
                    {"scene interval", &def->interval},
                    {"scene accuracy", &def->accuracy},
                    {"scene report_interval", &def->report_interval},
-                   {"scene max_wave_number", &def->max_wave_number}};
+                   {"scene max_wave_number", &def->max_wave_number},
+                   {"scene covariant_window", &def->covariant_window},
+                   {"scene covariant_transient", &def->covariant_transient},
+                   {"scene covariant_sampling", &def->covariant_sampling},
+                   {"scene covariant_memory", &def->covariant_memory}};
     int boundary[2] = {(int)def->boundary[0], (int)def->boundary[1]}, observe = (int)def->observe;
+    int storage = (int)def->covariant_storage;
     hd_archive_int(archive, "scene disks", &def->disks, DISKS_MIN, DISKS_MAX);
     hd_archive_int(archive, "scene boundary x", &boundary[0], HD_PERIODIC, HD_REFLECTING);
     hd_archive_int(archive, "scene boundary y", &boundary[1], HD_PERIODIC, HD_REFLECTING);
@@ -183,8 +228,11 @@ void hd_scene_archive(hd_scene_def *def, hd_archive *archive)
     hd_archive_int(archive, "scene observe", &observe, 0, OBSERVE_ALL);
     hd_archive_int(archive, "scene max_node", &def->max_node, 0, DISKS_MAX);
     hd_archive_int(archive, "scene threads", &def->threads, 0, THREADS_MAX);
+    hd_archive_int(archive, "scene covariant_storage", &storage, HD_STORAGE_MEMORY, HD_STORAGE_RECOMPUTE);
+    hd_archive_text(archive, "scene covariant_folder", def->covariant_folder, sizeof def->covariant_folder);
     for (size_t k = 0; k < sizeof doubles / sizeof *doubles; k++)
         hd_archive_double(archive, doubles[k].name, doubles[k].x);
     for (int d = 0; d < 2; d++) def->boundary[d] = (hd_boundary)boundary[d];
     def->observe = (unsigned)observe;
+    def->covariant_storage = (hd_storage)storage;
 }

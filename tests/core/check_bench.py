@@ -21,6 +21,7 @@ COLUMNS = {     # the first ones of each table, without units
     'whole': ['quantity', 'disks', 'minimum', 'median', 'maximum', 'rounds'],
     'whole_small': ['quantity', 'disks', 'minimum', 'median', 'maximum', 'rounds'],
     'endurance': ['collisions', 'simulated time', 'relative energy deviation', 'momentum', 'overlap'],
+    'covariant': ['storage', 'transient', 'room', 'forward', 'covariant', 'covariant over forward', 'median sine apart'],
     'rivals': ['quantity', 'disks', 'minimum', 'median', 'maximum', 'rounds']}
 PICTURES = ('precision', 'convergence', 'scaling', 'whole')
 ACCURACY = 1e-8     # asked for, and so the largest deviation allowed

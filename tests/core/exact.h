@@ -17,6 +17,7 @@ typedef struct exact_frame exact_frame;
 /** The same vectors as the frame's. */
 exact_frame *exact_create(const hd_frame *frame);
 void exact_free(exact_frame *x);
+const hd_exact *exact_read(const exact_frame *x); /**< the present vectors, row-major without padding */
 
 /** Carries them through all of the log. */
 void exact_replay(exact_frame *x, const hd_event_log *log);

@@ -4,17 +4,17 @@
 cmake_minimum_required(VERSION 3.16)
 
 # Of no stage: these may be included everywhere and include nothing but each other.
-set(STAGE_0 archive status check memory multiversion random clock blocks blas)
+set(STAGE_0 archive status check memory multiversion random clock blocks blas store)
 set(STAGE_1 scene scene_box lattice wave)
 set(STAGE_2 trajectory event_log trajectory_archive disk contact cells nearby queue prediction fetch)
 set(STAGE_3 frame)
-set(STAGE_4 ortho tail threads)
-set(STAGE_5 spectrum)
+set(STAGE_4 ortho tail threads backward angles recompute past shape)
+set(STAGE_5 spectrum splitting)
 set(STAGE_6 fields modes)
 set(STAGE_7 steps sets dispersion)
-set(STAGE_8 phases pmode hydro)
-set(STAGE_9 advance run run_state progress interval schedule checkpoint checkpoint_file verify hdlyap)
-set(LINEAR_ALGEBRA "ortho;tail;blas;modes;pmode")
+set(STAGE_8 phases pmode hydro covariant)
+set(STAGE_9 advance lookback run run_state progress interval schedule checkpoint checkpoint_file verify hdlyap)
+set(LINEAR_ALGEBRA "ortho;tail;blas;modes;pmode;backward;angles;covariant")
 
 function(stage_of out name)
   foreach(stage RANGE 9)

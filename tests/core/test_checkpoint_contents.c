@@ -67,7 +67,7 @@ static void contents_that_no_run_has_are_refused(void **state)
         {"scene disks", 0, 0, 1, "out of its range"},
         {"scene density", 0, NAN, 0, "not finite"},
         {"scene density", 0, 5.0, 0, "density"},
-        {"scene observe", 0, 0, 32, "out of its range"},
+        {"scene observe", 0, 0, 64, "out of its range"},
         {"scene threads", 0, 0, 5000, "out of its range"},
         {"run threads", 0, 0, 0, "out of its range"},
         {"time", 0, 1.0, 0, "that of the disks"},

@@ -65,6 +65,59 @@ static void check_factors(const double *v, const double *q, int rows, int n, dou
     }
 }
 
+/** max |V - Q R| with the R that was kept, relative to column norms. */
+static void check_kept(const double *v, const double *q, const double *r, int rows, int n)
+{
+    for (int col = 0; col < n; col++) {
+        double norm = 0.0;
+        for (int row = 0; row < rows; row++) norm += v[row * n + col] * v[row * n + col];
+        for (int row = 0; row < rows; row++) {
+            double sum = 0.0;
+            for (int k = 0; k <= col; k++) sum += q[row * n + k] * r[k * n + col];
+            CHECK_CLOSE(sum, v[row * n + col], 64 * DBL_EPSILON * sqrt(norm));
+        }
+    }
+}
+
+/** With the passes that a step made: none, one or two of them have to be multiplied. */
+static void check_factor(int disks, int n, double spread, hd_ortho_limits limits, int passes)
+{
+    hd_frame *frame;
+    hd_ortho *ortho;
+    CHECK_OK(hd_frame_create(&frame, disks, n, 11, 1));
+    CHECK_OK(hd_ortho_create(&ortho, 4 * disks, n));
+    assert_null(hd_ortho_factor(ortho));
+    CHECK_OK(hd_ortho_keep_factor(ortho));
+    for (int again = 0; again < 2; again++) { /* nothing of the first is left in the second */
+        make_ill_conditioned(frame, spread);
+        double *v = copied(frame);
+        if (passes == 0) CHECK_OK(hd_ortho_step_stable(ortho, frame, 1e13));
+        else CHECK_OK(hd_ortho_step(ortho, frame, limits));
+        if (passes > 0) assert_int_equal(hd_ortho_passes(ortho), passes);
+        double *q = copied(frame);
+        const double *r = hd_ortho_factor(ortho);
+        check_kept(v, q, r, 4 * disks, n);
+        for (int col = 0; col < n; col++)
+            CHECK_CLOSE(log(r[col * n + col]), hd_ortho_log_stretch(ortho)[col], 64 * DBL_EPSILON);
+        free(v);
+        free(q);
+    }
+    hd_ortho_free(ortho);
+    hd_frame_free(frame);
+}
+
+static void keeps_the_triangle(void **state)
+{
+    (void)state;
+    const int sizes[][2] = {{3, 1}, {5, 2}, {12, 17}, {40, 80}, {40, 160}, {200, 750}};
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        const double spread = sizes[k][1] > 1 ? 10.0 : 0.0;
+        if (spread > 0) check_factor(sizes[k][0], sizes[k][1], spread, TIGHT, 2);
+        check_factor(sizes[k][0], sizes[k][1], spread, LOOSE, 1);
+        check_factor(sizes[k][0], sizes[k][1], spread, LOOSE, 0);
+    }
+}
+
 static void check_step(int disks, int n, double spread, int stable)
 {
     hd_frame *frame;
@@ -261,6 +314,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(agrees_with_householder),
+        cmocka_unit_test(keeps_the_triangle),
         cmocka_unit_test(the_condition_is_that_of_the_inverse),
         cmocka_unit_test(the_defect_is_foreseen),
         cmocka_unit_test(logarithms_telescope),

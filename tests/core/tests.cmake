@@ -27,6 +27,16 @@ foreach(name IN ITEMS
     spectrum
     interval
     ortho
+    covariant
+    covariant_windows
+    lookback
+    backward
+    angles
+    store
+    past
+    recompute
+    splitting
+    shape
     tail
     threads
     two_threads

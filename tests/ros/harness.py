@@ -12,7 +12,7 @@ import roslib.packages
 import rosgraph
 import rospy
 
-from hdlyap.msg import (Cost, Hydro, LpPhases, Mode, ModeField, Modes, RunInfo, Spectrum, State,
+from hdlyap.msg import (Cost, Covariant, Hydro, LpPhases, Mode, ModeField, Modes, RunInfo, Spectrum, State,
                         Steps)
 
 NODE = 'hdlyap'
@@ -20,6 +20,7 @@ NODE = 'hdlyap'
 SHORT = dict(disks=20, density=0.7, aspect=1.0, equilibration=1.0, warmup=1.0, duration=2.0)
 # a box so long that its steps are found within a second
 MODES = dict(disks=60, density=0.8, aspect=0.06, equilibration=10.0, warmup=60.0, duration=20.0)
+# of a scene that may be short: covariant vectors need long transients
 TYPES = dict(run_info=RunInfo, spectrum=Spectrum, modes=Modes, steps=Steps, lp_phases=LpPhases,
              fields=ModeField, hydro=Hydro, state=State, cost=Cost)
 OBSERVABLES = [topic for topic in TYPES if topic not in ('run_info', 'cost')]
@@ -136,8 +137,8 @@ class Listener:
         self.messages = []
         self.delay = delay
         self.arrived = threading.Condition()
-        self.subscriber = rospy.Subscriber('/%s/%s' % (NODE, topic), TYPES[topic], self.keep,
-                                           queue_size=None)
+        kind = dict(TYPES, covariant=Covariant)[topic]
+        self.subscriber = rospy.Subscriber('/%s/%s' % (NODE, topic), kind, self.keep, queue_size=None)
 
     def keep(self, message):
         time.sleep(self.delay)

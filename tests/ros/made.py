@@ -8,7 +8,8 @@ import numpy as np
 import rosbag
 import rospy
 
-from hdlyap.msg import (Cost, Hydro, LpPhase, LpPhases, ModeField, RunInfo, Spectrum, Step, Steps)
+from hdlyap.msg import (Cost, Covariant, CovariantAngle, CovariantWeight, Hydro, LpPhase, LpPhases,
+                        ModeField, RunInfo, Spectrum, Step, Steps)
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../hdlyap_ros/scripts')
 sys.path.insert(0, SCRIPTS)
@@ -19,7 +20,8 @@ CURVES = {T: (1.4, 0.1), LP: (1.5, 0.5)}    # c, c2
 ERROR = 0.002           # of the exponents of steps
 VELOCITY = 1.6
 TOPICS = {RunInfo: 'run_info', Spectrum: 'spectrum', Cost: 'cost', Steps: 'steps',
-          LpPhases: 'lp_phases', ModeField: 'fields', Hydro: 'hydro'}
+          LpPhases: 'lp_phases', ModeField: 'fields', Hydro: 'hydro', Covariant: 'covariant'}
+BINS = 90               # of the histograms of angles
 
 
 def write(path, messages, node='/hdlyap', mode='w'):
@@ -92,6 +94,42 @@ def steps(made, averaged_time=50.0, run_id='one'):
                  threshold=0.5, steps=made, t_points=3, c_t=1.4, c_t_error=0.012, c_t2=0.1,
                  c_t2_error=0.034, l_points=2, c_l=1.5, c_l_error=0.02, c_l2=0.5, c_l2_error=0.1,
                  v_phases=8, v=1.612, v_error=0.023)
+
+
+def covariant_weight(made, count, dq=0.8, dp=0.3, elsewhere=0.02, gram_schmidt=0.9):
+    """Of the fields of one step, in its vectors and elsewhere."""
+    weight = CovariantWeight(kind=made.kind, nx=made.nx, ny=made.ny, wave_number=made.wave_number,
+                             dimension=made.expected, dq=[elsewhere] * count, dp=[elsewhere] * count,
+                             gram_schmidt=[elsewhere] * count)
+    inside = slice(made.first_index - 1, made.last_index)
+    weight.dq[inside] = [dq] * (made.last_index - made.first_index + 1)
+    weight.dp[inside] = [dp] * (made.last_index - made.first_index + 1)
+    weight.gram_schmidt[inside] = [gram_schmidt] * (made.last_index - made.first_index + 1)
+    return weight
+
+
+def covariant_angle(spaces, smallest, every, **fields):
+    """Histograms from {bin: count}."""
+    angle = CovariantAngle(spaces=spaces, last=0.3, mean=0.329, std_error=0.006, least=0.21, mean_of_all=1.1,
+                           smallest_counts=[smallest.get(k, 0) for k in range(BINS)],
+                           all_counts=[every.get(k, 0) for k in range(BINS)])
+    for name, value in fields.items():
+        setattr(angle, name, value)
+    return angle
+
+
+def covariant(exponents, run_id='one', error=0.01, **fields):
+    """Four windows; without angles and weights unless they are given."""
+    n = len(exponents)
+    made = Covariant(run_id=run_id, sim_time=350.0, averaged_time=200.0, windows=4, looks=40, seconds=12.5,
+                     first_index=1, exponents=exponents, std_errors=[error] * n,
+                     local_exponents=np.add(exponents, 0.1), apart=[1e-9] * n, neighbour_angles=[0.7] * (n - 1),
+                     least_neighbour_angles=[0.2] * (n - 1), violations=[0.25] * (n - 1), entangled=[0.5] * (n - 1),
+                     widths=[0.4] * n, cos_theta=[0.6] * n, centre_apart=-1.0, stable_apart=-1.0, null_angle=-1.0,
+                     largest_null_angle=-1.0)
+    for name, value in fields.items():
+        setattr(made, name, value)
+    return made
 
 
 def lp_phases(info, made, sim_time, modulations=(0, 1), began=0.0, rng=None, run_id='one'):

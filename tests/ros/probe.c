@@ -2,6 +2,8 @@
  *  and to count what should not. All of it by environment variables, nothing without them. */
 #define _GNU_SOURCE /* RTLD_NEXT */
 #include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -85,6 +87,15 @@ void *realloc(void *block, size_t size)
     return real(block, size);
 }
 
+/** PROBE_DISK_FULL: no file gets room. */
+int posix_fallocate(int file, off_t start, off_t length)
+{
+    int (*real)(int, off_t, off_t);
+    if (getenv("PROBE_DISK_FULL")) return ENOSPC;
+    next(&real, "posix_fallocate");
+    return real(file, start, length);
+}
+
 /** PROBE_NAN: the first momentum is not a number. */
 void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p)
 {
@@ -93,6 +104,14 @@ void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p)
     real(trajectory, q, p);
     atomic_fetch_add(&states, 1);
     if (p && getenv("PROBE_NAN")) p[0] = NAN;
+}
+
+/** PROBE_NAN_ANGLE: the one between covariant centre and null space is not a number. */
+double hd_covariant_null(const hd_covariant *covariant)
+{
+    double (*real)(const hd_covariant *);
+    next(&real, "hd_covariant_null");
+    return getenv("PROBE_NAN_ANGLE") ? NAN : real(covariant);
 }
 
 void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_ratio)
@@ -141,7 +160,7 @@ void hd_hydro_measure(hd_hydro *hydro, const hd_steps *found, const hd_frame *fr
 /* clang-format off */
 #define TOPICS(DO)                                                                                 \
     DO(run_info) DO(spectrum)                                                                      \
-    DO(modes) DO(steps) DO(lp_phases) DO(mode_field) DO(hydro) DO(state) DO(cost) DO(diagnostic) DO(markers)
+    DO(modes) DO(steps) DO(lp_phases) DO(mode_field) DO(hydro) DO(covariant) DO(state) DO(cost) DO(diagnostic) DO(markers)
 #define COUNT_MESSAGES(topic)                                                                      \
     static atomic_long messages_##topic;                                                           \
     hdr_status hdr_##topic##_publish(hdr_publisher *publisher, const hdr_##topic *view)            \

@@ -252,7 +252,7 @@ def expected_sizes(disks, vectors, steps, phases):
                 lp_phases=begin + 4 + 4 + 74 * phases,
                 fields=begin + 29 + 8 * 4 + 64 * disks + 4 + 3 * 4 + 8 + 6 * 4,
                 state=begin + 8 + 4 * 4 + 32 * disks,
-                cost=begin + 154)
+                cost=begin + 162)
 
 
 class Stopped(unittest.TestCase):

@@ -15,6 +15,10 @@ NAN, INFINITY = float('nan'), float('inf')
 AT_ONCE = 8    # nodes: they spend most of their short life waiting
 TIME = [-1, -1e-9, 2e12, 'x', '', [1.0], True, NAN, INFINITY]
 
+# with covariant vectors, if it were longer
+WINDOW = dict(observables=['covariant'], covariant_transient=1.0, covariant_window=1.0, covariant_sampling=1.0)
+COVARIANT = [0, -1, 0.9e-6, 2e12, 'x', '', [1.0], True, NAN, INFINITY]
+
 # values that are refused whatever the other parameters are
 BAD = dict(
     scene=[5, '', ['quick']],
@@ -32,7 +36,7 @@ BAD = dict(
     interval=[0, 0.0, -1, 2e12, 'never', '', NAN, INFINITY, True],
     accuracy=[0, 0.9e-12, 1.1e-2, 'x', NAN, INFINITY],
     report_interval=[0, -1, 2e12, 'x', NAN, INFINITY],
-    observables=[['covariant'], ['modes', 'covariant'], ['run_info'], ['cost'], ['spectra'], [''], 'spectrum', 5, [1], True],
+    observables=[['covariants'], ['modes', 'covariance'], ['run_info'], ['cost'], ['spectra'], [''], 'spectrum', 5, [1], True],
     threads=[-1, 1025, 1.0, '2'],
     wait_for_subscribers=[['nothing'], ['spectrum', ''], 'spectrum', 5, [1]],
     pace=[-1, 2e12, 'x', NAN, INFINITY],
@@ -44,6 +48,12 @@ BAD = dict(
     checkpoint=[5, True, ['file']],
     checkpoint_interval=[-1, 2e12, 'x', NAN, INFINITY],
     resume=[5, True, ['file']],
+    covariant_window=COVARIANT,
+    covariant_transient=COVARIANT,
+    covariant_sampling=COVARIANT,
+    covariant_memory=[0, -1, 0.9e-3, 1.1e6, 'x', '', [1.0], True, NAN, INFINITY],
+    covariant_storage=['', 'disk', 'Memory', 5, ['file']],
+    covariant_folder=['', 5, True, ['/tmp']],
     densty=[0.8],
     Disks=[100],
 )
@@ -62,6 +72,22 @@ BAD_TOGETHER = [
     ('max_node', dict(max_node=1, observables=['spectrum', 'state'])),
     ('max_node', dict(max_node=1, exponents='none')),
     ('max_wave_number', dict(max_wave_number=1.5, observables=[])),
+    ('observables', dict(exponents='none', observables=['state', 'covariant'])),
+    ('covariant_window', dict(covariant_window=49.0)),
+    ('covariant_transient', dict(covariant_transient=99.0)),
+    ('covariant_sampling', dict(covariant_sampling=4.0)),
+    ('covariant_memory', dict(covariant_memory=3.0)),
+    ('covariant_storage', dict(covariant_storage='recompute')),
+    ('covariant_folder', dict(covariant_folder='/')),
+    ('covariant_folder', dict(WINDOW, covariant_folder='/' + 'x' * 511)),
+    *((name, dict(WINDOW, **{name: value})) for name in ('covariant_window', 'covariant_transient', 'covariant_sampling')
+      for value in (0, -1, 2e12, NAN)),
+    ('covariant_sampling', dict(WINDOW, covariant_sampling=1.5)),
+    ('covariant_window', dict(WINDOW, disks=400, duration=1e6, covariant_window=1e5)),
+    ('warmup', dict(WINDOW, covariant_transient=1.5)),
+    ('duration', dict(WINDOW, covariant_window=1.5)),
+    ('field_indices', dict(WINDOW, field_indices=[1])),
+    ('marker_modes', dict(WINDOW, marker_modes=['T(1,0)'])),
     ('field_indices', dict(field_indices=[1], observables=['modes', 'steps'])),
     ('field_indices', dict(field_indices=[1], exponents='none')),
     ('field_indices', dict(field_indices=[3], exponents=2)),
@@ -94,6 +120,13 @@ GOOD = [
     (dict(field_indices=[37, 1]), dict(field_indices='[37, 1]')),
     (dict(field_interval=0, observables=['state']), dict(field_interval=0.0, observables=['state'])),
     (dict(field_interval='2.5'), dict(field_interval=2.5, wait_for_subscribers=['run_info'])),
+    (dict(covariant_window=50, covariant_transient='100', covariant_sampling=5.0, covariant_memory=4,
+          covariant_storage='memory', covariant_folder='/tmp'), dict(covariant_storage='memory', covariant_memory=4.0)),
+    (dict(WINDOW, max_node=1, exponents=3),
+     dict(observables=['covariant'], wave_nx=(1, 0, 1), covariant_window=1.0, covariant_transient=1.0)),
+    (dict(WINDOW, duration=3.0, covariant_storage='recompute', covariant_memory='0.25', covariant_sampling=0.5,
+          covariant_folder='/'), dict(covariant_storage='recompute', covariant_memory=0.25, covariant_sampling=0.5,
+                                      covariant_folder='/', covariant_transient=1.0)),
     (dict(observables=['hydro', 'steps']), dict(observables=['steps', 'hydro'])),
     (dict(checkpoint='', checkpoint_interval=0.0, resume=''), dict(checkpoint='', checkpoint_interval=0.0, resumed_time=-1.0)),
 ]
@@ -170,7 +203,8 @@ class Parameters(unittest.TestCase):
                     interval=0.0, accuracy=1e-8, report_interval=1.0, pace=0.0,
                     observables=['spectrum', 'modes', 'steps', 'lp_phases', 'fields', 'state'],
                     max_node=0, max_wave_number=0.0, field_indices='steps', field_interval=10.0,
-                    wait_for_subscribers=[],
+                    wait_for_subscribers=[], covariant_window=50.0, covariant_transient=100.0, covariant_sampling=5.0,
+                    covariant_memory=4.0, covariant_storage='memory', covariant_folder='/tmp',
                     wave_nx=(1, 0, 1, 2, 0, 2, 1, 2), wave_ny=(0, 1, 1, 0, 2, 1, 2, 2))
         for field, value in want.items():
             self.assertEqual(getattr(info, field), value)

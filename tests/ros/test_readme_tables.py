@@ -12,7 +12,8 @@ ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 NODE = 'hdlyap_ros/src/node'
 REFERENCE = 'launch/scenes/paper_periodic.yaml'
 # defaults whose values in C are names
-NAMED = {'HD_EXPONENTS_POSITIVE': 'positive', '{HD_PERIODIC, HD_PERIODIC}': 'periodic'}
+NAMED = {'HD_EXPONENTS_POSITIVE': 'positive', '{HD_PERIODIC, HD_PERIODIC}': 'periodic', 'HD_STORAGE_MEMORY': 'memory'}
+BYTES = {'covariant_memory': 1e9}   # of the core, in the unit of the parameter
 
 UNIT = r'\[([\w/ ^]+)\]'
 
@@ -102,6 +103,8 @@ def as_written(name, value):
     if name == 'observables':
         missing = re.findall(r'TOPIC_([A-Z_]+)\)', value)
         return ('all but ' + ', '.join(topic.lower() for topic in missing),)
+    if name in BYTES:
+        return (str(float(value) / BYTES[name]),)
     if name == 'interval' and float(value) == 0.0:
         return ('auto',)
     return (NAMED.get(value, value), value.strip('"'), '"%s"' % value)

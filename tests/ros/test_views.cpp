@@ -66,7 +66,7 @@ TEST(views, run_info)
     const hdr_run_info view = {
         header, "id", "0.1.0", "scene", 780, 0.8, 0.867, 33.5, 29.1, "periodic", "reflecting",
         "18446744073709551615", "all", 3120, 6, 1, 2, 3, 4, 5, 6, 7, {observables, 2}, 0.25,
-        9, {nodes, 3}, {nodes + 1, 2}, "[1, 5]", 2.5, {awaited, 1}, 8.5, "[T(1,0)]", 2.5, "file", 60, "before",
+        9, {nodes, 3}, {nodes + 1, 2}, 10, 11, 13, 14, "file", "folder", "[1, 5]", 2.5, {awaited, 1}, 8.5, "[T(1,0)]", 2.5, "file", 60, "before",
         12.5, 2, 1,
         "blas", "kernel", "openmp"};
     /* clang-format on */
@@ -98,6 +98,12 @@ TEST(views, run_info)
     message.max_node = 9;
     message.wave_nx = {1, 0, 4294967295};
     message.wave_ny = {0, 4294967295};
+    message.covariant_window = 10;
+    message.covariant_transient = 11;
+    message.covariant_sampling = 13;
+    message.covariant_memory = 14;
+    message.covariant_storage = "file";
+    message.covariant_folder = "folder";
     message.field_indices = "[1, 5]";
     message.field_interval = 2.5;
     message.wait_for_subscribers = {"cost"};
@@ -318,6 +324,64 @@ TEST(views, hydro)
     expect_both_ways(hdr_hydro{header, "id", 1.5, nullptr, 0}, message);
 }
 
+TEST(views, covariant)
+{
+    const std::vector<uint64_t> bins = {1, 18446744073709551615u, 3};
+    const hdr_counts some = {bins.data(), 2}, all = {bins.data(), 3};
+    const hdr_covariant_angle angle = {HDR_CENTRE_STABLE, 1, 2, 3, 4, 5, some, all};
+    const hdr_covariant_weight weight = {HDR_MODE_LP, 1, 2, 3.5, 8, every(2), every(1), every(3)};
+    hdr_covariant view = {header, "id", 1.5, 2.5, 3, 4, 5, 6.5, 7, every(1), every(2), every(3), every(1, 1), every(1, 2),
+                          every(1, 3), every(1, 4), every(2, 1), every(3, 1), every(3, 2), 8.5, 9.5, 10.5, 11.5,
+                          &angle, 1, &weight, 1};
+    hdlyap::Covariant message;
+    fill_header(message);
+    message.run_id = "id";
+    message.sim_time = 1.5;
+    message.averaged_time = 2.5;
+    message.windows = 3;
+    message.lost_windows = 4;
+    message.looks = 5;
+    message.seconds = 6.5;
+    message.first_index = 7;
+    message.exponents = copy(every(1));
+    message.std_errors = copy(every(2));
+    message.local_exponents = copy(every(3));
+    message.apart = copy(every(1, 1));
+    message.neighbour_angles = copy(every(1, 2));
+    message.least_neighbour_angles = copy(every(1, 3));
+    message.violations = copy(every(1, 4));
+    message.entangled = copy(every(2, 1));
+    message.widths = copy(every(3, 1));
+    message.cos_theta = copy(every(3, 2));
+    message.centre_apart = 8.5;
+    message.stable_apart = 9.5;
+    message.null_angle = 10.5;
+    message.largest_null_angle = 11.5;
+    message.angles.resize(1);
+    message.angles[0].spaces = hdlyap::CovariantAngle::CENTRE_STABLE;
+    message.angles[0].last = 1;
+    message.angles[0].mean = 2;
+    message.angles[0].std_error = 3;
+    message.angles[0].least = 4;
+    message.angles[0].mean_of_all = 5;
+    message.angles[0].smallest_counts = {bins[0], bins[1]};
+    message.angles[0].all_counts = bins;
+    message.weights.resize(1);
+    message.weights[0].kind = hdlyap::Mode::LP;
+    message.weights[0].nx = 1;
+    message.weights[0].ny = 2;
+    message.weights[0].wave_number = 3.5;
+    message.weights[0].dimension = 8;
+    message.weights[0].dq = copy(every(2));
+    message.weights[0].dp = copy(every(1));
+    message.weights[0].gram_schmidt = copy(every(3));
+    expect_both_ways(view, message);
+    view.angle_count = view.weight_count = 0;
+    message.angles.clear();
+    message.weights.clear();
+    expect_both_ways(view, message);
+}
+
 TEST(views, state)
 {
     const hdr_state view = {header, "", 1.5, 3, every(2, 0), every(2, 1), every(2, 0), every(2, 1)};
@@ -346,7 +410,7 @@ TEST(views, state_without_disks)
 
 TEST(views, cost)
 {
-    const hdr_cost view = {header, "id", 1.5, HDR_AVERAGING, 2,  3,  4,  5,   6,    16,  7, 8, 9,
+    const hdr_cost view = {header, "id", 1.5, HDR_AVERAGING, 2,  3,  4,  5,   6,    16, 18, 7, 8, 9,
                            HDR_LIMIT_LOOK, 10, 11, 12,        13, 14, 17, 15, 0.25, 0.5, -1};
     hdlyap::Cost message;
     fill_header(message);
@@ -359,6 +423,7 @@ TEST(views, cost)
     message.ortho_seconds = 5;
     message.spectrum_seconds = 6;
     message.modes_seconds = 16;
+    message.covariant_seconds = 18;
     message.publish_seconds = 7;
     message.events_per_second = 8;
     message.interval = 9;

@@ -108,6 +108,7 @@ FUNCTIONS(hdr_steps)
 FUNCTIONS(hdr_lp_phases)
 FUNCTIONS(hdr_mode_field)
 FUNCTIONS(hdr_hydro)
+FUNCTIONS(hdr_covariant)
 FUNCTIONS(hdr_state)
 FUNCTIONS(hdr_cost)
 FUNCTIONS(hdr_diagnostic)
@@ -152,7 +153,7 @@ template <class View> struct message : testing::Test {
 };
 using views =
     testing::Types<hdr_run_info, hdr_spectrum, hdr_modes, hdr_steps, hdr_lp_phases, hdr_mode_field,
-                   hdr_hydro, hdr_state, hdr_cost, hdr_diagnostic, hdr_float64, hdr_string>;
+                   hdr_hydro, hdr_covariant, hdr_state, hdr_cost, hdr_diagnostic, hdr_float64, hdr_string>;
 TYPED_TEST_SUITE(message, views, );
 
 TYPED_TEST(message, comes_back)

@@ -33,6 +33,12 @@ HD_MUST_CHECK hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame,
                                              double condition_max);
 
 const double *hd_ortho_log_stretch(const hd_ortho *ortho); /**< [n], of the last step */
+
+/** From now on each step leaves its R, too; HD_NO_MEMORY (16 n^2 bytes). */
+HD_MUST_CHECK hd_status hd_ortho_keep_factor(hd_ortho *ortho);
+/** R of the last accepted step, V = Q R: [n * n] row-major, defined from the diagonal on; NULL unless kept. */
+const double *hd_ortho_factor(const hd_ortho *ortho);
+
 /** max over l of sqrt(sum_k (R^-1)_kl^2 |V e_k|^2) >= 1: how much the rounding of V (relative to its
  *  columns) is amplified in column l of Q. Rounding enters an exponent as eps * condition / interval
  *  and the orthogonality of Q as eps * condition^2 [T6] [T7]. Of the last step's first pass. */

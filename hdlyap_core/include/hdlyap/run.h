@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "hdlyap/covariant.h"
 #include "hdlyap/ortho.h"
 #include "hdlyap/phases.h"
 #include "hdlyap/spectrum.h"
@@ -35,6 +36,7 @@ typedef struct hd_cost {
     double ortho;             /**< seconds in the factorisation */
     double spectrum;          /**< seconds in averages */
     double modes;             /**< seconds in classification, steps and phases */
+    double covariant;         /**< seconds in covariant vectors: what is kept for them, and the way back */
     double events_per_second; /**< pair events over seconds in the trajectory */
     double interval;          /**< time units between orthonormalisations, last used */
     hd_limit limit;           /**< why it was not longer */
@@ -107,6 +109,7 @@ const hd_spectrum *hd_run_spectrum(const hd_run *run); /**< NULL without exponen
 const hd_modes *hd_run_modes(const hd_run *run); /**< NULL unless observed, as the two below */
 const hd_steps *hd_run_steps(const hd_run *run);
 const hd_phases *hd_run_phases(const hd_run *run);
+const hd_covariant *hd_run_covariant(const hd_run *run); /**< NULL unless observed */
 int hd_run_samples_per_report(
     const hd_run *run); /**< times that phases are followed at per report */
 hd_cost hd_run_cost(const hd_run *run);

@@ -23,8 +23,18 @@ enum {
     HD_OBSERVE_STEPS = 2,  /**< degenerate sets, dispersion */
     HD_OBSERVE_PHASES = 4, /**< of the LP pairs */
     HD_OBSERVE_FIELDS = 8, /**< reconstructed P modes */
-    HD_OBSERVE_HYDRO = 16  /**< hydrodynamic response */
+    HD_OBSERVE_HYDRO = 16, /**< hydrodynamic response */
+    HD_OBSERVE_COVARIANT = 32 /**< covariant vectors; alone, it needs no modes */
 };
+
+/** Where the triangles that covariant vectors need wait for the way back. */
+typedef enum hd_storage {
+    HD_STORAGE_MEMORY,
+    HD_STORAGE_FILE,     /**< one without a name */
+    HD_STORAGE_RECOMPUTE /**< they are computed again, from some frames and the events */
+} hd_storage;
+
+enum { HD_FOLDER_MAX = 512 };
 
 typedef struct hd_scene_def {
     int disks;      /**< N, 2 .. 1000000 */
@@ -46,6 +56,13 @@ typedef struct hd_scene_def {
         max_wave_number; /**< wave vectors up to this |k| are classified; 0 = by max_node [1/sigma] */
     int max_node; /**< wave vectors of up to so many nodes per direction; 0 = 2, or as sampled */
     int threads;  /**< 0 = as many as the machine has and the work is worth */
+
+    double covariant_window;    /**< time units at a stretch for which covariant vectors are computed, > 0 */
+    double covariant_transient; /**< time units beyond its end from which they are carried back, > 0 */
+    double covariant_sampling;  /**< time units between two looks at them, > 0 */
+    double covariant_memory;    /**< what may wait for the way back [bytes], > 0 */
+    hd_storage covariant_storage;
+    char covariant_folder[HD_FOLDER_MAX]; /**< of a file for it; must be there */
 } hd_scene_def;
 
 /** The paper's periodic scene: 780 disks, density 0.8, aspect 0.867. */

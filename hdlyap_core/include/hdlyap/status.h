@@ -15,7 +15,8 @@ extern "C" {
     X(HD_NOT_FINITE, "a result is not finite")                                                     \
     X(HD_ILL_CONDITIONED, "the tangent frame became too ill-conditioned to be repaired")           \
     X(HD_OVERLAP, "two disks overlap by more than rounding")                                       \
-    X(HD_FILE_FAULT, "a file could not be read or written")
+    X(HD_FILE_FAULT, "a file could not be read or written")                                        \
+    X(HD_NO_ROOM, "windows of covariant vectors do not fit covariant_memory")
 
 typedef enum hd_status {
 #define HD_STATUS_NAME(name, text) name,

@@ -25,6 +25,12 @@ typedef struct hdr_uints {
     uint32_t count;
 } hdr_uints;
 
+/** uint64[] */
+typedef struct hdr_counts {
+    const uint64_t *data;
+    uint32_t count;
+} hdr_counts;
+
 /** uint8[] */
 typedef struct hdr_bytes {
     const uint8_t *data;
@@ -58,6 +64,8 @@ typedef struct hdr_run_info {
     double max_wave_number;
     uint32_t max_node;
     hdr_uints wave_nx, wave_ny;
+    double covariant_window, covariant_transient, covariant_sampling, covariant_memory;
+    const char *covariant_storage, *covariant_folder;
     const char *field_indices;
     double field_interval;
     hdr_strings wait_for_subscribers;
@@ -195,6 +203,43 @@ typedef struct hdr_hydro {
     uint32_t count;
 } hdr_hydro;
 
+/** hdr_covariant_angle.spaces */
+enum { HDR_UNSTABLE_STABLE, HDR_UNSTABLE_CENTRE, HDR_CENTRE_STABLE };
+
+/** hdlyap/CovariantAngle */
+typedef struct hdr_covariant_angle {
+    uint8_t spaces;
+    double last, mean, std_error, least, mean_of_all;
+    hdr_counts smallest_counts, all_counts;
+} hdr_covariant_angle;
+
+/** hdlyap/CovariantWeight */
+typedef struct hdr_covariant_weight {
+    uint8_t kind;
+    uint32_t nx, ny;
+    double wave_number;
+    uint32_t dimension;
+    hdr_doubles dq, dp, gram_schmidt;
+} hdr_covariant_weight;
+
+/** hdlyap/Covariant */
+typedef struct hdr_covariant {
+    hdr_header header;
+    const char *run_id;
+    double sim_time, averaged_time;
+    uint32_t windows, lost_windows, looks;
+    double seconds;
+    uint32_t first_index;
+    hdr_doubles exponents, std_errors, local_exponents, apart;
+    hdr_doubles neighbour_angles, least_neighbour_angles, violations, entangled;
+    hdr_doubles widths, cos_theta;
+    double centre_apart, stable_apart, null_angle, largest_null_angle;
+    const hdr_covariant_angle *angles;
+    uint32_t angle_count;
+    const hdr_covariant_weight *weights;
+    uint32_t weight_count;
+} hdr_covariant;
+
 /** hdlyap/State */
 typedef struct hdr_state {
     hdr_header header;
@@ -232,7 +277,7 @@ typedef struct hdr_cost {
     double sim_time;
     uint8_t phase;
     double wall_seconds, events_seconds, replay_seconds, ortho_seconds, spectrum_seconds;
-    double modes_seconds, publish_seconds, events_per_second;
+    double modes_seconds, covariant_seconds, publish_seconds, events_per_second;
     double interval;
     uint8_t interval_limit;
     double condition, orthogonality_defect, error_bound;

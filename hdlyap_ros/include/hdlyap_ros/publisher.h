@@ -30,6 +30,8 @@ HDR_MUST_CHECK hdr_status hdr_mode_field_advertise(hdr_publisher **out, hdr_node
                                                    const char *topic, int queue);
 HDR_MUST_CHECK hdr_status hdr_hydro_advertise(hdr_publisher **out, hdr_node *node,
                                               const char *topic, int queue);
+HDR_MUST_CHECK hdr_status hdr_covariant_advertise(hdr_publisher **out, hdr_node *node,
+                                                  const char *topic, int queue);
 HDR_MUST_CHECK hdr_status hdr_state_advertise(hdr_publisher **out, hdr_node *node,
                                               const char *topic, int queue);
 HDR_MUST_CHECK hdr_status hdr_cost_advertise(hdr_publisher **out, hdr_node *node, const char *topic,
@@ -74,6 +76,8 @@ HDR_MUST_CHECK hdr_status hdr_lp_phases_publish(hdr_publisher *publisher,
 HDR_MUST_CHECK hdr_status hdr_mode_field_publish(hdr_publisher *publisher,
                                                  const hdr_mode_field *view);
 HDR_MUST_CHECK hdr_status hdr_hydro_publish(hdr_publisher *publisher, const hdr_hydro *view);
+HDR_MUST_CHECK hdr_status hdr_covariant_publish(hdr_publisher *publisher,
+                                                const hdr_covariant *view);
 HDR_MUST_CHECK hdr_status hdr_state_publish(hdr_publisher *publisher, const hdr_state *view);
 HDR_MUST_CHECK hdr_status hdr_cost_publish(hdr_publisher *publisher, const hdr_cost *view);
 HDR_MUST_CHECK hdr_status hdr_diagnostic_publish(hdr_publisher *publisher,

@@ -152,7 +152,7 @@ def cost(view, width, glyphs):
     if view.cost is None or view.cost.wall_seconds <= 0:
         return []
     shares = {stage: spent / view.cost.wall_seconds for stage, spent in seconds(view.cost).items()}
-    return (flow([f'{stage:<8} {glyphs.bar(share, STAGE_BAR)} {100 * share:3.0f} %'
+    return (flow([f'{stage:<9} {glyphs.bar(share, STAGE_BAR)} {100 * share:3.0f} %'
                   for stage, share in shares.items()], width, '  ') + flow(_interval(view), width))
 
 

@@ -17,7 +17,8 @@ from .stages import STAGES
 
 RUN_INFO, SPECTRUM, COST = 'hdlyap/RunInfo', 'hdlyap/Spectrum', 'hdlyap/Cost'
 STEPS, PHASES, FIELD = 'hdlyap/Steps', 'hdlyap/LpPhases', 'hdlyap/ModeField'
-TYPES = (RUN_INFO, SPECTRUM, COST, STEPS, PHASES, FIELD)
+COVARIANT = 'hdlyap/Covariant'
+TYPES = (RUN_INFO, SPECTRUM, COST, STEPS, PHASES, FIELD, COVARIANT)
 SMALLEST = 4    # exponents whose course is kept, counted back from the last positive one
 DAMAGE = (genpy.DeserializationError, struct.error, UnicodeDecodeError, KeyError)
 
@@ -29,7 +30,8 @@ class RecordingError(Exception):
 class Recording(Run):
     """The last run in the bag: its run_info, its last spectrum (None without exponents), the
     course of the averages since their last reset, the cost over time, and of the modes the last
-    steps (None if unrecorded), the last field of each vector, and the course of the LP phases."""
+    steps (None if unrecorded), the last field of each vector, and the course of the LP phases,
+    and the last of covariant vectors."""
 
     def __init__(self, info, runs=1):
         self.info = info
@@ -37,7 +39,7 @@ class Recording(Run):
         self.spectrum = None
         self.phases = PhaseCourse()
         self._history, self._costs = Course(), Course()
-        self._steps, self._fields = None, {}
+        self._last, self._fields = {}, {}
 
     @property
     def smallest(self):
@@ -48,8 +50,16 @@ class Recording(Run):
     @property
     def steps(self):
         """The last Steps message since averaging began; None if there is none."""
-        steps = self._steps and self._steps.message()
-        return steps if steps and steps.averaged_time > 0 else None
+        return self._averaged(STEPS)
+
+    @property
+    def covariant(self):
+        """The last Covariant message, likewise: there is at least one window."""
+        return self._averaged(COVARIANT)
+
+    def _averaged(self, kind):
+        message = self._last[kind].message() if kind in self._last else None
+        return message if message is not None and message.averaged_time > 0 else None
 
     def fields(self):
         """The last ModeField of each vector, one after the other, largest index first."""
@@ -58,8 +68,8 @@ class Recording(Run):
 
     def add(self, kind, packed):
         """A message of one of TYPES. What counts only if it is the last one stays packed."""
-        if kind == STEPS:
-            self._steps = packed
+        if kind in (STEPS, COVARIANT):
+            self._last[kind] = packed
         elif kind == FIELD:
             self._fields[packed.field_index()] = packed
         else:
@@ -71,6 +81,7 @@ class Recording(Run):
             return
         if self.spectrum is not None and msg.averaged_time < self.spectrum.averaged_time:
             self._history.clear()   # the averages were reset
+            self._last.pop(COVARIANT, None)     # the next one takes a while
         self.spectrum = msg
         small = [index - msg.first_index for index in self.smallest]
         self._history.add((msg.averaged_time, msg.lambda_max, msg.std_errors[0],

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from . import paper, step_table
+from . import covariant_table, paper, step_table
 from .numbers import known
 
 TAIL = 64       # exponents in the table
@@ -15,6 +15,8 @@ def report(recording):
         blocks += [_sums(recording), _tail(recording)]
         blocks += (_paper_block(recording) if recording.steps is None
                    else step_table.blocks(recording))
+    if recording.covariant is not None:
+        blocks += covariant_table.blocks(recording)
     return '\n\n'.join(blocks)
 
 

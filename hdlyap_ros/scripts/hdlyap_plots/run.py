@@ -6,10 +6,10 @@ from .numbers import known
 
 
 class Run:
-    """Its run_info, its last spectrum (None without exponents) and its last steps (None if nobody
-    listened)."""
+    """Its run_info, its last spectrum (None without exponents), its last steps and covariant vectors
+    (None if nobody listened)."""
 
-    info = spectrum = steps = None
+    info = spectrum = steps = covariant = None
 
     @property
     def positive_end(self):

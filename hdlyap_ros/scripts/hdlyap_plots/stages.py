@@ -4,8 +4,8 @@ from hdlyap.msg import Cost
 
 # a field of that name, with _seconds behind it: what it is for
 LABELS = {'events': 'events', 'replay': 'tangent replay', 'ortho': 'orthonormalisation',
-          'spectrum': 'averages', 'modes': 'classification', 'publish': 'publishing',
-          'other': 'other'}
+          'spectrum': 'averages', 'modes': 'classification', 'covariant': 'covariant vectors',
+          'publish': 'publishing', 'other': 'other'}
 STAGES = tuple(LABELS)[:-1]
 PHASES = {Cost.EQUILIBRATING: 'equilibrating', Cost.WARMING_UP: 'warming up',
           Cost.AVERAGING: 'averaging', Cost.FINISHED: 'finished'}

@@ -24,8 +24,8 @@ static const advertise_function advertise[TOPICS] = {
     [TOPIC_RUN_INFO] = run_info_advertise,       [TOPIC_SPECTRUM] = hdr_spectrum_advertise,
     [TOPIC_MODES] = hdr_modes_advertise,         [TOPIC_STEPS] = hdr_steps_advertise,
     [TOPIC_LP_PHASES] = hdr_lp_phases_advertise, [TOPIC_FIELDS] = hdr_mode_field_advertise,
-    [TOPIC_HYDRO] = hdr_hydro_advertise,         [TOPIC_STATE] = hdr_state_advertise,
-    [TOPIC_COST] = hdr_cost_advertise,
+    [TOPIC_HYDRO] = hdr_hydro_advertise,         [TOPIC_COVARIANT] = hdr_covariant_advertise,
+    [TOPIC_STATE] = hdr_state_advertise,         [TOPIC_COST] = hdr_cost_advertise,
 };
 
 /** Start, process, seed: no two runs share all three. */

@@ -6,6 +6,7 @@
 
 #include "attendance.h"
 #include "clock.h"
+#include "covariant_report.h"
 #include "field_report.h"
 #include "marker_report.h"
 #include "mode_report.h"
@@ -31,7 +32,8 @@ struct report {
     double *q, *p;            /**< in block; [2N] each, x0 y0 x1 y1 .. */
     double *block;
     mode_report *modes;   /**< NULL unless some of its topics are asked for */
-    field_report *fields; /**< NULL unless asked for */
+    field_report *fields; /**< NULL unless asked for, as the next */
+    covariant_report *covariant;
     marker_report *markers;
     attendance awaited;
     unsigned demand;      /**< set of topics that the step under way is made for */
@@ -80,8 +82,10 @@ static bool parts_create(report *rep, const hd_run *run)
     if (!arrays_create(rep)) return false;
     if ((set & TOPICS_OF_MODES) && !mode_report_create(&rep->modes, &rep->out, run, set))
         return false;
-    return !(set & topic_bit(TOPIC_FIELDS)) ||
-           field_report_create(&rep->fields, &rep->out, rep->set);
+    if ((set & topic_bit(TOPIC_FIELDS)) && !field_report_create(&rep->fields, &rep->out, rep->set))
+        return false;
+    return !(set & topic_bit(TOPIC_COVARIANT)) ||
+           covariant_report_create(&rep->covariant, &rep->out, run);
 }
 
 static hdr_status advertise(report *rep, hdr_node *ros)
@@ -89,6 +93,7 @@ static hdr_status advertise(report *rep, hdr_node *ros)
     double doubles[TOPICS] = {[TOPIC_SPECTRUM] = 5.0 * rep->n, [TOPIC_STATE] = 4.0 * rep->disks};
     if (rep->modes) mode_report_sizes(rep->modes, doubles);
     if (rep->fields) doubles[TOPIC_FIELDS] = field_report_size(rep->fields);
+    if (rep->covariant) doubles[TOPIC_COVARIANT] = covariant_report_size(rep->covariant);
     return outlets_advertise(&rep->out, ros, rep->set->observables | TOPICS_ALWAYS, doubles,
                              rep->set->seed);
 }
@@ -113,6 +118,7 @@ void report_free(report *rep)
     if (!rep) return;
     mode_report_free(rep->modes);
     field_report_free(rep->fields);
+    covariant_report_free(rep->covariant);
     marker_report_free(rep->markers);
     free(rep->block);
     free(rep);
@@ -230,6 +236,7 @@ static hd_status publish_cost(report *rep, const progress *now, hd_phase phase)
         .ortho_seconds = cost->ortho,
         .spectrum_seconds = cost->spectrum,
         .modes_seconds = cost->modes,
+        .covariant_seconds = cost->covariant,
         .publish_seconds = rep->seconds,
         .events_per_second = cost->events_per_second,
         .interval = cost->interval,
@@ -259,7 +266,8 @@ static hd_status publish_cost(report *rep, const progress *now, hd_phase phase)
                               cost->error_bound,
                               cost->std_error,
                               cost->events_per_second,
-                              cost->modes};
+                              cost->modes,
+                              cost->covariant};
     if (!outlets_finite(numbers, sizeof numbers / sizeof *numbers)) return HD_NOT_FINITE;
     return outlets_sent(hdr_cost_publish(rep->out.publisher[TOPIC_COST], &view), TOPIC_COST);
 }
@@ -303,6 +311,14 @@ hd_status report_publish(report *rep, const hd_run *run)
 {
     const double start = clock_seconds();
     const hd_status status = publish_due(rep, run);
+    rep->seconds += clock_seconds() - start;
+    return status;
+}
+
+hd_status report_window(report *rep, const hd_run *run)
+{
+    const double start = clock_seconds();
+    const hd_status status = rep->covariant ? covariant_report_publish(rep->covariant, run) : HD_OK;
     rep->seconds += clock_seconds() - start;
     return status;
 }

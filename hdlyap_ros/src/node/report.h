@@ -53,6 +53,10 @@ HD_MUST_CHECK hd_status report_picture(report *rep, const hd_run *run, bool at_r
  *  HD_NOT_FINITE, and nothing of the message concerned is published, if a number of it is not. */
 HD_MUST_CHECK hd_status report_publish(report *rep, const hd_run *run);
 
+/** Publishes the covariant vectors, if somebody listens, once a window of them has ended: after a step or a checkpoint.
+ *  HD_NOT_FINITE as above. */
+HD_MUST_CHECK hd_status report_window(report *rep, const hd_run *run);
+
 /** Publishes the run's last message, if anybody listens: the cost, with phase FINISHED. */
 HD_MUST_CHECK hd_status report_finish(report *rep, const progress *last);
 

@@ -19,7 +19,7 @@ static uint32_t names_of(const char *names[TOPICS], unsigned set)
     return count;
 }
 
-/** Nodes of the wave vectors that are classified; none without modes. */
+/** Nodes of the wave vectors that are classified; none where nothing needs them. */
 typedef struct wave_list {
     uint32_t count;
     uint32_t *nx, *ny; /**< in one block at nx */
@@ -70,6 +70,12 @@ static void fill_scene(hdr_run_info *info, const settings *set)
     info->report_interval = def->report_interval;
     info->max_wave_number = def->max_wave_number;
     info->max_node = (uint32_t)def->max_node;
+    info->covariant_window = def->covariant_window;
+    info->covariant_transient = def->covariant_transient;
+    info->covariant_sampling = def->covariant_sampling;
+    info->covariant_memory = def->covariant_memory / BYTES_PER_GB;
+    info->covariant_storage = settings_storage_name(def->covariant_storage);
+    info->covariant_folder = def->covariant_folder;
 }
 
 /** What it runs on. */

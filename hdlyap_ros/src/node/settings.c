@@ -9,67 +9,27 @@
 #include <string.h>
 
 #include "hdlyap/fields.h"
+#include "reader.h"
 #include "topic.h"
 
 enum {
-    OF_EXPONENTS = 1u << TOPIC_SPECTRUM | TOPICS_OF_MODES,
+    OF_WAVES = TOPICS_OF_MODES | 1u << TOPIC_COVARIANT,
+    OF_EXPONENTS = 1u << TOPIC_SPECTRUM | OF_WAVES,
     ALL_PUBLISHED = 1u << TOPICS /**< in a set of topics: whatever the others are */
 };
 
-#define OF_MODES_TEXT "modes, steps, lp_phases, fields, hydro"
-#define OBSERVABLES_TEXT "spectrum, " OF_MODES_TEXT ", state"
-
-/** One parameter on its way in. */
-typedef struct reader {
-    const hdr_params *params;
-    const char *name;
-    char *message;
-    size_t size;
-} reader;
+#define OF_WAVES_TEXT "modes, steps, lp_phases, fields, hydro, covariant"
+#define OBSERVABLES_TEXT "spectrum, " OF_WAVES_TEXT ", state"
 
 /** Reads into field of settings; a missing parameter leaves the default. False if refused. */
 typedef bool (*read_function)(const reader *r, void *field);
-
-static bool is_control(char c) { return (unsigned char)c < ' ' || c == 0x7f; }
-
-static bool is_one_line(const char *text)
-{
-    while (*text && !is_control(*text)) text++;
-    return !*text;
-}
-
-/** In one line whatever it shows: names and values are anybody's, and may hold line ends. */
-static bool refuse(const reader *r, const char *allowed)
-{
-    if (r->size == 0) return false;
-    snprintf(r->message, r->size, "%.100s = %.150s: must be %s", r->name,
-             hdr_param_text(r->params, r->name), allowed);
-    for (char *c = r->message; *c; c++)
-        if (is_control(*c)) *c = '?';
-    return false;
-}
-
-static bool accept(const reader *r, hdr_status status, const char *allowed)
-{
-    return status == HDR_OK || status == HDR_MISSING || refuse(r, allowed);
-}
-
-static bool read_int(const reader *r, void *field)
-{
-    return accept(r, hdr_param_int(r->params, r->name, field), "an integer");
-}
-
-static bool read_double(const reader *r, void *field)
-{
-    return accept(r, hdr_param_double(r->params, r->name, field), "a number");
-}
 
 static bool read_scene(const reader *r, void *field)
 {
     const char **scene = field;
     const hdr_status status = hdr_param_string(r->params, r->name, scene);
-    return accept(r, status, "a string") &&
-           ((**scene && is_one_line(*scene)) || refuse(r, "a line that is not empty"));
+    return reader_accepts(r, status, "a string") &&
+           ((**scene && is_one_line(*scene)) || reader_refuse(r, "a line that is not empty"));
 }
 
 static bool read_boundary(const reader *r, void *field)
@@ -80,7 +40,7 @@ static bool read_boundary(const reader *r, void *field)
     if (status == HDR_MISSING) return true;
     if (status == HDR_OK && strcmp(text, "periodic") == 0) return *boundary = HD_PERIODIC, true;
     if (status == HDR_OK && strcmp(text, "reflecting") == 0) return *boundary = HD_REFLECTING, true;
-    return refuse(r, "periodic or reflecting");
+    return reader_refuse(r, "periodic or reflecting");
 }
 
 /** Decimal digits and nothing else, at most `max`. */
@@ -103,7 +63,7 @@ static bool read_seed(const reader *r, void *field)
     if (as_string == HDR_MISSING) return true;
     const bool typed = as_string == HDR_OK || hdr_param_int(r->params, r->name, &number) == HDR_OK;
     return (typed && parse_unsigned(field, text, UINT64_MAX)) ||
-           refuse(r, "a string of digits, from \"0\" to \"18446744073709551615\"");
+           reader_refuse(r, "a string of digits, from \"0\" to \"18446744073709551615\"");
 }
 
 static bool read_exponents(const reader *r, void *field)
@@ -120,7 +80,7 @@ static bool read_exponents(const reader *r, void *field)
         if (parse_unsigned(&number, text, INT32_MAX) && number > 0)
             return *exponents = (int)number, true;
     }
-    return refuse(r, "positive, all, none or a number from 1 to 4 disks");
+    return reader_refuse(r, "positive, all, none or a number from 1 to 4 disks");
 }
 
 static bool read_interval(const reader *r, void *field)
@@ -131,7 +91,7 @@ static bool read_interval(const reader *r, void *field)
         return *interval = 0.0, true;
     const hdr_status status = hdr_param_double(r->params, r->name, interval);
     if (status == HDR_MISSING || (status == HDR_OK && *interval > 0.0)) return true;
-    return refuse(r, "auto, or a number from 1e-6 to 1e12");
+    return reader_refuse(r, "auto, or a number from 1e-6 to 1e12");
 }
 
 /** A set of topics out of `allowed` ones. */
@@ -141,11 +101,11 @@ static bool read_topics(const reader *r, unsigned *set, unsigned allowed, const 
     int count = 0;
     const hdr_status status = hdr_param_string_list(r->params, r->name, &names, &count);
     if (status == HDR_MISSING) return true;
-    if (status != HDR_OK) return refuse(r, allowed_text);
+    if (status != HDR_OK) return reader_refuse(r, allowed_text);
     *set = 0;
     for (int k = 0; k < count; k++) {
         const unsigned bit = topic_bit_of(names[k]);
-        if (!(bit & allowed)) return refuse(r, allowed_text);
+        if (!(bit & allowed)) return reader_refuse(r, allowed_text);
         *set |= bit;
     }
     return true;
@@ -153,8 +113,7 @@ static bool read_topics(const reader *r, unsigned *set, unsigned allowed, const 
 
 static bool read_observables(const reader *r, void *field)
 {
-    return read_topics(r, field, TOPICS_OBSERVABLE,
-                       "a list out of " OBSERVABLES_TEXT " (this version computes no covariant)");
+    return read_topics(r, field, TOPICS_OBSERVABLE, "a list out of " OBSERVABLES_TEXT);
 }
 
 static bool read_awaited(const reader *r, void *field)
@@ -179,7 +138,7 @@ static bool read_field_indices(const reader *r, void *field)
     if (status == HDR_MISSING) return true;
     choice->text = hdr_param_text(r->params, r->name);
     return (status == HDR_OK && choice->count > 0) ||
-           refuse(r, "steps or a list of integers from 1");
+           reader_refuse(r, "steps or a list of integers from 1");
 }
 
 #define MARKER_MODES_TEXT "lowest or a list of 1 to 8 modes such as T(1,0) or LP(1,1)"
@@ -207,9 +166,9 @@ static bool read_marker_modes(const reader *r, void *field)
     const hdr_status status = hdr_param_string_list(r->params, r->name, &names, &count);
     if (status == HDR_MISSING) return true;
     if (status != HDR_OK || count < 1 || count > MARKER_MODES_MAX)
-        return refuse(r, MARKER_MODES_TEXT);
+        return reader_refuse(r, MARKER_MODES_TEXT);
     for (int k = 0; k < count; k++)
-        if (!parse_mode(&choice->mode[k], names[k])) return refuse(r, MARKER_MODES_TEXT);
+        if (!parse_mode(&choice->mode[k], names[k])) return reader_refuse(r, MARKER_MODES_TEXT);
     choice->text = hdr_param_text(r->params, r->name);
     choice->count = count;
     return true;
@@ -220,7 +179,44 @@ static bool read_path(const reader *r, void *field)
 {
     const char **path = field;
     const hdr_status status = hdr_param_string(r->params, r->name, path);
-    return accept(r, status, "a string") && (is_one_line(*path) || refuse(r, "a path in one line"));
+    return reader_accepts(r, status, "a string") && (is_one_line(*path) || reader_refuse(r, "a path in one line"));
+}
+
+static const char *const storage_names[] = {
+    [HD_STORAGE_MEMORY] = "memory", [HD_STORAGE_FILE] = "file", [HD_STORAGE_RECOMPUTE] = "recompute"};
+
+const char *settings_storage_name(hd_storage storage) { return storage_names[storage]; }
+
+static bool read_storage(const reader *r, void *field)
+{
+    hd_storage *storage = field;
+    const char *text = NULL;
+    const hdr_status status = hdr_param_string(r->params, r->name, &text);
+    if (status == HDR_MISSING) return true;
+    for (hd_storage s = HD_STORAGE_MEMORY; status == HDR_OK && s <= HD_STORAGE_RECOMPUTE; s++)
+        if (strcmp(text, storage_names[s]) == 0) return *storage = s, true;
+    return reader_refuse(r, "memory, file or recompute");
+}
+
+/** GB of a parameter, bytes of the core. */
+static bool read_gigabytes(const reader *r, void *field)
+{
+    double *bytes = field, gigabytes = 0.0;
+    const hdr_status status = hdr_param_double(r->params, r->name, &gigabytes);
+    if (status == HDR_MISSING) return true;
+    *bytes = gigabytes * BYTES_PER_GB;
+    return (status == HDR_OK && gigabytes >= 1e-3 && gigabytes <= 1e6) || reader_refuse(r, "from 0.001 to 1e6 [GB]");
+}
+
+static bool read_folder(const reader *r, void *field)
+{
+    const char *path = NULL;
+    const hdr_status status = hdr_param_string(r->params, r->name, &path);
+    if (status == HDR_MISSING) return true;
+    if (status != HDR_OK || !*path || !is_one_line(path) || strlen(path) >= HD_FOLDER_MAX)
+        return reader_refuse(r, "a path in one line, of at most 511 bytes");
+    strcpy(field, path);
+    return true;
 }
 
 static const struct parameter {
@@ -245,6 +241,12 @@ static const struct parameter {
     {"report_interval", read_double, offsetof(settings, def.report_interval)},
     {"max_wave_number", read_double, offsetof(settings, def.max_wave_number)},
     {"max_node", read_int, offsetof(settings, def.max_node)},
+    {"covariant_window", read_double, offsetof(settings, def.covariant_window)},
+    {"covariant_transient", read_double, offsetof(settings, def.covariant_transient)},
+    {"covariant_sampling", read_double, offsetof(settings, def.covariant_sampling)},
+    {"covariant_memory", read_gigabytes, offsetof(settings, def.covariant_memory)},
+    {"covariant_storage", read_storage, offsetof(settings, def.covariant_storage)},
+    {"covariant_folder", read_folder, offsetof(settings, def.covariant_folder)},
     {"field_indices", read_field_indices, offsetof(settings, fields)},
     {"marker_modes", read_marker_modes, offsetof(settings, markers)},
     {"marker_rate", read_double, offsetof(settings, markers.rate)},
@@ -271,7 +273,7 @@ static bool check_names(reader *r)
 {
     for (int k = 0; k < hdr_params_count(r->params); k++) {
         r->name = hdr_params_name(r->params, k);
-        if (!is_known(r->name)) return refuse(r, "removed: there is no parameter of this name");
+        if (!is_known(r->name)) return reader_refuse(r, "removed: there is no parameter of this name");
     }
     return true;
 }
@@ -292,16 +294,16 @@ static bool check_times(const settings *set, reader *r)
     const double most = 1e12;
     r->name = "field_interval";
     if (!(set->field_interval >= 0.0 && set->field_interval <= most))
-        return refuse(r, "from 0 (with every report) to 1e12");
+        return reader_refuse(r, "from 0 (with every report) to 1e12");
     r->name = "pace";
     if (!(set->pace >= 0.0 && set->pace <= most))
-        return refuse(r, "from 0 (as fast as it goes) to 1e12");
+        return reader_refuse(r, "from 0 (as fast as it goes) to 1e12");
     r->name = "marker_rate";
     if (!(set->markers.rate >= 0.01 && set->markers.rate <= 100.0))
-        return refuse(r, "from 0.01 to 100");
+        return reader_refuse(r, "from 0.01 to 100");
     r->name = "checkpoint_interval";
     return (set->checkpoint_interval >= 0.0 && set->checkpoint_interval <= most) ||
-           refuse(r, "from 0 (only at the end and when asked) to 1e12");
+           reader_refuse(r, "from 0 (only at the end and when asked) to 1e12");
 }
 
 /** Without exponents the defaults that need them go silently. */
@@ -310,7 +312,7 @@ static bool check_observables(settings *set, reader *r)
     r->name = "observables";
     if (set->def.exponents == HD_EXPONENTS_NONE && (set->observables & OF_EXPONENTS)) {
         if (*hdr_param_text(r->params, r->name))
-            return refuse(r, "[state] or [] when exponents = none");
+            return reader_refuse(r, "[state] or [] when exponents = none");
         set->observables &= ~(unsigned)OF_EXPONENTS;
     }
     set->def.observe = topic_stages(set->observables);
@@ -322,21 +324,47 @@ static bool check_awaited(settings *set, reader *r)
     const unsigned published = set->observables | TOPICS_ALWAYS;
     r->name = "wait_for_subscribers";
     if (set->awaited == ALL_PUBLISHED) set->awaited = published;
-    return !(set->awaited & ~published) || refuse(r, "out of run_info, cost and the observables");
+    return !(set->awaited & ~published) || reader_refuse(r, "out of run_info, cost and the observables");
 }
 
 /** What is asked for of modes that nobody observes. */
 static bool check_modes(const settings *set, reader *r)
 {
-    const char *const allowed = "0 without an observable out of " OF_MODES_TEXT;
-    const bool observed = set->observables & TOPICS_OF_MODES;
+    const char *const allowed = "0 without an observable out of " OF_WAVES_TEXT;
+    const bool observed = set->observables & OF_WAVES;
     r->name = "max_wave_number";
-    if (set->def.max_wave_number != 0.0 && !observed) return refuse(r, allowed);
+    if (set->def.max_wave_number != 0.0 && !observed) return reader_refuse(r, allowed);
     r->name = "max_node";
-    if (set->def.max_node != 0 && !observed) return refuse(r, allowed);
+    if (set->def.max_node != 0 && !observed) return reader_refuse(r, allowed);
     r->name = "field_indices";
     return set->fields.count == 0 || (set->observables & topic_bit(TOPIC_FIELDS)) ||
-           refuse(r, "steps unless fields is an observable");
+           reader_refuse(r, "steps unless fields is an observable");
+}
+
+/** What is given of covariant vectors that nobody observes; defaults may be. */
+static bool check_covariant(const settings *set, reader *r)
+{
+    const hd_scene_def usual = hd_scene_def_default(), *def = &set->def;
+    const struct {
+        const char *name;
+        bool changed;
+        const char *allowed;
+    } table[] = {
+#define UNLESS " unless covariant is an observable"
+        {"covariant_window", def->covariant_window != usual.covariant_window, "50" UNLESS},
+        {"covariant_transient", def->covariant_transient != usual.covariant_transient, "100" UNLESS},
+        {"covariant_sampling", def->covariant_sampling != usual.covariant_sampling, "5" UNLESS},
+        {"covariant_memory", def->covariant_memory != usual.covariant_memory, "4" UNLESS},
+        {"covariant_storage", def->covariant_storage != usual.covariant_storage, "memory" UNLESS},
+        {"covariant_folder", strcmp(def->covariant_folder, usual.covariant_folder) != 0, "/tmp" UNLESS},
+#undef UNLESS
+    };
+    if (set->observables & topic_bit(TOPIC_COVARIANT)) return true;
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        r->name = table[k].name;
+        if (table[k].changed && *hdr_param_text(r->params, r->name)) return reader_refuse(r, table[k].allowed);
+    }
+    return true;
 }
 
 /** Of a scene that is right. */
@@ -348,13 +376,13 @@ static bool check_field_indices(const settings *set, reader *r)
     snprintf(allowed, sizeof allowed,
              "steps or a list of integers from 1 to %d, the vectors carried", vectors);
     for (int k = 0; k < set->fields.count; k++)
-        if (set->fields.index[k] < 1 || set->fields.index[k] > vectors) return refuse(r, allowed);
+        if (set->fields.index[k] < 1 || set->fields.index[k] > vectors) return reader_refuse(r, allowed);
     return true;
 }
 
 static bool is_looked_for(const settings *set, const marker_mode *mode)
 {
-    const int count = set->def.observe ? hd_waves(&set->def, NULL, 0) : 0;
+    const int count = set->observables & TOPICS_OF_MODES ? hd_waves(&set->def, NULL, 0) : 0;
     hd_wave *waves = malloc(((size_t)count + 1) * sizeof *waves);
     bool found = !waves; /* the run will say so */
     if (waves && count > 0) hd_waves(&set->def, waves, count);
@@ -370,7 +398,7 @@ static bool check_marker_modes(const settings *set, reader *r)
     r->name = "marker_modes";
     for (int k = 0; k < set->markers.count; k++)
         if (!is_looked_for(set, &set->markers.mode[k]))
-            return refuse(r, MARKER_MODES_TEXT ", of wave vectors that are looked for (max_node, max_wave_number)");
+            return reader_refuse(r, MARKER_MODES_TEXT ", of wave vectors that are looked for (max_node, max_wave_number)");
     return true;
 }
 
@@ -391,13 +419,12 @@ bool settings_resume(const char **path, const hdr_params *params, char *message,
     return read_path(&r, path);
 }
 
-/** What the modes of a checkpoint are published as; the rest as documented. */
+/** What the stages of a checkpoint are published as, and what needs none. */
 static unsigned topics_of(unsigned stages)
 {
-    unsigned set = TOPICS_OBSERVABLE & ~(unsigned)TOPICS_OF_MODES;
+    unsigned set = TOPICS_OBSERVABLE;
     for (topic t = 0; t < TOPICS; t++)
-        if ((topic_bit(t) & TOPICS_OF_MODES) && !(topic_stages(topic_bit(t)) & ~stages))
-            set |= topic_bit(t);
+        if (topic_stages(topic_bit(t)) & ~stages) set &= ~topic_bit(t);
     return set;
 }
 
@@ -406,7 +433,7 @@ static settings defaults(const hd_checkpoint *kept)
     settings set = {
         .def = hd_scene_def_default(),
         .scene = "paper_periodic",
-        .observables = TOPICS_OBSERVABLE & ~topic_bit(TOPIC_HYDRO),
+        .observables = TOPICS_OBSERVABLE & ~topic_bit(TOPIC_HYDRO) & ~topic_bit(TOPIC_COVARIANT),
         .fields = {.text = "steps"},
         .markers = {.text = "lowest", .rate = 10.0},
         .field_interval = 10.0,
@@ -429,7 +456,7 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
     if (!check_names(&r) || !read_all(out, &r)) return false;
     if (!check_times(out, &r) || !check_observables(out, &r) || !check_awaited(out, &r))
         return false;
-    if (!check_modes(out, &r)) return false;
+    if (!check_modes(out, &r) || !check_covariant(out, &r)) return false;
     write_texts(out);
     return hd_scene_check(&out->def, message, size) == HD_OK && check_field_indices(out, &r) &&
            check_marker_modes(out, &r);

@@ -16,6 +16,7 @@ static const struct {
     [TOPIC_LP_PHASES] = {"lp_phases", HD_OBSERVE_PHASES},
     [TOPIC_FIELDS] = {"fields", HD_OBSERVE_FIELDS},
     [TOPIC_HYDRO] = {"hydro", HD_OBSERVE_HYDRO},
+    [TOPIC_COVARIANT] = {"covariant", HD_OBSERVE_COVARIANT},
     [TOPIC_STATE] = {"state", 0},
     [TOPIC_COST] = {"cost", 0},
 };

@@ -10,6 +10,7 @@ typedef enum topic {
     TOPIC_LP_PHASES,
     TOPIC_FIELDS,
     TOPIC_HYDRO,
+    TOPIC_COVARIANT,
     TOPIC_STATE,
     TOPIC_COST,
     TOPICS

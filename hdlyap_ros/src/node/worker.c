@@ -7,6 +7,7 @@
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "clock.h"
@@ -152,6 +153,7 @@ static hd_status publish(worker *w)
     hd_status status = HD_OK;
     pthread_mutex_lock(&w->publishing);
     if (!w->closed && hd_run_report_due(w->run)) status = report_publish(w->rep, w->run);
+    if (!w->closed && status == HD_OK) status = report_window(w->rep, w->run);
     if (!w->closed && status == HD_OK) status = report_picture(w->rep, w->run, false);
     pthread_mutex_unlock(&w->publishing);
     return status;
@@ -184,14 +186,45 @@ static hd_status step(worker *w)
     return status;
 }
 
+/** The checkpoint of the end, and what it has ended: the way back through a window of covariant vectors. */
+static hd_status finish(worker *w)
+{
+    hd_status status = HD_OK;
+    pthread_mutex_lock(&w->lock);
+    save(w);
+    pthread_mutex_unlock(&w->lock);
+    pthread_mutex_lock(&w->publishing);
+    if (!w->closed) status = report_window(w->rep, w->run);
+    pthread_mutex_unlock(&w->publishing);
+    return status;
+}
+
+/** What ended the run, while errno is as that has left it: the only file of a step is that of covariant vectors.
+ *  Lock held. */
+static void explain(worker *w, hd_status status)
+{
+    const int error = errno;
+    const hd_scene_def *scene = hd_run_scene(w->run);
+    const double interval = hd_run_cost(w->run).interval;
+    char *fault = w->state.fault;
+    const size_t size = sizeof w->state.fault;
+    snprintf(fault, size, "%s", hd_status_text(status));
+    if (status == HD_FILE_FAULT)
+        snprintf(fault, size, "covariant_folder = %.150s: %s", scene->covariant_folder, strerror(error));
+    else if (status == HD_NO_ROOM && hd_covariant_check_room(scene, interval, fault, size) == HD_OK)
+        snprintf(fault, size, "%s = %.3g GB, orthonormalised more often than every %.3g time units",
+                 hd_status_text(status), scene->covariant_memory / BYTES_PER_GB, interval);
+}
+
 static void *work(void *context)
 {
     worker *w = context;
     hd_status status = HD_OK;
     if (!wait_for_subscribers(w)) return NULL;
     while (status == HD_OK && hd_run_phase(w->run) != HD_FINISHED && obey(w)) status = step(w);
+    if (status == HD_OK) status = finish(w);
     pthread_mutex_lock(&w->lock);
-    if (status == HD_OK) save(w);
+    if (status != HD_OK) explain(w, status);
     w->state.status = status;
     enter(w, WORKER_ENDED);
     pthread_mutex_unlock(&w->lock);

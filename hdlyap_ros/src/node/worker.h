@@ -19,6 +19,7 @@ typedef enum worker_stage {
 typedef struct worker_state {
     worker_stage stage;
     hd_status status; /**< the fault that ended it, else HD_OK */
+    char fault[256];  /**< in words, with its numbers */
     progress last;
     error_course errors; /**< of the exponents nearest to zero */
     examination disks;   /**< as of the last worker_examine */

@@ -53,6 +53,7 @@ inline void take(reader &in, hdr_doubles &array)
 }
 
 inline void take(reader &in, hdr_uints &list) { take_numbers(in, list.data, list.count); }
+inline void take(reader &in, hdr_counts &list) { take_numbers(in, list.data, list.count); }
 inline void take(reader &in, hdr_bytes &list) { take_numbers(in, list.data, list.count); }
 
 inline void take(reader &in, const char *&text)

@@ -9,6 +9,7 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <hdlyap/Cost.h>
+#include <hdlyap/Covariant.h>
 #include <hdlyap/Hydro.h>
 #include <hdlyap/LpPhases.h>
 #include <hdlyap/ModeField.h>
@@ -29,6 +30,8 @@ static_assert(int(HDR_FINISHED) == int(hdlyap::Cost::FINISHED), "phases as in Co
 static_assert(int(HDR_MODE_LP) == int(hdlyap::Mode::LP), "kinds as in Mode.msg");
 static_assert(int(HDR_MODE_LP) == int(hdlyap::Step::LP), "kinds as in Step.msg");
 static_assert(int(HDR_LP_TRACKED) == int(hdlyap::LpPhase::TRACKED), "states as in LpPhase.msg");
+static_assert(int(HDR_CENTRE_STABLE) == int(hdlyap::CovariantAngle::CENTRE_STABLE),
+              "pairs of spaces as in CovariantAngle.msg");
 static_assert(int(HDR_DIAGNOSTIC_ERROR) == int(diagnostic_msgs::DiagnosticStatus::ERROR),
               "levels as in DiagnosticStatus.msg");
 static_assert(int(HDR_MARKER_TEXT) == int(visualization_msgs::Marker::TEXT_VIEW_FACING) &&
@@ -134,6 +137,11 @@ template <class Stream> void put(Stream &stream, const hdr_uints &list)
     put_numbers(stream, list.data, list.count);
 }
 
+template <class Stream> void put(Stream &stream, const hdr_counts &list)
+{
+    put_numbers(stream, list.data, list.count);
+}
+
 template <class Stream> void put(Stream &stream, const hdr_bytes &list)
 {
     put_numbers(stream, list.data, list.count);
@@ -184,7 +192,8 @@ template <> struct message_of<hdr_run_info> {
              v.box_y, v.boundary_x, v.boundary_y, v.seed, v.exponents, v.vectors, v.zero_exponents,
              v.equilibration, v.warmup, v.duration, v.target_std_error, v.interval, v.accuracy,
              v.report_interval, v.observables, v.max_wave_number, v.max_node, v.wave_nx, v.wave_ny,
-             v.field_indices, v.field_interval, v.wait_for_subscribers, v.pace, v.marker_modes,
+             v.covariant_window, v.covariant_transient, v.covariant_sampling, v.covariant_memory,
+             v.covariant_storage, v.covariant_folder, v.field_indices, v.field_interval, v.wait_for_subscribers, v.pace, v.marker_modes,
              v.marker_rate, v.checkpoint, v.checkpoint_interval, v.resume, v.resumed_time, v.threads, v.blas_threads,
              v.blas_library, v.blas_kernel, v.blas_threading);
     }
@@ -278,6 +287,33 @@ template <> struct message_of<hdr_hydro> {
     }
 };
 
+template <> struct message_of<hdr_covariant_angle> {
+    template <class Stream, class View> static void fields(Stream &s, View &v)
+    {
+        pass(s, v.spaces, v.last, v.mean, v.std_error, v.least, v.mean_of_all, v.smallest_counts,
+             v.all_counts);
+    }
+};
+
+template <> struct message_of<hdr_covariant_weight> {
+    template <class Stream, class View> static void fields(Stream &s, View &v)
+    {
+        pass(s, v.kind, v.nx, v.ny, v.wave_number, v.dimension, v.dq, v.dp, v.gram_schmidt);
+    }
+};
+
+template <> struct message_of<hdr_covariant> {
+    using type = hdlyap::Covariant;
+    template <class Stream, class View> static void fields(Stream &s, View &v)
+    {
+        pass(s, v.header, v.run_id, v.sim_time, v.averaged_time, v.windows, v.lost_windows, v.looks,
+             v.seconds, v.first_index, v.exponents, v.std_errors, v.local_exponents, v.apart,
+             v.neighbour_angles, v.least_neighbour_angles, v.violations, v.entangled, v.widths,
+             v.cos_theta, v.centre_apart, v.stable_apart, v.null_angle, v.largest_null_angle,
+             items_of(v.angles, v.angle_count), items_of(v.weights, v.weight_count));
+    }
+};
+
 template <> struct message_of<hdr_state> {
     using type = hdlyap::State;
     template <class Stream, class View> static void fields(Stream &s, View &v)
@@ -292,7 +328,7 @@ template <> struct message_of<hdr_cost> {
     {
         pass(s, v.header, v.run_id, v.sim_time, v.phase, v.wall_seconds, v.events_seconds,
              v.replay_seconds, v.ortho_seconds, v.spectrum_seconds, v.modes_seconds,
-             v.publish_seconds, v.events_per_second, v.interval, v.interval_limit, v.condition,
+             v.covariant_seconds, v.publish_seconds, v.events_per_second, v.interval, v.interval_limit, v.condition,
              v.orthogonality_defect, v.error_bound, v.orthonormalisations, v.second_passes, v.looks,
              v.repairs, v.std_error, v.progress, v.remaining_seconds);
     }
@@ -384,6 +420,7 @@ HDR_VIEW_TRAITS(hdr_steps)
 HDR_VIEW_TRAITS(hdr_lp_phases)
 HDR_VIEW_TRAITS(hdr_mode_field)
 HDR_VIEW_TRAITS(hdr_hydro)
+HDR_VIEW_TRAITS(hdr_covariant)
 HDR_VIEW_TRAITS(hdr_state)
 HDR_VIEW_TRAITS(hdr_cost)
 HDR_VIEW_TRAITS(hdr_diagnostic)
@@ -421,6 +458,8 @@ template <> struct Serializer<hdr_lp_phases> : ViewSerializer<hdr_lp_phases> {
 template <> struct Serializer<hdr_mode_field> : ViewSerializer<hdr_mode_field> {
 };
 template <> struct Serializer<hdr_hydro> : ViewSerializer<hdr_hydro> {
+};
+template <> struct Serializer<hdr_covariant> : ViewSerializer<hdr_covariant> {
 };
 template <> struct Serializer<hdr_state> : ViewSerializer<hdr_state> {
 };

@@ -6,7 +6,7 @@ from ..stages import LABELS, STAGES
 from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, plt, thinned
 
 STAGE_COLOURS = {'events': BLUE, 'replay': SKY, 'ortho': ORANGE, 'spectrum': GREEN,
-                 'modes': VERMILION, 'publish': PURPLE, 'other': '#BFBFBF'}
+                 'modes': VERMILION, 'covariant': INK, 'publish': PURPLE, 'other': '#BFBFBF'}
 PHASES = ('equilibration', 'warm-up', 'averaging')
 
 

@@ -1,0 +1,24 @@
+/** Angles between spaces that are spanned by columns of one matrix [T18]. */
+#ifndef HD_ANGLES_H
+#define HD_ANGLES_H
+
+#include "hdlyap/status.h"
+
+/** Columns first .. first + count - 1 of a column-major C with n rows. */
+typedef struct hd_span {
+    int first, count;
+} hd_span;
+
+/** Room for the work. */
+typedef struct hd_angles hd_angles;
+
+/** For spaces of at most `widest` dimensions. */
+HD_MUST_CHECK hd_status hd_angles_create(hd_angles **out, int rows, int widest);
+void hd_angles_free(hd_angles *angles);
+
+/** Principal angles [radians, 0 .. pi / 2], smallest first: angle[min(a.count, b.count)]. The columns may be as oblique as
+ *  their numbers allow, none zero. HD_ILL_CONDITIONED where they are dependent, or no numbers.
+ *  Cost about 2 n (a^2 + b^2) + 4 n a b + 4 n b^2 flops for dimensions a >= b. */
+HD_MUST_CHECK hd_status hd_angles_between(hd_angles *angles, double *angle, const double *c, hd_span a, hd_span b);
+
+#endif

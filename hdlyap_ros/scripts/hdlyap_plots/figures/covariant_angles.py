@@ -1,0 +1,49 @@
+"""Distributions of the angles between unstable, centre and stable space."""
+
+import numpy as np
+
+from .. import covariant
+from .style import BLUE, GREEN, VERMILION, plt, scene
+
+COLOURS = (VERMILION, BLUE, GREEN)      # of the pairs of spaces
+ROOM = 1.4     # above the curves, for what is said
+
+
+def draw(run):
+    message = run.covariant
+    if message is None or not message.angles:
+        return None
+    figure, (left, right) = plt.subplots(1, 2, figsize=(7.2, 3.4), constrained_layout=True)
+    for axes, counts, title in ((left, 'smallest_counts', '(a) smallest angle'),
+                                (right, 'all_counts', '(b) all principal angles')):
+        _histograms(axes, message.angles, counts)
+        axes.set_title(title, loc='left')
+        axes.set_xlim(0, covariant.RIGHT_ANGLE)
+        axes.set_ylim(0, ROOM * axes.get_ylim()[1])
+        axes.set_xticks(covariant.RIGHT_ANGLE * np.linspace(0, 1, 5))
+        axes.set_xticklabels(['0', r'$\pi/8$', r'$\pi/4$', r'$3\pi/8$', r'$\pi/2$'])
+        axes.set_xlabel('angle  [rad]')
+    left.set_ylabel('probability density  [1/rad]')
+    figure.suptitle(f'{scene(run.info)}, {message.looks} looks', fontsize=9)
+    return figure
+
+
+def _histograms(axes, angles, name):
+    """What is all in one bin is said instead of drawn: its peak would hide the others."""
+    for angle in angles:
+        counts, colour = getattr(angle, name), COLOURS[angle.spaces]
+        at = covariant.only_bin(counts)
+        if at:
+            axes.plot([], [], linestyle='', label=_said(angle, at))
+        elif sum(counts):
+            axes.step(covariant.edges(counts), np.append(covariant.density(counts), 0), where='post',
+                      color=colour, linewidth=1, label=covariant.SPACES[angle.spaces])
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc='upper left', handlelength=1, borderaxespad=0.2, fontsize=7)
+
+
+def _said(angle, at):
+    right = np.isclose(at[1], covariant.RIGHT_ANGLE)
+    low, high = np.degrees(at)
+    where = f'at right angles, within {high - low:.0f}°' if right else f'{low:.0f} .. {high:.0f}°'
+    return f'{covariant.SPACES[angle.spaces]}: {where}'
