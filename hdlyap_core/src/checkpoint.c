@@ -138,7 +138,11 @@ void hd_run_write(hd_run *run, hd_archive *archive, const char *label)
 hd_status hd_run_save(hd_run *run, const char *path, const char *label, char *message, size_t size)
 {
     hd_checkpoint_file file;
-    HD_TRY(hd_run_settle(run));
+    const hd_status settled = hd_run_settle(run);
+    if (settled != HD_OK) {
+        (void)hd_refuse(message, size, "%s", hd_status_text(settled));
+        return settled;
+    }
     HD_TRY(hd_checkpoint_file_begin(&file, path, message, size));
     hd_archive archive = hd_archive_writer(file.file);
     hd_run_write(run, &archive, label);

@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 import threading
 import time
+import unittest
 
 import roslib.packages
 import rosgraph
@@ -153,3 +154,17 @@ class Listener:
 
     def close(self):
         self.subscriber.unregister()
+
+
+class Case(unittest.TestCase):
+    """Nodes and listeners that end with the test."""
+
+    def start(self, params, **how):
+        node = start(params, **how)
+        self.addCleanup(node.stop)
+        return node
+
+    def listen(self, topic):
+        listener = Listener(topic)
+        self.addCleanup(listener.close)
+        return listener

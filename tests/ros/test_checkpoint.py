@@ -4,7 +4,6 @@
 import os
 import signal
 import tempfile
-import unittest
 
 import rospy
 import rostest
@@ -22,21 +21,11 @@ RUN = dict(disks=60, density=0.8, aspect=0.06, equilibration=5.0, warmup=20.0, d
            wait_for_subscribers='all')
 
 
-class Checkpoint(unittest.TestCase):
+class Checkpoint(harness.Case):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.file = os.path.join(folder.name, 'run.checkpoint')
-
-    def start(self, params, **how):
-        node = harness.start(params, **how)
-        self.addCleanup(node.stop)
-        return node
-
-    def listen(self, topic):
-        listener = harness.Listener(topic)
-        self.addCleanup(listener.close)
-        return listener
 
     def call(self, name, kind, *request):
         rospy.wait_for_service('/%s/%s' % (NODE, name), harness.PATIENCE)

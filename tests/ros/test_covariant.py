@@ -34,17 +34,7 @@ def plain(message):
     return {name: str(getattr(message, name)) for name in message.__slots__ if name not in NOT_OF_THE_RUN}
 
 
-class Case(unittest.TestCase):
-    def start(self, params, **kw):
-        node = harness.start(params, **kw)
-        self.addCleanup(node.stop)
-        return node
-
-    def listen(self, topic):
-        listener = harness.Listener(topic)
-        self.addCleanup(listener.close)
-        return listener
-
+class Case(harness.Case):
     def run_of(self, **params):
         """Messages of covariant vectors of a run that ends by itself."""
         listener, cost = self.listen('covariant'), self.listen('cost')

@@ -398,7 +398,8 @@ static bool check_marker_modes(const settings *set, reader *r)
     r->name = "marker_modes";
     for (int k = 0; k < set->markers.count; k++)
         if (!is_looked_for(set, &set->markers.mode[k]))
-            return reader_refuse(r, MARKER_MODES_TEXT ", of wave vectors that are looked for (max_node, max_wave_number)");
+            return reader_refuse(r, MARKER_MODES_TEXT
+                                 ", of wave vectors that are looked for (max_node, max_wave_number)");
     return true;
 }
 
