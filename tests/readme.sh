@@ -43,6 +43,10 @@ type_in() {
         source*) return ;;                         # done below, for another folder
         'rosrun hdlyap hdlyap_node') run timeout --preserve-status -s INT 8 rosrun hdlyap hdlyap_node ;;
         *bench/run.sh*) run bash -ec "$1 --quick" ;; # fifteen minutes otherwise
+        *scene:=covariant*) # a minute otherwise
+            sed 's/^disks: .*/disks: 40/' "$ROOT/launch/scenes/covariant.yaml" >few.yaml
+            run bash -ec "${1/scene:=covariant/scene:=$PWD/few.yaml}"
+            ;;
         *rviz:=true*) opens_rviz bash -ec "$1" ;;
         *'hdlyap view') beside_a_node opens_rviz bash -ec "$1" ;;
         *follow* | rostopic*) beside_a_node bash -ec "timeout 60 $1" ;;
