@@ -46,9 +46,11 @@ def free_port():
 def wait_until(condition, seconds=PATIENCE):
     """The condition's value, as soon as it is true, at the latest after so many seconds."""
     end = time.monotonic() + seconds
-    while not condition() and time.monotonic() < end:
+    while True:
+        value = condition()     # looked at once: it may be true for a moment only
+        if value or time.monotonic() >= end:
+            return value
         time.sleep(0.01)
-    return condition()
 
 
 class Process:
