@@ -303,6 +303,12 @@ static void fill_null(const hd_covariant *c, double *column)
     }
 }
 
+/** NaN stays, which fmax would drop. */
+static void raise_to(double *most, double now)
+{
+    if (!(now <= *most) && !isnan(*most)) *most = now;
+}
+
 /** Largest angle between the covariant centre and the null space. */
 static hd_status measure_null(hd_covariant *c)
 {
@@ -314,7 +320,7 @@ static hd_status measure_null(hd_covariant *c)
     fill_null(c, columns + (size_t)c->centre * (size_t)c->rows);
     HD_TRY(hd_angles_between(c->null, c->growth, columns, covariant, exact));
     c->null_apart = c->growth[c->centre - 1];
-    c->null_apart_most = fmax(c->null_apart_most, c->null_apart);
+    raise_to(&c->null_apart_most, c->null_apart);
     return HD_OK;
 }
 
@@ -384,15 +390,15 @@ static hd_status meet(hd_covariant *c)
     apart->most = 0.0;
     for (int col = 0; col < c->vectors; col++) {
         c->apart[col] = hd_backward_apart(c->start[0], c->start[1], col);
-        apart->most = fmax(apart->most, c->apart[col]);
+        raise_to(&apart->most, c->apart[col]);
     }
     c->way = THROUGH_WINDOW;
     if (c->centre == 0) return HD_OK;
     HD_TRY(spaces_apart(c, &now, c->unstable, c->centre));
-    apart->centre = fmax(apart->centre, now);
+    raise_to(&apart->centre, now);
     if (stable == 0) return HD_OK;
     HD_TRY(spaces_apart(c, &now, c->unstable + c->centre, stable));
-    apart->stable = fmax(apart->stable, now);
+    raise_to(&apart->stable, now);
     return HD_OK;
 }
 

@@ -158,6 +158,21 @@ class Listener:
         self.subscriber.unregister()
 
 
+def whole_run(params, topics):
+    """All messages of a run that ends by itself, {topic: messages}; cost is among the topics."""
+    listeners = {topic: Listener(topic) for topic in topics}
+    node = start(params)
+    try:
+        status = node.wait()
+        listeners['cost'].wait_for(lambda cost: cost.phase == Cost.FINISHED)
+    finally:
+        node.stop()
+        for listener in listeners.values():
+            listener.close()
+    assert status == 0, node.text()
+    return {topic: listener.messages for topic, listener in listeners.items()}
+
+
 class Case(unittest.TestCase):
     """Nodes and listeners that end with the test."""
 

@@ -59,20 +59,11 @@ class Windows(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         topics = ('run_info', 'spectrum', 'covariant', 'cost')
-        listeners = {topic: harness.Listener(topic) for topic in topics}
-        node = harness.start(dict(SCENE, wait_for_subscribers=list(topics)))
-        try:
-            status = node.wait()
-            listeners['cost'].wait_for(lambda cost: cost.phase == Cost.FINISHED)
-        finally:
-            node.stop()
-            for listener in listeners.values():
-                listener.close()
-        assert status == 0, node.text()
-        cls.info = listeners['run_info'].messages[0]
-        cls.spectrum = listeners['spectrum'].messages[-1]
-        cls.cost = listeners['cost'].messages[-1]
-        cls.messages = listeners['covariant'].messages
+        messages = harness.whole_run(dict(SCENE, wait_for_subscribers=list(topics)), topics)
+        cls.info = messages['run_info'][0]
+        cls.spectrum = messages['spectrum'][-1]
+        cls.cost = messages['cost'][-1]
+        cls.messages = messages['covariant']
         cls.last = cls.messages[-1]
 
     def test_one_for_each_window(self):

@@ -22,18 +22,8 @@ class Agreement(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        listeners = {topic: harness.Listener(topic) for topic in harness.TYPES}
-        node = harness.start(dict(MODES, exponents='all', observables=OBSERVABLES, field_interval=0.0,
-                                  wait_for_subscribers='all'))
-        try:
-            status = node.wait()
-            listeners['cost'].wait_for(lambda cost: cost.phase == Cost.FINISHED)
-        finally:
-            node.stop()
-            for listener in listeners.values():
-                listener.close()
-        assert status == 0, node.text()
-        cls.messages = {topic: listener.messages for topic, listener in listeners.items()}
+        cls.messages = harness.whole_run(dict(MODES, exponents='all', observables=OBSERVABLES, field_interval=0.0,
+                                              wait_for_subscribers='all'), harness.TYPES)
         cls.info = cls.messages['run_info'][0]
 
     def last(self, topic):
