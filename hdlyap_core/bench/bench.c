@@ -1,8 +1,9 @@
 /** What a run costs: its parts, and the whole as a ratio to the floor
- *  F = 4 m n^2 flops at dgemm speed per ln(1e8) / (lambda_1 - lambda_n) of simulated time,
- *  all measured in one run on one machine, in rounds.
- *  Usage: hdlyap_bench [--disks N] [--threads N] [--rounds N] [--duration TIME UNITS OF A ROUND]
- *         [--whole] [--events] [--out FOLDER] [--name NAME]; with --out it writes FOLDER/NAME.csv; --whole and
+ * F = 4 m n^2 flops at dgemm speed per ln(1e8) / (lambda_1 - lambda_n) of simulated time,
+ * all measured in one run on one machine, in rounds.
+ * Usage: hdlyap_bench [--disks N] [--threads N] [--rounds N] [--duration TIME UNITS OF A ROUND]
+ *         [--whole] [--events] [--out FOLDER] [--name NAME]; with --out it writes FOLDER/NAME.csv;
+ * --whole and
  *         --events are for one part alone. */
 #include <hdlyap/hdlyap.h>
 #include <stdio.h>
@@ -16,7 +17,7 @@
 
 typedef struct asked {
     int disks, threads, rounds;
-    double duration; /**< of a round [time units] */
+    double duration;    /**< of a round [time units] */
     bool whole, events; /**< that part alone */
     const char *out, *name;
 } asked;
@@ -138,8 +139,9 @@ static void events_alone(int disks, double density, double collisions)
     hd_trajectory_free(trajectory);
 }
 
-/** One exponent of many disks: what its replay must move per event, a logged event and a tangent map in and out, the
- *  vector's eight numbers of two disks in and out, against copying as many bytes. */
+/** One exponent of many disks: what its replay must move per event, a logged event and a tangent
+ * map in and out, the vector's eight numbers of two disks in and out, against copying as many
+ * bytes. */
 static void one_exponent(int disks, double memory)
 {
     const double bytes_per_event = 48.0 + 2.0 * 64.0 + 2.0 * 8.0 * 8.0;
@@ -174,8 +176,9 @@ static void print_events(void)
     events_alone(100000, 0.7, 1e6);
     events_alone(780, 0.01, 1e5);
     const double memory = memory_rate();
-    printf("\nReplay of one exponent, one core; copying memory: %.1f GB/s\n%9s %12s %22s %12s %18s\n",
-           memory * 1e-9, "disks", "collisions", "million collisions / s", "GB/s", "% of copying");
+    printf(
+        "\nReplay of one exponent, one core; copying memory: %.1f GB/s\n%9s %12s %22s %12s %18s\n",
+        memory * 1e-9, "disks", "collisions", "million collisions / s", "GB/s", "% of copying");
     one_exponent(4000, memory);
     one_exponent(100000, memory);
 }

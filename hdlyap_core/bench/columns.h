@@ -1,4 +1,5 @@
-/** Tangent vectors as most programs keep them, one after the other, and how most programs orthonormalise them. */
+/** Tangent vectors as most programs keep them, one after the other, and how most programs
+ * orthonormalise them. */
 #ifndef HD_BENCH_COLUMNS_H
 #define HD_BENCH_COLUMNS_H
 

@@ -1,7 +1,6 @@
-/** How long a wanted standard error takes: lambda_1, c_T, c_L and v of one run of the paper's scene, with their
- *  standard errors, read at growing times.
- *  Usage: hdlyap_convergence [--out FOLDER] [--quick] [--duration TIME UNITS]; writes convergence.csv and
- *  convergence_targets.csv. */
+/** How long a wanted standard error takes: lambda_1, c_T, c_L and v of one run of the paper's
+ * scene, with their standard errors, read at growing times. Usage: hdlyap_convergence [--out
+ * FOLDER] [--quick] [--duration TIME UNITS]; writes convergence.csv and convergence_targets.csv. */
 #include <hdlyap/hdlyap.h>
 #include <math.h>
 #include <stdio.h>
@@ -29,7 +28,7 @@ typedef struct course {
     gemm *g;
 } course;
 
-/* ---- measuring -------------------------------------------------------------------------------- */
+/* ---- measuring ----------------------------------------------------------------------------- */
 
 static reading read_run(const hd_run *run, double wall)
 {
@@ -70,14 +69,15 @@ static void follow(hd_run *run, course *c)
     progress_end();
 }
 
-/* ---- telling ---------------------------------------------------------------------------------- */
+/* ---- telling ------------------------------------------------------------------------------- */
 
 static double relative_error(const reading *r, int quantity)
 {
     return r->error[quantity] > 0 ? r->error[quantity] / fabs(r->value[quantity]) : INFINITY;
 }
 
-/** First reading from which on the error is no larger than the target; NULL if the run is too short. */
+/** First reading from which on the error is no larger than the target; NULL if the run is too
+ * short. */
 static const reading *reached(const course *c, int quantity, double target)
 {
     const reading *r = c->at + c->count;
@@ -85,7 +85,8 @@ static const reading *reached(const course *c, int quantity, double target)
     return r < c->at + c->count ? r : NULL;
 }
 
-/** relative error * sqrt(time), median over the second half of the readings: the error falls as it should. */
+/** relative error * sqrt(time), median over the second half of the readings: the error falls as it
+ * should. */
 static double amplitude(const course *c, int quantity)
 {
     sample s = {0};

@@ -1,7 +1,8 @@
-/** What covariant vectors cost beside the forward pass, and what a longer transient buys: how far two starts still are apart where
- *  a window ends, and how far the covariant centre is from the exact null space. All 4N vectors.
- *  Usage: hdlyap_covariant [--disks N] [--positive] [--windows N] [--out FOLDER] [--quick]; 198 disks, 24 if quick; writes
- *  covariant.csv. --positive: the positive half alone. */
+/** What covariant vectors cost beside the forward pass, and what a longer transient buys: how far
+ * two starts still are apart where a window ends, and how far the covariant centre is from the
+ * exact null space. All 4N vectors. Usage: hdlyap_covariant [--disks N] [--positive] [--windows N]
+ * [--out FOLDER] [--quick]; 198 disks, 24 if quick; writes covariant.csv. --positive: the positive
+ * half alone. */
 #include <hdlyap/hdlyap.h>
 #include <math.h>
 #include <stdio.h>
@@ -26,8 +27,9 @@ typedef struct row {
     double transient;
 } row;
 
-static const row rows[] = {{HD_STORAGE_MEMORY, 5},   {HD_STORAGE_MEMORY, 20}, {HD_STORAGE_MEMORY, 50},
-                           {HD_STORAGE_MEMORY, 100}, {HD_STORAGE_FILE, 100},  {HD_STORAGE_RECOMPUTE, 100}};
+static const row rows[] = {{HD_STORAGE_MEMORY, 5},  {HD_STORAGE_MEMORY, 20},
+                           {HD_STORAGE_MEMORY, 50}, {HD_STORAGE_MEMORY, 100},
+                           {HD_STORAGE_FILE, 100},  {HD_STORAGE_RECOMPUTE, 100}};
 enum { ROWS = sizeof rows / sizeof *rows };
 
 static const char *const storages[] = {"memory", "file", "recompute"};
@@ -50,7 +52,7 @@ static hd_scene_def scene_of(const asked *a, row r)
     return scene;
 }
 
-/* ---- one run ---------------------------------------------------------------------------------- */
+/* ---- one run ------------------------------------------------------------------------------- */
 
 static int ascending(const void *x, const void *y)
 {
@@ -70,7 +72,10 @@ static double median_apart(const hd_covariant *c)
     return median;
 }
 
-static double forward_seconds(const hd_cost *cost) { return cost->events + cost->replay + cost->ortho; }
+static double forward_seconds(const hd_cost *cost)
+{
+    return cost->events + cost->replay + cost->ortho;
+}
 
 static void tell(const hd_run *run, row r, table *t, double began)
 {
@@ -81,12 +86,14 @@ static void tell(const hd_run *run, row r, table *t, double began)
     const double forward = (forward_seconds(&cost) - began) / length;
     const double back = cost.covariant / hd_spectrum_time(hd_covariant_spectrum(c));
     const double median = median_apart(c);
-    printf("%-10s %9g %8.2f %11.4f %11.4f %8.2f %10.1e %10.1e %10.1e\n", storages[r.storage], r.transient,
-           1e-9 * hd_covariant_bytes(c), forward, back, back / forward, median, apart.stable, hd_covariant_null_most(c));
+    printf("%-10s %9g %8.2f %11.4f %11.4f %8.2f %10.1e %10.1e %10.1e\n", storages[r.storage],
+           r.transient, 1e-9 * hd_covariant_bytes(c), forward, back, back / forward, median,
+           apart.stable, hd_covariant_null_most(c));
     fflush(stdout);
-    table_row(t, "%s,%g,%.4g,%.6g,%.6g,%.6g,%.4g,%.4g,%.4g,%d,%d,%ld", storages[r.storage], r.transient,
-              1e-9 * hd_covariant_bytes(c), forward, back, back / forward, median, apart.stable,
-              hd_covariant_null_most(c), hd_run_scene(run)->disks, hd_covariant_vectors(c), hd_covariant_windows(c));
+    table_row(t, "%s,%g,%.4g,%.6g,%.6g,%.6g,%.4g,%.4g,%.4g,%d,%d,%ld", storages[r.storage],
+              r.transient, 1e-9 * hd_covariant_bytes(c), forward, back, back / forward, median,
+              apart.stable, hd_covariant_null_most(c), hd_run_scene(run)->disks,
+              hd_covariant_vectors(c), hd_covariant_windows(c));
 }
 
 static void go(const asked *a, row r, table *t)
@@ -116,13 +123,15 @@ int main(int argc, char **argv)
                            {0}};
     options_read(argc, argv, list);
     if (a.quick) a.disks = 24;
-    table *t = table_create(a.out, "covariant",
-                            "storage,transient [time units],room [GB],forward [s/time unit],covariant [s/time unit],"
-                            "covariant over forward,median sine apart,stable spaces apart [rad],null angle [rad],disks,"
-                            "vectors,windows");
-    printf("%d disks, density 0.7, %s, windows of %g; seconds per time unit\n%-10s %9s %8s %11s %11s %8s %10s %10s %10s\n",
-           a.disks, a.positive ? "positive half" : "all 4N vectors", WINDOW, "storage", "transient", "room, GB", "forward",
-           "covariant", "ratio", "apart", "stable", "null");
+    table *t = table_create(
+        a.out, "covariant",
+        "storage,transient [time units],room [GB],forward [s/time unit],covariant [s/time unit],"
+        "covariant over forward,median sine apart,stable spaces apart [rad],null angle [rad],disks,"
+        "vectors,windows");
+    printf("%d disks, density 0.7, %s, windows of %g; seconds per time unit\n%-10s %9s %8s %11s "
+           "%11s %8s %10s %10s %10s\n",
+           a.disks, a.positive ? "positive half" : "all 4N vectors", WINDOW, "storage", "transient",
+           "room, GB", "forward", "covariant", "ratio", "apart", "stable", "null");
     progress shown = progress_begin("covariant", ROWS);
     for (int k = 0; k < ROWS; k++) {
         go(&a, rows[k], t);

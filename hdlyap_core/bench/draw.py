@@ -10,30 +10,54 @@ import os
 import sys
 
 import matplotlib
+
 matplotlib.use('Agg')
-import matplotlib.pyplot as plt     # noqa: E402
-from matplotlib import ticker       # noqa: E402
+import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib import ticker  # noqa: E402
 
 # Okabe and Ito's palette, safe for colour-blind readers
 BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = (
-    '#0072B2', '#E69F00', '#009E73', '#D55E00', '#CC79A7', '#56B4E9')
+    '#0072B2',
+    '#E69F00',
+    '#009E73',
+    '#D55E00',
+    '#CC79A7',
+    '#56B4E9',
+)
 GREY, LIGHT, INK = '#8C8C8C', '#C8C8C8', '#1A1A1A'
-STYLE = {'font.size': 9, 'axes.titlesize': 9, 'legend.fontsize': 8, 'xtick.labelsize': 8,
-         'ytick.labelsize': 8, 'xtick.direction': 'in', 'ytick.direction': 'in', 'xtick.top': True,
-         'ytick.right': True, 'axes.linewidth': 0.7, 'lines.linewidth': 1.2, 'lines.markersize': 4,
-         'legend.frameon': False, 'figure.constrained_layout.use': True}
-METHODS = {     # name in the table: label, colour, marker
+STYLE = {
+    'font.size': 9,
+    'axes.titlesize': 9,
+    'legend.fontsize': 8,
+    'xtick.labelsize': 8,
+    'ytick.labelsize': 8,
+    'xtick.direction': 'in',
+    'ytick.direction': 'in',
+    'xtick.top': True,
+    'ytick.right': True,
+    'axes.linewidth': 0.7,
+    'lines.linewidth': 1.2,
+    'lines.markersize': 4,
+    'legend.frameon': False,
+    'figure.constrained_layout.use': True,
+}
+METHODS = {  # name in the table: label, colour, marker
     'ours': ('hdlyap (hd_ortho_step)', VERMILION, 'o'),
     'cholesky': ('Cholesky, one pass', SKY, 's'),
     'cholesky_twice': ('Cholesky, two passes', BLUE, 'D'),
     'mixed': ('Cholesky, triangle in single', GREEN, '^'),
     'single': ('Cholesky, all in single', ORANGE, 'v'),
     'householder': ('Householder', PURPLE, 'P'),
-    'gram_schmidt': ('modified Gram-Schmidt', GREY, 'X')}
-WRONG, FAILS = 1e-2, 1e1        # from where an exponent is useless; above this failures are drawn
+    'gram_schmidt': ('modified Gram-Schmidt', GREY, 'X'),
+}
+WRONG, FAILS = 1e-2, 1e1  # from where an exponent is useless; above this failures are drawn
 PARTS = {'events': BLUE, 'replay': GREEN, 'factorisation': VERMILION, 'modes': PURPLE}
-QUANTITIES = {'lambda_1': (r'$\lambda_1$', INK), 'c_T': (r'$c_T$', BLUE),
-              'c_L': (r'$c_L$', VERMILION), 'v': (r'$v$', GREEN)}
+QUANTITIES = {
+    'lambda_1': (r'$\lambda_1$', INK),
+    'c_T': (r'$c_T$', BLUE),
+    'c_L': (r'$c_L$', VERMILION),
+    'v': (r'$v$', GREEN),
+}
 
 
 class Table:
@@ -77,12 +101,17 @@ def precision(tables):
     _shade(cliff, left=True)
     _shade(work, left=False)
     _label_intervals(work, table)
-    cliff.set(xscale='log', yscale='log', ylim=(1e-16, 1e7), xlabel='interval  [time units]',
-              ylabel='largest deviation of an exponent  [1/time unit]')
+    cliff.set(
+        xscale='log',
+        yscale='log',
+        ylim=(1e-16, 1e7),
+        xlabel='interval  [time units]',
+        ylabel='largest deviation of an exponent  [1/time unit]',
+    )
     cliff.margins(x=0.06)
     cliff.set_xticks([0.25, 0.5, 1, 2, 4, 8])
     cliff.set_xticklabels(['0.25', '0.5', '1', '2', '4', '8'])
-    cliff.set_yticks([10.0 ** k for k in range(-15, 1, 3)])
+    cliff.set_yticks([10.0**k for k in range(-15, 1, 3)])
     cliff.minorticks_off()
     work.set(xscale='log', xlabel='replay and factorisation  [s/time unit]')
     cliff.set_title('(a) too long an interval: the cliff', loc='left')
@@ -100,8 +129,15 @@ def _seconds(row):
 def _draw_method(axes, method, x, rows):
     label, colour, marker = METHODS[method]
     wide = 2.0 if method == 'ours' else 1.1
-    axes.plot(x, [row['deviation of any'] for row in rows], color=colour, marker=marker,
-              linewidth=wide, label=label, zorder=3 if method == 'ours' else 2)
+    axes.plot(
+        x,
+        [row['deviation of any'] for row in rows],
+        color=colour,
+        marker=marker,
+        linewidth=wide,
+        label=label,
+        zorder=3 if method == 'ours' else 2,
+    )
 
 
 def _mark_failure(axes, method, rows):
@@ -109,23 +145,42 @@ def _mark_failure(axes, method, rows):
     failed = [row['interval'] for row in rows if row['status'] != 'ok']
     if failed:
         height = FAILS * 6.0 ** (1 + list(METHODS).index(method))
-        axes.plot(min(failed), height, color=METHODS[method][1], marker='x', markersize=6,
-                  markeredgewidth=1.8, linestyle='none')
+        axes.plot(
+            min(failed),
+            height,
+            color=METHODS[method][1],
+            marker='x',
+            markersize=6,
+            markeredgewidth=1.8,
+            linestyle='none',
+        )
 
 
 def _draw_largest(axes, table):
     rows = [row for row in table.where(method='householder', status='ok')]
-    axes.plot([row['interval'] for row in rows],
-              [max(row['deviation of the largest'], 2e-16) for row in rows], ':', color=INK,
-              linewidth=1, label=r'$\lambda_1$ alone, Householder')
+    axes.plot(
+        [row['interval'] for row in rows],
+        [max(row['deviation of the largest'], 2e-16) for row in rows],
+        ':',
+        color=INK,
+        linewidth=1,
+        label=r'$\lambda_1$ alone, Householder',
+    )
 
 
 def _draw_chosen(cliff, work, table):
     rows = table.where(method='auto')
     label = "hdlyap's own choice for accuracy $10^{-4}$ to $10^{-10}$"
     deviations = [row['deviation of any'] for row in rows]
-    style = {'color': INK, 'marker': '*', 'markersize': 10, 'linestyle': 'none', 'zorder': 4,
-             'markerfacecolor': 'white', 'label': label}
+    style = {
+        'color': INK,
+        'marker': '*',
+        'markersize': 10,
+        'linestyle': 'none',
+        'zorder': 4,
+        'markerfacecolor': 'white',
+        'label': label,
+    }
     cliff.plot([row['interval'] for row in rows], deviations, **style)
     work.plot([_seconds(row) for row in rows], deviations, **style)
     for k, interval in enumerate(sorted({row['interval'] for row in rows})):
@@ -136,31 +191,56 @@ def _name_chosen(axes, rows, left):
     """One label for all accuracies that led to the same interval; neighbours on different sides."""
     powers = [f'$10^{{{math.log10(row["accuracy asked"]):.0f}}}$' for row in rows]
     names = powers[0] if len(powers) == 1 else f'{powers[0]} to {powers[-1]}'
-    place = ({'xytext': (-3, 6), 'ha': 'right', 'va': 'bottom'} if left else
-             {'xytext': (7, -4), 'ha': 'left', 'va': 'top'})
-    axes.annotate(names, (rows[0]['interval'], rows[0]['deviation of any']), fontsize=8,
-                  textcoords='offset points', zorder=5, **place)
+    place = (
+        {'xytext': (-3, 6), 'ha': 'right', 'va': 'bottom'}
+        if left
+        else {'xytext': (7, -4), 'ha': 'left', 'va': 'top'}
+    )
+    axes.annotate(
+        names,
+        (rows[0]['interval'], rows[0]['deviation of any']),
+        fontsize=8,
+        textcoords='offset points',
+        zorder=5,
+        **place,
+    )
 
 
 def _shade(axes, left):
     axes.axhspan(WRONG, FAILS, color=VERMILION, alpha=0.12, linewidth=0)
     axes.axhline(FAILS, color=GREY, linewidth=0.6)
-    axes.annotate('wrong, without an error', (0.03 if left else 0.97, WRONG * 2),
-                  xycoords=('axes fraction', 'data'), fontsize=8, ha='left' if left else 'right')
-    axes.annotate('refused or broken down, with an error', (0.97, FAILS * 6 ** 6), xycoords=('axes fraction', 'data'), fontsize=8,
-                  ha='right')
+    axes.annotate(
+        'wrong, without an error',
+        (0.03 if left else 0.97, WRONG * 2),
+        xycoords=('axes fraction', 'data'),
+        fontsize=8,
+        ha='left' if left else 'right',
+    )
+    axes.annotate(
+        'refused or broken down, with an error',
+        (0.97, FAILS * 6**6),
+        xycoords=('axes fraction', 'data'),
+        fontsize=8,
+        ha='right',
+    )
 
 
 def _label_intervals(axes, table):
     for row in table.where(method='householder', status='ok'):
-        axes.annotate(f'{row["interval"]:g}', (_seconds(row), row['deviation of any']),
-                      xytext=(4, 3), textcoords='offset points', fontsize=7, color=PURPLE)
+        axes.annotate(
+            f'{row["interval"]:g}',
+            (_seconds(row), row['deviation of any']),
+            xytext=(4, 3),
+            textcoords='offset points',
+            fontsize=7,
+            color=PURPLE,
+        )
 
 
 def _plain_ticks(axes):
     low, high = axes.get_xlim()
     steps = (1, 2, 5) if high < 200 * low else (1,)
-    ticks = [a * 10.0 ** k for k in range(-6, 5) for a in steps if low <= a * 10.0 ** k <= high]
+    ticks = [a * 10.0**k for k in range(-6, 5) for a in steps if low <= a * 10.0**k <= high]
     axes.set_xticks(ticks)
     axes.set_xticklabels([f'{tick:g}' for tick in ticks])
     axes.minorticks_off()
@@ -174,15 +254,27 @@ def convergence(tables):
     figure, axes = plt.subplots(figsize=(5.2, 3.8))
     wall = table['wall time']
     for name, (label, colour) in QUANTITIES.items():
-        errors = [100 * error / value if error > 0 and value > 0 else math.nan
-                  for value, error in zip(table[name], table[f'{name} error'])]
+        errors = [
+            100 * error / value if error > 0 and value > 0 else math.nan
+            for value, error in zip(table[name], table[f'{name} error'])
+        ]
         axes.plot(wall, errors, color=colour, label=label)
-    known = [100 * error / value for value, error in zip(table['lambda_1'],
-                                                         table['lambda_1 error'])]
-    axes.plot(wall, [1.5 * known[-1] * math.sqrt(wall[-1] / w) for w in wall], '--', color=GREY,
-              label=r'$\propto 1/\sqrt{t}$')
-    axes.set(xscale='log', yscale='log', xlabel='wall time of averaging  [s]',
-             ylabel='standard error  [% of the value]')
+    known = [
+        100 * error / value for value, error in zip(table['lambda_1'], table['lambda_1 error'])
+    ]
+    axes.plot(
+        wall,
+        [1.5 * known[-1] * math.sqrt(wall[-1] / w) for w in wall],
+        '--',
+        color=GREY,
+        label=r'$\propto 1/\sqrt{t}$',
+    )
+    axes.set(
+        xscale='log',
+        yscale='log',
+        xlabel='wall time of averaging  [s]',
+        ylabel='standard error  [% of the value]',
+    )
     _plain_ticks(axes)
     low, high = axes.get_ylim()
     ticks = [t for t in (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50) if low <= t <= high]
@@ -198,7 +290,7 @@ def _second_axis(axes, table):
     above = axes.secondary_xaxis('top', functions=(lambda x: x * rate, lambda x: x / rate))
     above.set_xlabel('averaged time  [time units]')
     axes.tick_params(top=False, which='both')
-    ticks = [a * 10 ** k for k in range(5) for a in (1, 2, 5)]
+    ticks = [a * 10**k for k in range(5) for a in (1, 2, 5)]
     low, high = (rate * x for x in axes.get_xlim())
     above.set_xticks([tick for tick in ticks if low <= tick <= high])
     above.xaxis.set_major_formatter(ticker.FormatStrFormatter('%g'))
@@ -216,8 +308,9 @@ def scaling(tables):
         for part, colour in PARTS.items():
             points = [(row[sweep], row[part]) for row in rows if row[part] > 0]
             if points:
-                axes.plot(*zip(*points), 'o-', color=colour,
-                          label=part + _powers(fits, sweep, part, name))
+                axes.plot(
+                    *zip(*points), 'o-', color=colour, label=part + _powers(fits, sweep, part, name)
+                )
         axes.set(xscale='log', yscale='log')
         axes.set_title(_title(rows, sweep, title), loc='left')
         axes.legend(loc='upper left', fontsize=7)
@@ -244,23 +337,34 @@ def _powers(fits, sweep, part, name):
 # ---- ratios ---------------------------------------------------------------------------------
 
 
-RATIOS = (      # table, quantity, label
+RATIOS = (  # table, quantity, label
     ('whole', 'W/F', 'whole run to its floor'),
     ('whole_fallback', 'W/F', "the same on OpenBLAS's oldest kernels"),
     ('whole_small', 'W/F', 'the same on one thread'),
     ('rivals', 'dgeqrf + dorgqr to ours', 'Householder every 0.5 to hdlyap'),
-    ('rivals', 'modified Gram-Schmidt to ours', 'modified Gram-Schmidt every 1 to hdlyap'))
+    ('rivals', 'modified Gram-Schmidt to ours', 'modified Gram-Schmidt every 1 to hdlyap'),
+)
 
 
 def whole(tables):
-    rows = [(label, row) for name, quantity, label in RATIOS if name in tables
-            for row in tables[name].where(quantity=quantity)]
+    rows = [
+        (label, row)
+        for name, quantity, label in RATIOS
+        if name in tables
+        for row in tables[name].where(quantity=quantity)
+    ]
     figure, axes = plt.subplots(figsize=(5.8, 0.8 + 0.35 * len(rows)))
     for k, (_, row) in enumerate(rows):
         axes.plot([row['minimum'], row['maximum']], [k, k], color=BLUE, linewidth=2)
         axes.plot(row['median'], k, 'o', color=VERMILION, zorder=3)
-        axes.annotate(f'{row["median"]:.3g}', (row['median'], k), xytext=(0, 5),
-                      textcoords='offset points', ha='center', fontsize=8)
+        axes.annotate(
+            f'{row["median"]:.3g}',
+            (row['median'], k),
+            xytext=(0, 5),
+            textcoords='offset points',
+            ha='center',
+            fontsize=8,
+        )
     axes.set_yticks(range(len(rows)))
     axes.set_yticklabels([f'{label}, N = {row["disks"]:g}' for label, row in rows])
     axes.set_ylim(len(rows) - 0.4, -0.7)
@@ -275,8 +379,14 @@ def effects(tables):
     figure, axes = plt.subplots(figsize=(5.8, 0.8 + 0.25 * len(rows)))
     axes.barh(range(len(rows)), [row['percent'] for row in rows], color=BLUE)
     for k, row in enumerate(rows):
-        axes.annotate(f'{row["percent"]:.3g} %', (max(0, row['percent']), k), xytext=(3, 0),
-                      textcoords='offset points', va='center', fontsize=8)
+        axes.annotate(
+            f'{row["percent"]:.3g} %',
+            (max(0, row['percent']), k),
+            xytext=(3, 0),
+            textcoords='offset points',
+            va='center',
+            fontsize=8,
+        )
     axes.set_yticks(range(len(rows)))
     axes.set_yticklabels([row['effect'] for row in rows])
     axes.set_xlim(right=1.2 * max(1e-3, max(table['percent'])))
@@ -305,8 +415,11 @@ def main(arguments):
         print('draw.py: one folder with the CSV files is needed', file=sys.stderr)
         return 2
     folder = arguments[0]
-    tables = {name[:-4]: Table(os.path.join(folder, name)) for name in os.listdir(folder)
-              if name.endswith('.csv')}
+    tables = {
+        name[:-4]: Table(os.path.join(folder, name))
+        for name in os.listdir(folder)
+        if name.endswith('.csv')
+    }
     with plt.rc_context(STYLE):
         for draw in FIGURES:
             if draw.__name__ in tables:

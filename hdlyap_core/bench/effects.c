@@ -1,9 +1,10 @@
-/** What each effect of a scene costs: two runs that differ in it alone, side by side, some report intervals
- *  of the one after those of the other, so that whatever else the machine does falls on both; medians.
- *  Instructions are counted by callgrind, if valgrind is there (nan if not), in a smaller box of the same
- *  kind: a long one, in which steps are found soon. What publishing costs: effects_publishing.
- *  Usage: hdlyap_effects [effects.csv [disks, default 200 [aspect, default 0.05 [rounds, default 15]]]]
- *         hdlyap_effects --count EFFECT off|on: one run for callgrind, which collects in count_rounds */
+/** What each effect of a scene costs: two runs that differ in it alone, side by side, some report
+ * intervals of the one after those of the other, so that whatever else the machine does falls on
+ * both; medians. Instructions are counted by callgrind, if valgrind is there (nan if not), in a
+ * smaller box of the same kind: a long one, in which steps are found soon. What publishing costs:
+ * effects_publishing. Usage: hdlyap_effects [effects.csv [disks, default 200 [aspect, default 0.05
+ * [rounds, default 15]]]] hdlyap_effects --count EFFECT off|on: one run for callgrind, which
+ * collects in count_rounds */
 #include <hdlyap/hdlyap.h>
 #include <math.h>
 #include <stdbool.h>
@@ -64,7 +65,7 @@ static const effect effects[] = {
 };
 enum { EFFECTS = sizeof effects / sizeof *effects };
 
-/* ---- one run ---------------------------------------------------------------------------------- */
+/* ---- one run ------------------------------------------------------------------------------- */
 
 typedef struct side {
     hd_run *run;
@@ -129,7 +130,8 @@ static void side_free(side *s)
     free(s);
 }
 
-/** One vector of each LP step: its L and P modes, and these over the momenta, as the node publishes them. */
+/** One vector of each LP step: its L and P modes, and these over the momenta, as the node publishes
+ * them. */
 static void reconstruct(side *s)
 {
     const hd_steps *steps = hd_run_steps(s->run);
@@ -168,7 +170,7 @@ static int steps_found(const side *s)
     return found;
 }
 
-/* ---- seconds ---------------------------------------------------------------------------------- */
+/* ---- seconds ------------------------------------------------------------------------------- */
 
 typedef struct cost {
     double off, on; /**< seconds (median), or instructions, per report interval; NAN if unknown */
@@ -215,7 +217,7 @@ static cost seconds_of(const effect *e, int disks, double aspect, int rounds)
     return c;
 }
 
-/* ---- instructions ----------------------------------------------------------------------------- */
+/* ---- instructions -------------------------------------------------------------------------- */
 
 /** Has a name for callgrind. */
 __attribute__((noinline)) void count_rounds(void *run);
@@ -268,7 +270,7 @@ static cost instructions_of(int k, const cost *known)
     return c;
 }
 
-/* ---- what is written -------------------------------------------------------------------------- */
+/* ---- what is written ----------------------------------------------------------------------- */
 
 static void csv_begin(FILE *csv, int disks, double aspect, int rounds)
 {

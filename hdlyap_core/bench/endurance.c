@@ -1,7 +1,6 @@
-/** What rounding does to a long trajectory: energy, momentum and overlap after ever more collisions of disks in a
- *  periodic box.
- *  Usage: hdlyap_endurance [--collisions N] [--disks N] [--density RHO] [--out FOLDER] [--quick]; 1e9 collisions,
- *  1e6 if quick; writes endurance.csv. */
+/** What rounding does to a long trajectory: energy, momentum and overlap after ever more collisions
+ * of disks in a periodic box. Usage: hdlyap_endurance [--collisions N] [--disks N] [--density RHO]
+ * [--out FOLDER] [--quick]; 1e9 collisions, 1e6 if quick; writes endurance.csv. */
 #include <hdlyap/hdlyap.h>
 #include <math.h>
 #include <stdio.h>
@@ -35,7 +34,7 @@ typedef struct course {
         overlap; /**< of any two disks, and of the two about to collide, at their contact [sigma] */
 } course;
 
-/* ---- measuring -------------------------------------------------------------------------------- */
+/* ---- measuring ----------------------------------------------------------------------------- */
 
 /** NaN stays. */
 static void raise(double *worst, double seen)
@@ -43,7 +42,8 @@ static void raise(double *worst, double seen)
     if (!(seen <= *worst) && !isnan(*worst)) *worst = seen;
 }
 
-/** How deep the next two disks to collide are in each other when they do; 0 if the next event is no contact. */
+/** How deep the next two disks to collide are in each other when they do; 0 if the next event is no
+ * contact. */
 static double overlap_at_contact(hd_trajectory *tr)
 {
     const int32_t i = hd_queue_next(&tr->queue);
@@ -68,7 +68,7 @@ static void look(course *c)
     raise(&c->overlap, overlap_at_contact(c->trajectory));
 }
 
-/* ---- telling ---------------------------------------------------------------------------------- */
+/* ---- telling ------------------------------------------------------------------------------- */
 
 static double collisions_of(const course *c)
 {

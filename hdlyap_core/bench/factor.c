@@ -1,7 +1,7 @@
 /** Frame -> (Q, ln diag R), seven ways.
  *
- *  For BLAS the row-major frame V (m x n) is the column-major n x m matrix A = V^T:
- *  G = A A^T = L L^T, Q^T = L^-1 A. */
+ * For BLAS the row-major frame V (m x n) is the column-major n x m matrix A = V^T:
+ * G = A A^T = L L^T, Q^T = L^-1 A. */
 #include "factor.h"
 
 #include <cblas.h>
@@ -63,7 +63,7 @@ void factor_free(factor *f)
     free(f);
 }
 
-/* ---- Cholesky --------------------------------------------------------------------------------- */
+/* ---- Cholesky ------------------------------------------------------------------------------ */
 
 static hd_status pass_double(factor *f, hd_frame *frame)
 {
@@ -81,8 +81,8 @@ static hd_status pass_double(factor *f, hd_frame *frame)
     return HD_OK;
 }
 
-/** gram_single <- L^-1 of v_single <- V. What is multiplied onto V is this triangle, so its diagonal gives the
- *  logarithms exactly, however roughly it was computed. */
+/** gram_single <- L^-1 of v_single <- V. What is multiplied onto V is this triangle, so its
+ * diagonal gives the logarithms exactly, however roughly it was computed. */
 static hd_status triangle_single(factor *f, hd_frame *frame)
 {
     const int m = f->m, n = f->n, stride = hd_frame_stride(frame);
@@ -127,7 +127,7 @@ static hd_status pass_single(factor *f, hd_frame *frame)
     return HD_OK;
 }
 
-/* ---- the others ------------------------------------------------------------------------------- */
+/* ---- the others ---------------------------------------------------------------------------- */
 
 /** As hd_run: whatever condition it accepts at the loosest accuracy. */
 static hd_status step_ours(factor *f, hd_frame *frame, double interval, int last)

@@ -1,5 +1,5 @@
-/** dgemm on the shape of the Gram matrix, measured in between the work: the machine's speed at the time, whatever
- *  else it is doing. */
+/** dgemm on the shape of the Gram matrix, measured in between the work: the machine's speed at the
+ * time, whatever else it is doing. */
 #ifndef HD_BENCH_GEMM_H
 #define HD_BENCH_GEMM_H
 
@@ -16,7 +16,8 @@ double gemm_last(const gemm *g); /**< flops per second of the last measurement *
 double gemm_rate(const gemm *g); /**< median flops per second */
 
 /** Seconds per time unit that a spectrum of n exponents in 4N = m dimensions costs at least:
- *  F = 4 m n^2 flops at this rate of dgemm per ln(1e8) / (lambda_1 - lambda_n) of simulated time. */
+ * F = 4 m n^2 flops at this rate of dgemm per ln(1e8) / (lambda_1 - lambda_n) of simulated time.
+ */
 double gemm_floor(double rate, int m, int n, double spread);
 
 #endif

@@ -14,7 +14,8 @@ typedef struct option {
     double least, most;
 } option;
 
-/** An argument that is not in the list, or not allowed, gives one line and ends the program with status 2. */
+/** An argument that is not in the list, or not allowed, gives one line and ends the program with
+ * status 2. */
 void options_read(int argc, char **argv, const option *list);
 
 #endif

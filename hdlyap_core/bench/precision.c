@@ -1,8 +1,8 @@
-/** What accuracy costs in time: deviation of the exponents from a tight reference on the same stretch of trajectory,
- *  against the seconds that replay and factorisation take, for seven methods and many intervals; and the points
- *  that hd_run chooses for four accuracies. An interval that is too long gives wrong exponents without any
- *  error: the tables and the picture show where.
- *  Usage: hdlyap_precision [--out FOLDER] [--quick]; writes precision.csv. */
+/** What accuracy costs in time: deviation of the exponents from a tight reference on the same
+ * stretch of trajectory, against the seconds that replay and factorisation take, for seven methods
+ * and many intervals; and the points that hd_run chooses for four accuracies. An interval that is
+ * too long gives wrong exponents without any error: the tables and the picture show where. Usage:
+ * hdlyap_precision [--out FOLDER] [--quick]; writes precision.csv. */
 #include <hdlyap/hdlyap.h>
 #include <math.h>
 #include <stdio.h>
@@ -40,7 +40,7 @@ typedef struct study {
     progress shown;
 } study;
 
-/* ---- measuring -------------------------------------------------------------------------------- */
+/* ---- measuring ----------------------------------------------------------------------------- */
 
 /** Rough seconds of one factorisation, in passes of Cholesky. */
 static double weight(factor_method method)
@@ -184,15 +184,17 @@ static void measure_all(study *s)
     progress_end();
 }
 
-/* ---- telling ---------------------------------------------------------------------------------- */
+/* ---- telling ------------------------------------------------------------------------------- */
 
-/** Seconds per time unit at the median speed of dgemm in the whole run: free of what other jobs took. */
+/** Seconds per time unit at the median speed of dgemm in the whole run: free of what other jobs
+ * took. */
 static double seconds_of(const study *s, const point *p)
 {
     return p->gemms * gemm_flops(s) / gemm_rate(s->g);
 }
 
-/** Seconds of the cheapest fixed interval of any method that is at least so accurate; 0 if there is none. */
+/** Seconds of the cheapest fixed interval of any method that is at least so accurate; 0 if there is
+ * none. */
 static double cheapest(const study *s, double deviation)
 {
     double best = 0.0;

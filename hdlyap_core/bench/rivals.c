@@ -1,10 +1,10 @@
 /** What others write, on the same trajectory and with the same BLAS: seconds per time unit of
- *  (ours) hd_run, spectrum alone;
- *  (qr)   unblocked replay, Householder QR (dgeqrf, dorgqr) every half time unit;
- *  (mgs)  unblocked replay, modified Gram-Schmidt once per time unit;
- *  and their ratios, in rounds.
- *  Usage: hdlyap_rivals [--disks N] [--rounds N] [--duration TIME UNITS OF OURS IN A ROUND] [--out FOLDER];
- *  with --out it writes FOLDER/rivals.csv. */
+ * (ours) hd_run, spectrum alone;
+ * (qr)   unblocked replay, Householder QR (dgeqrf, dorgqr) every half time unit;
+ * (mgs)  unblocked replay, modified Gram-Schmidt once per time unit;
+ * and their ratios, in rounds.
+ * Usage: hdlyap_rivals [--disks N] [--rounds N] [--duration TIME UNITS OF OURS IN A ROUND] [--out
+ * FOLDER]; with --out it writes FOLDER/rivals.csv. */
 #include <hdlyap/hdlyap.h>
 #include <stdio.h>
 
@@ -27,7 +27,7 @@ static hd_scene_def scene_of(int disks)
     return scene;
 }
 
-/* ---- ours ------------------------------------------------------------------------------------- */
+/* ---- ours ---------------------------------------------------------------------------------- */
 
 static hd_run *ours_create(int disks)
 {
@@ -46,7 +46,7 @@ static double ours(hd_run *run, double duration)
     return (seconds() - start) / (hd_run_time(run) - begin);
 }
 
-/* ---- theirs ----------------------------------------------------------------------------------- */
+/* ---- theirs -------------------------------------------------------------------------------- */
 
 typedef struct rival {
     hd_trajectory *trajectory;
@@ -133,7 +133,7 @@ static void rival_free(rival *r)
     hd_trajectory_free(r->trajectory);
 }
 
-/* ---- side by side ----------------------------------------------------------------------------- */
+/* ---- side by side -------------------------------------------------------------------------- */
 
 typedef struct result {
     sample ours, qr, mgs;           /**< seconds per time unit */

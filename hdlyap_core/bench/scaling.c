@@ -1,7 +1,7 @@
-/** What a time unit costs against the number of disks (positive half of the spectrum, steps and phases) and, at
- *  fixed disks, against the number of vectors (spectrum alone); by parts, with fitted exponents beside those of
- *  theory.
- *  Usage: hdlyap_scaling [--out FOLDER] [--quick]; writes scaling.csv and scaling_fits.csv. */
+/** What a time unit costs against the number of disks (positive half of the spectrum, steps and
+ * phases) and, at fixed disks, against the number of vectors (spectrum alone); by parts, with
+ * fitted exponents beside those of theory. Usage: hdlyap_scaling [--out FOLDER] [--quick]; writes
+ * scaling.csv and scaling_fits.csv. */
 #include <hdlyap/hdlyap.h>
 #include <math.h>
 #include <stdio.h>
@@ -29,7 +29,8 @@ static const char *const PART_NAMES[PARTS] = {"events", "replay", "factorisation
 static const char *const SWEEP_NAMES[SWEEPS] = {"disks", "vectors"};
 /** Powers of N with n = 2 N; of n at fixed N. */
 static const double THEORY[SWEEPS][PARTS] = {{1, 2, 3, 2}, {0, 1, 2, NAN}};
-/** What is smaller is left out of the fits: one thread, and matrices far below dgemm's best speed. */
+/** What is smaller is left out of the fits: one thread, and matrices far below dgemm's best speed.
+ */
 static const double FIT_FROM[SWEEPS] = {200, 100};
 /** A point whose predicted seconds are more is left out. */
 static const double PATIENCE = 180.0;
@@ -56,7 +57,7 @@ typedef struct study {
     progress shown;
 } study;
 
-/* ---- measuring -------------------------------------------------------------------------------- */
+/* ---- measuring ----------------------------------------------------------------------------- */
 
 static void read_costs(const hd_run *run, double part[PARTS])
 {
@@ -125,7 +126,8 @@ static void measure(study *all, int which, int disks, int exponents, unsigned st
 /** Work of a point, for the progress: what the factorisations cost, and what every point does. */
 static double work(double disks, double vectors) { return 2e8 + disks * vectors * vectors; }
 
-/** Seconds that N disks will take, from the largest so far: the frame needs some short intervals at first. */
+/** Seconds that N disks will take, from the largest so far: the frame needs some short intervals at
+ * first. */
 static double predicted(const sweep *s, int disks)
 {
     const double warmup = 12.0; /* as many time units would cost later: its intervals are short */
@@ -169,7 +171,7 @@ static void measure_all(study *all, bool quick)
     progress_end();
 }
 
-/* ---- telling ---------------------------------------------------------------------------------- */
+/* ---- telling ------------------------------------------------------------------------------- */
 
 static double size_of(const point *p, int which)
 {

@@ -1,4 +1,5 @@
-/** A stretch of a trajectory with the frame that it starts from: the same for every method of factorisation. */
+/** A stretch of a trajectory with the frame that it starts from: the same for every method of
+ * factorisation. */
 #ifndef HD_BENCH_WINDOW_H
 #define HD_BENCH_WINDOW_H
 
@@ -22,7 +23,8 @@ typedef struct effort {
     sample speed;          /**< dgemm's flops per second in between */
 } effort;
 
-/** The averaging phase of the scene: begins where hd_run would begin to average, as long as its duration. */
+/** The averaging phase of the scene: begins where hd_run would begin to average, as long as its
+ * duration. */
 window window_create(const hd_scene_def *scene);
 void window_free(window *w);
 
@@ -33,7 +35,8 @@ typedef struct watch {
     double work;
 } watch;
 
-/** Carries the frame through the window in `pieces` equal intervals, each ended by a step of f. exponents[n]. What factor_step fails with. */
+/** Carries the frame through the window in `pieces` equal intervals, each ended by a step of f.
+ * exponents[n]. What factor_step fails with. */
 HD_MUST_CHECK hd_status window_exponents(window *w, factor *f, int pieces, const watch *beside,
                                          double *exponents, effort *spent);
 

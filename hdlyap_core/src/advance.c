@@ -52,7 +52,8 @@ void hd_advance_plan(hd_run *run, double stop)
     run->plan = (hd_step_plan){.begin = run->now, .end = end, .events = events_so_far(run)};
 }
 
-/** How long a step may be: a channel of hardly more than a disk's width can have 1e9 wall events in a time unit. */
+/** How long a step may be: a channel of hardly more than a disk's width can have 1e9 wall events in
+ * a time unit. */
 static void learn_step(hd_run *run)
 {
     const double length = run->plan.end - run->plan.begin;

@@ -1,7 +1,8 @@
 /** Two sets of columns -> principal angles between what they span, by Bjoerck and Golub [T18].
  *
- *  Q_a, Q_b: orthonormal bases by dgeqrf. The singular values of Q_a^T Q_b are the cosines; those of
- *  Q_b - Q_a (Q_a^T Q_b) are the sines, from which angles below pi / 4 are taken, as cosines near 1 do not know them. */
+ * Q_a, Q_b: orthonormal bases by dgeqrf. The singular values of Q_a^T Q_b are the cosines; those
+ * of Q_b - Q_a (Q_a^T Q_b) are the sines, from which angles below pi / 4 are taken, as cosines near
+ * 1 do not know them. */
 #include "angles.h"
 
 #include <cblas.h>
@@ -27,9 +28,10 @@ static int workspace(int rows, int widest)
 {
     double qr = 0.0, q = 0.0, svd = 0.0, unused = 0.0;
     (void)LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, rows, widest, &unused, rows, &unused, &qr, -1);
-    (void)LAPACKE_dorgqr_work(LAPACK_COL_MAJOR, rows, widest, widest, &unused, rows, &unused, &q, -1);
-    (void)LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'N', 'N', rows, widest, &unused, rows, &unused, &unused, 1, &unused, 1,
-                              &svd, -1);
+    (void)LAPACKE_dorgqr_work(LAPACK_COL_MAJOR, rows, widest, widest, &unused, rows, &unused, &q,
+                              -1);
+    (void)LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'N', 'N', rows, widest, &unused, rows, &unused,
+                              &unused, 1, &unused, 1, &svd, -1);
     return (int)fmax(fmax(qr, q), svd);
 }
 
@@ -72,27 +74,31 @@ static hd_status orthonormalise(hd_angles *angles, double *basis, const double *
 {
     const int rows = angles->rows;
     double *tau = angles->value[1];
-    memcpy(basis, c + (size_t)span.first * (size_t)rows, (size_t)span.count * (size_t)rows * sizeof *basis);
+    memcpy(basis, c + (size_t)span.first * (size_t)rows,
+           (size_t)span.count * (size_t)rows * sizeof *basis);
     for (int col = 0; col < span.count; col++) {
         double *column = basis + (size_t)col * (size_t)rows;
         const double length = cblas_dnrm2(rows, column, 1);
         if (!(length > 0 && length < INFINITY)) return HD_ILL_CONDITIONED;
         cblas_dscal(rows, 1.0 / length, column, 1);
     }
-    (void)LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, rows, span.count, basis, rows, tau, angles->work, angles->lwork);
-    for (int col = 0; col < span.count; col++)
-        if (!(fabs(basis[(size_t)col * (size_t)(rows + 1)]) > DBL_EPSILON)) return HD_ILL_CONDITIONED;
-    (void)LAPACKE_dorgqr_work(LAPACK_COL_MAJOR, rows, span.count, span.count, basis, rows, tau, angles->work,
+    (void)LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, rows, span.count, basis, rows, tau, angles->work,
                               angles->lwork);
+    for (int col = 0; col < span.count; col++)
+        if (!(fabs(basis[(size_t)col * (size_t)(rows + 1)]) > DBL_EPSILON))
+            return HD_ILL_CONDITIONED;
+    (void)LAPACKE_dorgqr_work(LAPACK_COL_MAJOR, rows, span.count, span.count, basis, rows, tau,
+                              angles->work, angles->lwork);
     return HD_OK;
 }
 
 /** value <- singular values, largest first; the matrix is used up. */
-static hd_status singular_values(hd_angles *angles, double *value, double *matrix, int rows, int columns)
+static hd_status singular_values(hd_angles *angles, double *value, double *matrix, int rows,
+                                 int columns)
 {
     double unused = 0.0;
-    return LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'N', 'N', rows, columns, matrix, rows, value, &unused, 1, &unused, 1,
-                               angles->work, angles->lwork) == 0
+    return LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'N', 'N', rows, columns, matrix, rows, value,
+                               &unused, 1, &unused, 1, angles->work, angles->lwork) == 0
                ? HD_OK
                : HD_ILL_CONDITIONED;
 }
@@ -102,13 +108,14 @@ hd_status hd_angles_between(hd_angles *angles, double *angle, const double *c, h
     const int rows = angles->rows;
     if (a.count < b.count) return hd_angles_between(angles, angle, c, b, a);
     HD_ASSERT(b.count >= 1 && a.count <= angles->widest);
-    double *qa = angles->basis[0], *qb = angles->basis[1], *sine = angles->value[0], *cosine = angles->value[1];
+    double *qa = angles->basis[0], *qb = angles->basis[1], *sine = angles->value[0],
+           *cosine = angles->value[1];
     HD_TRY(orthonormalise(angles, qa, c, a));
     HD_TRY(orthonormalise(angles, qb, c, b));
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, a.count, b.count, rows, 1.0, qa, rows, qb, rows, 0.0,
-                angles->product, a.count);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, b.count, a.count, -1.0, qa, rows, angles->product,
-                a.count, 1.0, qb, rows);
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, a.count, b.count, rows, 1.0, qa, rows, qb,
+                rows, 0.0, angles->product, a.count);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, b.count, a.count, -1.0, qa, rows,
+                angles->product, a.count, 1.0, qb, rows);
     HD_TRY(singular_values(angles, sine, qb, rows, b.count));
     HD_TRY(singular_values(angles, cosine, angles->product, a.count, b.count));
     for (int k = 0; k < b.count; k++) {

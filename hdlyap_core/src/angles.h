@@ -16,9 +16,11 @@ typedef struct hd_angles hd_angles;
 HD_MUST_CHECK hd_status hd_angles_create(hd_angles **out, int rows, int widest);
 void hd_angles_free(hd_angles *angles);
 
-/** Principal angles [radians, 0 .. pi / 2], smallest first: angle[min(a.count, b.count)]. The columns may be as oblique as
- *  their numbers allow, none zero. HD_ILL_CONDITIONED where they are dependent, or no numbers.
- *  Cost about 2 n (a^2 + b^2) + 4 n a b + 4 n b^2 flops for dimensions a >= b. */
-HD_MUST_CHECK hd_status hd_angles_between(hd_angles *angles, double *angle, const double *c, hd_span a, hd_span b);
+/** Principal angles [radians, 0 .. pi / 2], smallest first: angle[min(a.count, b.count)]. The
+ * columns may be as oblique as their numbers allow, none zero. HD_ILL_CONDITIONED where they are
+ * dependent, or no numbers. Cost about 2 n (a^2 + b^2) + 4 n a b + 4 n b^2 flops for dimensions a
+ * >= b. */
+HD_MUST_CHECK hd_status hd_angles_between(hd_angles *angles, double *angle, const double *c,
+                                          hd_span a, hd_span b);
 
 #endif

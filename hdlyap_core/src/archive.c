@@ -39,7 +39,7 @@ hd_status hd_archive_end(hd_archive *archive)
     return archive->status;
 }
 
-/* ---- bytes ------------------------------------------------------------------------------------ */
+/* ---- bytes --------------------------------------------------------------------------------- */
 
 static void put(hd_archive *archive, const void *data, size_t size)
 {
@@ -92,7 +92,7 @@ static void pass_head(hd_archive *archive, const char *name, const char *type, s
                       "another array is found in its place");
 }
 
-/* ---- elements --------------------------------------------------------------------------------- */
+/* ---- elements ------------------------------------------------------------------------------ */
 
 static int64_t pass_integer(hd_archive *archive, int64_t value, int64_t min, int64_t max)
 {
@@ -128,7 +128,7 @@ void hd_archive_of_ints(hd_archive *archive, const char *name, size_t count)
     pass_head(archive, name, "i8", count);
 }
 
-/* ---- whole arrays ----------------------------------------------------------------------------- */
+/* ---- whole arrays -------------------------------------------------------------------------- */
 
 void hd_archive_doubles(hd_archive *archive, const char *name, double *x, size_t count)
 {

@@ -1,8 +1,9 @@
-/** Named arrays in a file. One function of each part of a run both writes and reads its state: so what is
- *  written and what is read cannot differ.
+/** Named arrays in a file. One function of each part of a run both writes and reads its state: so
+ * what is written and what is read cannot differ.
  *
- *  Each array is a record: name (HD_ARCHIVE_NAME bytes, zeros behind it), type (8 bytes: f8, i8 or S1 with zeros
- *  behind it, as numpy calls them), number of elements (i8), and the elements; in the byte order of the machine. */
+ * Each array is a record: name (HD_ARCHIVE_NAME bytes, zeros behind it), type (8 bytes: f8, i8 or
+ * S1 with zeros behind it, as numpy calls them), number of elements (i8), and the elements; in the
+ * byte order of the machine. */
 #ifndef HD_ARCHIVE_H
 #define HD_ARCHIVE_H
 
@@ -30,8 +31,8 @@ hd_archive hd_archive_writer(FILE *file);
 /** `bytes` are to be read, all of them: see hd_archive_end. */
 hd_archive hd_archive_reader(FILE *file, uint64_t bytes);
 
-/** What is read must be used only if this is HD_OK: HD_FILE_FAULT, HD_NO_MEMORY, or HD_NOT_FINITE when a number to be
- *  written is none. The reason is in name and fault. */
+/** What is read must be used only if this is HD_OK: HD_FILE_FAULT, HD_NO_MEMORY, or HD_NOT_FINITE
+ * when a number to be written is none. The reason is in name and fault. */
 HD_MUST_CHECK hd_status hd_archive_end(hd_archive *archive);
 
 /** The archive fails, unless it has failed before. */

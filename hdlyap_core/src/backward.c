@@ -1,7 +1,9 @@
-/** (R, C at the end of an interval) -> C at its start, and how much each vector grows in between [T17].
+/** (R, C at the end of an interval) -> C at its start, and how much each vector grows in between
+ * [T17].
  *
- *  R is row-major, for BLAS the column-major lower triangle R^T; C is column-major. Columns s .. e - 1 of C have no rows
- *  below e, so a panel of them needs the leading e x e triangle alone: n^3 / 3 flops, in dtrsm. */
+ * R is row-major, for BLAS the column-major lower triangle R^T; C is column-major. Columns s .. e
+ * - 1 of C have no rows below e, so a panel of them needs the leading e x e triangle alone: n^3 / 3
+ * flops, in dtrsm. */
 #include "backward.h"
 
 #include <cblas.h>
@@ -63,7 +65,8 @@ void hd_backward_start(hd_backward *backward, uint64_t seed, uint64_t stream)
     memset(backward->c, 0, (size_t)n * (size_t)n * sizeof(double));
     for (int col = 0; col < n; col++) {
         double *column = column_of(backward, col);
-        for (int row = 0; row < col; row++) column[row] = hd_random_symmetric(&random) / sqrt(col + 1.0);
+        for (int row = 0; row < col; row++)
+            column[row] = hd_random_symmetric(&random) / sqrt(col + 1.0);
         column[col] = 1.0;
         (void)normalise(column, col + 1);
     }
@@ -74,8 +77,8 @@ hd_status hd_backward_step(hd_backward *backward, double *growth, const double *
     const int n = backward->vectors;
     for (int start = 0; start < n; start += PANEL) {
         const int end = start + PANEL < n ? start + PANEL : n;
-        cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, end, end - start, 1.0, factor, n,
-                    column_of(backward, start), n);
+        cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, end,
+                    end - start, 1.0, factor, n, column_of(backward, start), n);
     }
     for (int col = 0; col < n; col++) {
         double *column = column_of(backward, col);
@@ -100,7 +103,7 @@ double hd_backward_apart(const hd_backward *one, const hd_backward *other, int c
     return sqrt(sum * fmax(0.0, 1.0 - 0.25 * sum));
 }
 
-/* ---- triangles -------------------------------------------------------------------------------- */
+/* ---- triangles ----------------------------------------------------------------------------- */
 
 size_t hd_triangle_size(int vectors) { return (size_t)vectors * ((size_t)vectors + 1) / 2; }
 

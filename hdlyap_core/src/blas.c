@@ -1,5 +1,5 @@
 /** Identity of the linear algebra library, and the restart with kernels that fit the processor.
- *  Works with any BLAS: what is OpenBLAS's own is looked up weakly. */
+ * Works with any BLAS: what is OpenBLAS's own is looked up weakly. */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include "hdlyap/blas.h"
 
@@ -42,7 +42,8 @@ hd_status hd_blas_room(int threads)
 {
 #if defined(__linux__)
     const size_t buffer = (size_t)128 << 20; /* the largest of any version */
-    const size_t stacks = (size_t)32 << 20;  /* of two pools, the caller's and the run's, with what they take */
+    const size_t stacks = (size_t)32
+                          << 20; /* of two pools, the caller's and the run's, with what they take */
     const size_t bytes = (size_t)threads * (buffer + stacks);
     void *room = mmap(NULL, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (room == MAP_FAILED) return HD_NO_MEMORY;
@@ -83,9 +84,10 @@ static const char *better_kernel_here(void)
 #endif
 }
 
-/** Sets how idle threads wait, unless the user did: on a busy machine threads that spin wait for each other's time
- *  slices, and a factorisation took up to thirty times longer. With two pools, OpenBLAS's pthreads and
- *  OpenMP's, they must not spin at all; one pool may for some microseconds. False if nothing was set. */
+/** Sets how idle threads wait, unless the user did: on a busy machine threads that spin wait for
+ * each other's time slices, and a factorisation took up to thirty times longer. With two pools,
+ * OpenBLAS's pthreads and OpenMP's, they must not spin at all; one pool may for some microseconds.
+ * False if nothing was set. */
 static bool calm_threads(void)
 {
     const char *threading = hd_blas_query().threading;

@@ -71,10 +71,10 @@ static double level_error(const hd_blocks *blocks, int level, int series)
     return sqrt(square / (count * (count - 1.0)));
 }
 
-/** The shortest blocks whose length B obeys B^3 > 2 samples (error_B / error_1)^4: longer ones would
- *  add more noise than they remove bias (Lee et al., Phys. Rev. E 83, 066706 (2011)). While no level
- *  does, the series is too short to know its correlation time: the largest error of all, made larger by
- *  the noise of the longest blocks. */
+/** The shortest blocks whose length B obeys B^3 > 2 samples (error_B / error_1)^4: longer ones
+ * would add more noise than they remove bias (Lee et al., Phys. Rev. E 83, 066706 (2011)). While no
+ * level does, the series is too short to know its correlation time: the largest error of all, made
+ * larger by the noise of the longest blocks. */
 double hd_blocks_std_error(const hd_blocks *blocks, int series)
 {
     if (blocks->samples < SAMPLES_MIN) return -1.0;

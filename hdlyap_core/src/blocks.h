@@ -1,5 +1,6 @@
-/** Standard error of the mean of a correlated series, one sample at a time, for many series at once:
- *  averages of blocks of 1, 2, 4, .. samples (Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989)). */
+/** Standard error of the mean of a correlated series, one sample at a time, for many series at
+ * once: averages of blocks of 1, 2, 4, .. samples (Flyvbjerg and Petersen, J. Chem. Phys. 91, 461
+ * (1989)). */
 #ifndef HD_BLOCKS_H
 #define HD_BLOCKS_H
 
@@ -29,8 +30,9 @@ double hd_blocks_std_error(const hd_blocks *blocks, int series);
 /** Running mean of one series; 0 without samples. */
 double hd_blocks_mean(const hd_blocks *blocks, int series);
 
-/** Standard error of the mean from the longest blocks of which there are 16; negative below 16 samples. For
- *  the increments of a bounded or diffusing quantity, whose errors fall with the length of the blocks. */
+/** Standard error of the mean from the longest blocks of which there are 16; negative below 16
+ * samples. For the increments of a bounded or diffusing quantity, whose errors fall with the length
+ * of the blocks. */
 double hd_blocks_long_error(const hd_blocks *blocks, int series);
 
 #endif

@@ -6,8 +6,8 @@
 #include "check.h"
 #include "memory.h"
 
-/** A centre sits in the cell that it is booked in up to rounding only; this much more than a diameter
- *  keeps every contact within neighbouring cells all the same. */
+/** A centre sits in the cell that it is booked in up to rounding only; this much more than a
+ * diameter keeps every contact within neighbouring cells all the same. */
 static const double EDGE_MIN = 1.0 + 1e-6;
 static const double DISKS_PER_CELL = 0.75;
 

@@ -9,8 +9,8 @@
 
 /** Where the cells next to a column (or row) lie; both ends of a line, both directions. */
 typedef struct hd_cell_line {
-    double bound
-        [2]; /**< low and high end of the disks' centres; a wall's position where there is one */
+    double bound[2];  /**< low and high end of the disks' centres; a wall's position where there is
+                         one */
     int32_t near[3];  /**< columns to the left, here, to the right; hd_cells.size beyond a wall */
     int32_t shift[4]; /**< box edges to add to the positions there (-1, 0, 1); the last is spare */
 } hd_cell_line;
@@ -54,7 +54,8 @@ static inline hd_cell *hd_cells_at(const hd_cells *cells, int32_t x, int32_t y)
     return &cells->cell[(ptrdiff_t)y * (cells->size[0] + 1) + x];
 }
 
-/** The disk after j in the list of a crowded cell that cell->disk[HD_CELL_DISKS - 1] heads, or -1. */
+/** The disk after j in the list of a crowded cell that cell->disk[HD_CELL_DISKS - 1] heads, or -1.
+ */
 static inline int32_t hd_cells_next(const hd_cells *cells, int32_t j) { return cells->next[j]; }
 
 #endif

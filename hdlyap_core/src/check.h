@@ -17,7 +17,8 @@ void hd_assert_fail(const char *condition, const char *file, int line);
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif
-hd_status hd_refuse(char *message, size_t size, const char *format, ...);
+hd_status
+hd_refuse(char *message, size_t size, const char *format, ...);
 
 /** Returns from the calling function with the status of `call` unless it is HD_OK. */
 #define HD_TRY(call)                                                                               \

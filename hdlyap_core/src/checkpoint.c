@@ -1,5 +1,5 @@
-/** A run <-> its checkpoint. Each part of the run knows its own arrays (archive.h); here is what binds them together, and
- *  whether they fit the scene that is asked for. */
+/** A run <-> its checkpoint. Each part of the run knows its own arrays (archive.h); here is what
+ * binds them together, and whether they fit the scene that is asked for. */
 #include "hdlyap/checkpoint.h"
 
 #include <limits.h>
@@ -14,7 +14,7 @@
 #include "hdlyap/blas.h"
 #include "run_state.h"
 
-/* ---- a run's own numbers ---------------------------------------------------------------------- */
+/* ---- a run's own numbers ------------------------------------------------------------------- */
 
 static void head_archive(hd_checkpoint *head, hd_archive *archive)
 {
@@ -26,9 +26,8 @@ static void head_archive(hd_checkpoint *head, hd_archive *archive)
 static void cost_archive(hd_run *run, hd_archive *archive)
 {
     hd_cost *c = &run->cost;
-    double *const numbers[] = {&c->events, &c->replay,   &c->ortho,     &c->spectrum,
-                               &c->modes,  &c->interval, &c->condition, &c->defect,
-                               &c->covariant};
+    double *const numbers[] = {&c->events,   &c->replay,    &c->ortho,  &c->spectrum, &c->modes,
+                               &c->interval, &c->condition, &c->defect, &c->covariant};
     long *const counts[] = {&c->orthonormalisations, &c->second_passes, &c->looks, &c->repairs};
     int limit = (int)c->limit;
     hd_archive_of_doubles(archive, "cost", sizeof numbers / sizeof *numbers);
@@ -94,7 +93,8 @@ static void parts_archive(hd_run *run, hd_archive *archive)
 static void plan_expect(const hd_run *run, hd_archive *archive)
 {
     const hd_step_plan *plan = &run->plan;
-    const double cut = run->schedule.phase == HD_FINISHED ? run->now : hd_schedule_cut(&run->schedule);
+    const double cut = run->schedule.phase == HD_FINISHED ? run->now
+                                                          : hd_schedule_cut(&run->schedule);
     const bool pending = run->log && run->log->duration > 0;
     const double end = fmax(run->now, pending ? fmin(cut, run->interval_end) : cut);
     const uint64_t events = hd_trajectory_collisions(run->trajectory) +
@@ -122,7 +122,7 @@ static void times_expect(const hd_run *run, hd_archive *archive)
     hd_archive_expect(archive, run->step_max > 0, "run step max", "it is not positive");
 }
 
-/* ---- writing ---------------------------------------------------------------------------------- */
+/* ---- writing ------------------------------------------------------------------------------- */
 
 void hd_run_write(hd_run *run, hd_archive *archive, const char *label)
 {
@@ -157,7 +157,7 @@ hd_status hd_checkpoint_writable(const char *path, char *message, size_t size)
     return HD_OK;
 }
 
-/* ---- reading ---------------------------------------------------------------------------------- */
+/* ---- reading ------------------------------------------------------------------------------- */
 
 /** What cannot change within a run. */
 static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept, char *message,

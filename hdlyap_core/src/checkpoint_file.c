@@ -1,9 +1,10 @@
 /** Arrays <-> a file that is whole or not there.
  *
- *  Head, 48 bytes: "hdlyap checkpoint" and zeros (24); format, and 0x01020304 in the machine's byte order (4 each); length
- *  of the file (8); CRC-32 of everything behind the head, and of the head so far (4 each).
- *  The part is written with an empty head, which is filled in when all else is; then it is forced to the disk, and
- *  renamed: at every moment the name belongs to a whole file or to none. */
+ * Head, 48 bytes: "hdlyap checkpoint" and zeros (24); format, and 0x01020304 in the machine's byte
+ * order (4 each); length of the file (8); CRC-32 of everything behind the head, and of the head so
+ * far (4 each). The part is written with an empty head, which is filled in when all else is; then
+ * it is forced to the disk, and renamed: at every moment the name belongs to a whole file or to
+ * none. */
 #define _POSIX_C_SOURCE 200809L
 #include "checkpoint_file.h"
 
@@ -51,7 +52,7 @@ static hd_status fault(char *message, size_t size, const char *path, const char 
     return HD_FILE_FAULT;
 }
 
-/* ---- writing ---------------------------------------------------------------------------------- */
+/* ---- writing ------------------------------------------------------------------------------- */
 
 /** The name of the part, if the path can be that of a file. */
 static hd_status name_part(hd_checkpoint_file *f, char *message, size_t size)
@@ -65,7 +66,8 @@ static hd_status name_part(hd_checkpoint_file *f, char *message, size_t size)
     return HD_OK;
 }
 
-/** True if nobody else writes there. The name may have gone to another file before the lock came. */
+/** True if nobody else writes there. The name may have gone to another file before the lock came.
+ */
 static int lock_part(int fd, const char *part)
 {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
@@ -111,7 +113,8 @@ void hd_checkpoint_file_drop(hd_checkpoint_file *f)
     f->file = NULL;
 }
 
-/** The folder knows its new entry. Not every file system has this: then it is as safe as it gets. */
+/** The folder knows its new entry. Not every file system has this: then it is as safe as it gets.
+ */
 static void sync_folder(const char *path)
 {
     char folder[HD_CHECKPOINT_PATH] = ".";
@@ -160,7 +163,7 @@ hd_status hd_checkpoint_file_end(hd_checkpoint_file *f, hd_archive *archive, cha
     return status;
 }
 
-/* ---- reading ---------------------------------------------------------------------------------- */
+/* ---- reading ------------------------------------------------------------------------------- */
 
 /** CRC-32 of the rest of a file, and its length. */
 static uint32_t rest_crc(FILE *file, uint64_t *bytes)

@@ -1,5 +1,5 @@
 /** When two disks meet: a pure function of their two states and the image, the same bits whoever
- *  asks, in whatever order, and whenever. */
+ * asks, in whatever order, and whenever. */
 #ifndef HD_CONTACT_H
 #define HD_CONTACT_H
 
@@ -9,7 +9,8 @@
 
 #include "disk.h"
 
-/** Two numbers side by side: half the instructions, the same bits (no contraction, no reordering). */
+/** Two numbers side by side: half the instructions, the same bits (no contraction, no reordering).
+ */
 typedef double hd_pair __attribute__((vector_size(16)));
 typedef int64_t hd_pair_mask __attribute__((vector_size(16)));
 
@@ -56,11 +57,12 @@ static inline hd_two_disks hd_two_disks_of(const hd_disk *a, const hd_disk *b)
                           {a->t, b->t}};
 }
 
-/** When two disks a meet two disks b whose images are (shift_x, shift_y) away; NaN if never. A contact
- *  is ahead if they approach (r.p < 0) and do not pass each other (p^2 - z^2 > 0 with z = r x p). The
- *  wait until |r + p t| = 1 is, with c = r^2 - 1, c / (sqrt(p^2 - z^2) - r.p): no difference of large
- *  numbers; two disks that touch within rounding while approaching meet at once. Without branches: one
- *  that the processor cannot foresee costs more than a root and a quotient in vain. */
+/** When two disks a meet two disks b whose images are (shift_x, shift_y) away; NaN if never. A
+ * contact is ahead if they approach (r.p < 0) and do not pass each other (p^2 - z^2 > 0 with z = r
+ * x p). The wait until |r + p t| = 1 is, with c = r^2 - 1, c / (sqrt(p^2 - z^2) - r.p): no
+ * difference of large numbers; two disks that touch within rounding while approaching meet at once.
+ * Without branches: one that the processor cannot foresee costs more than a root and a quotient in
+ * vain. */
 static inline hd_pair hd_contact_times(const hd_two_disks *a, const hd_two_disks *b,
                                        hd_pair shift_x, hd_pair shift_y)
 {

@@ -1,7 +1,9 @@
-/** Triangles of the forward pass -> covariant vectors of a window, and what is measured of them [T17] [T18].
+/** Triangles of the forward pass -> covariant vectors of a window, and what is measured of them
+ * [T17] [T18].
  *
- *  The past (past.h) reaches from the window's start to the transient's end. On the way back C is that of the end of the
- *  interval that is next: there vectors are looked at if they were kept, then C goes to the interval's start. */
+ * The past (past.h) reaches from the window's start to the transient's end. On the way back C is
+ * that of the end of the interval that is next: there vectors are looked at if they were kept, then
+ * C goes to the interval's start. */
 #include "hdlyap/covariant.h"
 
 #include <cblas.h>
@@ -34,12 +36,12 @@ struct hd_covariant {
     hd_spectrum *spectrum;
     hd_splitting *splitting;
     hd_shape *shape;
-    hd_modes *half[2];    /**< weights of the dq and of the dp halves */
-    hd_modes *of_frame;   /**< of the dq halves of the frame, at the same times */
-    hd_angles *spaces;    /**< of C's rows; NULL where there is no centre, as the next two */
-    hd_angles *null;      /**< of the vectors' rows */
-    double *null_columns; /**< [2 * centre][rows]: the covariant centre, the null space */
-    double *factor;       /**< [vectors * vectors]; room for the centres of both starts, too */
+    hd_modes *half[2];      /**< weights of the dq and of the dp halves */
+    hd_modes *of_frame;     /**< of the dq halves of the frame, at the same times */
+    hd_angles *spaces;      /**< of C's rows; NULL where there is no centre, as the next two */
+    hd_angles *null;        /**< of the vectors' rows */
+    double *null_columns;   /**< [2 * centre][rows]: the covariant centre, the null space */
+    double *factor;         /**< [vectors * vectors]; room for the centres of both starts, too */
     double *growth, *grown; /**< [vectors]: of one interval, since the last look */
     double *apart;          /**< [vectors]: sines between both starts where the last window ended */
     double *frame, *q, *p;  /**< vectors [rows * vectors], state of a look */
@@ -48,7 +50,7 @@ struct hd_covariant {
     double now; /**< of the forward pass */
     double bytes;
     way way;
-    long at;  /**< interval that is next on the way back */
+    long at;   /**< interval that is next on the way back */
     long last; /**< interval that the window ends with */
     long windows, lost, intervals;
     uint64_t starts;
@@ -56,33 +58,39 @@ struct hd_covariant {
     double null_apart, null_apart_most;
 };
 
-/* ---- creation --------------------------------------------------------------------------------- */
+/* ---- creation ------------------------------------------------------------------------------ */
 
 static hd_past_def past_of(const hd_scene_def *def, double interval)
 {
     /* each ends with a look */
-    const double both = def->covariant_window + def->covariant_transient + 2.0 * def->covariant_sampling;
-    const double intervals = ceil(SPARE * both / interval) + 8.0, looks = ceil(both / def->covariant_sampling) + 4.0;
+    const double both = def->covariant_window + def->covariant_transient +
+                        2.0 * def->covariant_sampling;
+    const double intervals = ceil(SPARE * both / interval) + 8.0,
+                 looks = ceil(both / def->covariant_sampling) + 4.0;
     const double most = 1e9; /* far beyond any room */
     return (hd_past_def){.disks = def->disks,
                          .vectors = hd_scene_vectors(def),
                          .intervals = (long)fmin(intervals, most),
                          .snapshots = (long)fmin(looks, most),
                          .recompute = def->covariant_storage == HD_STORAGE_RECOMPUTE,
-                         .folder = def->covariant_storage == HD_STORAGE_FILE ? def->covariant_folder : NULL};
+                         .folder = def->covariant_storage == HD_STORAGE_FILE ? def->covariant_folder
+                                                                             : NULL};
 }
 
-static hd_status refuse_room(const hd_scene_def *def, const hd_past_def *past, const char *allowed, double most,
-                             char *message, size_t size)
+static hd_status refuse_room(const hd_scene_def *def, const hd_past_def *past, const char *allowed,
+                             double most, char *message, size_t size)
 {
     return hd_refuse(message, size,
-                     "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and %ld frames of %d "
+                     "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and "
+                     "%ld frames of %d "
                      "vectors need %.3g GB, must be at most %s %.3g GB",
-                     def->covariant_window, def->covariant_transient, past->intervals, past->snapshots, past->vectors,
-                     1e-9 * hd_past_bytes(past), allowed, 1e-9 * most);
+                     def->covariant_window, def->covariant_transient, past->intervals,
+                     past->snapshots, past->vectors, 1e-9 * hd_past_bytes(past), allowed,
+                     1e-9 * most);
 }
 
-hd_status hd_covariant_check_room(const hd_scene_def *def, double interval, char *message, size_t size)
+hd_status hd_covariant_check_room(const hd_scene_def *def, double interval, char *message,
+                                  size_t size)
 {
     const hd_past_def past = past_of(def, interval);
     const double bytes = hd_past_bytes(&past);
@@ -90,8 +98,10 @@ hd_status hd_covariant_check_room(const hd_scene_def *def, double interval, char
         return refuse_room(def, &past, "covariant_memory =", def->covariant_memory, message, size);
     if (!past.folder) return HD_OK;
     const double left = hd_store_folder_room(past.folder);
-    if (left < 0) return hd_refuse(message, size, "covariant_folder = %s: %s", past.folder, strerror(errno));
-    if (bytes > left) return refuse_room(def, &past, "what is free in covariant_folder,", left, message, size);
+    if (left < 0)
+        return hd_refuse(message, size, "covariant_folder = %s: %s", past.folder, strerror(errno));
+    if (bytes > left)
+        return refuse_room(def, &past, "what is free in covariant_folder,", left, message, size);
     return HD_OK;
 }
 
@@ -101,10 +111,16 @@ static hd_status allocate_arrays(hd_covariant *c)
     const struct {
         double **array;
         size_t size;
-    } wanted[] = {{&c->factor, n * (n > centres ? n : centres)}, {&c->growth, n}, {&c->grown, n},    {&c->apart, n},
-                  {&c->frame, rows * n}, {&c->q, rows / 2}, {&c->p, rows / 2}};
+    } wanted[] = {{&c->factor, n * (n > centres ? n : centres)},
+                  {&c->growth, n},
+                  {&c->grown, n},
+                  {&c->apart, n},
+                  {&c->frame, rows * n},
+                  {&c->q, rows / 2},
+                  {&c->p, rows / 2}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
-        if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double)))) return HD_NO_MEMORY;
+        if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
+            return HD_NO_MEMORY;
     return HD_OK;
 }
 
@@ -136,7 +152,8 @@ static hd_status allocate(hd_covariant *c)
 
 hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int threads)
 {
-    const int positive = (4 * def->disks - hd_scene_zero_exponents(def)) / 2, zero = hd_scene_zero_exponents(def);
+    const int positive = (4 * def->disks - hd_scene_zero_exponents(def)) / 2,
+              zero = hd_scene_zero_exponents(def);
     *out = NULL;
     hd_covariant *c = hd_memory_alloc(1, sizeof *c);
     if (!c) return HD_NO_MEMORY;
@@ -145,7 +162,8 @@ hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int t
     c->rows = 4 * def->disks;
     c->vectors = hd_scene_vectors(def);
     c->centre = c->vectors >= positive + zero ? zero : 0;
-    c->unstable = c->centre > 0 ? positive : c->vectors; /* a part of the centre is no space of its own */
+    c->unstable = c->centre > 0 ? positive
+                                : c->vectors; /* a part of the centre is no space of its own */
     const hd_status status = allocate(c);
     if (status != HD_OK) {
         hd_covariant_free(c);
@@ -164,7 +182,8 @@ void hd_covariant_free(hd_covariant *c)
         hd_modes_free(c->half[k]);
     }
     hd_modes_free(c->of_frame);
-    double *arrays[] = {c->factor, c->growth, c->grown, c->apart, c->frame, c->q, c->p, c->null_columns};
+    double *arrays[] = {c->factor, c->growth, c->grown, c->apart,
+                        c->frame,  c->q,      c->p,     c->null_columns};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) hd_memory_free(arrays[k]);
     hd_past_free(c->past);
     hd_spectrum_free(c->spectrum);
@@ -175,7 +194,7 @@ void hd_covariant_free(hd_covariant *c)
     hd_memory_free(c);
 }
 
-/* ---- forward ---------------------------------------------------------------------------------- */
+/* ---- forward ------------------------------------------------------------------------------- */
 
 /** The first window of a stretch without gaps. */
 static hd_status begin_window(hd_covariant *c, hd_columns frame, double time)
@@ -218,11 +237,12 @@ hd_status hd_covariant_begin(hd_covariant *c, hd_columns frame, double time, dou
     return begin_window(c, frame, time);
 }
 
-/** The interval that the window ends with, at the first look at which it is as long as asked; the past's end if that is
- *  yet to come. */
+/** The interval that the window ends with, at the first look at which it is as long as asked; the
+ * past's end if that is yet to come. */
 static long window_last(const hd_covariant *c)
 {
-    const double asked = c->window + c->scene.covariant_window - CLOSE * c->scene.covariant_sampling;
+    const double asked = c->window + c->scene.covariant_window -
+                         CLOSE * c->scene.covariant_sampling;
     long last = hd_past_first(c->past);
     while (last < hd_past_end(c->past) &&
            (!hd_past_has_snapshot(c->past, last) || hd_past_time(c->past, last) < asked))
@@ -243,7 +263,8 @@ static void begin_way_back(hd_covariant *c)
     for (int k = 0; k < 2; k++) hd_backward_start(c->start[k], c->scene.seed, c->starts++);
     c->at = hd_past_end(c->past) - 1;
     c->last = window_last(c);
-    memset(c->grown, 0, (size_t)c->vectors * sizeof *c->grown); /* a way back may have been given up */
+    memset(c->grown, 0,
+           (size_t)c->vectors * sizeof *c->grown); /* a way back may have been given up */
     c->grown_time = 0.0;
     c->way = THROUGH_TRANSIENT;
 }
@@ -257,8 +278,8 @@ static hd_status lose_window(hd_covariant *c, hd_columns frame, double time)
     return status == HD_NO_ROOM ? begin_window(c, frame, time) : status;
 }
 
-hd_status hd_covariant_add(hd_covariant *c, const hd_ortho *ortho, hd_columns frame, const hd_event_log *log,
-                           double t_begin, double t_end)
+hd_status hd_covariant_add(hd_covariant *c, const hd_ortho *ortho, hd_columns frame,
+                           const hd_event_log *log, double t_begin, double t_end)
 {
     HD_ASSERT(c->way == FORWARD);
     if (hd_past_is_full(c->past)) return lose_window(c, frame, c->now + t_end - t_begin);
@@ -274,15 +295,17 @@ bool hd_covariant_wants_state(const hd_covariant *c)
 
 hd_status hd_covariant_state(hd_covariant *c, hd_columns frame, const hd_trajectory *trajectory)
 {
-    if (!hd_covariant_wants_state(c) || hd_past_end(c->past) == hd_past_first(c->past)) return HD_OK;
+    if (!hd_covariant_wants_state(c) || hd_past_end(c->past) == hd_past_first(c->past))
+        return HD_OK;
     hd_trajectory_state(trajectory, c->q, c->p);
     HD_TRY(hd_past_snapshot(c->past, frame, c->q, c->p));
-    while (c->due <= c->now + CLOSE * c->scene.covariant_sampling) c->due += c->scene.covariant_sampling;
+    while (c->due <= c->now + CLOSE * c->scene.covariant_sampling)
+        c->due += c->scene.covariant_sampling;
     if (is_complete(c)) begin_way_back(c);
     return HD_OK;
 }
 
-/* ---- a look ----------------------------------------------------------------------------------- */
+/* ---- a look -------------------------------------------------------------------------------- */
 
 static hd_columns vectors_of(const hd_covariant *c)
 {
@@ -298,7 +321,8 @@ static void fill_null(const hd_covariant *c, double *column)
             memset(column, 0, (size_t)c->rows * sizeof *column);
             for (int disk = 0; disk < c->scene.disks; disk++)
                 for (int e = 0; e < 2; e++)
-                    column[4 * disk + 2 * half + e] = d == 2 ? c->p[2 * disk + e] : (double)(d == e);
+                    column[4 * disk + 2 * half + e] = d == 2 ? c->p[2 * disk + e]
+                                                             : (double)(d == e);
         }
     }
 }
@@ -316,7 +340,8 @@ static hd_status measure_null(hd_covariant *c)
     double *columns = c->null_columns;
     if (c->centre == 0) return HD_OK;
     for (int col = 0; col < c->centre; col++)
-        cblas_dcopy(c->rows, c->frame + c->unstable + col, c->vectors, columns + (size_t)col * (size_t)c->rows, 1);
+        cblas_dcopy(c->rows, c->frame + c->unstable + col, c->vectors,
+                    columns + (size_t)col * (size_t)c->rows, 1);
     fill_null(c, columns + (size_t)c->centre * (size_t)c->rows);
     HD_TRY(hd_angles_between(c->null, c->growth, columns, covariant, exact));
     c->null_apart = c->growth[c->centre - 1];
@@ -358,8 +383,8 @@ static hd_status look(hd_covariant *c, long interval)
     HD_TRY(hd_splitting_add(c->splitting, coefficients));
     HD_TRY(hd_past_vectors(c->past, c->frame, c->q, c->p, interval));
     HD_TRY(measure_weights(c, c->of_frame));
-    cblas_dtrmm(CblasRowMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, c->rows, c->vectors, 1.0, coefficients,
-                c->vectors, c->frame, c->vectors);
+    cblas_dtrmm(CblasRowMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, c->rows,
+                c->vectors, 1.0, coefficients, c->vectors, c->frame, c->vectors);
     hd_shape_add(c->shape, vectors_of(c));
     HD_TRY(measure_null(c));
     HD_TRY(measure_weights(c, c->half[0]));
@@ -367,7 +392,7 @@ static hd_status look(hd_covariant *c, long interval)
     return measure_weights(c, c->half[1]);
 }
 
-/* ---- the way back ----------------------------------------------------------------------------- */
+/* ---- the way back -------------------------------------------------------------------------- */
 
 /** Largest angle between the spaces of columns first .. first + count - 1 of both starts. */
 static hd_status spaces_apart(hd_covariant *c, double *angle, int first, int count)
@@ -375,7 +400,8 @@ static hd_status spaces_apart(hd_covariant *c, double *angle, int first, int cou
     const size_t n = (size_t)c->vectors, size = (size_t)count * n;
     const hd_span one = {0, count}, other = {count, count};
     for (int k = 0; k < 2; k++)
-        memcpy(c->factor + (size_t)k * size, hd_backward_read(c->start[k]) + (size_t)first * n, size * sizeof(double));
+        memcpy(c->factor + (size_t)k * size, hd_backward_read(c->start[k]) + (size_t)first * n,
+               size * sizeof(double));
     HD_TRY(hd_angles_between(c->spaces, c->growth, c->factor, one, other));
     *angle = c->growth[count - 1];
     return HD_OK;
@@ -431,7 +457,7 @@ hd_status hd_covariant_step(hd_covariant *c)
     return HD_OK;
 }
 
-/* ---- results ---------------------------------------------------------------------------------- */
+/* ---- results ------------------------------------------------------------------------------- */
 
 bool hd_covariant_is_going_back(const hd_covariant *c) { return c->way != FORWARD; }
 int hd_covariant_vectors(const hd_covariant *c) { return c->vectors; }
@@ -453,13 +479,15 @@ const double *hd_covariant_cosines(const hd_covariant *c) { return hd_shape_cosi
 /** The averages; the window under way is lost. */
 void hd_covariant_archive(hd_covariant *c, hd_archive *archive)
 {
-    double *const numbers[] = {&c->window,           &c->spaces_apart.most, &c->spaces_apart.centre,
-                               &c->spaces_apart.stable, &c->null_apart,        &c->null_apart_most};
+    double *const numbers[] = {
+        &c->window,     &c->spaces_apart.most, &c->spaces_apart.centre, &c->spaces_apart.stable,
+        &c->null_apart, &c->null_apart_most};
     hd_archive_long(archive, "covariant windows", &c->windows, 0, LONG_MAX / 2);
     hd_archive_long(archive, "covariant lost", &c->lost, 0, LONG_MAX / 2);
     hd_archive_bits(archive, "covariant starts", &c->starts);
     hd_archive_of_doubles(archive, "covariant numbers", sizeof numbers / sizeof *numbers);
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) hd_archive_next_doubles(archive, numbers[k], 1);
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        hd_archive_next_doubles(archive, numbers[k], 1);
     hd_archive_doubles(archive, "covariant apart", c->apart, (size_t)c->vectors);
     hd_spectrum_archive(c->spectrum, archive);
     hd_splitting_archive(c->splitting, archive);

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 /** q and p are those of time t (of the present epoch) and stay untouched until the disk's next
- *  collision: what is predicted from them does not depend on when it is predicted. */
+ * collision: what is predicted from them does not depend on when it is predicted. */
 typedef struct hd_disk {
     double q[2]; /**< where it was at t; may have drifted out of the box since */
     double p[2];

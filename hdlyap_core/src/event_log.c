@@ -43,7 +43,7 @@ hd_status hd_event_log_reserve(hd_event_log *log, size_t count)
     return HD_OK;
 }
 
-/* ---- checks ----------------------------------------------------------------------------------- */
+/* ---- checks -------------------------------------------------------------------------------- */
 
 static bool disks_exist(const hd_event *event, int disks)
 {
@@ -79,7 +79,7 @@ const char *hd_event_log_fault(const hd_event_log *log, int disks)
     return NULL;
 }
 
-/* ---- file ------------------------------------------------------------------------------------- */
+/* ---- file ---------------------------------------------------------------------------------- */
 
 static void event_archive(hd_event *event, hd_archive *archive)
 {

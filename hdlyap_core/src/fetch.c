@@ -1,6 +1,6 @@
-/** Queue -> cache. The addresses are found in steps, each in what the step before has fetched: entry,
- *  disk, cells and partner, the disks in the cells. An event takes them while the queue goes through
- *  the buckets before its own, so that nothing is waited for. One thread. */
+/** Queue -> cache. The addresses are found in steps, each in what the step before has fetched:
+ * entry, disk, cells and partner, the disks in the cells. An event takes them while the queue goes
+ * through the buckets before its own, so that nothing is waited for. One thread. */
 #include "fetch.h"
 
 /** From so many disks on the state outgrows the second-level cache, and this pays. */

@@ -4,8 +4,8 @@
 
 #include "prediction.h"
 
-/** The queue has gone on from bucket `from`: where the state does not fit into the cache, asks for what
- *  the events of the buckets ahead will touch. Changes no result. */
+/** The queue has gone on from bucket `from`: where the state does not fit into the cache, asks for
+ * what the events of the buckets ahead will touch. Changes no result. */
 void hd_fetch_ahead(const hd_trajectory *tr, int32_t from);
 
 #endif

@@ -1,7 +1,8 @@
 /** Positions and momenta -> sampled fields [T10].
  *
- *  Row-major, rows 2j, 2j+1 = x, y of disk j: the right-hand factor of a dgemm against the rows of the
- *  frame. The functions of one coordinate are tabulated per disk, each field is a product of two. */
+ * Row-major, rows 2j, 2j+1 = x, y of disk j: the right-hand factor of a dgemm against the rows of
+ * the frame. The functions of one coordinate are tabulated per disk, each field is a product of
+ * two. */
 #include "hdlyap/fields.h"
 
 #include <float.h>
@@ -28,7 +29,7 @@ struct hd_fields {
     double *norm;          /**< [stride], of the columns as sampled */
 };
 
-/* ---- creation --------------------------------------------------------------------------------- */
+/* ---- creation ------------------------------------------------------------------------------ */
 
 static void subspace_add(hd_fields *fields, hd_mode_kind kind, const hd_wave *wave,
                          hd_modulations modulations)
@@ -113,7 +114,7 @@ void hd_fields_free(hd_fields *fields)
     hd_memory_free(fields);
 }
 
-/* ---- sampling --------------------------------------------------------------------------------- */
+/* ---- sampling ------------------------------------------------------------------------------ */
 
 static void table_fill(table *t, double coordinate)
 {

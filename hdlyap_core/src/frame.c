@@ -1,12 +1,11 @@
 /** Event log -> tangent vectors.
  *
- *  V is 4N x n, row-major, rows 4i .. 4i+3 = dq_x dq_y dp_x dp_y of disk i. The log is first turned into
- *  tangent maps with all divisions done. Then each thread takes a block of columns into a buffer that
- *  stays in its cache, [disk][4][width], carries it through all maps with lazy free flight (only disks
- *  that collide are brought up to date), and writes it to the second copy of V; so the vectors from
- *  before remain for hd_frame_rewind at no cost in time.
- *  Equations [T1], [T3], [T4]. Parallel over blocks; the result does not depend on the number of
- *  threads. */
+ * V is 4N x n, row-major, rows 4i .. 4i+3 = dq_x dq_y dp_x dp_y of disk i. The log is first turned
+ * into tangent maps with all divisions done. Then each thread takes a block of columns into a
+ * buffer that stays in its cache, [disk][4][width], carries it through all maps with lazy free
+ * flight (only disks that collide are brought up to date), and writes it to the second copy of V;
+ * so the vectors from before remain for hd_frame_rewind at no cost in time. Equations [T1], [T3],
+ * [T4]. Parallel over blocks; the result does not depend on the number of threads. */
 #include "hdlyap/frame.h"
 
 #include <float.h>
@@ -25,7 +24,8 @@
 static const double SQUARE_MIN = DBL_MIN / DBL_EPSILON;
 enum { BLOCK_BYTES = 512 * 1024, BLOCK_WIDTH_MAX = 64 };
 
-/** Tangent map of one event: free flights of its disks since their last events, then the collision. */
+/** Tangent map of one event: free flights of its disks since their last events, then the collision.
+ */
 typedef struct tangent_map {
     int32_t i, j;     /**< as in hd_event */
     double flight[2]; /**< of i, of j */
@@ -48,9 +48,10 @@ struct hd_frame {
     double *since; /**< [disks], time of each disk's last event, then its last flight */
 };
 
-/* ---- creation --------------------------------------------------------------------------------- */
+/* ---- creation ------------------------------------------------------------------------------ */
 
-/** Rows of whole cache lines; with room for the neutral vectors that complete the positive half (tail.h). */
+/** Rows of whole cache lines; with room for the neutral vectors that complete the positive half
+ * (tail.h). */
 static int padded(int vectors)
 {
     enum { NEUTRAL_MAX = 3, MANY = 64 };
@@ -136,7 +137,7 @@ hd_columns hd_frame_columns(const hd_frame *frame)
     return (hd_columns){hd_frame_read(frame), frame->stride, 0, frame->vectors};
 }
 
-/* ---- the log as tangent maps ------------------------------------------------------------------ */
+/* ---- the log as tangent maps --------------------------------------------------------------- */
 
 static double flight(double *since, int32_t disk, double t)
 {
@@ -167,7 +168,8 @@ static hd_status maps_reserve(hd_frame *frame, size_t count)
     return HD_NO_MEMORY;
 }
 
-/** Fills frame->map and leaves each disk's last flight in frame->since; returns the number of maps. */
+/** Fills frame->map and leaves each disk's last flight in frame->since; returns the number of maps.
+ */
 static size_t maps_fill(hd_frame *frame, const hd_event_log *log, double t_begin, double t_end)
 {
     const bool last = t_end >= log->duration;
@@ -184,7 +186,7 @@ static size_t maps_fill(hd_frame *frame, const hd_event_log *log, double t_begin
     return count;
 }
 
-/* ---- a block of columns ----------------------------------------------------------------------- */
+/* ---- a block of columns -------------------------------------------------------------------- */
 
 /** [T1] dq += tau dp; v points to the four rows of a disk. */
 static inline __attribute__((always_inline)) void fly(double *restrict v, double tau, int width)
@@ -242,8 +244,8 @@ replay_width(double *buffer, const tangent_map *map, size_t count, bool walls, i
 }
 
 /** The widths are spelled out so that the compiler unrolls and vectorises each. */
-static inline __attribute__((always_inline)) void
-replay_any(double *buffer, const tangent_map *map, size_t count, bool walls, int width)
+static inline __attribute__((always_inline)) void replay_any(double *buffer, const tangent_map *map,
+                                                             size_t count, bool walls, int width)
 {
     switch (width) {
     case 1: replay_width(buffer, map, count, walls, 1); break;
@@ -316,7 +318,7 @@ hd_status hd_frame_replay(hd_frame *frame, const hd_event_log *log, double t_beg
 
 void hd_frame_rewind(hd_frame *frame) { frame->current = 1 - frame->current; }
 
-/* ---- what can be read ------------------------------------------------------------------------- */
+/* ---- what can be read ---------------------------------------------------------------------- */
 
 /** Sums over all disks of dq.dq, dp.dp and dq.dp for columns [col, col + count), count <= 64. */
 static void halves_of_columns(const hd_frame *frame, double sum[3][BLOCK_WIDTH_MAX], int col,

@@ -1,7 +1,7 @@
 /** Vectors of the steps -> response of density, momentum and energy [T15].
  *
- *  Each response is a linear functional of (dq, dp): its coefficients at one disk are four numbers, which
- *  meet the four rows of the disk in the frame for all vectors of the step at once. */
+ * Each response is a linear functional of (dq, dp): its coefficients at one disk are four numbers,
+ * which meet the four rows of the disk in the frame for all vectors of the step at once. */
 #include "hdlyap/hydro.h"
 
 #include <math.h>
@@ -19,7 +19,8 @@ struct hd_hydro {
     hd_hydro_response *response; /**< [count] */
 };
 
-/** A modulation at one place: the value and the derivatives that differ from it by more than a factor. */
+/** A modulation at one place: the value and the derivatives that differ from it by more than a
+ * factor. */
 typedef struct modulation {
     double a, x, y, xy;
 } modulation;

@@ -9,14 +9,16 @@
 
 /** Beyond, block Gram-Schmidt may meet panels that Cholesky cannot factor. */
 static const double CONDITION_MAX = 1e12;
-/** A few collisions alone can make as much: shorter intervals would not lower it, only add up more of it. */
+/** A few collisions alone can make as much: shorter intervals would not lower it, only add up more
+ * of it. */
 static const double CONDITION_MIN = 1e3;
-/** Standard deviations of ln(condition) kept free below the maximum: few intervals are then repaired,
- *  which costs less than shorter intervals would. At least a factor of 2. */
+/** Standard deviations of ln(condition) kept free below the maximum: few intervals are then
+ * repaired, which costs less than shorter intervals would. At least a factor of 2. */
 static const double MARGIN = 2.0, HEADROOM_MIN = 0.7;
 /** A column may grow to e^150 before its square comes near overflow. */
 static const double STRETCH_MAX = 150.0;
-/** A remainder that is longer by this factor is taken at once: a repair now and then costs less than halves would. */
+/** A remainder that is longer by this factor is taken at once: a repair now and then costs less
+ * than halves would. */
 static const double STRAIN = 1.06;
 static const double GROW_MAX = 2.0, FORGET = 0.1, VARIANCE_FIRST = 0.5;
 
@@ -30,8 +32,8 @@ hd_interval hd_interval_first(double first, double limit, double accuracy)
 
 double hd_interval_condition_max(const hd_interval *interval, double length)
 {
-    return fmax(CONDITION_MIN, fmin(CONDITION_MAX,
-                          interval->accuracy * fmax(length, interval->last) / HD_ROUNDING));
+    return fmax(CONDITION_MIN, fmin(CONDITION_MAX, interval->accuracy *
+                                                       fmax(length, interval->last) / HD_ROUNDING));
 }
 
 double hd_interval_piece_max(const hd_interval *interval, double length, double whole)
@@ -42,8 +44,9 @@ double hd_interval_piece_max(const hd_interval *interval, double length, double 
 
 static double follow(double old, double seen) { return fmax(seen, old + FORGET * (seen - old)); }
 
-/** The condition grows exponentially but for a factor that grazing collisions make: that scatters alike at
- *  all lengths, so it is kept apart. The first interval, and a much longer one, start the mean anew. */
+/** The condition grows exponentially but for a factor that grazing collisions make: that scatters
+ * alike at all lengths, so it is kept apart. The first interval, and a much longer one, start the
+ * mean anew. */
 void hd_interval_learn(hd_interval *interval, double length, double condition, double stretch)
 {
     const double seen = log(condition), slope = seen / length;

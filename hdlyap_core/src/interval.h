@@ -1,4 +1,5 @@
-/** The time between orthonormalisations: as long as the measured conditioning allows, never longer. */
+/** The time between orthonormalisations: as long as the measured conditioning allows, never longer.
+ */
 #ifndef HD_INTERVAL_H
 #define HD_INTERVAL_H
 
@@ -6,8 +7,8 @@
 
 #include "hdlyap/run.h"
 
-/** The rounding of V enters the sum of one interval's logarithms as at most this times its condition; seen: up to
- *  1.4 eps [T6]. */
+/** The rounding of V enters the sum of one interval's logarithms as at most this times its
+ * condition; seen: up to 1.4 eps [T6]. */
 #define HD_ROUNDING (2.0 * DBL_EPSILON)
 
 /** Neighbouring vectors that change places enlarge that: seen up to 18 times [T6]. */
@@ -25,12 +26,13 @@ typedef struct hd_interval {
 
 hd_interval hd_interval_first(double first, double limit, double accuracy);
 
-/** Largest condition that leaves the exponents as accurate as asked after an interval this long (or one as long as
- *  usual, if that is longer: a rare short one with a grazing collision may use its share). */
+/** Largest condition that leaves the exponents as accurate as asked after an interval this long (or
+ * one as long as usual, if that is longer: a rare short one with a grazing collision may use its
+ * share). */
 double hd_interval_condition_max(const hd_interval *interval, double length);
 
-/** The same for a piece of an interval of `whole`: those that were not taken back mostly stay far below what they are
- *  allowed, pieces of the others just below. */
+/** The same for a piece of an interval of `whole`: those that were not taken back mostly stay far
+ * below what they are allowed, pieces of the others just below. */
 double hd_interval_piece_max(const hd_interval *interval, double length, double whole);
 
 /** What an interval of `length` showed. */

@@ -10,8 +10,8 @@ static int64_t site_count(int64_t rows, int64_t columns, int odd_short)
     return rows * columns - (odd_short ? rows / 2 : 0);
 }
 
-/** Distance of neighbouring sites in a line of `count` that must fit into `length`; `half` = 1 leaves
- *  room for a shift by half a spacing. One site alone has no neighbour: spacing = length. */
+/** Distance of neighbouring sites in a line of `count` that must fit into `length`; `half` = 1
+ * leaves room for a shift by half a spacing. One site alone has no neighbour: spacing = length. */
 static double spacing(double length, int64_t count, int half, hd_boundary boundary)
 {
     if (boundary == HD_PERIODIC) return length / (double)count;

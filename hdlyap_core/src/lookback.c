@@ -7,7 +7,8 @@
 #include "clock.h"
 #include "hdlyap/covariant.h"
 
-/** Collisions of each disk between two orthonormalisations that no accuracy and no density exceed. */
+/** Collisions of each disk between two orthonormalisations that no accuracy and no density exceed.
+ */
 static const double COLLISIONS_MOST = 60.0;
 static const double GO_SECONDS = 0.1;
 
@@ -24,7 +25,8 @@ hd_status hd_lookback_create(hd_run *run, char *message, size_t size)
 
 bool hd_lookback_is_watched(const hd_run *run)
 {
-    return run->covariant && (run->observe & HD_OBSERVE_COVARIANT) && run->schedule.phase == HD_AVERAGING;
+    return run->covariant && (run->observe & HD_OBSERVE_COVARIANT) &&
+           run->schedule.phase == HD_AVERAGING;
 }
 
 void hd_lookback_clear(hd_run *run)
@@ -34,17 +36,17 @@ void hd_lookback_clear(hd_run *run)
     run->lookback_due = true;
 }
 
-void hd_lookback_interrupt(hd_run *run)
-{
-    run->lookback_due = true;
-}
+void hd_lookback_interrupt(hd_run *run) { run->lookback_due = true; }
 
-/** What the next intervals are expected to be: equal shares of a sample, or of a report that needs all vectors. */
+/** What the next intervals are expected to be: equal shares of a sample, or of a report that needs
+ * all vectors. */
 static double expected(const hd_run *run)
 {
     const bool at_reports = run->observe & (HD_OBSERVE_HYDRO | HD_OBSERVE_FIELDS);
     const double sample = run->schedule.sample_length;
-    return hd_interval_next(&run->interval, at_reports ? fmin(sample, run->scene.report_interval) : sample).length;
+    return hd_interval_next(&run->interval,
+                            at_reports ? fmin(sample, run->scene.report_interval) : sample)
+        .length;
 }
 
 /** Adds the seconds since then to the cost. */
@@ -60,7 +62,9 @@ hd_status hd_lookback_start(hd_run *run)
     if (!hd_lookback_is_watched(run) || !run->lookback_due) return HD_OK;
     run->lookback_due = false;
     const double begin = run->now - run->log->duration;
-    return timed(run, start, hd_covariant_begin(run->covariant, hd_frame_columns(run->frame), begin, expected(run)));
+    return timed(
+        run, start,
+        hd_covariant_begin(run->covariant, hd_frame_columns(run->frame), begin, expected(run)));
 }
 
 hd_status hd_lookback_add(hd_run *run, double t_begin, double t_end)
@@ -68,19 +72,22 @@ hd_status hd_lookback_add(hd_run *run, double t_begin, double t_end)
     const double start = hd_clock_now();
     const hd_columns columns = hd_frame_columns(run->frame);
     if (!hd_lookback_is_watched(run)) return HD_OK;
-    return timed(run, start, hd_covariant_add(run->covariant, run->ortho, columns, run->log, t_begin, t_end));
+    return timed(run, start,
+                 hd_covariant_add(run->covariant, run->ortho, columns, run->log, t_begin, t_end));
 }
 
 hd_status hd_lookback_end(hd_run *run)
 {
     const double start = hd_clock_now();
     if (!hd_lookback_is_watched(run) || !hd_covariant_wants_state(run->covariant)) return HD_OK;
-    return timed(run, start, hd_covariant_state(run->covariant, hd_frame_columns(run->frame), run->trajectory));
+    return timed(run, start,
+                 hd_covariant_state(run->covariant, hd_frame_columns(run->frame), run->trajectory));
 }
 
 bool hd_lookback_is_going(const hd_run *run)
 {
-    return hd_lookback_is_watched(run) && !run->lookback_due && hd_covariant_is_going_back(run->covariant);
+    return hd_lookback_is_watched(run) && !run->lookback_due &&
+           hd_covariant_is_going_back(run->covariant);
 }
 
 hd_status hd_lookback_go(hd_run *run, bool to_its_end)

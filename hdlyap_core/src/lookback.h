@@ -1,10 +1,12 @@
-/** A run's covariant vectors: what the forward pass leaves to them, and the way back in between. Nothing if nobody asks. */
+/** A run's covariant vectors: what the forward pass leaves to them, and the way back in between.
+ * Nothing if nobody asks. */
 #ifndef HD_LOOKBACK_H
 #define HD_LOOKBACK_H
 
 #include "run_state.h"
 
-/** HD_REFUSED with a line in message where no interval that can be expected makes the windows fit. */
+/** HD_REFUSED with a line in message where no interval that can be expected makes the windows fit.
+ */
 HD_MUST_CHECK hd_status hd_lookback_create(hd_run *run, char *message, size_t size);
 
 /** True while covariant vectors are wanted of what is carried. */
@@ -15,8 +17,8 @@ void hd_lookback_clear(hd_run *run);
 /** Nothing is known of the time before the next interval. */
 void hd_lookback_interrupt(hd_run *run);
 
-/** An orthonormalisation of the averaging, and the part of the log before it. Before the first of an interval: the frame
- *  is still that of its start. */
+/** An orthonormalisation of the averaging, and the part of the log before it. Before the first of
+ * an interval: the frame is still that of its start. */
 HD_MUST_CHECK hd_status hd_lookback_start(hd_run *run);
 HD_MUST_CHECK hd_status hd_lookback_add(hd_run *run, double t_begin, double t_end);
 /** The whole interval is done. */

@@ -1,5 +1,5 @@
 /** Aligned, zeroed, counted allocation. The counter is the core's only global: it counts, it steers
- *  nothing. */
+ * nothing. */
 #define _DEFAULT_SOURCE /* madvise */
 #include "memory.h"
 

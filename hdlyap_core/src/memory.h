@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 /** count * size bytes, zeroed, on a cache line (large ones on huge pages); NULL when out of memory
- *  or when the product overflows. */
+ * or when the product overflows. */
 void *hd_memory_alloc(size_t count, size_t size);
 void hd_memory_free(void *block);
 

@@ -1,9 +1,10 @@
 /** Frame -> weights of every vector in every subspace [T11].
  *
- *  With B (2N x D, row-major) the sampled fields of all subspaces and U (2N x n) the dq halves, the
- *  overlaps B^T U are two dgemms, over the x and the y rows of the frame where they lie. Least squares on one subspace:
- *  its Gram matrix G = E L E^T (dgesvd), coefficients c = G^+ B^T u, weight = |L^(-1/2) E^T B^T u|^2; directions
- *  that the disks do not sample (L below RANK) are left out. The vectors stay in columns throughout. */
+ * With B (2N x D, row-major) the sampled fields of all subspaces and U (2N x n) the dq halves, the
+ * overlaps B^T U are two dgemms, over the x and the y rows of the frame where they lie. Least
+ * squares on one subspace: its Gram matrix G = E L E^T (dgesvd), coefficients c = G^+ B^T u, weight
+ * = |L^(-1/2) E^T B^T u|^2; directions that the disks do not sample (L below RANK) are left out.
+ * The vectors stay in columns throughout. */
 #include "hdlyap/modes.h"
 
 #include <cblas.h>
@@ -16,7 +17,8 @@
 #include "check.h"
 #include "memory.h"
 
-/** Eigenvalues of a Gram matrix of unit fields below this are unsampled directions, not small ones. */
+/** Eigenvalues of a Gram matrix of unit fields below this are unsampled directions, not small ones.
+ */
 static const double RANK = 1e-6;
 
 enum { DIMENSION_MAX = 2 * HD_MODULATIONS_MAX, BLOCK = 128 };
@@ -35,7 +37,7 @@ struct hd_modes {
     long samples;
 };
 
-/* ---- creation --------------------------------------------------------------------------------- */
+/* ---- creation ------------------------------------------------------------------------------ */
 
 static size_t weight_rows(const hd_modes *modes)
 {
@@ -92,7 +94,7 @@ void hd_modes_free(hd_modes *modes)
     hd_memory_free(modes);
 }
 
-/* ---- one snapshot ----------------------------------------------------------------------------- */
+/* ---- one snapshot -------------------------------------------------------------------------- */
 
 /** out[count][stride] = (fields from `column` on)^T times the dq (half 0) or dp (half 2) rows. */
 static void overlaps(const hd_modes *modes, hd_columns v, int half, int column, int count,
@@ -153,8 +155,9 @@ static void measure_null(hd_modes *modes, hd_columns v)
     }
 }
 
-/** whiten[d * d] = E L^(-1/2), d x d row-major, zero columns for unsampled directions. The singular values of G
- *  are its eigenvalues; dsyev would ask all of OpenBLAS's threads for every product with a vector of 8. */
+/** whiten[d * d] = E L^(-1/2), d x d row-major, zero columns for unsampled directions. The singular
+ * values of G are its eigenvalues; dsyev would ask all of OpenBLAS's threads for every product with
+ * a vector of 8. */
 static void whitening(const hd_modes *modes, const hd_subspace *s, double *whiten)
 {
     const int d = s->dimension, columns = hd_fields_columns(modes->fields);
@@ -209,7 +212,8 @@ static void measure_subspace(hd_modes *modes, int index, hd_columns v)
     part_weight(modes, s, d / 2, d, v, out + HD_WEIGHT_P * modes->stride);
 }
 
-/** Overlaps with the fields of all subspaces, of normalised dq halves. A vector without a dq half has no weights. */
+/** Overlaps with the fields of all subspaces, of normalised dq halves. A vector without a dq half
+ * has no weights. */
 static void normalise(hd_modes *modes, hd_columns v)
 {
     const size_t columns = (size_t)(hd_fields_columns(modes->fields) - HD_NULLS);
@@ -243,7 +247,7 @@ hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const
     return all_finite(modes->snapshot, weight_rows(modes) * modes->stride) ? HD_OK : HD_NOT_FINITE;
 }
 
-/* ---- averages --------------------------------------------------------------------------------- */
+/* ---- averages ------------------------------------------------------------------------------ */
 
 void hd_modes_add(hd_modes *modes)
 {
@@ -259,7 +263,7 @@ void hd_modes_clear(hd_modes *modes)
     memset(modes->average, 0, weight_rows(modes) * modes->stride * sizeof *modes->average);
 }
 
-/* ---- what can be read ------------------------------------------------------------------------- */
+/* ---- what can be read ---------------------------------------------------------------------- */
 
 static const double *weight_of(const hd_modes *modes, const double *rows, int s, hd_weight which)
 {

@@ -1,5 +1,5 @@
-/** Hot loops are compiled for several processors; the loader picks the best one in an installed binary.
- *  Off with sanitizers, whose run time is not ready when the loader asks. */
+/** Hot loops are compiled for several processors; the loader picks the best one in an installed
+ * binary. Off with sanitizers, whose run time is not ready when the loader asks. */
 #ifndef HD_MULTIVERSION_H
 #define HD_MULTIVERSION_H
 

@@ -5,7 +5,7 @@
 
 #include "multiversion.h"
 
-/* ---- who -------------------------------------------------------------------------------------- */
+/* ---- who ----------------------------------------------------------------------------------- */
 
 typedef int32_t int_quad __attribute__((vector_size(16)));
 
@@ -67,7 +67,7 @@ int32_t hd_nearby_listed(hd_nearby *near, const hd_cells *cells, const hd_disk *
     return j;
 }
 
-/* ---- when ------------------------------------------------------------------------------------- */
+/* ---- when ---------------------------------------------------------------------------------- */
 
 /** Contacts in one step: two pairs, for one computation to fill the waits of the other. */
 enum { STEP = HD_NEARBY_SPARE };

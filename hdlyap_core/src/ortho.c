@@ -1,13 +1,14 @@
 /** Tangent frame -> (Q, ln diag R), by block Gram-Schmidt.
  *
- *  V (rows m, vectors n, row-major) is for BLAS the column-major n x m matrix A = V^T. The vectors are taken
- *  in panels: a panel is orthonormalised by Cholesky of its Gram matrix, G = A_p A_p^T = L L^T, A_p <- L^-1 A_p
- *  (dsyrk, dpotrf, dtrtri, dtrmm), and then taken out of all later ones: S = A_rest A_p^T,
- *  A_rest -= S A_p (dgemm). That is 2 m n^2 flops nearly all in dgemm, and, as in the modified
- *  Gram-Schmidt process, each panel meets vectors that the earlier ones have cleaned: it loses orthogonality in
- *  proportion to the condition, where one Cholesky factorisation of all loses its square.
- *  diag(L) > 0, so Q and R = L^T are unique; R is used up on the way unless somebody keeps it. The stable step factors
- *  A = L Q by reflections instead (dgelqf, dorglq). Equations [T5]-[T7]. */
+ * V (rows m, vectors n, row-major) is for BLAS the column-major n x m matrix A = V^T. The vectors
+ * are taken in panels: a panel is orthonormalised by Cholesky of its Gram matrix, G = A_p A_p^T = L
+ * L^T, A_p <- L^-1 A_p (dsyrk, dpotrf, dtrtri, dtrmm), and then taken out of all later ones: S =
+ * A_rest A_p^T, A_rest -= S A_p (dgemm). That is 2 m n^2 flops nearly all in dgemm, and, as in the
+ * modified Gram-Schmidt process, each panel meets vectors that the earlier ones have cleaned: it
+ * loses orthogonality in proportion to the condition, where one Cholesky factorisation of all loses
+ * its square. diag(L) > 0, so Q and R = L^T are unique; R is used up on the way unless somebody
+ * keeps it. The stable step factors A = L Q by reflections instead (dgelqf, dorglq). Equations
+ * [T5]-[T7]. */
 #include "hdlyap/ortho.h"
 
 #include <cblas.h>
@@ -20,32 +21,36 @@
 #include "check.h"
 #include "memory.h"
 
-/** |Q^T Q - 1| after one pass is at most the square of this, or of the worst panel's own condition if that is larger,
- *  times eps condition; see [T7]. */
+/** |Q^T Q - 1| after one pass is at most the square of this, or of the worst panel's own condition
+ * if that is larger, times eps condition; see [T7]. */
 static const double PANEL_CONDITION_LEAST = 8.0;
-/** A panel that is worse conditioned by itself gets a second Cholesky pass: its loss of orthogonality,
- *  eps condition^2, multiplies what the later panels are cleaned of. */
+/** A panel that is worse conditioned by itself gets a second Cholesky pass: its loss of
+ * orthogonality, eps condition^2, multiplies what the later panels are cleaned of. */
 static const double PANEL_CONDITION_GOOD = 30.0;
 /** Cholesky of a Gram matrix breaks down near 1 / sqrt(16 eps) = 2e7. */
 static const double PANEL_CONDITION_MAX = 1e7;
 
-/** PANELS of them if there are that many vectors: the last half of the flops then falls into wide products. */
+/** PANELS of them if there are that many vectors: the last half of the flops then falls into wide
+ * products. */
 enum { PANELS = 8, PANEL_MIN = 8, PANEL_MAX = 160, LATER_MAX = 640, PROBES = 8 };
 
 struct hd_ortho {
     int rows, vectors;
-    int width;                     /**< of a panel */
-    double *gram;                  /**< [width * width], column-major, lower triangle */
-    double *projection;            /**< [later * width], column-major: S; LAPACK's workspace */
-    double *norm2;                 /**< [vectors], |V e_k|^2, of a panel complete when its turn comes */
-    double *scale;                 /**< [width], diagonal of gram before it is factored */
-    double *probe;                 /**< [PROBES][vectors]: R^-T D x, see condition_of */
-    double *log_stretch;           /**< [vectors] */
-    double *reflector;             /**< [vectors], of the stable step */
-    double *factor[2];             /**< [vectors * vectors], column-major: L of each pass; NULL unless kept */
-    int lwork;                     /**< of projection */
+    int width;          /**< of a panel */
+    double *gram;       /**< [width * width], column-major, lower triangle */
+    double *projection; /**< [later * width], column-major: S; LAPACK's workspace */
+    /** [vectors], |V e_k|^2, of a panel complete when its turn comes */
+    double *norm2;
+    double *scale;       /**< [width], diagonal of gram before it is factored */
+    double *probe;       /**< [PROBES][vectors]: R^-T D x, see condition_of */
+    double *log_stretch; /**< [vectors] */
+    double *reflector;   /**< [vectors], of the stable step */
+    /** [vectors * vectors], column-major: L of each pass; NULL unless kept */
+    double *factor[2];
+    int lwork; /**< of projection */
     double condition, defect;
-    double panel_condition; /**< largest of the panels as they were accepted, at least PANEL_CONDITION_LEAST */
+    /** Largest of the panels as they were accepted, at least PANEL_CONDITION_LEAST */
+    double panel_condition;
     int passes;
 };
 
@@ -68,9 +73,12 @@ static hd_status ortho_allocate(hd_ortho *ortho)
     const struct {
         double **array;
         size_t size;
-    } wanted[] = {{&ortho->gram, width * width},     {&ortho->projection, (size_t)ortho->lwork},
-                  {&ortho->norm2, n},                {&ortho->scale, width},
-                  {&ortho->probe, n * PROBES},       {&ortho->log_stretch, n},
+    } wanted[] = {{&ortho->gram, width * width},
+                  {&ortho->projection, (size_t)ortho->lwork},
+                  {&ortho->norm2, n},
+                  {&ortho->scale, width},
+                  {&ortho->probe, n * PROBES},
+                  {&ortho->log_stretch, n},
                   {&ortho->reflector, n}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
         if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
@@ -117,7 +125,7 @@ void hd_ortho_free(hd_ortho *ortho)
     hd_memory_free(ortho);
 }
 
-/* ---- the condition ---------------------------------------------------------------------------- */
+/* ---- the condition ------------------------------------------------------------------------- */
 
 /** Entry of a fixed matrix of random signs (a bit of the row's hash). */
 static double sign_of(int row, int probe)
@@ -128,12 +136,13 @@ static double sign_of(int row, int probe)
     return hash >> (16 + probe) & 1 ? 1.0 : -1.0;
 }
 
-/** True if a sum of squares is known to rounding: neither zero, as BLAS libraries differ in what they make of that, nor
- *  near the smallest numbers, nor overflown. */
+/** True if a sum of squares is known to rounding: neither zero, as BLAS libraries differ in what
+ * they make of that, nor near the smallest numbers, nor overflown. */
 static bool is_square(double sum) { return sum > DBL_MIN / DBL_EPSILON && sum < INFINITY; }
 
-/** See hd_ortho_condition: with D = diag |V e_k| and random signs x the entries of y = R^-T D x have the
- *  mean squares kappa_l^2. INFINITY where one is not finite, or a vector too short to be measured. */
+/** See hd_ortho_condition: with D = diag |V e_k| and random signs x the entries of y = R^-T D x
+ * have the mean squares kappa_l^2. INFINITY where one is not finite, or a vector too short to be
+ * measured. */
 static double condition_of(const hd_ortho *ortho)
 {
     double worst = 1.0;
@@ -150,7 +159,7 @@ static double condition_of(const hd_ortho *ortho)
     return sqrt(worst);
 }
 
-/* ---- a panel ---------------------------------------------------------------------------------- */
+/* ---- a panel ------------------------------------------------------------------------------- */
 
 typedef struct panel {
     double *a; /**< its rows of A */
@@ -170,8 +179,8 @@ static void keep_panel(const hd_ortho *ortho, panel x, bool again)
     double *own = factor_at(ortho, x, x.first);
     const int n = ortho->vectors, w = x.width;
     if (again)
-        cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, w, w, 1.0, ortho->gram, w, own,
-                    n);
+        cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, w, w, 1.0,
+                    ortho->gram, w, own, n);
     else
         for (int col = 0; col < w; col++) {
             memset(own + (size_t)col * (size_t)n, 0, (size_t)col * sizeof *own);
@@ -289,7 +298,7 @@ static void panel_project_out(hd_ortho *ortho, panel x)
     }
 }
 
-/* ---- a step ----------------------------------------------------------------------------------- */
+/* ---- a step -------------------------------------------------------------------------------- */
 
 static void probes_clear(hd_ortho *ortho)
 {
@@ -325,9 +334,10 @@ static void factors_multiply(const hd_ortho *ortho)
 {
     const int n = ortho->vectors;
     if (!ortho->factor[0]) return;
-    for (int col = 1; col < n; col++) memset(ortho->factor[0] + (size_t)col * (size_t)n, 0, (size_t)col * sizeof(double));
-    cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, n, n, 1.0, ortho->factor[1], n,
-                ortho->factor[0], n);
+    for (int col = 1; col < n; col++)
+        memset(ortho->factor[0] + (size_t)col * (size_t)n, 0, (size_t)col * sizeof(double));
+    cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, n, n, 1.0,
+                ortho->factor[1], n, ortho->factor[0], n);
 }
 
 static double defect_foreseen(const hd_ortho *ortho)
@@ -350,7 +360,7 @@ hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits
     return HD_OK;
 }
 
-/* ---- by reflections --------------------------------------------------------------------------- */
+/* ---- by reflections ------------------------------------------------------------------------ */
 
 /** With L in a: norm2 <- |V e_k|^2, log_stretch <- ln |L_kk|, and the condition. */
 static void examine_lq(hd_ortho *ortho, const double *a, int stride)
@@ -419,7 +429,8 @@ hd_status hd_ortho_keep_factor(hd_ortho *ortho)
 {
     const size_t n = (size_t)ortho->vectors;
     for (int pass = 0; pass < 2; pass++)
-        if (!ortho->factor[pass] && !(ortho->factor[pass] = hd_memory_alloc(n * n, sizeof(double)))) return HD_NO_MEMORY;
+        if (!ortho->factor[pass] && !(ortho->factor[pass] = hd_memory_alloc(n * n, sizeof(double))))
+            return HD_NO_MEMORY;
     return HD_OK;
 }
 
@@ -429,7 +440,8 @@ double hd_ortho_condition(const hd_ortho *ortho) { return ortho->condition; }
 double hd_ortho_defect(const hd_ortho *ortho) { return ortho->defect; }
 int hd_ortho_passes(const hd_ortho *ortho) { return ortho->passes; }
 
-/** max(worst, |x^T y - diagonal|) over all pairs of columns x of the panel and y from `next` on; NaN stays. */
+/** max(worst, |x^T y - diagonal|) over all pairs of columns x of the panel and y from `next` on;
+ * NaN stays. */
 static double panel_defect(hd_ortho *ortho, panel x, int next, int count, double worst)
 {
     double *s = ortho->projection;

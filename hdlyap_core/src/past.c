@@ -1,6 +1,7 @@
 /** Orthonormalisations, one after the other -> triangles and snapshots, for whoever goes back.
  *
- *  Rings: interval k is in slot k mod intervals. Triangles are kept packed, or computed again (recompute.h). */
+ * Rings: interval k is in slot k mod intervals. Triangles are kept packed, or computed again
+ * (recompute.h). */
 #include "past.h"
 
 #include <string.h>
@@ -19,9 +20,9 @@ typedef struct interval_kept {
 struct hd_past {
     hd_past_def def;
     int rows;
-    long slots;           /**< of the rings */
-    interval_kept *kept;  /**< [slots] */
-    hd_store *triangles;  /**< NULL if recomputed */
+    long slots;          /**< of the rings */
+    interval_kept *kept; /**< [slots] */
+    hd_store *triangles; /**< NULL if recomputed */
     hd_recompute *recompute;
     hd_store *snapshots;
     double *triangle, *record; /**< packed, one of each */
@@ -34,7 +35,8 @@ static size_t record_size(const hd_past_def *def)
     return 4 * (size_t)def->disks * ((size_t)def->vectors + 1);
 }
 
-/** Whole stretches, and one more: where one begins there must be a frame while any of its intervals is there. */
+/** Whole stretches, and one more: where one begins there must be a frame while any of its intervals
+ * is there. */
 static hd_recompute_def recompute_of(const hd_past_def *def)
 {
     const int rows = 4 * def->disks;
@@ -50,8 +52,9 @@ double hd_past_bytes(const hd_past_def *def)
 {
     const double snapshots = (double)def->snapshots * (double)record_size(def);
     const hd_recompute_def again = recompute_of(def);
-    const double triangles = def->recompute ? hd_recompute_doubles(&again)
-                                            : (double)def->intervals * (double)hd_triangle_size(def->vectors);
+    const double triangles = def->recompute
+                                 ? hd_recompute_doubles(&again)
+                                 : (double)def->intervals * (double)hd_triangle_size(def->vectors);
     return (snapshots + triangles) * sizeof(double);
 }
 
@@ -98,7 +101,7 @@ void hd_past_free(hd_past *past)
     hd_memory_free(past);
 }
 
-/* ---- forward ---------------------------------------------------------------------------------- */
+/* ---- forward ------------------------------------------------------------------------------- */
 
 static interval_kept *kept_at(const hd_past *past, long interval)
 {
@@ -109,7 +112,8 @@ static interval_kept *kept_at(const hd_past *past, long interval)
 /** The frame at the start of the next interval. */
 static hd_status keep_frame(hd_past *past, hd_columns frame)
 {
-    return past->recompute ? hd_recompute_frame(past->recompute, past->end % past->slots, frame) : HD_OK;
+    return past->recompute ? hd_recompute_frame(past->recompute, past->end % past->slots, frame)
+                           : HD_OK;
 }
 
 hd_status hd_past_begin(hd_past *past, hd_columns frame, double time)
@@ -121,8 +125,8 @@ hd_status hd_past_begin(hd_past *past, hd_columns frame, double time)
 
 bool hd_past_is_full(const hd_past *past) { return past->end - past->first >= past->def.intervals; }
 
-hd_status hd_past_add(hd_past *past, const double *factor, hd_columns frame, const hd_event_log *log, double t_begin,
-                      double t_end)
+hd_status hd_past_add(hd_past *past, const double *factor, hd_columns frame,
+                      const hd_event_log *log, double t_begin, double t_end)
 {
     HD_ASSERT(!hd_past_is_full(past));
     const long slot = past->end % past->slots;
@@ -157,13 +161,19 @@ void hd_past_drop(hd_past *past, double time)
     while (past->first < past->end && kept_at(past, past->first)->time <= time) past->first++;
 }
 
-/* ---- what is there ---------------------------------------------------------------------------- */
+/* ---- what is there ------------------------------------------------------------------------- */
 
 long hd_past_first(const hd_past *past) { return past->first; }
 long hd_past_end(const hd_past *past) { return past->end; }
 double hd_past_time(const hd_past *past, long interval) { return kept_at(past, interval)->time; }
-double hd_past_length(const hd_past *past, long interval) { return kept_at(past, interval)->length; }
-bool hd_past_has_snapshot(const hd_past *past, long interval) { return kept_at(past, interval)->snapshot >= 0; }
+double hd_past_length(const hd_past *past, long interval)
+{
+    return kept_at(past, interval)->length;
+}
+bool hd_past_has_snapshot(const hd_past *past, long interval)
+{
+    return kept_at(past, interval)->snapshot >= 0;
+}
 
 hd_status hd_past_factor(hd_past *past, double *factor, long interval)
 {
@@ -171,7 +181,8 @@ hd_status hd_past_factor(hd_past *past, double *factor, long interval)
     (void)kept_at(past, interval);
     if (past->recompute) {
         const long ahead = past->end - 1 - interval, to_wrap = past->slots - 1 - slot;
-        return hd_recompute_factor(past->recompute, factor, slot, slot + (ahead < to_wrap ? ahead : to_wrap));
+        return hd_recompute_factor(past->recompute, factor, slot,
+                                   slot + (ahead < to_wrap ? ahead : to_wrap));
     }
     HD_TRY(hd_store_fetch(past->triangles, past->triangle, slot));
     hd_triangle_unpack(factor, past->triangle, past->def.vectors);

@@ -1,4 +1,5 @@
-/** What the forward pass leaves for the way back: the triangle of each interval, and the vectors of chosen times. */
+/** What the forward pass leaves for the way back: the triangle of each interval, and the vectors of
+ * chosen times. */
 #ifndef HD_PAST_H
 #define HD_PAST_H
 
@@ -27,14 +28,15 @@ void hd_past_free(hd_past *past);
 /** Forgets everything; the frame is that of the start. */
 HD_MUST_CHECK hd_status hd_past_begin(hd_past *past, hd_columns frame, double time);
 
-/** What an orthonormalisation leaves: R of the interval from t_begin to t_end of the log, and the frame after it.
- *  There must be room (hd_past_is_full). */
-HD_MUST_CHECK hd_status hd_past_add(hd_past *past, const double *factor, hd_columns frame, const hd_event_log *log,
-                                    double t_begin, double t_end);
+/** What an orthonormalisation leaves: R of the interval from t_begin to t_end of the log, and the
+ * frame after it. There must be room (hd_past_is_full). */
+HD_MUST_CHECK hd_status hd_past_add(hd_past *past, const double *factor, hd_columns frame,
+                                    const hd_event_log *log, double t_begin, double t_end);
 bool hd_past_is_full(const hd_past *past);
 
 /** Keeps the frame and the state of the end of the last interval: q[2N], p[2N]. */
-HD_MUST_CHECK hd_status hd_past_snapshot(hd_past *past, hd_columns frame, const double *q, const double *p);
+HD_MUST_CHECK hd_status hd_past_snapshot(hd_past *past, hd_columns frame, const double *q,
+                                         const double *p);
 
 /** Forgets the intervals that end at or before that time. */
 void hd_past_drop(hd_past *past, double time);
@@ -50,6 +52,7 @@ bool hd_past_has_snapshot(const hd_past *past, long interval); /**< at its end *
 /** R [n * n], row-major, of one interval. */
 HD_MUST_CHECK hd_status hd_past_factor(hd_past *past, double *factor, long interval);
 /** Vectors [4N * n] row-major, q[2N], p[2N] of a snapshot. */
-HD_MUST_CHECK hd_status hd_past_vectors(hd_past *past, double *vectors, double *q, double *p, long interval);
+HD_MUST_CHECK hd_status hd_past_vectors(hd_past *past, double *vectors, double *q, double *p,
+                                        long interval);
 
 #endif

@@ -1,10 +1,11 @@
 /** Coefficients of the LP steps' vectors -> phases and angular velocities [T13].
  *
- *  With z = a + i b of one pair, the vectors of a step all turn at the same rate: z -> z exp(i omega t). A
- *  rotor follows one step: its slots are vectors, which may change their columns; each slot and pair is a
- *  track with a phase of its own. The sum over all tracks of conj(z) z' between two samples turns by omega dt
- *  too, weighs each track with its strength and does not mind which vector is which: it predicts the tracks' next
- *  phases. The velocity is the mean rate of the tracks. */
+ * With z = a + i b of one pair, the vectors of a step all turn at the same rate: z -> z exp(i
+ * omega t). A rotor follows one step: its slots are vectors, which may change their columns; each
+ * slot and pair is a track with a phase of its own. The sum over all tracks of conj(z) z' between
+ * two samples turns by omega dt too, weighs each track with its strength and does not mind which
+ * vector is which: it predicts the tracks' next phases. The velocity is the mean rate of the
+ * tracks. */
 #include "hdlyap/phases.h"
 
 #include <complex.h>
@@ -50,8 +51,8 @@ typedef struct rotor {
     double sign[SLOTS_MAX]; /**< of the vector in a slot against the one it began with */
     double complex z[SLOTS_MAX][PAIRS_MAX]; /**< at the last sample, times sign */
     double time, dt;
-    double omega;   /**< mean turn of the whole step per time: what phases are unwrapped by */
-    hd_blocks rate; /**< one series: of these turns */
+    double omega;       /**< mean turn of the whole step per time: what phases are unwrapped by */
+    hd_blocks rate;     /**< one series: of these turns */
     hd_blocks velocity; /**< one series: mean rate of the tracks, which adds up to their phases */
 } rotor;
 
@@ -61,7 +62,7 @@ struct hd_phases {
     track *track;
 };
 
-/* ---- creation --------------------------------------------------------------------------------- */
+/* ---- creation ------------------------------------------------------------------------------ */
 
 static hd_status rotor_create(rotor *r, track *tracks, const hd_step *step, int index, int column)
 {
@@ -135,7 +136,7 @@ void hd_phases_free(hd_phases *phases)
     hd_memory_free(phases);
 }
 
-/* ---- one track -------------------------------------------------------------------------------- */
+/* ---- one track ----------------------------------------------------------------------------- */
 
 static void track_restart(track *t, hd_lp_state state)
 {
@@ -175,8 +176,8 @@ static void track_regress(track *t, double time, double phase)
     t->out.omega = t->product / t->square_t;
 }
 
-/** Longest blocks see a phase that diffuses as well as one that only trembles; the slope of a diffusing phase has
- *  6/5 of the variance of its mean rate. */
+/** Longest blocks see a phase that diffuses as well as one that only trembles; the slope of a
+ * diffusing phase has 6/5 of the variance of its mean rate. */
 static double slope_error(const track *t)
 {
     const double error = hd_blocks_long_error(&t->rate, 0);
@@ -206,7 +207,7 @@ static bool track_add(track *t, const rotor *r, double complex z, double time)
     return true;
 }
 
-/* ---- one rotor -------------------------------------------------------------------------------- */
+/* ---- one rotor ----------------------------------------------------------------------------- */
 
 static void rotor_restart(rotor *r, hd_lp_state state)
 {
@@ -234,7 +235,8 @@ static double strength_of(const rotor *r, const hd_modes *modes, int col)
     return sum;
 }
 
-/** Each slot takes a vector of the set; of a set shared with other steps the ones most of this one. */
+/** Each slot takes a vector of the set; of a set shared with other steps the ones most of this one.
+ */
 static void slots_fill(rotor *r, const hd_step *step, const hd_modes *modes)
 {
     const double *weight = hd_modes_average(modes, step->subspace, HD_WEIGHT);
@@ -265,8 +267,8 @@ static double continuation(const rotor *r, const hd_modes *modes, int v, int col
     return product / fmax(sqrt(before * now), 1e-300);
 }
 
-/** Vectors of a degenerate step can change places: best continuations first; a vector that goes on by itself
- *  is not asked. */
+/** Vectors of a degenerate step can change places: best continuations first; a vector that goes on
+ * by itself is not asked. */
 static void slots_match(rotor *r, const hd_step *step, const hd_modes *modes, double dt)
 {
     const double GOES_ON = 0.7, PREFERENCE = 0.3; /* for staying */
@@ -295,7 +297,8 @@ static void slots_match(rotor *r, const hd_step *step, const hd_modes *modes, do
     }
 }
 
-/** Turn of the whole step since the last sample, and from it the mean rate; from the vectors that are there. */
+/** Turn of the whole step since the last sample, and from it the mean rate; from the vectors that
+ * are there. */
 static void rotor_turn(rotor *r, const hd_modes *modes, double dt)
 {
     double complex sum = 0.0;
@@ -311,9 +314,10 @@ static void rotor_turn(rotor *r, const hd_modes *modes, double dt)
     r->omega = hd_blocks_mean(&r->rate, 0);
 }
 
-/** Takes over the snapshot as the last sample. A vector that is something else for a while goes on as
- *  predicted: it is recognised when it comes back. The velocity is the mean rate of the tracks: unlike the turn
- *  of the whole, where longer vectors weigh more, it has no bias if |z| depends on the phase. */
+/** Takes over the snapshot as the last sample. A vector that is something else for a while goes on
+ * as predicted: it is recognised when it comes back. The velocity is the mean rate of the tracks:
+ * unlike the turn of the whole, where longer vectors weigh more, it has no bias if |z| depends on
+ * the phase. */
 static void rotor_store(rotor *r, const hd_modes *modes, double time)
 {
     const double complex turn = cexp(I * r->omega * (time - r->time));
@@ -358,7 +362,8 @@ static void rotor_add(rotor *r, const hd_step *step, const hd_modes *modes, doub
         return;
     }
     const bool same = r->col == step->col && r->count == step->count;
-    if (same && r->samples > 1 && dt < 0.5 * r->dt) return; /* the end of the averaging cuts a piece short */
+    if (same && r->samples > 1 && dt < 0.5 * r->dt)
+        return; /* the end of the averaging cuts a piece short */
     const bool paused = r->samples > 1 && dt > 1.5 * r->dt;
     const bool coarse = same && !paused && dt * SAFE > safe_sampling(step);
     if (!same || paused || coarse) {
@@ -386,7 +391,7 @@ void hd_phases_clear(hd_phases *phases)
     for (int k = 0; k < phases->rotors; k++) rotor_restart(&phases->rotor[k], HD_LP_UNRESOLVED);
 }
 
-/* ---- what can be read ------------------------------------------------------------------------- */
+/* ---- what can be read ---------------------------------------------------------------------- */
 
 int hd_phases_count(const hd_phases *phases) { return phases->tracks; }
 
@@ -403,7 +408,8 @@ static int tracked(const rotor *r)
     return count;
 }
 
-/** Weighted mean over the steps; where they scatter more than their errors allow, the error grows. */
+/** Weighted mean over the steps; where they scatter more than their errors allow, the error grows.
+ */
 hd_velocity hd_phases_velocity(const hd_phases *phases)
 {
     hd_velocity out = {.v_error = -1.0};
@@ -413,7 +419,8 @@ hd_velocity hd_phases_velocity(const hd_phases *phases)
         const rotor *r = &phases->rotor[k];
         const double error = hd_blocks_long_error(&r->velocity, 0) / r->wave_number;
         if (!(error > 0)) continue;
-        const double v = fabs(hd_blocks_mean(&r->velocity, 0)) / r->wave_number, w = 1.0 / (error * error);
+        const double v = fabs(hd_blocks_mean(&r->velocity, 0)) / r->wave_number,
+                     w = 1.0 / (error * error);
         out.phases += tracked(r);
         steps++;
         weights += w;
@@ -449,7 +456,7 @@ double hd_phases_sampling(const hd_steps *steps)
     return sampling;
 }
 
-/* ---- file ------------------------------------------------------------------------------------- */
+/* ---- file ---------------------------------------------------------------------------------- */
 
 static void track_archive(track *t, hd_archive *archive, int vectors)
 {
@@ -459,7 +466,8 @@ static void track_archive(track *t, hd_archive *archive, int vectors)
     t->out.state = (hd_lp_state)state;
     double *const of_out[] = {&t->out.a,     &t->out.b,           &t->out.phase,
                               &t->out.omega, &t->out.omega_error, &t->out.time};
-    double *const sums[] = {&t->last, &t->begin, &t->mean_t, &t->mean_phase, &t->square_t, &t->product};
+    double *const sums[] = {&t->last,       &t->begin,    &t->mean_t,
+                            &t->mean_phase, &t->square_t, &t->product};
     hd_archive_of_doubles(archive, "phase a b phase omega error time", 6);
     for (int k = 0; k < 6; k++) hd_archive_next_doubles(archive, of_out[k], 1);
     hd_archive_of_doubles(archive, "phase sums", 6);
@@ -474,7 +482,8 @@ static void rotor_archive(rotor *r, hd_archive *archive, int vectors)
     hd_archive_int(archive, "rotor col", &r->col, -1, vectors - 1);
     hd_archive_int(archive, "rotor count", &r->count, 0, HD_STEP_VECTORS_MAX);
     hd_archive_long(archive, "rotor samples", &r->samples, 0, LONG_MAX / 2);
-    const int first = r->col < 0 ? 0 : r->col, last = r->col < 0 ? vectors - 1 : r->col + r->count - 1;
+    const int first = r->col < 0 ? 0 : r->col,
+              last = r->col < 0 ? vectors - 1 : r->col + r->count - 1;
     hd_archive_expect(archive, first <= last && last < vectors, "rotor", "its vectors are none");
     hd_archive_of_ints(archive, "rotor slots", (size_t)r->slots);
     for (int v = 0; v < r->slots; v++) hd_archive_next_int(archive, &r->slot_col[v], first, last);
@@ -490,6 +499,8 @@ static void rotor_archive(rotor *r, hd_archive *archive, int vectors)
 
 void hd_phases_archive(hd_phases *phases, hd_archive *archive)
 {
-    for (int k = 0; k < phases->rotors; k++) rotor_archive(&phases->rotor[k], archive, phases->vectors);
-    for (int t = 0; t < phases->tracks; t++) track_archive(&phases->track[t], archive, phases->vectors);
+    for (int k = 0; k < phases->rotors; k++)
+        rotor_archive(&phases->rotor[k], archive, phases->vectors);
+    for (int t = 0; t < phases->tracks; t++)
+        track_archive(&phases->track[t], archive, phases->vectors);
 }

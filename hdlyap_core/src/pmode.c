@@ -1,8 +1,9 @@
 /** Vectors of an LP step -> its L and P modes [T14].
  *
- *  With B (2N x 2d) the normalised fields and psi (2N x 2d) the normalised dq halves, Q solves
- *  psi Q = B by least squares; the modes are psi Q. In the terms of what is measured already,
- *  psi^T B = overlaps, so Q = (psi^T psi)^-1 psi^T B (dposv on 2d x 2d; psi is nearly orthonormal). */
+ * With B (2N x 2d) the normalised fields and psi (2N x 2d) the normalised dq halves, Q solves
+ * psi Q = B by least squares; the modes are psi Q. In the terms of what is measured already,
+ * psi^T B = overlaps, so Q = (psi^T psi)^-1 psi^T B (dposv on 2d x 2d; psi is nearly orthonormal).
+ */
 #include "hdlyap/pmode.h"
 
 #include <lapacke.h>
@@ -71,7 +72,8 @@ static void psi_load(hd_pmode *pmode, const hd_frame *frame, int col)
         for (int j = 0; j < pmode->disks; j++)
             for (int d = 0; d < 2; d++) psi[2 * j + d] = v[(size_t)(4 * j + d) * stride];
         const double norm = sqrt(dot(psi, psi, 2 * pmode->disks));
-        const double scale = norm > HD_MODES_DQ_MIN ? 1.0 / norm : 0.0; /* then dependent: refused */
+        const double scale = norm > HD_MODES_DQ_MIN ? 1.0 / norm
+                                                    : 0.0; /* then dependent: refused */
         for (int k = 0; k < 2 * pmode->disks; k++) psi[k] *= scale;
     }
 }

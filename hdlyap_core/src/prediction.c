@@ -1,4 +1,5 @@
-/** States of the disks -> the earliest event of each. See trajectory.c for the scheme. One thread. */
+/** States of the disks -> the earliest event of each. See trajectory.c for the scheme. One thread.
+ */
 #include "prediction.h"
 
 #include <math.h>
@@ -6,8 +7,8 @@
 
 #include "nearby.h"
 
-/** The order of two contacts of disk i at the same time: by partner, then by image as seen from the disk
- *  with the lower number. */
+/** The order of two contacts of disk i at the same time: by partner, then by image as seen from the
+ * disk with the lower number. */
 static bool comes_first(int32_t i, int32_t j, const int32_t image[2], const prediction *other)
 {
     if (j != other->partner) return j < other->partner;
@@ -16,7 +17,8 @@ static bool comes_first(int32_t i, int32_t j, const int32_t image[2], const pred
     return sign * image[0] < sign * other->image[0];
 }
 
-/** Lowers the prediction of disk i to its contact with number k of those nearby, if that is earlier. */
+/** Lowers the prediction of disk i to its contact with number k of those nearby, if that is
+ * earlier. */
 static void predict_contact(hd_trajectory *tr, int32_t i, const hd_nearby *near, int k,
                             double contact)
 {
@@ -43,7 +45,8 @@ static void predict_nearby(hd_trajectory *tr, int32_t i, hd_nearby *near)
     for (int k = 0; k < near->count; k++) predict_contact(tr, i, near, k, contact[k]);
 }
 
-/** The same by those in the cell at side u in x, v in y (0 low, 1 here, 2 high) that have no place. */
+/** The same by those in the cell at side u in x, v in y (0 low, 1 here, 2 high) that have no place.
+ */
 static void predict_listed(hd_trajectory *tr, int32_t i, int u, int v)
 {
     const hd_disk *disk = &tr->disk[i];
@@ -90,7 +93,8 @@ static bool is_wall(const hd_trajectory *tr, const hd_disk *disk, int d, int32_t
     return tr->cells.line[d][disk->cell[d]].near[side] == tr->cells.size[d];
 }
 
-/** Predicts the next edge and hands the disk's earliest event to the queue; no branch depends on it. */
+/** Predicts the next edge and hands the disk's earliest event to the queue; no branch depends on
+ * it. */
 static void schedule(hd_trajectory *tr, int32_t i)
 {
     const hd_disk *disk = &tr->disk[i];

@@ -34,11 +34,12 @@ struct hd_trajectory {
     uint64_t collisions, wall_events;
 };
 
-/** Predicts all that disk i can meet, from its present state, and hands the earliest to the queue. */
+/** Predicts all that disk i can meet, from its present state, and hands the earliest to the queue.
+ */
 void hd_prediction_renew(hd_trajectory *tr, int32_t i);
 
-/** The same for what has newly come into reach: disk i has crossed the edge of its cell in direction d
- *  to that side. What was predicted before stays. */
+/** The same for what has newly come into reach: disk i has crossed the edge of its cell in
+ * direction d to that side. What was predicted before stays. */
 void hd_prediction_extend(hd_trajectory *tr, int32_t i, int d, int side);
 
 #endif

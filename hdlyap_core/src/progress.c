@@ -33,8 +33,8 @@ double hd_run_smallest_error(const hd_run *run)
     return hd_spectrum_error_of_last(run->spectrum, SMALLEST_EXPONENTS);
 }
 
-/** Simulated time until the target is reached, as errors fall with the root of the time; INFINITY if it is none,
- *  or not yet known. */
+/** Simulated time until the target is reached, as errors fall with the root of the time; INFINITY
+ * if it is none, or not yet known. */
 static double target_left(const hd_run *run)
 {
     if (run->scene.target_std_error == 0 || run->schedule.phase != HD_AVERAGING || !run->spectrum)

@@ -9,8 +9,8 @@
 /** Less than about one event in a bucket: the heap has next to nothing to sort. */
 enum { BUCKETS_PER_DISK = 16 };
 
-/** Entry -1 stands for no neighbour and is written to without asking; two, so that the others stay in
- *  their halves of a cache line. */
+/** Entry -1 stands for no neighbour and is written to without asking; two, so that the others stay
+ * in their halves of a cache line. */
 enum { NOBODY = 2 };
 
 hd_status hd_queue_create(hd_queue *queue, int32_t disks, double horizon)

@@ -1,5 +1,6 @@
 /** Which disk has the next event: buckets of time for one epoch, a heap for the present bucket.
- *  Cost per change O(1), whatever the number of disks (G. Paul, J. Comput. Phys. 221, 615 (2007)). */
+ * Cost per change O(1), whatever the number of disks (G. Paul, J. Comput. Phys. 221, 615 (2007)).
+ */
 #ifndef HD_QUEUE_H
 #define HD_QUEUE_H
 

@@ -1,7 +1,7 @@
 /** (frame at the start of a stretch, events since) -> the triangles of the stretch.
  *
- *  The same frame, the same events, the same cuts: the triangles are those of the forward pass to rounding, and the
- *  vectors of the next frame that was kept are met again. */
+ * The same frame, the same events, the same cuts: the triangles are those of the forward pass to
+ * rounding, and the vectors of the next frame that was kept are met again. */
 #include "recompute.h"
 
 #include <float.h>
@@ -38,12 +38,16 @@ long hd_recompute_stretch(long slots, int rows, int vectors)
 
 double hd_recompute_doubles(const hd_recompute_def *def)
 {
-    const double frame = (double)def->rows * def->vectors, frames = (double)def->slots / (double)def->stretch;
+    const double frame = (double)def->rows * def->vectors,
+                 frames = (double)def->slots / (double)def->stretch;
     /* beside those of the stretches: one to replay with, in two copies, and one to load */
     return (frames + 3.0) * frame + (double)def->stretch * (double)hd_triangle_size(def->vectors);
 }
 
-static size_t frame_size(const hd_recompute *r) { return (size_t)r->def.rows * (size_t)r->def.vectors; }
+static size_t frame_size(const hd_recompute *r)
+{
+    return (size_t)r->def.rows * (size_t)r->def.vectors;
+}
 
 static hd_status allocate(hd_recompute *r)
 {
@@ -89,14 +93,15 @@ void hd_recompute_free(hd_recompute *r)
     hd_memory_free(r);
 }
 
-/* ---- forward ---------------------------------------------------------------------------------- */
+/* ---- forward ------------------------------------------------------------------------------- */
 
 hd_status hd_recompute_frame(hd_recompute *r, long slot, hd_columns columns)
 {
     HD_ASSERT(columns.count == r->def.vectors);
     if (slot % r->def.stretch != 0) return HD_OK;
     for (int row = 0; row < r->def.rows; row++)
-        memcpy(r->vectors + (size_t)row * (size_t)r->def.vectors, columns.data + (size_t)row * (size_t)columns.stride,
+        memcpy(r->vectors + (size_t)row * (size_t)r->def.vectors,
+               columns.data + (size_t)row * (size_t)columns.stride,
                (size_t)r->def.vectors * sizeof(double));
     return hd_store_put(r->frames, slot / r->def.stretch, r->vectors);
 }
@@ -107,13 +112,15 @@ static bool is_within(const hd_event_log *log, double t, double t_begin, double 
     return t >= t_begin && (t < t_end || t_end == log->duration);
 }
 
-hd_status hd_recompute_events(hd_recompute *r, long slot, const hd_event_log *log, double t_begin, double t_end)
+hd_status hd_recompute_events(hd_recompute *r, long slot, const hd_event_log *log, double t_begin,
+                              double t_end)
 {
     if (slot >= r->from && slot < r->to) r->from = r->to = 0; /* written anew */
     if (!r->log[slot]) HD_TRY(hd_event_log_create(&r->log[slot]));
     hd_event_log *kept = r->log[slot];
     size_t count = 0;
-    for (size_t k = 0; k < log->count; k++) count += is_within(log, log->event[k].t, t_begin, t_end);
+    for (size_t k = 0; k < log->count; k++)
+        count += is_within(log, log->event[k].t, t_begin, t_end);
     hd_event_log_clear(kept);
     HD_TRY(hd_event_log_reserve(kept, count));
     for (size_t k = 0; k < log->count; k++)
@@ -126,13 +133,14 @@ hd_status hd_recompute_events(hd_recompute *r, long slot, const hd_event_log *lo
     return HD_OK;
 }
 
-/* ---- backward --------------------------------------------------------------------------------- */
+/* ---- backward ------------------------------------------------------------------------------ */
 
 static void load_frame(hd_recompute *r)
 {
     for (int row = 0; row < r->def.rows; row++)
         memcpy(hd_frame_data(r->frame) + (size_t)row * (size_t)hd_frame_stride(r->frame),
-               r->vectors + (size_t)row * (size_t)r->def.vectors, (size_t)r->def.vectors * sizeof(double));
+               r->vectors + (size_t)row * (size_t)r->def.vectors,
+               (size_t)r->def.vectors * sizeof(double));
 }
 
 static hd_status recompute_slot(hd_recompute *r, long slot)

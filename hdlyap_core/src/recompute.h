@@ -1,4 +1,5 @@
-/** Triangles that are not kept but computed again, from frames kept here and there and the events since. */
+/** Triangles that are not kept but computed again, from frames kept here and there and the events
+ * since. */
 #ifndef HD_RECOMPUTE_H
 #define HD_RECOMPUTE_H
 
@@ -7,7 +8,8 @@
 /** Slots 0 .. slots - 1 are used in turn, as a ring. */
 typedef struct hd_recompute hd_recompute;
 
-/** The number of slots after which a frame should be kept for frames and triangles together to be fewest. */
+/** The number of slots after which a frame should be kept for frames and triangles together to be
+ * fewest. */
 long hd_recompute_stretch(long slots, int rows, int vectors);
 
 typedef struct hd_recompute_def {
@@ -24,11 +26,12 @@ void hd_recompute_free(hd_recompute *recompute);
 /** The frame where the slot begins; wanted if it is a multiple of the stretch. HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_recompute_frame(hd_recompute *recompute, long slot, hd_columns columns);
 /** The slot's events: those of the log from t_begin to t_end. HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_recompute_events(hd_recompute *recompute, long slot, const hd_event_log *log, double t_begin,
-                                            double t_end);
+HD_MUST_CHECK hd_status hd_recompute_events(hd_recompute *recompute, long slot,
+                                            const hd_event_log *log, double t_begin, double t_end);
 
 /** The slot's R [n * n], row-major. Those of its stretch up to slot `last` are computed with it.
- *  HD_ILL_CONDITIONED, HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_recompute_factor(hd_recompute *recompute, double *factor, long slot, long last);
+ * HD_ILL_CONDITIONED, HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_recompute_factor(hd_recompute *recompute, double *factor, long slot,
+                                            long last);
 
 #endif

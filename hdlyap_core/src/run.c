@@ -1,9 +1,9 @@
 /** Scene -> spectrum, one interval at a time.
  *
- *  The schedule says where samples and reports end. The frame goes from one orthonormalisation to the next,
- *  as far apart as the conditioning allows; the log of the events since the last one waits until then. A
- *  report in between states exponents and modes as of the last one, unless somebody looks at the vectors:
- *  then the frame is orthonormalised for it. */
+ * The schedule says where samples and reports end. The frame goes from one orthonormalisation to
+ * the next, as far apart as the conditioning allows; the log of the events since the last one waits
+ * until then. A report in between states exponents and modes as of the last one, unless somebody
+ * looks at the vectors: then the frame is orthonormalised for it. */
 #include "hdlyap/run.h"
 
 #include <float.h>
@@ -19,12 +19,13 @@
 #include "threads.h"
 #include "verify.h"
 
-/** Loss of orthogonality allowed where nobody looks at the vectors, as the logarithms telescope [T5]; its
- *  square enters a mean. */
+/** Loss of orthogonality allowed where nobody looks at the vectors, as the logarithms telescope
+ * [T5]; its square enters a mean. */
 static const double DEFECT_LOOSE = 1e-4;
 /** The same where somebody does. */
 static const double DEFECT_MEASURED = 1e-6;
-/** Single precision leaves a tenth of the tail's vectors astray there, and a thousandth of their phases. */
+/** Single precision leaves a tenth of the tail's vectors astray there, and a thousandth of their
+ * phases. */
 static const double CONDITION_TAIL = 1e4;
 /** Householder reflections stay right to eps * condition: 1e-3 of one interval, once. */
 static const double CONDITION_STABLE = 1e13;
@@ -33,7 +34,7 @@ enum { PIECES_MAX = 64, TAIL_MAX = 60 };
 static const unsigned OF_MODES = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES |
                                  HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO;
 
-/* ---- creation --------------------------------------------------------------------------------- */
+/* ---- creation ------------------------------------------------------------------------------ */
 
 /** A random frame, orthonormal. Random vectors are hardly ever dependent: then reflections. */
 static hd_status create_frame(hd_run *run)
@@ -113,7 +114,8 @@ static void averages_clear(hd_run *run)
     hd_lookback_clear(run);
 }
 
-/** Intervals shorter than a collision of each disk, because the warm-up was, have taught nothing yet. */
+/** Intervals shorter than a collision of each disk, because the warm-up was, have taught nothing
+ * yet. */
 static bool interval_is_learnt(const hd_run *run)
 {
     const double collision = run->sample_max / HD_COLLISIONS_PER_SAMPLE;
@@ -177,7 +179,7 @@ void hd_run_free(hd_run *run)
     hd_memory_free(run);
 }
 
-/* ---- one interval ----------------------------------------------------------------------------- */
+/* ---- one interval -------------------------------------------------------------------------- */
 
 static hd_status replay(hd_run *run, double t_begin, double t_end)
 {
@@ -188,7 +190,8 @@ static hd_status replay(hd_run *run, double t_begin, double t_end)
     return HD_OK;
 }
 
-/** Pieces of the log that are taken back no more: a collision of each disk is the least that can be divided. */
+/** Pieces of the log that are taken back no more: a collision of each disk is the least that can be
+ * divided. */
 static double shortest_piece(const hd_run *run)
 {
     return fmin(run->log->duration / PIECES_MAX, run->sample_max / HD_COLLISIONS_PER_SAMPLE);
@@ -238,8 +241,9 @@ static bool observing(const hd_run *run)
     return run->modes && run->observe & OF_MODES && run->schedule.phase == HD_AVERAGING;
 }
 
-/** The whole log. An interval that turned out too long is taken back and replayed in pieces; a shortest
- *  piece that is still too much holds a grazing collision and is factored by reflections. */
+/** The whole log. An interval that turned out too long is taken back and replayed in pieces; a
+ * shortest piece that is still too much holds a grazing collision and is factored by reflections.
+ */
 static hd_status frame_interval(hd_run *run)
 {
     const double duration = run->log->duration;
@@ -312,7 +316,8 @@ static hd_status observe(hd_run *run, bool report)
 static void sample_spectrum(hd_run *run)
 {
     hd_spectrum_sample(run->spectrum);
-    if (run->observe & OF_MODES) hd_steps_sample(run->steps, run->spectrum, run->schedule.sample_length);
+    if (run->observe & OF_MODES)
+        hd_steps_sample(run->steps, run->spectrum, run->schedule.sample_length);
 }
 
 /** True where somebody wants all of the vectors of this very time. */
@@ -329,7 +334,8 @@ static bool tail_suffices(const hd_run *run, int count)
            hd_interval_condition(&run->interval, run->log->duration) <= CONDITION_TAIL;
 }
 
-/** Finds the slowest vectors in the middle of an interval; the frame stays as it was at its start. */
+/** Finds the slowest vectors in the middle of an interval; the frame stays as it was at its start.
+ */
 static hd_status look(hd_run *run, int count)
 {
     const double start = hd_clock_now();
@@ -366,8 +372,8 @@ static int viewed(const hd_run *run)
     return observing(run) && run->view.first < run->vectors ? run->vectors - run->view.first : 0;
 }
 
-/** In the middle of an interval: what is wanted there. What a look cannot give, an early end does; the first
- *  report has something to say that way. */
+/** In the middle of an interval: what is wanted there. What a look cannot give, an early end does;
+ * the first report has something to say that way. */
 static hd_status look_or_end(hd_run *run)
 {
     const bool averaging = run->schedule.phase == HD_AVERAGING;
@@ -390,7 +396,8 @@ static hd_status show(hd_run *run)
     return run->now == run->interval_end ? measure(run) : HD_OK;
 }
 
-/** Once covariant vectors have gone their way back, if a phase is to end. The last one may end early. */
+/** Once covariant vectors have gone their way back, if a phase is to end. The last one may end
+ * early. */
 static void leave_phase(hd_run *run)
 {
     if (!run->phase_ends || hd_lookback_is_going(run)) return;
@@ -452,7 +459,8 @@ hd_status hd_run_step(hd_run *run)
     if (hd_lookback_is_going(run) || run->phase_ends) return go_back(run);
     const double cut = hd_schedule_cut(&run->schedule);
     if (with_frame && run->now >= run->interval_end) plan_interval(run);
-    if (run->now >= run->plan.end) hd_advance_plan(run, with_frame ? fmin(cut, run->interval_end) : cut);
+    if (run->now >= run->plan.end)
+        hd_advance_plan(run, with_frame ? fmin(cut, run->interval_end) : cut);
     HD_TRY(hd_advance(run, with_frame ? run->log : NULL));
     if (with_frame && run->now >= run->interval_end) HD_TRY(frame_interval(run));
     return run->now >= cut ? take_cut(run) : show(run);

@@ -1,4 +1,5 @@
-/** What a run holds, for the files that make it up: run.c goes on, progress.c tells, checkpoint.c keeps. */
+/** What a run holds, for the files that make it up: run.c goes on, progress.c tells, checkpoint.c
+ * keeps. */
 #ifndef HD_RUN_STATE_H
 #define HD_RUN_STATE_H
 
@@ -8,7 +9,8 @@
 #include "schedule.h"
 #include "tail.h"
 
-/** The step that the disks are in: what is learnt of it waits for its end, however often a view stops it. */
+/** The step that the disks are in: what is learnt of it waits for its end, however often a view
+ * stops it. */
 typedef struct hd_step_plan {
     double begin, end; /**< simulated times */
     uint64_t events;   /**< before it */
@@ -31,11 +33,11 @@ struct hd_run {
     hd_modes *modes; /**< NULL unless observed, as the next two */
     hd_steps *steps;
     hd_phases *phases;
-    hd_tail *tail;    /**< NULL without phases, and where it does not apply */
+    hd_tail *tail;           /**< NULL without phases, and where it does not apply */
     hd_covariant *covariant; /**< NULL unless observed */
     bool lookback_due;       /**< a window begins with the next interval */
-    double *q, *p;    /**< [2N], state of a snapshot */
-    unsigned observe; /**< stages needed now */
+    double *q, *p;           /**< [2N], state of a snapshot */
+    unsigned observe;        /**< stages needed now */
     hd_schedule schedule;
     hd_interval interval;
     double interval_end; /**< simulated time at which the frame is orthonormalised next */
@@ -63,7 +65,8 @@ enum { SMALLEST_EXPONENTS = 8 };
 /** Ends what a step has begun, so that the run can be kept: half of a way back is none. */
 HD_MUST_CHECK hd_status hd_run_settle(hd_run *run);
 
-/** More than a run of this scene learns of how long a step may be: several times the events of the longest step. */
+/** More than a run of this scene learns of how long a step may be: several times the events of the
+ * longest step. */
 double hd_run_step_bound(const hd_run *run);
 
 /** Largest standard error of the exponents nearest to zero; INFINITY while one is unknown. */

@@ -12,8 +12,8 @@
 
 enum { DISKS_MIN = 2, DISKS_MAX = 1000000, THREADS_MAX = 1024, OBSERVE_ALL = 63 };
 
-/** Room between walls beyond a diameter: less is crossed more often than there are times to tell apart. It is
- *  1e-9 but for the rounding of an edge that density and aspect give. */
+/** Room between walls beyond a diameter: less is crossed more often than there are times to tell
+ * apart. It is 1e-9 but for the rounding of an edge that density and aspect give. */
 static const double ROOM_MIN = 0.999e-9;
 
 hd_scene_def hd_scene_def_default(void)
@@ -94,8 +94,8 @@ static hd_status check_ranges(const hd_scene_def *def, char *message, size_t siz
         {"warmup", "from 0 to 1e12", def->warmup, 0, huge},
         {"duration", "from 0 (until stopped) to 1e12", def->duration, 0, huge},
         {"target_std_error", "from 0 (off) to 1e12", def->target_std_error, 0, huge},
-        {"interval", "auto, or from 1e-6 to 1e12", def->interval,
-         def->interval == 0 ? 0 : 1e-6, huge},
+        {"interval", "auto, or from 1e-6 to 1e12", def->interval, def->interval == 0 ? 0 : 1e-6,
+         huge},
         {"accuracy", "from 1e-12 to 1e-2", def->accuracy, 1e-12, 1e-2},
         {"report_interval", "from 1e-6 to 1e12", def->report_interval, 1e-6, huge},
         {"max_wave_number", "0 (by max_node) or above", def->max_wave_number, 0, huge},
@@ -123,7 +123,7 @@ hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size
                 "density = %.15g with disks = %d, aspect = %.15g: the box edge L%c = %.15g "
                 "must be above the disk diameter 1%s",
                 def->density, def->disks, def->aspect, "xy"[d], box[d],
-                def->boundary[d] == HD_REFLECTING ? " by 1e-9" : "");
+                def -> boundary[d] == HD_REFLECTING ? " by 1e-9" : "");
     return HD_OK;
 }
 
@@ -133,8 +133,8 @@ static hd_status check_waves(const hd_scene_def *def, char *message, size_t size
     const hd_wave_limits limits = hd_wave_limits_of(def);
     if (def->max_wave_number > 0 && def->max_node > 0)
         return hd_refuse(message, size,
-                      "max_node = %d: must be 0 when max_wave_number = %.15g is given",
-                      def->max_node, def->max_wave_number);
+                         "max_node = %d: must be 0 when max_wave_number = %.15g is given",
+                         def->max_node, def->max_wave_number);
     if (def->max_node > limits.node)
         return hd_refuse(
             message, size,
@@ -159,23 +159,28 @@ static hd_status check_covariant(const hd_scene_def *def, char *message, size_t 
     const range table[] = {
         {"covariant_window", "from 1e-6 to 1e12", window, 1e-6, huge},
         {"covariant_transient", "from 1e-6 to 1e12", transient, 1e-6, huge},
-        {"covariant_sampling", "from 1e-6 to covariant_window", def->covariant_sampling, 1e-6, window},
+        {"covariant_sampling", "from 1e-6 to covariant_window", def->covariant_sampling, 1e-6,
+         window},
         {"covariant_memory", "from 1e6 to 1e15 bytes", def->covariant_memory, 1e6, 1e15},
-        {"covariant_storage", "one of HD_STORAGE_*", def->covariant_storage, HD_STORAGE_MEMORY, HD_STORAGE_RECOMPUTE},
+        {"covariant_storage", "one of HD_STORAGE_*", def->covariant_storage, HD_STORAGE_MEMORY,
+         HD_STORAGE_RECOMPUTE},
     };
     if (!(def->observe & HD_OBSERVE_COVARIANT)) return HD_OK;
     HD_TRY(check_table(table, sizeof table / sizeof *table, message, size));
     if (!(def->warmup >= transient))
         return hd_refuse(message, size,
-                         "warmup = %.15g: must be at least covariant_transient = %.15g: vectors converge forwards no "
+                         "warmup = %.15g: must be at least covariant_transient = %.15g: vectors "
+                         "converge forwards no "
                          "faster than backwards",
                          def->warmup, transient);
     if (def->duration > 0 && !(def->duration >= window + transient))
         return hd_refuse(message, size,
-                         "duration = %.15g: must be 0 or at least covariant_window + covariant_transient = %.15g",
+                         "duration = %.15g: must be 0 or at least covariant_window + "
+                         "covariant_transient = %.15g",
                          def->duration, window + transient);
     if (def->covariant_storage == HD_STORAGE_FILE && !*def->covariant_folder)
-        return hd_refuse(message, size, "covariant_folder = : must be a folder with covariant_storage = file");
+        return hd_refuse(message, size,
+                         "covariant_folder = : must be a folder with covariant_storage = file");
     return HD_OK;
 }
 
@@ -186,15 +191,16 @@ hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
     hd_scene_box(def, box);
     if (def->exponents < HD_EXPONENTS_ALL || def->exponents > 4 * def->disks)
         return hd_refuse(message, size,
-                      "exponents = %d: must be positive, all, none or from 1 to 4 disks = %d",
-                      def->exponents, 4 * def->disks);
+                         "exponents = %d: must be positive, all, none or from 1 to 4 disks = %d",
+                         def->exponents, 4 * def->disks);
     HD_TRY(check_waves(def, message, size));
     HD_TRY(check_covariant(def, message, size));
     if (hd_lattice_best(def->disks, box, def->boundary).distance < HD_LATTICE_DISTANCE_MIN)
-        return hd_refuse(message, size,
-                      "density = %.15g: must be at most %.6g with disks = %d, aspect = %.15g and "
-                      "these boundaries (densest start lattice)",
-                      def->density, hd_lattice_density_max(def), def->disks, def->aspect);
+        return hd_refuse(
+            message, size,
+            "density = %.15g: must be at most %.6g with disks = %d, aspect = %.15g and "
+            "these boundaries (densest start lattice)",
+            def->density, hd_lattice_density_max(def), def->disks, def->aspect);
     return HD_OK;
 }
 
@@ -228,8 +234,10 @@ void hd_scene_archive(hd_scene_def *def, hd_archive *archive)
     hd_archive_int(archive, "scene observe", &observe, 0, OBSERVE_ALL);
     hd_archive_int(archive, "scene max_node", &def->max_node, 0, DISKS_MAX);
     hd_archive_int(archive, "scene threads", &def->threads, 0, THREADS_MAX);
-    hd_archive_int(archive, "scene covariant_storage", &storage, HD_STORAGE_MEMORY, HD_STORAGE_RECOMPUTE);
-    hd_archive_text(archive, "scene covariant_folder", def->covariant_folder, sizeof def->covariant_folder);
+    hd_archive_int(archive, "scene covariant_storage", &storage, HD_STORAGE_MEMORY,
+                   HD_STORAGE_RECOMPUTE);
+    hd_archive_text(archive, "scene covariant_folder", def->covariant_folder,
+                    sizeof def->covariant_folder);
     for (size_t k = 0; k < sizeof doubles / sizeof *doubles; k++)
         hd_archive_double(archive, doubles[k].name, doubles[k].x);
     for (int d = 0; d < 2; d++) def->boundary[d] = (hd_boundary)boundary[d];

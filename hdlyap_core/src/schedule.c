@@ -1,10 +1,10 @@
 /** Scene -> ends of phases, samples, pieces and reports.
  *
- *  Phases follow each other at fixed times: equilibration (trajectory alone), warm-up of the frame,
- *  averaging. A phase is cut into samples of equal length: before the averaging, where nothing is measured,
- *  one for all of it; then as long as the interval between orthonormalisations may be, so that
- *  reports in between need none of their own. A sample is cut into pieces, at whose ends a report
- *  can be due. */
+ * Phases follow each other at fixed times: equilibration (trajectory alone), warm-up of the frame,
+ * averaging. A phase is cut into samples of equal length: before the averaging, where nothing is
+ * measured, one for all of it; then as long as the interval between orthonormalisations may be, so
+ * that reports in between need none of their own. A sample is cut into pieces, at whose ends a
+ * report can be due. */
 #include "schedule.h"
 
 #include <limits.h>
@@ -12,7 +12,8 @@
 
 #include "archive.h"
 
-/** Of samples, for standard errors: fewer in an averaging of this many would make them late and rough. */
+/** Of samples, for standard errors: fewer in an averaging of this many would make them late and
+ * rough. */
 static const double SAMPLES_MIN = 32.0;
 /** Ends that are this close, as a part of a sample, are one. */
 static const double CLOSE = 1e-6;
@@ -91,7 +92,8 @@ int hd_schedule_cuts_per_report(const hd_schedule *s)
     return s->pieces / s->reports_per_sample * s->samples_per_report;
 }
 
-/** A piece that the end of the phase cuts short is not passed: it would go on if the phase were made longer. */
+/** A piece that the end of the phase cuts short is not passed: it would go on if the phase were
+ * made longer. */
 unsigned hd_schedule_pass(hd_schedule *s, double piece_max)
 {
     const double last = hd_schedule_phase_end(s), close = CLOSE * s->sample_length;

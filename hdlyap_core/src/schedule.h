@@ -22,15 +22,17 @@ typedef struct hd_schedule {
     double sample_length;   /**< equal within a phase */
     int reports_per_sample; /**< this or the next is 1 */
     int samples_per_report;
-    int pieces;   /**< of a sample, at whose ends (cuts) the run may look; a multiple of reports_per_sample */
+    /** Of a sample, at whose ends (cuts) the run may look; a multiple of reports_per_sample */
+    int pieces;
     int piece;    /**< whole ones since the sample began */
     long samples; /**< since the phase began */
 } hd_schedule;
 
 hd_schedule hd_schedule_of(const hd_scene_def *scene);
 
-/** Enters the first phase at or after `phase` that has any length, at time `now`. Samples of the averaging are as long
- *  as a multiple or a fraction of the report interval may be without exceeding `sample_max`. */
+/** Enters the first phase at or after `phase` that has any length, at time `now`. Samples of the
+ * averaging are as long as a multiple or a fraction of the report interval may be without exceeding
+ * `sample_max`. */
 void hd_schedule_enter(hd_schedule *schedule, hd_phase phase, double now, double sample_max);
 
 double hd_schedule_phase_end(const hd_schedule *schedule); /**< INFINITY: endless */
@@ -38,15 +40,16 @@ double hd_schedule_sample_end(const hd_schedule *schedule);
 double hd_schedule_cut(const hd_schedule *schedule); /**< end of the present piece */
 int hd_schedule_cuts_per_report(const hd_schedule *schedule);
 
-/** The time is that of the cut: goes on to the next piece; a set of HD_ENDS_*. Pieces of the next sample are no longer
- *  than piece_max. The phase stays: see hd_schedule_enter. */
+/** The time is that of the cut: goes on to the next piece; a set of HD_ENDS_*. Pieces of the next
+ * sample are no longer than piece_max. The phase stays: see hd_schedule_enter. */
 unsigned hd_schedule_pass(hd_schedule *schedule, double piece_max);
 
-/** True if a report ends with the present piece that is the phase's first at or after a multiple of `interval` since
- *  its start (the first report of all is, of 0), or its last. */
+/** True if a report ends with the present piece that is the phase's first at or after a multiple of
+ * `interval` since its start (the first report of all is, of 0), or its last. */
 bool hd_schedule_reaches_multiple(const hd_schedule *schedule, double interval);
 
-/** An averaging that has finished goes on if it has become longer. False if `now` is beyond its end. */
+/** An averaging that has finished goes on if it has become longer. False if `now` is beyond its
+ * end. */
 bool hd_schedule_reopen(hd_schedule *schedule, double now);
 
 #endif

@@ -1,9 +1,10 @@
 /** Average weights and exponents -> sets of vectors [T12].
  *
- *  A set starts as the window of columns, as long as a subspace has dimensions, with the largest trace of that
- *  subspace. Sets whose windows overlap, or which have much of their weight in each other's windows, are merged:
- *  there the steps coincide and the vectors mix. A set is resolved if every member is found in its
- *  window and its exponents are flat; one that is not loses its weakest member, and all begins anew. */
+ * A set starts as the window of columns, as long as a subspace has dimensions, with the largest
+ * trace of that subspace. Sets whose windows overlap, or which have much of their weight in each
+ * other's windows, are merged: there the steps coincide and the vectors mix. A set is resolved if
+ * every member is found in its window and its exponents are flat; one that is not loses its weakest
+ * member, and all begins anew. */
 #include "sets.h"
 
 #include <math.h>
@@ -39,7 +40,7 @@ void hd_sets_clear(hd_sets *sets)
     *sets = (hd_sets){0};
 }
 
-/* ---- weights ---------------------------------------------------------------------------------- */
+/* ---- weights ------------------------------------------------------------------------------- */
 
 static int dimension(const hd_sets *sets, int s)
 {
@@ -91,7 +92,7 @@ static double mean_exponent(const hd_spectrum *spectrum, const hd_set *set)
     return sum / set->count;
 }
 
-/* ---- merging ---------------------------------------------------------------------------------- */
+/* ---- merging ------------------------------------------------------------------------------- */
 
 static bool inside(const hd_set *set, int col)
 {
@@ -128,7 +129,8 @@ static int partner(const hd_sets *sets, const hd_spectrum *spectrum, int a)
     return -1;
 }
 
-/** Set b takes in set a and moves to its new window; more vectors than there are cannot be named. */
+/** Set b takes in set a and moves to its new window; more vectors than there are cannot be named.
+ */
 static void absorb(hd_sets *sets, hd_half half, int a, int b)
 {
     const int count = sets->set[a].count + sets->set[b].count;
@@ -168,7 +170,7 @@ static void merge(hd_sets *sets, const hd_spectrum *spectrum, hd_half half)
     }
 }
 
-/* ---- what is resolved ------------------------------------------------------------------------- */
+/* ---- what is resolved ---------------------------------------------------------------------- */
 
 static bool is_flat(const hd_spectrum *spectrum, const hd_set *set)
 {
@@ -198,7 +200,8 @@ static int weakest(const hd_sets *sets, int set, double *part)
     return worst;
 }
 
-/** Member to leave out of a set so that the rest may be resolved; -1 if it is resolved, or empty. */
+/** Member to leave out of a set so that the rest may be resolved; -1 if it is resolved, or empty.
+ */
 static int to_leave_out(const hd_sets *sets, const hd_spectrum *spectrum, int set)
 {
     const hd_set *w = &sets->set[set];

@@ -1,4 +1,5 @@
-/** Which subspaces share which vectors: windows of columns, one half of the spectrum at a time [T12]. */
+/** Which subspaces share which vectors: windows of columns, one half of the spectrum at a time
+ * [T12]. */
 #ifndef HD_SETS_H
 #define HD_SETS_H
 
@@ -37,8 +38,9 @@ void hd_sets_weigh(hd_sets *sets, int set, hd_half half);
 /** Trace of the projection onto subspace s over a set. */
 double hd_sets_trace(const hd_sets *sets, int s, const hd_set *set);
 
-/** Least weight that counts as found in d of `rows` / 2 dimensions: random vectors have chance = 2 d / rows on
- *  average, of the rest HD_STEP_THRESHOLD is asked; INFINITY where chance is above 1/2. */
+/** Least weight that counts as found in d of `rows` / 2 dimensions: random vectors have chance = 2
+ * d / rows on average, of the rest HD_STEP_THRESHOLD is asked; INFINITY where chance is above 1/2.
+ */
 double hd_sets_threshold(int rows, int d);
 
 #endif

@@ -23,7 +23,7 @@ hd_status hd_shape_create(hd_shape **out, int disks, int vectors)
     if (!shape) return HD_NO_MEMORY;
     shape->disks = disks;
     shape->vectors = vectors;
-    double **array[] = {&shape->entropy, &shape->cosine,    &shape->width,    &shape->now,
+    double **array[] = {&shape->entropy,   &shape->cosine,    &shape->width,    &shape->now,
                         &shape->square[0], &shape->square[1], &shape->square[2]};
     for (size_t k = 0; k < sizeof array / sizeof *array; k++)
         if (!(*array[k] = hd_memory_alloc((size_t)vectors, sizeof(double)))) {
@@ -55,7 +55,8 @@ static void add_disk(hd_shape *shape, const double *row, size_t stride)
 {
     const double *x = row, *y = row + stride, *px = row + 2 * stride, *py = row + 3 * stride;
     for (int col = 0; col < shape->vectors; col++) {
-        const double dq = x[col] * x[col] + y[col] * y[col], dp = px[col] * px[col] + py[col] * py[col];
+        const double dq = x[col] * x[col] + y[col] * y[col],
+                     dp = px[col] * px[col] + py[col] * py[col];
         const double part = dq + dp;
         shape->now[col] -= part > DBL_MIN ? part * log(part) : 0.0;
         shape->square[0][col] += dq;
@@ -69,8 +70,10 @@ void hd_shape_add(hd_shape *shape, hd_columns columns)
     HD_ASSERT(columns.count == shape->vectors);
     const size_t stride = (size_t)columns.stride;
     for (int col = 0; col < shape->vectors; col++)
-        shape->now[col] = shape->square[0][col] = shape->square[1][col] = shape->square[2][col] = 0.0;
-    for (int disk = 0; disk < shape->disks; disk++) add_disk(shape, columns.data + 4 * (size_t)disk * stride, stride);
+        shape->now[col] = shape->square[0][col] = shape->square[1][col] = shape->square[2][col] =
+            0.0;
+    for (int disk = 0; disk < shape->disks; disk++)
+        add_disk(shape, columns.data + 4 * (size_t)disk * stride, stride);
     shape->samples++;
     for (int col = 0; col < shape->vectors; col++) {
         const double product = sqrt(shape->square[0][col]) * sqrt(shape->square[1][col]);
@@ -82,7 +85,8 @@ void hd_shape_add(hd_shape *shape, hd_columns columns)
 
 const double *hd_shape_widths(hd_shape *shape)
 {
-    for (int col = 0; col < shape->vectors; col++) shape->width[col] = exp(shape->entropy[col]) / shape->disks;
+    for (int col = 0; col < shape->vectors; col++)
+        shape->width[col] = exp(shape->entropy[col]) / shape->disks;
     return shape->width;
 }
 

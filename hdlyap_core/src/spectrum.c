@@ -105,8 +105,8 @@ double hd_spectrum_std_error(const hd_spectrum *spectrum, int col)
 double hd_spectrum_error_of_last(const hd_spectrum *spectrum, int count)
 {
     double worst = 0.0;
-    for (int col = spectrum->vectors > count ? spectrum->vectors - count : 0; col < spectrum->vectors;
-         col++) {
+    for (int col = spectrum->vectors > count ? spectrum->vectors - count : 0;
+         col < spectrum->vectors; col++) {
         const double error = hd_spectrum_std_error(spectrum, col);
         worst = error >= 0 ? fmax(worst, error) : INFINITY; /* NaN is not known either */
     }

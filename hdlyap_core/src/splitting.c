@@ -1,4 +1,5 @@
-/** C and the growth over finite times -> angles and their distributions, order of finite-time exponents [T18]. */
+/** C and the growth over finite times -> angles and their distributions, order of finite-time
+ * exponents [T18]. */
 #include "hdlyap/splitting.h"
 
 #include <limits.h>
@@ -15,12 +16,12 @@ static const double RIGHT_ANGLE = 1.57079632679489661923;
 
 struct hd_splitting {
     int vectors;
-    hd_span space[3]; /**< unstable, centre, stable */
-    hd_angles *angles; /**< NULL without pairs of spaces */
-    double *found;     /**< [vectors]: principal angles */
-    double *mean, *least;            /**< [vectors - 1]: of neighbours */
-    double *violations, *entangled;  /**< [vectors - 1]: fractions */
-    double *later;                   /**< [vectors]: largest growth of later vectors */
+    hd_span space[3];               /**< unstable, centre, stable */
+    hd_angles *angles;              /**< NULL without pairs of spaces */
+    double *found;                  /**< [vectors]: principal angles */
+    double *mean, *least;           /**< [vectors - 1]: of neighbours */
+    double *violations, *entangled; /**< [vectors - 1]: fractions */
+    double *later;                  /**< [vectors]: largest growth of later vectors */
     hd_angle_of_spaces angle[HD_PAIRS_OF_SPACES];
     hd_blocks blocks; /**< of the smallest angles */
     long samples, times;
@@ -36,8 +37,10 @@ static hd_status allocate(hd_splitting *s)
         if (!(*array[k] = hd_memory_alloc(n, sizeof(double)))) return HD_NO_MEMORY;
     HD_TRY(hd_blocks_create(&s->blocks, HD_PAIRS_OF_SPACES));
     if (s->space[2].count == 0) return HD_OK;
-    const int widest = s->space[0].count > s->space[2].count ? s->space[0].count : s->space[2].count;
-    return hd_angles_create(&s->angles, s->vectors, widest > s->space[1].count ? widest : s->space[1].count);
+    const int widest = s->space[0].count > s->space[2].count ? s->space[0].count
+                                                             : s->space[2].count;
+    return hd_angles_create(&s->angles, s->vectors,
+                            widest > s->space[1].count ? widest : s->space[1].count);
 }
 
 hd_status hd_splitting_create(hd_splitting **out, int vectors, int unstable, int centre)
@@ -89,7 +92,7 @@ void hd_splitting_clear(hd_splitting *s)
     hd_blocks_restart(&s->blocks);
 }
 
-/* ---- angles ----------------------------------------------------------------------------------- */
+/* ---- angles -------------------------------------------------------------------------------- */
 
 /** Angle between two vectors of length 1, whatever their signs; small ones keep their digits. */
 static double angle_between(const double *x, const double *y, int count)
@@ -97,7 +100,8 @@ static double angle_between(const double *x, const double *y, int count)
     double dot = 0.0, apart = 0.0;
     for (int row = 0; row < count; row++) dot += x[row] * y[row];
     const double sign = dot < 0 ? -1.0 : 1.0;
-    for (int row = 0; row < count; row++) apart += (x[row] - sign * y[row]) * (x[row] - sign * y[row]);
+    for (int row = 0; row < count; row++)
+        apart += (x[row] - sign * y[row]) * (x[row] - sign * y[row]);
     return 2.0 * asin(fmin(1.0, 0.5 * sqrt(apart)));
 }
 
@@ -149,23 +153,25 @@ hd_status hd_splitting_add(hd_splitting *s, const double *c)
     return HD_OK;
 }
 
-/* ---- order ------------------------------------------------------------------------------------ */
+/* ---- order --------------------------------------------------------------------------------- */
 
 void hd_splitting_grow(hd_splitting *s, const double *growth)
 {
     double before = INFINITY;
     s->times++;
     s->later[s->vectors - 1] = growth[s->vectors - 1];
-    for (int col = s->vectors - 2; col >= 0; col--) s->later[col] = fmax(s->later[col + 1], growth[col]);
+    for (int col = s->vectors - 2; col >= 0; col--)
+        s->later[col] = fmax(s->later[col + 1], growth[col]);
     for (int col = 0; col + 1 < s->vectors; col++) {
         before = fmin(before, growth[col]);
-        const double violated = growth[col] < growth[col + 1], entangled = before < s->later[col + 1];
+        const double violated = growth[col] < growth[col + 1],
+                     entangled = before < s->later[col + 1];
         s->violations[col] += (violated - s->violations[col]) / (double)s->times;
         s->entangled[col] += (entangled - s->entangled[col]) / (double)s->times;
     }
 }
 
-/* ---- results ---------------------------------------------------------------------------------- */
+/* ---- results ------------------------------------------------------------------------------- */
 
 long hd_splitting_samples(const hd_splitting *s) { return s->samples; }
 int hd_splitting_has_spaces(const hd_splitting *s) { return s->angles != NULL; }
@@ -181,9 +187,11 @@ const hd_angle_of_spaces *hd_splitting_angle(const hd_splitting *s, hd_pair_of_s
 
 static void angle_archive(hd_angle_of_spaces *angle, hd_archive *archive)
 {
-    double *const numbers[] = {&angle->last, &angle->mean, &angle->std_error, &angle->least, &angle->mean_of_all};
+    double *const numbers[] = {&angle->last, &angle->mean, &angle->std_error, &angle->least,
+                               &angle->mean_of_all};
     hd_archive_of_doubles(archive, "angle of spaces", sizeof numbers / sizeof *numbers);
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) hd_archive_next_doubles(archive, numbers[k], 1);
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        hd_archive_next_doubles(archive, numbers[k], 1);
     for (int bin = 0; bin < HD_ANGLE_BINS; bin++) {
         hd_archive_long(archive, "angle smallest", &angle->smallest[bin], 0, LONG_MAX / 2);
         hd_archive_long(archive, "angle all", &angle->all[bin], 0, LONG_MAX / 2);

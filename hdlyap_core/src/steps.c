@@ -14,8 +14,8 @@
 
 /** What the error of one step's mean is known from. */
 typedef struct record {
-    hd_blocks blocks; /**< one series: the mean, sample by sample */
-    double time;      /**< that they cover */
+    hd_blocks blocks;  /**< one series: the mean, sample by sample */
+    double time;       /**< that they cover */
     uint64_t identity; /**< of which vectors and members the set consisted */
 } record;
 
@@ -33,7 +33,7 @@ struct hd_steps {
     long changes;
 };
 
-/* ---- creation --------------------------------------------------------------------------------- */
+/* ---- creation ------------------------------------------------------------------------------ */
 
 static void step_define(hd_step *step, const hd_fields *fields, int s, bool conjugate)
 {
@@ -140,7 +140,7 @@ void hd_steps_clear(hd_steps *steps)
     steps->changes++;
 }
 
-/* ---- steps ------------------------------------------------------------------------------------ */
+/* ---- steps --------------------------------------------------------------------------------- */
 
 /** Mean of values over the set of a step, each vector by its share. */
 static double shared_mean(const hd_steps *steps, int k, double (*value)(const hd_spectrum *, int),
@@ -155,8 +155,9 @@ static double shared_mean(const hd_steps *steps, int k, double (*value)(const hd
     return sum / weight;
 }
 
-/** Error of the running mean: from blocks of the step's own mean, which know how its vectors fluctuate
- *  together, scaled to the whole time if the set is younger; until then as if all went together. */
+/** Error of the running mean: from blocks of the step's own mean, which know how its vectors
+ * fluctuate together, scaled to the whole time if the set is younger; until then as if all went
+ * together. */
 static double step_error(const hd_steps *steps, int k, const hd_spectrum *spectrum)
 {
     const double error = hd_blocks_std_error(&steps->record[k].blocks, 0);
@@ -251,7 +252,8 @@ static uint64_t identity_of(const hd_steps *steps, const hd_step *step)
 {
     uint64_t identity = (uint64_t)(step->col * 1000L + step->count);
     for (int k = 0; k < steps->count; k++)
-        if (step->set >= 0 && steps->step[k].set == step->set) identity = 31 * identity + (uint64_t)k;
+        if (step->set >= 0 && steps->step[k].set == step->set)
+            identity = 31 * identity + (uint64_t)k;
     return identity;
 }
 
@@ -314,7 +316,7 @@ int hd_steps_of_vector(const hd_steps *steps, int col)
     return steps->of_vector[col];
 }
 
-/* ---- file ------------------------------------------------------------------------------------- */
+/* ---- file ---------------------------------------------------------------------------------- */
 
 /** The rest of a step is the same in every run of its scene. */
 static void step_archive(hd_steps *steps, hd_step *step, hd_archive *archive)
@@ -332,7 +334,8 @@ static void step_archive(hd_steps *steps, hd_step *step, hd_archive *archive)
     const int least = step->kind == HD_MODE_ZERO ? 1 : step->expected;
     const bool whole = step->col >= 0 && step->count >= least && step->set >= 0 &&
                        step->col + step->count <= steps->vectors;
-    hd_archive_expect(archive, whole || !step->resolved, "step", "it has not the vectors that it needs");
+    hd_archive_expect(archive, whole || !step->resolved, "step",
+                      "it has not the vectors that it needs");
 }
 
 static void record_archive(record *r, hd_archive *archive)

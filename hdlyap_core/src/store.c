@@ -115,7 +115,8 @@ hd_status hd_store_put(hd_store *store, long record, const double *data)
 {
     HD_ASSERT(record >= 0 && record < store->most);
     if (store->file >= 0) return transfer(store, NULL, (const char *)data, record);
-    if (!store->record[record]) store->record[record] = hd_memory_alloc(store->doubles, sizeof(double));
+    if (!store->record[record])
+        store->record[record] = hd_memory_alloc(store->doubles, sizeof(double));
     if (!store->record[record]) return HD_NO_MEMORY;
     memcpy(store->record[record], data, store->doubles * sizeof(double));
     return HD_OK;

@@ -1,16 +1,17 @@
 /** Tangent frame between two orthonormalisations -> its slowest Lyapunov vectors.
  *
- *  The last columns of Q = V R^-1 span the same nested spaces as those of V G^-1, G = V^T V. With U and P
- *  the dq and dp halves of V, completed to square matrices by the neutral vectors dp = e_x, e_y, p,
- *      G = P^T (1 + S^T S) P,  S = U P^-1,
- *  so that c = G^-1 e is found from an LU factorisation of P (half of the rows, a third of the flops of a
- *  Cholesky factorisation, and with the condition, not its square, at stake: single precision will do)
- *  and a few conjugate gradient steps: dq = S dp, and the largest values of S, the inverse curvatures, belong to
- *  the slow vectors themselves. All of them are iterated as one block [T16].
+ * The last columns of Q = V R^-1 span the same nested spaces as those of V G^-1, G = V^T V. With U
+ * and P the dq and dp halves of V, completed to square matrices by the neutral vectors dp = e_x,
+ * e_y, p, G = P^T (1 + S^T S) P,  S = U P^-1, so that c = G^-1 e is found from an LU factorisation
+ * of P (half of the rows, a third of the flops of a Cholesky factorisation, and with the condition,
+ * not its square, at stake: single precision will do) and a few conjugate gradient steps: dq = S
+ * dp, and the largest values of S, the inverse curvatures, belong to the slow vectors themselves.
+ * All of them are iterated as one block [T16].
  *
- *  Everything large lies in the frame's own memory. It is turned into single precision by halves; each leaves
- *  as much room as it takes: U goes there from the first, P from the second; then the rooms where they came
- *  from are free for the blocks of vectors. Blocks are column-major, 2N x block, slowest vector first. */
+ * Everything large lies in the frame's own memory. It is turned into single precision by halves;
+ * each leaves as much room as it takes: U goes there from the first, P from the second; then the
+ * rooms where they came from are free for the blocks of vectors. Blocks are column-major, 2N x
+ * block, slowest vector first. */
 #include "tail.h"
 
 #include <cblas.h>
@@ -28,20 +29,21 @@ enum { STEPS_MAX = 12, NEUTRAL_MAX = 3 };
 
 struct hd_tail {
     int disks, vectors;
-    int order;               /**< 2N */
-    int neutral;             /**< vectors that complete the frame */
-    int axis[NEUTRAL_MAX];   /**< of each: 0, 1: e_x, e_y; 2: p */
-    int count_max, count;    /**< of vectors found */
-    int stride, threads;     /**< of the frame */
-    lapack_int *pivot;       /**< [order] */
-    double *column;          /**< [4N][count_max + neutral], row-major */
-    double *small[3];        /**< [block * block] */
-    float *single;           /**< [block * block] */
-    float *u, *p;            /**< [stride columns][order]: U^T, and the factors of P^T; in the frame */
+    int order;             /**< 2N */
+    int neutral;           /**< vectors that complete the frame */
+    int axis[NEUTRAL_MAX]; /**< of each: 0, 1: e_x, e_y; 2: p */
+    int count_max, count;  /**< of vectors found */
+    int stride, threads;   /**< of the frame */
+    lapack_int *pivot;     /**< [order] */
+    double *column;        /**< [4N][count_max + neutral], row-major */
+    double *small[3];      /**< [block * block] */
+    float *single;         /**< [block * block] */
+    /** [stride columns][order]: U^T, and the factors of P^T; in the frame */
+    float *u, *p;
     float *x, *r, *d, *w, *a; /**< [block][order], in the frame */
 };
 
-/* ---- creation --------------------------------------------------------------------------------- */
+/* ---- creation ------------------------------------------------------------------------------ */
 
 static int block_of(const hd_tail *tail) { return tail->count + tail->neutral; }
 
@@ -102,7 +104,7 @@ hd_columns hd_tail_columns(const hd_tail *tail)
     return (hd_columns){tail->column, block_of(tail), tail->vectors - tail->count, tail->count};
 }
 
-/* ---- the frame in single precision ------------------------------------------------------------ */
+/* ---- the frame in single precision --------------------------------------------------------- */
 
 /** Half of the rows (0 or 1), in place: [row][stride] doubles become [row][stride] floats. */
 static void halve(const hd_tail *tail, double *data, int half)
@@ -157,15 +159,15 @@ static void take_apart(hd_tail *tail, double *data, const double *p)
     tail->w = (float *)(data + size), tail->a = tail->w + block;
 }
 
-/* ---- products --------------------------------------------------------------------------------- */
+/* ---- products ------------------------------------------------------------------------------ */
 
 /** x <- P^-T x, or P^-1 x. */
 static void solve(const hd_tail *tail, char transpose, float *x)
 {
     const int h = tail->order;
     const lapack_int failed = LAPACKE_sgetrs_work(LAPACK_COL_MAJOR, transpose == 'T' ? 'N' : 'T', h,
-                                                  block_of(tail), tail->p, tail->stride, tail->pivot,
-                                                  x, h);
+                                                  block_of(tail), tail->p, tail->stride,
+                                                  tail->pivot, x, h);
     HD_ASSERT(failed == 0);
 }
 
@@ -208,9 +210,10 @@ static void add_product(const hd_tail *tail, float *y, float sign, const float *
                 1.0F, y, h);
 }
 
-/* ---- conjugate gradients ---------------------------------------------------------------------- */
+/* ---- conjugate gradients ------------------------------------------------------------------- */
 
-/** x <- x T^-1 with T upper triangular and x T^-1 orthonormal: keeps the spans of the leading columns. */
+/** x <- x T^-1 with T upper triangular and x T^-1 orthonormal: keeps the spans of the leading
+ * columns. */
 static hd_status orthonormalise(hd_tail *tail, float *x)
 {
     const int h = tail->order, k = block_of(tail);
@@ -230,7 +233,7 @@ static hd_status divide(const hd_tail *tail, double *a, double *b)
 {
     const int k = block_of(tail);
     return LAPACKE_dposv_work(LAPACK_COL_MAJOR, 'L', k, k, a, k, b, k) == 0 ? HD_OK
-                                                                           : HD_ILL_CONDITIONED;
+                                                                            : HD_ILL_CONDITIONED;
 }
 
 static double largest_norm(const hd_tail *tail, const double *gram)
@@ -244,8 +247,8 @@ static double largest_norm(const hd_tail *tail, const double *gram)
     return sqrt(worst);
 }
 
-/** One step of the block method (O'Leary, Linear Algebra Appl. 29, 293 (1980)); rr = r^T r of before, and of
- *  after. */
+/** One step of the block method (O'Leary, Linear Algebra Appl. 29, 293 (1980)); rr = r^T r of
+ * before, and of after. */
 static hd_status gradient_step(hd_tail *tail, double *rr, double *other)
 {
     const size_t size = (size_t)tail->order * (size_t)block_of(tail);
@@ -286,7 +289,7 @@ static hd_status iterate(hd_tail *tail)
     return HD_ILL_CONDITIONED;
 }
 
-/* ---- the vectors ------------------------------------------------------------------------------ */
+/* ---- the vectors --------------------------------------------------------------------------- */
 
 /** column <- (S x, x), in the order of Lyapunov indices, the neutral vectors behind. */
 static void put_together(hd_tail *tail)
@@ -303,18 +306,19 @@ static void put_together(hd_tail *tail)
         }
 }
 
-/** From the slowest to the fastest: column <- column L^-1 with L lower triangular, column^T column = L^T L;
- *  by dpotrf of the matrix turned round. */
+/** From the slowest to the fastest: column <- column L^-1 with L lower triangular, column^T column
+ * = L^T L; by dpotrf of the matrix turned round. */
 static hd_status orthonormalise_backwards(hd_tail *tail)
 {
     const int k = block_of(tail), rows = 4 * tail->disks;
     double *gram = tail->small[0], *turned = tail->small[1];
     for (int pass = 0; pass < 2; pass++) {
-        cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, k, rows, 1.0, tail->column, k, 0.0, gram,
-                    k);
+        cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, k, rows, 1.0, tail->column, k, 0.0,
+                    gram, k);
         for (int a = 0; a < k; a++)
             for (int b = a; b < k; b++) turned[(k - 1 - b) * k + (k - 1 - a)] = gram[a * k + b];
-        if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', k, turned, k) != 0) return HD_ILL_CONDITIONED;
+        if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', k, turned, k) != 0)
+            return HD_ILL_CONDITIONED;
         for (int a = 0; a < k; a++)
             for (int b = a; b < k; b++) gram[b * k + a] = turned[(k - 1 - b) * k + (k - 1 - a)];
         cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, k, rows, 1.0,

@@ -1,4 +1,5 @@
-/** The slowest Lyapunov vectors of a frame that is not orthonormalised, for a fraction of what that would cost [T16]. */
+/** The slowest Lyapunov vectors of a frame that is not orthonormalised, for a fraction of what that
+ * would cost [T16]. */
 #ifndef HD_TAIL_H
 #define HD_TAIL_H
 
@@ -6,17 +7,17 @@
 
 typedef struct hd_tail hd_tail;
 
-/** Up to count_max vectors of a frame of the positive half. HD_NO_MEMORY; HD_REFUSED where the method does not
- *  apply: another number of vectors, or too few for it to pay. */
+/** Up to count_max vectors of a frame of the positive half. HD_NO_MEMORY; HD_REFUSED where the
+ * method does not apply: another number of vectors, or too few for it to pay. */
 HD_MUST_CHECK hd_status hd_tail_create(hd_tail **out, const hd_scene_def *def, int count_max);
 void hd_tail_free(hd_tail *tail);
 
 int hd_tail_count_max(const hd_tail *tail);
 
-/** Replaces the frame's contents by workspace (rewind it) and finds its last `count` Lyapunov vectors. p[2N]:
- *  momenta. In single precision: off by about 100 eps_single condition, towards the fast vectors.
- *  HD_ILL_CONDITIONED if the iteration does not converge.
- *  Cost 2/3 (2N)^3 flops of sgetrf, and about 5 times 8 (2N)^2 count of sgetrs and sgemm. */
+/** Replaces the frame's contents by workspace (rewind it) and finds its last `count` Lyapunov
+ * vectors. p[2N]: momenta. In single precision: off by about 100 eps_single condition, towards the
+ * fast vectors. HD_ILL_CONDITIONED if the iteration does not converge. Cost 2/3 (2N)^3 flops of
+ * sgetrf, and about 5 times 8 (2N)^2 count of sgetrs and sgemm. */
 HD_MUST_CHECK hd_status hd_tail_measure(hd_tail *tail, hd_frame *frame, const double *p, int count);
 
 /** The vectors found, orthonormal to rounding; valid until the next measurement. */

@@ -1,5 +1,6 @@
-/** Frame -> number of threads. More of them must never cost: each pass over a small frame is shorter than a thread
- *  takes to wake up, and on a machine that is busy otherwise this holds for larger ones too. */
+/** Frame -> number of threads. More of them must never cost: each pass over a small frame is
+ * shorter than a thread takes to wake up, and on a machine that is busy otherwise this holds for
+ * larger ones too. */
 #include "threads.h"
 
 #include <math.h>

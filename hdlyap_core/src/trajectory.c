@@ -1,13 +1,13 @@
 /** Scene -> event log: event-driven motion of hard disks between periodic or reflecting edges.
  *
- *  Every disk keeps the state of its last collision; contacts are predicted from two such states alone
- *  (contact.h), so the events do not depend on cells, queue or the cutting into intervals. Each disk has
- *  one entry in the queue: its earliest predicted contact, wall or cell edge. A contact whose partner
- *  has collided since is stale; it is noticed when its time comes, and predicted again. No event is
- *  missed by that: a disk that collides predicts anew with all its neighbours.
- *  Time is counted in epochs, a power of two long (tens of collisions per disk), at whose end all disks
- *  are brought up to date and predicted anew: so t = 1e6 is resolved as finely as t = 0.
- *  One thread. Only + - * / sqrt and comparisons: the same bits everywhere. */
+ * Every disk keeps the state of its last collision; contacts are predicted from two such states
+ * alone (contact.h), so the events do not depend on cells, queue or the cutting into intervals.
+ * Each disk has one entry in the queue: its earliest predicted contact, wall or cell edge. A
+ * contact whose partner has collided since is stale; it is noticed when its time comes, and
+ * predicted again. No event is missed by that: a disk that collides predicts anew with all its
+ * neighbours. Time is counted in epochs, a power of two long (tens of collisions per disk), at
+ * whose end all disks are brought up to date and predicted anew: so t = 1e6 is resolved as finely
+ * as t = 0. One thread. Only + - * / sqrt and comparisons: the same bits everywhere. */
 #include "hdlyap/trajectory.h"
 
 #include <float.h>
@@ -25,7 +25,7 @@
 /** Faster disks would lose the positions' digits within one epoch. */
 static const double MOMENTUM_MAX = 1e6;
 
-/* ---- events ----------------------------------------------------------------------------------- */
+/* ---- events -------------------------------------------------------------------------------- */
 
 /** Back into the box; the cell that it is booked in stays. */
 static void fold(const hd_trajectory *tr, hd_disk *disk)
@@ -67,9 +67,10 @@ static double square_minus_one(hd_pair r)
     return (sum - 1.0) + (lost + error[0] + error[1]);
 }
 
-/** What two disks that are r apart exchange: false if nothing, because they graze within rounding. An approach that is
- *  lost in the rounding of their momenta might leave these as they are, and the pair would meet again at once, for
- *  ever: it is turned into a parting that rounding cannot take back, along the longer component of r. */
+/** What two disks that are r apart exchange: false if nothing, because they graze within rounding.
+ * An approach that is lost in the rounding of their momenta might leave these as they are, and the
+ * pair would meet again at once, for ever: it is turned into a parting that rounding cannot take
+ * back, along the longer component of r. */
 static bool exchange(hd_disk *a, hd_disk *b, hd_pair r, double approach, double excess)
 {
     const double lost = 8.0 * DBL_EPSILON *
@@ -219,7 +220,7 @@ hd_status hd_trajectory_extend(hd_trajectory *tr, hd_event_log *log, double t_en
     return HD_OK;
 }
 
-/* ---- creation --------------------------------------------------------------------------------- */
+/* ---- creation ------------------------------------------------------------------------------ */
 
 /** Mean pair events per time unit [T2]. */
 static double enskog_rate(const hd_scene_def *def)
@@ -230,8 +231,8 @@ static double enskog_rate(const hd_scene_def *def)
     return sqrt(pi) * def->density * contact * def->disks;
 }
 
-/** A power of two that holds about 32 to 64 collisions of a disk; in a thin gas less, so that no flight
- *  is so long that its rounding comes near HD_OVERLAP_MAX. */
+/** A power of two that holds about 32 to 64 collisions of a disk; in a thin gas less, so that no
+ * flight is so long that its rounding comes near HD_OVERLAP_MAX. */
 static double epoch_for(double rate_per_disk)
 {
     const double wanted = fmin(32.0 / rate_per_disk, 16384.0);
@@ -332,7 +333,7 @@ void hd_trajectory_free(hd_trajectory *tr)
     hd_memory_free(tr);
 }
 
-/* ---- what can be read ------------------------------------------------------------------------- */
+/* ---- what can be read ---------------------------------------------------------------------- */
 
 double hd_trajectory_time(const hd_trajectory *tr) { return tr->now; }
 int hd_trajectory_disks(const hd_trajectory *tr) { return tr->count; }

@@ -18,7 +18,7 @@ static void expect_at_most(double value, double limit, const char *what)
     HD_ASSERT(holds);
 }
 
-/* ---- disks ------------------------------------------------------------------------------------ */
+/* ---- disks --------------------------------------------------------------------------------- */
 
 static void expect_momentum(const hd_trajectory *tr, const hd_scene_def *scene)
 {
@@ -35,7 +35,8 @@ void hd_verify_disks(const hd_trajectory *tr, const hd_scene_def *scene)
 {
     const double n = hd_trajectory_disks(tr);
     expect_at_most(hd_trajectory_overlap(tr), HD_OVERLAP_MAX, "overlap");
-    expect_at_most(fabs(hd_trajectory_kinetic_energy(tr) - n), n * hd_trajectory_energy_rounding(tr), "energy");
+    expect_at_most(fabs(hd_trajectory_kinetic_energy(tr) - n),
+                   n * hd_trajectory_energy_rounding(tr), "energy");
     expect_momentum(tr, scene);
 }
 
@@ -46,7 +47,7 @@ void hd_verify_log(const hd_event_log *log, int disks)
     HD_ASSERT(!fault);
 }
 
-/* ---- frame ------------------------------------------------------------------------------------ */
+/* ---- frame --------------------------------------------------------------------------------- */
 
 /** First vector of pair k: spread over the frame; the second is the last vector. */
 static int first_of(const hd_frame *frame, int k)
@@ -81,7 +82,8 @@ hd_symplectic hd_verify_sample(const hd_frame *frame)
     return s;
 }
 
-/** Every event rounds what it changes, at most all of a vector, as often as a disk takes part; vectors grow. */
+/** Every event rounds what it changes, at most all of a vector, as often as a disk takes part;
+ * vectors grow. */
 void hd_verify_symplectic(const hd_frame *frame, const hd_symplectic *before, double events)
 {
     const hd_symplectic after = hd_verify_sample(frame);

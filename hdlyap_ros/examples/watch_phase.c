@@ -1,6 +1,6 @@
-/** A ROS node in C: follows one LP phase of a running hdlyap_node, and publishes on ~deviation how far
- *  it is from turning evenly, in percent of a turn (std_msgs/Float64).
- *      rosrun hdlyap watch_phase _node:=hdlyap _nx:=1 _ny:=0 _number:=1 */
+/** A ROS node in C: follows one LP phase of a running hdlyap_node, and publishes on ~deviation how
+ * far it is from turning evenly, in percent of a turn (std_msgs/Float64). rosrun hdlyap watch_phase
+ * _node:=hdlyap _nx:=1 _ny:=0 _number:=1 */
 #include <hdlyap_ros/hdlyap_ros.h>
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +11,8 @@ enum { EXIT_REFUSED = 2, EXIT_NO_MEMORY, ABSENT = HDR_LP_TRACKED + 1 };
 static const char *const states[] = {"its step is not resolved", "too weak to have a phase",
                                      "turns too far between samples", "followed", "there is none"};
 
-/** A straight line through points: their number, means, and sums of products of what is off them. */
+/** A straight line through points: their number, means, and sums of products of what is off them.
+ */
 typedef struct line {
     double count, time, phase, time_time, time_phase;
 } line;

@@ -1,5 +1,5 @@
-/** One run's results as lines "kind number tolerance", for different_blas.py: which linear algebra ran, and what came
- *  out of it. Tolerances are what this run states about itself. */
+/** One run's results as lines "kind number tolerance", for different_blas.py: which linear algebra
+ * ran, and what came out of it. Tolerances are what this run states about itself. */
 #define _GNU_SOURCE /* dladdr */
 #include <dlfcn.h>
 #include <math.h>
@@ -31,11 +31,13 @@ static void print_library(const char *function)
 {
     Dl_info info;
     void *address = dlsym(RTLD_DEFAULT, function);
-    printf("library %s %s\n", function, address && dladdr(address, &info) ? info.dli_fname : "none");
+    printf("library %s %s\n", function,
+           address && dladdr(address, &info) ? info.dli_fname : "none");
 }
 
-/** Rounding of the vectors: error_bound averages 2 eps condition over the time, 20 times enlarged; vectors of one
- *  step, nearly degenerate, keep all of it. What a measured state may lack of orthogonality comes on top. */
+/** Rounding of the vectors: error_bound averages 2 eps condition over the time, 20 times enlarged;
+ * vectors of one step, nearly degenerate, keep all of it. What a measured state may lack of
+ * orthogonality comes on top. */
 static double of_vectors(const hd_run *run)
 {
     const double ORTHOGONALITY = 1e-6;
@@ -85,7 +87,8 @@ static void print_phases(const hd_run *run, double more)
         print("phase", phase->phase, 2.0 * vectors / strength);
     }
     const hd_velocity v = hd_phases_velocity(phases);
-    print("velocity", v.v, 0.1 * v.v_error); /* where errors are known at all, rounding is far below */
+    print("velocity", v.v,
+          0.1 * v.v_error); /* where errors are known at all, rounding is far below */
 }
 
 static int show(unsigned observe, int threads, double more)

@@ -9,20 +9,22 @@ import subprocess
 import tempfile
 
 # in the order of load.c's command line
-DEFAULTS = dict(disks=20, density=0.7, aspect=1.0, x=0, y=0, exponents=-1, observe=0, look=0, time=5.0)
+DEFAULTS = dict(
+    disks=20, density=0.7, aspect=1.0, x=0, y=0, exponents=-1, observe=0, look=0, time=5.0
+)
 PARTS = ('create', 'equilibrate', 'warm', 'average')
 ENTRY = re.compile(r'(ob|fl|fi|fe|fn|cfn|calls)=(.*)')
-SECONDS = 60.0      # takes one or two
+SECONDS = 60.0  # takes one or two
 
 
 class Profile:
     """Of one part of a run, or of several together."""
 
     def __init__(self):
-        self.lines = collections.Counter()      # instructions by (source file of the core, line)
+        self.lines = collections.Counter()  # instructions by (source file of the core, line)
         self.functions = collections.Counter()  # instructions by function that is not inlined
-        self.objects = collections.Counter()    # instructions by library
-        self.calls = collections.Counter()      # calls by function called
+        self.objects = collections.Counter()  # instructions by library
+        self.calls = collections.Counter()  # calls by function called
 
     def add(self, other):
         for name, counts in vars(self).items():
@@ -35,7 +37,7 @@ class Profile:
                 entry = ENTRY.match(line)
                 if entry and entry[1] == 'calls':
                     self.calls[here['cfn']] += int(entry[2].split()[0])
-                    next(file)      # what the call cost: counted where it was spent
+                    next(file)  # what the call cost: counted where it was spent
                 elif entry:
                     here['fl' if entry[1] in ('fi', 'fe') else entry[1]] = entry[2]
                 elif line[0].isdigit():
@@ -65,12 +67,24 @@ def profiles(valgrind, load, scene):
         raise ValueError(scene)
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, 'out')
-        command = [valgrind, '-q', '--tool=callgrind', '--callgrind-out-file=' + out,
-                   '--toggle-collect=load_*', '--compress-strings=no', '--compress-pos=no']
+        command = [
+            valgrind,
+            '-q',
+            '--tool=callgrind',
+            '--callgrind-out-file=' + out,
+            '--toggle-collect=load_*',
+            '--compress-strings=no',
+            '--compress-pos=no',
+        ]
         command += ['--dump-after=load_' + part for part in PARTS]
         command += [load] + ['%.17g' % value for value in dict(DEFAULTS, **scene).values()]
-        subprocess.run(command, check=True, timeout=SECONDS, stdout=subprocess.DEVNULL,
-                       env=dict(os.environ, OMP_NUM_THREADS='1', OPENBLAS_NUM_THREADS='1'))
+        subprocess.run(
+            command,
+            check=True,
+            timeout=SECONDS,
+            stdout=subprocess.DEVNULL,
+            env=dict(os.environ, OMP_NUM_THREADS='1', OPENBLAS_NUM_THREADS='1'),
+        )
         result = {}
         for number, part in enumerate(PARTS, 1):
             result[part] = Profile()

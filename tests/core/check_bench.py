@@ -9,10 +9,11 @@ import sys
 import unittest
 
 import matplotlib
-matplotlib.use('Agg')
-import matplotlib.image     # noqa: E402
 
-COLUMNS = {     # the first ones of each table, without units
+matplotlib.use('Agg')
+import matplotlib.image  # noqa: E402
+
+COLUMNS = {  # the first ones of each table, without units
     'precision': ['method', 'interval', 'accuracy asked', 'status', 'deviation of the largest'],
     'convergence': ['averaged time', 'wall time', 'lambda_1', 'lambda_1 error', 'c_T'],
     'convergence_targets': ['quantity', 'relative standard error', 'averaged time'],
@@ -20,12 +21,27 @@ COLUMNS = {     # the first ones of each table, without units
     'scaling_fits': ['sweep', 'part', 'fitted power', 'theory'],
     'whole': ['quantity', 'disks', 'minimum', 'median', 'maximum', 'rounds'],
     'whole_small': ['quantity', 'disks', 'minimum', 'median', 'maximum', 'rounds'],
-    'endurance': ['collisions', 'simulated time', 'relative energy deviation', 'momentum', 'overlap'],
-    'covariant': ['storage', 'transient', 'room', 'forward', 'covariant', 'covariant over forward', 'median sine apart'],
-    'rivals': ['quantity', 'disks', 'minimum', 'median', 'maximum', 'rounds']}
+    'endurance': [
+        'collisions',
+        'simulated time',
+        'relative energy deviation',
+        'momentum',
+        'overlap',
+    ],
+    'covariant': [
+        'storage',
+        'transient',
+        'room',
+        'forward',
+        'covariant',
+        'covariant over forward',
+        'median sine apart',
+    ],
+    'rivals': ['quantity', 'disks', 'minimum', 'median', 'maximum', 'rounds'],
+}
 PICTURES = ('precision', 'convergence', 'scaling', 'whole')
-ACCURACY = 1e-8     # asked for, and so the largest deviation allowed
-SPREAD = 0.05       # of the grey values of a picture that shows something
+ACCURACY = 1e-8  # asked for, and so the largest deviation allowed
+SPREAD = 0.05  # of the grey values of a picture that shows something
 RUN_SH, PROGRAMS, FOLDER = sys.argv[1:4]
 
 
@@ -44,7 +60,6 @@ def is_number(text):
 
 
 class Bench(unittest.TestCase):
-
     @classmethod
     def setUpClass(cls):
         subprocess.run([RUN_SH, '--quick', '--out', FOLDER, '--programs', PROGRAMS], check=True)
@@ -60,7 +75,7 @@ class Bench(unittest.TestCase):
             _, rows = table(name)
             self.assertTrue(rows, name)
             names = [column.partition(' [')[0] for column in rows[0]]
-            self.assertEqual(names[:len(wanted)], wanted, name)
+            self.assertEqual(names[: len(wanted)], wanted, name)
 
     def test_numbers_are_finite(self):
         for name in COLUMNS:
@@ -72,8 +87,11 @@ class Bench(unittest.TestCase):
                         self.assertTrue(math.isfinite(float(text)), f'{name}: {column} = {text}')
 
     def test_interval_that_hdlyap_chooses_is_as_accurate_as_asked(self):
-        chosen = [row for row in table('precision')[1] if row['method'] == 'auto'
-                  and float(row['accuracy asked [1/time unit]']) == ACCURACY]
+        chosen = [
+            row
+            for row in table('precision')[1]
+            if row['method'] == 'auto' and float(row['accuracy asked [1/time unit]']) == ACCURACY
+        ]
         self.assertEqual(len(chosen), 1)
         self.assertEqual(chosen[0]['status'], 'ok')
         deviation = float(chosen[0]['deviation of any [1/time unit]'])
@@ -95,8 +113,12 @@ class Bench(unittest.TestCase):
 
     def test_bad_arguments_give_one_line_and_status_2(self):
         for command in ('bench', 'rivals', 'precision', 'convergence', 'scaling', 'endurance'):
-            run = subprocess.run([os.path.join(PROGRAMS, 'hdlyap_' + command), '--nonsense'],
-                                 stderr=subprocess.PIPE, universal_newlines=True, check=False)
+            run = subprocess.run(
+                [os.path.join(PROGRAMS, 'hdlyap_' + command), '--nonsense'],
+                stderr=subprocess.PIPE,
+                universal_newlines=True,
+                check=False,
+            )
             self.assertEqual((run.returncode, run.stderr.count('\n')), (2, 1), command)
 
 

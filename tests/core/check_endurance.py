@@ -13,7 +13,7 @@ PROGRAM, COLLISIONS, FOLDER = sys.argv[1], float(sys.argv[2]), sys.argv[3]
 EPSILON = sys.float_info.epsilon
 DISKS, DENSITY = 100, 0.7
 BOX = math.sqrt(DISKS / DENSITY)
-Z = 5.0     # standard deviations of a walk that its largest excursion does not reach
+Z = 5.0  # standard deviations of a walk that its largest excursion does not reach
 
 # Of one collision, energy: its four momenta are rounded, each to eps p / sqrt(12) rms, and <p^4> = 3, together
 # below 1 eps; what is exchanged is wrong by some eps of b^2, and <b^4> = 32: 3.5 eps. Seen: 2 to 3 eps. A drift of the
@@ -21,20 +21,28 @@ Z = 5.0     # standard deviations of a walk that its largest excursion does not 
 ENERGY_STEP = 4.0 * EPSILON
 # One component: two momenta are rounded, each to eps p / sqrt(12) rms, and <p^2> = 1.
 MOMENTUM_STEP = 0.5 * EPSILON
-MOMENTUM_START = 4.0 * EPSILON      # per disk, when the mean is taken out and all are scaled
+MOMENTUM_START = 4.0 * EPSILON  # per disk, when the mean is taken out and all are scaled
 # Two coordinates of size L, each with four roundings of eps L / 2 (test_trajectory_conservation.c); times of size 4 and
 # r^2 of size 9 in the prediction of a contact. It does not grow.
 OVERLAP = (4.0 * BOX + 16.0) * EPSILON
 
 
 class Endurance(unittest.TestCase):
-
     @classmethod
     def setUpClass(cls):
         os.makedirs(FOLDER, exist_ok=True)
-        command = [PROGRAM, '--collisions', repr(COLLISIONS), '--disks', str(DISKS), '--density', str(DENSITY)]
-        cls.printed = subprocess.run(command + ['--out', FOLDER], stdout=subprocess.PIPE, check=True,
-                                     universal_newlines=True).stdout.splitlines()
+        command = [
+            PROGRAM,
+            '--collisions',
+            repr(COLLISIONS),
+            '--disks',
+            str(DISKS),
+            '--density',
+            str(DENSITY),
+        ]
+        cls.printed = subprocess.run(
+            command + ['--out', FOLDER], stdout=subprocess.PIPE, check=True, universal_newlines=True
+        ).stdout.splitlines()
         with open(os.path.join(FOLDER, 'endurance.csv'), encoding='utf-8') as file:
             cls.comment = file.readline()
             rows = [[float(number) for number in row] for row in list(csv.reader(file))[1:]]
@@ -42,8 +50,10 @@ class Endurance(unittest.TestCase):
 
     def check_below(self, seen, allowed):
         for k, value in enumerate(seen):
-            self.assertTrue(0.0 <= value <= allowed[k],
-                            f'{value:.3g} > {allowed[k]:.3g} after {self.collisions[k]:.0f} collisions')
+            self.assertTrue(
+                0.0 <= value <= allowed[k],
+                f'{value:.3g} > {allowed[k]:.3g} after {self.collisions[k]:.0f} collisions',
+            )
 
     def walk(self, step):
         return [Z * step / DISKS * math.sqrt(count) for count in self.collisions]
@@ -59,7 +69,9 @@ class Endurance(unittest.TestCase):
         self.check_below(self.energy, self.walk(ENERGY_STEP))
 
     def test_momentum_walks(self):
-        self.check_below(self.momentum, [MOMENTUM_START + bound for bound in self.walk(MOMENTUM_STEP)])
+        self.check_below(
+            self.momentum, [MOMENTUM_START + bound for bound in self.walk(MOMENTUM_STEP)]
+        )
 
     def test_overlap_stays(self):
         self.check_below(self.overlap, [OVERLAP] * len(self.overlap))

@@ -28,11 +28,19 @@ def processor():
 
 def files_of(name):
     """Where the three files of a library are, or None. The reference has cblas in libblas, and no libopenblas."""
-    parents = glob.glob("/usr/lib/*/") + [p + "/" for p in os.environ.get("HDLYAP_BLAS", "").split(":") if p]
+    parents = glob.glob("/usr/lib/*/") + [
+        p + "/" for p in os.environ.get("HDLYAP_BLAS", "").split(":") if p
+    ]
     for parent in parents:
-        blas, lapack = (parent + "blas", parent + "lapack") if name == "reference" else (parent + name,) * 2
-        found = {"libblas.so.3": blas + "/libblas.so.3", "liblapack.so.3": lapack + "/liblapack.so.3",
-                 "libopenblas.so.0": blas + ("/libblas.so.3" if name == "reference" else "/libopenblas.so.0")}
+        blas, lapack = (
+            (parent + "blas", parent + "lapack") if name == "reference" else (parent + name,) * 2
+        )
+        found = {
+            "libblas.so.3": blas + "/libblas.so.3",
+            "liblapack.so.3": lapack + "/liblapack.so.3",
+            "libopenblas.so.0": blas
+            + ("/libblas.so.3" if name == "reference" else "/libopenblas.so.0"),
+        }
         if all(os.path.exists(path) for path in found.values()):
             return found
     return None
@@ -57,7 +65,9 @@ def environment_of(folder, files, kernel):
         if os.path.lexists(path):
             os.remove(path)
         os.symlink(target, path)
-    environment = dict(os.environ, LD_LIBRARY_PATH=folder, OMP_WAIT_POLICY="passive", GOMP_SPINCOUNT="0")
+    environment = dict(
+        os.environ, LD_LIBRARY_PATH=folder, OMP_WAIT_POLICY="passive", GOMP_SPINCOUNT="0"
+    )
     environment.pop("OPENBLAS_CORETYPE", None)
     if kernel:
         environment["OPENBLAS_CORETYPE"] = kernel
@@ -65,10 +75,17 @@ def environment_of(folder, files, kernel):
 
 
 def run(program, environment, label):
-    done = subprocess.run([program], env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          universal_newlines=True)
+    done = subprocess.run(
+        [program],
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        universal_newlines=True,
+    )
     if done.returncode:
-        sys.exit(f"{program} under {label}: exit status {done.returncode}\n{done.stdout[-2000:]}{done.stderr}")
+        sys.exit(
+            f"{program} under {label}: exit status {done.returncode}\n{done.stdout[-2000:]}{done.stderr}"
+        )
     return done.stdout.splitlines()
 
 
@@ -77,11 +94,13 @@ def check_identity(lines, folder, name, kernel):
     for line in lines[1:3]:
         if os.path.dirname(line.split()[2]) != folder:
             sys.exit(f"{name}: {line}, not from {folder}")
-    library, its_kernel, threading = lines[0][len("blas "):].rsplit(", ", 2)
-    expected = ("unknown BLAS", "unknown") if name == "reference" else ("OpenBLAS", kernel or its_kernel)
+    library, its_kernel, threading = lines[0][len("blas ") :].rsplit(", ", 2)
+    expected = (
+        ("unknown BLAS", "unknown") if name == "reference" else ("OpenBLAS", kernel or its_kernel)
+    )
     if not library.startswith(expected[0]) or its_kernel != expected[1]:
         sys.exit(f"{name} {kernel}: is {lines[0]}")
-    if name.startswith("openblas-") and threading != name[len("openblas-"):]:
+    if name.startswith("openblas-") and threading != name[len("openblas-") :]:
         sys.exit(f"{name}: threading is {threading}")
 
 
@@ -94,7 +113,9 @@ def compare(first, second, label):
         kind, x, tolerance = a[0], float(a[1]), float(a[2])
         off, allowed = abs(x - float(b[1])), tolerance + float(b[2])
         if a[0] != b[0] or not off <= allowed:
-            sys.exit(f"{label}: number {k}, {kind}: {a[1]} and {b[1]} differ by {off:.3g}, allowed {allowed:.3g}")
+            sys.exit(
+                f"{label}: number {k}, {kind}: {a[1]} and {b[1]} differ by {off:.3g}, allowed {allowed:.3g}"
+            )
         largest = used.setdefault(kind, [0.0, 0.0])
         largest[0] = max(largest[0], off)
         largest[1] = max(largest[1], off / allowed if allowed else 0.0)

@@ -1,4 +1,5 @@
-/** Event log -> sums of ln R_ll [T1], [T3]-[T5], by the Gram-Schmidt process as it stands in textbooks, twice. */
+/** Event log -> sums of ln R_ll [T1], [T3]-[T5], by the Gram-Schmidt process as it stands in
+ * textbooks, twice. */
 #include "exact.h"
 
 #include <math.h>
@@ -6,7 +7,8 @@
 
 #include "testing.h"
 
-/** Between two factorisations: a few disks' vectors are then conditioned to a thousand, and a grazing event's share. */
+/** Between two factorisations: a few disks' vectors are then conditioned to a thousand, and a
+ * grazing event's share. */
 enum { EVENTS_MAX = 8 };
 
 struct exact_frame {
@@ -71,7 +73,7 @@ void exact_begin_anew(exact_frame *x)
     for (int col = 0; col < x->vectors; col++) x->sum[col] = 0.0L;
 }
 
-/* ---- the tangent maps, as [T1], [T3] and [T4] say them ---------------------------------------- */
+/* ---- the tangent maps, as [T1], [T3] and [T4] say them ------------------------------------- */
 
 /** The rows of one disk: dq_x, dq_y, dp_x, dp_y. */
 static hd_exact *rows_of(const exact_frame *x, int disk) { return x->v + 4 * disk * x->vectors; }
@@ -129,7 +131,7 @@ void exact_replay(exact_frame *x, const hd_event_log *log)
     exact_orthonormalise(x->v, x->rows, x->vectors, x->sum);
 }
 
-/* ---- a whole scene ---------------------------------------------------------------------------- */
+/* ---- a whole scene ------------------------------------------------------------------------- */
 
 /** In pieces, so that the log stays short. */
 static void carry(exact_frame *x, hd_trajectory *trajectory, hd_event_log *log, double length)

@@ -17,7 +17,8 @@ typedef struct exact_frame exact_frame;
 /** The same vectors as the frame's. */
 exact_frame *exact_create(const hd_frame *frame);
 void exact_free(exact_frame *x);
-const hd_exact *exact_read(const exact_frame *x); /**< the present vectors, row-major without padding */
+/** The present vectors, row-major without padding */
+const hd_exact *exact_read(const exact_frame *x);
 
 /** Carries them through all of the log. */
 void exact_replay(exact_frame *x, const hd_event_log *log);
@@ -26,8 +27,8 @@ void exact_replay(exact_frame *x, const hd_event_log *log);
 double exact_log_stretch(const exact_frame *x, int col);
 void exact_begin_anew(exact_frame *x);
 
-/** Exponents of the averaged time of a scene from its own start vectors; out[n]. Off by 1e-15 at most: factored
- *  twice as often they agree to that. */
+/** Exponents of the averaged time of a scene from its own start vectors; out[n]. Off by 1e-15 at
+ * most: factored twice as often they agree to that. */
 void exact_spectrum(const hd_scene_def *scene, double *out);
 
 #endif

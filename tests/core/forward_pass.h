@@ -28,7 +28,8 @@ static inline void forward_factor(forward_pass *f)
 
 static inline void forward_interval(forward_pass *f, double length)
 {
-    CHECK_OK(hd_trajectory_advance(f->trajectory, f->log, hd_trajectory_time(f->trajectory) + length));
+    CHECK_OK(
+        hd_trajectory_advance(f->trajectory, f->log, hd_trajectory_time(f->trajectory) + length));
     CHECK_OK(hd_frame_replay(f->frame, f->log, 0.0, f->log->duration));
     forward_factor(f);
 }
@@ -67,7 +68,8 @@ static inline double *forward_copy(const forward_pass *f)
     const size_t stride = (size_t)hd_frame_stride(f->frame);
     double *v = malloc(rows * n * sizeof *v);
     assert_non_null(v);
-    for (size_t row = 0; row < rows; row++) memcpy(v + row * n, hd_frame_read(f->frame) + row * stride, n * sizeof *v);
+    for (size_t row = 0; row < rows; row++)
+        memcpy(v + row * n, hd_frame_read(f->frame) + row * stride, n * sizeof *v);
     return v;
 }
 

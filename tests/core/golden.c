@@ -23,7 +23,8 @@ static golden golden_scene(int scene)
         {scene_in_box(9, 12.0, 1.0 + 1e-6, p, p, 4), 10000, 0x0cf1b5884e03e11eu},
         {scene_in_box(6, 1.4, 9.0, p, r, 5), 10000, 0x036efe86482d7328u},
         {scene_of(64, 1.1, 0.8660254, p, p, 6), 10000, 0x04072dec68dbfaecu},
-        {scene_of(20000, 0.7, 0.8, p, r, 7), 60000, 0x2d02f1c2d1469492u}, /* larger than the caches */
+        {scene_of(20000, 0.7, 0.8, p, r, 7), 60000,
+         0x2d02f1c2d1469492u}, /* larger than the caches */
     };
     return all[scene];
 }
@@ -56,7 +57,8 @@ uint64_t golden_hash(int scene)
     uint64_t hash = 0;
     if (hd_event_log_create(&log) == HD_OK && hd_trajectory_create(&tr, &g.def) == HD_OK) {
         const double t_end = g.pair_events / hd_trajectory_collision_rate(tr);
-        if (hd_trajectory_advance(tr, log, t_end) == HD_OK && log->count > 1000) hash = hash_log(log);
+        if (hd_trajectory_advance(tr, log, t_end) == HD_OK && log->count > 1000)
+            hash = hash_log(log);
     }
     hd_trajectory_free(tr);
     hd_event_log_free(log);

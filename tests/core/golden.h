@@ -1,5 +1,5 @@
 /** The event log of fixed scenes and seeds as one number each: the same on every machine, at every
- *  level of optimisation. A changed number means changed dynamics. */
+ * level of optimisation. A changed number means changed dynamics. */
 #ifndef HD_GOLDEN_H
 #define HD_GOLDEN_H
 

@@ -1,5 +1,5 @@
 /** Prints every golden hash; fails if one is not as stored. Built once per compiler and level by
- *  golden_levels.cmake, from the trajectory's sources alone. */
+ * golden_levels.cmake, from the trajectory's sources alone. */
 #include <inttypes.h>
 #include <stdio.h>
 

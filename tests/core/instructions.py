@@ -7,13 +7,13 @@ import os
 import sys
 import unittest
 
-sys.dont_write_bytecode = True     # the sources stay as they are
+sys.dont_write_bytecode = True  # the sources stay as they are
 
 import callgrind  # noqa: E402
 
 VALGRIND, LOAD, CORE = sys.argv[1:4]
-NONE, POSITIVE, ALL = 0, -1, -2                     # HD_EXPONENTS_*
-MODES, STEPS, PHASES, EVERYTHING = 1, 2, 4, 31      # HD_OBSERVE_*
+NONE, POSITIVE, ALL = 0, -1, -2  # HD_EXPONENTS_*
+MODES, STEPS, PHASES, EVERYTHING = 1, 2, 4, 31  # HD_OBSERVE_*
 
 # sources of each stage; what is common to all is in none
 OF_TRAJECTORY = {'trajectory.c', 'prediction.c', 'contact.h', 'cells.c', 'queue.c'}
@@ -100,14 +100,17 @@ class Walls(unittest.TestCase):
 
 class Vectors(unittest.TestCase):
     """The replay's instructions for as many vectors as are asked for; columns come in eights."""
-    DISKS = 40      # the positive half: 77 vectors
+
+    DISKS = 40  # the positive half: 77 vectors
 
     def replay(self, exponents):
-        return profile('average', disks=self.DISKS, time=2.0, exponents=exponents).of_file('frame.c')
+        return profile('average', disks=self.DISKS, time=2.0, exponents=exponents).of_file(
+            'frame.c'
+        )
 
     def test_ten_vectors(self):
         of_column = (self.replay(32) - self.replay(16)) / 16
-        without = self.replay(16) - 16 * of_column      # the maps: the same for any number
+        without = self.replay(16) - 16 * of_column  # the maps: the same for any number
         self.assertGreater(without, 0)
         self.assertEqual(self.replay(10), self.replay(16))
         half = self.replay(POSITIVE)
@@ -128,8 +131,13 @@ class Loop(unittest.TestCase):
     """After its first steps no part of a run asks for memory; libraries for linear algebra and threads do."""
 
     def test_nothing_is_allocated(self):
-        for scene in (dict(exponents=NONE), dict(exponents=10), dict(), dict(x=1, y=1),
-                      dict(observe=EVERYTHING, look=EVERYTHING)):
+        for scene in (
+            dict(exponents=NONE),
+            dict(exponents=10),
+            dict(),
+            dict(x=1, y=1),
+            dict(observe=EVERYTHING, look=EVERYTHING),
+        ):
             self.assertEqual(profile('average', **scene).calls['hd_memory_alloc'], 0, scene)
             self.assertGreater(profile('create', **scene).calls['hd_memory_alloc'], 5, scene)
 

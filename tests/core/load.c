@@ -1,7 +1,7 @@
-/** One scene from its creation to its end, for callgrind to count the instructions of: each part is a
- *  function of its own, by whose name they are collected.
- *  Usage: load disks density aspect x y exponents observe look time
- *  x, y: 0 periodic, 1 reflecting; look: stages of `observe` that somebody looks at; time: averaged. */
+/** One scene from its creation to its end, for callgrind to count the instructions of: each part is
+ * a function of its own, by whose name they are collected. Usage: load disks density aspect x y
+ * exponents observe look time x, y: 0 periodic, 1 reflecting; look: stages of `observe` that
+ * somebody looks at; time: averaged. */
 #include <hdlyap/hdlyap.h>
 #include <stdio.h>
 #include <stdlib.h>

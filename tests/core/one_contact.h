@@ -1,5 +1,5 @@
-/** The formula for a contact, written for one pair at a time: what the core computes for several side by
- *  side must be the same bits. */
+/** The formula for a contact, written for one pair at a time: what the core computes for several
+ * side by side must be the same bits. */
 #ifndef HD_ONE_CONTACT_H
 #define HD_ONE_CONTACT_H
 

@@ -1,4 +1,5 @@
-/** A stretch of a trajectory whose vectors, triangles and events are all kept, for covariant vectors by hand. */
+/** A stretch of a trajectory whose vectors, triangles and events are all kept, for covariant
+ * vectors by hand. */
 #ifndef HD_PASSAGE_H
 #define HD_PASSAGE_H
 
@@ -9,11 +10,11 @@
 /** Points 0 .. count; interval k goes from point k to point k + 1. */
 typedef struct passage {
     int rows, vectors, count;
-    double **factor;     /**< [count], row-major */
-    double **q;          /**< [count + 1], vectors, row-major without padding */
+    double **factor;       /**< [count], row-major */
+    double **q;            /**< [count + 1], vectors, row-major without padding */
     double (*stretch)[64]; /**< [count]: ln R_ll */
-    hd_event_log *log;   /**< [count] */
-    double condition;    /**< mean of the intervals */
+    hd_event_log *log;     /**< [count] */
+    double condition;      /**< mean of the intervals */
 } passage;
 
 static inline void passage_keep(passage *x, forward_pass *f, double length)
@@ -22,7 +23,8 @@ static inline void passage_keep(passage *x, forward_pass *f, double length)
     forward_interval(f, length);
     x->condition += hd_ortho_condition(f->ortho);
     x->factor[x->count] = triangle_copy(hd_ortho_factor(f->ortho), x->vectors);
-    memcpy(x->stretch[x->count], hd_ortho_log_stretch(f->ortho), (size_t)x->vectors * sizeof(double));
+    memcpy(x->stretch[x->count], hd_ortho_log_stretch(f->ortho),
+           (size_t)x->vectors * sizeof(double));
     *log = *f->log;
     log->event = malloc((f->log->count + 1) * sizeof *log->event);
     memcpy(log->event, f->log->event, f->log->count * sizeof *log->event);
@@ -31,7 +33,8 @@ static inline void passage_keep(passage *x, forward_pass *f, double length)
 }
 
 /** From a random frame of that seed, after `warmup` intervals. */
-static inline passage passage_of(const hd_scene_def *scene, uint64_t seed, int warmup, int count, double length)
+static inline passage passage_of(const hd_scene_def *scene, uint64_t seed, int warmup, int count,
+                                 double length)
 {
     forward_pass f = forward_started(scene, seed);
     passage x = {.rows = 4 * scene->disks, .vectors = forward_vectors(&f)};

@@ -9,7 +9,8 @@ enum { DISKS = 100, VECTORS = 60, PLACES = 6 };
 /** Means over a handful of numbers of order 1. */
 #define ROUNDING (100.0 * DBL_EPSILON)
 
-/** T(1,0), LP(1,0), T(0,1), LP(0,1), T(1,1), LP(1,1) at the end of the frame, in this order from its end. */
+/** T(1,0), LP(1,0), T(0,1), LP(0,1), T(1,1), LP(1,1) at the end of the frame, in this order from
+ * its end. */
 typedef struct place {
     hd_mode_kind kind;
     int nx, ny, col, count;

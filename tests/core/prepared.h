@@ -31,8 +31,8 @@ static inline hd_event_log *log_of(const hd_scene_def *def, const double *q, con
     return log;
 }
 
-/** Contacts so far that were predicted, and found to graze within rounding: they are not logged. Within the
- *  first epoch: at its end every disk counts once more. */
+/** Contacts so far that were predicted, and found to graze within rounding: they are not logged.
+ * Within the first epoch: at its end every disk counts once more. */
 static inline long void_contacts(const hd_trajectory *tr)
 {
     uint64_t sum = 0;

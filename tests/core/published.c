@@ -123,8 +123,8 @@ static void check_fields(const hd_run *run)
 
 static void check_cost(hd_cost cost)
 {
-    const double x[] = {cost.interval, cost.condition, cost.defect, cost.error_bound,
-                        cost.std_error, cost.progress, cost.remaining, cost.events_per_second};
+    const double x[] = {cost.interval,  cost.condition, cost.defect,    cost.error_bound,
+                        cost.std_error, cost.progress,  cost.remaining, cost.events_per_second};
     check_numbers(x, 8, "cost");
 }
 

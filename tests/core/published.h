@@ -4,8 +4,8 @@
 
 #include "hdlyap/run.h"
 
-/** Each is finite, and zero or no smaller than the smallest normal number; fails the test otherwise, with its name.
- *  Returns how many there are. */
+/** Each is finite, and zero or no smaller than the smallest normal number; fails the test
+ * otherwise, with its name. Returns how many there are. */
 long check_published(const hd_run *run);
 
 #endif

@@ -7,13 +7,14 @@
 
 enum { VECTORS_MAX = 8, PAIRS_MAX = 4, ROWS_MAX = 800 };
 
-/** Phases from least squares on overlaps of 2N terms, of tracks with |z|^2 >= 0.05; summed over some hundred
- *  samples. */
+/** Phases from least squares on overlaps of 2N terms, of tracks with |z|^2 >= 0.05; summed over
+ * some hundred samples. */
 #define ROUNDING 1e-11
 /** a^2 + b^2 below which there is no phase [T13]. */
 #define WEAK 0.05
 
-/** One LP step, alone in its frame. z[m][c]: of vector m and pair c at time 0; rows are orthonormal. */
+/** One LP step, alone in its frame. z[m][c]: of vector m and pair c at time 0; rows are
+ * orthonormal. */
 typedef struct rotating {
     world w;
     hd_phases *phases;

@@ -59,7 +59,7 @@ void world_place(world *w, const double *q, const double *p)
     hd_fields_sample(w->fields, w->q, w->p);
 }
 
-/* ---- random numbers --------------------------------------------------------------------------- */
+/* ---- random numbers ------------------------------------------------------------------------ */
 
 /** Box and Muller. */
 double random_normal(hd_random *random)
@@ -97,7 +97,7 @@ void random_rotation(hd_random *random, double *out, int n)
     orthonormalise(out, n, n);
 }
 
-/* ---- fields ----------------------------------------------------------------------------------- */
+/* ---- fields -------------------------------------------------------------------------------- */
 
 int world_rows(const world *w) { return 2 * w->scene.disks; }
 
@@ -139,7 +139,7 @@ void world_add_field(const world *w, double *out, int column, double factor)
         out[row] += factor * hd_fields_data(w->fields)[(size_t)row * stride + (size_t)column];
 }
 
-/* ---- vectors ---------------------------------------------------------------------------------- */
+/* ---- vectors ------------------------------------------------------------------------------- */
 
 static double *element(const world *w, int row, int half, int col)
 {
@@ -232,7 +232,7 @@ void world_turn(world *w, int a, int b, double angle)
         }
 }
 
-/* ---- what is measured ------------------------------------------------------------------------- */
+/* ---- what is measured ---------------------------------------------------------------------- */
 
 void world_look(world *w)
 {

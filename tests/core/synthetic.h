@@ -1,4 +1,5 @@
-/** Worlds with a known truth: real positions and momenta, and vectors written by hand into a frame. */
+/** Worlds with a known truth: real positions and momenta, and vectors written by hand into a frame.
+ */
 #ifndef HD_SYNTHETIC_H
 #define HD_SYNTHETIC_H
 
@@ -45,8 +46,8 @@ void world_write_mode(world *w, int col, const double *dq, double c);
 void world_read(const world *w, int col, double *dq, double *dp);
 /** Every column anew: random vectors. */
 void world_noise(world *w);
-/** Columns from col on: an orthonormal basis of the fields of these subspaces together, turned at random; to each
- *  a random vector of length `noise` is added. */
+/** Columns from col on: an orthonormal basis of the fields of these subspaces together, turned at
+ * random; to each a random vector of length `noise` is added. */
 void world_span(world *w, int col, const int *subspace, int subspaces, double noise);
 /** Turns columns a and b by an angle in their plane. */
 void world_turn(world *w, int a, int b, double angle);

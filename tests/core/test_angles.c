@@ -33,8 +33,9 @@ static void turn(double *c, int columns, hd_random *random)
 static void mix(double *c, int columns, double part)
 {
     for (int col = 1; col < columns; col++)
-        for (int row = 0; row < ROWS; row++) c[col * ROWS + row] = (1 - part) * c[col * ROWS + row] +
-                                                                  part * c[(col - 1) * ROWS + row];
+        for (int row = 0; row < ROWS; row++)
+            c[col * ROWS + row] = (1 - part) * c[col * ROWS + row] +
+                                  part * c[(col - 1) * ROWS + row];
 }
 
 /** A columns e_1 .. e_A, then B columns turned out of the first of them by the angles. */

@@ -1,4 +1,5 @@
-/** Covariant vectors through triangles: against substitution by hand, eigenvectors, and what they must map into. */
+/** Covariant vectors through triangles: against substitution by hand, eigenvectors, and what they
+ * must map into. */
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +17,9 @@ static double *triangle(int n, double decay, uint64_t stream)
     for (int row = 0; row < n; row++)
         for (int col = 0; col < n; col++) {
             const double size = exp(-decay * row);
-            r[row * n + col] = col < row ? NAN : col == row ? size : size * hd_random_symmetric(&random);
+            r[row * n + col] = col < row    ? NAN
+                               : col == row ? size
+                                            : size * hd_random_symmetric(&random);
         }
     return r;
 }
@@ -49,7 +52,8 @@ static void check_upper_with_length_1(const double *c, int n)
     }
 }
 
-/** |C^-1 b| for some b: a triangle of equally random entries makes it grow by powers of two with each row. */
+/** |C^-1 b| for some b: a triangle of equally random entries makes it grow by powers of two with
+ * each row. */
 static void check_well_conditioned(const double *c, int n)
 {
     double *x = calloc((size_t)n, sizeof *x), sum = 0.0;
@@ -78,7 +82,8 @@ static void a_start_leans_out_of_each_span(void **state)
     hd_backward_free(other);
 }
 
-/** R c = c' exp(growth), for sizes on both sides of a panel's width; nothing below the diagonal is read. */
+/** R c = c' exp(growth), for sizes on both sides of a panel's width; nothing below the diagonal is
+ * read. */
 static void each_vector_is_mapped_onto_the_later_one(void **state)
 {
     (void)state;
@@ -86,7 +91,8 @@ static void each_vector_is_mapped_onto_the_later_one(void **state)
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         const int n = sizes[k];
         hd_backward *backward = started(n, 1);
-        double *later = copied(backward), *r = triangle(n, 4.0 / n, k), *growth = malloc((size_t)n * sizeof *growth);
+        double *later = copied(backward), *r = triangle(n, 4.0 / n, k),
+               *growth = malloc((size_t)n * sizeof *growth);
         CHECK_OK(hd_backward_step(backward, growth, r));
         const double *c = hd_backward_read(backward);
         check_upper_with_length_1(c, n);
@@ -107,8 +113,8 @@ static void each_vector_is_mapped_onto_the_later_one(void **state)
     }
 }
 
-/** The same triangle again and again: C converges to its eigenvectors as the ratio of neighbouring eigenvalues, the growth
- *  to their logarithms, from any start. */
+/** The same triangle again and again: C converges to its eigenvectors as the ratio of neighbouring
+ * eigenvalues, the growth to their logarithms, from any start. */
 static void converges_to_eigenvectors(void **state)
 {
     (void)state;

@@ -46,8 +46,8 @@ static char *self;
 static void run_child(const char *environment, char *line, int size)
 {
     char command[4096];
-    snprintf(command, sizeof command, "env -u HDLYAP_RESTARTED %s OMP_WAIT_POLICY=passive '%s' kernel",
-             environment, self);
+    snprintf(command, sizeof command,
+             "env -u HDLYAP_RESTARTED %s OMP_WAIT_POLICY=passive '%s' kernel", environment, self);
     FILE *pipe = popen(command, "r");
     assert_non_null(pipe);
     assert_non_null(fgets(line, size, pipe));
@@ -61,7 +61,8 @@ static void a_users_choice_is_kept(void **state)
     if (strcmp(hd_blas_query().kernel, "unknown") == 0) skip();
     run_child("OPENBLAS_CORETYPE=Prescott", line, sizeof line);
     assert_string_equal(line, "Prescott first\n");
-    run_child("-u OPENBLAS_CORETYPE", line, sizeof line); /* once at most, and to something better */
+    run_child("-u OPENBLAS_CORETYPE", line,
+              sizeof line); /* once at most, and to something better */
     assert_null(strstr(line, "Prescott restarted"));
 }
 

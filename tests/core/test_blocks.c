@@ -29,13 +29,16 @@ static double spread(double memory, int samples, uint64_t seed)
 }
 
 /** Whether the series is white, slow (correlation time 4.5 or 20) or anticorrelated. Where it is at
- *  least 25 correlation times long; the noise of 8 blocks alone makes the ratio 1.15 (Student's t). */
+ * least 25 correlation times long; the noise of 8 blocks alone makes the ratio 1.15 (Student's t).
+ */
 static void errors_see_the_correlation_time(void **state)
 {
     (void)state;
-    static const struct { double memory; int samples; } cases[] = {
-        {0.0, 64}, {0.0, 500}, {0.0, 4096}, {0.8, 128}, {0.8, 1000}, {0.8, 4096},
-        {0.95, 512}, {0.95, 4096}, {-0.6, 64}, {-0.6, 512}, {-0.6, 4096}};
+    static const struct {
+        double memory;
+        int samples;
+    } cases[] = {{0.0, 64},   {0.0, 500},   {0.0, 4096}, {0.8, 128},  {0.8, 1000}, {0.8, 4096},
+                 {0.95, 512}, {0.95, 4096}, {-0.6, 64},  {-0.6, 512}, {-0.6, 4096}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         const double ratio = spread(cases[k].memory, cases[k].samples, 17 + k);
         print_message("memory %5.2f, %4d samples: rms deviation %.2f errors\n", cases[k].memory,
@@ -117,8 +120,8 @@ static void the_longest_blocks_of_16_are_asked(void **state)
     hd_blocks_clear(&blocks);
 }
 
-/** Increments of something: white numbers of which each moves on by the next (1), or that only tremble (0).
- *  Root mean squares of the deviation of the mean, and of the error stated. */
+/** Increments of something: white numbers of which each moves on by the next (1), or that only
+ * tremble (0). Root mean squares of the deviation of the mean, and of the error stated. */
 static void increments(double out[2], double diffusing, int samples, uint64_t seed)
 {
     static double before[SERIES], sample[SERIES];
@@ -144,9 +147,9 @@ static void increments(double out[2], double diffusing, int samples, uint64_t se
     hd_blocks_clear(&blocks);
 }
 
-/** Numbers of variance 1/3. Diffusing: sqrt(1/3n), and so it is stated. Trembling: the mean is off by
- *  sqrt(2/3) / n; stated is sqrt(blocks) of that, which falls like 1/n too. 2000 series know each to 2 %; blocks
- *  beyond a whole number of the longest are not asked (samples are powers of two). */
+/** Numbers of variance 1/3. Diffusing: sqrt(1/3n), and so it is stated. Trembling: the mean is off
+ * by sqrt(2/3) / n; stated is sqrt(blocks) of that, which falls like 1/n too. 2000 series know each
+ * to 2 %; blocks beyond a whole number of the longest are not asked (samples are powers of two). */
 static void long_errors_fall_as_fast_as_the_increments_allow(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/** Cells: neighbours, images and lists, for one, two, three and many columns and both boundaries. */
+/** Cells: neighbours, images and lists, for one, two, three and many columns and both boundaries.
+ */
 #include "cells.h"
 
 #include <float.h>
@@ -76,7 +77,8 @@ static void lines_cover_the_box(void **state)
         hd_cells cells = created(12, 31.0, edge[k], HD_PERIODIC);
         for (int d = 0; d < 2; d++) {
             const int32_t size = cells.size[d];
-            assert_true(cells.line[d][0].bound[0] == 0 && cells.line[d][size - 1].bound[1] == cells.box[d]);
+            assert_true(cells.line[d][0].bound[0] == 0 &&
+                        cells.line[d][size - 1].bound[1] == cells.box[d]);
             for (int32_t c = 0; c < size; c++) {
                 const hd_cell_line *l = &cells.line[d][c];
                 if (c > 0) assert_true(l->bound[0] == cells.line[d][c - 1].bound[1]);
@@ -87,7 +89,8 @@ static void lines_cover_the_box(void **state)
     }
 }
 
-/** Thin gas: about as many cells as disks, however large the box; so memory and search stay small. */
+/** Thin gas: about as many cells as disks, however large the box; so memory and search stay small.
+ */
 static void number_of_cells_follows_disks(void **state)
 {
     (void)state;
@@ -140,7 +143,8 @@ static void disks_are_booked_where_they_are(void **state)
         for (int d = 0; d < 2; d++) {
             const hd_cell_line *l = &cells.line[d][cell[d]];
             const double rounding = 4.0 * DBL_EPSILON * cells.box[d];
-            assert_true(disks[i].q[d] >= l->bound[0] - rounding && disks[i].q[d] <= l->bound[1] + rounding);
+            assert_true(disks[i].q[d] >= l->bound[0] - rounding &&
+                        disks[i].q[d] <= l->bound[1] + rounding);
         }
     }
     hd_cells_clear(&cells);
@@ -169,7 +173,8 @@ static void crossing_counts_the_turns(void **state)
         }
 }
 
-/** Any number of disks in a cell, joining and leaving in all orders: each is listed where it is, once. */
+/** Any number of disks in a cell, joining and leaving in all orders: each is listed where it is,
+ * once. */
 static void crowds_come_and_go(void **state)
 {
     (void)state;
@@ -184,7 +189,8 @@ static void crowds_come_and_go(void **state)
     }
     for (int step = 0; step < STEPS; step++) {
         const int32_t i = (int32_t)(0.5 * (1.0 + hd_random_symmetric(&random)) * N);
-        hd_cells_cross(&cells, disks, i, 0, disks[i].cell[0] == 0 ? 2 : 0); /* to column 1 or back */
+        hd_cells_cross(&cells, disks, i, 0,
+                       disks[i].cell[0] == 0 ? 2 : 0); /* to column 1 or back */
         int in_first = 0;
         for (int32_t k = 0; k < N; k++) {
             assert_int_equal(listed_anywhere(&cells, k), 1);
@@ -200,9 +206,12 @@ static void crowds_come_and_go(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(neighbours_in_periodic_lines), cmocka_unit_test(neighbours_between_walls),
-        cmocka_unit_test(lines_cover_the_box),          cmocka_unit_test(number_of_cells_follows_disks),
-        cmocka_unit_test(disks_are_booked_where_they_are), cmocka_unit_test(crossing_counts_the_turns),
+        cmocka_unit_test(neighbours_in_periodic_lines),
+        cmocka_unit_test(neighbours_between_walls),
+        cmocka_unit_test(lines_cover_the_box),
+        cmocka_unit_test(number_of_cells_follows_disks),
+        cmocka_unit_test(disks_are_booked_where_they_are),
+        cmocka_unit_test(crossing_counts_the_turns),
         cmocka_unit_test(crowds_come_and_go),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

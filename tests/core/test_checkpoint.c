@@ -99,9 +99,10 @@ static void expect_same_state(hd_run *a, hd_run *b)
     free(of_b.data);
 }
 
-/* ---- the run goes on -------------------------------------------------------------------------- */
+/* ---- the run goes on ----------------------------------------------------------------------- */
 
-/** Stopped and taken up again every few steps, beside one that is left alone; both with steps no longer than `view`. */
+/** Stopped and taken up again every few steps, beside one that is left alone; both with steps no
+ * longer than `view`. */
 static void expect_uninterrupted_view(const hd_scene_def *def, int every, int least, double view)
 {
     hd_run *alone = kept_run(def), *other = kept_run(def);
@@ -161,7 +162,8 @@ static void a_run_that_is_looked_at_keeps_its_plan(void **state)
     expect_uninterrupted_view(&none, 37, 100, 0.01);
 }
 
-/** The states that the run above went through are not all the same kind: looks, tracked phases, found steps. */
+/** The states that the run above went through are not all the same kind: looks, tracked phases,
+ * found steps. */
 static void what_was_compared_was_there(void **state)
 {
     (void)state;
@@ -242,9 +244,10 @@ static void the_time_left_is_known_after_a_restart(void **state)
     hd_run_free(resumed);
 }
 
-/* ---- another duration ------------------------------------------------------------------------- */
+/* ---- another duration ---------------------------------------------------------------------- */
 
-/** Rounding of two ways to cut the same time into intervals [T6]: the accuracy that the scene asks for. */
+/** Rounding of two ways to cut the same time into intervals [T6]: the accuracy that the scene asks
+ * for. */
 static void a_finished_run_can_be_made_longer(void **state)
 {
     (void)state;
@@ -270,8 +273,8 @@ static void a_finished_run_can_be_made_longer(void **state)
     hd_run_free(once);
 }
 
-/** At every moment of the averaging: what has been averaged, and hardly more, is a duration; what comes of it is a file
- *  that can be gone on from. */
+/** At every moment of the averaging: what has been averaged, and hardly more, is a duration; what
+ * comes of it is a file that can be gone on from. */
 static void the_duration_can_end_at_once(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/** Contents of a checkpoint that no run has, with a checksum that is right: refused, or survived. */
+/** Contents of a checkpoint that no run has, with a checksum that is right: refused, or survived.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>
@@ -140,7 +141,8 @@ static void ends_of_samples_are_not_passed_twice(void **state)
     hd_run_free(run);
 }
 
-/** Each number of a file replaced by another one, with a checksum that is right: the run is refused, or goes on. */
+/** Each number of a file replaced by another one, with a checksum that is right: the run is
+ * refused, or goes on. */
 static void nonsense_is_survived(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/** A checkpoint's file: whole, or refused with a line that says how it is not; written, or left as it was. */
+/** A checkpoint's file: whole, or refused with a line that says how it is not; written, or left as
+ * it was. */
 #define _POSIX_C_SOURCE 200809L
 #include <fcntl.h>
 #include <signal.h>
@@ -18,7 +19,7 @@
 
 static const char PATH[] = "checkpoint_file.test", PART[] = "checkpoint_file.test.part";
 
-/* ---- files that are not whole ----------------------------------------------------------------- */
+/* ---- files that are not whole -------------------------------------------------------------- */
 
 static void expect_refused(const char *word)
 {
@@ -121,7 +122,7 @@ static void another_format_is_refused_as_such(void **state)
     expect_format_refused(HD_CHECKPOINT_FORMAT - 1, "an older hdlyap");
 }
 
-/* ---- files that cannot be written ------------------------------------------------------------- */
+/* ---- files that cannot be written ---------------------------------------------------------- */
 
 static void expect_unwritable(hd_run *run, const char *path, const char *word)
 {

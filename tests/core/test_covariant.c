@@ -1,4 +1,5 @@
-/** Covariant vectors are what they are called: by the tangent flow, by sums that must hold, by another way to them. */
+/** Covariant vectors are what they are called: by the tangent flow, by sums that must hold, by
+ * another way to them. */
 #include <float.h>
 #include <stdbool.h>
 
@@ -12,7 +13,7 @@ static hd_scene_def few(int disks, hd_boundary x, hd_boundary y)
     return scene;
 }
 
-/* ---- carried by the tangent flow --------------------------------------------------------------- */
+/* ---- carried by the tangent flow ----------------------------------------------------------- */
 
 /** Row-major vectors of point `from`, carried to point `to` by the logged events, in place. */
 static void carry(const passage *x, double *v, int n, int from, int to)
@@ -20,9 +21,12 @@ static void carry(const passage *x, double *v, int n, int from, int to)
     hd_frame *frame;
     CHECK_OK(hd_frame_create(&frame, x->rows / 4, n, 1, 1));
     const size_t stride = (size_t)hd_frame_stride(frame), width = (size_t)n * sizeof *v;
-    for (int row = 0; row < x->rows; row++) memcpy(hd_frame_data(frame) + (size_t)row * stride, v + row * n, width);
-    for (int k = from; k < to; k++) CHECK_OK(hd_frame_replay(frame, &x->log[k], 0.0, x->log[k].duration));
-    for (int row = 0; row < x->rows; row++) memcpy(v + row * n, hd_frame_read(frame) + (size_t)row * stride, width);
+    for (int row = 0; row < x->rows; row++)
+        memcpy(hd_frame_data(frame) + (size_t)row * stride, v + row * n, width);
+    for (int k = from; k < to; k++)
+        CHECK_OK(hd_frame_replay(frame, &x->log[k], 0.0, x->log[k].duration));
+    for (int row = 0; row < x->rows; row++)
+        memcpy(v + row * n, hd_frame_read(frame) + (size_t)row * stride, width);
     hd_frame_free(frame);
 }
 
@@ -38,14 +42,16 @@ static double map_size(const passage *x, int from, int to)
     return size;
 }
 
-/** Vectors of one passage carried from point `from` to point `to` are those that another one finds there. What lies
- *  between both at first, by their transients and by rounding, can grow as much as anything can while the vector grows
- *  as it does. Returns how many of them say something. */
+/** Vectors of one passage carried from point `from` to point `to` are those that another one finds
+ * there. What lies between both at first, by their transients and by rounding, can grow as much as
+ * anything can while the vector grows as it does. Returns how many of them say something. */
 static int check_covariance(const passage *one, const passage *other, int from, int to)
 {
     const int n = one->vectors, rows = one->rows;
-    const double size = map_size(one, from, to), rounding = 16.0 * DBL_EPSILON * (one->condition + other->condition);
-    hd_backward *c[3] = {passage_back(one, one->count, from, 1), passage_back(other, other->count - 37, from, 2),
+    const double size = map_size(one, from, to),
+                 rounding = 16.0 * DBL_EPSILON * (one->condition + other->condition);
+    hd_backward *c[3] = {passage_back(one, one->count, from, 1),
+                         passage_back(other, other->count - 37, from, 2),
                          passage_back(other, other->count - 37, to, 2)};
     double *v = passage_vectors(one, c[0], from), *same = passage_vectors(other, c[1], from);
     double *later = passage_vectors(other, c[2], to), apart[64];
@@ -67,11 +73,12 @@ static int check_covariance(const passage *one, const passage *other, int from, 
 static void vectors_are_carried_into_vectors(void **state)
 {
     (void)state;
-    const hd_boundary boundary[][2] = {{HD_PERIODIC, HD_PERIODIC}, {HD_PERIODIC, HD_REFLECTING},
-                                       {HD_REFLECTING, HD_REFLECTING}};
+    const hd_boundary boundary[][2] = {
+        {HD_PERIODIC, HD_PERIODIC}, {HD_PERIODIC, HD_REFLECTING}, {HD_REFLECTING, HD_REFLECTING}};
     for (int k = 0; k < 3; k++) {
         const hd_scene_def scene = few(4, boundary[k][0], boundary[k][1]);
-        passage one = passage_of(&scene, 1, 600, 640, 0.25), other = passage_of(&scene, 2, 600, 640, 0.25);
+        passage one = passage_of(&scene, 1, 600, 640, 0.25),
+                other = passage_of(&scene, 2, 600, 640, 0.25);
         const int good = check_covariance(&one, &other, 12, 16);
         assert_true(good >= one.vectors - hd_scene_zero_exponents(&scene) - 2);
         passage_free(&one);
@@ -79,10 +86,11 @@ static void vectors_are_carried_into_vectors(void **state)
     }
 }
 
-/* ---- sums --------------------------------------------------------------------------------------- */
+/* ---- sums ---------------------------------------------------------------------------------- */
 
-/** The first l vectors span what those of Q do, and det C is the product of its diagonal: over any time their growth
- *  sums to that of their volume, sum ln R_kk, but for what their own volume in that span changes. */
+/** The first l vectors span what those of Q do, and det C is the product of its diagonal: over any
+ * time their growth sums to that of their volume, sum ln R_kk, but for what their own volume in
+ * that span changes. */
 static void growth_sums_to_that_of_the_volume(void **state)
 {
     (void)state;
@@ -102,17 +110,18 @@ static void growth_sums_to_that_of_the_volume(void **state)
     for (int col = 0; col < n; col++) {
         const double changed = log(fabs(hd_backward_read(c)[col * (n + 1)])) - volume[col];
         sum += grown[col] - stretched[col] - changed;
-        /* each step rounds a column, and the logarithms of a length and of a diagonal, by some eps */
+        /* each step rounds a column, and the logarithms of a length and of a diagonal, by some eps
+         */
         CHECK_CLOSE(sum, 0.0, 200.0 * (col + 1) * 16.0 * DBL_EPSILON * sqrt(n));
     }
     hd_backward_free(c);
     passage_free(&x);
 }
 
-/* ---- transients --------------------------------------------------------------------------------- */
+/* ---- transients ---------------------------------------------------------------------------- */
 
-/** What two starts differ by in the second vector shrinks, on the way back, just as its growth stays behind the first
- *  one's: by exp -sum (ln R_11 - ln R_22). */
+/** What two starts differ by in the second vector shrinks, on the way back, just as its growth
+ * stays behind the first one's: by exp -sum (ln R_11 - ln R_22). */
 static void starts_meet_as_their_exponents_say(void **state)
 {
     (void)state;
@@ -142,7 +151,7 @@ static void starts_meet_as_their_exponents_say(void **state)
     passage_free(&x);
 }
 
-/* ---- another way to find them -------------------------------------------------------------------- */
+/* ---- another way to find them -------------------------------------------------------------- */
 
 /** The log backwards in time: all momenta reversed, those of a contact as they were after it. */
 static void reverse(hd_event_log *into, const hd_event_log *log)
@@ -158,8 +167,8 @@ static void reverse(hd_event_log *into, const hd_event_log *log)
     }
 }
 
-/** Vectors that random ones become, in extended precision: from point 0 on forwards to `at`, or from the last point
- *  backwards in time. */
+/** Vectors that random ones become, in extended precision: from point 0 on forwards to `at`, or
+ * from the last point backwards in time. */
 static exact_frame *converged(const passage *x, int at, bool backwards)
 {
     hd_frame *frame;
@@ -189,7 +198,8 @@ static void swap_columns(hd_exact *a, int *order, int rows, int ld, int one, int
     }
 }
 
-/** x[n] != 0 with a x = 0, a of n - 1 rows (used up): elimination, the largest entry of each row first. */
+/** x[n] != 0 with a x = 0, a of n - 1 rows (used up): elimination, the largest entry of each row
+ * first. */
 static void null_vector(hd_exact *a, hd_exact *x, int n)
 {
     int order[64];
@@ -208,16 +218,19 @@ static void null_vector(hd_exact *a, hd_exact *x, int n)
     for (int k = 0; k < n - 1; k++) x[order[k]] = -a[k * n + n - 1] / a[k * n + k];
 }
 
-/** Column `col` of v <- what lies in the span of the first col + 1 vectors forwards and of the first n - col backwards,
- *  that is at right angles to the last col of those (whose momenta are reversed). */
-static void intersect(double *v, const hd_exact *forwards, const hd_exact *backwards, int n, int col)
+/** Column `col` of v <- what lies in the span of the first col + 1 vectors forwards and of the
+ * first n - col backwards, that is at right angles to the last col of those (whose momenta are
+ * reversed). */
+static void intersect(double *v, const hd_exact *forwards, const hd_exact *backwards, int n,
+                      int col)
 {
     hd_exact a[64 * 64] = {0}, x[64];
     for (int k = 0; k < col; k++)
         for (int m = 0; m <= col; m++)
             for (int row = 0; row < n; row++) {
                 const hd_exact sign = row & 2 ? -1.0L : 1.0L;
-                a[k * (col + 1) + m] += sign * backwards[row * n + n - 1 - k] * forwards[row * n + m];
+                a[k * (col + 1) + m] += sign * backwards[row * n + n - 1 - k] *
+                                        forwards[row * n + m];
             }
     null_vector(a, x, col + 1);
     for (int row = 0; row < n; row++) {
@@ -227,8 +240,9 @@ static void intersect(double *v, const hd_exact *forwards, const hd_exact *backw
     }
 }
 
-/** The Oseledec splitting by its definition: what the past has made grow, cut with what the future lets grow no more. Q
- *  is known to eps condition; a vector that hardly leans out of those before it is known less. */
+/** The Oseledec splitting by its definition: what the past has made grow, cut with what the future
+ * lets grow no more. Q is known to eps condition; a vector that hardly leans out of those before it
+ * is known less. */
 static void intersections_of_past_and_future_are_the_same(void **state)
 {
     (void)state;
@@ -240,10 +254,12 @@ static void intersections_of_past_and_future_are_the_same(void **state)
     hd_backward *c = passage_back(&x, 2 * AT, AT, 1);
     double *v = passage_vectors(&x, c, AT), *twin = calloc(N * N, sizeof *twin);
     for (int col = 0; col < N; col++) {
-        if (col >= POSITIVE && col < N - POSITIVE) continue; /* equal exponents have no directions of their own */
+        if (col >= POSITIVE && col < N - POSITIVE)
+            continue; /* equal exponents have no directions of their own */
         const double leaning = fabs(hd_backward_read(c)[col * (N + 1)]);
         intersect(twin, exact_read(forwards), exact_read(backwards), N, col);
-        CHECK_CLOSE(column_sine(v, twin, N, N, col), 0.0, 16.0 * DBL_EPSILON * x.condition / leaning);
+        CHECK_CLOSE(column_sine(v, twin, N, N, col), 0.0,
+                    16.0 * DBL_EPSILON * x.condition / leaning);
     }
     free(v);
     free(twin);

@@ -1,4 +1,5 @@
-/** Windows of covariant vectors: what is made of them is what is made of the same vectors by hand. */
+/** Windows of covariant vectors: what is made of them is what is made of the same vectors by hand.
+ */
 #include <float.h>
 
 #include "memory.h"
@@ -7,13 +8,22 @@
 
 static const double PI = 3.14159265358979323846;
 
-enum { WARMUP = 400, DISKS = 12, ROWS = 4 * DISKS, LOOKS = 5, PER_LOOK = 8, LAST = LOOKS * PER_LOOK, END = 120 };
+enum {
+    WARMUP = 400,
+    DISKS = 12,
+    ROWS = 4 * DISKS,
+    LOOKS = 5,
+    PER_LOOK = 8,
+    LAST = LOOKS * PER_LOOK,
+    END = 120
+};
 
-/* ---- a window by hand ---------------------------------------------------------------------------- */
+/* ---- a window by hand ---------------------------------------------------------------------- */
 
 /** Means over the looks of one window. */
 typedef struct twin {
-    double exponent[ROWS], local[ROWS], entropy[ROWS], cosine[ROWS], neighbours[ROWS], violations[ROWS], met[ROWS];
+    double exponent[ROWS], local[ROWS], entropy[ROWS], cosine[ROWS], neighbours[ROWS],
+        violations[ROWS], met[ROWS];
     double weight[2][3][ROWS]; /* T(1,0), LP(1,0) of dq, of dp, of the frame's dq */
 } twin;
 
@@ -22,7 +32,8 @@ static double half_dot(const double *v, int col, int one, int other)
     double sum = 0.0;
     for (int disk = 0; disk < DISKS; disk++)
         for (int d = 0; d < 2; d++)
-            sum += v[(4 * disk + 2 * one + d) * ROWS + col] * v[(4 * disk + 2 * other + d) * ROWS + col];
+            sum += v[(4 * disk + 2 * one + d) * ROWS + col] *
+                   v[(4 * disk + 2 * other + d) * ROWS + col];
     return sum;
 }
 
@@ -31,7 +42,8 @@ static void add_shape(twin *t, const double *v)
     for (int col = 0; col < ROWS; col++) {
         for (int disk = 0; disk < DISKS; disk++) {
             double part = 0.0;
-            for (int d = 0; d < 4; d++) part += v[(4 * disk + d) * ROWS + col] * v[(4 * disk + d) * ROWS + col];
+            for (int d = 0; d < 4; d++)
+                part += v[(4 * disk + d) * ROWS + col] * v[(4 * disk + d) * ROWS + col];
             t->entropy[col] -= part * log(part) / LOOKS;
         }
         t->cosine[col] += fabs(half_dot(v, col, 0, 1)) /
@@ -52,19 +64,22 @@ static double row_dot(const double *a, const double *b)
 static void orthonormalise(double field[FIELDS][LENGTH], int first, int last)
 {
     for (int k = 0; k < 2 * (last - first); k++) {
-        const double *before = field[first + k % (last - first)], overlap = row_dot(before, field[last]);
+        const double *before = field[first + k % (last - first)],
+                     overlap = row_dot(before, field[last]);
         for (int row = 0; row < LENGTH; row++) field[last][row] -= overlap * before[row];
     }
     const double length = sqrt(row_dot(field[last], field[last]));
     for (int row = 0; row < LENGTH; row++) field[last][row] /= length;
 }
 
-/** Rows: curl of cos kx and sin kx; grad of them; p times them. Each block orthonormal in itself. */
+/** Rows: curl of cos kx and sin kx; grad of them; p times them. Each block orthonormal in itself.
+ */
 static void fill_fields(double field[FIELDS][LENGTH], const double *q, const double *p, double k)
 {
     for (int disk = 0; disk < DISKS; disk++)
         for (int phase = 0; phase < 2; phase++) {
-            const double x = k * q[2 * disk], a = phase ? sin(x) : cos(x), slope = phase ? cos(x) : -sin(x);
+            const double x = k * q[2 * disk], a = phase ? sin(x) : cos(x),
+                         slope = phase ? cos(x) : -sin(x);
             field[phase][2 * disk] = field[2 + phase][2 * disk + 1] = 0.0;
             field[phase][2 * disk + 1] = -slope;
             field[2 + phase][2 * disk] = slope;
@@ -84,7 +99,8 @@ static void add_weights(twin *t, int set, const double *v, int half, double fiel
         }
 }
 
-static void add_look(twin *t, const hd_scene_def *scene, const passage *x, const hd_backward *c, int at)
+static void add_look(twin *t, const hd_scene_def *scene, const passage *x, const hd_backward *c,
+                     int at)
 {
     double q[LENGTH], p[LENGTH], box[2], field[FIELDS][LENGTH], *v = passage_vectors(x, c, at);
     hd_trajectory *trajectory;
@@ -101,7 +117,8 @@ static void add_look(twin *t, const hd_scene_def *scene, const passage *x, const
     for (int col = 0; col + 1 < ROWS; col++) {
         double dot = 0.0; /* of C's columns: Q is orthonormal */
         for (int row = 0; row < ROWS; row++)
-            dot += hd_backward_read(c)[col * ROWS + row] * hd_backward_read(c)[(col + 1) * ROWS + row];
+            dot += hd_backward_read(c)[col * ROWS + row] *
+                   hd_backward_read(c)[(col + 1) * ROWS + row];
         t->neighbours[col] += acos(fmin(1.0, fabs(dot))) / LOOKS;
     }
     free(v);
@@ -148,23 +165,27 @@ static void check_means(const hd_covariant *c, const twin *t)
 {
     const hd_splitting *s = hd_covariant_splitting(c);
     for (int col = 0; col < ROWS; col++) {
-        CHECK_CLOSE(hd_spectrum_exponent(hd_covariant_spectrum(c), col), t->exponent[col], ROUNDING);
+        CHECK_CLOSE(hd_spectrum_exponent(hd_covariant_spectrum(c), col), t->exponent[col],
+                    ROUNDING);
         CHECK_CLOSE(hd_spectrum_local(hd_covariant_spectrum(c), col), t->local[col], ROUNDING);
         CHECK_CLOSE(hd_covariant_widths(c)[col], exp(t->entropy[col]) / DISKS, ROUNDING);
         CHECK_CLOSE(hd_covariant_cosines(c)[col], t->cosine[col], ROUNDING);
         CHECK_CLOSE(hd_covariant_met_each(c)[col], t->met[col], ROUNDING);
         if (col + 1 == ROWS) break;
-        CHECK_CLOSE(hd_splitting_neighbours(s)[col], t->neighbours[col], 1e-7); /* small ones by their cosine */
+        CHECK_CLOSE(hd_splitting_neighbours(s)[col], t->neighbours[col],
+                    1e-7); /* small ones by their cosine */
         CHECK_CLOSE(hd_splitting_violations(s)[col], t->violations[col], 1e-14);
     }
-    const hd_modes *const sets[] = {hd_covariant_half(c, 0), hd_covariant_half(c, 1), hd_covariant_of_frame(c)};
+    const hd_modes *const sets[] = {hd_covariant_half(c, 0), hd_covariant_half(c, 1),
+                                    hd_covariant_of_frame(c)};
     for (int set = 0; set < 3; set++)
         for (int kind = 0; kind < 2; kind++) {
             const hd_modes *modes = sets[set];
             const int space = subspace_of(modes, kind ? HD_MODE_LP : HD_MODE_T);
             assert_int_equal(hd_modes_samples(modes), LOOKS);
             for (int col = 0; col < ROWS; col++)
-                CHECK_CLOSE(hd_modes_average(modes, space, HD_WEIGHT)[col], t->weight[kind][set][col], 10 * ROUNDING);
+                CHECK_CLOSE(hd_modes_average(modes, space, HD_WEIGHT)[col],
+                            t->weight[kind][set][col], 10 * ROUNDING);
         }
 }
 
@@ -195,7 +216,7 @@ static void a_window_is_what_is_computed_by_hand(void **state)
     windows_free(&w);
 }
 
-/* ---- windows one after the other ------------------------------------------------------------------ */
+/* ---- windows one after the other ----------------------------------------------------------- */
 
 /** Without gaps; each look is one of exactly one window. */
 static void windows_follow_each_other(void **state)
@@ -234,16 +255,19 @@ static void looks_that_fall_elsewhere_shorten_nothing(void **state)
     windows_free(&w);
 }
 
-/** Both give the growth of the same spaces over nearly the same time. In the centre pairs of vectors shear: on the way
- *  back a start grows with the time since, so over a window it has ln((window + transient) / transient) to lose; the
- *  first three do not turn. */
-static void check_exponent(const hd_spectrum *back, const hd_spectrum *forward, int col, int positive)
+/** Both give the growth of the same spaces over nearly the same time. In the centre pairs of
+ * vectors shear: on the way back a start grows with the time since, so over a window it has
+ * ln((window + transient) / transient) to lose; the first three do not turn. */
+static void check_exponent(const hd_spectrum *back, const hd_spectrum *forward, int col,
+                           int positive)
 {
-    const double one = hd_spectrum_std_error(forward, col), other = hd_spectrum_std_error(back, col);
+    const double one = hd_spectrum_std_error(forward, col),
+                 other = hd_spectrum_std_error(back, col);
     const double exponent = hd_spectrum_exponent(back, col);
     assert_true(one > 0 && other > 0 && one < 0.08 && other < 0.08);
     if (col >= positive + 3 && col < positive + 6)
-        CHECK_CLOSE(exponent, -log(30.0 / 20.0) / 10.0, 0.003); /* the shear's own start is 1 time unit or so */
+        CHECK_CLOSE(exponent, -log(30.0 / 20.0) / 10.0,
+                    0.003); /* the shear's own start is 1 time unit or so */
     else
         CHECK_CLOSE(exponent, hd_spectrum_exponent(forward, col), 4.0 * hypot(one, other));
 }
@@ -265,7 +289,7 @@ static void exponents_are_those_of_the_frame(void **state)
     windows_free(&w);
 }
 
-/* ---- where triangles wait -------------------------------------------------------------------------- */
+/* ---- where triangles wait ------------------------------------------------------------------ */
 
 static void check_same(const hd_covariant *c, const hd_covariant *want, double tolerance)
 {
@@ -279,11 +303,12 @@ static void check_same(const hd_covariant *c, const hd_covariant *want, double t
     }
     for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++)
         CHECK_CLOSE(hd_splitting_angle(hd_covariant_splitting(c), (hd_pair_of_spaces)pair)->mean,
-                    hd_splitting_angle(hd_covariant_splitting(want), (hd_pair_of_spaces)pair)->mean, tolerance);
+                    hd_splitting_angle(hd_covariant_splitting(want), (hd_pair_of_spaces)pair)->mean,
+                    tolerance);
 }
 
-/** The same triangles give the same numbers; those computed again are the same to rounding of Q, eps condition, which a
- *  vector that leans little out of those before it feels the more. */
+/** The same triangles give the same numbers; those computed again are the same to rounding of Q,
+ * eps condition, which a vector that leans little out of those before it feels the more. */
 static void all_storages_give_the_same(void **state)
 {
     (void)state;
@@ -296,7 +321,8 @@ static void all_storages_give_the_same(void **state)
         windows_finish(&w[storage], 20);
     }
     check_same(w[HD_STORAGE_FILE].c, w[HD_STORAGE_MEMORY].c, 0.0);
-    check_same(w[HD_STORAGE_RECOMPUTE].c, w[HD_STORAGE_MEMORY].c, 64.0 * DBL_EPSILON * w[0].f.worst);
+    check_same(w[HD_STORAGE_RECOMPUTE].c, w[HD_STORAGE_MEMORY].c,
+               64.0 * DBL_EPSILON * w[0].f.worst);
     for (int storage = 0; storage < 3; storage++) windows_free(&w[storage]);
 }
 
@@ -351,14 +377,16 @@ static void too_little_room_is_refused_with_the_numbers(void **state)
     forward_free(&f);
 }
 
-/* ---- the centre, transients, parts of the spectrum ------------------------------------------------- */
+/* ---- the centre, transients, parts of the spectrum ----------------------------------------- */
 
 /** Rounding turns a vector by eps condition. */
 static void the_centre_is_the_null_space(void **state)
 {
     (void)state;
-    const hd_boundary boundary[][2] = {{HD_PERIODIC, HD_PERIODIC}, {HD_PERIODIC, HD_REFLECTING},
-                                       {HD_REFLECTING, HD_PERIODIC}, {HD_REFLECTING, HD_REFLECTING}};
+    const hd_boundary boundary[][2] = {{HD_PERIODIC, HD_PERIODIC},
+                                       {HD_PERIODIC, HD_REFLECTING},
+                                       {HD_REFLECTING, HD_PERIODIC},
+                                       {HD_REFLECTING, HD_REFLECTING}};
     for (int k = 0; k < 4; k++) {
         hd_scene_def scene = windows_scene(6, boundary[k][0], boundary[k][1]);
         scene.covariant_transient = 60.0;
@@ -368,7 +396,8 @@ static void the_centre_is_the_null_space(void **state)
         CHECK_CLOSE(hd_covariant_null_most(w.c), 0.0, rounding);
         CHECK_CLOSE(hd_covariant_met(w.c).centre, 0.0, rounding);
         CHECK_CLOSE(hd_covariant_met(w.c).stable, 0.0, rounding);
-        assert_true(hd_covariant_null(w.c) >= 0 && hd_covariant_null(w.c) <= hd_covariant_null_most(w.c));
+        assert_true(hd_covariant_null(w.c) >= 0 &&
+                    hd_covariant_null(w.c) <= hd_covariant_null_most(w.c));
         windows_free(&w);
     }
 }
@@ -391,11 +420,14 @@ static void too_short_a_transient_is_seen(void **state)
     windows w[4];
     for (int k = 0; k < 4; k++) w[k] = after_transient(transient[k]);
     for (int k = 0; k + 1 < 4; k++) {
-        const hd_covariant_apart met = hd_covariant_met(w[k].c), longer = hd_covariant_met(w[k + 1].c);
+        const hd_covariant_apart met = hd_covariant_met(w[k].c),
+                                 longer = hd_covariant_met(w[k + 1].c);
         const double rounding = 16.0 * DBL_EPSILON * w[k + 1].f.worst; /* where both have met */
-        assert_true(longer.stable < fmax(met.stable, rounding) && longer.centre < fmax(met.centre, rounding));
+        assert_true(longer.stable < fmax(met.stable, rounding) &&
+                    longer.centre < fmax(met.centre, rounding));
         for (int col = 1; k > 0 && col < 5; col++) /* two random starts may lie near each other */
-            assert_true(hd_covariant_met_each(w[k + 1].c)[col] < hd_covariant_met_each(w[k].c)[col]);
+            assert_true(hd_covariant_met_each(w[k + 1].c)[col] <
+                        hd_covariant_met_each(w[k].c)[col]);
     }
     const hd_covariant_apart none = hd_covariant_met(w[0].c), met = hd_covariant_met(w[3].c);
     assert_true(none.most > 0.1 && none.centre > 0.1 && none.stable > 0.1);
@@ -423,7 +455,8 @@ static void any_number_of_vectors_will_do(void **state)
             windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
             windows_finish(&w, 2);
             const bool centre = n >= positive + 6;
-            assert_int_equal(hd_splitting_has_spaces(hd_covariant_splitting(w.c)), n > positive + 6);
+            assert_int_equal(hd_splitting_has_spaces(hd_covariant_splitting(w.c)),
+                             n > positive + 6);
             assert_int_equal(hd_covariant_null_most(w.c) >= 0, centre);
             assert_int_equal(hd_covariant_met(w.c).centre >= 0, centre);
             assert_int_equal(hd_covariant_met(w.c).stable >= 0, n > positive + 6);
@@ -433,9 +466,10 @@ static void any_number_of_vectors_will_do(void **state)
     }
 }
 
-/* ---- given up ---------------------------------------------------------------------------------------- */
+/* ---- given up ------------------------------------------------------------------------------ */
 
-/** A way back that was given up in the middle of its window leaves nothing: what follows is what a new one finds. */
+/** A way back that was given up in the middle of its window leaves nothing: what follows is what a
+ * new one finds. */
 static void a_window_given_up_leaves_nothing(void **state)
 {
     (void)state;
@@ -443,8 +477,10 @@ static void a_window_given_up_leaves_nothing(void **state)
     scene.covariant_transient = 120.0;
     scene.covariant_sampling = 0.5;
     windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
-    while (!windows_forward(&w)) {}
-    for (int k = 0; k < 120 * 4 + 39; k++) CHECK_OK(hd_covariant_step(w.c)); /* one interval of the window is left */
+    while (!windows_forward(&w)) {
+    }
+    for (int k = 0; k < 120 * 4 + 39; k++)
+        CHECK_OK(hd_covariant_step(w.c)); /* one interval of the window is left */
     const double now = hd_trajectory_time(w.f.trajectory);
     const int done = (int)(now / WINDOWS_INTERVAL + 0.5);
     hd_covariant_clear(w.c);
@@ -453,7 +489,8 @@ static void a_window_given_up_leaves_nothing(void **state)
     windows_finish(&w, 2);
     windows_finish(&fresh, 2);
     for (int col = 0; col < 16; col++) {
-        if (col > 3 && col < 11) continue; /* between equal exponents each start has vectors of its own */
+        if (col > 3 && col < 11)
+            continue; /* between equal exponents each start has vectors of its own */
         CHECK_CLOSE(hd_spectrum_exponent(hd_covariant_spectrum(w.c), col),
                     hd_spectrum_exponent(hd_covariant_spectrum(fresh.c), col), 1e-9);
         if (col == 15) break;

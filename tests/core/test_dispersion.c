@@ -11,7 +11,8 @@ enum { DISKS = 60, VECTORS = 30, NODES_MAX = 4 };
 static const hd_mode_kind kinds[] = {HD_MODE_T, HD_MODE_LP};
 /** c and c2 of the truth [T12]. */
 static const double truth[2][2] = {{1.41, 0.09}, {1.42, 0.55}};
-/** Normal equations of four points within a factor 4: condition below 1e3, its square times rounding. */
+/** Normal equations of four points within a factor 4: condition below 1e3, its square times
+ * rounding. */
 static const double ALGEBRA = 1e6 * 10.0 * DBL_EPSILON;
 
 static double lambda(int kind, double k) { return truth[kind][0] * k + truth[kind][1] * k * k; }
@@ -105,7 +106,7 @@ static void one_point_gives_c_alone(void **state)
     world_free(&w);
 }
 
-/* ---- against an independent fit --------------------------------------------------------------- */
+/* ---- against an independent fit ------------------------------------------------------------ */
 
 typedef struct data {
     int points, parameters;
@@ -218,8 +219,9 @@ static void scatter_raises_the_errors(void **state)
     world_free(&w);
 }
 
-/** Fluctuations of the fit over many repetitions in units of the stated errors: 1 if the factor on them were
- *  always 1. With two degrees of freedom E[1 / max(1, chi^2 / 2)] = 1 - 1/e + E1(1) = 0.851 = 0.923^2. */
+/** Fluctuations of the fit over many repetitions in units of the stated errors: 1 if the factor on
+ * them were always 1. With two degrees of freedom E[1 / max(1, chi^2 / 2)] = 1 - 1/e + E1(1) =
+ * 0.851 = 0.923^2. */
 static void errors_are_honest(void **state)
 {
     (void)state;
@@ -245,7 +247,7 @@ static void errors_are_honest(void **state)
     world_free(&w);
 }
 
-/* ---- which steps count ------------------------------------------------------------------------ */
+/* ---- which steps count --------------------------------------------------------------------- */
 
 static void unresolved_steps_do_not_count(void **state)
 {

@@ -45,8 +45,8 @@ static double bytes_for(int exponents, unsigned observe)
     return (double)held(&with, 0.0).live - (double)held(&alone, 0.0).live;
 }
 
-/** Disks, predictions, cells, queue and the run itself; and it never keeps a log. What is asked of a frame
- *  that is not there costs nothing either. */
+/** Disks, predictions, cells, queue and the run itself; and it never keeps a log. What is asked of
+ * a frame that is not there costs nothing either. */
 static void the_trajectory_alone_is_all_there_is(void **state)
 {
     (void)state;

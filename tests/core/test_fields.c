@@ -1,4 +1,5 @@
-/** Sampled fields against differences of the modulations, and against what a T, L or P field must be. */
+/** Sampled fields against differences of the modulations, and against what a T, L or P field must
+ * be. */
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,8 +17,8 @@ enum { DISKS = 60, ROWS = 2 * DISKS };
 static const double STEP = 1e-5;
 /** |k| of the scenes below; third derivatives are below its cube. */
 static const double K_MAX = 2.0;
-/** Truncation k^3 h^2 / 6 of a function of size 1 (k times that for fields, which are of size k), and rounding
- *  (phases up to 50) over h, some ten times each. */
+/** Truncation k^3 h^2 / 6 of a function of size 1 (k times that for fields, which are of size k),
+ * and rounding (phases up to 50) over h, some ten times each. */
 static const double DIFFERENCE = 10.0 * (8.0 * 1e-10 / 6.0 + 50.0 * DBL_EPSILON / 1e-5);
 
 typedef struct sample {
@@ -67,7 +68,7 @@ static void for_all(modulation_check check)
     }
 }
 
-/* ---- against the definition ------------------------------------------------------------------- */
+/* ---- against the definition ---------------------------------------------------------------- */
 
 static double modulation(const sample *s, const hd_subspace *m, int c, double x, double y)
 {
@@ -109,7 +110,7 @@ static void fields_are_those_of_their_modulations(void **state)
     for_all(check_definition);
 }
 
-/* ---- as vector fields ------------------------------------------------------------------------- */
+/* ---- as vector fields ---------------------------------------------------------------------- */
 
 /** Derivative along direction d of component e of one column, at all disks. */
 static void field_derivative(sample *s, double *out, int column, int d, int e)
@@ -193,7 +194,7 @@ static void fields_have_the_period_of_the_box(void **state)
     for_all(check_period);
 }
 
-/* ---- columns ---------------------------------------------------------------------------------- */
+/* ---- columns ------------------------------------------------------------------------------- */
 
 static double square(const hd_fields *fields, int column)
 {
@@ -260,7 +261,8 @@ static void a_field_that_vanishes_stays_zero(void **state)
     hd_fields_free(s.fields);
 }
 
-/** All subspaces side by side in ascending k, T before LP, then the null fields; none of dimension 0. */
+/** All subspaces side by side in ascending k, T before LP, then the null fields; none of dimension
+ * 0. */
 static void columns_lie_in_order(void **state)
 {
     (void)state;

@@ -88,10 +88,11 @@ static void check_shadow(int disks, double density, hd_boundary x, hd_boundary y
     assert_true(log->count > (size_t)disks);
     carry(&s, log, carried);
     for (int k = 0; k < 4; k++) error[k] = shadow_error(&s, carried, pow(10.0, -5.0 - 0.5 * k));
-    print_message("%d disks, %zu events: deviation %.1e %.1e %.1e %.1e\n", disks, log->count, error[0],
-                  error[1], error[2], error[3]);
+    print_message("%d disks, %zu events: deviation %.1e %.1e %.1e %.1e\n", disks, log->count,
+                  error[0], error[1], error[2], error[3]);
     assert_true(error[3] < 1e-5);
-    for (int k = 0; k < 3; k++) /* a factor 10 each, less what rounding of order 1e-15 / epsilon adds */
+    for (int k = 0; k < 3;
+         k++) /* a factor 10 each, less what rounding of order 1e-15 / epsilon adds */
         CHECK_CLOSE(error[k + 1], error[k] / 10.0, 0.5 * error[k] / 10.0 + 1e-8);
     hd_event_log_free(log);
 }
@@ -106,7 +107,7 @@ static void maps_are_the_derivative_of_the_flow(void **state)
     check_shadow(30, 0.7, HD_PERIODIC, HD_PERIODIC);
 }
 
-/* ---- many vectors ----------------------------------------------------------------------------- */
+/* ---- many vectors -------------------------------------------------------------------------- */
 
 typedef struct scene_log {
     hd_scene_def scene;
@@ -148,7 +149,8 @@ static void check_symplectic(hd_boundary boundary)
             frame_column(frame, l, b);
             const double size = sqrt(dot(a, a, ROWS) * dot(b, b, ROWS));
             const double events = (double)s.log->count;
-            CHECK_CLOSE(symplectic(a, b, ROWS), before[k][l], sqrt(events) * 8 * DBL_EPSILON * size);
+            CHECK_CLOSE(symplectic(a, b, ROWS), before[k][l],
+                        sqrt(events) * 8 * DBL_EPSILON * size);
         }
     hd_frame_free(frame);
     hd_event_log_free(s.log);
@@ -166,7 +168,8 @@ static void zero_modes_stay_zero_modes(void **state)
 {
     enum { DISKS = 30, ROWS = 4 * DISKS };
     (void)state;
-    const double time = 1.0, tolerance = 1e-10; /* eps * e^(lambda_1 t) at lambda_1 t = 7, |p| = 8 */
+    const double time = 1.0,
+                 tolerance = 1e-10; /* eps * e^(lambda_1 t) at lambda_1 t = 7, |p| = 8 */
     scene_log s = logged(DISKS, HD_PERIODIC, time);
     hd_frame *frame;
     CHECK_OK(hd_frame_create(&frame, DISKS, 6, 1, 1));
@@ -186,7 +189,8 @@ static void zero_modes_stay_zero_modes(void **state)
         for (int c = 0; c < 2; c++) {
             const double *dq = v + (4 * i + c) * stride, *dp = dq + 2 * stride;
             const double p = s.p[1][2 * i + c];
-            const double want_q[6] = {c == 0, c == 1, c == 0 ? time : 0, c == 1 ? time : 0, p, time * p};
+            const double want_q[6] = {c == 0, c == 1,  c == 0 ? time : 0, c == 1 ? time : 0,
+                                      p,      time * p};
             const double want_p[6] = {0, 0, c == 0, c == 1, 0, p};
             for (int k = 0; k < 6; k++) {
                 CHECK_CLOSE(dq[k], want_q[k], tolerance);

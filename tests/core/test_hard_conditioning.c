@@ -1,5 +1,5 @@
-/** Frames at and beyond what double precision can factor: the exact spectrum, or a fault with a name.
- *  Includes run.c to force intervals and to break frames, which no caller can. */
+/** Frames at and beyond what double precision can factor: the exact spectrum, or a fault with a
+ * name. Includes run.c to force intervals and to break frames, which no caller can. */
 #include "../../hdlyap_core/src/run.c"
 
 #include <stdlib.h>
@@ -13,12 +13,13 @@
 
 enum { VECTORS_MAX = 64 };
 
-/* ---- whole runs ------------------------------------------------------------------------------- */
+/* ---- whole runs ---------------------------------------------------------------------------- */
 
 /** Few vectors: extended precision is slow. */
 static hd_scene_def small_scene(int disks, int exponents, uint64_t seed)
 {
-    hd_scene_def scene = scene_of(disks, disks < 5 ? 0.3 : 0.6, 1.0, HD_PERIODIC, HD_PERIODIC, seed);
+    hd_scene_def scene = scene_of(disks, disks < 5 ? 0.3 : 0.6, 1.0, HD_PERIODIC, HD_PERIODIC,
+                                  seed);
     scene.exponents = exponents;
     scene.equilibration = 10.0;
     scene.warmup = scene.duration = scene.report_interval = 50.0;
@@ -66,8 +67,9 @@ typedef struct tally {
     double of_accuracy, of_bound; /**< largest deviation over accuracy, and over the bound stated */
 } tally;
 
-/** What double precision leaves of these spectra, where neighbouring vectors change places: Householder
- *  reflections every 0.05 are off by 8e-13, four of 480 runs with other seeds by 1e-12 to 6e-12; twice that. */
+/** What double precision leaves of these spectra, where neighbouring vectors change places:
+ * Householder reflections every 0.05 are off by 8e-13, four of 480 runs with other seeds by 1e-12
+ * to 6e-12; twice that. */
 static const double DOUBLE = 1.2e-11;
 
 static void check_forced(hd_scene_def scene, const double *exact, double forced, tally *sum)
@@ -89,9 +91,13 @@ static void check_forced(hd_scene_def scene, const double *exact, double forced,
 static void any_forced_interval_gives_the_exact_spectrum(void **state)
 {
     (void)state;
-    static const struct { int disks, exponents; uint64_t seed; } scenes[] = {
-        {3, HD_EXPONENTS_POSITIVE, 1}, {3, HD_EXPONENTS_ALL, 2}, {10, HD_EXPONENTS_POSITIVE, 2},
-        {10, HD_EXPONENTS_ALL, 2}};
+    static const struct {
+        int disks, exponents;
+        uint64_t seed;
+    } scenes[] = {{3, HD_EXPONENTS_POSITIVE, 1},
+                  {3, HD_EXPONENTS_ALL, 2},
+                  {10, HD_EXPONENTS_POSITIVE, 2},
+                  {10, HD_EXPONENTS_ALL, 2}};
     static const double forced[] = {0.0, 0.01, 0.1, 0.3, 1.0, 2.0, 8.0, 25.0, 50.0};
     static const double accuracies[] = {1e-3, 1e-8, 1e-12};
     double exact[VECTORS_MAX];
@@ -103,17 +109,19 @@ static void any_forced_interval_gives_the_exact_spectrum(void **state)
             scene.accuracy = accuracies[a];
             for (size_t k = 0; k < sizeof forced / sizeof *forced; k++)
                 check_forced(scene, exact, forced[k], &sum);
-            print_message("%2d disks, %2d vectors, accuracy %.0e: %d runs, %3ld repairs, off by up to %.2g "
-                          "of what is allowed, %.2g of the bound\n", scene.disks,
-                          hd_scene_vectors(&scene), scene.accuracy, sum.runs, sum.repairs,
-                          sum.of_accuracy, sum.of_bound);
+            print_message(
+                "%2d disks, %2d vectors, accuracy %.0e: %d runs, %3ld repairs, off by up to %.2g "
+                "of what is allowed, %.2g of the bound\n",
+                scene.disks, hd_scene_vectors(&scene), scene.accuracy, sum.runs, sum.repairs,
+                sum.of_accuracy, sum.of_bound);
             assert_true(sum.repairs > 0 || a == 0);
         }
     }
 }
 
-/** Grazing collisions shorten an interval, which must not make the next one look too long: ever shorter ones only add
- *  up more rounding. Seen: 0.49 to 0.63 collisions of a disk, and 0.08 to 0.13 where they went on shrinking. */
+/** Grazing collisions shorten an interval, which must not make the next one look too long: ever
+ * shorter ones only add up more rounding. Seen: 0.49 to 0.63 collisions of a disk, and 0.08 to 0.13
+ * where they went on shrinking. */
 static void intervals_grow_again_after_grazing_collisions(void **state)
 {
     (void)state;
@@ -125,15 +133,16 @@ static void intervals_grow_again_after_grazing_collisions(void **state)
         const double per_disk = 2.0 * (double)hd_trajectory_collisions(run->trajectory) /
                                 scene.disks * 100.0 / 110.0;
         const double between = per_disk / (double)run->cost.orthonormalisations;
-        print_message("seed %d: %.2f collisions of a disk between factorisations\n", (int)seed, between);
+        print_message("seed %d: %.2f collisions of a disk between factorisations\n", (int)seed,
+                      between);
         assert_true(between > 0.25);
-        
+
         hd_run_free(run);
     }
 }
 
-/** Pieces of a repair whose lengths added up to the interval but for rounding left a last piece of 4e-16, and the next
- *  interval, twice as long, did not move the time: a run that hung. */
+/** Pieces of a repair whose lengths added up to the interval but for rounding left a last piece of
+ * 4e-16, and the next interval, twice as long, did not move the time: a run that hung. */
 static void no_crumb_of_rounding_stops_the_run(void **state)
 {
     (void)state;
@@ -150,8 +159,9 @@ static void no_crumb_of_rounding_stops_the_run(void **state)
     hd_run_free(run);
 }
 
-/** A frame whose second vector leans into the first to within delta: the spans are the same, so is the spectrum, but
- *  for what rounding took, which the bound knows; or no step may factor it. Returns the deviation, -1 for the fault. */
+/** A frame whose second vector leans into the first to within delta: the spans are the same, so is
+ * the spectrum, but for what rounding took, which the bound knows; or no step may factor it.
+ * Returns the deviation, -1 for the fault. */
 static double leaning_start(const hd_scene_def *scene, const double *exact, double delta)
 {
     hd_run *run = created(scene);
@@ -176,7 +186,8 @@ static void nearly_dependent_start_vectors_are_separated_or_refused(void **state
     (void)state;
     double exact[VECTORS_MAX];
     for (int all = 0; all < 2; all++) {
-        const hd_scene_def scene = small_scene(10, all ? HD_EXPONENTS_ALL : HD_EXPONENTS_POSITIVE, 4);
+        const hd_scene_def scene = small_scene(10, all ? HD_EXPONENTS_ALL : HD_EXPONENTS_POSITIVE,
+                                               4);
         double worst = 0.0;
         int refused = 0;
         exact_spectrum(&scene, exact);
@@ -192,10 +203,19 @@ static void nearly_dependent_start_vectors_are_separated_or_refused(void **state
     }
 }
 
-/* ---- a frame that breaks in mid-run ----------------------------------------------------------- */
+/* ---- a frame that breaks in mid-run -------------------------------------------------------- */
 
-typedef enum breakage { ZERO_COLUMN, TWINS, COMBINATION, ALL_ZERO, NOT_A_NUMBER, INFINITE, HUGE_ENTRY,
-                        HUGE_COLUMN, BREAKAGES } breakage;
+typedef enum breakage {
+    ZERO_COLUMN,
+    TWINS,
+    COMBINATION,
+    ALL_ZERO,
+    NOT_A_NUMBER,
+    INFINITE,
+    HUGE_ENTRY,
+    HUGE_COLUMN,
+    BREAKAGES
+} breakage;
 
 static void break_row(double *v, int row, int n, breakage how)
 {
@@ -204,9 +224,15 @@ static void break_row(double *v, int row, int n, breakage how)
     case TWINS: v[n - 1] = v[0]; break;
     case COMBINATION: v[n - 1] = 0.3 * v[0] - 2.0 * v[1] + v[n / 2]; break;
     case ALL_ZERO: memset(v, 0, (size_t)n * sizeof *v); break;
-    case NOT_A_NUMBER: if (row == 5) v[n / 2] = NAN; break;
-    case INFINITE: if (row == 5) v[0] = -INFINITY; break;
-    case HUGE_ENTRY: if (row == 5) v[1] = 1e300; break;
+    case NOT_A_NUMBER:
+        if (row == 5) v[n / 2] = NAN;
+        break;
+    case INFINITE:
+        if (row == 5) v[0] = -INFINITY;
+        break;
+    case HUGE_ENTRY:
+        if (row == 5) v[1] = 1e300;
+        break;
     default: v[n - 1] *= 1e200; break;
     }
 }
@@ -214,8 +240,8 @@ static void break_row(double *v, int row, int n, breakage how)
 static void break_frame(hd_frame *frame, breakage how)
 {
     for (int row = 0; row < hd_frame_rows(frame); row++)
-        break_row(hd_frame_data(frame) + row * hd_frame_stride(frame), row,
-                  hd_frame_vectors(frame), how);
+        break_row(hd_frame_data(frame) + row * hd_frame_stride(frame), row, hd_frame_vectors(frame),
+                  how);
 }
 
 /** The fault has its name, and nothing of the broken vectors reaches an exponent. */
@@ -243,7 +269,7 @@ static void a_broken_frame_is_a_named_fault(void **state)
         }
 }
 
-/* ---- single factorisations -------------------------------------------------------------------- */
+/* ---- single factorisations ----------------------------------------------------------------- */
 
 enum { DISKS = 12, ROWS = 4 * DISKS, COLUMNS = 20 }; /* panels of 8 */
 
@@ -274,8 +300,8 @@ static hd_status factor(factors *f, bool stable)
                   : hd_ortho_step(f->ortho, f->frame, limits);
 }
 
-/** Logarithms off by eps condition, up to 32 times for the sums over rows, as in test_ortho; and by their own
- *  rounding. */
+/** Logarithms off by eps condition, up to 32 times for the sums over rows, as in test_ortho; and by
+ * their own rounding. */
 static double check_logarithms(factors *f, hd_exact *v)
 {
     const double rounding = 32 * DBL_EPSILON * hd_ortho_condition(f->ortho);
@@ -291,7 +317,8 @@ static double check_logarithms(factors *f, hd_exact *v)
     return worst;
 }
 
-/** Column `to` leans into column `from`. Its logarithm over the exact one's tolerance; -1 if refused. */
+/** Column `to` leans into column `from`. Its logarithm over the exact one's tolerance; -1 if
+ * refused. */
 static double lean(int from, int to, double delta, bool stable)
 {
     factors f = factors_create();
@@ -313,8 +340,9 @@ static double lean(int from, int to, double delta, bool stable)
     return off;
 }
 
-/** Two vectors of one panel, or of two: Cholesky alone refuses the first from 1e7 on, what has been projected out
- *  of an earlier panel is as good as reflections. Refused or right, at every distance. */
+/** Two vectors of one panel, or of two: Cholesky alone refuses the first from 1e7 on, what has been
+ * projected out of an earlier panel is as good as reflections. Refused or right, at every distance.
+ */
 static void nearly_dependent_vectors_are_right_or_refused(void **state)
 {
     (void)state;
@@ -332,7 +360,8 @@ static void nearly_dependent_vectors_are_right_or_refused(void **state)
                 if (digits <= 6 || (stable && digits <= 11)) assert_true(off >= 0);
                 if (digits >= 15) assert_true(off < 0);
             }
-    print_message("%d right, off by up to %.2g of what is allowed, %d refused\n", right, worst, refused);
+    print_message("%d right, off by up to %.2g of what is allowed, %d refused\n", right, worst,
+                  refused);
 }
 
 static void lost_rank_is_refused(void **state)
@@ -369,7 +398,8 @@ static void what_is_no_number_is_refused_wherever_it_stands(void **state)
                                  HD_ILL_CONDITIONED);
 }
 
-/** The whole frame times 10^digits: logarithms move by as much, up to where squares leave the numbers. */
+/** The whole frame times 10^digits: logarithms move by as much, up to where squares leave the
+ * numbers. */
 static bool scaled_is_right(int digits, bool stable)
 {
     factors f = factors_create();
@@ -379,7 +409,8 @@ static bool scaled_is_right(int digits, bool stable)
     const hd_status status = factor(&f, stable);
     if (status == HD_OK)
         (void)check_logarithms(&f, copy);
-    else assert_int_equal(status, HD_ILL_CONDITIONED);
+    else
+        assert_int_equal(status, HD_ILL_CONDITIONED);
     free(copy);
     factors_free(&f);
     return status == HD_OK;

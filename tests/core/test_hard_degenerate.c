@@ -1,4 +1,5 @@
-/** Few disks, square boxes, branches that cross, zeros in the middle: everything runs, nothing jumps. */
+/** Few disks, square boxes, branches that cross, zeros in the middle: everything runs, nothing
+ * jumps. */
 #include "testing.h"
 
 #include "hdlyap/hdlyap.h"
@@ -11,7 +12,7 @@ static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 static const unsigned EVERYTHING = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES |
                                    HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO;
 
-/* ---- few disks -------------------------------------------------------------------------------- */
+/* ---- few disks ----------------------------------------------------------------------------- */
 
 typedef struct tally {
     long runs, refused, numbers;
@@ -48,7 +49,8 @@ static void run_all_numbers(hd_scene_def scene, tally *sum)
     }
 }
 
-/** 2, 3 and 4 disks in a square box, in a channel and in between, behind all walls: none is refused. */
+/** 2, 3 and 4 disks in a square box, in a channel and in between, behind all walls: none is
+ * refused. */
 static void few_disks_run_with_everything(void **state)
 {
     (void)state;
@@ -66,17 +68,18 @@ static void few_disks_run_with_everything(void **state)
                 scene.threads = 1;
                 run_all_numbers(scene, &sum);
             }
-    print_message("%ld runs published %ld numbers, %ld refused\n", sum.runs, sum.numbers, sum.refused);
+    print_message("%ld runs published %ld numbers, %ld refused\n", sum.runs, sum.numbers,
+                  sum.refused);
     assert_int_equal(sum.runs, 504);
 }
 
-/* ---- what does not jump ----------------------------------------------------------------------- */
+/* ---- what does not jump -------------------------------------------------------------------- */
 
 /** One step as it was found first, and what became of it. */
 typedef struct history {
     bool resolved;
     int col, count, members;
-    long moves; /**< reports at which it lay elsewhere, or was lost or found */
+    long moves;         /**< reports at which it lay elsewhere, or was lost or found */
     double least, most; /**< measured multiplicity over the expected one */
 } history;
 
@@ -150,8 +153,9 @@ static void watch_run(watch *w, const hd_scene_def *scene, double settling)
     hd_run_free(run);
 }
 
-/** Steps lie elsewhere, or are lost or found, at no more than `moves` reports. Where sets are shared fields overlap by
- *  N^(-1/2): multiplicities stay within a quarter above what is expected, and above the threshold of a half. */
+/** Steps lie elsewhere, or are lost or found, at no more than `moves` reports. Where sets are
+ * shared fields overlap by N^(-1/2): multiplicities stay within a quarter above what is expected,
+ * and above the threshold of a half. */
 static void check_watch(const watch *w, const char *name, int resolved, long moves)
 {
     long moved = 0;
@@ -162,8 +166,10 @@ static void check_watch(const watch *w, const char *name, int resolved, long mov
         least = fmin(least, w->step[k].least);
         most = fmax(most, w->step[k].most);
     }
-    print_message("%s: %d steps resolved, %ld moves, multiplicity %.2f to %.2f of what is expected, %ld "
-                  "turns of up to %.2f rad\n", name, w->resolved, moved, least, most, w->turns, w->largest);
+    print_message(
+        "%s: %d steps resolved, %ld moves, multiplicity %.2f to %.2f of what is expected, %ld "
+        "turns of up to %.2f rad\n",
+        name, w->resolved, moved, least, most, w->turns, w->largest);
     assert_true(w->resolved >= resolved);
     assert_true(moved <= moves);
     assert_true(least >= 0.5 && most <= 1.25);
@@ -198,7 +204,8 @@ static void a_square_box_keeps_its_steps(void **state)
 {
     (void)state;
     static watch w;
-    const hd_scene_def apart = watched(100, 0.7, 1.0, R, R), crossing = watched(100, 0.8, 1.0, R, R);
+    const hd_scene_def apart = watched(100, 0.7, 1.0, R, R),
+                       crossing = watched(100, 0.8, 1.0, R, R);
     watch_scene(&apart, "square box", 3, &w);
     assert_int_equal(w.step[1].members, 2);
     assert_int_equal(w.step[1].count, 4);

@@ -1,5 +1,6 @@
-/** From thin gas to just under closest packing, and channels from a disk's width up: events as the twin has them, energy,
- *  overlap, collision rate, and a whole spectrum that is finite, sums to zero and pairs. */
+/** From thin gas to just under closest packing, and channels from a disk's width up: events as the
+ * twin has them, energy, overlap, collision rate, and a whole spectrum that is finite, sums to zero
+ * and pairs. */
 #include <float.h>
 
 #include "hdlyap/run.h"
@@ -36,10 +37,10 @@ static double time_of(const hd_scene_def *def, double count)
     return t * wanted / seen;
 }
 
-/* ---- trajectories ----------------------------------------------------------------------------- */
+/* ---- trajectories -------------------------------------------------------------------------- */
 
-/** Where they are, and as two of them touch: as in test_trajectory_conservation.c, and what the rounding of the time of the
- *  contact adds at a speed of 4. */
+/** Where they are, and as two of them touch: as in test_trajectory_conservation.c, and what the
+ * rounding of the time of the contact adds at a speed of 4. */
 static void check_overlap(hd_trajectory *tr, const double box[2])
 {
     const double time = fmax(hd_trajectory_time(tr), next_event_time(tr));
@@ -99,7 +100,8 @@ static void thin_gas_collides_as_enskog_says(void **state)
     }
 }
 
-/** A triangular patch of 16 disks that touch, to rounding or as deep as is allowed, with room around. */
+/** A triangular patch of 16 disks that touch, to rounding or as deep as is allowed, with room
+ * around. */
 static void contact_within_rounding_at_the_start(void **state)
 {
     (void)state;
@@ -124,7 +126,7 @@ static void contact_within_rounding_at_the_start(void **state)
     }
 }
 
-/* ---- exponents -------------------------------------------------------------------------------- */
+/* ---- exponents ----------------------------------------------------------------------------- */
 
 /** All exponents, over `time`: times are those of the dense, accuracy is per time unit. */
 static hd_run *finished(hd_scene_def scene, double time)
@@ -142,8 +144,8 @@ static hd_run *finished(hd_scene_def scene, double time)
     return run;
 }
 
-/** Logarithms of the stretches: all together vanish, as det S = 1, each known to the stated bound; two of a pair differ by
- *  what the angles between vectors allow, some units: nothing that grows. */
+/** Logarithms of the stretches: all together vanish, as det S = 1, each known to the stated bound;
+ * two of a pair differ by what the angles between vectors allow, some units: nothing that grows. */
 static void check_spectrum(const hd_run *run)
 {
     const double allowed = 12.0, time = hd_run_scene(run)->duration;
@@ -218,7 +220,8 @@ static void single_file(void **state)
     }
 }
 
-/** Two disks can be on either side of each other at once: both images count. Across 2 sigma the cells change. */
+/** Two disks can be on either side of each other at once: both images count. Across 2 sigma the
+ * cells change. */
 static void several_images(void **state)
 {
     (void)state;

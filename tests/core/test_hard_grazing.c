@@ -1,5 +1,6 @@
-/** Grazing collisions, one at a time: |p.n| from a tenth of |p| down to 1e-14 of it. The tangent map stays finite and
- *  symplectic; the trajectory takes the contact or passes, the same each time, and ends. */
+/** Grazing collisions, one at a time: |p.n| from a tenth of |p| down to 1e-14 of it. The tangent
+ * map stays finite and symplectic; the trajectory takes the contact or passes, the same each time,
+ * and ends. */
 #include <float.h>
 
 #include "prepared.h"
@@ -33,10 +34,10 @@ static void relative_momentum(const graze *g, double speed, double p[2])
         p[d] = speed * (sqrt(1.0 - g->impact * g->impact) * t[d] - g->impact * n[d]);
 }
 
-/* ---- the map ---------------------------------------------------------------------------------- */
+/* ---- the map ------------------------------------------------------------------------------- */
 
-/** The largest entries of S are p_t^2 / b n n^T, to and from both disks: |S| = 2 p_t^2 / |b|, and flights of a quarter
- *  stretch it further by less than (1 + 1/4)^2. */
+/** The largest entries of S are p_t^2 / b n n^T, to and from both disks: |S| = 2 p_t^2 / |b|, and
+ * flights of a quarter stretch it further by less than (1 + 1/4)^2. */
 static void check_event(const graze *g, double speed)
 {
     double n[2], t[2], p[2];
@@ -60,7 +61,7 @@ static void maps_stay_finite_and_symplectic(void **state)
             }
 }
 
-/* ---- the trajectory --------------------------------------------------------------------------- */
+/* ---- the trajectory ------------------------------------------------------------------------ */
 
 static const double DRIFT[2] = {0.3125, -0.1875}; /* of both disks */
 
@@ -78,8 +79,9 @@ static void prepare(const graze *g, double wait, double drift, double q[4], doub
     }
 }
 
-/** A contact that is not taken is one within rounding: while they pass, the two are no deeper in each other than
- *  rounding of their coordinates, 4 eps (L + |p| t). That decides below |p.n| = 1e-7: the depth is its square, halved. */
+/** A contact that is not taken is one within rounding: while they pass, the two are no deeper in
+ * each other than rounding of their coordinates, 4 eps (L + |p| t). That decides below |p.n| =
+ * 1e-7: the depth is its square, halved. */
 static void check_passage(const hd_scene_def *def, const double *q, const double *p, double meets,
                           double impact)
 {
@@ -99,7 +101,8 @@ static void check_passage(const hd_scene_def *def, const double *q, const double
     hd_trajectory_free(tr);
 }
 
-/** Taken or passed, the same whatever queue and cells do: as the twin has it, which cuts the time elsewhere. */
+/** Taken or passed, the same whatever queue and cells do: as the twin has it, which cuts the time
+ * elsewhere. */
 static int check_encounter(const graze *g, double wait, double drift)
 {
     const hd_scene_def def = scene_in_box(2, LX, LY, HD_PERIODIC, HD_PERIODIC, 1);
@@ -131,7 +134,8 @@ static void contacts_are_taken_or_passed_for_good(void **state)
     }
 }
 
-/** The same for disks that overlap as deep as a start may: the root in their contact is then no rounding. */
+/** The same for disks that overlap as deep as a start may: the root in their contact is then no
+ * rounding. */
 static void a_deep_pair_does_not_meet_for_ever(void **state)
 {
     (void)state;

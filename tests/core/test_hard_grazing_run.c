@@ -1,5 +1,5 @@
-/** Whole runs through grazing collisions, against the exponents in long double (exact.h): thousands of near ones as they
- *  come, and single extreme ones in a trajectory that is prepared. */
+/** Whole runs through grazing collisions, against the exponents in long double (exact.h): thousands
+ * of near ones as they come, and single extreme ones in a trajectory that is prepared. */
 #include <float.h>
 
 #include "check.h"
@@ -8,7 +8,8 @@
 #include "run_state.h"
 #include "runs.h"
 
-/** To which the reference is known: its own rounding, 1e-19 of a condition below 1e5, and that of sums of 1e6 doubles. */
+/** To which the reference is known: its own rounding, 1e-19 of a condition below 1e5, and that of
+ * sums of 1e6 doubles. */
 static const double EXACT = 1e-13;
 static const double EVENTS = HD_SANITIZED ? 2e4 : 2e5;
 static const double NEAR = 0.2; /* |p.n| / |p|; a part NEAR^2 / 2 of all is below */
@@ -18,7 +19,8 @@ static double impact_of(const hd_event *e)
     return fabs(e->n[0] * e->p[0] + e->n[1] * e->p[1]) / hypot(e->p[0], e->p[1]);
 }
 
-/** What the reference needs to know of a run: where its frame starts, and for how long it is carried. */
+/** What the reference needs to know of a run: where its frame starts, and for how long it is
+ * carried. */
 typedef struct reference {
     exact_frame *x;
     long near;    /**< events below NEAR */
@@ -74,7 +76,7 @@ static hd_status finish(hd_run *run)
     return HD_OK;
 }
 
-/* ---- many ------------------------------------------------------------------------------------- */
+/* ---- many ---------------------------------------------------------------------------------- */
 
 static void check_against(const hd_scene_def *scene, const reference *r)
 {
@@ -115,10 +117,10 @@ static void thousands_of_near_ones_keep_the_exponents(void **state)
     check_many(HD_REFLECTING);
 }
 
-/* ---- single extreme ones ---------------------------------------------------------------------- */
+/* ---- single extreme ones ------------------------------------------------------------------- */
 
-/** Two of four disks touch and graze at once, the others come in between later. They overlap as deep as a start may, or
- *  the contact would not be taken below 1e-8. */
+/** Two of four disks touch and graze at once, the others come in between later. They overlap as
+ * deep as a start may, or the contact would not be taken below 1e-8. */
 static hd_trajectory *prepared(const hd_scene_def *scene, double impact)
 {
     const double distance = 1.0 - 0.9e-9, n[2] = {cos(0.3), sin(0.3)};
@@ -162,8 +164,8 @@ static outcome outcome_of(double impact, int exponents)
     return o;
 }
 
-/** Right to the stated bound and the impact, or refused by name. All of the spectrum feel the graze twice, as its inverse stretches
- *  alike: a condition of (p_t^2 / b)^2; the positive half once. */
+/** Right to the stated bound and the impact, or refused by name. All of the spectrum feel the graze
+ * twice, as its inverse stretches alike: a condition of (p_t^2 / b)^2; the positive half once. */
 static void check_outcomes(int exponents, double survived)
 {
     for (double impact = 0.1; impact > 0.5e-14; impact *= 0.1) {

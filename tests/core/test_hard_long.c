@@ -1,5 +1,5 @@
-/** Late times: the same state goes on alike from t = 0 and from t near 1e6, bit for bit. What rounding does in 1e8
- *  collisions is seen by core_endurance (check_endurance.py). */
+/** Late times: the same state goes on alike from t = 0 and from t near 1e6, bit for bit. What
+ * rounding does in 1e8 collisions is seen by core_endurance (check_endurance.py). */
 #include <float.h>
 #include <stdlib.h>
 
@@ -29,7 +29,8 @@ static double end_of(int piece, double epoch)
     return ldexp(rint(ldexp(3.3 * epoch * part * part, 10)), -10);
 }
 
-/** Both go on from here, at the times that they are at, for some epochs: the same logs and states. */
+/** Both go on from here, at the times that they are at, for some epochs: the same logs and states.
+ */
 static void check_alike(hd_trajectory *early, hd_trajectory *late)
 {
     const double begin[2] = {hd_trajectory_time(early), hd_trajectory_time(late)};
@@ -72,7 +73,8 @@ static void a_state_goes_on_alike_at_any_time(void **state)
     }
 }
 
-/** Really run until then: what is read of the disks at the end of an epoch starts a trajectory that is the same. */
+/** Really run until then: what is read of the disks at the end of an epoch starts a trajectory that
+ * is the same. */
 static void a_late_state_goes_on_as_at_the_start(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/** Out of memory at every single allocation of a run: it is named, and all of what was had is given back. */
+/** Out of memory at every single allocation of a run: it is named, and all of what was had is given
+ * back. */
 #include <stdio.h>
 
 #include "ledger.h"
@@ -28,7 +29,8 @@ static hd_scene_def all_observables(void)
     return scene;
 }
 
-/** One vector of many disks: the log of an interval grows, and with it what the frame makes of it. */
+/** One vector of many disks: the log of an interval grows, and with it what the frame makes of it.
+ */
 static hd_scene_def growing_log(void)
 {
     hd_scene_def scene = scene_of(2000, 0.7, 1.0, HD_PERIODIC, HD_REFLECTING, 1);
@@ -79,7 +81,8 @@ static size_t needed(const hd_scene_def *scene, size_t *of_creation)
 }
 
 /** Memory out at allocation 0, 1, .. of the scene: for once, and for good. */
-static void out_at_each(const char *name, const hd_scene_def *scene, const char *resumed, size_t count)
+static void out_at_each(const char *name, const hd_scene_def *scene, const char *resumed,
+                        size_t count)
 {
     static const size_t times[] = {1, SIZE_MAX};
     for (size_t k = 0; k < 2 * count; k++) {
@@ -112,7 +115,8 @@ static void of_a_growing_log(void **state)
     out_at_each("growing log", &scene, NULL, count);
 }
 
-/** In mid-interval, with a log that has grown: what is read needs room before anything is advanced. */
+/** In mid-interval, with a log that has grown: what is read needs room before anything is advanced.
+ */
 static void of_a_resumed_run(void **state)
 {
     (void)state;

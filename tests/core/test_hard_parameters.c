@@ -1,4 +1,5 @@
-/** Ten thousand random scenes, possible and impossible: each runs, or is refused by the name of a parameter. */
+/** Ten thousand random scenes, possible and impossible: each runs, or is refused by the name of a
+ * parameter. */
 #include <float.h>
 #include <limits.h>
 #include <stdio.h>
@@ -11,19 +12,21 @@
 
 enum { SETS = HD_SANITIZED ? 2000 : 10000, LINE = 256 };
 
-/** A run is followed for so long: the first steps are short, each at most four times the one before. */
+/** A run is followed for so long: the first steps are short, each at most four times the one
+ * before. */
 enum { STEPS_MAX = 60, EVENTS_ENOUGH = 3000 };
 /** Of one step: run.c aims at 2e5, from what the step before it met. */
 static const double EVENTS_OF_A_STEP_MAX = 1e6;
 /** Of more disks it is only asked whether they are refused: a frame would take gigabytes. */
 enum { DISKS_RUN = 200 };
 
-/** Relative error of N additions of products and of so many collisions, which conserve it to rounding each. */
+/** Relative error of N additions of products and of so many collisions, which conserve it to
+ * rounding each. */
 static const double ENERGY_ERROR = 1e4 * DBL_EPSILON;
 /** As stated by hd_trajectory_advance. */
 static const double OVERLAP_MAX = 1e-9;
 
-/* ---- random scenes ---------------------------------------------------------------------------- */
+/* ---- random scenes ------------------------------------------------------------------------- */
 
 static double uniform(hd_random *random) { return 0.5 * (hd_random_symmetric(random) + 1.0); }
 
@@ -166,7 +169,7 @@ static void print_scene(int number, const hd_scene_def *def)
                 def->max_wave_number, def->max_node, def->threads);
 }
 
-/* ---- what becomes of them --------------------------------------------------------------------- */
+/* ---- what becomes of them ------------------------------------------------------------------ */
 
 /** Parameter that the line begins with; -1 if it is no line, or names none. */
 static int named(const char *line)
@@ -317,8 +320,8 @@ static int steps_to_the_end(const hd_scene_def *def)
     return steps;
 }
 
-/** Phases so short that the time does not move in them: what comes after is not held up. From 1e-12 steps grow by 4
- *  each, which is 25 of them to 1e3; a sample here and there ends one early. */
+/** Phases so short that the time does not move in them: what comes after is not held up. From 1e-12
+ * steps grow by 4 each, which is 25 of them to 1e3; a sample here and there ends one early. */
 static void phases_without_length_pass(void **state)
 {
     (void)state;
@@ -333,8 +336,9 @@ static void phases_without_length_pass(void **state)
     }
 }
 
-/** Between walls 1e-9 further apart than a disk there are 1e9 events of each disk in a time unit: the first step must not
- *  be one of a thousandth of a collision, and those after it not too long. */
+/** Between walls 1e-9 further apart than a disk there are 1e9 events of each disk in a time unit:
+ * the first step must not be one of a thousandth of a collision, and those after it not too long.
+ */
 static void narrow_channels_keep_steps_short(void **state)
 {
     (void)state;

@@ -8,15 +8,16 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* ---- turns of nearly pi ----------------------------------------------------------------------- */
+/* ---- turns of nearly pi -------------------------------------------------------------------- */
 
 typedef struct verdict {
     int tracked, coarse;
     double worst; /**< deviation of a tracked phase from the truth [rad] */
 } verdict;
 
-/** A step that turns by `angle` between samples while its exponent says that it may turn by `most`, all its vectors
- *  trembling together. A tracked phase is right to the trembling; a coarse one states no rate. */
+/** A step that turns by `angle` between samples while its exponent says that it may turn by `most`,
+ * all its vectors trembling together. A tracked phase is right to the trembling; a coarse one
+ * states no rate. */
 static verdict follow(int d, double angle, double most, double noise)
 {
     enum { SAMPLES = 40 };
@@ -50,12 +51,13 @@ static verdict follow(int d, double angle, double most, double noise)
     return v;
 }
 
-/** v / c_L is 1.14 at most, 1.25 is allowed for: whatever the rate below that, up to pi between samples it is
- *  tracked, from pi on it is coarse. */
+/** v / c_L is 1.14 at most, 1.25 is allowed for: whatever the rate below that, up to pi between
+ * samples it is tracked, from pi on it is coarse. */
 static void turns_up_to_pi_are_tracked_and_coarse_beyond(void **state)
 {
     (void)state;
-    static const double parts[] = {0.5, 0.75, 0.9, 0.97, 0.999, 0.9999, 1.0001, 1.001, 1.03, 1.25, 2.0, 3.9};
+    static const double parts[] = {0.5,    0.75,  0.9,  0.97, 0.999, 0.9999,
+                                   1.0001, 1.001, 1.03, 1.25, 2.0,   3.9};
     static const double ratios[] = {-1.25, -1.14, -0.5, 0.0, 0.5, 1.0, 1.14, 1.25};
     int tracked = 0, coarse = 0;
     for (int d = 1; d <= 2; d++)
@@ -86,8 +88,9 @@ static void check_noise(double most, double fastest, double *worst, int *tracked
         }
 }
 
-/** A run samples every 0.75 pi at most; 5 % more for exponents that are not yet known. From 0.95 pi on, which no
- *  measured velocity reaches before it is called coarse, the first samples could fall on the other side of pi. */
+/** A run samples every 0.75 pi at most; 5 % more for exponents that are not yet known. From 0.95 pi
+ * on, which no measured velocity reaches before it is called coarse, the first samples could fall
+ * on the other side of pi. */
 static void noise_does_not_lose_turns(void **state)
 {
     (void)state;
@@ -100,7 +103,7 @@ static void noise_does_not_lose_turns(void **state)
     CHECK_CLOSE(worst, 0.0, 100.0 * ROUNDING);
 }
 
-/* ---- vectors and pairs ------------------------------------------------------------------------ */
+/* ---- vectors and pairs --------------------------------------------------------------------- */
 
 static void exchange(rotating *r, int a, int b, double sign)
 {
@@ -110,7 +113,8 @@ static void exchange(rotating *r, int a, int b, double sign)
     r->sign[a] *= sign;
 }
 
-/** Two vectors change places, and one of them its sign, within steps that turn as far as a run lets them. */
+/** Two vectors change places, and one of them its sign, within steps that turn as far as a run lets
+ * them. */
 static void exchanges_within_far_turns_are_followed(void **state)
 {
     (void)state;
@@ -147,7 +151,8 @@ static void sign_flips_do_not_turn_a_phase(void **state)
 }
 
 /** The amplitude of one pair, in all vectors, times this. */
-static void scale_pair(rotating *r, int c, double re[][PAIRS_MAX], double im[][PAIRS_MAX], double factor)
+static void scale_pair(rotating *r, int c, double re[][PAIRS_MAX], double im[][PAIRS_MAX],
+                       double factor)
 {
     for (int m = 0; m < 2 * r->d; m++) {
         r->re[m][c] = factor * re[m][c];
@@ -162,8 +167,8 @@ static int strong_tracks(const rotating *r, int c)
     return strong;
 }
 
-/** Pair 0 fades away and comes back; `gone` samples it is nothing but rounding. Its phase is then what it would have
- *  been, or begun anew; the other pair does not notice. */
+/** Pair 0 fades away and comes back; `gone` samples it is nothing but rounding. Its phase is then
+ * what it would have been, or begun anew; the other pair does not notice. */
 static void check_vanishing_pair(int gone, double omega)
 {
     enum { FADING = 4, GAP_MAX = 16 }; /* samples of absence that are bridged [T13] */
@@ -192,7 +197,8 @@ static void check_vanishing_pair(int gone, double omega)
     assert_true(gone <= GAP_MAX || whole == strong[1]);
     for (int k = 0; k < 8; k++) {
         const hd_lp_phase *phase = phase_of(&r, k / 2, k % 2);
-        if (phase->state == HD_LP_TRACKED && phase->time > 1.0) CHECK_CLOSE(phase->omega, omega, ROUNDING);
+        if (phase->state == HD_LP_TRACKED && phase->time > 1.0)
+            CHECK_CLOSE(phase->omega, omega, ROUNDING);
     }
     CHECK_CLOSE(hd_phases_velocity(r.phases).v * r.step->wave.number, fabs(omega), ROUNDING);
     rotating_free(&r);

@@ -10,7 +10,8 @@
 
 enum { DISKS = 64, ROWS = 2 * DISKS, DIMENSION = 4 };
 
-/** Sums of 2N terms of order 1 / 2N, times a few operations; Gram matrices are of condition 1 to 10. */
+/** Sums of 2N terms of order 1 / 2N, times a few operations; Gram matrices are of condition 1
+ * to 10. */
 static const double ALGEBRA = 10.0 * ROWS * DBL_EPSILON;
 
 /** LP(1,0) alone in its frame. */
@@ -26,7 +27,8 @@ static void write_vectors(lp_step *s, double noise)
 {
     for (int m = 0; m < DIMENSION; m++) {
         double dq[ROWS];
-        for (int row = 0; row < ROWS; row++) dq[row] = noise / sqrt(ROWS) * random_normal(&s->w.random);
+        for (int row = 0; row < ROWS; row++)
+            dq[row] = noise / sqrt(ROWS) * random_normal(&s->w.random);
         for (int c = 0; c < DIMENSION; c++)
             world_add_field(&s->w, dq, s->subspace->column + c, s->turn[m * DIMENSION + c]);
         world_write_mode(&s->w, m, dq, 0.7);
@@ -72,7 +74,8 @@ static double mean_square(const double *p)
     return sum;
 }
 
-/** Vectors that are the fields: every P mode divided by the momenta is A p^2 / (p^2 + eps), at each component. */
+/** Vectors that are the fields: every P mode divided by the momenta is A p^2 / (p^2 + eps), at each
+ * component. */
 static double check_divided(lp_step *s, const double *p)
 {
     const double eps = HD_PMODE_EPSILON * mean_square(p);
@@ -135,8 +138,9 @@ static void disks_at_rest_are_finite_and_the_rest_is_right(void **state)
     lp_step_free(&s);
 }
 
-/** Noise in the vectors, which a disk at rest has too, is not blown up: the mode there times p / (p^2 + eps) is
- *  nothing at p = 0, and falls with p below sqrt(eps). At the other disks all is as if the disk moved on. */
+/** Noise in the vectors, which a disk at rest has too, is not blown up: the mode there times p /
+ * (p^2 + eps) is nothing at p = 0, and falls with p below sqrt(eps). At the other disks all is as
+ * if the disk moved on. */
 static void noise_is_not_blown_up_where_a_disk_rests(void **state)
 {
     (void)state;
@@ -162,9 +166,9 @@ static void noise_is_not_blown_up_where_a_disk_rests(void **state)
     lp_step_free(&s);
 }
 
-/** One disk alone moves: the P fields of both modulations are the same but for a factor, the vectors dependent but for
- *  rounding. Refused, or finite fields that still are combinations of the vectors; how far
- *  from a rotation is told. */
+/** One disk alone moves: the P fields of both modulations are the same but for a factor, the
+ * vectors dependent but for rounding. Refused, or finite fields that still are combinations of the
+ * vectors; how far from a rotation is told. */
 static void one_moving_disk_is_refused_or_finite(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/** Forward for a while, all momenta reversed, and back: disks return as far as rounding, which grows by exp(lambda_1 t),
- *  allows; and do not where it must have grown beyond the box. */
+/** Forward for a while, all momenta reversed, and back: disks return as far as rounding, which
+ * grows by exp(lambda_1 t), allows; and do not where it must have grown beyond the box. */
 #include <float.h>
 
 #include "hdlyap/frame.h"
@@ -86,11 +86,12 @@ static state first_start(const hd_scene_def *def)
     return s;
 }
 
-/* ---- returning -------------------------------------------------------------------------------- */
+/* ---- returning ----------------------------------------------------------------------------- */
 
-/** Rounding starts as some eps of 4 N coordinates of size up to 6, is made anew at every collision, and each part of it
- *  is stretched by the rest of the way there and back, where it lies along the fastest direction: ln(miss / eps) exceeds
- *  ln(stretch) by 0 to 4 in the mean. A single start differs by what one grazing collision does. */
+/** Rounding starts as some eps of 4 N coordinates of size up to 6, is made anew at every collision,
+ * and each part of it is stretched by the rest of the way there and back, where it lies along the
+ * fastest direction: ln(miss / eps) exceeds ln(stretch) by 0 to 4 in the mean. A single start
+ * differs by what one grazing collision does. */
 static const double OFF_MIN = 0.0, OFF_MAX = 4.0, SINGLE = 13.0;
 
 typedef struct returns {
@@ -134,8 +135,8 @@ static void returns_as_far_as_rounding_grows(void **state_)
     }
 }
 
-/** eps exp(lambda_1 t) is then above 1e6: nothing of the start is left, and a program that returned all the same would not
- *  have moved. */
+/** eps exp(lambda_1 t) is then above 1e6: nothing of the start is left, and a program that returned
+ * all the same would not have moved. */
 static void cannot_return_from_too_far(void **state_)
 {
     (void)state_;

@@ -1,6 +1,6 @@
-/** Many events at one instant, beyond test_trajectory_ties.c: the triangular lattice, clusters that touch, contacts at the
- *  very end of an interval or of an epoch and while a cell's edge is crossed. None is lost, none is repeated for ever, and
- *  the log is the same however it is cut. */
+/** Many events at one instant, beyond test_trajectory_ties.c: the triangular lattice, clusters that
+ * touch, contacts at the very end of an interval or of an epoch and while a cell's edge is crossed.
+ * None is lost, none is repeated for ever, and the log is the same however it is cut. */
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* ---- however it is cut ------------------------------------------------------------------------ */
+/* ---- however it is cut --------------------------------------------------------------------- */
 
 static void check_same_events(const hd_event_log *got, const hd_event_log *want)
 {
@@ -55,8 +55,8 @@ static long most_at_once(const hd_event_log *log)
     return most;
 }
 
-/** Ends, keeps energy, repeats, and is the twin's; returns most_at_once. A collision's rounding is a few eps of the
- *  momenta. */
+/** Ends, keeps energy, repeats, and is the twin's; returns most_at_once. A collision's rounding is
+ * a few eps of the momenta. */
 static long check_all(const hd_scene_def *def, const double *q, const double *p, double t_end)
 {
     hd_trajectory *tr = started(def, q, p);
@@ -77,7 +77,7 @@ static long check_all(const hd_scene_def *def, const double *q, const double *p,
     return most;
 }
 
-/* ---- the triangular lattice ------------------------------------------------------------------- */
+/* ---- the triangular lattice ---------------------------------------------------------------- */
 
 enum { SIDE = 6, DISKS = SIDE * SIDE };
 
@@ -137,10 +137,10 @@ static void triangular_lattices(void **state)
         }
 }
 
-/* ---- clusters that touch ---------------------------------------------------------------------- */
+/* ---- clusters that touch ------------------------------------------------------------------- */
 
-/** A disk and its six neighbours, all touching, turned; momenta all inwards, or on a coarse grid: many vanish, many are
- *  equal. */
+/** A disk and its six neighbours, all touching, turned; momenta all inwards, or on a coarse grid:
+ * many vanish, many are equal. */
 static void cluster(double turn, int inwards, hd_random *random, double q[14], double p[14])
 {
     q[0] = q[1] = 4.0;
@@ -188,7 +188,7 @@ static void a_wedge_in_a_corner_comes_apart(void **state)
     }
 }
 
-/* ---- ends of epochs and edges of cells -------------------------------------------------------- */
+/* ---- ends of epochs and edges of cells ----------------------------------------------------- */
 
 static double epoch_of(const hd_scene_def *def, const double *q, const double *p)
 {
@@ -217,8 +217,8 @@ static void check_at(const hd_scene_def *def, const double *q, const double *p, 
     check_all(def, q, p, 4.0 * t);
 }
 
-/** A contact, two walls and a corner, all at the middle of the first epoch, and at the very end of the first, the second
- *  and the fourth. */
+/** A contact, two walls and a corner, all at the middle of the first epoch, and at the very end of
+ * the first, the second and the fourth. */
 static void events_at_the_end_of_an_epoch(void **state)
 {
     (void)state;
@@ -232,8 +232,8 @@ static void events_at_the_end_of_an_epoch(void **state)
     }
 }
 
-/** Two disks cross an edge of cells, or the point where four meet, from both sides at the moment at which they touch; ten
- *  others wait above and below, two of them on an edge. */
+/** Two disks cross an edge of cells, or the point where four meet, from both sides at the moment at
+ * which they touch; ten others wait above and below, two of them on an edge. */
 static void start_at(const double at[2], const double way[2], double side, double q[24],
                      double p[24])
 {

@@ -1,5 +1,6 @@
-/** Numbers at the ends of the range: momenta of 1e-300, disks at rest, positions on edges, zeros of either sign, vectors
- *  so short that their squares vanish. Nothing becomes NaN or infinite, and what cannot be told is refused. */
+/** Numbers at the ends of the range: momenta of 1e-300, disks at rest, positions on edges, zeros of
+ * either sign, vectors so short that their squares vanish. Nothing becomes NaN or infinite, and
+ * what cannot be told is refused. */
 #include <float.h>
 #include <stdlib.h>
 
@@ -8,7 +9,7 @@
 #include "tangent.h"
 #include "twin.h"
 
-/* ---- the trajectory --------------------------------------------------------------------------- */
+/* ---- the trajectory ------------------------------------------------------------------------ */
 
 enum { DISKS = 4 };
 
@@ -124,12 +125,13 @@ static void edges_of_the_box_are_one_place(void **state)
     for (int k = 0; k < 3; k++) hd_event_log_free(log[k]);
 }
 
-/* ---- the frame -------------------------------------------------------------------------------- */
+/* ---- the frame ----------------------------------------------------------------------------- */
 
 enum { FRAME_DISKS = 12, ROWS = 4 * FRAME_DISKS };
 
-/** Maps are linear: 2^-1030 of a vector becomes 2^-1030 of what it becomes, but for what denormal numbers, known to
- *  2^-1074, lose at each of ten operations an event and disk, stretched by what follows. */
+/** Maps are linear: 2^-1030 of a vector becomes 2^-1030 of what it becomes, but for what denormal
+ * numbers, known to 2^-1074, lose at each of ten operations an event and disk, stretched by what
+ * follows. */
 static void denormal_vectors_are_carried_as_others(void **state)
 {
     (void)state;
@@ -157,7 +159,8 @@ static void denormal_vectors_are_carried_as_others(void **state)
 
 typedef enum shape { INDEPENDENT, NEARLY_DEPENDENT, DEPENDENT } shape;
 
-/** Orthonormal vectors; the last one may be the first plus a bit of itself. Returns what ln R of the last becomes. */
+/** Orthonormal vectors; the last one may be the first plus a bit of itself. Returns what ln R of
+ * the last becomes. */
 static double shape_frame(hd_frame *frame, shape how)
 {
     const double bit = how == DEPENDENT ? 0.0 : 1e-6;
@@ -174,8 +177,8 @@ typedef struct scaled {
     shape how;
 } scaled;
 
-/** Times 2^power: factored rightly, or refused. The logarithms of such scales are of size 700, and the bit of the last
- *  vector is known to eps / 1e-6. Returns 1 if it is factored. */
+/** Times 2^power: factored rightly, or refused. The logarithms of such scales are of size 700, and
+ * the bit of the last vector is known to eps / 1e-6. Returns 1 if it is factored. */
 static int check_scaled(const scaled *s)
 {
     const hd_ortho_limits twice = {1e9, DBL_EPSILON};
@@ -214,7 +217,8 @@ static int step_from(int power)
     return HD_SANITIZED ? 53 : 13;
 }
 
-/** Everything that a run can come to, e^150 either way, is factored; from 2^-1074 to 2^1000 nothing is wrong. */
+/** Everything that a run can come to, e^150 either way, is factored; from 2^-1074 to 2^1000 nothing
+ * is wrong. */
 static void vectors_of_any_length_are_factored_or_refused(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/** Denormals, exact zeros, single samples, constant series, odd intervals of time: no such number reaches a result. */
+/** Denormals, exact zeros, single samples, constant series, odd intervals of time: no such number
+ * reaches a result. */
 #include <float.h>
 #include <string.h>
 
@@ -12,7 +13,7 @@
 
 static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 
-/* ---- vectors with tiny halves ----------------------------------------------------------------- */
+/* ---- vectors with tiny halves -------------------------------------------------------------- */
 
 enum { DISKS = 40, ROWS = 2 * DISKS, VECTORS = 4 };
 
@@ -64,7 +65,8 @@ static void check_weights(const world *w, const weights *got, const weights *wan
     }
 }
 
-/** Down to 1e-140 a half counts as any other; below the square root of the smallest numbers it is none. */
+/** Down to 1e-140 a half counts as any other; below the square root of the smallest numbers it is
+ * none. */
 static void a_tiny_dq_half_has_its_weights_or_none(void **state)
 {
     (void)state;
@@ -83,7 +85,8 @@ static void a_tiny_dq_half_has_its_weights_or_none(void **state)
         const weights got = measure(&w);
         if (digits <= 140 || digits >= 156) check_weights(&w, &got, &want, digits >= 156);
         for (int col = 0; col < VECTORS; col++)
-            for (int s = 0; s < hd_fields_subspaces(w.fields); s++) assert_true(got.of[s][col] <= 1.0 + ALGEBRA);
+            for (int s = 0; s < hd_fields_subspaces(w.fields); s++)
+                assert_true(got.of[s][col] <= 1.0 + ALGEBRA);
     }
     world_free(&w);
 }
@@ -140,7 +143,7 @@ static void denormal_entries_are_zeros(void **state)
     world_free(&w);
 }
 
-/* ---- constant and short series ---------------------------------------------------------------- */
+/* ---- constant and short series ------------------------------------------------------------- */
 
 /** Zero variance: the error is zero, or not known while there are too few samples. */
 static void constant_series_have_no_error(void **state)
@@ -193,7 +196,7 @@ static void constant_steps_and_phases_have_no_error(void **state)
     rotating_free(&r);
 }
 
-/* ---- odd times -------------------------------------------------------------------------------- */
+/* ---- odd times ----------------------------------------------------------------------------- */
 
 /** At every report of a run; returns how many there were. */
 static long check_reports(const hd_scene_def *scene, long *numbers)
@@ -214,8 +217,9 @@ static long check_reports(const hd_scene_def *scene, long *numbers)
     return reports;
 }
 
-/** One vector, the positive half and all of them; reports far more often than collisions, far less often than the
- *  run lasts, at no multiple of it; no equilibration, no warm-up, hardly any duration. */
+/** One vector, the positive half and all of them; reports far more often than collisions, far less
+ * often than the run lasts, at no multiple of it; no equilibration, no warm-up, hardly any
+ * duration. */
 static void odd_intervals_publish_only_numbers(void **state)
 {
     (void)state;
@@ -226,7 +230,8 @@ static void odd_intervals_publish_only_numbers(void **state)
         for (int d = 0; d < 3; d++)
             for (int e = 0; e < 3; e++)
                 for (int start = 0; start < 2; start++) {
-                    if (durations[d] / intervals[i] > 2e4) continue; /* a report each 1e-4 of 1 is enough */
+                    if (durations[d] / intervals[i] > 2e4)
+                        continue; /* a report each 1e-4 of 1 is enough */
                     hd_scene_def scene = scene_of(16, 0.5, 0.1, P, start ? R : P, 2);
                     scene.exponents = exponents[e];
                     scene.equilibration = scene.warmup = start ? 0.05 : 0.0;

@@ -48,7 +48,7 @@ static void numbers_of(double out[SUMS], const hd_hydro_response *r)
     out[ENERGY] = r->energy;
 }
 
-/* ---- against differences ---------------------------------------------------------------------- */
+/* ---- against differences ------------------------------------------------------------------- */
 
 /** The sums in the state displaced by h times a column. */
 static void displaced(const world *w, double out[SUMS], const hd_hydro_response *r, double h)
@@ -64,8 +64,8 @@ static void displaced(const world *w, double out[SUMS], const hd_hydro_response 
 
 static void check_response(const world *w, const hd_hydro_response *r)
 {
-    /* third derivatives k^3 p^2 / 6 below 10, of a vector whose entries are 1 / sqrt(4N); sums of order 10 with
-       rounding eps each */
+    /* third derivatives k^3 p^2 / 6 below 10, of a vector whose entries are 1 / sqrt(4N); sums of
+       order 10 with rounding eps each */
     const double H = 1e-4, DIFFERENCE = 10.0 * H * H + 10.0 * DISKS * DBL_EPSILON / H;
     double ahead[SUMS], behind[SUMS], got[SUMS];
     displaced(w, ahead, r, H);
@@ -171,7 +171,7 @@ static void only_vectors_of_resolved_steps_respond(void **state)
     world_free(&w);
 }
 
-/* ---- the paper's table ------------------------------------------------------------------------ */
+/* ---- the paper's table --------------------------------------------------------------------- */
 
 enum { STATES = 300, FIELDS_MAX = 12, MODULATIONS = 4 };
 
@@ -238,9 +238,9 @@ static void average(table *sum, int nx, int ny, double *k)
     world_free(&w);
 }
 
-/** Mean responses of field m (T, L, P in turn) at its own modulation, with alpha = <A^2> (1/2, or 1/4), <p^2> = 2:
- *  |curl A| = |grad A| = k sqrt(alpha N), |p A| = sqrt(2 alpha N); the sums go over sqrt(N/2), the vectors over
- *  sqrt(1 + C^2). */
+/** Mean responses of field m (T, L, P in turn) at its own modulation, with alpha = <A^2> (1/2, or
+ * 1/4), <p^2> = 2: |curl A| = |grad A| = k sqrt(alpha N), |p A| = sqrt(2 alpha N); the sums go over
+ * sqrt(N/2), the vectors over sqrt(1 + C^2). */
 static void expected(double out[SUMS], int kind, double k, double alpha)
 {
     const double norm = 1.0 / sqrt(1.0 + RATIO * RATIO);
@@ -252,7 +252,8 @@ static void expected(double out[SUMS], int kind, double k, double alpha)
     for (int s = 0; s < SUMS; s++) out[s] = norm * of_kind[kind][s];
 }
 
-/** 5 standard errors of 384 numbers; norms fluctuate, which costs 1 / 8 of their variance, some 1 / N. */
+/** 5 standard errors of 384 numbers; norms fluctuate, which costs 1 / 8 of their variance, some 1 /
+ * N. */
 static void check_table(const table *sum, int modulations, double k)
 {
     const double SIGMAS = 5.0, BIAS = 1.0 / DISKS;

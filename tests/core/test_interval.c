@@ -50,8 +50,8 @@ static void failures_shorten_it(void **state)
     assert_true(hd_interval_next(&interval, 1e9).length < 0.99 * before);
 }
 
-/** ln(condition) = rate * length + scatter, the scatter the same at all lengths: kept free above the mean, so
- *  that few intervals are repaired, and not multiplied with the length. */
+/** ln(condition) = rate * length + scatter, the scatter the same at all lengths: kept free above
+ * the mean, so that few intervals are repaired, and not multiplied with the length. */
 static void scatter_is_kept_free_once(void **state)
 {
     (void)state;
@@ -127,7 +127,8 @@ static void more_accuracy_allows_less_condition(void **state)
     CHECK_CLOSE(hd_interval_condition_max(&loose, 1.0), 1e12, 0.0);
 }
 
-/** A piece of a repair has a twentieth of its own share; nothing is divided for a condition of 1e3. */
+/** A piece of a repair has a twentieth of its own share; nothing is divided for a condition of 1e3.
+ */
 static void pieces_keep_to_their_share(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/** Covariant vectors of whole runs: when windows begin, what gives them up, and what a run refuses for them. */
+/** Covariant vectors of whole runs: when windows begin, what gives them up, and what a run refuses
+ * for them. */
 #include <errno.h>
 #include <float.h>
 #include <string.h>
@@ -80,7 +81,8 @@ static void windows_are_counted(void **state)
         finish(run);
         check_windows(run, (long)floor((duration[k] - 60.0) / 20.0), averaging_start(run));
         assert_int_equal(hd_covariant_lost(hd_run_covariant(run)), 0);
-        assert_true(hd_run_cost(run).covariant > 0 && hd_run_cost(run).covariant < hd_run_cost(run).wall);
+        assert_true(hd_run_cost(run).covariant > 0 &&
+                    hd_run_cost(run).covariant < hd_run_cost(run).wall);
         hd_run_free(run);
     }
 }
@@ -112,7 +114,8 @@ static void the_forward_pass_stays_as_it_is(void **state)
 static void a_reset_begins_anew(void **state)
 {
     (void)state;
-    const int gone[] = {0, 100, 250, 300}; /* of 240 intervals of the transient and 80 of the window */
+    const int gone[] = {0, 100, 250,
+                        300}; /* of 240 intervals of the transient and 80 of the window */
     for (size_t k = 0; k < sizeof gone / sizeof *gone; k++) {
         const hd_scene_def scene = small();
         hd_run *run = created(&scene);
@@ -140,7 +143,8 @@ static void a_window_begins_when_somebody_looks_again(void **state)
         hd_run *run = created(&scene);
         step_to(run, 65.0);
         if (back) step_to_the_way_back(run);
-        if (back) go_back(run, 50); /* still in the transient: nothing of the window is in the averages */
+        if (back)
+            go_back(run, 50); /* still in the transient: nothing of the window is in the averages */
         hd_run_observe(run, 0);
         step_to(run, 90.0);
         hd_run_observe(run, HD_OBSERVE_COVARIANT);
@@ -175,19 +179,22 @@ static void exponents_agree_with_the_forward_ones(void **state)
     const hd_scene_def scene = small();
     hd_run *run = created(&scene);
     finish(run);
-    const hd_spectrum *forward = hd_run_spectrum(run), *back = hd_covariant_spectrum(hd_run_covariant(run));
+    const hd_spectrum *forward = hd_run_spectrum(run),
+                      *back = hd_covariant_spectrum(hd_run_covariant(run));
     const int positive = (VECTORS - 6) / 2;
     for (int col = 0; col < VECTORS; col++) {
-        const double error = hypot(hd_spectrum_std_error(forward, col), hd_spectrum_std_error(back, col));
+        const double error = hypot(hd_spectrum_std_error(forward, col),
+                                   hd_spectrum_std_error(back, col));
         if (col >= positive && col < positive + 6) continue; /* see test_covariant_windows */
         assert_true(error > 0 && error < 0.1);
-        CHECK_CLOSE(hd_spectrum_exponent(back, col), hd_spectrum_exponent(forward, col), 4.0 * error);
+        CHECK_CLOSE(hd_spectrum_exponent(back, col), hd_spectrum_exponent(forward, col),
+                    4.0 * error);
     }
     hd_run_free(run);
 }
 
-/** Everything at once: the centre is still the null space. Somebody who looks in between makes intervals shorter than
- *  could be foreseen: that costs a window. */
+/** Everything at once: the centre is still the null space. Somebody who looks in between makes
+ * intervals shorter than could be foreseen: that costs a window. */
 static void other_stages_do_not_disturb(void **state)
 {
     (void)state;
@@ -220,14 +227,16 @@ static void the_positive_half_has_no_spaces(void **state)
     const hd_covariant *c = hd_run_covariant(run);
     assert_int_equal(hd_covariant_vectors(c), (VECTORS - 6) / 2);
     assert_false(hd_splitting_has_spaces(hd_covariant_splitting(c)));
-    assert_true(hd_covariant_null(c) < 0 && hd_covariant_met(c).centre < 0 && hd_covariant_met(c).stable < 0);
+    assert_true(hd_covariant_null(c) < 0 && hd_covariant_met(c).centre < 0 &&
+                hd_covariant_met(c).stable < 0);
     assert_true(hd_covariant_met(c).most >= 0);
     for (int col = 0; col < hd_covariant_vectors(c); col++)
-        assert_true(hd_covariant_widths(c)[col] >= 4.0 / VECTORS && hd_covariant_widths(c)[col] <= 1.0);
+        assert_true(hd_covariant_widths(c)[col] >= 4.0 / VECTORS &&
+                    hd_covariant_widths(c)[col] <= 1.0);
     hd_run_free(run);
 }
 
-/* ---- room ------------------------------------------------------------------------------------------- */
+/* ---- room ---------------------------------------------------------------------------------- */
 
 static void too_long_a_window_is_refused(void **state)
 {
@@ -238,8 +247,9 @@ static void too_long_a_window_is_refused(void **state)
     scene.covariant_memory = 2.5e6; /* 512 triangles of 4224 bytes and 46 frames of 8448 */
     assert_int_equal(hd_run_create(&run, &scene, message, sizeof message), HD_REFUSED);
     assert_null(run);
-    const char *numbers[] = {"covariant_window = 20 ", "covariant_transient = 60:", "512 triangles",
-                             "46 frames of 32 vectors", "need 0.00255 GB", "covariant_memory = 0.0025 GB"};
+    const char *numbers[] = {
+        "covariant_window = 20 ",  "covariant_transient = 60:", "512 triangles",
+        "46 frames of 32 vectors", "need 0.00255 GB",           "covariant_memory = 0.0025 GB"};
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         if (!strstr(message, numbers[k])) fail_msg("%s: not in: %s", numbers[k], message);
     assert_int_equal(hd_run_create(&run, &scene, NULL, 0), HD_REFUSED);
@@ -326,7 +336,8 @@ int main(void)
         cmocka_unit_test(the_positive_half_has_no_spaces),
         cmocka_unit_test(too_long_a_window_is_refused),
         cmocka_unit_test(too_little_room_is_found_when_windows_begin),
-        cmocka_unit_test(a_folder_that_is_none_is_refused), cmocka_unit_test(more_than_is_free_is_refused),
+        cmocka_unit_test(a_folder_that_is_none_is_refused),
+        cmocka_unit_test(more_than_is_free_is_refused),
         cmocka_unit_test(later_windows_take_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -8,7 +8,8 @@
 
 enum { CACHE_LINE = 64 };
 
-static const size_t SIZES[] = {1, 7, 63, 64, 65, 4096, 100000, (1u << 20) - 1, 1u << 20, 3000001, 1u << 21};
+static const size_t SIZES[] = {1,        7,       63,      64, 65, 4096, 100000, (1u << 20) - 1,
+                               1u << 20, 3000001, 1u << 21};
 enum { SIZE_COUNT = sizeof SIZES / sizeof *SIZES };
 
 static void blocks_are_aligned_and_zero(void **state)
@@ -50,8 +51,9 @@ static void overflow_gives_null(void **state)
 {
     (void)state;
     const size_t most = SIZE_MAX;
-    const size_t pairs[][2] = {{most, 1}, {1, most}, {most, most}, {most / 2 + 1, 2}, {most / 8 + 2, 8},
-                               {most / 64 + 1, 64}, {most - 64, 1}, {(size_t)1 << 32, (size_t)1 << 32}};
+    const size_t pairs[][2] = {
+        {most, 1},         {1, most},           {most, most},   {most / 2 + 1, 2},
+        {most / 8 + 2, 8}, {most / 64 + 1, 64}, {most - 64, 1}, {(size_t)1 << 32, (size_t)1 << 32}};
     const size_t before = hd_memory_allocations();
     for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++)
         assert_null(hd_memory_alloc(pairs[k][0], pairs[k][1]));

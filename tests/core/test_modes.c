@@ -13,7 +13,8 @@ static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 
 enum { DISKS = 100, ROWS = 2 * DISKS, DIMENSION_MAX = 8 };
 
-/** Gram matrices of these states have eigenvalues between 0.3 and 2: rounding of 2N terms, times ten. */
+/** Gram matrices of these states have eigenvalues between 0.3 and 2: rounding of 2N terms, times
+ * ten. */
 static const double ALGEBRA = 10.0 * ROWS * DBL_EPSILON / 0.3;
 
 static hd_scene_def scene(hd_boundary x, hd_boundary y)
@@ -23,7 +24,7 @@ static hd_scene_def scene(hd_boundary x, hd_boundary y)
     return def;
 }
 
-/* ---- independent least squares ---------------------------------------------------------------- */
+/* ---- independent least squares ------------------------------------------------------------- */
 
 /** What one vector is in one subspace. */
 typedef struct fit {
@@ -106,7 +107,7 @@ static void weights_are_those_of_least_squares(void **state)
     }
 }
 
-/* ---- known mixtures --------------------------------------------------------------------------- */
+/* ---- known mixtures ------------------------------------------------------------------------ */
 
 /** Inverse of the Gram matrix of a subspace, diagonal alone: variances of the coefficients. */
 static void variances(const world *w, const hd_subspace *s, double *out)
@@ -156,7 +157,8 @@ static void check_weight(const world *w, int subspace, double signal, double noi
                 (off_outside + off_inside * outside / length2) / (length2 - off_inside) + ALGEBRA);
 }
 
-/** Coefficients come back up to the noise, but for the length of dq, which is known to |dq| and noise. */
+/** Coefficients come back up to the noise, but for the length of dq, which is known to |dq| and
+ * noise. */
 static void check_truth(world *w, int subspace, double noise)
 {
     const hd_subspace *s = hd_fields_subspace(w->fields, subspace);
@@ -212,9 +214,10 @@ static void single_fields_are_named(void **state)
     world_free(&w);
 }
 
-/* ---- fields that the disks do not tell apart -------------------------------------------------- */
+/* ---- fields that the disks do not tell apart ----------------------------------------------- */
 
-/** Momenta all alike along x: P of cos is L of sin, and the L of waves along y alone is left. Rank 4 of 8. */
+/** Momenta all alike along x: P of cos is L of sin, and the L of waves along y alone is left. Rank
+ * 4 of 8. */
 static void momenta_alike(world *w)
 {
     double q[ROWS], p[ROWS];
@@ -223,7 +226,8 @@ static void momenta_alike(world *w)
     world_place(w, q, p);
 }
 
-/** The same but for a part of 5 %: eigenvalues of some 1e-3, which are there; or of 1e-5: not there [T11]. */
+/** The same but for a part of 5 %: eigenvalues of some 1e-3, which are there; or of 1e-5: not there
+ * [T11]. */
 static void momenta_nearly_alike(world *w, double part)
 {
     double q[ROWS], p[ROWS];
@@ -288,7 +292,7 @@ static void few_disks(void **state)
     world_free(&w);
 }
 
-/* ---- the null space --------------------------------------------------------------------------- */
+/* ---- the null space ------------------------------------------------------------------------ */
 
 /** half[f] times null field f. */
 static void add_null(const world *w, double *out, const double half[HD_NULLS])
@@ -369,7 +373,7 @@ static void walls_take_uniform_motion_away(void **state)
     }
 }
 
-/* ---- averages, threads, bad numbers ----------------------------------------------------------- */
+/* ---- averages, threads, bad numbers -------------------------------------------------------- */
 
 static void averages_are_means_of_snapshots(void **state)
 {
@@ -436,7 +440,8 @@ static void what_is_not_finite_is_refused(void **state)
             world_noise(&w);
             const size_t at = (size_t)(4 * 17 + 2 * half) * (size_t)hd_frame_stride(w.frame) + 3;
             hd_frame_data(w.frame)[at] = bad[k];
-            assert_int_equal(hd_modes_measure(w.modes, hd_frame_columns(w.frame), w.q, w.p), HD_NOT_FINITE);
+            assert_int_equal(hd_modes_measure(w.modes, hd_frame_columns(w.frame), w.q, w.p),
+                             HD_NOT_FINITE);
         }
     world_noise(&w);
     CHECK_OK(hd_modes_measure(w.modes, hd_frame_columns(w.frame), w.q, w.p));

@@ -1,5 +1,5 @@
-/** Nearby: everybody in the cells around a disk, once for each way to see it, and the contacts the same
- *  bits as one by one. */
+/** Nearby: everybody in the cells around a disk, once for each way to see it, and the contacts the
+ * same bits as one by one. */
 #include "nearby.h"
 
 #include <float.h>
@@ -17,7 +17,7 @@ static double uniform(hd_random *random) { return 0.5 + 0.5 * hd_random_symmetri
 
 static int below(hd_random *random, int n) { return (int)(uniform(random) * n); }
 
-/* ---- who -------------------------------------------------------------------------------------- */
+/* ---- who ----------------------------------------------------------------------------------- */
 
 /** A disk as seen from another: its number and image. */
 typedef struct seen {
@@ -103,7 +103,7 @@ static void check_beside(const hd_cells *cells, const hd_disk *disks, const hd_d
 }
 
 /** Few and many columns, both boundaries; points, so that any number of them is in a cell; `crowd`
- *  of them in one place. */
+ * of them in one place. */
 static void check_box(double lx, double ly, hd_boundary boundary, int crowd)
 {
     static hd_disk disks[DISKS];
@@ -168,7 +168,7 @@ static void images_are_in_reach(void **state)
     hd_cells_clear(&cells);
 }
 
-/* ---- when ------------------------------------------------------------------------------------- */
+/* ---- when ---------------------------------------------------------------------------------- */
 
 static void random_disks(hd_disk *disks, hd_random *random)
 {
@@ -282,10 +282,8 @@ static void grazing_disks_pass(void **state)
 {
     (void)state;
     const double box[2] = {9.0, 9.0};
-    const hd_disk disks[] = {{.p = {1, 0}},
-                             {.q = {3.0, 1.0}},
-                             {.q = {3.0, -1.0}},
-                             {.q = {3.0, 1.0 - DBL_EPSILON}}};
+    const hd_disk disks[] = {
+        {.p = {1, 0}}, {.q = {3.0, 1.0}}, {.q = {3.0, -1.0}}, {.q = {3.0, 1.0 - DBL_EPSILON}}};
     hd_nearby near = {.count = 3, .disk = {1, 2, 3}};
     double contact[HD_NEARBY_MAX + HD_NEARBY_SPARE];
     assert_int_equal(hd_nearby_contacts(contact, &near, disks, 0, box), 2);
@@ -298,8 +296,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(everybody_around_is_seen_once),      cmocka_unit_test(images_are_in_reach),
         cmocka_unit_test(contacts_are_those_of_single_pairs), cmocka_unit_test(ties_are_told),
-        cmocka_unit_test(touching_disks_meet_at_once),
-        cmocka_unit_test(grazing_disks_pass),
+        cmocka_unit_test(touching_disks_meet_at_once),        cmocka_unit_test(grazing_disks_pass),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

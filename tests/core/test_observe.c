@@ -122,7 +122,8 @@ static void check_same_exponents(hd_scene_def scene, unsigned observe, double bo
     assert_null(hd_run_phases(blind));
     assert_true(hd_trajectory_collisions(hd_run_trajectory(looked)) ==
                 hd_trajectory_collisions(hd_run_trajectory(blind)));
-    const double tolerance = bounds * (hd_run_cost(looked).error_bound + hd_run_cost(blind).error_bound);
+    const double tolerance = bounds *
+                             (hd_run_cost(looked).error_bound + hd_run_cost(blind).error_bound);
     for (int col = 0; col < hd_run_vectors(blind); col++)
         CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(looked), col),
                     hd_spectrum_exponent(hd_run_spectrum(blind), col), tolerance);
@@ -130,8 +131,8 @@ static void check_same_exponents(hd_scene_def scene, unsigned observe, double bo
     hd_run_free(blind);
 }
 
-/** What is looked at does not change what happens: modes and steps not a bit; phases, where a look does not do,
- *  and fields but for where the frame is orthonormalised: rounding. */
+/** What is looked at does not change what happens: modes and steps not a bit; phases, where a look
+ * does not do, and fields but for where the frame is orthonormalised: rounding. */
 static void looking_changes_nothing(void **state)
 {
     (void)state;
@@ -142,7 +143,8 @@ static void looking_changes_nothing(void **state)
     check_same_exponents(scene, EVERYTHING | HD_OBSERVE_FIELDS, 1.0);
 }
 
-/** Largest difference between the coefficients of two runs' phases, where they follow the same vectors. */
+/** Largest difference between the coefficients of two runs' phases, where they follow the same
+ * vectors. */
 static double phases_apart(const hd_run *a, const hd_run *b, int *compared)
 {
     double worst = 0.0;
@@ -158,8 +160,9 @@ static double phases_apart(const hd_run *a, const hd_run *b, int *compared)
     return worst;
 }
 
-/** Phases between two orthonormalisations, from the slowest vectors alone, beside those of a run that
- *  orthonormalises for every report: fields are looked at. Off by what single precision leaves astray. */
+/** Phases between two orthonormalisations, from the slowest vectors alone, beside those of a run
+ * that orthonormalises for every report: fields are looked at. Off by what single precision leaves
+ * astray. */
 static void a_look_sees_what_a_measured_state_shows(void **state)
 {
     (void)state;
@@ -210,8 +213,8 @@ static void only_what_is_needed_is_measured(void **state)
     hd_run_free(run);
 }
 
-/** Fields every 10 time units: vectors of these reports are orthonormal then and there, and only for these the
- *  intervals end early; all else is as without fields. */
+/** Fields every 10 time units: vectors of these reports are orthonormal then and there, and only
+ * for these the intervals end early; all else is as without fields. */
 static void fields_are_due_now_and_then(void **state)
 {
     (void)state;
@@ -301,7 +304,7 @@ static void a_reset_forgets_modes_steps_and_phases(void **state)
     hd_run_free(run);
 }
 
-/* ---- the negative half ------------------------------------------------------------------------ */
+/* ---- the negative half --------------------------------------------------------------------- */
 
 /** Part of J (dq, dp) = (dp, -dq) of column `from` that lies in columns [col, col + count). */
 static double conjugate_part(const hd_frame *frame, int from, int col, int count)
@@ -321,7 +324,8 @@ static double conjugate_part(const hd_frame *frame, int from, int col, int count
     return part;
 }
 
-/** Sum over a step of |dq|^2 (or of |dp|^2 = 1 - |dq|^2): does not depend on how its vectors mix. */
+/** Sum over a step of |dq|^2 (or of |dp|^2 = 1 - |dq|^2): does not depend on how its vectors mix.
+ */
 static double half_of_step(const double *ratio, const hd_step *step, bool dp)
 {
     double sum = 0.0;
@@ -335,8 +339,8 @@ static double half_of_step(const double *ratio, const hd_step *step, bool dp)
 static void check_mirror(const hd_run *run, const hd_step *step, const double *cosine,
                          const double *ratio)
 {
-    /* spans forget their start like exp(-gap t), gap 0.03 to the next step, t = 1000; what is left is the
-       orthogonality of a measured state, 1e-6 */
+    /* spans forget their start like exp(-gap t), gap 0.03 to the next step, t = 1000; what is left
+       is the orthogonality of a measured state, 1e-6 */
     const double MIRROR = 1e-4;
     const hd_step *mirror = step_of(run, step->kind, step->wave.n[0], step->wave.n[1], true);
     assert_true(step->resolved && mirror->resolved);

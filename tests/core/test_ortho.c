@@ -1,4 +1,5 @@
-/** The factorisation against LAPACK's Householder one, and the honesty of its condition estimate. */
+/** The factorisation against LAPACK's Householder one, and the honesty of its condition estimate.
+ */
 #include <float.h>
 #include <lapacke.h>
 #include <stdlib.h>
@@ -33,7 +34,8 @@ static void householder(const double *v, int rows, int n, double *diagonal)
     free(tau);
 }
 
-/** Lets the columns lean into the first two, the last ones e^spread times: so does a long interval. */
+/** Lets the columns lean into the first two, the last ones e^spread times: so does a long interval.
+ */
 static void make_ill_conditioned(hd_frame *frame, double spread)
 {
     const int n = hd_frame_vectors(frame);
@@ -45,7 +47,8 @@ static void make_ill_conditioned(hd_frame *frame, double spread)
     }
 }
 
-/** max |Q^T V - R| off the upper triangle and max |V - Q (Q^T V)|, both relative to column norms. */
+/** max |Q^T V - R| off the upper triangle and max |V - Q (Q^T V)|, both relative to column norms.
+ */
 static void check_factors(const double *v, const double *q, int rows, int n, double tolerance)
 {
     for (int col = 0; col < n; col++) {
@@ -91,8 +94,10 @@ static void check_factor(int disks, int n, double spread, hd_ortho_limits limits
     for (int again = 0; again < 2; again++) { /* nothing of the first is left in the second */
         make_ill_conditioned(frame, spread);
         double *v = copied(frame);
-        if (passes == 0) CHECK_OK(hd_ortho_step_stable(ortho, frame, 1e13));
-        else CHECK_OK(hd_ortho_step(ortho, frame, limits));
+        if (passes == 0)
+            CHECK_OK(hd_ortho_step_stable(ortho, frame, 1e13));
+        else
+            CHECK_OK(hd_ortho_step(ortho, frame, limits));
         if (passes > 0) assert_int_equal(hd_ortho_passes(ortho), passes);
         double *q = copied(frame);
         const double *r = hd_ortho_factor(ortho);
@@ -129,8 +134,10 @@ static void check_step(int disks, int n, double spread, int stable)
     make_ill_conditioned(frame, spread);
     double *v = copied(frame);
     householder(v, rows, n, diagonal);
-    if (stable) CHECK_OK(hd_ortho_step_stable(ortho, frame, 1e13));
-    else CHECK_OK(hd_ortho_step(ortho, frame, TIGHT));
+    if (stable)
+        CHECK_OK(hd_ortho_step_stable(ortho, frame, 1e13));
+    else
+        CHECK_OK(hd_ortho_step(ortho, frame, TIGHT));
     double *q = copied(frame);
     const double rounding = 32 * DBL_EPSILON * hd_ortho_condition(ortho);
     for (int col = 0; col < n; col++)
@@ -179,7 +186,8 @@ static double exact_condition(const double *v, int rows, int n)
     return sqrt(worst);
 }
 
-/** Eight probes know each column to a quarter; the largest of a hundred such estimates is within 0.8 and 2 of the truth. */
+/** Eight probes know each column to a quarter; the largest of a hundred such estimates is within
+ * 0.8 and 2 of the truth. */
 static void the_condition_is_that_of_the_inverse(void **state)
 {
     (void)state;
@@ -191,8 +199,10 @@ static void the_condition_is_that_of_the_inverse(void **state)
             CHECK_OK(hd_ortho_create(&ortho, 160, 90));
             make_ill_conditioned(frame, spread);
             double *v = copied(frame);
-            if (stable) CHECK_OK(hd_ortho_step_stable(ortho, frame, 1e13));
-            else CHECK_OK(hd_ortho_step(ortho, frame, LOOSE));
+            if (stable)
+                CHECK_OK(hd_ortho_step_stable(ortho, frame, 1e13));
+            else
+                CHECK_OK(hd_ortho_step(ortho, frame, LOOSE));
             const double ratio = hd_ortho_condition(ortho) / exact_condition(v, 160, 90);
             assert_true(ratio > 0.8 && ratio < 2.0);
             free(v);
@@ -201,8 +211,8 @@ static void the_condition_is_that_of_the_inverse(void **state)
         }
 }
 
-/** One pass: the predicted defect is never below what is measured, and not far above it. It grows as the condition, not
- *  as its square. */
+/** One pass: the predicted defect is never below what is measured, and not far above it. It grows
+ * as the condition, not as its square. */
 static void the_defect_is_foreseen(void **state)
 {
     (void)state;
@@ -224,8 +234,8 @@ static void the_defect_is_foreseen(void **state)
     }
 }
 
-/** A loose Q costs nothing: what one step leaves out, the next one adds [T5]. Made loose by hand: a factor D, upper
- *  triangular with a diagonal of 1, is in no logarithm at all. */
+/** A loose Q costs nothing: what one step leaves out, the next one adds [T5]. Made loose by hand: a
+ * factor D, upper triangular with a diagonal of 1, is in no logarithm at all. */
 static void loosen(hd_frame *frame)
 {
     for (int row = 0; row < hd_frame_rows(frame); row++) {

@@ -3,8 +3,9 @@
 
 #include "hdlyap/run.h"
 
-/** The paper's fits are guides to the eye, +-3 %; one more for the finite time. They are straight lines: the
- *  curvature of the LP branch, 0.55 k^2 at density 0.4, adds up to 4 % between the first and the last row. */
+/** The paper's fits are guides to the eye, +-3 %; one more for the finite time. They are straight
+ * lines: the curvature of the LP branch, 0.55 k^2 at density 0.4, adds up to 4 % between the first
+ * and the last row. */
 static const double FIT = 0.04, FIT_CURVED = 0.08;
 static const int POSITIVE = 1557; /* (4N - 6) / 2 */
 
@@ -76,8 +77,8 @@ static void the_index_table_of_the_paper_row_by_row(void **state)
     }
 }
 
-/** Within a step the exponents agree, between steps they do not: the first five rows, which have others on
- *  both sides. */
+/** Within a step the exponents agree, between steps they do not: the first five rows, which have
+ * others on both sides. */
 static void steps_are_flat_and_apart(void **state)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(*(hd_run *const *)state);

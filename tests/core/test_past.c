@@ -1,4 +1,5 @@
-/** What the forward pass leaves comes back as it was, from memory, from a file and computed again. */
+/** What the forward pass leaves comes back as it was, from memory, from a file and computed again.
+ */
 #include <float.h>
 
 #include "backward.h"
@@ -11,8 +12,13 @@ enum { DISKS = 6, INTERVALS = 24, SNAPSHOTS = 8, PASTS = 3, STEPS = 150 };
 
 static hd_past_def def_of(int way, int vectors)
 {
-    return (hd_past_def){.disks = DISKS, .vectors = vectors, .threads = 1, .intervals = INTERVALS,
-                         .snapshots = SNAPSHOTS, .recompute = way == 2, .folder = way == 1 ? "." : NULL};
+    return (hd_past_def){.disks = DISKS,
+                         .vectors = vectors,
+                         .threads = 1,
+                         .intervals = INTERVALS,
+                         .snapshots = SNAPSHOTS,
+                         .recompute = way == 2,
+                         .folder = way == 1 ? "." : NULL};
 }
 
 /** What each interval left. */
@@ -39,7 +45,8 @@ static forward *started(int exponents)
     for (int way = 0; way < PASTS; way++) {
         const hd_past_def def = def_of(way, forward_vectors(&x->f));
         CHECK_OK(hd_past_create(&x->past[way], &def));
-        CHECK_OK(hd_past_begin(x->past[way], hd_frame_columns(x->f.frame), hd_trajectory_time(x->f.trajectory)));
+        CHECK_OK(hd_past_begin(x->past[way], hd_frame_columns(x->f.frame),
+                               hd_trajectory_time(x->f.trajectory)));
     }
     return x;
 }
@@ -72,11 +79,13 @@ static void add_piece(forward *x, double t_begin, double t_end, bool snapshot)
     new->vectors = forward_copy(&x->f);
     new->length = t_end - t_begin;
     new->time = hd_trajectory_time(x->f.trajectory) - log->duration + t_end;
-    hd_trajectory_state(x->f.trajectory, new->q, new->p); /* of the log's end: whatever they are, they come back */
+    hd_trajectory_state(x->f.trajectory, new->q,
+                        new->p); /* of the log's end: whatever they are, they come back */
     for (int way = 0; way < PASTS; way++) {
         const hd_columns columns = hd_frame_columns(x->f.frame);
         assert_false(hd_past_is_full(x->past[way]));
-        CHECK_OK(hd_past_add(x->past[way], hd_ortho_factor(x->f.ortho), columns, log, t_begin, t_end));
+        CHECK_OK(
+            hd_past_add(x->past[way], hd_ortho_factor(x->f.ortho), columns, log, t_begin, t_end));
         if (snapshot) CHECK_OK(hd_past_snapshot(x->past[way], columns, new->q, new->p));
     }
 }
@@ -128,7 +137,8 @@ static void drop(forward *x, double time)
     for (int way = 0; way < PASTS; way++) hd_past_drop(x->past[way], time);
 }
 
-/** The rings wrap several times; what is dropped makes room, up to the interval that ends at that very time. */
+/** The rings wrap several times; what is dropped makes room, up to the interval that ends at that
+ * very time. */
 static void check_rings(int exponents)
 {
     forward *x = started(exponents);
@@ -174,7 +184,8 @@ static void a_new_beginning_forgets_everything(void **state)
     forward *x = started(HD_EXPONENTS_ALL);
     for (int again = 0; again < 4; again++) {
         for (int way = 0; way < PASTS; way++) {
-            CHECK_OK(hd_past_begin(x->past[way], hd_frame_columns(x->f.frame), hd_trajectory_time(x->f.trajectory)));
+            CHECK_OK(hd_past_begin(x->past[way], hd_frame_columns(x->f.frame),
+                                   hd_trajectory_time(x->f.trajectory)));
             assert_int_equal(hd_past_end(x->past[way]), 0);
         }
         forget(x);
@@ -184,7 +195,8 @@ static void a_new_beginning_forgets_everything(void **state)
     freed(x);
 }
 
-/** By what is in it: triangles, and snapshots of vectors and disks. Recomputed ones need less, once there are many. */
+/** By what is in it: triangles, and snapshots of vectors and disks. Recomputed ones need less, once
+ * there are many. */
 static void the_room_is_stated(void **state)
 {
     (void)state;
@@ -217,9 +229,11 @@ static void a_ring_takes_its_memory_once(void **state)
         const double q[2 * DISKS] = {0};
         if (k == 2 * INTERVALS) before = hd_memory_allocations();
         const size_t outside = hd_memory_allocations();
-        CHECK_OK(hd_past_add(past, hd_ortho_factor(x->f.ortho), columns, x->f.log, 0.0, x->f.log->duration));
+        CHECK_OK(hd_past_add(past, hd_ortho_factor(x->f.ortho), columns, x->f.log, 0.0,
+                             x->f.log->duration));
         CHECK_OK(hd_past_snapshot(past, columns, q, q));
-        CHECK_OK(hd_past_factor(past, factor, hd_past_end(past) - 2 < 0 ? 0 : hd_past_end(past) - 2));
+        CHECK_OK(
+            hd_past_factor(past, factor, hd_past_end(past) - 2 < 0 ? 0 : hd_past_end(past) - 2));
         if (before > 0) assert_int_equal(hd_memory_allocations(), outside);
     }
     free(factor);

@@ -9,7 +9,7 @@
 static const double PI = 3.14159265358979323846;
 static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 
-/* ---- clean rotation --------------------------------------------------------------------------- */
+/* ---- clean rotation ------------------------------------------------------------------------ */
 
 static void check_rate(int d, double omega)
 {
@@ -90,7 +90,7 @@ static void phases_lie_in_order(void **state)
     world_free(&w);
 }
 
-/* ---- noise ------------------------------------------------------------------------------------ */
+/* ---- noise --------------------------------------------------------------------------------- */
 
 typedef struct honesty {
     double omega, velocity; /**< rms deviation over mean stated error */
@@ -128,8 +128,8 @@ static honesty honesty_of(double white, double diffusing, int samples)
     return (honesty){sqrt(off[0]) / stated[0], sqrt(off[1]) / stated[1]};
 }
 
-/** Regression and error are made for it: 100 repetitions know the ratio to 7 %, 16 to 31 blocks their mean
- *  error to 3 % below; the samples beyond the last whole block to 10 %. */
+/** Regression and error are made for it: 100 repetitions know the ratio to 7 %, 16 to 31 blocks
+ * their mean error to 3 % below; the samples beyond the last whole block to 10 %. */
 static void errors_of_diffusing_phases_are_honest(void **state)
 {
     (void)state;
@@ -150,7 +150,8 @@ static void errors_of_trembling_phases_are_never_too_small(void **state)
     const honesty white = honesty_of(0.1, 0.0, 400), both = honesty_of(0.1, 0.1, 400);
     print_message("white noise: omega %.3f, v %.3f stated errors; diffusing too: %.2f, %.2f\n",
                   white.omega, white.velocity, both.omega, both.velocity);
-    /* regression over n samples: sqrt(12 / n); stated sqrt(1.2) sqrt(2 blocks) of 24 blocks. v: 1 / sqrt(24) */
+    /* regression over n samples: sqrt(12 / n); stated sqrt(1.2) sqrt(2 blocks) of 24 blocks. v: 1 /
+     * sqrt(24) */
     CHECK_CLOSE(white.omega, 0.023, 0.25 * 0.023);
     CHECK_CLOSE(white.velocity, 0.2, 0.4 * 0.2);
     CHECK_CLOSE(both.omega, 0.9, 0.3);
@@ -177,10 +178,10 @@ static void predictions_unwrap_far_turns(void **state)
     rotating_free(&r);
 }
 
-/* ---- velocity --------------------------------------------------------------------------------- */
+/* ---- velocity ------------------------------------------------------------------------------ */
 
-/** Vectors that turn the slower the more of them lies in the fields, as at low density: what their whole turns
- *  on average is less than their phases show. */
+/** Vectors that turn the slower the more of them lies in the fields, as at low density: what their
+ * whole turns on average is less than their phases show. */
 static void strength_that_goes_with_the_rate_is_no_bias(void **state)
 {
     (void)state;
@@ -263,7 +264,8 @@ static hd_velocity velocity_of(channel *ch, const double omega[2], const double 
     return hd_phases_velocity(ch->phases);
 }
 
-/** Weighted: one step is known ten times as well as the other, so the mean is as good as that one. */
+/** Weighted: one step is known ten times as well as the other, so the mean is as good as that one.
+ */
 static void velocity_is_the_weighted_mean_of_the_steps(void **state)
 {
     (void)state;
@@ -347,7 +349,8 @@ static void shared_sets_turn_too(void **state)
         CHECK_OK(hd_modes_measure(w.modes, hd_frame_columns(w.frame), w.q, w.p));
         hd_phases_add(phases, w.steps, t);
     }
-    /* other subspaces of the set overlap by N^(-1/2): coefficients are off by as much, at a fixed phase */
+    /* other subspaces of the set overlap by N^(-1/2): coefficients are off by as much, at a fixed
+     * phase */
     for (int k = 0; k < hd_phases_count(phases); k++) {
         const hd_lp_phase *phase = hd_phases_phase(phases, k);
         if (phase->state != HD_LP_TRACKED || phase->time < 50.0) continue;

@@ -9,7 +9,7 @@
 static const double PI = 3.14159265358979323846;
 static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 
-/* ---- vectors that change places --------------------------------------------------------------- */
+/* ---- vectors that change places ------------------------------------------------------------ */
 
 static void exchange(rotating *r, int a, int b, double sign)
 {
@@ -45,7 +45,7 @@ static void exchanges_do_not_break_the_tracks(void **state)
         }
 }
 
-/* ---- vectors that come and go ----------------------------------------------------------------- */
+/* ---- vectors that come and go -------------------------------------------------------------- */
 
 /** Vector 1 leaves the fields for so many samples. */
 static rotating interrupted(int d, double omega, int samples)
@@ -130,7 +130,7 @@ static void absence_of_all_vectors_is_survived(void **state)
     rotating_free(&r);
 }
 
-/* ---- beginning anew --------------------------------------------------------------------------- */
+/* ---- beginning anew ------------------------------------------------------------------------ */
 
 static void check_all(const rotating *r, hd_lp_state state, double time)
 {
@@ -218,7 +218,8 @@ static void clear_begins_anew(void **state)
     rotating_free(&r);
 }
 
-/** 1.25 lambda dt above pi: no phase, at no sample, until the samples are close enough; a and b are known. */
+/** 1.25 lambda dt above pi: no phase, at no sample, until the samples are close enough; a and b are
+ * known. */
 static void coarse_samples_are_said_to_be(void **state)
 {
     (void)state;

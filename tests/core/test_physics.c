@@ -1,5 +1,6 @@
 /** Numbers of other people, exact identities, and what must vanish: the whole pipeline at once.
- *  Statistical tolerances are Z combined standard errors at a fixed seed: the outcome is reproducible. */
+ * Statistical tolerances are Z combined standard errors at a fixed seed: the outcome is
+ * reproducible. */
 #include "testing.h"
 
 #include "hdlyap/run.h"
@@ -47,7 +48,8 @@ static void nine_disks_have_the_published_exponents(void **state)
     assert_int_equal(hd_run_vectors(run), 15);
     check_published(spectrum, 0, 3.2989, 0.0017);
     check_published(spectrum, 14, 1.2521, 0.0006);
-    double variance = 0.0; /* of the sum, as if independent: an upper limit is not needed at Z = 3 */
+    double variance =
+        0.0; /* of the sum, as if independent: an upper limit is not needed at Z = 3 */
     for (int col = 0; col < 15; col++) variance += pow(hd_spectrum_std_error(spectrum, col), 2.0);
     CHECK_CLOSE(hd_spectrum_ks_entropy(spectrum) / 9, 3.450, Z * hypot(sqrt(variance) / 9, 0.001));
     hd_run_free(run);

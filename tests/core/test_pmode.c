@@ -11,7 +11,8 @@
 
 enum { DISKS = 64, ROWS = 2 * DISKS, DIMENSION_MAX = 8 };
 
-/** Sums of 2N terms of order 1 / 2N, times a few operations; Gram matrices are of condition 1 to 10. */
+/** Sums of 2N terms of order 1 / 2N, times a few operations; Gram matrices are of condition 1
+ * to 10. */
 static const double ALGEBRA = 10.0 * ROWS * DBL_EPSILON;
 
 /** One LP step in a frame of its own. */
@@ -24,7 +25,8 @@ typedef struct reconstruction {
     double turn[DIMENSION_MAX * DIMENSION_MAX]; /**< rows vectors, columns fields */
 } reconstruction;
 
-/** A square lattice with momenta that alternate from row to row: all LP fields are orthonormal there. */
+/** A square lattice with momenta that alternate from row to row: all LP fields are orthonormal
+ * there. */
 static void lattice(world *w)
 {
     double q[ROWS], p[ROWS], box[2];
@@ -84,7 +86,7 @@ static void reconstruction_free(reconstruction *r)
 
 static const int nodes[][2] = {{1, 0}, {0, 1}, {1, 1}};
 
-/* ---- exact rotations -------------------------------------------------------------------------- */
+/* ---- exact rotations ----------------------------------------------------------------------- */
 
 static void a_rotation_is_found(void **state)
 {
@@ -108,8 +110,8 @@ static void a_rotation_is_found(void **state)
     }
 }
 
-/** At disks anywhere the fields are not orthonormal: vector m has length |B turn_m| before it gets 1, so
- *  Q = (lengths) (turn), whose singular values are the lengths. */
+/** At disks anywhere the fields are not orthonormal: vector m has length |B turn_m| before it gets
+ * 1, so Q = (lengths) (turn), whose singular values are the lengths. */
 static void lengths_are_the_distance_from_a_rotation(void **state)
 {
     (void)state;
@@ -133,7 +135,7 @@ static void lengths_are_the_distance_from_a_rotation(void **state)
     reconstruction_free(&r);
 }
 
-/* ---- noise ------------------------------------------------------------------------------------ */
+/* ---- noise --------------------------------------------------------------------------------- */
 
 /** Field c by QR least squares from the normalised dq halves: coefficients, and its distance. */
 static void check_field(const reconstruction *r, int c)
@@ -175,8 +177,8 @@ static void modes_are_those_of_least_squares(void **state)
         }
 }
 
-/** Vectors of length sqrt(1 + noise^2) of which noise stands across: sin of the angle between. The noise of 128
- *  numbers is known to 6 %, and 4 of its 128 directions lie within. */
+/** Vectors of length sqrt(1 + noise^2) of which noise stands across: sin of the angle between. The
+ * noise of 128 numbers is known to 6 %, and 4 of its 128 directions lie within. */
 static void noise_raises_the_residual(void **state)
 {
     (void)state;
@@ -191,7 +193,7 @@ static void noise_raises_the_residual(void **state)
     }
 }
 
-/* ---- division --------------------------------------------------------------------------------- */
+/* ---- division ------------------------------------------------------------------------------ */
 
 static double mean_square(const double *p)
 {
@@ -250,7 +252,7 @@ static void tiny_momenta_stay_finite(void **state)
     reconstruction_free(&r);
 }
 
-/* ---- what cannot be reconstructed ------------------------------------------------------------- */
+/* ---- what cannot be reconstructed ---------------------------------------------------------- */
 
 static void only_lp_steps_of_their_own(void **state)
 {

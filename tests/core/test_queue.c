@@ -102,9 +102,9 @@ static void ties_by_kind_then_disks(void **state)
     (void)state;
     enum { N = 11, MOST = INT32_MAX };
     const hd_queue_key order[N] = {
-        key_of(1.0, 0, 1, 9),    key_of(1.0, 0, 2, 3),        key_of(1.0, 0, 2, 4),
-        key_of(1.0, 0, MOST, 0), key_of(1.0, 1, 0, -2),       key_of(1.0, 1, 0, -1),
-        key_of(1.0, 1, 5, -2),   key_of(1.0, 2, 0, 0),        key_of(1.0, 2, 0, MOST - 2),
+        key_of(1.0, 0, 1, 9),    key_of(1.0, 0, 2, 3),  key_of(1.0, 0, 2, 4),
+        key_of(1.0, 0, MOST, 0), key_of(1.0, 1, 0, -2), key_of(1.0, 1, 0, -1),
+        key_of(1.0, 1, 5, -2),   key_of(1.0, 2, 0, 0),  key_of(1.0, 2, 0, MOST - 2),
         key_of(1.0, 2, 1, -2),   key_of(1.5, 0, 0, 0)};
     for (int shift = 0; shift < N; shift++)
         for (int step = 1; step < N; step++) {
@@ -201,10 +201,13 @@ static void restart_forgets_everything(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_puts_like_a_sorted_list), cmocka_unit_test(ties_by_kind_then_disks),
+        cmocka_unit_test(random_puts_like_a_sorted_list),
+        cmocka_unit_test(ties_by_kind_then_disks),
         cmocka_unit_test(order_is_read_back),
-        cmocka_unit_test(beyond_the_horizon_is_forgotten), cmocka_unit_test(last_moment_is_kept),
-        cmocka_unit_test(next_does_not_consume),          cmocka_unit_test(restart_forgets_everything),
+        cmocka_unit_test(beyond_the_horizon_is_forgotten),
+        cmocka_unit_test(last_moment_is_kept),
+        cmocka_unit_test(next_does_not_consume),
+        cmocka_unit_test(restart_forgets_everything),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,8 +17,8 @@ static hd_scene_def small(int exponents)
 
 static hd_recompute *created(int disks, int vectors, long slots, long stretch)
 {
-    const hd_recompute_def def = {.rows = 4 * disks, .vectors = vectors, .threads = 1, .slots = slots,
-                                  .stretch = stretch};
+    const hd_recompute_def def = {
+        .rows = 4 * disks, .vectors = vectors, .threads = 1, .slots = slots, .stretch = stretch};
     hd_recompute *r;
     CHECK_OK(hd_recompute_create(&r, &def));
     return r;
@@ -61,8 +61,8 @@ static void freed(kept *k)
     free(k);
 }
 
-/** The events' times are those since the piece began, known to eps of their log; Q follows its neighbours as the
- *  condition says, from where its stretch begins. */
+/** The events' times are those since the piece began, known to eps of their log; Q follows its
+ * neighbours as the condition says, from where its stretch begins. */
 static double rounding_of(const kept *k) { return 64.0 * DBL_EPSILON * STRETCH * k->f.worst; }
 
 static void check_slot(kept *k, double *found, long interval)
@@ -83,18 +83,22 @@ static void check_all(kept *k)
     free(found);
 }
 
-/** The ring wraps several times, is read now and then in between, and some logs are cut into pieces. */
+/** The ring wraps several times, is read now and then in between, and some logs are cut into
+ * pieces. */
 static void check_ring(int exponents)
 {
     kept *k = started(exponents);
     for (int interval = 0; interval < INTERVALS; interval++) {
-        const double length = 0.3 + 0.1 * (interval % 3), begin = hd_trajectory_time(k->f.trajectory);
+        const double length = 0.3 + 0.1 * (interval % 3),
+                     begin = hd_trajectory_time(k->f.trajectory);
         CHECK_OK(hd_trajectory_advance(k->f.trajectory, k->f.log, begin + length));
         assert_true(k->f.log->duration > 0.0);
-        const double duration = k->f.log->duration, cut = interval % 4 == 1 ? 0.4 * duration : duration;
+        const double duration = k->f.log->duration,
+                     cut = interval % 4 == 1 ? 0.4 * duration : duration;
         add_piece(k, 0.0, cut);
         if (cut < duration) add_piece(k, cut, duration);
-        if (interval == 2 || interval % 9 == 0) check_all(k); /* also of a stretch that goes on afterwards */
+        if (interval == 2 || interval % 9 == 0)
+            check_all(k); /* also of a stretch that goes on afterwards */
     }
     assert_true(k->end > 4 * SLOTS);
     check_all(k);
@@ -109,18 +113,24 @@ static void triangles_are_those_of_the_forward_pass(void **state)
     check_ring(1);
 }
 
-/* ---- logs written by hand --------------------------------------------------------------------- */
+/* ---- logs written by hand ------------------------------------------------------------------ */
 
-/** Two disks that meet at these times, a normal turned a little further each time; `graze` is -p.n of the second. */
-static void write_log(hd_event_log *log, const double *times, int count, double duration, double graze)
+/** Two disks that meet at these times, a normal turned a little further each time; `graze` is -p.n
+ * of the second. */
+static void write_log(hd_event_log *log, const double *times, int count, double duration,
+                      double graze)
 {
     static hd_event event[8];
     for (int k = 0; k < count; k++) {
         const double turn = 0.7 * k, nx = cos(turn), ny = sin(turn), b = k == 1 ? -graze : -0.8;
-        event[k] = (hd_event){
-            .t = times[k], .i = 0, .j = 1, .n = {nx, ny}, .p = {b * nx - 0.9 * ny, b * ny + 0.9 * nx}};
+        event[k] = (hd_event){.t = times[k],
+                              .i = 0,
+                              .j = 1,
+                              .n = {nx, ny},
+                              .p = {b * nx - 0.9 * ny, b * ny + 0.9 * nx}};
     }
-    *log = (hd_event_log){.event = event, .count = (size_t)count, .capacity = (size_t)count, .duration = duration};
+    *log = (hd_event_log){
+        .event = event, .count = (size_t)count, .capacity = (size_t)count, .duration = duration};
 }
 
 typedef struct pair {
@@ -173,7 +183,8 @@ static void an_event_at_a_cut_is_the_next_piece_s(void **state)
     pair_freed(&p);
 }
 
-/** What Cholesky cannot factor takes reflections, in the forward pass as here; the next slot goes on from there. */
+/** What Cholesky cannot factor takes reflections, in the forward pass as here; the next slot goes
+ * on from there. */
 static void a_grazing_slot_takes_the_stable_step(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/** Whole runs: the schedule, intervals that were too long, restarts of the average, what is allocated.
- *  Includes run.c to set its interval by hand: no caller can make it too long. */
+/** Whole runs: the schedule, intervals that were too long, restarts of the average, what is
+ * allocated. Includes run.c to set its interval by hand: no caller can make it too long. */
 #include "../../hdlyap_core/src/run.c"
 
 #include "testing.h"
@@ -83,7 +83,8 @@ static void without_exponents_there_is_no_frame(void **state)
 /** To which the twin with an interval of 0.05 is known itself. */
 static const double EXACT = 1e-13;
 
-/** Whatever interval is asked for: the exponents of the exact factorisation, to the accuracy asked. */
+/** Whatever interval is asked for: the exponents of the exact factorisation, to the accuracy asked.
+ */
 static void any_interval_gives_the_same_spectrum(void **state)
 {
     (void)state;
@@ -220,8 +221,8 @@ static double predicted_over_taken(uint64_t seed)
     return total[tenth] / taken;
 }
 
-/** Errors are known to some ten percent after a tenth of the time, so the time to some twenty: three of
- *  four runs end within 30 % of what was said. */
+/** Errors are known to some ten percent after a tenth of the time, so the time to some twenty:
+ * three of four runs end within 30 % of what was said. */
 static void the_time_to_the_target_is_predicted(void **state)
 {
     (void)state;

@@ -42,7 +42,7 @@ static void default_is_the_papers(void **state)
 typedef struct field {
     const char *name, *allowed;
     size_t offset;
-    double least, most; /**< accepted */
+    double least, most;  /**< accepted */
     double below, above; /**< refused */
 } field;
 
@@ -73,8 +73,8 @@ static void real_fields_out_of_range(void **state)
     (void)state;
     for (int k = 0; k < FIELD_COUNT; k++) {
         const field *f = &FIELDS[k];
-        const double refused[] = {f->below, f->above, NAN, -NAN, INFINITY, -INFINITY, -1.0, -DBL_MAX,
-                                  DBL_MAX};
+        const double refused[] = {f->below,  f->above, NAN,      -NAN,   INFINITY,
+                                  -INFINITY, -1.0,     -DBL_MAX, DBL_MAX};
         for (size_t v = 0; v < sizeof refused / sizeof *refused; v++) {
             char value[64];
             const hd_scene_def def = with(f, refused[v]);
@@ -182,8 +182,8 @@ static void box_has_area_and_aspect(void **state)
     (void)state;
     const double density[] = {1e-6, 0.3, 1.1}, aspect[] = {1e-3, 0.867, 1.0, 77.0};
     for (int k = 0; k < 12; k++) {
-        const hd_scene_def def =
-            scene_of(50 * (k + 1), density[k % 3], aspect[k % 4], HD_PERIODIC, HD_PERIODIC, 1);
+        const hd_scene_def def = scene_of(50 * (k + 1), density[k % 3], aspect[k % 4], HD_PERIODIC,
+                                          HD_PERIODIC, 1);
         const double area = def.disks / def.density, rounding = 4.0 * DBL_EPSILON;
         double box[2];
         hd_scene_box(&def, box);
@@ -198,7 +198,8 @@ static void numbers_of_vectors(void **state)
     const int zeros[] = {6, 4, 4, 2};
     for (int b = 0; b < 4; b++)
         for (int n = 2; n <= 1000000; n = n * 3 + 1) {
-            hd_scene_def def = scene_of(n, 0.5, 1.0, (hd_boundary)(b & 1), (hd_boundary)(b >> 1), 1);
+            hd_scene_def def = scene_of(n, 0.5, 1.0, (hd_boundary)(b & 1), (hd_boundary)(b >> 1),
+                                        1);
             assert_int_equal(hd_scene_zero_exponents(&def), zeros[b]);
             def.exponents = HD_EXPONENTS_ALL;
             assert_int_equal(hd_scene_vectors(&def), 4 * n);
@@ -229,11 +230,11 @@ static void corners_of_the_table(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(default_is_the_papers),    cmocka_unit_test(real_fields_out_of_range),
+        cmocka_unit_test(default_is_the_papers),     cmocka_unit_test(real_fields_out_of_range),
         cmocka_unit_test(whole_fields_out_of_range), cmocka_unit_test(exponents_out_of_range),
-        cmocka_unit_test(narrower_than_a_disk),     cmocka_unit_test(too_dense_for_the_lattice),
-        cmocka_unit_test(message_may_be_short),     cmocka_unit_test(box_has_area_and_aspect),
-        cmocka_unit_test(numbers_of_vectors),       cmocka_unit_test(corners_of_the_table),
+        cmocka_unit_test(narrower_than_a_disk),      cmocka_unit_test(too_dense_for_the_lattice),
+        cmocka_unit_test(message_may_be_short),      cmocka_unit_test(box_has_area_and_aspect),
+        cmocka_unit_test(numbers_of_vectors),        cmocka_unit_test(corners_of_the_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,7 +28,8 @@ static void phases_without_length_are_skipped(void **state)
     assert_true(hd_schedule_phase_end(&s) == INFINITY);
 }
 
-/** What ends at the cuts of one phase, until it does: counts, and every cut checked against its time. */
+/** What ends at the cuts of one phase, until it does: counts, and every cut checked against its
+ * time. */
 typedef struct counts {
     int cuts, reports, samples, whole;
 } counts;
@@ -66,7 +67,7 @@ static void samples_are_as_long_as_allowed(void **state)
     (void)state;
     const struct {
         double report_interval, sample_max, sample, cut;
-    } cases[] = {{1.0, 2.65, 2.0, 1.0}, {1.0, 0.9, 0.5, 0.5},  {0.1, 2.65, 2.6, 0.1},
+    } cases[] = {{1.0, 2.65, 2.0, 1.0},  {1.0, 0.9, 0.5, 0.5}, {0.1, 2.65, 2.6, 0.1},
                  {10.0, 2.65, 2.5, 2.5}, {1.0, 1.0, 1.0, 1.0}, {1.0, 3.0, 3.0, 1.0}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         hd_schedule s = schedule_of(0.0, 200.0, cases[k].report_interval);
@@ -111,7 +112,8 @@ static void pieces_are_short_enough_for_the_phases(void **state)
     }
 }
 
-/** Of the reports every `report` time units in an averaging of 50, with cuts as short as piece_max. */
+/** Of the reports every `report` time units in an averaging of 50, with cuts as short as piece_max.
+ */
 static void expect_multiples(double report, double sample_max, double piece_max, double interval)
 {
     hd_schedule s = schedule_of(0.0, 50.0, report);

@@ -8,10 +8,11 @@
 
 static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 
-/** The fields of different waves overlap by N^(-1/2) each: a vector of one has up to d / N in another. */
+/** The fields of different waves overlap by N^(-1/2) each: a vector of one has up to d / N in
+ * another. */
 static const double NEARLY = 0.15;
 
-/* ---- steps that stand alone ------------------------------------------------------------------- */
+/* ---- steps that stand alone ---------------------------------------------------------------- */
 
 static void check_vectors(const world *w)
 {
@@ -188,7 +189,7 @@ static void errors_excuse_what_is_not_flat(void **state)
     world_free(&w);
 }
 
-/* ---- steps that coincide ---------------------------------------------------------------------- */
+/* ---- steps that coincide ------------------------------------------------------------------- */
 
 /** Place a and place b share one window at b's; all turned at random. */
 static void mix(world *w, double *exponents, int a, int b, int col, double noise)
@@ -274,8 +275,8 @@ static void more_than_two_can_share(void **state)
     world_free(&w);
 }
 
-/** Place `weak` has two vectors left, 0.62 of each, on both sides of T(0,1): found there, but not to half of it. It is
- *  left out, T stays. */
+/** Place `weak` has two vectors left, 0.62 of each, on both sides of T(0,1): found there, but not
+ * to half of it. It is left out, T stays. */
 static void check_weak_neighbour(int weak)
 {
     const hd_scene_def def = scene_of_places(0.8);
@@ -333,8 +334,8 @@ static void exponents_of_shared_sets_follow_the_shares(void **state)
     world_free(&w);
 }
 
-/** Both vectors of T(0,1) turned into neighbours of LP(1,0): this part of T is there; they join where it is
- *  a quarter of what is left, above 1/5. */
+/** Both vectors of T(0,1) turned into neighbours of LP(1,0): this part of T is there; they join
+ * where it is a quarter of what is left, above 1/5. */
 static world leaking(double part, double exponent)
 {
     double exponents[VECTORS];

@@ -24,7 +24,8 @@ static void add(hd_shape *shape, double v[ROWS][STRIDE])
 static void fill(double v[ROWS][STRIDE])
 {
     for (int row = 0; row < ROWS; row++)
-        for (int col = 0; col < STRIDE; col++) v[row][col] = col < VECTORS ? 0.0 : NAN; /* padding */
+        for (int col = 0; col < STRIDE; col++)
+            v[row][col] = col < VECTORS ? 0.0 : NAN; /* padding */
     v[4 * 3 + 1][0] = 0.6;
     v[4 * 3 + 2][0] = -0.8;
     for (int row = 0; row < ROWS; row++) v[row][1] = sqrt(1.0 / ROWS) * (row % 3 ? 1.0 : -1.0);

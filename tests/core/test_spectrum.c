@@ -25,7 +25,8 @@ static void means_are_weighted_by_time(void **state)
     CHECK_CLOSE(hd_spectrum_local(s, 0), 0.5, 0.0);
     CHECK_CLOSE(hd_spectrum_exponent(s, 0), 7.0 / 4.0, 0.0);
     hd_spectrum_clear(s);
-    CHECK_CLOSE(hd_spectrum_time(s) + hd_spectrum_exponent(s, 0) + hd_spectrum_local(s, 0), 0.0, 0.0);
+    CHECK_CLOSE(hd_spectrum_time(s) + hd_spectrum_exponent(s, 0) + hd_spectrum_local(s, 0), 0.0,
+                0.0);
     hd_spectrum_free(s);
 }
 

@@ -19,7 +19,8 @@ static hd_splitting *created(int vectors, int unstable, int centre)
     return s;
 }
 
-/** Unstable e_1, e_2 (oblique by delta); centre e_3, e_4; stable: one alpha from e_1, one beta from e_3. */
+/** Unstable e_1, e_2 (oblique by delta); centre e_3, e_4; stable: one alpha from e_1, one beta from
+ * e_3. */
 static void fill(double *c, double alpha, double beta, double delta)
 {
     memset(c, 0, N * N * sizeof *c);
@@ -41,11 +42,15 @@ static double beta_of(int k) { return 0.2 + 0.03 * k; }
 static double delta_of(int k) { return 0.01 + 0.035 * k; }
 
 typedef struct truth {
-    double mean[3], all[3], least[3], delta, delta_least; /* of unstable-stable, unstable-centre, centre-stable */
+    double mean[3], all[3], least[3], delta,
+        delta_least; /* of unstable-stable, unstable-centre, centre-stable */
     long smallest[3][HD_ANGLE_BINS], every[3][HD_ANGLE_BINS];
 } truth;
 
-static int bin_of(double angle) { return angle >= PI / 2 ? HD_ANGLE_BINS - 1 : (int)(angle * 180.0 / PI); }
+static int bin_of(double angle)
+{
+    return angle >= PI / 2 ? HD_ANGLE_BINS - 1 : (int)(angle * 180.0 / PI);
+}
 
 static truth truth_of(void)
 {
@@ -90,8 +95,8 @@ static void check_errors(const hd_splitting *s)
     }
     const int pair[] = {HD_UNSTABLE_STABLE, HD_CENTRE_STABLE};
     for (int k = 0; k < 2; k++)
-        CHECK_CLOSE(hd_splitting_angle(s, (hd_pair_of_spaces)pair[k])->std_error, hd_blocks_std_error(&blocks, k),
-                    ROUNDING);
+        CHECK_CLOSE(hd_splitting_angle(s, (hd_pair_of_spaces)pair[k])->std_error,
+                    hd_blocks_std_error(&blocks, k), ROUNDING);
     hd_blocks_clear(&blocks);
 }
 
@@ -117,7 +122,8 @@ static void known_angles_are_found(void **state)
         assert_int_equal(hd_splitting_samples(s), SAMPLES);
         for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) check_pair(s, &t, pair, last[pair]);
         check_errors(s);
-        for (int col = 1; col + 1 < N; col++) CHECK_CLOSE(hd_splitting_neighbours(s)[col], PI / 2, ROUNDING);
+        for (int col = 1; col + 1 < N; col++)
+            CHECK_CLOSE(hd_splitting_neighbours(s)[col], PI / 2, ROUNDING);
         CHECK_CLOSE(hd_splitting_neighbours(s)[0], t.delta, ROUNDING);
         CHECK_CLOSE(hd_splitting_neighbours_least(s)[0], t.delta_least, ROUNDING);
         hd_splitting_clear(s);
@@ -157,7 +163,8 @@ static void check_order(const hd_splitting *s, double growth[TIMES][MANY], int t
         for (int k = 0; k < times; k++) {
             int crossed = 0;
             for (int before = 0; before <= col; before++)
-                for (int later = col + 1; later < MANY; later++) crossed |= growth[k][before] < growth[k][later];
+                for (int later = col + 1; later < MANY; later++)
+                    crossed |= growth[k][before] < growth[k][later];
             violated += growth[k][col] < growth[k][col + 1];
             entangled += crossed;
         }
@@ -173,13 +180,15 @@ static void order_violations_are_counted(void **state)
     hd_random random = hd_random_seeded(8, 0);
     hd_splitting *s = created(MANY, MANY, 0);
     for (int k = 0; k < TIMES; k++) {
-        for (int col = 0; col < MANY; col++) growth[k][col] = -0.3 * col + 1.2 * hd_random_symmetric(&random);
+        for (int col = 0; col < MANY; col++)
+            growth[k][col] = -0.3 * col + 1.2 * hd_random_symmetric(&random);
         hd_splitting_grow(s, growth[k]);
         check_order(s, growth, k + 1);
     }
     int open = 0; /* the case tells: neither all nor none */
     for (int col = 0; col + 1 < MANY; col++)
-        open += hd_splitting_violations(s)[col] < hd_splitting_entangled(s)[col] && hd_splitting_entangled(s)[col] < 1;
+        open += hd_splitting_violations(s)[col] < hd_splitting_entangled(s)[col] &&
+                hd_splitting_entangled(s)[col] < 1;
     assert_true(open > 3);
     hd_splitting_clear(s);
     hd_splitting_grow(s, growth[0]);

@@ -1,5 +1,5 @@
-/** Memory of the paper's scene from its creation to its first report: at most 1.4 times the frame and its
- *  Gram matrix, 8 m n + 8 n^2 bytes, and the disks' own state. */
+/** Memory of the paper's scene from its creation to its first report: at most 1.4 times the frame
+ * and its Gram matrix, 8 m n + 8 n^2 bytes, and the disks' own state. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/resource.h>
@@ -12,11 +12,12 @@
 #include "hdlyap/hdlyap.h"
 
 static const double MOST = 1.4;
-/** OpenBLAS's packing buffers, of which a kernel touches what it needs (32 MB a thread at most, 12 MB seen), and
- *  allocations rounded up to huge pages. */
+/** OpenBLAS's packing buffers, of which a kernel touches what it needs (32 MB a thread at most, 12
+ * MB seen), and allocations rounded up to huge pages. */
 static const double LIBRARY = 64e6;
 
-/** Bytes at the peak: asked for by the core, and resident, with libraries and all that they take. */
+/** Bytes at the peak: asked for by the core, and resident, with libraries and all that they take.
+ */
 typedef struct peak {
     double asked, resident;
     int vectors;

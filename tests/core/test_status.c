@@ -54,7 +54,7 @@ static void try_returns_what_failed(void **state)
     }
 }
 
-/* ---- contracts -------------------------------------------------------------------------------- */
+/* ---- contracts ----------------------------------------------------------------------------- */
 
 static jmp_buf caught;
 static const char *seen_condition, *seen_file;
@@ -118,7 +118,8 @@ static void broken_contract_never_goes_on(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_status_has_its_own_text), cmocka_unit_test(unknown_status_has_a_text),
+        cmocka_unit_test(every_status_has_its_own_text),
+        cmocka_unit_test(unknown_status_has_a_text),
         cmocka_unit_test(try_returns_what_failed),
         cmocka_unit_test(handler_is_told_condition_and_place),
         cmocka_unit_test(broken_contract_never_goes_on),

@@ -10,7 +10,7 @@ static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 
 enum { ALL_MAX = 4 * DISKS };
 
-/* ---- zero modes and the negative half --------------------------------------------------------- */
+/* ---- zero modes and the negative half ------------------------------------------------------ */
 
 static void write_zero(world *w, int col, int null, bool of_dp)
 {
@@ -114,13 +114,14 @@ static void all_vectors_have_conjugate_steps(void **state)
     world_free(&w);
 }
 
-/* ---- errors ----------------------------------------------------------------------------------- */
+/* ---- errors -------------------------------------------------------------------------------- */
 
 enum { SAMPLES = 256, REPEATS = 10 };
 
 /** Relative size of the fluctuations of one sample. */
 static const double SIZE = 0.05;
-/** Errors of white noise come from 256 / 8 blocks, each known to 1 / sqrt(62); 6 steps, REPEATS times; 3 sigma. */
+/** Errors of white noise come from 256 / 8 blocks, each known to 1 / sqrt(62); 6 steps, REPEATS
+ * times; 3 sigma. */
 static const double KNOWN_TO = 3.0 * 0.127 / 7.7;
 
 /** How the vectors of a step move: as one, each by itself, or every second against the others. */
@@ -142,7 +143,8 @@ static void add_samples(world *w, const double *exponents, motion how, int sampl
     hd_steps_find(w->steps, w->spectrum);
 }
 
-/** Root mean square of (stated error) / (exponent SIZE / sqrt(samples)), over the steps and REPEATS. */
+/** Root mean square of (stated error) / (exponent SIZE / sqrt(samples)), over the steps and
+ * REPEATS. */
 static double error_of(motion how)
 {
     double exponents[VECTORS], square = 0.0;
@@ -193,8 +195,8 @@ static void few_samples_give_no_error(void **state)
     world_free(&w);
 }
 
-/** The mean over all times: blocks of its last quarter, scaled. The set is there all the time, only its
- *  blocks begin anew. */
+/** The mean over all times: blocks of its last quarter, scaled. The set is there all the time, only
+ * its blocks begin anew. */
 static void younger_sets_scale_their_errors(void **state)
 {
     (void)state;
@@ -233,7 +235,7 @@ static void new_sets_take_the_errors_of_their_vectors(void **state)
     world_free(&w);
 }
 
-/* ---- changes ---------------------------------------------------------------------------------- */
+/* ---- changes ------------------------------------------------------------------------------- */
 
 static void changes_are_counted(void **state)
 {
@@ -266,7 +268,8 @@ static double error_of_vectors(const world *w, const hd_step *step)
     return sum / step->count;
 }
 
-/** Five of LP(1,1)'s eight vectors leave it and come back: its errors begin anew, those of the others do not. */
+/** Five of LP(1,1)'s eight vectors leave it and come back: its errors begin anew, those of the
+ * others do not. */
 static void changes_begin_the_errors_anew(void **state)
 {
     (void)state;

@@ -107,8 +107,8 @@ static void check_orthonormal(const world *w)
         }
 }
 
-/** Within 1e-2 of the vectors of the exact factorisation, signs included; that is the accuracy of the iteration
- *  and of single precision at conditions of some hundred to some thousand. */
+/** Within 1e-2 of the vectors of the exact factorisation, signs included; that is the accuracy of
+ * the iteration and of single precision at conditions of some hundred to some thousand. */
 static void check_against_orthonormalisation(hd_scene_def scene, double collisions)
 {
     world w = settled(scene);

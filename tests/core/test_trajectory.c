@@ -37,7 +37,7 @@ static hd_event_log *new_log(void)
     return log;
 }
 
-/* ---- cutting into intervals ------------------------------------------------------------------- */
+/* ---- cutting into intervals ---------------------------------------------------------------- */
 
 typedef struct whole {
     hd_scene_def def;
@@ -169,7 +169,8 @@ static void event_at_the_end_belongs_to_the_next_interval(void **state)
     hd_trajectory_free(tr);
 }
 
-/** Epochs are a power of two long: cuts at all multiples of every candidate, and a bit around them. */
+/** Epochs are a power of two long: cuts at all multiples of every candidate, and a bit around them.
+ */
 static void intervals_cut_at_epochs(void **state)
 {
     (void)state;
@@ -260,7 +261,7 @@ static void late_intervals_lose_nothing(void **state)
     hd_trajectory_free(tr);
 }
 
-/* ---- creation --------------------------------------------------------------------------------- */
+/* ---- creation ------------------------------------------------------------------------------ */
 
 static void starts_at_rest_of_the_centre(void **state)
 {
@@ -375,7 +376,7 @@ static void resting_disks_rest(void **state)
     hd_trajectory_free(tr);
 }
 
-/* ---- memory and size -------------------------------------------------------------------------- */
+/* ---- memory and size ----------------------------------------------------------------------- */
 
 static void warm_log_allocates_nothing(void **state)
 {

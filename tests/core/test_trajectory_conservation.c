@@ -30,7 +30,8 @@ static void check_inside(const hd_trajectory *tr, const hd_scene_def *def, doubl
     hd_trajectory_state(tr, q, NULL);
     for (int k = 0; k < 2 * def->disks; k++) {
         const double reach = def->boundary[k % 2] == HD_REFLECTING ? 0.5 : 0.0;
-        const double slack = DBL_EPSILON * box[k % 2]; /* on its way to a wall, just before the event */
+        const double slack = DBL_EPSILON *
+                             box[k % 2]; /* on its way to a wall, just before the event */
         assert_true(q[k] >= reach - slack && q[k] <= box[k % 2] - reach + slack);
     }
 }
@@ -69,9 +70,8 @@ static void ten_disks_each_boundary(void **state)
 {
     (void)state;
     for (int b = 1; b < 4; b++) {
-        const hd_scene_def def =
-            scene_of(10, 0.5, 0.8, b & 1 ? HD_REFLECTING : HD_PERIODIC,
-                     b & 2 ? HD_REFLECTING : HD_PERIODIC, 11);
+        const hd_scene_def def = scene_of(10, 0.5, 0.8, b & 1 ? HD_REFLECTING : HD_PERIODIC,
+                                          b & 2 ? HD_REFLECTING : HD_PERIODIC, 11);
         check_run(&def, 0.3 * MEDIUM_RUN);
     }
 }

@@ -1,24 +1,25 @@
 /** Trajectory of two disks over a full grid of impact parameter, angle, image and wall, against the
- *  closed form in long double. */
+ * closed form in long double. */
 #include <float.h>
 
 #include "scenes.h"
 #include "testing.h"
 
-/** The core moves coordinates of size L with a few roundings each; ten of them are never exceeded. */
+/** The core moves coordinates of size L with a few roundings each; ten of them are never exceeded.
+ */
 static const double POSITION_ROUNDING = 10.0 * DBL_EPSILON;
 /** Momenta are of size 1 and pass five operations. */
 static const double MOMENTUM_ROUNDING = 16.0 * DBL_EPSILON;
 
 static const double LX = 9.0, LY = 7.0, PI = 3.14159265358979323846;
-static const double DISTANCE = 2.5;   /* of the centres at the start */
+static const double DISTANCE = 2.5;               /* of the centres at the start */
 static const double DRIFT[2] = {0.3125, -0.1875}; /* of both disks */
 enum { ANGLES = 24, IMPACTS = 41 };
 
 typedef struct encounter {
     double q[4], p[4];
-    int image[2];      /**< box edges to add to disk 1 */
-    long double miss;  /**< impact parameter as it came out after rounding */
+    int image[2];              /**< box edges to add to disk 1 */
+    long double miss;          /**< impact parameter as it came out after rounding */
     long double time, n[2], b; /**< of the contact: its time, unit vector and p.n */
 } encounter;
 
@@ -44,8 +45,8 @@ static void closed_form(encounter *e)
     for (int d = 0; d < 2; d++) e->n[d] = r[d] + p[d] * e->time;
 }
 
-/** Disk 1 comes from `angle` with impact parameter b; it lies `image` boxes away from where disk 0 sees
- *  it, so the pair meets across that edge. */
+/** Disk 1 comes from `angle` with impact parameter b; it lies `image` boxes away from where disk 0
+ * sees it, so the pair meets across that edge. */
 static encounter encounter_at(double angle, double b, int mx, int my)
 {
     const double u[2] = {cos(angle), sin(angle)}, box[2] = {LX, LY};
@@ -116,7 +117,8 @@ static void check_encounter(const encounter *e)
     hd_trajectory_state(tr, NULL, after);
     const int meets = e->miss < 1;
     if ((int)log->count != meets)
-        fail_msg("miss %.17Lg image %d %d: %zu events", e->miss, e->image[0], e->image[1], log->count);
+        fail_msg("miss %.17Lg image %d %d: %zu events", e->miss, e->image[0], e->image[1],
+                 log->count);
     if (meets) {
         check_event(e, &log->event[0]);
         check_outcome(e, after);
@@ -134,7 +136,8 @@ static void every_impact_angle_and_image(void **state)
             for (int m = 0; m < 9; m++) {
                 /* offset so that no line is drawn exactly through a grazing one */
                 const double b = -1.2 + 2.4 * (k + 0.01) / (IMPACTS - 1);
-                const encounter e = encounter_at(2.0 * PI * (a + 0.1) / ANGLES, b, m % 3 - 1, m / 3 - 1);
+                const encounter e = encounter_at(2.0 * PI * (a + 0.1) / ANGLES, b, m % 3 - 1,
+                                                 m / 3 - 1);
                 check_encounter(&e);
                 hits += e.miss < 1;
                 misses += e.miss >= 1;
@@ -158,7 +161,7 @@ static void grazing(void **state)
             }
 }
 
-/* ---- walls ------------------------------------------------------------------------------------ */
+/* ---- walls --------------------------------------------------------------------------------- */
 
 /** One disk against each wall from every angle; the other one rests far away. */
 static void check_wall(const hd_scene_def *def, int direction, int high, double angle)
@@ -172,7 +175,8 @@ static void check_wall(const hd_scene_def *def, int direction, int high, double 
     q[2 + across] = 1.0;
     p[direction] = sign * cos(angle);
     p[across] = sin(angle);
-    const long double reach = 0.5L * box[direction] - 0.5L, t = reach / fabsl((long double)p[direction]);
+    const long double reach = 0.5L * box[direction] - 0.5L,
+                      t = reach / fabsl((long double)p[direction]);
     CHECK_OK(hd_event_log_create(&log));
     CHECK_OK(hd_trajectory_create_from(&tr, def, q, p));
     CHECK_OK(hd_trajectory_advance(tr, log, (double)t * 1.01));
@@ -199,7 +203,8 @@ static void every_wall_and_angle(void **state)
             check_wall(&def, wall / 2, wall % 2, 0.6 * a / WALL_ANGLES);
 }
 
-/** Between walls a pair never meets through an image: both close to opposite walls, moving outwards. */
+/** Between walls a pair never meets through an image: both close to opposite walls, moving
+ * outwards. */
 static void no_image_through_a_wall(void **state)
 {
     (void)state;

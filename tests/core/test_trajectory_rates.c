@@ -1,5 +1,5 @@
-/** Trajectory against kinetic theory, an exact mean and independent codes. Seeds are fixed, so that a
- *  tolerance of Z standard errors passes or fails for good. */
+/** Trajectory against kinetic theory, an exact mean and independent codes. Seeds are fixed, so that
+ * a tolerance of Z standard errors passes or fails for good. */
 #include <stdlib.h>
 
 #include "scenes.h"
@@ -78,7 +78,8 @@ static void reported_estimate(void **state)
 }
 
 /** Published with one standard error in the last digit: "collisions per disk and time" count the
- *  participations of a disk, two for each pair event (half of them would be off by a factor of two). */
+ * participations of a disk, two for each pair event (half of them would be off by a factor of
+ * two). */
 static void independent_codes(void **state)
 {
     (void)state;
@@ -97,7 +98,7 @@ static void independent_codes(void **state)
 }
 
 /** Mean of |p.n| over collisions where both directions are periodic and the total momentum is zero:
- *  momenta are uniform on the sphere of radius R in M dimensions, physics.md 6. */
+ * momenta are uniform on the sphere of radius R in M dimensions, physics.md 6. */
 static double exact_mean_impact(int disks)
 {
     const double radius = sqrt(2.0 * disks), dimensions = 2.0 * disks - 2.0;

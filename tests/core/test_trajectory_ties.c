@@ -1,5 +1,6 @@
 /** Trajectory when many events fall on the same instant: perfect lattices with symmetric momenta,
- *  three disks that meet at once, disks in corners. Ends, conserves, and gives the same log each time. */
+ * three disks that meet at once, disks in corners. Ends, conserves, and gives the same log each
+ * time. */
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -64,7 +65,7 @@ static void check_all(const hd_scene_def *def, const double *q, const double *p,
     twin_compare(started(def, q, p), def, EVENTS);
 }
 
-/* ---- perfect lattices ------------------------------------------------------------------------- */
+/* ---- perfect lattices ---------------------------------------------------------------------- */
 
 /** Momentum of the disk in column x, row y. */
 typedef void (*momentum_of)(double p[2], int x, int y);
@@ -99,8 +100,8 @@ static void into_quadrants(double p[2], int x, int y)
 static void square_lattice(hd_boundary boundary, momentum_of momentum)
 {
     const double spacing = 1.5;
-    const hd_scene_def def =
-        scene_in_box(DISKS, spacing * SIDE, spacing * SIDE, boundary, boundary, 1);
+    const hd_scene_def def = scene_in_box(DISKS, spacing * SIDE, spacing * SIDE, boundary, boundary,
+                                          1);
     double q[2 * DISKS], p[2 * DISKS];
     for (int k = 0; k < DISKS; k++) {
         q[2 * k] = spacing * (0.5 + k % SIDE);
@@ -137,7 +138,7 @@ static void touching_columns(void **state)
     check_all(&def, q, p, 200.0);
 }
 
-/* ---- few disks -------------------------------------------------------------------------------- */
+/* ---- few disks ----------------------------------------------------------------------------- */
 
 /** Two disks hit a resting third from both sides at the same instant, along x and obliquely. */
 static void three_meet_at_once(void **state)
@@ -156,7 +157,8 @@ static void three_meet_at_once(void **state)
     }
 }
 
-/** A mirror pair behind a third: contacts (0, 2) and (1, 2) at the same instant, (0, 2) is first. */
+/** A mirror pair behind a third: contacts (0, 2) and (1, 2) at the same instant, (0, 2) is first.
+ */
 static void ties_go_by_index(void **state)
 {
     (void)state;
@@ -234,7 +236,8 @@ static void two_images_at_once(void **state)
     twin_compare(started(&def, q, p), &def, 4);
 }
 
-/** The edge of a cell in x and a wall in y at the same instant: cells leave no trace in the order. */
+/** The edge of a cell in x and a wall in y at the same instant: cells leave no trace in the order.
+ */
 static void wall_at_a_cell_edge(void **state)
 {
     (void)state;
@@ -260,10 +263,10 @@ static void a_broken_state_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(square_lattices),  cmocka_unit_test(touching_columns),
-        cmocka_unit_test(three_meet_at_once), cmocka_unit_test(ties_go_by_index),
-        cmocka_unit_test(disk_in_a_corner), cmocka_unit_test(pair_goes_before_wall),
-        cmocka_unit_test(two_images_at_once), cmocka_unit_test(wall_at_a_cell_edge),
+        cmocka_unit_test(square_lattices),           cmocka_unit_test(touching_columns),
+        cmocka_unit_test(three_meet_at_once),        cmocka_unit_test(ties_go_by_index),
+        cmocka_unit_test(disk_in_a_corner),          cmocka_unit_test(pair_goes_before_wall),
+        cmocka_unit_test(two_images_at_once),        cmocka_unit_test(wall_at_a_cell_edge),
         cmocka_unit_test(a_broken_state_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,7 +19,7 @@ static void compare_scene(const hd_scene_def *def, size_t events)
     twin_compare(fast, def, events);
 }
 
-/* ---- scenes ----------------------------------------------------------------------------------- */
+/* ---- scenes -------------------------------------------------------------------------------- */
 
 /** Densities from thin gas to a fraction of the densest lattice. */
 static void sweep(int disks, double aspect, size_t events)
@@ -36,11 +36,31 @@ static void sweep(int disks, double aspect, size_t events)
     }
 }
 
-static void two_disks(void **state) { (void)state; sweep(2, 0.9, 3000); }
-static void three_disks(void **state) { (void)state; sweep(3, 1.1, 3000); }
-static void five_disks(void **state) { (void)state; sweep(5, 0.6, 3000); }
-static void twenty_disks(void **state) { (void)state; sweep(20, 1.0, 3000); }
-static void sixty_disks(void **state) { (void)state; sweep(60, 0.867, 1500); }
+static void two_disks(void **state)
+{
+    (void)state;
+    sweep(2, 0.9, 3000);
+}
+static void three_disks(void **state)
+{
+    (void)state;
+    sweep(3, 1.1, 3000);
+}
+static void five_disks(void **state)
+{
+    (void)state;
+    sweep(5, 0.6, 3000);
+}
+static void twenty_disks(void **state)
+{
+    (void)state;
+    sweep(20, 1.0, 3000);
+}
+static void sixty_disks(void **state)
+{
+    (void)state;
+    sweep(60, 0.867, 1500);
+}
 
 /** Thin gas: many crossings of the box, hence large images, between two collisions. */
 static void thin_gas(void **state)
@@ -56,11 +76,13 @@ static void thin_gas(void **state)
     }
 }
 
-/** Ly from just above a diameter to where only one image can touch; the short edge along y, then x. */
+/** Ly from just above a diameter to where only one image can touch; the short edge along y, then x.
+ */
 static void narrow_boxes(void **state)
 {
     (void)state;
-    const double width[] = {1.0 + 1e-9, 1.0 + 1e-5, 1.01, 1.3, 1.5, 1.7320508, 1.9, 2.0, 2.0001, 2.2};
+    const double width[] = {1.0 + 1e-9, 1.0 + 1e-5, 1.01, 1.3,    1.5,
+                            1.7320508,  1.9,        2.0,  2.0001, 2.2};
     const int disks[] = {2, 3, 8};
     for (size_t w = 0; w < sizeof width / sizeof *width; w++)
         for (int k = 0; k < 3; k++)

@@ -1,5 +1,5 @@
-/** All that is computed in parallel, with two threads: what one gives. Small enough for the thread sanitizer, which has to
- *  see every parallel loop. */
+/** All that is computed in parallel, with two threads: what one gives. Small enough for the thread
+ * sanitizer, which has to see every parallel loop. */
 #include <float.h>
 
 #include "hdlyap/run.h"
@@ -9,7 +9,8 @@
 /** More vectors than one block of any parallel loop holds: 128 of the modes, 64 of the frame. */
 enum { DISKS = 70, VECTORS = 2 * DISKS - 3 };
 
-/** A box so long that LP pairs are found, and reports so close that phases are looked at between orthonormalisations. */
+/** A box so long that LP pairs are found, and reports so close that phases are looked at between
+ * orthonormalisations. */
 static hd_run *run_with(int threads)
 {
     hd_run *run = NULL;
@@ -26,8 +27,8 @@ static hd_run *run_with(int threads)
     return run;
 }
 
-/** As accurate as asked; of vectors that belong to one step the differences add up, in less than 100 orthonormalisations,
- *  each by eps times the condition, which the accuracy bounds. */
+/** As accurate as asked; of vectors that belong to one step the differences add up, in less than
+ * 100 orthonormalisations, each by eps times the condition, which the accuracy bounds. */
 static const double ACCURACY = 1e-8, SAME = 100 * 1e-8;
 
 static void two_threads_give_what_one_gives(void **state)

@@ -1,4 +1,5 @@
-/** The verify build's checks: silent about what is right, each of them heard when its invariant is broken. */
+/** The verify build's checks: silent about what is right, each of them heard when its invariant is
+ * broken. */
 #include <setjmp.h>
 #include <stdbool.h>
 #include <string.h>

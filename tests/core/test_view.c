@@ -83,15 +83,16 @@ static void begin_to_look(hd_run *run)
         CHECK_OK(hd_run_step(run));
 }
 
-/** Brings a run that reports often and is orthonormalised for each report to the time of another. */
+/** Brings a run that reports often and is orthonormalised for each report to the time of another.
+ */
 static void catch_up(hd_run *run, double time)
 {
     while (hd_run_time(run) < time - 1e-6) CHECK_OK(hd_run_step(run));
     CHECK_CLOSE(hd_run_time(run), time, 1e-9);
 }
 
-/** Of the slowest vectors as a set, against those of a twin that is orthonormalised at this time: a tenth of the
- *  looks may be a thousandth off the set (test_tail). */
+/** Of the slowest vectors as a set, against those of a twin that is orthonormalised at this time: a
+ * tenth of the looks may be a thousandth off the set (test_tail). */
 static void each_step_ends_with_the_vectors_wanted(void **state)
 {
     (void)state;
@@ -127,7 +128,8 @@ static void each_step_ends_with_the_vectors_wanted(void **state)
     hd_run_free(twin);
 }
 
-/** The exponents of a run that is looked at are those of one that is not, within what both may be off. */
+/** The exponents of a run that is looked at are those of one that is not, within what both may be
+ * off. */
 static void looking_spoils_no_exponent(void **state)
 {
     (void)state;
@@ -145,7 +147,8 @@ static void looking_spoils_no_exponent(void **state)
     hd_run_free(viewed);
 }
 
-/** In the middle of an interval nothing is known unless somebody wants it, and modes are wanted at all. */
+/** In the middle of an interval nothing is known unless somebody wants it, and modes are wanted at
+ * all. */
 static void nobody_looks_nothing_is_known(void **state)
 {
     (void)state;

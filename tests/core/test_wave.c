@@ -1,4 +1,5 @@
-/** Wave vectors and modulations against the table of the paper and an enumeration by brute force. */
+/** Wave vectors and modulations against the table of the paper and an enumeration by brute force.
+ */
 #include <float.h>
 
 #include "testing.h"
@@ -29,7 +30,7 @@ static void components_follow_the_boundary(void **state)
     }
 }
 
-/* ---- modulations ------------------------------------------------------------------------------ */
+/* ---- modulations --------------------------------------------------------------------------- */
 
 static void check_bits(hd_modulations got, const char *want)
 {
@@ -60,7 +61,7 @@ static void dimensions_follow_the_table(void **state)
     }
 }
 
-/* ---- enumeration ------------------------------------------------------------------------------ */
+/* ---- enumeration --------------------------------------------------------------------------- */
 
 static bool wanted(const hd_scene_def *def, int nx, int ny)
 {
@@ -184,7 +185,7 @@ static void capacity_is_kept(void **state)
     CHECK_CLOSE(wave[3].number, -1.0, 0.0);
 }
 
-/* ---- limits ----------------------------------------------------------------------------------- */
+/* ---- limits -------------------------------------------------------------------------------- */
 
 static void limits_are_those_of_the_disks(void **state)
 {

@@ -18,7 +18,8 @@ static inline double *triangle_copy(const double *factor, int n)
     return copy;
 }
 
-/** Column l of R is Q^T V e_l: what rounding does to Q, relative, it does to that column relative to its length. */
+/** Column l of R is Q^T V e_l: what rounding does to Q, relative, it does to that column relative
+ * to its length. */
 static inline void check_triangle(const double *got, const double *want, int n, double rounding)
 {
     for (int col = 0; col < n; col++) {
@@ -32,7 +33,8 @@ static inline void check_triangle(const double *got, const double *want, int n, 
 static inline void check_same_triangle(const double *got, const double *want, int n)
 {
     for (int row = 0; row < n; row++)
-        assert_memory_equal(got + row * (n + 1), want + row * (n + 1), (size_t)(n - row) * sizeof *got);
+        assert_memory_equal(got + row * (n + 1), want + row * (n + 1),
+                            (size_t)(n - row) * sizeof *got);
 }
 
 #endif

@@ -1,7 +1,8 @@
-/** Scene -> events without cells, queue or stale predictions: every pair through every image that the
- *  two can reach before the epoch's end, then a plain search for the least (t, kind, i, j). With the
- *  trajectory it shares the separation of contact.h and what defines the bits: the formula for a contact
- *  (here for one pair at a time), epochs, folding into the box, and the exchange of momenta. */
+/** Scene -> events without cells, queue or stale predictions: every pair through every image that
+ * the two can reach before the epoch's end, then a plain search for the least (t, kind, i, j). With
+ * the trajectory it shares the separation of contact.h and what defines the bits: the formula for a
+ * contact (here for one pair at a time), epochs, folding into the box, and the exchange of momenta.
+ */
 #include "twin.h"
 
 #include <float.h>
@@ -35,7 +36,7 @@ typedef struct candidate {
     int32_t i, j;
 } candidate;
 
-/* ---- prediction ------------------------------------------------------------------------------- */
+/* ---- prediction ---------------------------------------------------------------------------- */
 
 static contact contact_through(const twin *t, int i, int j, int32_t mx, int32_t my)
 {
@@ -52,8 +53,9 @@ static bool sooner(const contact *a, const contact *b)
 }
 
 typedef struct line {
-    double r, p;         /**< separation along one direction at the window's zero, and its velocity */
-    double from, to;     /**< window of time */
+    /** Separation along one direction at the window's zero, and its velocity */
+    double r, p;
+    double from, to; /**< window of time */
     double box;
     hd_boundary boundary;
 } line;
@@ -119,7 +121,7 @@ static double wall_time(const twin *t, const hd_disk *disk, int d)
     return disk->t + fmax((wall_at(t, disk, d) - disk->q[d]) / disk->p[d], 0.0);
 }
 
-/* ---- search ----------------------------------------------------------------------------------- */
+/* ---- search -------------------------------------------------------------------------------- */
 
 static bool before(const candidate *a, const candidate *b)
 {
@@ -135,7 +137,8 @@ static candidate earliest(const twin *t)
     candidate best = {.t = INFINITY};
     for (int i = 0; i < t->n; i++) {
         for (int d = 0; d < 2; d++) {
-            const candidate wall = {wall_time(t, &t->disk[i], d), WALL, i, d ? HD_WALL_Y : HD_WALL_X};
+            const candidate wall = {wall_time(t, &t->disk[i], d), WALL, i,
+                                    d ? HD_WALL_Y : HD_WALL_X};
             if (before(&wall, &best)) best = wall;
         }
         for (int j = i + 1; j < t->n; j++) {
@@ -146,20 +149,18 @@ static candidate earliest(const twin *t)
     return best;
 }
 
-/* ---- motion ----------------------------------------------------------------------------------- */
+/* ---- motion -------------------------------------------------------------------------------- */
 
 static void move(hd_disk *disk, double to)
 {
-    for (int d = 0; d < 2; d++)
-        disk->q[d] += disk->p[d] * (to - disk->t);
+    for (int d = 0; d < 2; d++) disk->q[d] += disk->p[d] * (to - disk->t);
     disk->t = to;
 }
 
 static void fold(const twin *t, hd_disk *disk)
 {
     for (int d = 0; d < 2; d++)
-        if (t->boundary[d] == HD_PERIODIC)
-            disk->q[d] -= floor(disk->q[d] / t->box[d]) * t->box[d];
+        if (t->boundary[d] == HD_PERIODIC) disk->q[d] -= floor(disk->q[d] / t->box[d]) * t->box[d];
 }
 
 /** r.r - 1 as a double and the correction lost in it, added last. */
@@ -173,8 +174,7 @@ static double excess_of(hd_pair r)
 /** An approach by less than this is rounding of the momenta. */
 static double lost_by(const hd_disk *a, const hd_disk *b)
 {
-    return 8.0 * DBL_EPSILON *
-           (fabs(a->p[0]) + fabs(a->p[1]) + fabs(b->p[0]) + fabs(b->p[1]));
+    return 8.0 * DBL_EPSILON * (fabs(a->p[0]) + fabs(a->p[1]) + fabs(b->p[0]) + fabs(b->p[1]));
 }
 
 static void push(hd_disk *a, hd_disk *b, hd_pair along, double impulse)
@@ -205,7 +205,10 @@ static bool collide(twin *t, hd_event *event, const candidate *c)
     if (exchanged)
         push(a, b, r, approach - approach * excess_of(r));
     else if (approach < 0)
-        push(a, b, fabs(r[1]) > fabs(r[0]) ? (hd_pair){0, copysign(1, r[1])} : (hd_pair){copysign(1, r[0]), 0}, -lost);
+        push(a, b,
+             fabs(r[1]) > fabs(r[0]) ? (hd_pair){0, copysign(1, r[1])}
+                                     : (hd_pair){copysign(1, r[0]), 0},
+             -lost);
     fold(t, a);
     fold(t, b);
     predict_all_of(t, c->i);
@@ -255,7 +258,7 @@ bool twin_next(twin *t, hd_event *event, double t_begin, double t_end)
     }
 }
 
-/* ---- creation --------------------------------------------------------------------------------- */
+/* ---- creation ------------------------------------------------------------------------------ */
 
 /** The least power of two that holds 32 of a disk's collisions at Enskog's rate [T2]. */
 static double epoch_for(const hd_scene_def *def)
@@ -264,7 +267,8 @@ static double epoch_for(const hd_scene_def *def)
     const double at_contact = (1.0 - 7.0 * eta / 16.0) / ((1.0 - eta) * (1.0 - eta));
     int exponent;
     const double collisions = 32.0 / (2.0 * sqrt(pi) * def->density * at_contact);
-    const double part = frexp(fmin(collisions, 16384.0), &exponent); /* a thin gas: shorter epochs */
+    const double part = frexp(fmin(collisions, 16384.0),
+                              &exponent); /* a thin gas: shorter epochs */
     return ldexp(1.0, part == 0.5 ? exponent - 1 : exponent);
 }
 

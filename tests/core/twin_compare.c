@@ -10,15 +10,15 @@
 static const double PIECES[] = {0.37, 2.9, 0.011, 11.3};
 enum { PIECE_KINDS = sizeof PIECES / sizeof *PIECES };
 
-static void fail_at(const hd_scene_def *def, size_t number, const hd_event *got, const hd_event *want)
+static void fail_at(const hd_scene_def *def, size_t number, const hd_event *got,
+                    const hd_event *want)
 {
     print_error("N %d density %.17g aspect %.17g boundary %d %d, event %zu:\n"
                 "  got  t %.17g i %d j %d n %.17g %.17g p %.17g %.17g\n"
                 "  want t %.17g i %d j %d n %.17g %.17g p %.17g %.17g\n",
-                def->disks, def->density, def->aspect, (int)def->boundary[0],
-                (int)def->boundary[1], number, got->t, got->i, got->j, got->n[0], got->n[1],
-                got->p[0], got->p[1], want->t, want->i, want->j, want->n[0], want->n[1],
-                want->p[0], want->p[1]);
+                def->disks, def->density, def->aspect, (int)def->boundary[0], (int)def->boundary[1],
+                number, got->t, got->i, got->j, got->n[0], got->n[1], got->p[0], got->p[1], want->t,
+                want->i, want->j, want->n[0], want->n[1], want->p[0], want->p[1]);
     fail();
 }
 
@@ -32,7 +32,8 @@ static void compare_interval(const hd_scene_def *def, twin *slow, const hd_event
         if (memcmp(&log->event[k], &want, sizeof want) != 0)
             fail_at(def, before + k, &log->event[k], &want);
     }
-    if (twin_next(slow, &want, t_begin, t_end)) fail_msg("event %zu is missing", before + log->count);
+    if (twin_next(slow, &want, t_begin, t_end))
+        fail_msg("event %zu is missing", before + log->count);
 }
 
 void twin_compare(hd_trajectory *fast, const hd_scene_def *def, size_t events)
@@ -44,8 +45,8 @@ void twin_compare(hd_trajectory *fast, const hd_scene_def *def, size_t events)
     twin *slow = twin_create(def, q, p);
     assert_non_null(slow);
     CHECK_OK(hd_event_log_create(&log));
-    /* between close walls or near closest packing events may be 1e9 times denser than the estimate of
-     * the collision rate: the pieces grow from far below it */
+    /* between close walls or near closest packing events may be 1e9 times denser than the estimate
+     * of the collision rate: the pieces grow from far below it */
     double unit = 1e-9 / hd_trajectory_collision_rate(fast), t = 0;
     size_t count = 0;
     for (int k = 0; count < events && k < 10000; k++) {

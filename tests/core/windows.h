@@ -32,7 +32,8 @@ static inline windows windows_begun(const hd_scene_def *scene, int warmup, doubl
     windows w = {forward_started(scene, 1), NULL};
     for (int k = 0; k < warmup; k++) forward_interval(&w.f, WINDOWS_INTERVAL);
     CHECK_OK(hd_covariant_create(&w.c, scene, 1));
-    CHECK_OK(hd_covariant_begin(w.c, hd_frame_columns(w.f.frame), hd_trajectory_time(w.f.trajectory), interval));
+    CHECK_OK(hd_covariant_begin(w.c, hd_frame_columns(w.f.frame),
+                                hd_trajectory_time(w.f.trajectory), interval));
     return w;
 }
 

@@ -1,4 +1,5 @@
-/* A node in C: computes the spectrum of four disks with the core, publishes it through the wrapper until it is stopped. */
+/* A node in C: computes the spectrum of four disks with the core, publishes it through the wrapper
+ * until it is stopped. */
 #include <hdlyap/hdlyap.h>
 #include <hdlyap_ros/hdlyap_ros.h>
 

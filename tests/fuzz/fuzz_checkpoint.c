@@ -1,8 +1,8 @@
 /** Any bytes as a checkpoint: refused with a line, or a run that goes on, whatever becomes of it.
  *
- *  The head of the file is read as it is; behind it the arrays are read without a look at the checksum, which would
- *  keep everything else out. Half of the changes are made to elements of the arrays alone: others are mostly refused for
- *  the name of an array. */
+ * The head of the file is read as it is; behind it the arrays are read without a look at the
+ * checksum, which would keep everything else out. Half of the changes are made to elements of the
+ * arrays alone: others are mostly refused for the name of an array. */
 #define _GNU_SOURCE /* memfd_create */
 #include <math.h>
 #include <stdint.h>
@@ -14,7 +14,8 @@
 
 #include "checkpoint.h"
 
-/** Of a file before its arrays; of an array before its elements, with their number in the last eight bytes. */
+/** Of a file before its arrays; of an array before its elements, with their number in the last
+ * eight bytes. */
 enum { FILE_HEAD = 48, ARRAY_HEAD = HD_ARCHIVE_NAME + 16, ELEMENT = 8 };
 enum { STEPS = 2 };
 
@@ -47,7 +48,8 @@ static void read_file(const uint8_t *bytes, size_t size)
     close(fd);
 }
 
-/** A run out of a file may end in any of the documented ways, but does not crash, and does not stand still. */
+/** A run out of a file may end in any of the documented ways, but does not crash, and does not
+ * stand still. */
 static void go_on(hd_run *run)
 {
     for (int step = 0; step < STEPS; step++) {
@@ -81,7 +83,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     return 0;
 }
 
-/* ---- changes ---------------------------------------------------------------------------------- */
+/* ---- changes ------------------------------------------------------------------------------- */
 
 /** Elements of the array at `at`, as far as the file goes. */
 static size_t elements_of(const uint8_t *bytes, size_t size, size_t at)

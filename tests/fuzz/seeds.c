@@ -1,5 +1,5 @@
-/** Checkpoints to begin with, of runs of 2, 4 and 10 disks in each phase, with and without modes: written to the folder
- *  HDLYAP_SEEDS, if it is set, before the fuzzer reads its folders. */
+/** Checkpoints to begin with, of runs of 2, 4 and 10 disks in each phase, with and without modes:
+ * written to the folder HDLYAP_SEEDS, if it is set, before the fuzzer reads its folders. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -22,7 +22,8 @@ static hd_scene_def scene_of(int disks, int exponents, unsigned observe)
     return def;
 }
 
-/** Its checkpoint soon after the beginning of each phase, and in the middle of the last; 0 if all are written. */
+/** Its checkpoint soon after the beginning of each phase, and in the middle of the last; 0 if all
+ * are written. */
 static int save_run(const char *folder, const char *name, const hd_scene_def *def)
 {
     static const double times[] = {0.1, 1.5, 4.0, 13.0};

@@ -1,4 +1,5 @@
-/** Bytes -> a set of parameters: known names with the kind of value that they take, and anything else. */
+/** Bytes -> a set of parameters: known names with the kind of value that they take, and anything
+ * else. */
 #include "fake_params.h"
 
 #include <float.h>
@@ -29,7 +30,7 @@ struct hdr_params {
     int count;
 };
 
-/* ---- bytes ------------------------------------------------------------------------------------ */
+/* ---- bytes --------------------------------------------------------------------------------- */
 
 typedef struct source {
     const uint8_t *next, *end;
@@ -56,7 +57,7 @@ static void take_text(source *s, char text[TEXT_MAX])
     text[k] = '\0';
 }
 
-/* ---- values ----------------------------------------------------------------------------------- */
+/* ---- values -------------------------------------------------------------------------------- */
 
 /** Names, and a value that each takes beside the others' defaults. */
 static const struct known {
@@ -181,7 +182,8 @@ static const entry *find(const hdr_params *params, const char *name)
     return NULL;
 }
 
-/** Most names are known, most values of known names usual; a name that is there already is not added. */
+/** Most names are known, most values of known names usual; a name that is there already is not
+ * added. */
 static void add(hdr_params *params, source *s)
 {
     entry *e = &params->entries[params->count];
@@ -209,7 +211,8 @@ hdr_params *fake_params_create(const uint8_t *bytes, size_t size)
 
 void hdr_params_free(hdr_params *params) { free(params); }
 
-/** A line shows the first hundred characters of a name, and '?' for one that would end or move it. */
+/** A line shows the first hundred characters of a name, and '?' for one that would end or move it.
+ */
 static bool begins_with(const char *line, const char *name)
 {
     size_t k = 0;
@@ -229,7 +232,7 @@ bool fake_params_is_about(const hdr_params *params, const char *line)
     return false;
 }
 
-/* ---- as params.h says ------------------------------------------------------------------------- */
+/* ---- as params.h says ---------------------------------------------------------------------- */
 
 int hdr_params_count(const hdr_params *params) { return params->count; }
 

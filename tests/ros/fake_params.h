@@ -1,5 +1,5 @@
-/** Private parameters without ROS: the functions of hdlyap_ros/params.h over sets that are made of bytes. The same
- *  bytes give the same set, so a test draws them and a fuzzer searches them. */
+/** Private parameters without ROS: the functions of hdlyap_ros/params.h over sets that are made of
+ * bytes. The same bytes give the same set, so a test draws them and a fuzzer searches them. */
 #ifndef HDLYAP_FAKE_PARAMS_H
 #define HDLYAP_FAKE_PARAMS_H
 

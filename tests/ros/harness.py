@@ -13,8 +13,19 @@ import roslib.packages
 import rosgraph
 import rospy
 
-from hdlyap.msg import (Cost, Covariant, Hydro, LpPhases, Mode, ModeField, Modes, RunInfo, Spectrum, State,
-                        Steps)
+from hdlyap.msg import (
+    Cost,
+    Covariant,
+    Hydro,
+    LpPhases,
+    Mode,
+    ModeField,
+    Modes,
+    RunInfo,
+    Spectrum,
+    State,
+    Steps,
+)
 
 NODE = 'hdlyap'
 # a run of a fraction of a second
@@ -22,10 +33,19 @@ SHORT = dict(disks=20, density=0.7, aspect=1.0, equilibration=1.0, warmup=1.0, d
 # a box so long that its steps are found within a second
 MODES = dict(disks=60, density=0.8, aspect=0.06, equilibration=10.0, warmup=60.0, duration=20.0)
 # of a scene that may be short: covariant vectors need long transients
-TYPES = dict(run_info=RunInfo, spectrum=Spectrum, modes=Modes, steps=Steps, lp_phases=LpPhases,
-             fields=ModeField, hydro=Hydro, state=State, cost=Cost)
+TYPES = dict(
+    run_info=RunInfo,
+    spectrum=Spectrum,
+    modes=Modes,
+    steps=Steps,
+    lp_phases=LpPhases,
+    fields=ModeField,
+    hydro=Hydro,
+    state=State,
+    cost=Cost,
+)
 OBSERVABLES = [topic for topic in TYPES if topic not in ('run_info', 'cost')]
-PATIENCE = 60.0     # seconds, for what has no bound of its own
+PATIENCE = 60.0  # seconds, for what has no bound of its own
 
 
 def executable():
@@ -47,7 +67,7 @@ def wait_until(condition, seconds=PATIENCE):
     """The condition's value, as soon as it is true, at the latest after so many seconds."""
     end = time.monotonic() + seconds
     while True:
-        value = condition()     # looked at once: it may be true for a moment only
+        value = condition()  # looked at once: it may be true for a moment only
         if value or time.monotonic() >= end:
             return value
         time.sleep(0.01)
@@ -58,8 +78,9 @@ class Process:
 
     def __init__(self, command, **env):
         self.output = tempfile.TemporaryFile('w+')
-        self.process = subprocess.Popen(command, stdout=self.output, stderr=subprocess.STDOUT,
-                                        env=dict(os.environ, **env))
+        self.process = subprocess.Popen(
+            command, stdout=self.output, stderr=subprocess.STDOUT, env=dict(os.environ, **env)
+        )
 
     def send(self, number):
         self.process.send_signal(number)
@@ -141,7 +162,9 @@ class Listener:
         self.delay = delay
         self.arrived = threading.Condition()
         kind = dict(TYPES, covariant=Covariant)[topic]
-        self.subscriber = rospy.Subscriber('/%s/%s' % (NODE, topic), kind, self.keep, queue_size=None)
+        self.subscriber = rospy.Subscriber(
+            '/%s/%s' % (NODE, topic), kind, self.keep, queue_size=None
+        )
 
     def keep(self, message):
         time.sleep(self.delay)

@@ -20,7 +20,7 @@ def answers(uri, pid):
     try:
         with xmlrpc.client.ServerProxy(uri) as proxy:
             return proxy.getPid('/links')[2] == pid
-    except OSError:     # one that has ended
+    except OSError:  # one that has ended
         return False
 
 
@@ -55,7 +55,7 @@ def pack(fields):
     return LENGTH.pack(len(body)) + body
 
 
-NOWHERE = {}    # by name: with another address the master forgets what a node has registered before
+NOWHERE = {}  # by name: with another address the master forgets what a node has registered before
 
 
 def register(test, topic, name, uri=None):
@@ -85,8 +85,17 @@ class Link:
         self.bytes = 0
         self.greeted = self.closed = False
         self.socket = socket.create_connection(('localhost', port))
-        self.socket.sendall(pack(dict(callerid=name, topic='/%s/%s' % (harness.NODE, topic),
-                                      md5sum='*', type='*', tcp_nodelay='1')))
+        self.socket.sendall(
+            pack(
+                dict(
+                    callerid=name,
+                    topic='/%s/%s' % (harness.NODE, topic),
+                    md5sum='*',
+                    type='*',
+                    tcp_nodelay='1',
+                )
+            )
+        )
 
     def greet(self):
         """Waits until the node has answered."""

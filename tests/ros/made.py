@@ -8,20 +8,40 @@ import numpy as np
 import rosbag
 import rospy
 
-from hdlyap.msg import (Cost, Covariant, CovariantAngle, CovariantWeight, Hydro, LpPhase, LpPhases,
-                        ModeField, RunInfo, Spectrum, Step, Steps)
+from hdlyap.msg import (
+    Cost,
+    Covariant,
+    CovariantAngle,
+    CovariantWeight,
+    Hydro,
+    LpPhase,
+    LpPhases,
+    ModeField,
+    RunInfo,
+    Spectrum,
+    Step,
+    Steps,
+)
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../hdlyap_ros/scripts')
 sys.path.insert(0, SCRIPTS)
-from hdlyap_plots import waves      # noqa: E402
+from hdlyap_plots import waves  # noqa: E402
 
 T, LP, ZERO = Step.T, Step.LP, Step.ZERO
-CURVES = {T: (1.4, 0.1), LP: (1.5, 0.5)}    # c, c2
-ERROR = 0.002           # of the exponents of steps
+CURVES = {T: (1.4, 0.1), LP: (1.5, 0.5)}  # c, c2
+ERROR = 0.002  # of the exponents of steps
 VELOCITY = 1.6
-TOPICS = {RunInfo: 'run_info', Spectrum: 'spectrum', Cost: 'cost', Steps: 'steps',
-          LpPhases: 'lp_phases', ModeField: 'fields', Hydro: 'hydro', Covariant: 'covariant'}
-BINS = 90               # of the histograms of angles
+TOPICS = {
+    RunInfo: 'run_info',
+    Spectrum: 'spectrum',
+    Cost: 'cost',
+    Steps: 'steps',
+    LpPhases: 'lp_phases',
+    ModeField: 'fields',
+    Hydro: 'hydro',
+    Covariant: 'covariant',
+}
+BINS = 90  # of the histograms of angles
 
 
 def write(path, messages, node='/hdlyap', mode='w'):
@@ -32,9 +52,22 @@ def write(path, messages, node='/hdlyap', mode='w'):
 
 
 def run_info(**fields):
-    info = RunInfo(run_id='one', version='0.1.0', scene='made', disks=20, density=0.5, aspect=1.0,
-                   box_x=40 ** 0.5, box_y=40 ** 0.5, boundary_x='periodic', boundary_y='periodic',
-                   seed='1', exponents='positive', zero_exponents=6, field_indices='steps')
+    info = RunInfo(
+        run_id='one',
+        version='0.1.0',
+        scene='made',
+        disks=20,
+        density=0.5,
+        aspect=1.0,
+        box_x=40**0.5,
+        box_y=40**0.5,
+        boundary_x='periodic',
+        boundary_y='periodic',
+        seed='1',
+        exponents='positive',
+        zero_exponents=6,
+        field_indices='steps',
+    )
     for name, value in fields.items():
         setattr(info, name, value)
     return info
@@ -42,17 +75,34 @@ def run_info(**fields):
 
 def spectrum(exponents, averaged_time, run_id='one', error=0.01, pairing_error=-1.0):
     n = len(exponents)
-    return Spectrum(run_id=run_id, sim_time=100 + averaged_time, averaged_time=averaged_time,
-                    collisions=1000, lambda_max=exponents[0], pairing_error=pairing_error,
-                    ks_entropy=sum(e for e in exponents if e > 0), first_index=1,
-                    exponents=exponents, std_errors=[error] * n, local_exponents=exponents,
-                    cos_theta=[1.0] * n, dp_dq_ratio=[1.0] * n)
+    return Spectrum(
+        run_id=run_id,
+        sim_time=100 + averaged_time,
+        averaged_time=averaged_time,
+        collisions=1000,
+        lambda_max=exponents[0],
+        pairing_error=pairing_error,
+        ks_entropy=sum(e for e in exponents if e > 0),
+        first_index=1,
+        exponents=exponents,
+        std_errors=[error] * n,
+        local_exponents=exponents,
+        cos_theta=[1.0] * n,
+        dp_dq_ratio=[1.0] * n,
+    )
 
 
 def cost(sim_time, run_id='one'):
-    return Cost(run_id=run_id, sim_time=sim_time, phase=Cost.AVERAGING, wall_seconds=sim_time,
-                events_seconds=0.1 * sim_time, replay_seconds=0.2 * sim_time,
-                ortho_seconds=0.55 * sim_time, modes_seconds=0.05 * sim_time)
+    return Cost(
+        run_id=run_id,
+        sim_time=sim_time,
+        phase=Cost.AVERAGING,
+        wall_seconds=sim_time,
+        events_seconds=0.1 * sim_time,
+        replay_seconds=0.2 * sim_time,
+        ortho_seconds=0.55 * sim_time,
+        modes_seconds=0.05 * sim_time,
+    )
 
 
 def wave_number(info, nx, ny):
@@ -67,40 +117,91 @@ def exponent(info, kind, nx, ny):
 
 def step(info, kind, nx, ny, first, last, **fields):
     """A resolved step of its own, whose fields are all found."""
-    made = Step(kind=kind, nx=nx, ny=ny, wave_number=wave_number(info, nx, ny), resolved=True,
-                expected=last - first + 1, first_index=first, last_index=last,
-                multiplicity=0.99 * (last - first + 1), set=first, members=1,
-                exponent=exponent(info, kind, nx, ny), std_error=ERROR)
+    made = Step(
+        kind=kind,
+        nx=nx,
+        ny=ny,
+        wave_number=wave_number(info, nx, ny),
+        resolved=True,
+        expected=last - first + 1,
+        first_index=first,
+        last_index=last,
+        multiplicity=0.99 * (last - first + 1),
+        set=first,
+        members=1,
+        exponent=exponent(info, kind, nx, ny),
+        std_error=ERROR,
+    )
     for name, value in fields.items():
         setattr(made, name, value)
     return made
 
 
 def unresolved(info, kind, nx, ny, expected):
-    return Step(kind=kind, nx=nx, ny=ny, wave_number=wave_number(info, nx, ny), expected=expected,
-                set=-1, std_error=-1.0)
+    return Step(
+        kind=kind,
+        nx=nx,
+        ny=ny,
+        wave_number=wave_number(info, nx, ny),
+        expected=expected,
+        set=-1,
+        std_error=-1.0,
+    )
 
 
 def zero_modes(first=None):
     """Not carried, or six from an index on."""
     if first is None:
         return Step(kind=ZERO, expected=6, set=-1, std_error=-1.0)
-    return Step(kind=ZERO, expected=6, resolved=True, first_index=first, last_index=first + 5,
-                multiplicity=6.0, set=first, members=1, exponent=1e-4, std_error=3e-5)
+    return Step(
+        kind=ZERO,
+        expected=6,
+        resolved=True,
+        first_index=first,
+        last_index=first + 5,
+        multiplicity=6.0,
+        set=first,
+        members=1,
+        exponent=1e-4,
+        std_error=3e-5,
+    )
 
 
 def steps(made, averaged_time=50.0, run_id='one'):
-    return Steps(run_id=run_id, sim_time=100 + averaged_time, averaged_time=averaged_time,
-                 threshold=0.5, steps=made, t_points=3, c_t=1.4, c_t_error=0.012, c_t2=0.1,
-                 c_t2_error=0.034, l_points=2, c_l=1.5, c_l_error=0.02, c_l2=0.5, c_l2_error=0.1,
-                 v_phases=8, v=1.612, v_error=0.023)
+    return Steps(
+        run_id=run_id,
+        sim_time=100 + averaged_time,
+        averaged_time=averaged_time,
+        threshold=0.5,
+        steps=made,
+        t_points=3,
+        c_t=1.4,
+        c_t_error=0.012,
+        c_t2=0.1,
+        c_t2_error=0.034,
+        l_points=2,
+        c_l=1.5,
+        c_l_error=0.02,
+        c_l2=0.5,
+        c_l2_error=0.1,
+        v_phases=8,
+        v=1.612,
+        v_error=0.023,
+    )
 
 
 def covariant_weight(made, count, dq=0.8, dp=0.3, elsewhere=0.02, gram_schmidt=0.9):
     """Of the fields of one step, in its vectors and elsewhere."""
-    weight = CovariantWeight(kind=made.kind, nx=made.nx, ny=made.ny, wave_number=made.wave_number,
-                             dimension=made.expected, dq=[elsewhere] * count, dp=[elsewhere] * count,
-                             gram_schmidt=[elsewhere] * count)
+    weight = CovariantWeight(
+        kind=made.kind,
+        nx=made.nx,
+        ny=made.ny,
+        wave_number=made.wave_number,
+        dimension=made.expected,
+        dq=[elsewhere] * count,
+        dp=[elsewhere] * count,
+        gram_schmidt=[elsewhere] * count,
+    )
     inside = slice(made.first_index - 1, made.last_index)
     weight.dq[inside] = [dq] * (made.last_index - made.first_index + 1)
     weight.dp[inside] = [dp] * (made.last_index - made.first_index + 1)
@@ -110,9 +211,16 @@ def covariant_weight(made, count, dq=0.8, dp=0.3, elsewhere=0.02, gram_schmidt=0
 
 def covariant_angle(spaces, smallest, every, **fields):
     """Histograms from {bin: count}."""
-    angle = CovariantAngle(spaces=spaces, last=0.3, mean=0.329, std_error=0.006, least=0.21, mean_of_all=1.1,
-                           smallest_counts=[smallest.get(k, 0) for k in range(BINS)],
-                           all_counts=[every.get(k, 0) for k in range(BINS)])
+    angle = CovariantAngle(
+        spaces=spaces,
+        last=0.3,
+        mean=0.329,
+        std_error=0.006,
+        least=0.21,
+        mean_of_all=1.1,
+        smallest_counts=[smallest.get(k, 0) for k in range(BINS)],
+        all_counts=[every.get(k, 0) for k in range(BINS)],
+    )
     for name, value in fields.items():
         setattr(angle, name, value)
     return angle
@@ -121,12 +229,29 @@ def covariant_angle(spaces, smallest, every, **fields):
 def covariant(exponents, run_id='one', error=0.01, **fields):
     """Four windows; without angles and weights unless they are given."""
     n = len(exponents)
-    made = Covariant(run_id=run_id, sim_time=350.0, averaged_time=200.0, windows=4, looks=40, seconds=12.5,
-                     first_index=1, exponents=exponents, std_errors=[error] * n,
-                     local_exponents=np.add(exponents, 0.1), apart=[1e-9] * n, neighbour_angles=[0.7] * (n - 1),
-                     least_neighbour_angles=[0.2] * (n - 1), violations=[0.25] * (n - 1), entangled=[0.5] * (n - 1),
-                     widths=[0.4] * n, cos_theta=[0.6] * n, centre_apart=-1.0, stable_apart=-1.0, null_angle=-1.0,
-                     largest_null_angle=-1.0)
+    made = Covariant(
+        run_id=run_id,
+        sim_time=350.0,
+        averaged_time=200.0,
+        windows=4,
+        looks=40,
+        seconds=12.5,
+        first_index=1,
+        exponents=exponents,
+        std_errors=[error] * n,
+        local_exponents=np.add(exponents, 0.1),
+        apart=[1e-9] * n,
+        neighbour_angles=[0.7] * (n - 1),
+        least_neighbour_angles=[0.2] * (n - 1),
+        violations=[0.25] * (n - 1),
+        entangled=[0.5] * (n - 1),
+        widths=[0.4] * n,
+        cos_theta=[0.6] * n,
+        centre_apart=-1.0,
+        stable_apart=-1.0,
+        null_angle=-1.0,
+        largest_null_angle=-1.0,
+    )
     for name, value in fields.items():
         setattr(made, name, value)
     return made
@@ -144,11 +269,23 @@ def lp_phases(info, made, sim_time, modulations=(0, 1), began=0.0, rng=None, run
             sign = 1 if index % 2 else -1
             noise = 0.1 * rng.normal() if rng else 0.0
             turned = sign * omega * (sim_time - began) + noise
-            phases.append(LpPhase(
-                step=number, nx=one.nx, ny=one.ny, modulation=bits, index=index,
-                state=LpPhase.TRACKED if one.resolved else LpPhase.UNRESOLVED,
-                a=np.cos(turned), b=np.sin(turned), phase=turned, omega=sign * omega,
-                omega_error=0.01 * omega, velocity=VELOCITY, tracked_time=sim_time - began))
+            phases.append(
+                LpPhase(
+                    step=number,
+                    nx=one.nx,
+                    ny=one.ny,
+                    modulation=bits,
+                    index=index,
+                    state=LpPhase.TRACKED if one.resolved else LpPhase.UNRESOLVED,
+                    a=np.cos(turned),
+                    b=np.sin(turned),
+                    phase=turned,
+                    omega=sign * omega,
+                    omega_error=0.01 * omega,
+                    velocity=VELOCITY,
+                    tracked_time=sim_time - began,
+                )
+            )
     return LpPhases(run_id=run_id, sim_time=sim_time, samples_per_report=1, phases=phases)
 
 
@@ -171,11 +308,28 @@ def mode_field(info, one, sim_time=150.0, modulations=(0, 1), noise=0.3, index=N
     dq = np.array(shape) / np.sqrt(np.mean(np.square(shape)))
     dq = (dq + noise * rng.normal(size=dq.shape)) / np.sqrt(2 * info.disks)
     p_mode = [[modulation * p for p in (px, py)] for modulation in a]
-    over = [[modulation * p * p / (p * p + 0.01) + 0.2 * rng.normal(size=p.size)
-             for p in (px, py)] for modulation in a]
-    made = ModeField(run_id='one', sim_time=sim_time, index=index or one.last_index, kind=one.kind,
-                     nx=one.nx, ny=one.ny, wave_number=one.wave_number, exponent=one.exponent,
-                     x=x, y=y, px=px, py=py, dqx=dq[0], dqy=dq[1], dpx=dq[0], dpy=dq[1])
+    over = [
+        [modulation * p * p / (p * p + 0.01) + 0.2 * rng.normal(size=p.size) for p in (px, py)]
+        for modulation in a
+    ]
+    made = ModeField(
+        run_id='one',
+        sim_time=sim_time,
+        index=index or one.last_index,
+        kind=one.kind,
+        nx=one.nx,
+        ny=one.ny,
+        wave_number=one.wave_number,
+        exponent=one.exponent,
+        x=x,
+        y=y,
+        px=px,
+        py=py,
+        dqx=dq[0],
+        dqy=dq[1],
+        dpx=dq[0],
+        dpy=dq[1],
+    )
     if one.kind == LP:
         made.pairs, made.modulation = len(modulations), bytes(modulations)
         made.residual_l = made.residual_p = [0.1] * len(modulations)
@@ -189,8 +343,10 @@ def mode_field(info, one, sim_time=150.0, modulations=(0, 1), noise=0.3, index=N
 
 def _fields(info, one, modulations, x, y):
     """The modulations at the disks, and the T or L field of the last by small differences."""
+
     def a(bits, dx=0.0, dy=0.0):
         return waves.modulation(info, one.nx, one.ny, bits, x + dx, y + dy) * np.ones_like(x)
+
     h = 1e-4
     last = modulations[-1]
     along_x, along_y = ((a(last, **{d: h}) - a(last, **{d: -h})) / (2 * h) for d in ('dx', 'dy'))
@@ -199,22 +355,33 @@ def _fields(info, one, modulations, x, y):
 
 
 def paper_info():
-    return run_info(scene='paper_periodic', disks=780, density=0.8, aspect=0.867, box_x=33.535,
-                    box_y=29.074)
+    return run_info(
+        scene='paper_periodic', disks=780, density=0.8, aspect=0.867, box_x=33.535, box_y=29.074
+    )
 
 
 def small_run():
     """Every kind of message, of 20 disks: 37 positive exponents, the last twelve in steps."""
     info = run_info()
-    found = [step(info, T, 1, 0, 36, 37), step(info, LP, 1, 0, 32, 35),
-             step(info, T, 0, 1, 30, 31), step(info, LP, 0, 1, 26, 29)]
+    found = [
+        step(info, T, 1, 0, 36, 37),
+        step(info, LP, 1, 0, 32, 35),
+        step(info, T, 0, 1, 30, 31),
+        step(info, LP, 0, 1, 26, 29),
+    ]
     exponents = np.linspace(9, 3, 37)
     for one in found:
-        exponents[one.first_index - 1:one.last_index] = one.exponent
+        exponents[one.first_index - 1 : one.last_index] = one.exponent
     rng = np.random.default_rng(3)
-    course = [message for t in range(1, 20)
-              for message in (spectrum(exponents, t), steps([*found, zero_modes()], t),
-                              cost(100 + t),
-                              lp_phases(info, found, 100 + t, began=100, rng=rng))]
+    course = [
+        message
+        for t in range(1, 20)
+        for message in (
+            spectrum(exponents, t),
+            steps([*found, zero_modes()], t),
+            cost(100 + t),
+            lp_phases(info, found, 100 + t, began=100, rng=rng),
+        )
+    ]
     fields = [mode_field(info, one, modulations=(0, 1) if one.nx else (0, 2)) for one in found]
     return [info, *course, *fields]

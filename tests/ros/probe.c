@@ -1,5 +1,6 @@
-/** Preloaded into the node: stands before some functions of the core to make what seldom happens happen,
- *  and to count what should not. All of it by environment variables, nothing without them. */
+/** Preloaded into the node: stands before some functions of the core to make what seldom happens
+ * happen, and to count what should not. All of it by environment variables, nothing without them.
+ */
 #define _GNU_SOURCE /* RTLD_NEXT */
 #include <dlfcn.h>
 #include <errno.h>
@@ -160,7 +161,8 @@ void hd_hydro_measure(hd_hydro *hydro, const hd_steps *found, const hd_frame *fr
 /* clang-format off */
 #define TOPICS(DO)                                                                                 \
     DO(run_info) DO(spectrum)                                                                      \
-    DO(modes) DO(steps) DO(lp_phases) DO(mode_field) DO(hydro) DO(covariant) DO(state) DO(cost) DO(diagnostic) DO(markers)
+    DO(modes) DO(steps) DO(lp_phases) DO(mode_field)                                               \
+    DO(hydro) DO(covariant) DO(state) DO(cost) DO(diagnostic) DO(markers)
 #define COUNT_MESSAGES(topic)                                                                      \
     static atomic_long messages_##topic;                                                           \
     hdr_status hdr_##topic##_publish(hdr_publisher *publisher, const hdr_##topic *view)            \

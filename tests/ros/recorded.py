@@ -35,8 +35,17 @@ class Bag:
 def info(disks, density, aspect, boundaries=('periodic', 'periodic'), **fields):
     box_x = sqrt(disks / (density * aspect))
     zeros = 2 + 2 * boundaries.count('periodic')
-    return made.run_info(disks=disks, density=density, aspect=aspect, box_x=box_x, box_y=aspect * box_x,
-                         boundary_x=boundaries[0], boundary_y=boundaries[1], zero_exponents=zeros, **fields)
+    return made.run_info(
+        disks=disks,
+        density=density,
+        aspect=aspect,
+        box_x=box_x,
+        box_y=aspect * box_x,
+        boundary_x=boundaries[0],
+        boundary_y=boundaries[1],
+        zero_exponents=zeros,
+        **fields,
+    )
 
 
 def stairs(info, levels, size=40, error=1e-3):

@@ -4,14 +4,14 @@ import os
 import tempfile
 import unittest
 
-import made     # also finds the scripts
+import made  # also finds the scripts
 from hdlyap_plots.figures.style import STYLE, plt
 from hdlyap_reproduce.bag import Bag
 from hdlyap_reproduce.row import HEADER
 
 
 class Part(unittest.TestCase):
-    of = None       # the module of the part
+    of = None  # the module of the part
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -36,8 +36,10 @@ class Part(unittest.TestCase):
 
     def tables(self, bags):
         """{name: (header, lines)}, each line as long as its header."""
-        found = {name: (header, [tuple(map(str, line)) for line in lines])
-                 for name, header, lines in self.of.tables(bags)}
+        found = {
+            name: (header, [tuple(map(str, line)) for line in lines])
+            for name, header, lines in self.of.tables(bags)
+        }
         for header, lines in found.values():
             for line in lines:
                 self.assertEqual(len(line), len(header))

@@ -18,10 +18,22 @@ import harness
 from harness import Cost
 
 # all that there is to compute; and what takes valgrind a short time
-WHOLE = dict(harness.MODES, threads=2, report_interval=0.5, observables=harness.OBSERVABLES,
-             wait_for_subscribers='all')
-LITTLE = dict(harness.SHORT, disks=6, threads=1, observables=['spectrum', 'modes', 'state'],
-              wait_for_subscribers='all', duration=16.0, pace=4.0)
+WHOLE = dict(
+    harness.MODES,
+    threads=2,
+    report_interval=0.5,
+    observables=harness.OBSERVABLES,
+    wait_for_subscribers='all',
+)
+LITTLE = dict(
+    harness.SHORT,
+    disks=6,
+    threads=1,
+    observables=['spectrum', 'modes', 'state'],
+    wait_for_subscribers='all',
+    duration=16.0,
+    pace=4.0,
+)
 PATIENCE = 100.0  # seconds: some checks slow the node down fifty times
 
 
@@ -54,7 +66,9 @@ def lead(node, listeners):
 
 def live(command, params, stopped=False):
     """Exit status of a node that is stopped, or that comes to its end by itself."""
-    listeners = {topic: harness.Listener(topic) for topic in params['observables'] + ['run_info', 'cost']}
+    listeners = {
+        topic: harness.Listener(topic) for topic in params['observables'] + ['run_info', 'cost']
+    }
     # its own libraries, not those of the build whose messages are used here
     libraries = os.path.dirname(os.path.dirname(command[-1]))
     node = harness.start(params, command=command, LD_LIBRARY_PATH=libraries)
@@ -76,9 +90,11 @@ def lives(command, checkpoint):
     if len(command) > 1:
         return [live(command, dict(LITTLE, checkpoint=checkpoint))]
     whole = dict(WHOLE, checkpoint=checkpoint)
-    return [live(command, dict(whole, duration=40.0, pace=20.0)),
-            live(command, dict(whole, duration=0.0), stopped=True),
-            live(command, dict(whole, duration=0.0, resume=checkpoint), stopped=True)]
+    return [
+        live(command, dict(whole, duration=40.0, pace=20.0)),
+        live(command, dict(whole, duration=0.0), stopped=True),
+        live(command, dict(whole, duration=0.0, resume=checkpoint), stopped=True),
+    ]
 
 
 def main(name, *command):

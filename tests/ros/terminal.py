@@ -24,10 +24,15 @@ class Terminal:
         self.before = termios.tcgetattr(slave)
         self.output = ''
         self.process = subprocess.Popen(
-            command, stdin=slave, stdout=slave, stderr=slave, start_new_session=True,
+            command,
+            stdin=slave,
+            stdout=slave,
+            stderr=slave,
+            start_new_session=True,
             preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),
-            env={**os.environ, 'TERM': 'xterm-256color', 'PYTHONIOENCODING': 'utf-8', **env})
-        self.slave = slave      # kept open, so that what was drawn last is not lost
+            env={**os.environ, 'TERM': 'xterm-256color', 'PYTHONIOENCODING': 'utf-8', **env},
+        )
+        self.slave = slave  # kept open, so that what was drawn last is not lost
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
 
@@ -61,8 +66,11 @@ class Terminal:
     def is_as_before(self):
         """Keyboard, cursor, wrapping and screen are those of the shell again."""
         picture = Picture(self.output)
-        return (termios.tcgetattr(self.slave) == self.before and picture.modes <= {7, 25}
-                and {7, 25} <= picture.modes)
+        return (
+            termios.tcgetattr(self.slave) == self.before
+            and picture.modes <= {7, 25}
+            and {7, 25} <= picture.modes
+        )
 
     def stop(self):
         if self.process.poll() is None:
@@ -76,9 +84,9 @@ class Picture:
     """What the bytes that went to a terminal amount to."""
 
     def __init__(self, output):
-        self.lines, self.modes = [''], {7, 25}      # wraps, shows its cursor
+        self.lines, self.modes = [''], {7, 25}  # wraps, shows its cursor
         self._row = self._column = 0
-        self._other = None      # what stands on the screen that is not shown
+        self._other = None  # what stands on the screen that is not shown
         for token in TOKEN.finditer(output):
             private, numbers, command, newline, text = token.groups()
             if command:
@@ -92,7 +100,7 @@ class Picture:
     def _write(self, text):
         self.lines += [''] * (self._row + 1 - len(self.lines))
         line = self.lines[self._row].ljust(self._column)
-        self.lines[self._row] = line[:self._column] + text + line[self._column + len(text):]
+        self.lines[self._row] = line[: self._column] + text + line[self._column + len(text) :]
         self._column += len(text)
 
     def _obey(self, private, numbers, command):
@@ -102,9 +110,9 @@ class Picture:
             self._row = self._column = 0
         elif command == 'K':
             self._write('')
-            self.lines[self._row] = self.lines[self._row][:self._column]
+            self.lines[self._row] = self.lines[self._row][: self._column]
         elif command == 'J':
-            del self.lines[0 if numbers == '2' else self._row + 1:]
+            del self.lines[0 if numbers == '2' else self._row + 1 :]
 
     def _switch(self, mode, on):
         (self.modes.add if on else self.modes.discard)(mode)

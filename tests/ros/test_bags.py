@@ -23,12 +23,31 @@ from harness import MODES, NODE, OBSERVABLES, SHORT, TYPES, Process
 README = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../README.md')
 # a second run in the bag, and before it a first one
 FIRST = dict(SHORT, seed='7', observables=OBSERVABLES, wait_for_subscribers='all')
-RUN = dict(MODES, seed='11', threads=1, pace=100.0, observables=OBSERVABLES, field_interval=5.0, wait_for_subscribers='all')
-REPORTS, BEGIN = 90, 70.0      # of RUN; where its averaging begins
+RUN = dict(
+    MODES,
+    seed='11',
+    threads=1,
+    pace=100.0,
+    observables=OBSERVABLES,
+    field_interval=5.0,
+    wait_for_subscribers='all',
+)
+REPORTS, BEGIN = 90, 70.0  # of RUN; where its averaging begins
 # 64 kB a report
-BULKY = dict(disks=2000, density=0.7, aspect=1.0, exponents=1, equilibration=0.2, warmup=0.2, duration=0.0,
-             report_interval=0.1, pace=20.0, observables=['spectrum', 'state'], wait_for_subscribers='all')
-PROBED = {'fields': 'mode_field'}   # of topics that the probe knows by another name
+BULKY = dict(
+    disks=2000,
+    density=0.7,
+    aspect=1.0,
+    exponents=1,
+    equilibration=0.2,
+    warmup=0.2,
+    duration=0.0,
+    report_interval=0.1,
+    pace=20.0,
+    observables=['spectrum', 'state'],
+    wait_for_subscribers='all',
+)
+PROBED = {'fields': 'mode_field'}  # of topics that the probe knows by another name
 
 
 def program(name):
@@ -49,7 +68,9 @@ def end(process):
 def is_recorded(node, topics):
     """True once the recorder is connected to all of these topics."""
     with xmlrpc.client.ServerProxy(links.node_uri(node)) as proxy:
-        connected = {topic for _, to, _, _, topic, *_ in proxy.getBusInfo('/test')[2] if to == '/record'}
+        connected = {
+            topic for _, to, _, _, topic, *_ in proxy.getBusInfo('/test')[2] if to == '/record'
+        }
     return {'/%s/%s' % (NODE, topic) for topic in topics} <= connected
 
 
@@ -58,8 +79,10 @@ class Raw:
 
     def __init__(self, topics):
         self.messages = {topic: [] for topic in topics}
-        self.subscribers = [rospy.Subscriber(topic, rospy.AnyMsg, self.keep, topic, queue_size=None)
-                            for topic in topics]
+        self.subscribers = [
+            rospy.Subscriber(topic, rospy.AnyMsg, self.keep, topic, queue_size=None)
+            for topic in topics
+        ]
 
     def keep(self, message, topic):
         self.messages[topic].append(message._buff)
@@ -110,7 +133,11 @@ class Recorded(unittest.TestCase):
         counts = os.path.join(cls.folder, 'counts')
         node = harness.start(params, probe={'PROBE_COUNTS': counts})
         cls.addClassCleanup(node.stop)
-        topics = [topic for topic in TYPES if topic in ('run_info', 'cost') or topic in params['observables']]
+        topics = [
+            topic
+            for topic in TYPES
+            if topic in ('run_info', 'cost') or topic in params['observables']
+        ]
         assert harness.wait_until(lambda: not node.running() or is_recorded(node, topics))
         cls.heard = Raw(['/hdlyap/' + topic for topic in TYPES])
         status = node.wait()
@@ -133,7 +160,7 @@ class Recorded(unittest.TestCase):
                     self.assertEqual(seqs, list(range(seqs[0], seqs[0] + count)) if seqs else [])
         self.assertEqual([len(self.of_run('state', k)) for k in (0, 1)], [4, REPORTS])
         self.assertGreater(self.counts[1]['fields'], 0)
-        self.assertEqual(len(self.messages['/hdlyap/state']), 4 + REPORTS)      # and of no other run
+        self.assertEqual(len(self.messages['/hdlyap/state']), 4 + REPORTS)  # and of no other run
         self.assertEqual([info.seed for info in self.infos], ['7', '11'])
 
     def test_first_report(self):
@@ -144,8 +171,11 @@ class Recorded(unittest.TestCase):
 
     def test_fields_come_now_and_then(self):
         times = {message.sim_time - BEGIN for message in self.of_run('fields', 1)}
-        resolved = {message.sim_time - BEGIN for message in self.of_run('steps', 1)
-                    if harness.examples(message.steps)}
+        resolved = {
+            message.sim_time - BEGIN
+            for message in self.of_run('steps', 1)
+            if harness.examples(message.steps)
+        }
         self.assertEqual(times, resolved & {1.0, 5.0, 10.0, 15.0, 20.0})
         self.assertIn(20.0, times)
 
@@ -157,7 +187,9 @@ class Recorded(unittest.TestCase):
             kind = TYPES[connection.topic.rsplit('/', 1)[1]]
             self.assertEqual((connection.datatype, connection.md5sum), (kind._type, kind._md5sum))
             self.assertEqual(connection.msg_def.strip(), kind._full_text.strip())
-            self.assertEqual(connection.header.get('latching', b'0'), b'1' if kind is TYPES['run_info'] else b'0')
+            self.assertEqual(
+                connection.header.get('latching', b'0'), b'1' if kind is TYPES['run_info'] else b'0'
+            )
 
     def test_bytes_are_those_of_the_topic(self):
         """Another subscriber, who came a little later, got the same; read and written again they still are the same."""
@@ -165,7 +197,7 @@ class Recorded(unittest.TestCase):
             with self.subTest(topic=topic):
                 bytes_in_bag = [data for _, data, _, _ in self.messages[topic]]
                 self.assertGreater(len(heard), 0)
-                self.assertEqual(heard, bytes_in_bag[-len(heard):])
+                self.assertEqual(heard, bytes_in_bag[-len(heard) :])
                 for kind, data, md5, _ in self.messages[topic]:
                     written, generated = io.BytesIO(), TYPES[topic.rsplit('/', 1)[1]]
                     generated().deserialize(data).serialize(written)
@@ -176,14 +208,20 @@ class Recorded(unittest.TestCase):
         """Of each message, by what README states."""
         for number, info in enumerate(self.infos):
             last = {topic: self.of_run(topic, number)[-1] for topic in ('steps', 'lp_phases')}
-            sizes = expected_sizes(info.disks, info.vectors, len(last['steps'].steps), len(last['lp_phases'].phases))
+            sizes = expected_sizes(
+                info.disks, info.vectors, len(last['steps'].steps), len(last['lp_phases'].phases)
+            )
             for topic in sizes:
                 for message in self.of_run(topic, number):
                     written = io.BytesIO()
                     message.serialize(written)
                     pairs = getattr(message, 'pairs', 0)
                     names = 4 + len('box') + 4 + len(info.run_id)
-                    self.assertEqual(len(written.getvalue()) - names, sizes[topic] + pairs * (48 * info.disks + 17), topic)
+                    self.assertEqual(
+                        len(written.getvalue()) - names,
+                        sizes[topic] + pairs * (48 * info.disks + 17),
+                        topic,
+                    )
 
     def test_sizes_in_readme(self):
         """Of the paper's scene: 8 waves along an axis or not, each T and LP, and the zero modes."""
@@ -191,13 +229,22 @@ class Recorded(unittest.TestCase):
             text = file.read()
         sizes = expected_sizes(780, 1557, 17, 4 * 8 + 4 * 32)
         fields = [sizes['fields'], sizes['fields'] + 4 * 48 * 780]
-        stated = dict(re.findall(r'^\| `(\w+)` \|.* \| ([0-9.]+(?: to [0-9.]+)?) kB \|$', text, re.MULTILINE))
-        self.assertEqual(stated.pop('fields'), '%.0f to %.0f' % tuple(size / 1e3 for size in fields))
-        self.assertEqual(stated, {topic: '%.3g' % (size / 1e3) for topic, size in sizes.items() if topic != 'fields'})
+        stated = dict(
+            re.findall(r'^\| `(\w+)` \|.* \| ([0-9.]+(?: to [0-9.]+)?) kB \|$', text, re.MULTILINE)
+        )
+        self.assertEqual(
+            stated.pop('fields'), '%.0f to %.0f' % tuple(size / 1e3 for size in fields)
+        )
+        self.assertEqual(
+            stated,
+            {topic: '%.3g' % (size / 1e3) for topic, size in sizes.items() if topic != 'fields'},
+        )
         # every step found, T without pairs, LP with 2 along an axis and 4 else, once in ten reports
         all_fields = 16 * sizes['fields'] + 4 * (2 + 4) * 48 * 780
         report = sum(size for topic, size in sizes.items() if topic != 'fields') + all_fields / 10
-        most, seconds = re.search(r'below (\d+) GB an hour.*? ([0-9.]+) s per time unit', text, re.DOTALL).groups()
+        most, seconds = re.search(
+            r'below (\d+) GB an hour.*? ([0-9.]+) s per time unit', text, re.DOTALL
+        ).groups()
         self.assertLess(report * 3600 / float(seconds), 1e9 * float(most))
 
     def test_replay(self):
@@ -205,23 +252,32 @@ class Recorded(unittest.TestCase):
         raw, clock = Raw(self.messages), Raw(['/clock'])
         self.addCleanup(clock.close)
         self.addCleanup(raw.close)
-        replay = launch(self.folder, 'replay.launch', 'bag:=run.bag', 'rate:=20', 'paused:=true', 'keep_alive:=true',
-                        'wait_for_subscribers:=true')
+        replay = launch(
+            self.folder,
+            'replay.launch',
+            'bag:=run.bag',
+            'rate:=20',
+            'paused:=true',
+            'keep_alive:=true',
+            'wait_for_subscribers:=true',
+        )
         self.addCleanup(end, replay)
         rospy.wait_for_service('/replay/pause_playback', harness.PATIENCE)
         pause = rospy.ServiceProxy('/replay/pause_playback', SetBool)
         self.assertFalse(any(raw.messages.values()))
         self.assertTrue(harness.wait_until(lambda: pause(False) and any(raw.messages.values())))
-        want = {topic: [data for _, data, _, _ in messages] for topic, messages in self.messages.items()}
+        want = {
+            topic: [data for _, data, _, _ in messages] for topic, messages in self.messages.items()
+        }
         harness.wait_until(lambda: raw.messages == want)
         for topic in want:
             self.assertEqual(raw.messages[topic], want[topic], topic)
-        rospy.sleep(0.5)    # by now a replay that does not stay has gone
+        rospy.sleep(0.5)  # by now a replay that does not stay has gone
         late = Raw(['/hdlyap/run_info'])
         self.addCleanup(late.close)
         self.assertTrue(harness.wait_until(lambda: late.messages['/hdlyap/run_info']))
         self.assertEqual(late.messages['/hdlyap/run_info'], want['/hdlyap/run_info'][-1:])
-        self.assertEqual(clock.messages['/clock'], [])      # advertised, but silent
+        self.assertEqual(clock.messages['/clock'], [])  # advertised, but silent
         end(replay)
 
     def test_repeat(self):
@@ -230,7 +286,9 @@ class Recorded(unittest.TestCase):
         self.assertEqual(repeat.wait(), 0, repeat.text())
         with open(os.path.join(self.folder, 'again.yaml'), 'w') as file:
             file.write(repeat.text())
-        again = launch(self.folder, 'run.launch', 'scene:=again.yaml', 'record:=true', 'bag:=again.bag')
+        again = launch(
+            self.folder, 'run.launch', 'scene:=again.yaml', 'record:=true', 'bag:=again.bag'
+        )
         self.addCleanup(end, again)
         self.assertEqual(again.wait(), 0, again.text())
         repeated = read(os.path.join(self.folder, 'again.bag'))
@@ -245,14 +303,16 @@ class Recorded(unittest.TestCase):
 
 def expected_sizes(disks, vectors, steps, phases):
     """Bytes of a message without frame_id and run_id, of fields without pairs: what README says, and single numbers."""
-    begin = 4 + 8 + 8       # seq, stamp, sim_time
-    return dict(spectrum=begin + 8 + 8 + 3 * 8 + 4 + 5 * 4 + 40 * vectors,
-                modes=begin + 8 + 4 + 4 + 89 * vectors,
-                steps=begin + 8 + 8 + 4 + 63 * steps + 2 * 36 + 4 + 2 * 8,
-                lp_phases=begin + 4 + 4 + 74 * phases,
-                fields=begin + 29 + 8 * 4 + 64 * disks + 4 + 3 * 4 + 8 + 6 * 4,
-                state=begin + 8 + 4 * 4 + 32 * disks,
-                cost=begin + 162)
+    begin = 4 + 8 + 8  # seq, stamp, sim_time
+    return dict(
+        spectrum=begin + 8 + 8 + 3 * 8 + 4 + 5 * 4 + 40 * vectors,
+        modes=begin + 8 + 4 + 4 + 89 * vectors,
+        steps=begin + 8 + 8 + 4 + 63 * steps + 2 * 36 + 4 + 2 * 8,
+        lp_phases=begin + 4 + 4 + 74 * phases,
+        fields=begin + 29 + 8 * 4 + 64 * disks + 4 + 3 * 4 + 8 + 6 * 4,
+        state=begin + 8 + 4 * 4 + 32 * disks,
+        cost=begin + 162,
+    )
 
 
 class Stopped(unittest.TestCase):
@@ -284,7 +344,9 @@ class Stopped(unittest.TestCase):
         second = self.record('bag:=second.bag', 'markers:=true')
         averaged = harness.Listener('spectrum')
         self.addCleanup(averaged.close)
-        self.assertTrue(harness.wait_until(lambda: is_recorded(node, ['run_info', 'spectrum', 'state', 'cost'])))
+        self.assertTrue(
+            harness.wait_until(lambda: is_recorded(node, ['run_info', 'spectrum', 'state', 'cost']))
+        )
         begin = len(averaged.messages)
         self.assertTrue(harness.wait_until(lambda: len(averaged.messages) > begin + 5))
         node.stop()

@@ -15,10 +15,19 @@ from harness import NODE, SHORT
 DOCUMENT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/survival.md')
 LONG = dict(SHORT, duration=0.0, threads=1)
 # reports come at the same times whatever the speed; nobody's listening changes what is computed
-RUN = dict(disks=60, density=0.8, aspect=0.06, equilibration=5.0, warmup=20.0, duration=30.0, threads=1,
-           report_interval=0.5, observables=['spectrum', 'modes', 'steps', 'lp_phases', 'fields', 'state'],
-           field_interval=3.0,
-           wait_for_subscribers='all')
+RUN = dict(
+    disks=60,
+    density=0.8,
+    aspect=0.06,
+    equilibration=5.0,
+    warmup=20.0,
+    duration=30.0,
+    threads=1,
+    report_interval=0.5,
+    observables=['spectrum', 'modes', 'steps', 'lp_phases', 'fields', 'state'],
+    field_interval=3.0,
+    wait_for_subscribers='all',
+)
 
 
 class Checkpoint(harness.Case):
@@ -76,7 +85,9 @@ class Checkpoint(harness.Case):
         params = dict(RUN, scene='kept', exponents=7, checkpoint=self.file)
         self.recorded(dict(params, duration=5.0))
         info = self.listen('run_info')
-        self.ends(self.start(dict(resume=self.file, duration=6.0)), 0, 'finished at simulated time 31')
+        self.ends(
+            self.start(dict(resume=self.file, duration=6.0)), 0, 'finished at simulated time 31'
+        )
         message = info.messages[0]
         self.assertEqual((message.scene, message.disks, message.exponents), ('kept', 60, '7'))
         self.assertEqual(message.observables, RUN['observables'])
@@ -101,7 +112,9 @@ class Checkpoint(harness.Case):
         self.ends(self.start(dict(RUN, resume=self.file)), 4, self.file, 'No such file')
         self.recorded(dict(RUN, checkpoint=self.file, duration=5.0))
         self.ends(self.start(dict(resume=self.file, disks=61)), 2, 'disks = 61: must be 60')
-        self.ends(self.start(dict(resume=self.file, duration=4.0)), 2, 'duration = 4: must be at least 5')
+        self.ends(
+            self.start(dict(resume=self.file, duration=4.0)), 2, 'duration = 4: must be at least 5'
+        )
         self.ends(self.start(dict(resume=self.file, observables=['spectrum'])), 2, 'observables')
         with open(self.file, 'r+b') as file:
             file.seek(1000)
@@ -126,7 +139,11 @@ class Checkpoint(harness.Case):
         self.ends(node, 0)
         self.assertNotIn('there already', node.text())
         # the way back after a start by accident
-        self.ends(self.start(dict(resume=old[1], checkpoint=self.file, duration=6.0)), 0, 'run.checkpoint.old3')
+        self.ends(
+            self.start(dict(resume=old[1], checkpoint=self.file, duration=6.0)),
+            0,
+            'run.checkpoint.old3',
+        )
         self.ends(self.start(dict(resume=old[1], seed='1', duration=5.0)), 0)
         self.ends(self.start(dict(resume=old[0], seed='1', duration=6.0)), 0)
 
@@ -163,7 +180,7 @@ class Checkpoint(harness.Case):
         self.assertNotEqual(os.stat(self.file).st_ino, first.st_ino)
         current = os.stat(self.file)
         self.assertTrue(self.call('checkpoint', Trigger).success)
-        self.assertEqual(os.stat(self.file).st_ino, current.st_ino)     # nothing has happened since
+        self.assertEqual(os.stat(self.file).st_ino, current.st_ino)  # nothing has happened since
         node.send(signal.SIGINT)
         self.ends(node, 0)
 
@@ -201,8 +218,10 @@ class Checkpoint(harness.Case):
 
     def test_a_long_step_does_not_keep_it_from_ending(self):
         cost = self.listen('cost')
-        node = self.start(dict(LONG, checkpoint=self.file, report_interval=1.0e-3, wait_for_subscribers=['cost']),
-                          probe={'PROBE_STEP_SECONDS': '1.5'})
+        node = self.start(
+            dict(LONG, checkpoint=self.file, report_interval=1.0e-3, wait_for_subscribers=['cost']),
+            probe={'PROBE_STEP_SECONDS': '1.5'},
+        )
         self.assertTrue(cost.wait_for(lambda message: True))
         node.send(signal.SIGINT)
         self.ends(node, 0)

@@ -19,7 +19,7 @@ from hdlyap_plots import recording, verdict
 from hdlyap_plots.comparison import Comparison
 from hdlyap_plots.deviation import Deviation, chance_of_largest, student_tail, unlikeliest
 
-ERROR = 0.01            # of the exponents
+ERROR = 0.01  # of the exponents
 EXPONENTS = np.linspace(9, 3, 37)
 # z is (b - a) / error of numbers up to 10, rounded, over errors of 0.01
 Z_TOLERANCE = 10 * np.finfo(float).eps * 10 / ERROR
@@ -37,8 +37,12 @@ def noise(seed=5):
 
 
 def found(info, **fields):
-    return [made.step(info, T, 1, 0, 36, 37, **fields), made.step(info, LP, 1, 0, 32, 35),
-            made.unresolved(info, T, 1, 1, 4), made.zero_modes()]
+    return [
+        made.step(info, T, 1, 0, 36, 37, **fields),
+        made.step(info, LP, 1, 0, 32, 35),
+        made.unresolved(info, T, 1, 1, 4),
+        made.zero_modes(),
+    ]
 
 
 def run(exponents=EXPONENTS, info=None, made_steps=None, error=ERROR, **fields):
@@ -46,8 +50,12 @@ def run(exponents=EXPONENTS, info=None, made_steps=None, error=ERROR, **fields):
     info = info or made.run_info(**fields)
     of_run = {'run_id': info.run_id}
     made_steps = found(info) if made_steps is None else made_steps
-    return [info, made.spectrum(np.zeros_like(exponents), 25.0, error=error, **of_run),
-            made.spectrum(exponents, 50.0, error=error, **of_run), made.steps(made_steps, **of_run)]
+    return [
+        info,
+        made.spectrum(np.zeros_like(exponents), 25.0, error=error, **of_run),
+        made.spectrum(exponents, 50.0, error=error, **of_run),
+        made.steps(made_steps, **of_run),
+    ]
 
 
 class Pairs(unittest.TestCase):
@@ -62,9 +70,12 @@ class Pairs(unittest.TestCase):
         return Comparison(recording.read(self.a), recording.read(self.b))
 
     def compare(self, *arguments):
-        return subprocess.run([sys.executable, os.path.join(SCRIPTS, 'compare'), self.a, self.b,
-                               *arguments], universal_newlines=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        return subprocess.run(
+            [sys.executable, os.path.join(SCRIPTS, 'compare'), self.a, self.b, *arguments],
+            universal_newlines=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
 
     def succeeds(self, status, *arguments):
         done = self.compare(*arguments)
@@ -122,8 +133,9 @@ class Agreeing(Pairs):
         largest = unlikeliest(comparison.deviations)[0]
         self.assertEqual(largest, comparison.exponents[int(np.argmax(abs(z)))])
         # 37 exponents, their sum, two steps, five fits
-        self.assertEqual(chance_of_largest(comparison.deviations), (
-            min(1.0, 45 * largest.chance), 45))
+        self.assertEqual(
+            chance_of_largest(comparison.deviations), (min(1.0, 45 * largest.chance), 45)
+        )
         self.assertEqual(verdict.verdict(comparison)[1], verdict.AGREE)
 
     def test_what_is_printed(self):
@@ -143,7 +155,7 @@ class Agreeing(Pairs):
         self.assertIn('\nagree within their errors: not less than 0.01\n', text)
 
     def test_sum_has_at_most_the_sum_of_the_errors(self):
-        one, = self.compared(run(), run(shifted(np.ones(37)))).sums
+        (one,) = self.compared(run(), run(shifted(np.ones(37)))).sums
         self.assertEqual(one.name, 'h_KS')
         # 37 exponents and the sum of both are rounded
         self.assertTrue(np.allclose(one.errors, 37 * ERROR, rtol=37 * np.finfo(float).eps, atol=0))
@@ -154,8 +166,9 @@ class Agreeing(Pairs):
         comparison = self.compared(part, part)
         self.assertEqual([one.name for one in comparison.sums], ['sum of exponents'])
         comparison = self.compared(run([3.0], made_steps=[]), run([3.02], made_steps=[]))
-        self.assertEqual(([one.name for one in comparison.exponents], comparison.sums),
-                         (['lambda_max'], []))
+        self.assertEqual(
+            ([one.name for one in comparison.exponents], comparison.sums), (['lambda_max'], [])
+        )
 
 
 class Differing(Pairs):
@@ -167,7 +180,7 @@ class Differing(Pairs):
         text = self.succeeds(1)
         self.assertIn('\nleast likely of 45: lambda_21, z = -10.00, ', text)
         self.assertIn('\ndiffer: ', text)
-        after_head = text[text.index('largest deviations'):].splitlines()[2]
+        after_head = text[text.index('largest deviations') :].splitlines()[2]
         self.assertRegex(after_head, r'  lambda_21 +.* -10\.00  \d\.\de-0\d')
 
     def test_one_step(self):
@@ -205,14 +218,16 @@ class Steps(Pairs):
     def test_are_found_by_their_waves(self):
         info = made.run_info()
         comparison = self.compared(run(), run(made_steps=found(info)[::-1]))
-        self.assertEqual(self.names(comparison),
-                         ['T(1,0)', 'LP(1,0)', 'c_T', 'c_T2', 'c_L', 'c_L2', 'v'])
+        self.assertEqual(
+            self.names(comparison), ['T(1,0)', 'LP(1,0)', 'c_T', 'c_T2', 'c_L', 'c_L2', 'v']
+        )
         self.assertEqual({one.z for one in comparison.steps}, {0.0})
 
     def test_of_one_run_alone(self):
         info = made.run_info()
-        comparison = self.compared(run(), run(made_steps=[found(info)[1],
-                                                          made.step(info, T, 0, 1, 36, 37)]))
+        comparison = self.compared(
+            run(), run(made_steps=[found(info)[1], made.step(info, T, 0, 1, 36, 37)])
+        )
         self.assertEqual(comparison.found_once, (['T(1,0)'], ['T(0,1)']))
         # the T curve is through other points
         self.assertEqual(self.names(comparison), ['LP(1,0)', 'c_L', 'c_L2', 'v'])
@@ -231,18 +246,24 @@ class Steps(Pairs):
         spectra = [[*half, *[zero] * 6, *-EXPONENTS[::-1]] for zero in (0.0, -1.0)]
         zero_modes = [made.zero_modes(38), made.zero_modes(38)]
         zero_modes[1].exponent = -1.0
-        comparison = self.compared(*(run(spectrum, made_steps=[zero])
-                                     for spectrum, zero in zip(spectra, zero_modes)))
-        self.assertIn('exponents: 74 of 80 compared, 0 of unknown error, 6 zero',
-                      verdict.report(comparison))
-        self.assertEqual([one.name for one in comparison.exponents if not one.judged],
-                         [f'lambda_{index}' for index in range(38, 44)])
+        comparison = self.compared(
+            *(run(spectrum, made_steps=[zero]) for spectrum, zero in zip(spectra, zero_modes))
+        )
+        self.assertIn(
+            'exponents: 74 of 80 compared, 0 of unknown error, 6 zero', verdict.report(comparison)
+        )
+        self.assertEqual(
+            [one.name for one in comparison.exponents if not one.judged],
+            [f'lambda_{index}' for index in range(38, 44)],
+        )
         self.assertEqual(verdict.verdict(comparison)[1], verdict.AGREE)
 
     def test_conjugate_steps_have_a_name_of_their_own(self):
         info = made.run_info()
-        pair = [made.step(info, T, 1, 0, 36, 37),
-                made.step(info, T, 1, 0, 44, 45, conjugate=True, exponent=-2.0)]
+        pair = [
+            made.step(info, T, 1, 0, 36, 37),
+            made.step(info, T, 1, 0, 44, 45, conjugate=True, exponent=-2.0),
+        ]
         comparison = self.compared(run(made_steps=pair), run(made_steps=pair))
         self.assertEqual(sorted(one.name for one in comparison.steps), ['T(1,0)', 'T(1,0)*'])
 
@@ -255,13 +276,14 @@ class Steps(Pairs):
 
 class OtherNumberOfDisks(Pairs):
     def big(self):
-        info = made.run_info(disks=40, box_x=80 ** 0.5, box_y=80 ** 0.5)
+        info = made.run_info(disks=40, box_x=80**0.5, box_y=80**0.5)
         return run(np.linspace(9, 3, 77), info, [made.step(info, T, 0, 1, 76, 77)])
 
     def test_only_fits_are_compared(self):
         comparison = self.compared(run(), self.big())
-        self.assertEqual([one.name for one in comparison.deviations],
-                         ['c_T', 'c_T2', 'c_L', 'c_L2', 'v'])
+        self.assertEqual(
+            [one.name for one in comparison.deviations], ['c_T', 'c_T2', 'c_L', 'c_L2', 'v']
+        )
         # though not over the same steps
         self.assertEqual(chance_of_largest(comparison.deviations)[1], 5)
         text = verdict.report(comparison)
@@ -297,8 +319,12 @@ class UnknownErrors(Pairs):
 
 class Refusals(Pairs):
     def test_other_systems(self):
-        for name, value in (('density', 0.51), ('aspect', 0.9), ('boundary_x', 'reflecting'),
-                            ('boundary_y', 'reflecting')):
+        for name, value in (
+            ('density', 0.51),
+            ('aspect', 0.9),
+            ('boundary_x', 'reflecting'),
+            ('boundary_y', 'reflecting'),
+        ):
             self.cannot_compare(f'{name} is .* and {value}', run(), run(**{name: value}))
         made.write(self.a, run())
         made.write(self.b, run(density=0.6))
@@ -308,8 +334,9 @@ class Refusals(Pairs):
         self.cannot_compare('exponents 1-37 and 1-36', run(), run(EXPONENTS[:-1]))
 
     def test_missing_topics(self):
-        self.cannot_compare('no averaged spectrum in the second bag', run(),
-                            [made.run_info(), made.cost(1)])
+        self.cannot_compare(
+            'no averaged spectrum in the second bag', run(), [made.run_info(), made.cost(1)]
+        )
         self.cannot_compare('no averaged spectrum in the first bag', [made.run_info()], run())
         self.cannot_compare('no run_info', run()[1:], run())
 
@@ -332,8 +359,9 @@ class Refusals(Pairs):
         for length in (0, 1, 100, len(content) // 2, len(content) - 1):
             with open(self.b, 'wb') as file:
                 file.write(content[:length])
-            with self.assertRaisesRegex(recording.RecordingError,
-                                        'rosbag reindex|not a readable bag'):
+            with self.assertRaisesRegex(
+                recording.RecordingError, 'rosbag reindex|not a readable bag'
+            ):
                 recording.read(self.b)
 
     def test_damaged_bag(self):
@@ -359,7 +387,7 @@ class Chance(unittest.TestCase):
         for z in (0.0, 0.3, 1.0, -2.5, 6.0):
             angle = atan(abs(z) / sqrt(7))
             c = cos(angle)
-            odd = 1 - 2 / pi * (angle + sin(angle) * (c + 2 / 3 * c ** 3 + 8 / 15 * c ** 5))
+            odd = 1 - 2 / pi * (angle + sin(angle) * (c + 2 / 3 * c**3 + 8 / 15 * c**5))
             self.assertLess(abs(student_tail(z, 7) - odd), TAIL_TOLERANCE)
             s = abs(z) / sqrt(4 + z * z)
             c = sqrt(1 - s * s)
@@ -380,7 +408,8 @@ class Chance(unittest.TestCase):
         means, errors = blocks.mean(axis=-1), blocks.std(axis=-1, ddof=1) / sqrt(8)
         differ = sum(
             chance_of_largest([Deviation('', *one) for one in zip(*pair)])[0] < verdict.CHANCE
-            for pair in zip(means, errors))
+            for pair in zip(means, errors)
+        )
         expected = verdict.CHANCE * pairs
         # four standard errors of a Poisson count
         self.assertLessEqual(differ, expected + 4 * sqrt(expected))

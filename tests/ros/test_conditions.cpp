@@ -1,5 +1,5 @@
-/** What diagnostics judge, without ROS: errors that fall or do not, disks that overlap or drift, subscribers that
- *  are behind, and what is made of all of it. */
+/** What diagnostics judge, without ROS: errors that fall or do not, disks that overlap or drift,
+ * subscribers that are behind, and what is made of all of it. */
 #include <gtest/gtest.h>
 
 #include <cfloat>

@@ -15,23 +15,39 @@ from harness import Cost
 from hdlyap.msg import CovariantAngle, Mode
 
 START, WINDOW, TRANSIENT, SAMPLING, DURATION = 30.0, 5.0, 20.0, 1.0, 200.0
-SCENE = dict(disks=16, density=0.7, aspect=0.866, exponents='all', equilibration=10.0, warmup=20.0, duration=DURATION,
-             interval=0.5, covariant_window=WINDOW, covariant_transient=TRANSIENT, covariant_sampling=SAMPLING,
-             observables=['spectrum', 'covariant'], wait_for_subscribers=['covariant'])
-WINDOWS = round((DURATION - TRANSIENT) / WINDOW)    # the last one is complete when the run ends
+SCENE = dict(
+    disks=16,
+    density=0.7,
+    aspect=0.866,
+    exponents='all',
+    equilibration=10.0,
+    warmup=20.0,
+    duration=DURATION,
+    interval=0.5,
+    covariant_window=WINDOW,
+    covariant_transient=TRANSIENT,
+    covariant_sampling=SAMPLING,
+    observables=['spectrum', 'covariant'],
+    wait_for_subscribers=['covariant'],
+)
+WINDOWS = round((DURATION - TRANSIENT) / WINDOW)  # the last one is complete when the run ends
 LOOKS = round(WINDOW / SAMPLING)
 N, VECTORS, POSITIVE, CENTRE = 16, 64, 29, 6
 OF_VECTORS = ('exponents', 'std_errors', 'local_exponents', 'apart', 'widths', 'cos_theta')
 OF_NEIGHBOURS = ('neighbour_angles', 'least_neighbour_angles', 'violations', 'entangled')
 RIGHT = math.pi / 2
-CONVERGED = 1e-8    # beyond what a transient of 20 leaves of the least rate, 2.2
+CONVERGED = 1e-8  # beyond what a transient of 20 leaves of the least rate, 2.2
 ROUNDING = 1e-9
 NOT_OF_THE_RUN = ('header', 'run_id', 'seconds')
 
 
 def plain(message):
     """Its numbers, but for those of this very run of it."""
-    return {name: str(getattr(message, name)) for name in message.__slots__ if name not in NOT_OF_THE_RUN}
+    return {
+        name: str(getattr(message, name))
+        for name in message.__slots__
+        if name not in NOT_OF_THE_RUN
+    }
 
 
 class Case(harness.Case):
@@ -70,7 +86,9 @@ class Windows(unittest.TestCase):
         self.assertEqual([m.windows for m in self.messages], list(range(1, WINDOWS + 1)))
         for message in self.messages:
             self.assertEqual(message.run_id, self.info.run_id)
-            self.assertAlmostEqual(message.sim_time, START + message.windows * WINDOW, delta=ROUNDING)
+            self.assertAlmostEqual(
+                message.sim_time, START + message.windows * WINDOW, delta=ROUNDING
+            )
             self.assertAlmostEqual(message.averaged_time, message.windows * WINDOW, delta=ROUNDING)
             self.assertEqual(message.looks, message.windows * LOOKS)
             self.assertEqual(message.lost_windows, 0)
@@ -96,7 +114,9 @@ class Windows(unittest.TestCase):
         for k, (back, there) in enumerate(zip(last.exponents, self.spectrum.exponents)):
             error = math.hypot(last.std_errors[k], self.spectrum.std_errors[k])
             self.assertGreater(last.std_errors[k], 0.0)
-            falling = 2 * math.log(DURATION) / DURATION if POSITIVE <= k < POSITIVE + CENTRE else ROUNDING
+            falling = (
+                2 * math.log(DURATION) / DURATION if POSITIVE <= k < POSITIVE + CENTRE else ROUNDING
+            )
             self.assertLess(abs(back - there), 5 * error + falling, k + 1)
         self.assertGreater(last.exponents[0], 4.5)
 
@@ -128,21 +148,33 @@ class Windows(unittest.TestCase):
         self.assertEqual(largest, sorted(largest))
 
     def test_angles(self):
-        pairs = {CovariantAngle.UNSTABLE_STABLE: POSITIVE, CovariantAngle.UNSTABLE_CENTRE: CENTRE,
-                 CovariantAngle.CENTRE_STABLE: CENTRE}
+        pairs = {
+            CovariantAngle.UNSTABLE_STABLE: POSITIVE,
+            CovariantAngle.UNSTABLE_CENTRE: CENTRE,
+            CovariantAngle.CENTRE_STABLE: CENTRE,
+        }
         for message in self.messages:
             self.assertEqual([angle.spaces for angle in message.angles], sorted(pairs))
             for angle in message.angles:
-                self.assertEqual((sum(angle.smallest_counts), sum(angle.all_counts)),
-                                 (message.looks, message.looks * pairs[angle.spaces]))
+                self.assertEqual(
+                    (sum(angle.smallest_counts), sum(angle.all_counts)),
+                    (message.looks, message.looks * pairs[angle.spaces]),
+                )
                 self.assertEqual((len(angle.smallest_counts), len(angle.all_counts)), (90, 90))
                 self.check_angle(angle)
         unstable_stable, *of_centre = self.last.angles
         self.assertLess(unstable_stable.mean, 1.0)
-        self.assertLess(unstable_stable.mean, 0.9 * unstable_stable.mean_of_all)    # one of 29, and the smallest
+        self.assertLess(
+            unstable_stable.mean, 0.9 * unstable_stable.mean_of_all
+        )  # one of 29, and the smallest
         last = [message.angles[0].last for message in self.messages]
-        self.assertEqual([m.angles[0].smallest_counts[int(90 * a / RIGHT)] > 0 for m, a in zip(self.messages, last)],
-                         [True] * WINDOWS)
+        self.assertEqual(
+            [
+                m.angles[0].smallest_counts[int(90 * a / RIGHT)] > 0
+                for m, a in zip(self.messages, last)
+            ],
+            [True] * WINDOWS,
+        )
         self.assertFalse(set(last) & {message.angles[0].mean for message in self.messages})
         for angle in of_centre:
             self.assertAlmostEqual(angle.least, RIGHT, delta=1e-6)
@@ -171,7 +203,9 @@ class Windows(unittest.TestCase):
 
     def test_shapes(self):
         for width, cosine in zip(self.last.widths, self.last.cos_theta):
-            self.assertTrue(1 / N <= width <= 1.0 and 0.0 <= cosine <= 1.0 + ROUNDING, (width, cosine))
+            self.assertTrue(
+                1 / N <= width <= 1.0 and 0.0 <= cosine <= 1.0 + ROUNDING, (width, cosine)
+            )
         # localised ones at the ends, extended ones between
         self.assertLess(self.last.widths[0], self.last.widths[POSITIVE - 1])
 
@@ -179,7 +213,9 @@ class Windows(unittest.TestCase):
         waves = sorted(zip(self.info.wave_nx, self.info.wave_ny))
         for message in self.messages:
             for kind in (Mode.T, Mode.LP):
-                self.assertEqual(sorted((w.nx, w.ny) for w in message.weights if w.kind == kind), waves)
+                self.assertEqual(
+                    sorted((w.nx, w.ny) for w in message.weights if w.kind == kind), waves
+                )
             order = [(weight.wave_number, weight.kind) for weight in message.weights]
             self.assertEqual(order, sorted(order))
             for weight in message.weights:
@@ -191,10 +227,12 @@ class Windows(unittest.TestCase):
                 self.assertAlmostEqual(weight.dq[0], weight.gram_schmidt[0], delta=ROUNDING)
         for weight in self.last.weights:
             both = weight.nx > 0 and weight.ny > 0
-            self.assertEqual(weight.dimension, (4 if both else 2) * (1 if weight.kind == Mode.T else 2))
+            self.assertEqual(
+                weight.dimension, (4 if both else 2) * (1 if weight.kind == Mode.T else 2)
+            )
             k = 2 * math.pi * math.hypot(weight.nx / self.info.box_x, weight.ny / self.info.box_y)
             self.assertAlmostEqual(weight.wave_number, k, delta=ROUNDING)
-            self.assertNotEqual(weight.dq, weight.dp)   # dp = C dq does not hold
+            self.assertNotEqual(weight.dq, weight.dp)  # dp = C dq does not hold
 
 
 class Choices(Case):
@@ -208,7 +246,11 @@ class Choices(Case):
         self.assertEqual([plain(message) for message in got], want)
 
     def test_positive_ones(self):
-        for exponents, vectors in (('positive', POSITIVE), (1, 1), (POSITIVE + CENTRE, POSITIVE + CENTRE)):
+        for exponents, vectors in (
+            ('positive', POSITIVE),
+            (1, 1),
+            (POSITIVE + CENTRE, POSITIVE + CENTRE),
+        ):
             message = self.run_of(exponents=exponents, duration=40.0)[-1]
             self.assertEqual(message.windows, 4)
             self.assertEqual({len(getattr(message, name)) for name in OF_VECTORS}, {vectors})
@@ -222,12 +264,20 @@ class Choices(Case):
     def test_with_modes(self):
         """Both kinds of vectors of one run."""
         steps, info = self.listen('steps'), self.listen('run_info')
-        message = self.run_of(duration=40.0, observables=['covariant', 'modes', 'steps', 'hydro'])[-1]
+        message = self.run_of(duration=40.0, observables=['covariant', 'modes', 'steps', 'hydro'])[
+            -1
+        ]
         self.assertEqual((message.windows, len(message.angles)), (4, 3))
         self.assertEqual(info.messages[0].observables, ['modes', 'steps', 'hydro', 'covariant'])
-        found = [step for step in steps.messages[-1].steps if step.kind != Mode.ZERO and not step.conjugate]
-        self.assertEqual([(step.kind, step.nx, step.ny) for step in found],
-                         [(weight.kind, weight.nx, weight.ny) for weight in message.weights])
+        found = [
+            step
+            for step in steps.messages[-1].steps
+            if step.kind != Mode.ZERO and not step.conjugate
+        ]
+        self.assertEqual(
+            [(step.kind, step.nx, step.ny) for step in found],
+            [(weight.kind, weight.nx, weight.ny) for weight in message.weights],
+        )
 
     def test_goes_on_from_a_checkpoint(self):
         """With the averages of its windows, what was observed and the parameters; windows may wait elsewhere."""
@@ -235,16 +285,27 @@ class Choices(Case):
             path = os.path.join(folder, 'run.checkpoint')
             first = self.run_of(duration=60.0, checkpoint=path)
             listener, info = self.listen('covariant'), self.listen('run_info')
-            node = self.start(dict(resume=path, duration=100.0, wait_for_subscribers=['covariant', 'run_info'],
-                                   covariant_storage='file', covariant_folder=folder))
+            node = self.start(
+                dict(
+                    resume=path,
+                    duration=100.0,
+                    wait_for_subscribers=['covariant', 'run_info'],
+                    covariant_storage='file',
+                    covariant_folder=folder,
+                )
+            )
             self.assertEqual(node.wait(), 0, node.text())
             self.assertTrue(listener.wait_for(lambda message: message.windows == 12))
-        self.assertEqual([message.windows for message in first + listener.messages], list(range(1, 13)))
+        self.assertEqual(
+            [message.windows for message in first + listener.messages], list(range(1, 13))
+        )
         self.assertAlmostEqual(listener.messages[0].sim_time, START + 60.0 + WINDOW, delta=ROUNDING)
         self.assertEqual(listener.messages[0].looks, 9 * LOOKS)
         info = info.messages[0]
-        self.assertEqual((info.observables, info.covariant_window, info.covariant_storage),
-                         (['spectrum', 'covariant', 'state'], WINDOW, 'file'))
+        self.assertEqual(
+            (info.observables, info.covariant_window, info.covariant_storage),
+            (['spectrum', 'covariant', 'state'], WINDOW, 'file'),
+        )
 
 
 class Demand(Case):
@@ -258,7 +319,9 @@ class Demand(Case):
     def test_somebody(self):
         self.listen('covariant')
         calls = harness.counts(self, SCENE)
-        self.assertEqual((calls['covariant_publish'], calls['modes_measure']), (WINDOWS, 3 * WINDOWS * LOOKS))
+        self.assertEqual(
+            (calls['covariant_publish'], calls['modes_measure']), (WINDOWS, 3 * WINDOWS * LOOKS)
+        )
 
     def test_who_comes_late_and_goes(self):
         """Is told of windows that began when he was there, and paid for until he goes."""
@@ -284,7 +347,9 @@ class Demand(Case):
         self.assertTrue(covariant.wait_for(lambda message: message.windows == 2))
         rospy.ServiceProxy('/hdlyap/reset_average', Trigger)()
         seen = len(covariant.messages)
-        self.assertTrue(harness.wait_until(lambda: any(m.windows == 1 for m in covariant.messages[seen:])))
+        self.assertTrue(
+            harness.wait_until(lambda: any(m.windows == 1 for m in covariant.messages[seen:]))
+        )
         first = next(m for m in covariant.messages[seen:] if m.windows == 1)
         self.assertEqual((first.looks, round(first.averaged_time, 6)), (LOOKS, WINDOW))
 
@@ -293,12 +358,26 @@ class Faults(Case):
     def test_no_room(self):
         """Triangles of every interval need more than those of the longest ones, which it was begun with."""
         self.listen('covariant')
-        node = self.start(dict(SCENE, interval='auto', covariant_window=50.0, duration=0.0, covariant_memory=0.003))
-        self.refused(node, 3, 'at simulated time 30', 'covariant_memory = 0.003 GB', 'covariant_window = 50 ',
-                     'triangles and', ' need 0.00')
+        node = self.start(
+            dict(
+                SCENE, interval='auto', covariant_window=50.0, duration=0.0, covariant_memory=0.003
+            )
+        )
+        self.refused(
+            node,
+            3,
+            'at simulated time 30',
+            'covariant_memory = 0.003 GB',
+            'covariant_window = 50 ',
+            'triangles and',
+            ' need 0.00',
+        )
 
     def test_no_folder(self):
-        for folder, word in (('/nowhere/at all', 'No such file or directory'), ('/dev/null', 'Not a directory')):
+        for folder, word in (
+            ('/nowhere/at all', 'No such file or directory'),
+            ('/dev/null', 'Not a directory'),
+        ):
             node = self.start(dict(SCENE, covariant_storage='file', covariant_folder=folder))
             self.refused(node, 4, 'covariant_folder = %s: %s' % (folder, word))
 
@@ -306,15 +385,23 @@ class Faults(Case):
         """Once; a long one is not."""
         for transient, lines in ((0.5, 1), (TRANSIENT, 0)):
             self.listen('covariant')
-            node = self.start(dict(SCENE, covariant_transient=transient, wait_for_subscribers=['covariant']))
+            node = self.start(
+                dict(SCENE, covariant_transient=transient, wait_for_subscribers=['covariant'])
+            )
             self.assertEqual(node.wait(), 0, node.text())
-            self.assertEqual(len(node.lines('covariant_transient = %g: too short' % transient)), lines, node.text())
+            self.assertEqual(
+                len(node.lines('covariant_transient = %g: too short' % transient)),
+                lines,
+                node.text(),
+            )
 
     def test_full_disk(self):
         self.listen('covariant')
         with tempfile.TemporaryDirectory() as folder:
-            node = self.start(dict(SCENE, covariant_storage='file', covariant_folder=folder),
-                              probe={'PROBE_DISK_FULL': '1'})
+            node = self.start(
+                dict(SCENE, covariant_storage='file', covariant_folder=folder),
+                probe={'PROBE_DISK_FULL': '1'},
+            )
             self.refused(node, 4, 'covariant_folder = %s: No space left on device' % folder)
 
     def test_not_a_number(self):

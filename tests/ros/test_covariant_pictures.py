@@ -13,44 +13,74 @@ from hdlyap.msg import Cost, Spectrum, Steps
 import made
 from made import LP, SCRIPTS, T
 from hdlyap_plots import covariant, recording, report
-from hdlyap_plots.figures import (covariant_angles, covariant_domination, covariant_exponents,
-                                  covariant_vectors, covariant_weights, plt)
+from hdlyap_plots.figures import (
+    covariant_angles,
+    covariant_domination,
+    covariant_exponents,
+    covariant_vectors,
+    covariant_weights,
+    plt,
+)
 
-FIGURES = (covariant_exponents, covariant_weights, covariant_angles, covariant_domination, covariant_vectors)
-POSITIVE, ALL = 37, 80      # of 20 disks
+FIGURES = (
+    covariant_exponents,
+    covariant_weights,
+    covariant_angles,
+    covariant_domination,
+    covariant_vectors,
+)
+POSITIVE, ALL = 37, 80  # of 20 disks
 FORWARD = np.array([*np.linspace(9, 1, POSITIVE), *[0.0] * 6, *-np.linspace(1, 9, POSITIVE)])
 UNSTABLE_STABLE, UNSTABLE_CENTRE, CENTRE_STABLE = range(3)
 
 
 def found_steps(info):
-    return [made.step(info, T, 1, 0, 36, 37), made.step(info, LP, 1, 0, 32, 35),
-            made.step(info, T, 1, 0, 44, 45, conjugate=True), made.zero_modes(38)]
+    return [
+        made.step(info, T, 1, 0, 36, 37),
+        made.step(info, LP, 1, 0, 32, 35),
+        made.step(info, T, 1, 0, 44, 45, conjugate=True),
+        made.zero_modes(38),
+    ]
 
 
 def angles():
     """Smallest ones: 30 in [0.1745, 0.1920) and 10 in the next bin; the centre is at right angles."""
     last = {made.BINS - 1: 40}
-    return [made.covariant_angle(UNSTABLE_STABLE, {10: 30, 11: 10}, {20: 3000, 80: 1000}),
-            made.covariant_angle(UNSTABLE_CENTRE, last, last, mean=np.pi / 2, least=np.pi / 2, std_error=2e-16),
-            made.covariant_angle(CENTRE_STABLE, last, last, mean=np.pi / 2, least=np.pi / 2, std_error=-1.0)]
+    return [
+        made.covariant_angle(UNSTABLE_STABLE, {10: 30, 11: 10}, {20: 3000, 80: 1000}),
+        made.covariant_angle(
+            UNSTABLE_CENTRE, last, last, mean=np.pi / 2, least=np.pi / 2, std_error=2e-16
+        ),
+        made.covariant_angle(
+            CENTRE_STABLE, last, last, mean=np.pi / 2, least=np.pi / 2, std_error=-1.0
+        ),
+    ]
 
 
 def backward():
     """The forward exponents and 0.03 more: 3 / sqrt(2) combined errors; one exponent 0.06 more, zero modes 0.1 less."""
     exponents = FORWARD + 0.03
     exponents[4] += 0.03
-    exponents[POSITIVE:POSITIVE + 6] -= 0.13
+    exponents[POSITIVE : POSITIVE + 6] -= 0.13
     return exponents
 
 
 def everything():
     """All 4N vectors, with every topic that is compared."""
     info, steps = made.run_info(exponents='all'), found_steps(made.run_info())
-    message = made.covariant(backward(), angles=angles(), centre_apart=3e-12, stable_apart=5e-11, null_angle=4e-13,
-                             largest_null_angle=7e-13,
-                             weights=[made.covariant_weight(steps[0], ALL, 0.81, 0.27, gram_schmidt=0.93),
-                                      made.covariant_weight(steps[1], ALL, 0.63, 0.19, gram_schmidt=0.55)])
-    message.weights[0].dq[43:45] = [0.77] * 2       # of the conjugate step
+    message = made.covariant(
+        backward(),
+        angles=angles(),
+        centre_apart=3e-12,
+        stable_apart=5e-11,
+        null_angle=4e-13,
+        largest_null_angle=7e-13,
+        weights=[
+            made.covariant_weight(steps[0], ALL, 0.81, 0.27, gram_schmidt=0.93),
+            made.covariant_weight(steps[1], ALL, 0.63, 0.19, gram_schmidt=0.55),
+        ],
+    )
+    message.weights[0].dq[43:45] = [0.77] * 2  # of the conjugate step
     message.weights[0].gram_schmidt[43:45] = [0.73] * 2
     message.entangled[6] = message.violations[6] = message.entangled[36] = 0.0
     message.apart[3], message.widths[2], message.cos_theta[2] = 1.0, 0.123, 0.456
@@ -104,14 +134,18 @@ class Bags(unittest.TestCase):
             yield kind.__name__.rpartition('_')[2]
             if on_paper:
                 figure.canvas.draw()
-                self.assertTrue((np.asarray(figure.canvas.buffer_rgba())[..., :3] < 128).any(), kind.__name__)
+                self.assertTrue(
+                    (np.asarray(figure.canvas.buffer_rgba())[..., :3] < 128).any(), kind.__name__
+                )
             plt.close(figure)
 
 
 class Recorded(Bags):
     def test_last_of_the_run(self):
         first, last = made.covariant(FORWARD, windows=1), made.covariant(FORWARD, windows=2)
-        run = self.read([made.run_info(), first, last, made.covariant(FORWARD, run_id='other', windows=3)])
+        run = self.read(
+            [made.run_info(), first, last, made.covariant(FORWARD, run_id='other', windows=3)]
+        )
         self.assertEqual(run.covariant.windows, 2)
 
     def test_none_before_the_first_window(self):
@@ -119,8 +153,12 @@ class Recorded(Bags):
         self.assertIsNone(run.covariant)
 
     def test_forgotten_when_averages_are_reset(self):
-        messages = [made.run_info(), made.spectrum(FORWARD, 9.0), made.covariant(FORWARD),
-                    made.spectrum(FORWARD, 1.0)]
+        messages = [
+            made.run_info(),
+            made.spectrum(FORWARD, 9.0),
+            made.covariant(FORWARD),
+            made.spectrum(FORWARD, 1.0),
+        ]
         self.assertIsNone(self.read(messages).covariant)
         self.assertIsNotNone(self.read([*messages, made.covariant(FORWARD)]).covariant)
 
@@ -130,14 +168,16 @@ class Table(Bags):
         """{first words before two blanks: the rest of a line's words}"""
         text = report.report(run)
         found = {}
-        for one in text[text.index('covariant vectors:'):].splitlines():
+        for one in text[text.index('covariant vectors:') :].splitlines():
             name, _, rest = one.strip().partition('  ')
             found.setdefault(name, []).append(rest.split())
         return found, text
 
     def test_windows(self):
         _, text = self.lines(self.read())
-        self.assertIn('covariant vectors: 200 time units in 4 windows, 40 looks (standard errors)', text)
+        self.assertIn(
+            'covariant vectors: 200 time units in 4 windows, 40 looks (standard errors)', text
+        )
         _, text = self.lines(self.changed(windows=1, lost_windows=3))
         self.assertIn('in 1 window, 3 lost for want of room, 40 looks', text)
 
@@ -145,13 +185,16 @@ class Table(Bags):
         """Errors of 0.01 in both passes: combined 0.01414."""
         lines, text = self.lines(self.read())
         lowest = FORWARD[35:37].mean()
-        self.assertEqual(lines['T(1,0)'][0],
-                         ['36-37', f'{lowest:.3f}(10)', f'{lowest + 0.03:.3f}(10)', '+2.12'])
+        self.assertEqual(
+            lines['T(1,0)'][0], ['36-37', f'{lowest:.3f}(10)', f'{lowest + 0.03:.3f}(10)', '+2.12']
+        )
         self.assertEqual(lines['conj. T(1,0)'][0][-1], '+2.12')
         self.assertEqual(lines['zero modes'][0], ['38-43', '0.000(10)', '-0.100(10)', '-7.07'])
         self.assertLess(text.index('T(1,0)  '), text.index('conj. T(1,0)'))
-        rms = np.sqrt((73 * 3.0 ** 2 + 6.0 ** 2) / 74 / 2)
-        self.assertIn(f'without zero modes, 74 in all: root mean square {rms:.2f}, largest +4.24 at 5', text)
+        rms = np.sqrt((73 * 3.0**2 + 6.0**2) / 74 / 2)
+        self.assertIn(
+            f'without zero modes, 74 in all: root mean square {rms:.2f}, largest +4.24 at 5', text
+        )
         self.assertIn('zero modes, 6 in all: root mean square 7.07, largest -7.07 at 38', text)
 
     def test_errors_differ(self):
@@ -180,7 +223,11 @@ class Table(Bags):
         weight = made.covariant_weight(made.step(made.run_info(), T, 0, 1, 30, 31), ALL, 0.4, 0.2)
         lines, _ = self.lines(self.changed(weights=[weight]))
         self.assertEqual(lines['T(0,1) *'][0], ['30-31', '0.900', '0.400', '0.200', '0.050'])
-        weight.dq[10], weight.dp[10], weight.dq[50] = 0.6, 0.4, 0.9     # the last one is of the negative half
+        weight.dq[10], weight.dp[10], weight.dq[50] = (
+            0.6,
+            0.4,
+            0.9,
+        )  # the last one is of the negative half
         lines, text = self.lines(self.changed(weights=[weight]))
         self.assertEqual(lines['T(0,1) *'][0], ['11', '..', '0.460', '0.500', '0.300', '0.050'])
         self.assertIn('* no step found', text)
@@ -188,8 +235,10 @@ class Table(Bags):
     def test_angles(self):
         lines, text = self.lines(self.read())
         self.assertEqual(lines['unstable-stable'][0], ['0.3290(60)', '0.21000', '1.10000'])
-        self.assertEqual(lines['unstable-centre'][0],
-                         ['1.57080', '1.57080', '1.10000', 'all', 'within', '89', '..', '90', 'degrees'])
+        self.assertEqual(
+            lines['unstable-centre'][0],
+            ['1.57080', '1.57080', '1.10000', 'all', 'within', '89', '..', '90', 'degrees'],
+        )
         self.assertIn('centre to exact null space: 4.0e-13 at the last look, 7.0e-13 at most', text)
 
     def test_order(self):
@@ -197,7 +246,9 @@ class Table(Bags):
         self.assertIn('78 of 79 pairs of neighbours ever changed it, 24.7 % of the time', text)
         self.assertIn('dominated splittings (2): behind 7 37', text)
         many = self.changed(entangled=[0.0] * (ALL - 1))
-        self.assertIn('dominated splittings (79): behind 1 2 3 4 5 6 7 8 and 71 more', report.report(many))
+        self.assertIn(
+            'dominated splittings (79): behind 1 2 3 4 5 6 7 8 and 71 more', report.report(many)
+        )
         none = self.changed(entangled=[0.1] * (ALL - 1))
         self.assertIn('dominated splittings (0)\n', report.report(none))
 
@@ -207,43 +258,61 @@ class Table(Bags):
         self.assertIn('spaces: centre 3.0e-12, stable 5.0e-11 rad', text)
         self.assertNotIn('too short', text)
         for which in ('centre_apart', 'stable_apart'):
-            self.assertIn(' rad: covariant_transient is too short', report.report(self.changed(**{which: 0.3})))
-        self.assertNotIn('spaces: ', report.report(self.changed(centre_apart=-1.0, stable_apart=-1.0)))
+            self.assertIn(
+                ' rad: covariant_transient is too short',
+                report.report(self.changed(**{which: 0.3})),
+            )
+        self.assertNotIn(
+            'spaces: ', report.report(self.changed(centre_apart=-1.0, stable_apart=-1.0))
+        )
 
     def test_seconds(self):
         """made.cost: 0.2 and 0.55 of the time are replay and orthonormalisation."""
         _, text = self.lines(self.read())
-        self.assertIn('covariant vectors took 12.5 s, the tangent frame forwards (replay and orthonormalisation) '
-                      '375.0 s, the run 500.0 s', text)
+        self.assertIn(
+            'covariant vectors took 12.5 s, the tangent frame forwards (replay and orthonormalisation) '
+            '375.0 s, the run 500.0 s',
+            text,
+        )
         _, text = self.lines(self.without(Cost))
         self.assertIn('covariant vectors took 12.5 s\n', text + '\n')
 
 
 class Figures(Bags):
     def test_exponents(self):
-        axes = self.draw(covariant_exponents)     # whole, magnified; below them the deviations
-        for label, wanted in (('forward (Gram-Schmidt)', FORWARD), ('backward (covariant)', backward()),
-                              ('backward, between two looks', backward() + 0.1)):
+        axes = self.draw(covariant_exponents)  # whole, magnified; below them the deviations
+        for label, wanted in (
+            ('forward (Gram-Schmidt)', FORWARD),
+            ('backward (covariant)', backward()),
+            ('backward, between two looks', backward() + 0.1),
+        ):
             points = line(axes[0], label)
             np.testing.assert_array_equal(points[:, 0], range(1, ALL + 1))
             np.testing.assert_allclose(points[:, 1], wanted)
             self.assertEqual(at(line(axes[1], label), 37), points[36, 1])
         off, zero = line(axes[2], 'difference'), line(axes[2], 'zero modes')
-        self.assertAlmostEqual(at(off, 1), 3 / 2 ** 0.5)
-        self.assertAlmostEqual(at(off, 5), 6 / 2 ** 0.5)
+        self.assertAlmostEqual(at(off, 1), 3 / 2**0.5)
+        self.assertAlmostEqual(at(off, 5), 6 / 2**0.5)
         self.assertEqual(list(zero[:, 0]), list(range(38, 44)))
-        self.assertAlmostEqual(at(zero, 40), -10 / 2 ** 0.5)
+        self.assertAlmostEqual(at(zero, 40), -10 / 2**0.5)
         self.assertEqual(len(off), 74)
 
     def test_magnified_round_the_zero_modes(self):
         axes = self.draw(covariant_exponents)
         self.assertEqual([round(x, 1) for x in axes[3].get_xlim()], [21.2, 59.8])
-        self.assertEqual([text.get_text() for text in axes[1].texts], ['zero modes', 'T(1,0)', 'LP(1,0)'])
+        self.assertEqual(
+            [text.get_text() for text in axes[1].texts], ['zero modes', 'T(1,0)', 'LP(1,0)']
+        )
 
     def test_weights(self):
         first, second, *_ = self.draw(covariant_weights)
-        self.assertEqual([axes.texts[0].get_text() for axes in (first, second)], ['T(1,0)', 'LP(1,0)'])
-        for axes, dq, dp, members in ((first, 0.81, 0.27, (36, 37)), (second, 0.63, 0.19, (32, 33, 34, 35))):
+        self.assertEqual(
+            [axes.texts[0].get_text() for axes in (first, second)], ['T(1,0)', 'LP(1,0)']
+        )
+        for axes, dq, dp, members in (
+            (first, 0.81, 0.27, (36, 37)),
+            (second, 0.63, 0.19, (32, 33, 34, 35)),
+        ):
             for index in members:
                 self.assertAlmostEqual(at(line(axes, r'covariant, $\delta q$'), index), dq)
                 self.assertAlmostEqual(at(line(axes, r'covariant, $\delta p$'), index), dp)
@@ -266,14 +335,21 @@ class Figures(Bags):
     def test_right_angles_are_said(self):
         for axes in self.draw(covariant_angles):
             self.assertEqual([len(one.get_xdata()) for one in axes.get_lines()], [91, 0, 0])
-            self.assertEqual([text.get_text() for text in axes.get_legend().get_texts()],
-                             ['unstable-stable', 'unstable-centre: at right angles, within 1°',
-                              'centre-stable: at right angles, within 1°'])
+            self.assertEqual(
+                [text.get_text() for text in axes.get_legend().get_texts()],
+                [
+                    'unstable-stable',
+                    'unstable-centre: at right angles, within 1°',
+                    'centre-stable: at right angles, within 1°',
+                ],
+            )
 
     def test_one_bin_elsewhere(self):
         one = made.covariant_angle(UNSTABLE_STABLE, {30: 5}, {30: 5})
-        self.assertEqual(self.draw(covariant_angles, self.changed(angles=[one]))[0].get_lines()[0].get_label(),
-                         'unstable-stable: 30 .. 31°')
+        self.assertEqual(
+            self.draw(covariant_angles, self.changed(angles=[one]))[0].get_lines()[0].get_label(),
+            'unstable-stable: 30 .. 31°',
+        )
 
     def test_domination(self):
         axes = self.draw(covariant_domination)
@@ -299,11 +375,16 @@ class Partly(Bags):
     def complete(self, run, *missing, on_paper=False):
         """All figures but the missing ones, and the text."""
         report.report(run)
-        self.assertEqual(set(self.names_drawn(run, on_paper)),
-                         {'exponents', 'weights', 'angles', 'domination', 'vectors'} - set(missing))
+        self.assertEqual(
+            set(self.names_drawn(run, on_paper)),
+            {'exponents', 'weights', 'angles', 'domination', 'vectors'} - set(missing),
+        )
 
     def test_one_window(self):
-        self.complete(self.changed(windows=1, averaged_time=50.0, looks=1, std_errors=[-1.0] * ALL), on_paper=True)
+        self.complete(
+            self.changed(windows=1, averaged_time=50.0, looks=1, std_errors=[-1.0] * ALL),
+            on_paper=True,
+        )
 
     def test_without_angles(self):
         self.complete(self.changed(angles=[]), 'angles')
@@ -333,28 +414,50 @@ class Partly(Bags):
     def test_positive_half(self):
         messages = everything()
         steps = found_steps(messages[0])[:2]
-        half = made.covariant(backward()[:POSITIVE], weights=[made.covariant_weight(steps[0], POSITIVE)])
-        run = self.read([made.run_info(), made.spectrum(FORWARD[:POSITIVE], 400.0), half, made.steps(steps)])
+        half = made.covariant(
+            backward()[:POSITIVE], weights=[made.covariant_weight(steps[0], POSITIVE)]
+        )
+        run = self.read(
+            [made.run_info(), made.spectrum(FORWARD[:POSITIVE], 400.0), half, made.steps(steps)]
+        )
         self.complete(run, 'angles')
         self.assertIn('T(1,0)', report.report(run))
 
     def test_leading_vectors_alone(self):
         """No step is among them, and of one vector there are no neighbours."""
         for count in (1, 2, 5):
-            run = self.read([made.run_info(), made.spectrum(FORWARD[:count], 400.0), made.covariant(FORWARD[:count])])
-            self.complete(run, 'angles', 'weights', *(['domination'] if count == 1 else []),
-                          on_paper=count == 1)
+            run = self.read(
+                [
+                    made.run_info(),
+                    made.spectrum(FORWARD[:count], 400.0),
+                    made.covariant(FORWARD[:count]),
+                ]
+            )
+            self.complete(
+                run,
+                'angles',
+                'weights',
+                *(['domination'] if count == 1 else []),
+                on_paper=count == 1,
+            )
 
     def test_steps_that_share_a_set(self):
         """Both have rows of their own, over all vectors of the set."""
         info, messages = made.run_info(), everything()
-        shared = [made.step(info, kind, 1, 0, 32, 37, set=7, members=2, expected=expected)
-                  for kind, expected in ((T, 2), (LP, 4))]
+        shared = [
+            made.step(info, kind, 1, 0, 32, 37, set=7, members=2, expected=expected)
+            for kind, expected in ((T, 2), (LP, 4))
+        ]
         messages[2] = made.steps(shared)
-        messages[-1].weights = [made.covariant_weight(step, ALL, dq) for step, dq in zip(shared, (0.4, 0.5))]
+        messages[-1].weights = [
+            made.covariant_weight(step, ALL, dq) for step, dq in zip(shared, (0.4, 0.5))
+        ]
         run = self.read(messages)
-        rows = {step.kind: weights[1] for _, block in covariant.blocks(run)
-                for step, weights in covariant.weights_over(run, block)}
+        rows = {
+            step.kind: weights[1]
+            for _, block in covariant.blocks(run)
+            for step, weights in covariant.weights_over(run, block)
+        }
         self.assertAlmostEqual(rows[T], 0.4)
         self.assertAlmostEqual(rows[LP], 0.5)
         self.complete(run)
@@ -362,15 +465,23 @@ class Partly(Bags):
 
 class Command(Bags):
     def plot(self):
-        return subprocess.run([sys.executable, os.path.join(SCRIPTS, 'plot_bag'), self.path, '--out', self.out],
-                              universal_newlines=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        return subprocess.run(
+            [sys.executable, os.path.join(SCRIPTS, 'plot_bag'), self.path, '--out', self.out],
+            universal_newlines=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
 
     def test_plot_bag(self):
         made.write(self.path, everything())
         done = self.plot()
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         self.assertIn('covariant vectors: 200 time units in 4 windows', done.stdout)
-        names = [f'{kind.__name__.rpartition(".")[2]}.{suffix}' for kind in FIGURES for suffix in ('png', 'svg')]
+        names = [
+            f'{kind.__name__.rpartition(".")[2]}.{suffix}'
+            for kind in FIGURES
+            for suffix in ('png', 'svg')
+        ]
         for name in names:
             self.assertIn(name, os.listdir(self.out))
             self.assertIn(name, done.stdout)

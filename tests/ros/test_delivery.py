@@ -17,8 +17,16 @@ import links
 from harness import MODES, OBSERVABLES, SHORT, TYPES, Cost, Process
 
 # some hundred messages of each topic, in less than a second
-MANY = dict(MODES, equilibration=1.0, warmup=1.0, duration=100.0, report_interval=0.25, field_interval=0.0,
-            observables=OBSERVABLES, wait_for_subscribers='all')
+MANY = dict(
+    MODES,
+    equilibration=1.0,
+    warmup=1.0,
+    duration=100.0,
+    report_interval=0.25,
+    field_interval=0.0,
+    observables=OBSERVABLES,
+    wait_for_subscribers='all',
+)
 REPORTS, AVERAGED_REPORTS = 408, 400
 # rosbag keeps 100 messages of a topic that it has not looked at: a third of a second of fields
 RECORDED = dict(MANY, pace=25.0)
@@ -48,7 +56,9 @@ class Delivery(unittest.TestCase):
     def record(self, **env):
         topics = ['/hdlyap/' + topic for topic in TYPES]
         # not `rosbag record`: that wrapper may end before its recorder has closed the bag
-        return self.process(['rosrun', 'rosbag', 'record', '-O', self.bag, '--buffsize=0'] + topics, **env)
+        return self.process(
+            ['rosrun', 'rosbag', 'record', '-O', self.bag, '--buffsize=0'] + topics, **env
+        )
 
     def recorded(self, recorder):
         """Messages by topic, and connections, of a recorder that is asked to end."""
@@ -67,11 +77,17 @@ class Delivery(unittest.TestCase):
         for topic in ('state', 'cost'):
             self.assertEqual([message.sim_time for message in messages[topic]], grid, topic)
         for topic in ('spectrum', 'modes', 'steps', 'lp_phases', 'hydro'):
-            self.assertEqual([message.sim_time for message in messages[topic]],
-                             grid[-AVERAGED_REPORTS:], topic)
-        self.assertEqual([field.sim_time for field in messages['fields']],
-                         [message.sim_time for message in messages['steps']
-                          for _ in harness.examples(message.steps)])
+            self.assertEqual(
+                [message.sim_time for message in messages[topic]], grid[-AVERAGED_REPORTS:], topic
+            )
+        self.assertEqual(
+            [field.sim_time for field in messages['fields']],
+            [
+                message.sim_time
+                for message in messages['steps']
+                for _ in harness.examples(message.steps)
+            ],
+        )
         self.assertEqual([cost.phase for cost in messages['cost']].count(Cost.FINISHED), 1)
         self.assertEqual(messages['cost'][-1].phase, Cost.FINISHED)
         self.assertEqual(messages['cost'][-1].progress, 1.0)
@@ -96,8 +112,12 @@ class Delivery(unittest.TestCase):
         self.addCleanup(master.stop)
         recorder = self.record(ROS_MASTER_URI=master.uri)
         node = self.start(RECORDED, ROS_MASTER_URI=master.uri)
-        self.assertTrue(harness.wait_until(lambda: os.path.exists(self.bag + '.active') and
-                                           os.path.getsize(self.bag + '.active') > 0))
+        self.assertTrue(
+            harness.wait_until(
+                lambda: os.path.exists(self.bag + '.active')
+                and os.path.getsize(self.bag + '.active') > 0
+            )
+        )
         rospy.sleep(0.3)
         self.assertTrue(node.running())
         master.stop()
@@ -120,9 +140,16 @@ class Delivery(unittest.TestCase):
         # more than what queue and sockets hold
         stopped = self.process(['rostopic', 'echo', '-p', '/hdlyap/state'])
         cost = self.listen('cost')
-        node = self.start(dict(MANY, disks=5000, exponents='none', observables=['state'],
-                               duration=200.0,
-                               wait_for_subscribers=['state', 'cost']))
+        node = self.start(
+            dict(
+                MANY,
+                disks=5000,
+                exponents='none',
+                observables=['state'],
+                duration=200.0,
+                wait_for_subscribers=['state', 'cost'],
+            )
+        )
         self.assertTrue(cost.wait_for(lambda message: True))
         stopped.send(signal.SIGSTOP)
         self.assertEqual(node.wait(), 0, node.text())
@@ -159,7 +186,7 @@ class Delivery(unittest.TestCase):
         node = self.start(MANY)
         early = self.links(node, TYPES, '/early')
         reader = links.Reader(early)
-        time.sleep(0.5)     # as long as the whole run
+        time.sleep(0.5)  # as long as the whole run
         late = self.links(node, TYPES, '/late')
         readers = [reader, links.Reader(late)]
         self.assertEqual(node.wait(), 0, node.text())
@@ -167,7 +194,9 @@ class Delivery(unittest.TestCase):
             reader.join(harness.PATIENCE)
         for first, second in zip(early, late):
             with self.subTest(topic=first.topic):
-                self.assertEqual(len(second.seqs) >= AVERAGED_REPORTS / 2, first.topic != 'run_info')
+                self.assertEqual(
+                    len(second.seqs) >= AVERAGED_REPORTS / 2, first.topic != 'run_info'
+                )
                 self.assertEqual(first.seqs, second.seqs)
         self.assertEqual(node.lines('WARN'), [])
 
@@ -194,7 +223,10 @@ class Delivery(unittest.TestCase):
             with self.subTest(signal=number):
                 master = harness.Master()
                 self.addCleanup(master.stop)
-                node = self.start(dict(SHORT, wait_for_subscribers=['run_info', 'cost']), ROS_MASTER_URI=master.uri)
+                node = self.start(
+                    dict(SHORT, wait_for_subscribers=['run_info', 'cost']),
+                    ROS_MASTER_URI=master.uri,
+                )
                 cost = self.links(node, ['cost'], '/cost', master.uri)[0]
                 self.assertTrue(harness.wait_until(lambda: self.has_services(master)))
                 master.send(number)
@@ -203,7 +235,11 @@ class Delivery(unittest.TestCase):
                 while len(cost.seqs) < 4 and not cost.closed:
                     cost.read()
                 self.assertEqual(len(cost.seqs), 4)
-                self.assertEqual(len(node.lines('the run starts with the subscribers connected now')), 1, node.text())
+                self.assertEqual(
+                    len(node.lines('the run starts with the subscribers connected now')),
+                    1,
+                    node.text(),
+                )
                 master.send(signal.SIGCONT)
                 self.assertEqual(node.wait(), 0, node.text())
 

@@ -14,15 +14,25 @@ from harness import SHORT
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 LIVE = dict(SHORT, duration=0.0, pace=20.0, threads=1)
 # more than the buffers of a socket hold, in a second
-BULKY = dict(disks=20000, density=0.1, exponents='none', observables=['state'], pace=0.5, equilibration=0.0,
-             warmup=0.0, report_interval=0.025, duration=0.0)
+BULKY = dict(
+    disks=20000,
+    density=0.1,
+    exponents='none',
+    observables=['state'],
+    pace=0.5,
+    equilibration=0.0,
+    warmup=0.0,
+    report_interval=0.025,
+    duration=0.0,
+)
 
 
 class Diagnostics(unittest.TestCase):
     def setUp(self):
         self.statuses = []
-        subscriber = rospy.Subscriber('/diagnostics', DiagnosticArray,
-                                      lambda message: self.statuses.append(message.status[0]))
+        subscriber = rospy.Subscriber(
+            '/diagnostics', DiagnosticArray, lambda message: self.statuses.append(message.status[0])
+        )
         self.addCleanup(subscriber.unregister)
 
     def start(self, params, **kw):
@@ -35,17 +45,25 @@ class Diagnostics(unittest.TestCase):
         start = len(self.statuses)
 
         def fits():
-            return [status for status in self.statuses[start:]
-                    if status.level == level and all(word in status.message for word in words)]
+            return [
+                status
+                for status in self.statuses[start:]
+                if status.level == level and all(word in status.message for word in words)
+            ]
 
         self.assertTrue(harness.wait_until(fits), self.statuses[-1:])
         return {pair.key: pair.value for pair in fits()[0].values}
 
     def test_several_at_once(self):
         """Of a run whose disks overlap and whose errors stay what they are."""
-        self.start(dict(LIVE, pace=200.0), probe=dict(PROBE_OVERLAP='1e-10', PROBE_STD_ERROR='0.25'))
-        values = self.said(ERROR, 'disks overlap by 1e-10, rounding explains ',
-                           '; errors of the smallest exponents do not fall: 0.25 after ')
+        self.start(
+            dict(LIVE, pace=200.0), probe=dict(PROBE_OVERLAP='1e-10', PROBE_STD_ERROR='0.25')
+        )
+        values = self.said(
+            ERROR,
+            'disks overlap by 1e-10, rounding explains ',
+            '; errors of the smallest exponents do not fall: 0.25 after ',
+        )
         self.assertEqual(values['overlap'], '1e-10')
         self.assertEqual(values['error of the smallest exponents'], '0.25')
 

@@ -19,19 +19,32 @@ import rostest
 import harness
 from harness import SHORT
 
-FILE_FAULT = 4      # exit status
-AT_ONCE = 4         # nodes that run at the same time
+FILE_FAULT = 4  # exit status
+AT_ONCE = 4  # nodes that run at the same time
 KILLS = 100
 # all that a file can hold, 200 kB of it
-KEPT = dict(disks=60, density=0.8, aspect=0.06, equilibration=1.0, warmup=2.0, duration=0.0, threads=1,
-            pace=100.0, checkpoint_interval=1.0e-3)
+KEPT = dict(
+    disks=60,
+    density=0.8,
+    aspect=0.06,
+    equilibration=1.0,
+    warmup=2.0,
+    duration=0.0,
+    threads=1,
+    pace=100.0,
+    checkpoint_interval=1.0e-3,
+)
 
 
 def small_disk(folder, bytes_):
     """Before the node: a file system of its own, which nobody else sees; None where that is not allowed."""
     for unshare in (['unshare', '-m'], ['unshare', '-rm']):
-        if subprocess.run(unshare + ['mount', '-t', 'tmpfs', 'tmpfs', folder],
-                          stderr=subprocess.DEVNULL).returncode == 0:
+        if (
+            subprocess.run(
+                unshare + ['mount', '-t', 'tmpfs', 'tmpfs', folder], stderr=subprocess.DEVNULL
+            ).returncode
+            == 0
+        ):
             mount = 'mount -t tmpfs -o size=%d tmpfs %s && exec "$@"' % (bytes_, folder)
             return unshare + ['sh', '-c', mount, 'sh']
     return None
@@ -83,6 +96,7 @@ class Disk(unittest.TestCase):
 
     def fill(self, path, condition):
         """A part that is given up makes room again."""
+
         def more():
             try:
                 while True:
@@ -113,12 +127,26 @@ class Disk(unittest.TestCase):
         os.mkfifo(pipe)
         os.mkdir(self.path('taken.part'))
         os.symlink(plain, self.path('led.part'))
-        paths = [link, pipe, self.folder, plain + '/below', self.path('x' * 300), self.path('taken'),
-                 self.path('led'), '/dev/full', '/dev/null', '/proc/self/status', '/sys/new', self.path('no/such/folder')]
+        paths = [
+            link,
+            pipe,
+            self.folder,
+            plain + '/below',
+            self.path('x' * 300),
+            self.path('taken'),
+            self.path('led'),
+            '/dev/full',
+            '/dev/null',
+            '/proc/self/status',
+            '/sys/new',
+            self.path('no/such/folder'),
+        ]
         for first in range(0, len(paths), AT_ONCE):
-            some = paths[first:first + AT_ONCE]
-            nodes = [self.start(dict(SHORT, checkpoint=path), name='refused_%d' % k)
-                     for k, path in enumerate(some)]
+            some = paths[first : first + AT_ONCE]
+            nodes = [
+                self.start(dict(SHORT, checkpoint=path), name='refused_%d' % k)
+                for k, path in enumerate(some)
+            ]
             for path, node in zip(some, nodes):
                 with self.subTest(path=path):
                     self.assertEqual(node.wait(), FILE_FAULT, node.text())
@@ -126,7 +154,9 @@ class Disk(unittest.TestCase):
                     self.assertIn(path[-100:], node.text())
         with open(plain) as file:
             self.assertEqual(file.read(), 'mine')
-        self.assertEqual(sorted(os.listdir(self.folder)), ['led.part', 'link', 'pipe', 'plain', 'taken.part'])
+        self.assertEqual(
+            sorted(os.listdir(self.folder)), ['led.part', 'link', 'pipe', 'plain', 'taken.part']
+        )
 
     def test_resume_from_what_is_no_file(self):
         """Without waiting for somebody to write."""
@@ -153,7 +183,9 @@ class Disk(unittest.TestCase):
         copy = tempfile.NamedTemporaryFile()
         self.addCleanup(copy.close)
         shutil.copyfile(seen('run.checkpoint'), copy.name)
-        self.wait_for(lambda: 'run.checkpoint.part' not in os.listdir(seen('')), node)  # between two attempts
+        self.wait_for(
+            lambda: 'run.checkpoint.part' not in os.listdir(seen('')), node
+        )  # between two attempts
         os.unlink(seen('filler'))
         self.wait_for(lambda: node.lines('checkpoint written again'), node)
         self.stop(node, 0)
@@ -163,8 +195,10 @@ class Disk(unittest.TestCase):
         """The first file is written before the run."""
         info = harness.Listener('run_info')
         self.addCleanup(info.close)
-        node = self.start(dict(KEPT, checkpoint=self.path()),
-                          command=['prlimit', '--fsize=100000', harness.executable()])
+        node = self.start(
+            dict(KEPT, checkpoint=self.path()),
+            command=['prlimit', '--fsize=100000', harness.executable()],
+        )
         self.assertEqual(node.wait(), FILE_FAULT, node.text())
         self.assertEqual(len(node.lines('File too large')), 1, node.text())
         self.assertEqual((os.listdir(self.folder), info.messages), ([], []))
@@ -199,15 +233,23 @@ class Disk(unittest.TestCase):
         for number in range(rounds):
             there = [os.path.exists(path) for path in paths]
             self.assertTrue(number == 0 or all(there))
-            nodes = [self.start(dict(KEPT, checkpoint=path, **(dict(resume=path) if before else {})),
-                                name='killed_%d' % k)
-                     for k, (path, before) in enumerate(zip(paths, there))]
+            nodes = [
+                self.start(
+                    dict(KEPT, checkpoint=path, **(dict(resume=path) if before else {})),
+                    name='killed_%d' % k,
+                )
+                for k, (path, before) in enumerate(zip(paths, there))
+            ]
             left = [written(path) for path in paths]
             for node, path, before in zip(nodes, paths, left):
                 self.wait_for(lambda: written(path) != before or not node.running(), node)
-            said = number % 2       # every other time it may be killed between its first writing and the line about it
+            said = (
+                number % 2
+            )  # every other time it may be killed between its first writing and the line about it
             for node, before in zip(nodes, there):
-                self.wait_for(lambda: not (said and before) or goes_on(node) or not node.running(), node)
+                self.wait_for(
+                    lambda: not (said and before) or goes_on(node) or not node.running(), node
+                )
             time.sleep(randomly.uniform(0.0, 0.03))
             for node, before in zip(nodes, there):
                 self.assertTrue(node.running(), node.text())

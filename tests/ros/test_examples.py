@@ -18,10 +18,14 @@ from harness import MODES, Process
 from hdlyap.msg import LpPhase, LpPhases, Mode
 from roslib.packages import find_node
 
-ROUNDING = 1e-6     # of regressions in another order
-PRINTED = 0.51e-4   # of numbers with four digits after the point
-STATES = {LpPhase.UNRESOLVED: 'its step is not resolved', LpPhase.WEAK: 'too weak to have a phase',
-          LpPhase.COARSE: 'turns too far between samples', LpPhase.TRACKED: 'followed'}
+ROUNDING = 1e-6  # of regressions in another order
+PRINTED = 0.51e-4  # of numbers with four digits after the point
+STATES = {
+    LpPhase.UNRESOLVED: 'its step is not resolved',
+    LpPhase.WEAK: 'too weak to have a phase',
+    LpPhase.COARSE: 'turns too far between samples',
+    LpPhase.TRACKED: 'followed',
+}
 
 
 class OlderPhases(LpPhases):
@@ -81,7 +85,9 @@ class Help(unittest.TestCase):
         self.assertIn('_node:=', fit.text())
 
     def test_python_example_is_interrupted_without_a_master(self):
-        fit = Process([example('fit_dispersion')], ROS_MASTER_URI='http://localhost:1', PYTHONUNBUFFERED='1')
+        fit = Process(
+            [example('fit_dispersion')], ROS_MASTER_URI='http://localhost:1', PYTHONUNBUFFERED='1'
+        )
         self.addCleanup(fit.stop)
         self.assertTrue(harness.wait_until(lambda: 'Will keep trying' in fit.text()), fit.text())
         fit.send(signal.SIGINT)
@@ -99,12 +105,18 @@ class Beside(Examples):
         deviations, subscriber = self.hear('/watch_phase/deviation', Float64)
         listeners = {topic: harness.Listener(topic) for topic in ('lp_phases', 'steps')}
         node = self.start(dict(MODES, duration=250.0, pace=100.0, wait_for_subscribers=['cost']))
-        wanted = {('/hdlyap/' + topic, name) for topic, name in
-                  (('lp_phases', '/watch_phase'), ('steps', '/fit_dispersion'),
-                   ('lp_phases', rospy.get_name()), ('steps', rospy.get_name()))}
+        wanted = {
+            ('/hdlyap/' + topic, name)
+            for topic, name in (
+                ('lp_phases', '/watch_phase'),
+                ('steps', '/fit_dispersion'),
+                ('lp_phases', rospy.get_name()),
+                ('steps', rospy.get_name()),
+            )
+        }
         self.wait_for(lambda: wanted <= self.connections(node), node)
         self.wait_for(lambda: subscriber.get_num_connections() == 1, watch)
-        cost = harness.Listener('cost')     # the run begins
+        cost = harness.Listener('cost')  # the run begins
         self.addCleanup(cost.close)
         self.assertEqual(node.wait(), 0, node.text())
         self.assertTrue(cost.wait_for(lambda message: message.phase == message.FINISHED))
@@ -137,9 +149,13 @@ class Beside(Examples):
         states = [self.ours(message).state for message in messages]
         changes = [state for state, before in zip(states, [None] + states) if state != before]
         said = watch.lines('phase 2 of LP(1,0): ')
-        self.assertEqual([line.split('LP(1,0): ')[1].split('\033')[0] for line in said],
-                         [STATES[state] for state in changes])
-        self.assertEqual(['INFO' in line for line in said], [state == LpPhase.TRACKED for state in changes])
+        self.assertEqual(
+            [line.split('LP(1,0): ')[1].split('\033')[0] for line in said],
+            [STATES[state] for state in changes],
+        )
+        self.assertEqual(
+            ['INFO' in line for line in said], [state == LpPhase.TRACKED for state in changes]
+        )
         self.assertGreater(len(watch.lines('omega = ')), 0, watch.text())
 
     def check_fits(self, messages, fit):
@@ -148,9 +164,13 @@ class Beside(Examples):
         fitted = 0
         for line in lines:
             message = by_time[re.match(r't = (\S+): ', line).group(1)]
-            for name, kind, c, error in (('c_T', Mode.T, message.c_t, message.c_t_error),
-                                         ('c_L', Mode.LP, message.c_l, message.c_l_error)):
-                own = re.search(name + r' = (\S+) \+- (\S+), node: (\S+) \+- (\S+) \((\S+) standard', line)
+            for name, kind, c, error in (
+                ('c_T', Mode.T, message.c_t, message.c_t_error),
+                ('c_L', Mode.LP, message.c_l, message.c_l_error),
+            ):
+                own = re.search(
+                    name + r' = (\S+) \+- (\S+), node: (\S+) \+- (\S+) \((\S+) standard', line
+                )
                 if own is None:
                     self.assertIn(name + ': not yet', line)
                     continue
@@ -176,10 +196,24 @@ class Beside(Examples):
 
 class Alone(Examples):
     def test_refused_parameters(self):
-        cases = [('nx', -1), ('nx', 1.5), ('nx', 'x'), ('nx', True), ('ny', -1), ('nx', 0), ('number', 0),
-                 ('number', '1'), ('node', 5), ('node', ['hdlyap']), ('nz', 1), ('Number', 1)]
-        nodes = [self.start({name: value}, name='refused_%d' % k, command=[example('watch_phase')])
-                 for k, (name, value) in enumerate(cases)]
+        cases = [
+            ('nx', -1),
+            ('nx', 1.5),
+            ('nx', 'x'),
+            ('nx', True),
+            ('ny', -1),
+            ('nx', 0),
+            ('number', 0),
+            ('number', '1'),
+            ('node', 5),
+            ('node', ['hdlyap']),
+            ('nz', 1),
+            ('Number', 1),
+        ]
+        nodes = [
+            self.start({name: value}, name='refused_%d' % k, command=[example('watch_phase')])
+            for k, (name, value) in enumerate(cases)
+        ]
         for node, (name, value) in zip(nodes, cases):
             with self.subTest(name=name, value=value):
                 self.assertEqual(node.wait(), 2, node.text())
@@ -188,7 +222,9 @@ class Alone(Examples):
 
     def test_refused_names(self):
         for params, args in ((dict(node='a b'), ()), ({}, ('__name:=a-b',))):
-            node = self.start(params, name='watch_phase', args=args, command=[example('watch_phase')])
+            node = self.start(
+                params, name='watch_phase', args=args, command=[example('watch_phase')]
+            )
             self.assertEqual(node.wait(), 2, node.text())
             self.assertEqual(len(node.text().splitlines()), 1, node.text())
             self.assertIn('[FATAL]', node.text())
@@ -206,8 +242,12 @@ class Alone(Examples):
         self.wait_for(lambda: watch.lines('[ERROR]'), watch)
         self.wait_for(lambda: older.lines('[ WARN]'), older)
         said = watch.lines('[ERROR]') + older.lines('[ WARN]')
-        self.assertIn('/other/lp_phases is published as std_msgs/String, not as hdlyap/LpPhases', said[0])
-        self.assertRegex(said[1], '/older/lp_phases is published, but .* another version of hdlyap/LpPhases')
+        self.assertIn(
+            '/other/lp_phases is published as std_msgs/String, not as hdlyap/LpPhases', said[0]
+        )
+        self.assertRegex(
+            said[1], '/older/lp_phases is published, but .* another version of hdlyap/LpPhases'
+        )
         wrong.unregister()
         right = self.publisher('/other/lp_phases', LpPhases)
         self.wait_for(lambda: right.get_num_connections() == 1, watch)
@@ -222,18 +262,37 @@ class Alone(Examples):
         publisher = self.publisher('/made/lp_phases', LpPhases)
         watch = self.watch(node='made')
         deviations, subscriber = self.hear('/watch_phase/deviation', Float64)
-        self.wait_for(lambda: publisher.get_num_connections() and subscriber.get_num_connections(), watch)
+        self.wait_for(
+            lambda: publisher.get_num_connections() and subscriber.get_num_connections(), watch
+        )
         # times, and how long it has been followed by then
-        made = [(t, t - began) for began, times in ((0.5, range(1, 4)), (7.0, range(10, 16)), (1.5, range(9, 13)))
-                for t in times]
-        messages = [LpPhases(sim_time=t, phases=[LpPhase(nx=1, state=LpPhase.TRACKED, tracked_time=tracked,
-                                                         phase=t + 0.1 * (7 * k % 5))])
-                    for k, (t, tracked) in enumerate(made)]
+        made = [
+            (t, t - began)
+            for began, times in ((0.5, range(1, 4)), (7.0, range(10, 16)), (1.5, range(9, 13)))
+            for t in times
+        ]
+        messages = [
+            LpPhases(
+                sim_time=t,
+                phases=[
+                    LpPhase(
+                        nx=1,
+                        state=LpPhase.TRACKED,
+                        tracked_time=tracked,
+                        phase=t + 0.1 * (7 * k % 5),
+                    )
+                ],
+            )
+            for k, (t, tracked) in enumerate(made)
+        ]
         for message in messages:
             publisher.publish(message)
         self.wait_for(lambda: len(deviations) >= len(messages), watch)
-        np.testing.assert_allclose([each.data for each in deviations],
-                                   expected_deviations(messages, lambda message: message.phases[0]), atol=ROUNDING)
+        np.testing.assert_allclose(
+            [each.data for each in deviations],
+            expected_deviations(messages, lambda message: message.phases[0]),
+            atol=ROUNDING,
+        )
         self.stop(watch)
 
     def test_node_dies_and_comes_back(self):
@@ -241,7 +300,9 @@ class Alone(Examples):
         deviations, _ = self.hear('/watch_phase/deviation', Float64)
         for _ in range(2):
             heard, said = len(deviations), len(watch.lines('phase 1 of LP(1,0)'))
-            node = self.start(dict(MODES, duration=0.0, pace=100.0, wait_for_subscribers=['lp_phases']))
+            node = self.start(
+                dict(MODES, duration=0.0, pace=100.0, wait_for_subscribers=['lp_phases'])
+            )
             self.wait_for(lambda: len(deviations) > heard + 3, watch)
             self.assertGreater(len(watch.lines('phase 1 of LP(1,0)')), said)
             node.send(signal.SIGKILL)

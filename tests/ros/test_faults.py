@@ -17,15 +17,15 @@ import harness
 import links
 from harness import MODES, OBSERVABLES, SHORT
 
-BOUND = 1.0     # seconds from a request to stop to the end, the contract
-FAULT = 3       # exit status
+BOUND = 1.0  # seconds from a request to stop to the end, the contract
+FAULT = 3  # exit status
 MB = 1 << 20
-AT_ONCE = 5     # nodes that run at the same time
+AT_ONCE = 5  # nodes that run at the same time
 # all stages, with two threads: OpenBLAS and OpenMP start theirs
 THREADED = dict(MODES, warmup=10.0, duration=5.0, observables=OBSERVABLES, threads=2)
 ENDLESS = dict(SHORT, disks=100, duration=0.0)
 LIMITS = [limit * MB for limit in range(160, 1360, 60)]
-ENOUGH = 1600 * MB      # of address space, for two threads
+ENOUGH = 1600 * MB  # of address space, for two threads
 STOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -37,7 +37,7 @@ def limited(limit):
 class Faults(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        signal.signal(signal.SIGHUP, signal.SIG_DFL)    # nohup's would be handed on
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)  # nohup's would be handed on
 
     def start(self, params, **kw):
         node = harness.start(params, **kw)
@@ -77,8 +77,14 @@ class Faults(unittest.TestCase):
         for params in (THREADED, dict(THREADED, exponents='none', observables=['state'])):
             ends = []
             for first in range(0, len(LIMITS), AT_ONCE):
-                nodes = [self.start(params, name='limited_%d' % k, command=[*limited(limit), harness.executable()])
-                         for k, limit in enumerate(LIMITS[first:first + AT_ONCE])]
+                nodes = [
+                    self.start(
+                        params,
+                        name='limited_%d' % k,
+                        command=[*limited(limit), harness.executable()],
+                    )
+                    for k, limit in enumerate(LIMITS[first : first + AT_ONCE])
+                ]
                 ends += [node.wait() for node in nodes]
                 for node in nodes:
                     if node.wait() != 0:
@@ -92,18 +98,26 @@ class Faults(unittest.TestCase):
         blocks = harness.counts(self, dict(SHORT, observables=OBSERVABLES))['memory_alloc']
         self.assertGreater(blocks, 100)
         moments = [1] + [blocks * k // 6 for k in range(1, 6)]
-        moments += range(blocks - 8, blocks)    # of the report, of the first interval
+        moments += range(blocks - 8, blocks)  # of the report, of the first interval
         for first in range(0, len(moments), AT_ONCE):
-            nodes = [self.start(dict(SHORT, observables=OBSERVABLES), name='short_%d' % k,
-                                probe={'PROBE_MEMORY_AFTER': str(after)})
-                     for k, after in enumerate(moments[first:first + AT_ONCE])]
+            nodes = [
+                self.start(
+                    dict(SHORT, observables=OBSERVABLES),
+                    name='short_%d' % k,
+                    probe={'PROBE_MEMORY_AFTER': str(after)},
+                )
+                for k, after in enumerate(moments[first : first + AT_ONCE])
+            ]
             for node in nodes:
                 self.check_out_of_memory(node)
 
     def test_limit_in_mid_run(self):
         """Not a byte more than it has. Messages that find no room are named, the run goes on."""
-        node, cost = self.running(dict(disks=20000, exponents='none', equilibration=0.1,
-                                       duration=0.0, report_interval=0.02))
+        node, cost = self.running(
+            dict(
+                disks=20000, exponents='none', equilibration=0.1, duration=0.0, report_interval=0.02
+            )
+        )
         deaf = links.Link(links.node_port(node), 'state', '/deaf')
         self.addCleanup(deaf.close)
         with open('/proc/%d/statm' % node.process.pid) as file:
@@ -134,7 +148,10 @@ class Faults(unittest.TestCase):
 
     def test_closed_output(self):
         """Nobody reads what it says: SIGPIPE."""
-        node, cost = self.running(dict(ENDLESS, pace=20.0), command=['bash', '-c', 'exec "$@" > >(true) 2>&1', 'bash', harness.executable()])
+        node, cost = self.running(
+            dict(ENDLESS, pace=20.0),
+            command=['bash', '-c', 'exec "$@" > >(true) 2>&1', 'bash', harness.executable()],
+        )
         self.goes_on(node, cost)
         self.stops(node)
 
@@ -157,10 +174,12 @@ class Faults(unittest.TestCase):
     def test_bursts(self):
         """At any stage: equilibrating, averaging, paused, in a step that outlasts the node."""
         randomly = random.Random(3)
-        stages = dict(equilibrating=(dict(ENDLESS, equilibration=1e6), {}), averaging=(ENDLESS, {}),
-                      paused=(ENDLESS, {}),
-                      step=(dict(ENDLESS, report_interval=1.0e-3),
-                            dict(probe={'PROBE_STEP_SECONDS': '0.7'})))
+        stages = dict(
+            equilibrating=(dict(ENDLESS, equilibration=1e6), {}),
+            averaging=(ENDLESS, {}),
+            paused=(ENDLESS, {}),
+            step=(dict(ENDLESS, report_interval=1.0e-3), dict(probe={'PROBE_STEP_SECONDS': '0.7'})),
+        )
         for stage, (params, how) in stages.items():
             with self.subTest(stage=stage):
                 node, _ = self.running(params, **how)
@@ -193,7 +212,11 @@ class Faults(unittest.TestCase):
         """What a node says is lost with the disk; what it computes is not."""
         for args in (['__log:=/dev/full'], ['__log:=/nowhere/at/all.log'], ['__log:=/']):
             with self.subTest(args=args):
-                node = self.start(SHORT, args=args, command=['sh', '-c', 'exec "$@" >/dev/full', 'sh', harness.executable()])
+                node = self.start(
+                    SHORT,
+                    args=args,
+                    command=['sh', '-c', 'exec "$@" >/dev/full', 'sh', harness.executable()],
+                )
                 self.assertEqual(node.wait(), 0, node.text())
 
 

@@ -41,29 +41,42 @@ def cost(**fields):
 
 
 def diagnosis(level=0, text='averaging', phase='averaging'):
-    return DiagnosticStatus(level=level, name='/hdlyap', message=text,
-                            values=[KeyValue('phase', phase)])
+    return DiagnosticStatus(
+        level=level, name='/hdlyap', message=text, values=[KeyValue('phase', phase)]
+    )
 
 
 def view(**fields):
     """Of a run of 20 disks with four steps."""
     info = fields.pop('info', None) or made.run_info(observables=OBSERVED, duration=200.0)
-    found = [made.step(info, T, 1, 0, 36, 37), made.step(info, LP, 1, 0, 32, 35),
-             made.step(info, T, 0, 1, 30, 31), made.unresolved(info, LP, 0, 1, 4)]
+    found = [
+        made.step(info, T, 1, 0, 36, 37),
+        made.step(info, LP, 1, 0, 32, 35),
+        made.step(info, T, 0, 1, 30, 31),
+        made.unresolved(info, LP, 0, 1, 4),
+    ]
     shown = View()
-    values = dict(node='/hdlyap', info=info, cost=cost(), speed=1.234,
-                  spectrum=made.spectrum(np.linspace(9, 3, 37), 50.0),
-                  steps=made.steps([*found, made.zero_modes()]),
-                  phases=made.lp_phases(info, found, 150.0, began=100.0),
-                  diagnosis=diagnosis(), others=set(OBSERVED))
+    values = dict(
+        node='/hdlyap',
+        info=info,
+        cost=cost(),
+        speed=1.234,
+        spectrum=made.spectrum(np.linspace(9, 3, 37), 50.0),
+        steps=made.steps([*found, made.zero_modes()]),
+        phases=made.lp_phases(info, found, 150.0, began=100.0),
+        diagnosis=diagnosis(),
+        others=set(OBSERVED),
+    )
     for name, value in {**values, **fields}.items():
         setattr(shown, name, value)
     return shown
 
 
 def drawn(shown, size=(80, 24), plain=False):
-    return [''.join(text for text, _ in cut(line, size[0]))
-            for line in layout.lines(shown, size, Glyphs(plain))]
+    return [
+        ''.join(text for text, _ in cut(line, size[0]))
+        for line in layout.lines(shown, size, Glyphs(plain))
+    ]
 
 
 class Screens(unittest.TestCase):
@@ -75,12 +88,27 @@ class Screens(unittest.TestCase):
     def test_everything_is_there(self):
         for size in ((80, 24), (120, 40)):
             text = self.text(view(), size)
-            for part in ('/hdlyap  made  seed 1  run one', 'N = 20, density 0.5', 'averaging  ██',
-                         ' 50.0 %  1:05 left', 'simulated 150.0', 'averaged 50.0 of 200',
-                         '1.23 time units/s', 'lambda_max 9.000(10)', 'h_KS 222.00, error < 0.37',
-                         'c_T 1.400(12)', 'c_L 1.500(20)', 'v 1.612(23)', 'steps resolved 3 of 4',
-                         'interval 2.37 (conditioning)', 'repairs 4', 'condition 2.8e+05',
-                         'error bound 1.2e-10', 'OK  averaging', 'q quit'):
+            for part in (
+                '/hdlyap  made  seed 1  run one',
+                'N = 20, density 0.5',
+                'averaging  ██',
+                ' 50.0 %  1:05 left',
+                'simulated 150.0',
+                'averaged 50.0 of 200',
+                '1.23 time units/s',
+                'lambda_max 9.000(10)',
+                'h_KS 222.00, error < 0.37',
+                'c_T 1.400(12)',
+                'c_L 1.500(20)',
+                'v 1.612(23)',
+                'steps resolved 3 of 4',
+                'interval 2.37 (conditioning)',
+                'repairs 4',
+                'condition 2.8e+05',
+                'error bound 1.2e-10',
+                'OK  averaging',
+                'q quit',
+            ):
                 self.assertIn(part, text)
             self.assertRegex(text, r'T\(1,0\) +36-37 +1\.98 +2 +0\.99346 +1\.4895\(20\)')
             self.assertRegex(text, r'ortho +█+.? +55 %')
@@ -91,8 +119,10 @@ class Screens(unittest.TestCase):
         info = made.run_info(observables=OBSERVED)
         step = made.step(info, LP, 1, 0, 33, 33)
         message = made.lp_phases(info, [step], 150.0, began=100.0, modulations=(1,))
-        self.assertRegex(self.text(view(info=info, phases=message)),
-                         r'LP\(1,0\) +sin kx x +33 +1\.00  ↙ 0\.65  1\.590\(16\) +1\.600\(16\)')
+        self.assertRegex(
+            self.text(view(info=info, phases=message)),
+            r'LP\(1,0\) +sin kx x +33 +1\.00  ↙ 0\.65  1\.590\(16\) +1\.600\(16\)',
+        )
         message.phases[0].state = LpPhase.WEAK
         self.assertIn('too weak now', self.text(view(phases=message)))
 
@@ -101,8 +131,15 @@ class Screens(unittest.TestCase):
         self.assertEqual(''.join(hands), '→↗↑←↓→→')
 
     def test_bar(self):
-        for share, bar in ((0, '    '), (0.5, '██  '), (0.53125, '██▏ '), (1, '████'), (7, '████'),
-                           (-1, '    '), (float('nan'), '    ')):
+        for share, bar in (
+            (0, '    '),
+            (0.5, '██  '),
+            (0.53125, '██▏ '),
+            (1, '████'),
+            (7, '████'),
+            (-1, '    '),
+            (float('nan'), '    '),
+        ):
             self.assertEqual(Glyphs().bar(share, 4), bar)
         self.assertEqual(Glyphs(plain=True).bar(0.6, 4, rest=True), '##..')
 
@@ -114,9 +151,12 @@ class Screens(unittest.TestCase):
         info = made.run_info()
         both = [made.step(info, LP, 1, 0, 34, 35), made.step(info, LP, 0, 1, 30, 31)]
         message = made.lp_phases(info, both, 150.0)
-        self.assertEqual([(phase.ny, phase.index, phase.modulation)
-                          for phase in panels.ranked(message.phases)][:5],
-                         [(0, 34, 0), (1, 30, 0), (0, 35, 1), (1, 31, 1), (0, 34, 1)])
+        self.assertEqual(
+            [(phase.ny, phase.index, phase.modulation) for phase in panels.ranked(message.phases)][
+                :5
+            ],
+            [(0, 34, 0), (1, 30, 0), (0, 35, 1), (1, 31, 1), (0, 34, 1)],
+        )
         for phase in message.phases[:4]:
             phase.state = LpPhase.UNRESOLVED
         self.assertEqual({phase.ny for phase in panels.ranked(message.phases)}, {1})
@@ -127,32 +167,42 @@ class Screens(unittest.TestCase):
         shown.steps.c_l = shown.cost.condition = float('nan')
         shown.phases.phases[0].a = shown.phases.phases[1].omega_error = float('nan')
         text = self.text(shown)
-        for part in ('lambda_max 9.00000 ', 'sum of exponents 12.00 ', 'c_T 1.40000 ', 'c_L - ',
-                     'condition nan'):
+        for part in (
+            'lambda_max 9.00000 ',
+            'sum of exponents 12.00 ',
+            'c_T 1.40000 ',
+            'c_L - ',
+            'condition nan',
+        ):
             self.assertIn(part, text)
         self.assertNotIn('-1.0', text)
 
     def test_what_is_not_there(self):
-        nothing = dict(cost=None, spectrum=None, steps=None, phases=None, diagnosis=None,
-                       speed=None)
+        nothing = dict(
+            cost=None, spectrum=None, steps=None, phases=None, diagnosis=None, speed=None
+        )
         self.assertIn('waiting for its first word', self.text(view(**nothing)))
         self.assertIn('/hdlyap', self.text(view(**nothing, info=None)))
         unheard = view(steps=None, phases=None, others=set())
         self.assertIn('steps: computed only if somebody listens; m:', self.text(unheard))
         self.assertIn('m compute steps and phases', self.text(unheard))
-        alone = view(info=made.run_info(observables=['spectrum']), steps=None, phases=None,
-                     others=set())
+        alone = view(
+            info=made.run_info(observables=['spectrum']), steps=None, phases=None, others=set()
+        )
         self.assertNotIn('steps', self.text(alone))
         self.assertNotIn('LP phases', self.text(alone))
-        none_yet = view(steps=made.steps([made.unresolved(made.run_info(), T, 1, 0, 2)]),
-                        phases=made.lp_phases(made.run_info(), [], 100.0))
+        none_yet = view(
+            steps=made.steps([made.unresolved(made.run_info(), T, 1, 0, 2)]),
+            phases=made.lp_phases(made.run_info(), [], 100.0),
+        )
         self.assertIn('steps: none resolved yet', self.text(none_yet))
         self.assertIn('no LP step resolved yet', self.text(none_yet))
 
     def test_shapes_of_scenes(self):
         half = np.linspace(3, 1, 37)
-        whole = view(spectrum=made.spectrum([*half, *[0.0] * 6, *-half[::-1]], 50.0,
-                                            pairing_error=2e-5))
+        whole = view(
+            spectrum=made.spectrum([*half, *[0.0] * 6, *-half[::-1]], 50.0, pairing_error=2e-5)
+        )
         whole.steps.steps[-1] = made.zero_modes(38)
         text = self.text(whole, (120, 40))
         self.assertRegex(text, r'zero modes +38-43 +6\.00')
@@ -165,43 +215,56 @@ class Screens(unittest.TestCase):
         self.assertNotIn('sum', one)
         endless = self.text(view(cost=cost(progress=0.0, remaining_seconds=-1.0)))
         self.assertNotIn('left', endless)
-        self.assertIn('std error ? of 0.01', self.text(
-            view(info=made.run_info(observables=OBSERVED, target_std_error=0.01))))
+        self.assertIn(
+            'std error ? of 0.01',
+            self.text(view(info=made.run_info(observables=OBSERVED, target_std_error=0.01))),
+        )
 
     def test_every_size(self):
         info = made.run_info(observables=OBSERVED)
-        many = view(steps=made.steps([made.step(info, T, n, 1, 2 * n, 2 * n + 1)
-                                      for n in range(1, 40)]))
+        many = view(
+            steps=made.steps([made.step(info, T, n, 1, 2 * n, 2 * n + 1) for n in range(1, 40)])
+        )
         for size in SIZES:
             for shown in (many, view(), view(is_gone=True, is_master_gone=True, cost=None)):
                 lines = drawn(shown, size)
                 self.assertLessEqual(len(lines), size[1])
                 self.assertLessEqual(max(map(len, lines)), size[0])
-            self.assertIn('averag'[:size[0]], '\n'.join(drawn(many, size)))
+            self.assertIn('averag'[: size[0]], '\n'.join(drawn(many, size)))
         self.assertIn('   36 more\n', self.text(many, (80, 18)))
         self.assertNotIn('more\n', self.text(many, (200, 80)))
 
     def test_condition_of_the_node(self):
-        for fields, text in ((dict(diagnosis=diagnosis(1, 'overlap')), 'WARN  overlap'),
-                             (dict(diagnosis=diagnosis(2, 'disk full')), 'ERROR  disk full'),
-                             (dict(diagnosis=diagnosis(phase='paused')), 'paused  █'),
-                             (dict(is_gone=True), 'GONE  /hdlyap does not answer'),
-                             (dict(silence=63.0), 'no message for 1:03'),
-                             (dict(is_master_gone=True), 'no master'),
-                             (dict(cost=cost(phase=Cost.FINISHED), is_gone=True),
-                              'the run has finished')):
+        for fields, text in (
+            (dict(diagnosis=diagnosis(1, 'overlap')), 'WARN  overlap'),
+            (dict(diagnosis=diagnosis(2, 'disk full')), 'ERROR  disk full'),
+            (dict(diagnosis=diagnosis(phase='paused')), 'paused  █'),
+            (dict(is_gone=True), 'GONE  /hdlyap does not answer'),
+            (dict(silence=63.0), 'no message for 1:03'),
+            (dict(is_master_gone=True), 'no master'),
+            (dict(cost=cost(phase=Cost.FINISHED), is_gone=True), 'the run has finished'),
+        ):
             self.assertIn(text, self.text(view(**fields)))
 
     def test_speed(self):
         speed = Speed()
-        seen = [speed.add(made.Cost(wall_seconds=wall, sim_time=time))
-                for wall, time in ((1, 10), (2, 30), (12, 130), (22, 130), (1, 5), (3, 15))]
+        seen = [
+            speed.add(made.Cost(wall_seconds=wall, sim_time=time))
+            for wall, time in ((1, 10), (2, 30), (12, 130), (22, 130), (1, 5), (3, 15))
+        ]
         self.assertEqual(seen, [None, 20.0, 10.0, 0.0, None, 5.0])
 
     def test_a_run_before_is_not_shown(self):
         shown = View()
-        fill(shown, {'steps': made.steps([]), 'run_info': made.run_info(run_id='two'),
-                     'spectrum': made.spectrum([3.0], 1.0), 'cost': cost(run_id='two')})
+        fill(
+            shown,
+            {
+                'steps': made.steps([]),
+                'run_info': made.run_info(run_id='two'),
+                'spectrum': made.spectrum([3.0], 1.0),
+                'cost': cost(run_id='two'),
+            },
+        )
         self.assertEqual((shown.info.run_id, shown.cost.run_id), ('two', 'two'))
         self.assertEqual((shown.steps, shown.spectrum), (None, None))
 
@@ -212,7 +275,9 @@ class Screens(unittest.TestCase):
             def deserialize(self, data):
                 Counted.unpacked += 1
                 return super().deserialize(data)
+
         import io
+
         buffer = io.BytesIO()
         made.spectrum([3.0], 1.0).serialize(buffer)
         message = lazy(Counted)().deserialize(buffer.getvalue())
@@ -233,16 +298,19 @@ class OnATerminal(unittest.TestCase):
         return terminal
 
     def test_exception(self):
-        terminal = self.program('with Screen() as screen:\n'
-                                '    screen.show([[("here", "")]], (80, 24))\n    wrong')
+        terminal = self.program(
+            'with Screen() as screen:\n' '    screen.show([[("here", "")]], (80, 24))\n    wrong'
+        )
         self.assertEqual(terminal.wait(), 1)
         self.assertTrue(terminal.wait_for("name 'wrong' is not defined"))
         self.assertNotIn('here', '\n'.join(terminal.screen()))
         self.assertTrue(harness.wait_until(terminal.is_as_before))
 
     def test_suspended_and_continued(self):
-        terminal = self.program('with Screen() as screen:\n    while screen.key(0.1) != "q":\n'
-                                '        screen.show([[("here", "")]], (80, 24))')
+        terminal = self.program(
+            'with Screen() as screen:\n    while screen.key(0.1) != "q":\n'
+            '        screen.show([[("here", "")]], (80, 24))'
+        )
         self.assertTrue(terminal.wait_for('here'))
         self.assertFalse(terminal.is_as_before())
         terminal.press('\x1a')
@@ -255,9 +323,11 @@ class OnATerminal(unittest.TestCase):
         self.assertTrue(harness.wait_until(terminal.is_as_before))
 
     def test_complaints_do_not_reach_the_screen(self):
-        terminal = self.program('import os\nwith Screen() as screen:\n'
-                                '    os.write(2, b"a complaint")\n'
-                                '    screen.show([[("here", "")]], (80, 24))\n    screen.key(60)')
+        terminal = self.program(
+            'import os\nwith Screen() as screen:\n'
+            '    os.write(2, b"a complaint")\n'
+            '    screen.show([[("here", "")]], (80, 24))\n    screen.key(60)'
+        )
         self.assertTrue(terminal.wait_for('here'))
         self.assertEqual(terminal.screen(), ['here'])
         terminal.press('q')
@@ -291,8 +361,11 @@ class Running(unittest.TestCase):
     def listeners(self):
         """Topics of the node that somebody listens to."""
         _, subscribers, _ = rosgraph.Master('/test', self.master.uri).getSystemState()
-        return {topic.rpartition('/')[2] for topic, names in subscribers
-                if topic.startswith('/hdlyap/') and names}
+        return {
+            topic.rpartition('/')[2]
+            for topic, names in subscribers
+            if topic.startswith('/hdlyap/') and names
+        }
 
     def test_watches_and_is_interrupted(self):
         self.node()

@@ -60,8 +60,15 @@ class Launch(unittest.TestCase):
 
     def test_record_and_replay(self):
         with tempfile.TemporaryDirectory() as folder:
-            run = self.roslaunch(folder, 'run.launch', 'scene:=quick', 'duration:=30',
-                                 'seed:=18446744073709551615', 'record:=true', 'bag:=q.bag')
+            run = self.roslaunch(
+                folder,
+                'run.launch',
+                'scene:=quick',
+                'duration:=30',
+                'seed:=18446744073709551615',
+                'record:=true',
+                'bag:=q.bag',
+            )
             self.assertEqual(run.wait(), 0, run.text())
             bag = os.path.join(folder, 'q.bag')
             self.check_bag(bag)
@@ -74,7 +81,8 @@ class Launch(unittest.TestCase):
     def replayed(self, *args):
         """Type of a node of replay.launch -> its arguments."""
         config = roslaunch.config.load_config_default(
-            [(os.path.join(LAUNCH, 'replay.launch'), ['bag:=q.bag', *args])], 0)
+            [(os.path.join(LAUNCH, 'replay.launch'), ['bag:=q.bag', *args])], 0
+        )
         return {node.type: node.args for node in config.nodes}
 
     def test_replay_in_rviz_stays(self):
@@ -86,14 +94,32 @@ class Launch(unittest.TestCase):
     def check_bag(self, path):
         with rosbag.Bag(path) as bag:
             messages = [(topic, message) for topic, message, _ in bag.read_messages()]
-        count = {name: sum(topic == '/hdlyap/' + name for topic, _ in messages)
-                 for name in harness.TYPES}
-        fields = sum(len(harness.examples(message.steps)) for topic, message in messages
-                     if topic == '/hdlyap/steps' and message.sim_time - 40 in (1, 10, 20, 30))
-        self.assertEqual(count, dict(run_info=1, spectrum=30, modes=30, steps=30, lp_phases=30,
-                                     fields=fields, hydro=0, state=70, cost=70))
+        count = {
+            name: sum(topic == '/hdlyap/' + name for topic, _ in messages) for name in harness.TYPES
+        }
+        fields = sum(
+            len(harness.examples(message.steps))
+            for topic, message in messages
+            if topic == '/hdlyap/steps' and message.sim_time - 40 in (1, 10, 20, 30)
+        )
+        self.assertEqual(
+            count,
+            dict(
+                run_info=1,
+                spectrum=30,
+                modes=30,
+                steps=30,
+                lp_phases=30,
+                fields=fields,
+                hydro=0,
+                state=70,
+                cost=70,
+            ),
+        )
         info = next(message for topic, message in messages if topic == '/hdlyap/run_info')
-        self.assertEqual((info.seed, info.duration, info.disks), ('18446744073709551615', 30.0, 100))
+        self.assertEqual(
+            (info.seed, info.duration, info.disks), ('18446744073709551615', 30.0, 100)
+        )
 
     def test_refused_scene_ends_the_launch(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,4 +1,5 @@
-/** Pictures for rviz: the bytes of a MarkerArray, what rviz demands of one, and what is drawn where. */
+/** Pictures for rviz: the bytes of a MarkerArray, what rviz demands of one, and what is drawn
+ * where. */
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -91,7 +92,8 @@ struct scene {
     void more_steps(uint32_t count)
     {
         for (uint32_t k = 0; k < count; k++)
-            step.push_back({HDR_MODE_T, 2, k, 0.3, false, true, 1, 90 - k, 90 - k, 1, int(k), 1, 1.2 + 0.05 * k, 0.01});
+            step.push_back({HDR_MODE_T, 2, k, 0.3, false, true, 1, 90 - k, 90 - k, 1, int(k), 1,
+                            1.2 + 0.05 * k, 0.01});
         steps.steps = step.data();
         steps.count = static_cast<uint32_t>(step.size());
     }
@@ -160,9 +162,28 @@ TEST(markers, bytes)
 {
     const hdr_point points[] = {{1, 2, 3}, {-4, 5e300, 6}};
     const hdr_colour colours[] = {{0.25F, 0.5F, 0.75F, 1.0F}, {1, 0, 0, 0.5F}};
-    const hdr_marker list[] = {
-        {"a", 3, HDR_MARKER_LINE_LIST, HDR_MARKER_ADD, {1, 2, 3}, {4, 5, 6}, colours[0], points, colours, 2, ""},
-        {"b", 0, HDR_MARKER_TEXT, HDR_MARKER_DELETE, {}, {}, colours[1], nullptr, nullptr, 0, "some text"}};
+    const hdr_marker list[] = {{"a",
+                                3,
+                                HDR_MARKER_LINE_LIST,
+                                HDR_MARKER_ADD,
+                                {1, 2, 3},
+                                {4, 5, 6},
+                                colours[0],
+                                points,
+                                colours,
+                                2,
+                                ""},
+                               {"b",
+                                0,
+                                HDR_MARKER_TEXT,
+                                HDR_MARKER_DELETE,
+                                {},
+                                {},
+                                colours[1],
+                                nullptr,
+                                nullptr,
+                                0,
+                                "some text"}};
     const hdr_markers markers = {"box", list, 2};
     MarkerArray message;
     message.markers.resize(2);
@@ -175,12 +196,14 @@ TEST(markers, bytes)
     line.points.resize(2);
     line.colors.resize(2);
     for (int k = 0; k < 2; k++) {
-        line.points[k].x = points[k].x, line.points[k].y = points[k].y, line.points[k].z = points[k].z;
+        line.points[k].x = points[k].x, line.points[k].y = points[k].y,
+        line.points[k].z = points[k].z;
         line.colors[k].r = colours[k].r, line.colors[k].g = colours[k].g;
         line.colors[k].b = colours[k].b, line.colors[k].a = colours[k].a;
     }
     line.color = line.colors[0];
-    text.ns = "b", text.type = Marker::TEXT_VIEW_FACING, text.action = Marker::DELETE, text.text = "some text";
+    text.ns = "b", text.type = Marker::TEXT_VIEW_FACING, text.action = Marker::DELETE,
+    text.text = "some text";
     text.color = line.colors[1];
     const ros::SerializedMessage got = ros::serialization::serializeMessage(markers);
     const ros::SerializedMessage want = ros::serialization::serializeMessage(message);
@@ -189,14 +212,15 @@ TEST(markers, bytes)
     EXPECT_STREQ(ros::message_traits::md5sum<MarkerArray>(), ros::message_traits::md5sum(markers));
 }
 
-/** Boxes of all shapes, hardly any disks, many modes and steps: rviz takes what is drawn, and nothing of it is left
- *  out. */
+/** Boxes of all shapes, hardly any disks, many modes and steps: rviz takes what is drawn, and
+ * nothing of it is left out. */
 TEST(markers, rviz_takes_every_picture)
 {
     for (const double shape : {0.01, 0.3, 0.867, 1.0, 3.0, 80.0})
         for (const int modes : {0, 1, 2, 3, 8})
             for (const bool measured : {false, true}) {
-                scene s(30.0 / std::sqrt(shape), 30.0 * std::sqrt(shape), measured ? 50 : 2, modes, 1);
+                scene s(30.0 / std::sqrt(shape), 30.0 * std::sqrt(shape), measured ? 50 : 2, modes,
+                        1);
                 if (measured) s.measure(97);
                 if (measured) s.more_steps(20);
                 const MarkerArray array = drawing().of(s.p);
@@ -263,7 +287,8 @@ TEST(markers, arrows_are_the_field)
     EXPECT_NEAR(1.3 * std::sqrt(20.0 * 15.0 / 60), std::sqrt(square / 60), 1e-9);
 }
 
-/** A box too long for arrows: each component against x, in proportion, below the box and above the plots. */
+/** A box too long for arrows: each component against x, in proportion, below the box and above the
+ * plots. */
 TEST(markers, the_field_of_a_long_box_is_plotted)
 {
     scene s(200.0, 1.5, 60, 2, 8);
@@ -298,8 +323,10 @@ TEST(markers, an_lp_mode_shows_its_phase)
     ASSERT_EQ(4u, dials[1].points.size());
     const double radius = dials[0].points[0].x - dials[1].points[0].x;
     for (int k = 0; k < 2; k++) {
-        EXPECT_NEAR(lp.a[k], (dials[1].points[2 * k + 1].x - dials[1].points[2 * k].x) / radius, 1e-9);
-        EXPECT_NEAR(lp.b[k], (dials[1].points[2 * k + 1].y - dials[1].points[2 * k].y) / radius, 1e-9);
+        EXPECT_NEAR(lp.a[k], (dials[1].points[2 * k + 1].x - dials[1].points[2 * k].x) / radius,
+                    1e-9);
+        EXPECT_NEAR(lp.b[k], (dials[1].points[2 * k + 1].y - dials[1].points[2 * k].y) / radius,
+                    1e-9);
     }
     const auto red = [&](double a, double b) {
         lp.pairs = 1, lp.a[0] = a, lp.b[0] = b;
@@ -320,7 +347,8 @@ struct scale {
         return number[0] + (at - place[0]) / (place[1] - place[0]) * (number[1] - number[0]);
     }
 };
-scale scale_along(const MarkerArray &array, const std::string &ns, bool along_x, double at, double low, double high)
+scale scale_along(const MarkerArray &array, const std::string &ns, bool along_x, double at,
+                  double low, double high)
 {
     scale found = {{1e300, -1e300}, {0, 0}};
     for (const Marker &m : in(array, ns, Marker::TEXT_VIEW_FACING)) {
@@ -344,8 +372,10 @@ TEST(markers, curves_are_the_numbers)
     const Marker curve = in(array, "spectrum", Marker::LINE_STRIP).at(0);
     const Marker frame = in(array, "spectrum", Marker::LINE_LIST).at(0);
     const double unit = curve.scale.x / 0.2, left = frame.points[0].x, bottom = frame.points[0].y;
-    const scale y = scale_along(array, "spectrum", false, left - 1.3 * unit, bottom - 1, bottom + 100);
-    const scale x = scale_along(array, "spectrum", true, bottom - 1.3 * unit, left - 1, frame.points[1].x + 1);
+    const scale y = scale_along(array, "spectrum", false, left - 1.3 * unit, bottom - 1,
+                                bottom + 100);
+    const scale x = scale_along(array, "spectrum", true, bottom - 1.3 * unit, left - 1,
+                                frame.points[1].x + 1);
     ASSERT_EQ(97u, curve.points.size());
     for (int k = 0; k < 97; k++) {
         EXPECT_NEAR(k + 1, x.of(curve.points[k].x), 1e-6);
@@ -353,8 +383,10 @@ TEST(markers, curves_are_the_numbers)
     }
     const Marker dots = in(array, "dispersion", Marker::POINTS).at(0);
     const Marker axes = in(array, "dispersion", Marker::LINE_LIST).at(0);
-    const scale k = scale_along(array, "dispersion", true, axes.points[0].y - 1.3 * unit, axes.points[0].x - 1, 1e9);
-    const scale lambda = scale_along(array, "dispersion", false, axes.points[0].x - 1.3 * unit, -1e9, 1e9);
+    const scale k = scale_along(array, "dispersion", true, axes.points[0].y - 1.3 * unit,
+                                axes.points[0].x - 1, 1e9);
+    const scale lambda = scale_along(array, "dispersion", false, axes.points[0].x - 1.3 * unit,
+                                     -1e9, 1e9);
     ASSERT_EQ(2u, dots.points.size());
     EXPECT_NEAR(0.2, k.of(dots.points[0].x), 1e-9);
     EXPECT_NEAR(1.05, lambda.of(dots.points[0].y), 1e-9);
@@ -387,7 +419,8 @@ TEST(markers, what_is_gone_is_deleted)
     }
 }
 
-/** Between two orthonormalisations, of a run that rests: a mode is found although its vector is not known. */
+/** Between two orthonormalisations, of a run that rests: a mode is found although its vector is not
+ * known. */
 TEST(markers, a_mode_without_its_vector_keeps_its_number)
 {
     scene s(20.0, 20.0, 10, 2, 6);
@@ -406,7 +439,8 @@ TEST(markers, the_caption_says_what_is_known)
 {
     scene s(20.0, 20.0, 10, 0, 7);
     drawing on;
-    EXPECT_NE(std::string::npos, in(on.of(s.p), "text", Marker::TEXT_VIEW_FACING).at(0).text.find("t = 12.5"));
+    EXPECT_NE(std::string::npos,
+              in(on.of(s.p), "text", Marker::TEXT_VIEW_FACING).at(0).text.find("t = 12.5"));
     s.measure(40);
     const std::string text = in(on.of(s.p), "text", Marker::TEXT_VIEW_FACING).at(0).text;
     EXPECT_NE(std::string::npos, text.find("c_T 3.200 +- 0.100")) << text;

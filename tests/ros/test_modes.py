@@ -12,8 +12,8 @@ import harness
 from harness import MODES, OBSERVABLES, Cost
 from hdlyap.msg import LpPhase, Mode
 
-REPORTS = 20    # of MODES, while averaging
-MESSAGE = {'fields': 'mode_field'}    # of topics that are named otherwise
+REPORTS = 20  # of MODES, while averaging
+MESSAGE = {'fields': 'mode_field'}  # of topics that are named otherwise
 ROUNDING = 1e-9
 
 
@@ -22,8 +22,16 @@ class Agreement(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.messages = harness.whole_run(dict(MODES, exponents='all', observables=OBSERVABLES, field_interval=0.0,
-                                              wait_for_subscribers='all'), harness.TYPES)
+        cls.messages = harness.whole_run(
+            dict(
+                MODES,
+                exponents='all',
+                observables=OBSERVABLES,
+                field_interval=0.0,
+                wait_for_subscribers='all',
+            ),
+            harness.TYPES,
+        )
         cls.info = cls.messages['run_info'][0]
 
     def last(self, topic):
@@ -41,21 +49,28 @@ class Agreement(unittest.TestCase):
         self.assertGreater(self.last('cost').modes_seconds, 0.0)
 
     def test_lengths_are_constant(self):
-        steps, pairs = self.last('steps').steps, 2      # periodic: sine and cosine along x
-        lengths = dict(modes=('modes', 240), steps=('steps', len(steps)),
-                       lp_phases=('phases', sum(2 * pairs**2 for s in steps if s.kind == Mode.LP)),
-                       hydro=('responses', sum(pairs * s.expected for s in steps if s.kind != Mode.ZERO)))
+        steps, pairs = self.last('steps').steps, 2  # periodic: sine and cosine along x
+        lengths = dict(
+            modes=('modes', 240),
+            steps=('steps', len(steps)),
+            lp_phases=('phases', sum(2 * pairs**2 for s in steps if s.kind == Mode.LP)),
+            hydro=('responses', sum(pairs * s.expected for s in steps if s.kind != Mode.ZERO)),
+        )
         for topic, (field, length) in lengths.items():
-            self.assertEqual({len(getattr(message, field)) for message in self.messages[topic]},
-                             {length}, topic)
+            self.assertEqual(
+                {len(getattr(message, field)) for message in self.messages[topic]}, {length}, topic
+            )
 
     def test_wave_vectors(self):
         self.assertEqual(list(zip(self.info.wave_nx, self.info.wave_ny)), [(1, 0), (2, 0)])
         self.assertEqual((self.info.max_node, self.info.max_wave_number), (0, 0.0))
         half = [(Mode.T, 1, 2), (Mode.LP, 1, 4), (Mode.T, 2, 2), (Mode.LP, 2, 4)]
-        self.assertEqual([(s.kind, s.nx, s.expected, s.conjugate) for s in self.last('steps').steps],
-                         [(*of, False) for of in half] + [(Mode.ZERO, 0, 6, False)] +
-                         [(*of, True) for of in half])
+        self.assertEqual(
+            [(s.kind, s.nx, s.expected, s.conjugate) for s in self.last('steps').steps],
+            [(*of, False) for of in half]
+            + [(Mode.ZERO, 0, 6, False)]
+            + [(*of, True) for of in half],
+        )
         for step in self.last('steps').steps:
             self.assertAlmostEqual(step.wave_number, 2 * math.pi * step.nx / self.info.box_x)
 
@@ -63,13 +78,20 @@ class Agreement(unittest.TestCase):
         """At least the longest waves of either kind are found."""
         message = self.last('steps')
         found = {(s.kind, s.nx, s.conjugate): s for s in message.steps if s.resolved}
-        for key in ((Mode.T, 1, False), (Mode.LP, 1, False), (Mode.T, 1, True), (Mode.ZERO, 0, False)):
+        for key in (
+            (Mode.T, 1, False),
+            (Mode.LP, 1, False),
+            (Mode.T, 1, True),
+            (Mode.ZERO, 0, False),
+        ):
             self.assertIn(key, found)
         zero = found[Mode.ZERO, 0, False]
         self.assertEqual((zero.first_index, zero.last_index), (118, 123))
         self.assertAlmostEqual(zero.multiplicity, 6.0, delta=0.01)
         for (_, _, conjugate), step in found.items():
-            self.assertEqual(step.last_index - step.first_index + 1, step.expected)    # no step shares
+            self.assertEqual(
+                step.last_index - step.first_index + 1, step.expected
+            )  # no step shares
             self.assertEqual(step.members, 1)
             self.assertGreaterEqual(step.multiplicity, message.threshold * step.expected)
             self.assertLessEqual(step.multiplicity, step.expected + ROUNDING)
@@ -79,39 +101,55 @@ class Agreement(unittest.TestCase):
         self.assertEqual(t.first_index + conjugate.last_index, 241)
         self.assertAlmostEqual(t.exponent, -conjugate.exponent, delta=1e-3)
         self.assertGreaterEqual(message.t_points, 1)
-        self.assertAlmostEqual(message.c_t * t.wave_number + message.c_t2 * t.wave_number**2, t.exponent,
-                               delta=0.1)
+        self.assertAlmostEqual(
+            message.c_t * t.wave_number + message.c_t2 * t.wave_number**2, t.exponent, delta=0.1
+        )
 
     def test_unresolved_steps_are_empty(self):
         for message in self.messages['steps']:
             for step in message.steps:
                 if not step.resolved:
-                    self.assertEqual((step.set, step.first_index, step.last_index, step.multiplicity),
-                                     (-1, 0, 0, 0.0))
+                    self.assertEqual(
+                        (step.set, step.first_index, step.last_index, step.multiplicity),
+                        (-1, 0, 0, 0.0),
+                    )
 
     def test_modes(self):
-        for modes, steps, spectrum in zip(*(self.messages[t] for t in ('modes', 'steps', 'spectrum'))):
+        for modes, steps, spectrum in zip(
+            *(self.messages[t] for t in ('modes', 'steps', 'spectrum'))
+        ):
             self.assertEqual([mode.index for mode in modes.modes], list(range(1, 241)))
             self.assertEqual([mode.exponent for mode in modes.modes], list(spectrum.exponents))
             self.assertEqual(modes.averaged_time, spectrum.averaged_time)
             self.assertEqual(steps.averaged_time, spectrum.averaged_time)
-            self.assertEqual(modes.samples, modes.averaged_time)    # one at every report
+            self.assertEqual(modes.samples, modes.averaged_time)  # one at every report
             for mode in modes.modes:
                 self.check_mode(mode, steps.steps)
 
     def check_mode(self, mode, steps):
-        for weight in (mode.weight, mode.weight_l, mode.weight_p, mode.weight_now, mode.null_x,
-                       mode.null_y, mode.null_p):
+        for weight in (
+            mode.weight,
+            mode.weight_l,
+            mode.weight_p,
+            mode.weight_now,
+            mode.null_x,
+            mode.null_y,
+            mode.null_p,
+        ):
             self.assertGreaterEqual(weight, 0.0)
             self.assertLessEqual(weight, 1.0 + ROUNDING)
         if mode.step < 0:
-            self.assertEqual((mode.kind, mode.nx, mode.ny, mode.wave_number, mode.weight),
-                             (Mode.NONE, 0, 0, 0.0, 0.0))
+            self.assertEqual(
+                (mode.kind, mode.nx, mode.ny, mode.wave_number, mode.weight),
+                (Mode.NONE, 0, 0, 0.0, 0.0),
+            )
             return
         step = steps[mode.step]
         self.assertTrue(step.resolved)
-        self.assertEqual((mode.kind, mode.nx, mode.ny, mode.wave_number),
-                         (step.kind, step.nx, step.ny, step.wave_number))
+        self.assertEqual(
+            (mode.kind, mode.nx, mode.ny, mode.wave_number),
+            (step.kind, step.nx, step.ny, step.wave_number),
+        )
         self.assertLessEqual(step.first_index, mode.index)
         self.assertLessEqual(mode.index, step.last_index)
         self.assertEqual(mode.weight_l > 0.0, mode.kind == Mode.LP)
@@ -133,11 +171,14 @@ class Agreement(unittest.TestCase):
         for s, step in enumerate(self.last('steps').steps):
             if not step.resolved:
                 continue
-            own = modes[step.first_index - 1:step.last_index]
+            own = modes[step.first_index - 1 : step.last_index]
             self.assertEqual({mode.step for mode in own}, {s})
             self.assertAlmostEqual(sum(mode.weight for mode in own), step.multiplicity, delta=1e-6)
-            self.assertAlmostEqual(sum(mode.exponent for mode in own) / len(own), step.exponent,
-                                   delta=0.01 * abs(step.exponent) + 1e-6)
+            self.assertAlmostEqual(
+                sum(mode.exponent for mode in own) / len(own),
+                step.exponent,
+                delta=0.01 * abs(step.exponent) + 1e-6,
+            )
 
     def test_lp_phases(self):
         for message, steps in zip(self.messages['lp_phases'], self.messages['steps']):
@@ -168,9 +209,11 @@ class Agreement(unittest.TestCase):
 
     def test_fields_follow_the_steps(self):
         got = [(field.sim_time, field.index) for field in self.messages['fields']]
-        want = [(steps.sim_time, example(modes.modes, number, steps.steps[number]))
-                for modes, steps in zip(self.messages['modes'], self.messages['steps'])
-                for number in harness.examples(steps.steps)]
+        want = [
+            (steps.sim_time, example(modes.modes, number, steps.steps[number]))
+            for modes, steps in zip(self.messages['modes'], self.messages['steps'])
+            for number in harness.examples(steps.steps)
+        ]
         self.assertEqual(got, want)
         self.assertGreaterEqual(len(got), 2 * REPORTS)
 
@@ -183,7 +226,9 @@ class Agreement(unittest.TestCase):
                 self.assertEqual(getattr(field, name), getattr(state, name))
             for name in ('exponent', 'kind', 'nx', 'ny', 'wave_number'):
                 self.assertEqual(getattr(field, name), getattr(mode, name))
-            norm = sum(sum(v * v for v in part) for part in (field.dqx, field.dqy, field.dpx, field.dpy))
+            norm = sum(
+                sum(v * v for v in part) for part in (field.dqx, field.dqy, field.dpx, field.dpy)
+            )
             self.assertAlmostEqual(norm, 1.0, delta=1e-5)
             self.check_pairs(field)
 
@@ -202,7 +247,7 @@ class Agreement(unittest.TestCase):
         wave = math.sin if field.modulation[c] & 1 else math.cos
         a = [wave(field.wave_number * x) for x in field.x]
         for ratio in (field.p_over_px, field.p_over_py):
-            part = ratio[60 * c:60 * (c + 1)]
+            part = ratio[60 * c : 60 * (c + 1)]
             overlap = sum(u * v for u, v in zip(a, part))
             cosine = overlap / math.sqrt(sum(u * u for u in a) * sum(v * v for v in part))
             self.assertGreater(cosine, 0.3)
@@ -211,22 +256,35 @@ class Agreement(unittest.TestCase):
         for message, steps in zip(self.messages['hydro'], self.messages['steps']):
             for response in message.responses:
                 step = steps.steps[response.step]
-                self.assertEqual((response.kind, response.nx, response.ny), (step.kind, step.nx, step.ny))
+                self.assertEqual(
+                    (response.kind, response.nx, response.ny), (step.kind, step.nx, step.ny)
+                )
                 if response.index:
                     self.assertTrue(step.resolved)
                     self.assertLessEqual(step.first_index, response.index)
                     self.assertLessEqual(response.index, step.last_index)
                 else:
-                    self.assertEqual((response.density, response.along, response.across,
-                                      response.energy), (0.0, 0.0, 0.0, 0.0))
+                    self.assertEqual(
+                        (response.density, response.along, response.across, response.energy),
+                        (0.0, 0.0, 0.0, 0.0),
+                    )
             indices = {response.index for response in message.responses} - {0}
-            self.assertEqual(indices, {index for step in steps.steps
-                                       if step.resolved and step.kind != Mode.ZERO
-                                       for index in range(step.first_index, step.last_index + 1)})
+            self.assertEqual(
+                indices,
+                {
+                    index
+                    for step in steps.steps
+                    if step.resolved and step.kind != Mode.ZERO
+                    for index in range(step.first_index, step.last_index + 1)
+                },
+            )
 
     def test_hydro_is_that_of_the_fields(self):
-        responses = {(message.sim_time, r.index, r.modulation): r
-                     for message in self.messages['hydro'] for r in message.responses}
+        responses = {
+            (message.sim_time, r.index, r.modulation): r
+            for message in self.messages['hydro']
+            for r in message.responses
+        }
         for field in self.messages['fields']:
             for modulation in (LpPhase.COS_COS, LpPhase.SIN_COS):
                 got = responses[field.sim_time, field.index, modulation]
@@ -237,14 +295,18 @@ class Agreement(unittest.TestCase):
 
 def example(modes, number, step):
     """Index of the first vector of its set that belongs to a step, else of the first."""
-    own = [mode.index for mode in modes[step.first_index - 1:step.last_index] if mode.step == number]
+    own = [
+        mode.index for mode in modes[step.first_index - 1 : step.last_index] if mode.step == number
+    ]
     return own[0] if own else step.first_index
 
 
 def responses_of(field, modulation):
     """Of density over k and of energy at a wave vector along x, over sqrt(N/2)."""
     k, density, energy = field.wave_number, 0.0, 0.0
-    for x, px, py, dqx, dpx, dpy in zip(field.x, field.px, field.py, field.dqx, field.dpx, field.dpy):
+    for x, px, py, dqx, dpx, dpy in zip(
+        field.x, field.px, field.py, field.dqx, field.dpx, field.dpy
+    ):
         cosine, sine = math.cos(k * x), math.sin(k * x)
         a, slope = (sine, k * cosine) if modulation & 1 else (cosine, -k * sine)
         density += dqx * slope / k
@@ -261,15 +323,21 @@ class Demand(unittest.TestCase):
         for listener in listeners:
             self.addCleanup(listener.close)
         calls = harness.calls(self, dict(MODES, wait_for_subscribers=list(topics), **params))
-        made = {name[:-len('_publish')] for name, count in calls.items() if name.endswith('_publish') and count}
+        made = {
+            name[: -len('_publish')]
+            for name, count in calls.items()
+            if name.endswith('_publish') and count
+        }
         self.assertEqual(made, {'run_info'} | {MESSAGE.get(topic, topic) for topic in topics})
         return calls
 
     def check(self, calls, measures, phases=0, pmodes=0, hydros=0):
         """How many times a state is measured, and what of the rest is done at all."""
         self.assertEqual(calls['modes_measure'], measures)
-        self.assertEqual((calls['phases_add'] > 0, calls['pmode_reconstruct'] > 0,
-                          calls['hydro_measure'] > 0), (bool(phases), bool(pmodes), bool(hydros)))
+        self.assertEqual(
+            (calls['phases_add'] > 0, calls['pmode_reconstruct'] > 0, calls['hydro_measure'] > 0),
+            (bool(phases), bool(pmodes), bool(hydros)),
+        )
 
     def test_nobody(self):
         self.check(self.calls(observables=OBSERVABLES), 0)
@@ -313,16 +381,23 @@ class Demand(unittest.TestCase):
         first = modes.messages[0]
         self.assertEqual(first.samples, 1)
         self.assertGreater(first.averaged_time, 5.0)
-        keys = [pair.key for pair in rospy.wait_for_message('/diagnostics', DiagnosticArray).status[0].values]
+        keys = [
+            pair.key
+            for pair in rospy.wait_for_message('/diagnostics', DiagnosticArray).status[0].values
+        ]
         self.assertIn('resolved steps', keys)
 
 
 class Fields(unittest.TestCase):
     def fields(self, **params):
-        listeners = {topic: harness.Listener(topic) for topic in ('fields', 'modes', 'cost', 'run_info')}
+        listeners = {
+            topic: harness.Listener(topic) for topic in ('fields', 'modes', 'cost', 'run_info')
+        }
         for listener in listeners.values():
             self.addCleanup(listener.close)
-        node = harness.start({**MODES, 'duration': 2.0, 'wait_for_subscribers': list(listeners), **params})
+        node = harness.start(
+            {**MODES, 'duration': 2.0, 'wait_for_subscribers': list(listeners), **params}
+        )
         self.addCleanup(node.stop)
         self.assertEqual(node.wait(), 0, node.text())
         self.assertTrue(listeners['cost'].wait_for(lambda cost: cost.phase == Cost.FINISHED))
@@ -335,26 +410,36 @@ class Fields(unittest.TestCase):
         modes = messages['modes'][-1].modes
         for field in messages['fields'][-3:]:
             mode = modes[field.index - 1]
-            self.assertEqual((field.kind, field.nx, field.exponent), (mode.kind, mode.nx, mode.exponent))
+            self.assertEqual(
+                (field.kind, field.nx, field.exponent), (mode.kind, mode.nx, mode.exponent)
+            )
         self.assertEqual(messages['fields'][1].kind, Mode.NONE)
         self.assertEqual(messages['fields'][1].pairs, 0)
 
     def test_now_and_then(self):
         """The first report, the first at or after each multiple of the interval, and the last."""
-        for interval, times in ((10.0, [1, 10, 20, 25]), (2.5, [1, 3, 5, 8, 10, 13, 15, 18, 20, 23, 25]),
-                                (100.0, [1, 25])):
+        for interval, times in (
+            (10.0, [1, 10, 20, 25]),
+            (2.5, [1, 3, 5, 8, 10, 13, 15, 18, 20, 23, 25]),
+            (100.0, [1, 25]),
+        ):
             with self.subTest(interval=interval):
                 messages = self.fields(duration=25.0, field_indices=[5], field_interval=interval)
                 self.assertEqual(messages['run_info'][0].field_interval, interval)
                 begin = MODES['equilibration'] + MODES['warmup']
                 self.assertEqual([field.sim_time - begin for field in messages['fields']], times)
                 for field in messages['fields']:
-                    norm = sum(sum(v * v for v in part) for part in (field.dqx, field.dqy, field.dpx, field.dpy))
+                    norm = sum(
+                        sum(v * v for v in part)
+                        for part in (field.dqx, field.dqy, field.dpx, field.dpy)
+                    )
                     self.assertAlmostEqual(norm, 1.0, delta=1e-5)
 
     def test_target_reached(self):
         """The last report has fields also where nobody knew that it would be the last."""
-        messages = self.fields(duration=0.0, field_indices=[5], field_interval=1.0e3, target_std_error=0.05)
+        messages = self.fields(
+            duration=0.0, field_indices=[5], field_interval=1.0e3, target_std_error=0.05
+        )
         times = [field.sim_time for field in messages['fields']]
         self.assertEqual(times, [messages['modes'][0].sim_time, messages['modes'][-1].sim_time])
         self.assertGreater(len(messages['modes']), 2)

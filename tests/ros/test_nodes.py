@@ -21,8 +21,16 @@ import harness
 from harness import SHORT, TYPES, Cost, Process, RunInfo
 
 TOPICS = ['spectrum', 'state', 'cost']
-RUN = dict(SHORT, threads=1, equilibration=0.0, warmup=0.0, duration=12.0, report_interval=0.5,
-           observables=['spectrum', 'state'], wait_for_subscribers='all')
+RUN = dict(
+    SHORT,
+    threads=1,
+    equilibration=0.0,
+    warmup=0.0,
+    duration=12.0,
+    report_interval=0.5,
+    observables=['spectrum', 'state'],
+    wait_for_subscribers='all',
+)
 REPORTS = 24
 PACE = 10.0
 
@@ -33,13 +41,17 @@ class Run:
     def __init__(self, test, params, name='/hdlyap', args=(), **env):
         self.name, self.messages = name, {topic: [] for topic in ['run_info', *TOPICS]}
         for topic, messages in self.messages.items():
-            subscriber = rospy.Subscriber(name + '/' + topic, TYPES[topic], messages.append, queue_size=None)
+            subscriber = rospy.Subscriber(
+                name + '/' + topic, TYPES[topic], messages.append, queue_size=None
+            )
             test.addCleanup(subscriber.unregister)
         if rospy.has_param(name):
             rospy.delete_param(name)
         rospy.set_param(name, params)
         namespace, base = name.rsplit('/', 1)
-        self.node = Process([harness.executable(), '__name:=' + base, '__ns:=' + namespace, *args], **env)
+        self.node = Process(
+            [harness.executable(), '__name:=' + base, '__ns:=' + namespace, *args], **env
+        )
         test.addCleanup(self.node.stop)
 
     def service(self, name, kind):
@@ -51,8 +63,13 @@ class Run:
 
     def numbers(self):
         """All that does not depend on clocks."""
-        return ([(m.sim_time, m.collisions, m.exponents, m.std_errors) for m in self.messages['spectrum']],
-                [(m.sim_time, m.x, m.y, m.px, m.py) for m in self.messages['state']])
+        return (
+            [
+                (m.sim_time, m.collisions, m.exponents, m.std_errors)
+                for m in self.messages['spectrum']
+            ],
+            [(m.sim_time, m.x, m.y, m.px, m.py) for m in self.messages['state']],
+        )
 
     def stamps(self):
         return [message.header.stamp.to_sec() for message in self.messages['state']]
@@ -86,21 +103,34 @@ class Nodes(unittest.TestCase):
         self.assertNotEqual(*(run.numbers() for run in alone))
         # by stamps: no report comes early, and a busy machine delays only some of them
         between = [b - a for a, b in zip(paced.stamps(), paced.stamps()[1:])]
-        self.assertAlmostEqual(statistics.median(between) * PACE / RUN['report_interval'], 1.0, delta=0.3)
-        self.assertGreater(paced.stamps()[-1] - paced.stamps()[0], 0.95 * (REPORTS - 1) * RUN['report_interval'] / PACE)
+        self.assertAlmostEqual(
+            statistics.median(between) * PACE / RUN['report_interval'], 1.0, delta=0.3
+        )
+        self.assertGreater(
+            paced.stamps()[-1] - paced.stamps()[0],
+            0.95 * (REPORTS - 1) * RUN['report_interval'] / PACE,
+        )
 
     def test_names(self):
         elsewhere = []
         subscriber = rospy.Subscriber('/elsewhere/curve', TYPES['spectrum'], elsewhere.append)
         self.addCleanup(subscriber.unregister)
-        run = Run(self, dict(RUN, seed='3', duration=0.0, pace=PACE), '/lab/room/two',
-                  args=['/lab/room/two/spectrum:=/elsewhere/curve'])
+        run = Run(
+            self,
+            dict(RUN, seed='3', duration=0.0, pace=PACE),
+            '/lab/room/two',
+            args=['/lab/room/two/spectrum:=/elsewhere/curve'],
+        )
         self.assertTrue(run.has(3) and harness.wait_until(lambda: elsewhere))
         self.assertEqual(run.messages['run_info'][0].seed, '3')
         self.assertEqual(run.messages['spectrum'], [])
         topics = {topic for topic, _ in rospy.get_published_topics('/lab')}
-        self.assertEqual(topics, {'/lab/room/two/' + name for name in ('run_info', 'state', 'cost', 'markers')})
-        self.assertIn('/lab/room/two', dict(rosgraph.Master('/nodes').getSystemState()[0])['/rosout'])
+        self.assertEqual(
+            topics, {'/lab/room/two/' + name for name in ('run_info', 'state', 'cost', 'markers')}
+        )
+        self.assertIn(
+            '/lab/room/two', dict(rosgraph.Master('/nodes').getSystemState()[0])['/rosout']
+        )
         status = rospy.wait_for_message('/diagnostics', DiagnosticArray, harness.PATIENCE).status[0]
         self.assertEqual(status.name, '/lab/room/two')
         run.service('checkpoint', Trigger)
@@ -108,8 +138,10 @@ class Nodes(unittest.TestCase):
         self.assertEqual(run.node.wait(), 0, run.node.text())
 
     def test_namespace_of_the_environment(self):
-        process = Process([harness.executable(), '_disks:=10', '_density:=0.3', '_duration:=0.0', '_pace:=10.0'],
-                          ROS_NAMESPACE='/lab')
+        process = Process(
+            [harness.executable(), '_disks:=10', '_density:=0.3', '_duration:=0.0', '_pace:=10.0'],
+            ROS_NAMESPACE='/lab',
+        )
         self.addCleanup(process.stop)
         rospy.wait_for_message('/lab/hdlyap/state', TYPES['state'], harness.PATIENCE)
         process.send(signal.SIGINT)
@@ -136,26 +168,48 @@ class Nodes(unittest.TestCase):
         self.assertNotIn('/clock', dict(rospy.get_published_topics()))
         clock = rospy.Publisher('/clock', Clock, queue_size=1)
         self.addCleanup(clock.unregister)
-        ticks = iter(range(10 ** 9, 0, -1))
-        timer = rospy.Timer(rospy.Duration(0.01), lambda event: clock.publish(Clock(rospy.Time(next(ticks)))))
+        ticks = iter(range(10**9, 0, -1))
+        timer = rospy.Timer(
+            rospy.Duration(0.01), lambda event: clock.publish(Clock(rospy.Time(next(ticks))))
+        )
         self.addCleanup(timer.shutdown)
         self.check_simulated_time()
         self.assertIs(rospy.get_param('/use_sim_time'), True)
 
     def test_parameters_are_echoed(self):
         """And what is below the node's name on the parameter server stays what was set there."""
-        params = dict(scene='mine', disks=30, density=0.6, aspect=0.5, boundary_x='reflecting',
-                      boundary_y='periodic', seed='12345678901234', exponents='7', equilibration=0.5, warmup=0.75,
-                      duration=2.0, target_std_error=1.0e-6, interval=0.5, accuracy=1.0e-7, report_interval=0.25,
-                      max_node=1, observables=['spectrum', 'modes', 'state'], threads=1, pace=1.0e3,
-                      checkpoint_interval=5.0, wait_for_subscribers=['state'])
+        params = dict(
+            scene='mine',
+            disks=30,
+            density=0.6,
+            aspect=0.5,
+            boundary_x='reflecting',
+            boundary_y='periodic',
+            seed='12345678901234',
+            exponents='7',
+            equilibration=0.5,
+            warmup=0.75,
+            duration=2.0,
+            target_std_error=1.0e-6,
+            interval=0.5,
+            accuracy=1.0e-7,
+            report_interval=0.25,
+            max_node=1,
+            observables=['spectrum', 'modes', 'state'],
+            threads=1,
+            pace=1.0e3,
+            checkpoint_interval=5.0,
+            wait_for_subscribers=['state'],
+        )
         run = Run(self, params)
         self.assertEqual(run.node.wait(), 0, run.node.text())
         self.assertEqual(rospy.get_param('/hdlyap'), params)
         info = run.messages['run_info'][0]
         for name, value in params.items():
             self.assertEqual(getattr(info, name), value, name)
-        path = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch/scenes/paper_periodic.yaml')
+        path = os.path.join(
+            rospkg.RosPack().get_path('hdlyap'), 'launch/scenes/paper_periodic.yaml'
+        )
         with open(path) as file:
             self.assertEqual(set(yaml.safe_load(file)) - set(RunInfo.__slots__), set())
 

@@ -17,36 +17,66 @@ ROSDEP = '/usr/share/python3-rosdep2/debian.yaml'
 # rosdep key: packages of Debian 12 that hdlyap uses of what the key stands for. Of ROS: debian.yaml of Debian's
 # python3-rosdep2 0.22.1; on Noetic each is ros-noetic-KEY (noetic/distribution.yaml of rosdistro).
 OF_ROS = dict(
-    catkin='catkin', diagnostic_msgs='libdiagnostic-msgs-dev python3-diagnostic-msgs ros-diagnostic-msgs',
-    message_generation='ros-message-generation', message_runtime='ros-message-runtime', rosbag='python3-rosbag',
-    rosbash='rosbash', roscpp='libroscpp-dev', rosgraph='python3-rosgraph',
-    rosgraph_msgs='python3-rosgraph-msgs', roslaunch='python3-roslaunch',
-    roslib='python3-roslib', rosmaster='python3-rosmaster', rosmsg='python3-rosmsg', rosnode='python3-rosnode',
-    rospack='rospack-tools', rospy='python3-rospy', rosservice='python3-rosservice',
-    rostest='librostest-dev python3-rostest', rostopic='python3-rostopic', rviz='rviz',
-    std_msgs='libstd-msgs-dev python3-std-msgs ros-std-msgs', std_srvs='libstd-srvs-dev python3-std-srvs ros-std-srvs',
-    tf2_msgs='python3-tf2-msgs', tf2_ros='libtf2-ros-dev',
-    visualization_msgs='libvisualization-msgs-dev python3-visualization-msgs ros-visualization-msgs')
+    catkin='catkin',
+    diagnostic_msgs='libdiagnostic-msgs-dev python3-diagnostic-msgs ros-diagnostic-msgs',
+    message_generation='ros-message-generation',
+    message_runtime='ros-message-runtime',
+    rosbag='python3-rosbag',
+    rosbash='rosbash',
+    roscpp='libroscpp-dev',
+    rosgraph='python3-rosgraph',
+    rosgraph_msgs='python3-rosgraph-msgs',
+    roslaunch='python3-roslaunch',
+    roslib='python3-roslib',
+    rosmaster='python3-rosmaster',
+    rosmsg='python3-rosmsg',
+    rosnode='python3-rosnode',
+    rospack='rospack-tools',
+    rospy='python3-rospy',
+    rosservice='python3-rosservice',
+    rostest='librostest-dev python3-rostest',
+    rostopic='python3-rostopic',
+    rviz='rviz',
+    std_msgs='libstd-msgs-dev python3-std-msgs ros-std-msgs',
+    std_srvs='libstd-srvs-dev python3-std-srvs ros-std-srvs',
+    tf2_msgs='python3-tf2-msgs',
+    tf2_ros='libtf2-ros-dev',
+    visualization_msgs='libvisualization-msgs-dev python3-visualization-msgs ros-visualization-msgs',
+)
 # Of the system: base.yaml and python.yaml of rosdistro, the same on Debian and Ubuntu. libopenblas-openmp-dev is the one of
 # libopenblas-dev's alternatives that hdlyap is tested with.
 OF_SYSTEM = {
-    'gtest': 'libgtest-dev', 'imagemagick': 'imagemagick', 'liblapacke-dev': 'liblapacke-dev',
-    'libopenblas-dev': 'libopenblas-openmp-dev', 'ninja-build': 'ninja-build', 'pkg-config': 'pkg-config',
-    'python3-matplotlib': 'python3-matplotlib', 'python3-numpy': 'python3-numpy', 'python3-rospkg': 'python3-rospkg',
-    'python3-yaml': 'python3-yaml', 'xvfb': 'xvfb', 'zlib': 'zlib1g-dev'}
+    'gtest': 'libgtest-dev',
+    'imagemagick': 'imagemagick',
+    'liblapacke-dev': 'liblapacke-dev',
+    'libopenblas-dev': 'libopenblas-openmp-dev',
+    'ninja-build': 'ninja-build',
+    'pkg-config': 'pkg-config',
+    'python3-matplotlib': 'python3-matplotlib',
+    'python3-numpy': 'python3-numpy',
+    'python3-rospkg': 'python3-rospkg',
+    'python3-yaml': 'python3-yaml',
+    'xvfb': 'xvfb',
+    'zlib': 'zlib1g-dev',
+}
 # for the scripts and the tests of a clone, which no package manager runs: compilers, watchers, lint, a display
-TOOLS = set('build-essential cmake procps libcmocka-dev shellcheck strace valgrind clang libomp-dev libclang-rt-dev catkin-lint '
-            'python3-catkin-lint xvfb imagemagick libgl1-mesa-dri'.split())
+TOOLS = set(
+    'build-essential cmake procps libcmocka-dev shellcheck strace valgrind clang libomp-dev libclang-rt-dev catkin-lint '
+    'python3-catkin-lint xvfb imagemagick libgl1-mesa-dri'.split()
+)
 
 # commands, options and variables that CMake has only since 3.17 or later
 NEWER_CMAKE = re.compile(
     r'cmake_path\(|cmake_language\(|\bendblock\(|ZIP_LISTS|COMMAND_ERROR_IS_FATAL|FILE_SET|RUNTIME_DEPENDENCY_SET|TOP_LEVEL\b|'
     r'CMAKE_CURRENT_FUNCTION|string\(JSON|file\((REAL_PATH|ARCHIVE_|CHMOD|CONFIGURE|COPY_FILE)|ENVIRONMENT_MODIFICATION|'
     r'find_(library|program|file|path)\([^)]*REQUIRED|\$<CONFIG:[^>]*,|\$<(PATH|LINK_GROUP|LINK_LIBRARY|DEVICE_LINK|IN_LIST_):|'
-    r'CMP0(09[89]|1[0-9][0-9])|C_STANDARD (17|23)|CXX_STANDARD (2[0-9])|--test-dir|--preset|--fresh')
+    r'CMP0(09[89]|1[0-9][0-9])|C_STANDARD (17|23)|CXX_STANDARD (2[0-9])|--test-dir|--preset|--fresh'
+)
 # of Python's library, since 3.9 or later; its syntax is known to ast
-NEWER_PYTHON = re.compile(r'\.remove(prefix|suffix)\(|\bmath\.(lcm|nextafter)\(|\bstrict=(True|False)|(->|:) (list|dict|tuple)\[|'
-                          r'functools import [^\\\n]*\bcache\b|itertools import [^\\\n]*\b(pairwise|batched)\b')
+NEWER_PYTHON = re.compile(
+    r'\.remove(prefix|suffix)\(|\bmath\.(lcm|nextafter)\(|\bstrict=(True|False)|(->|:) (list|dict|tuple)\[|'
+    r'functools import [^\\\n]*\bcache\b|itertools import [^\\\n]*\b(pairwise|batched)\b'
+)
 
 
 def files(*endings):
@@ -69,7 +99,11 @@ def dependencies():
 def listed(flavour):
     """What launch/install.sh would install."""
     script = os.path.join(ROOT, 'launch/install.sh')
-    return set(subprocess.run([script, 'list', flavour], check=True, stdout=subprocess.PIPE, text=True).stdout.split())
+    return set(
+        subprocess.run(
+            [script, 'list', flavour], check=True, stdout=subprocess.PIPE, text=True
+        ).stdout.split()
+    )
 
 
 class Dependencies(unittest.TestCase):
@@ -100,7 +134,9 @@ class Dependencies(unittest.TestCase):
         found = set()
         for path in ('CMakeLists.txt', 'tests/ros/CMakeLists.txt'):
             text = re.sub(r'#.*', '', text_of(path))
-            for components in re.findall(r'find_package\(catkin REQUIRED COMPONENTS([^)]*)\)', text):
+            for components in re.findall(
+                r'find_package\(catkin REQUIRED COMPONENTS([^)]*)\)', text
+            ):
                 found |= set(components.split())
             found |= set(re.findall(r'find_package\((ros\w+)', text))
         self.assertGreater(len(found), 5)
@@ -122,7 +158,9 @@ class Noetic(unittest.TestCase):
     def test_python_3_8(self):
         count = 0
         for path in files(''):
-            text = text_of(path) if path.endswith('.py') or '.' not in os.path.basename(path) else ''
+            text = (
+                text_of(path) if path.endswith('.py') or '.' not in os.path.basename(path) else ''
+            )
             if path.endswith('.py') or re.match(r'#!/usr/bin/(env )?python3\n', text):
                 with self.subTest(path=path):
                     ast.parse(text, path, feature_version=(3, 8))
@@ -133,7 +171,9 @@ class Noetic(unittest.TestCase):
     def test_scripts_are_installed_as_python(self):
         """And so made executable there; rosrun would find an executable source a second time."""
         cmake = text_of('CMakeLists.txt')
-        programs = re.search(r'catkin_install_python\(PROGRAMS([^)]*?)DESTINATION', cmake).group(1).split()
+        programs = (
+            re.search(r'catkin_install_python\(PROGRAMS([^)]*?)DESTINATION', cmake).group(1).split()
+        )
         here = os.path.join(ROOT, 'hdlyap_ros/scripts')
         scripts = [name for name in os.listdir(here) if os.path.isfile(os.path.join(here, name))]
         self.assertEqual(sorted(programs), sorted('hdlyap_ros/scripts/' + name for name in scripts))
@@ -148,16 +188,24 @@ class Messages(unittest.TestCase):
         for path in files('.msg', '.srv'):
             for number, line in enumerate(text_of(path).splitlines(), 1):
                 if line.strip() and not line.startswith('#') and line != '---':
-                    self.assertRegex(line, r'^[\w/]+(\[\d*\])? \w+(=\S+)? +# \S', '%s:%d' % (path, number))
+                    self.assertRegex(
+                        line, r'^[\w/]+(\[\d*\])? \w+(=\S+)? +# \S', '%s:%d' % (path, number)
+                    )
                     count += 1
         self.assertGreater(count, 150)
 
     def test_units_of_numbers(self):
         """A length, time or rate of change has its unit, wherever it occurs."""
-        units = {r'sim_time|averaged_time|tracked_time|duration|warmup|equilibration': 'time units',
-                 r'exponents?|std_errors?|local_exponents|lambda_max|ks_entropy': '1/time unit',
-                 r'wave_number|max_wave_number': '1/sigma', r'\w+_seconds': 's', r'p[xy]': 'sigma/time unit',
-                 r'box_[xy]|[xy]': 'sigma', r'phase': 'rad', r'omega\w*': 'rad/time unit'}
+        units = {
+            r'sim_time|averaged_time|tracked_time|duration|warmup|equilibration': 'time units',
+            r'exponents?|std_errors?|local_exponents|lambda_max|ks_entropy': '1/time unit',
+            r'wave_number|max_wave_number': '1/sigma',
+            r'\w+_seconds': 's',
+            r'p[xy]': 'sigma/time unit',
+            r'box_[xy]|[xy]': 'sigma',
+            r'phase': 'rad',
+            r'omega\w*': 'rad/time unit',
+        }
         for path in files('.msg'):
             for name, comment in re.findall(r'(?m)^float64(?:\[\])? (\w+) +# (.*)', text_of(path)):
                 for names, unit in units.items():
@@ -183,11 +231,17 @@ class Suite(unittest.TestCase):
         cmake = text_of('tests/ros/CMakeLists.txt')
         run = re.search(r'foreach\(name([^)]*)\)\s*add_rostest\(', cmake).group(1).split()
         run += re.findall(r'add_rostest\w*\((?:\w+ )?(\w+)\.test', cmake)
-        self.assertEqual(sorted(run), sorted(os.path.basename(path)[:-5] for path in files('.test')))
+        self.assertEqual(
+            sorted(run), sorted(os.path.basename(path)[:-5] for path in files('.test'))
+        )
 
     def test_every_launch_file_is_checked(self):
-        checked = re.findall(r'roslaunch_add_file_check\(\S*?([\w.]+\.launch)', text_of('tests/ros/CMakeLists.txt'))
-        self.assertEqual(sorted(checked), sorted(os.path.basename(path) for path in files('.launch')))
+        checked = re.findall(
+            r'roslaunch_add_file_check\(\S*?([\w.]+\.launch)', text_of('tests/ros/CMakeLists.txt')
+        )
+        self.assertEqual(
+            sorted(checked), sorted(os.path.basename(path) for path in files('.launch'))
+        )
 
 
 if __name__ == '__main__':

@@ -12,11 +12,13 @@ import harness
 from harness import SHORT
 
 NAN, INFINITY = float('nan'), float('inf')
-AT_ONCE = 8    # nodes: they spend most of their short life waiting
+AT_ONCE = 8  # nodes: they spend most of their short life waiting
 TIME = [-1, -1e-9, 2e12, 'x', '', [1.0], True, NAN, INFINITY]
 
 # with covariant vectors, if it were longer
-WINDOW = dict(observables=['covariant'], covariant_transient=1.0, covariant_window=1.0, covariant_sampling=1.0)
+WINDOW = dict(
+    observables=['covariant'], covariant_transient=1.0, covariant_window=1.0, covariant_sampling=1.0
+)
 COVARIANT = [0, -1, 0.9e-6, 2e12, 'x', '', [1.0], True, NAN, INFINITY]
 
 # values that are refused whatever the other parameters are
@@ -36,14 +38,40 @@ BAD = dict(
     interval=[0, 0.0, -1, 2e12, 'never', '', NAN, INFINITY, True],
     accuracy=[0, 0.9e-12, 1.1e-2, 'x', NAN, INFINITY],
     report_interval=[0, -1, 2e12, 'x', NAN, INFINITY],
-    observables=[['covariants'], ['modes', 'covariance'], ['run_info'], ['cost'], ['spectra'], [''], 'spectrum', 5, [1], True],
+    observables=[
+        ['covariants'],
+        ['modes', 'covariance'],
+        ['run_info'],
+        ['cost'],
+        ['spectra'],
+        [''],
+        'spectrum',
+        5,
+        [1],
+        True,
+    ],
     threads=[-1, 1025, 1.0, '2'],
     wait_for_subscribers=[['nothing'], ['spectrum', ''], 'spectrum', 5, [1]],
     pace=[-1, 2e12, 'x', NAN, INFINITY],
     max_wave_number=[-1, 1.1, 2.7, 2e12, 'x', '', [1], NAN, INFINITY, True],
     max_node=[-1, 3, 1000001, 1.0, '2', '', [2], False],
-    field_indices=['', 'all', 'Steps', 5, 1.0, [], ['1'], [1.0], [1, 'steps'], [True], [[1]], [0], [-1],
-                   [38], [1, 2, 1000000]],
+    field_indices=[
+        '',
+        'all',
+        'Steps',
+        5,
+        1.0,
+        [],
+        ['1'],
+        [1.0],
+        [1, 'steps'],
+        [True],
+        [[1]],
+        [0],
+        [-1],
+        [38],
+        [1, 2, 1000000],
+    ],
     field_interval=TIME,
     checkpoint=[5, True, ['file']],
     checkpoint_interval=[-1, 2e12, 'x', NAN, INFINITY],
@@ -80,8 +108,11 @@ BAD_TOGETHER = [
     ('covariant_storage', dict(covariant_storage='recompute')),
     ('covariant_folder', dict(covariant_folder='/')),
     ('covariant_folder', dict(WINDOW, covariant_folder='/' + 'x' * 511)),
-    *((name, dict(WINDOW, **{name: value})) for name in ('covariant_window', 'covariant_transient', 'covariant_sampling')
-      for value in (0, -1, 2e12, NAN)),
+    *(
+        (name, dict(WINDOW, **{name: value}))
+        for name in ('covariant_window', 'covariant_transient', 'covariant_sampling')
+        for value in (0, -1, 2e12, NAN)
+    ),
     ('covariant_sampling', dict(WINDOW, covariant_sampling=1.5)),
     ('covariant_window', dict(WINDOW, disks=400, duration=1e6, covariant_window=1e5)),
     ('warmup', dict(WINDOW, covariant_transient=1.5)),
@@ -113,22 +144,60 @@ GOOD = [
     (dict(boundary_x='reflecting'), dict(boundary_x='reflecting', zero_exponents=4)),
     (dict(max_node=1), dict(max_node=1, wave_nx=(1, 0, 1), wave_ny=(0, 1, 1))),
     (dict(max_wave_number='1.2'), dict(max_wave_number=1.2, wave_nx=(1, 0), wave_ny=(0, 1))),
-    (dict(max_wave_number=0, max_node=0, observables=['spectrum']),
-     dict(max_wave_number=0.0, max_node=0, wave_nx=(), wave_ny=())),
+    (
+        dict(max_wave_number=0, max_node=0, observables=['spectrum']),
+        dict(max_wave_number=0.0, max_node=0, wave_nx=(), wave_ny=()),
+    ),
     (dict(field_indices='steps'), dict(field_indices='steps')),
     (dict(field_indices='steps', exponents='none'), dict(field_indices='steps', wave_nx=())),
     (dict(field_indices=[37, 1]), dict(field_indices='[37, 1]')),
-    (dict(field_interval=0, observables=['state']), dict(field_interval=0.0, observables=['state'])),
+    (
+        dict(field_interval=0, observables=['state']),
+        dict(field_interval=0.0, observables=['state']),
+    ),
     (dict(field_interval='2.5'), dict(field_interval=2.5, wait_for_subscribers=['run_info'])),
-    (dict(covariant_window=50, covariant_transient='100', covariant_sampling=5.0, covariant_memory=4,
-          covariant_storage='memory', covariant_folder='/tmp'), dict(covariant_storage='memory', covariant_memory=4.0)),
-    (dict(WINDOW, max_node=1, exponents=3),
-     dict(observables=['covariant'], wave_nx=(1, 0, 1), covariant_window=1.0, covariant_transient=1.0)),
-    (dict(WINDOW, duration=3.0, covariant_storage='recompute', covariant_memory='0.25', covariant_sampling=0.5,
-          covariant_folder='/'), dict(covariant_storage='recompute', covariant_memory=0.25, covariant_sampling=0.5,
-                                      covariant_folder='/', covariant_transient=1.0)),
+    (
+        dict(
+            covariant_window=50,
+            covariant_transient='100',
+            covariant_sampling=5.0,
+            covariant_memory=4,
+            covariant_storage='memory',
+            covariant_folder='/tmp',
+        ),
+        dict(covariant_storage='memory', covariant_memory=4.0),
+    ),
+    (
+        dict(WINDOW, max_node=1, exponents=3),
+        dict(
+            observables=['covariant'],
+            wave_nx=(1, 0, 1),
+            covariant_window=1.0,
+            covariant_transient=1.0,
+        ),
+    ),
+    (
+        dict(
+            WINDOW,
+            duration=3.0,
+            covariant_storage='recompute',
+            covariant_memory='0.25',
+            covariant_sampling=0.5,
+            covariant_folder='/',
+        ),
+        dict(
+            covariant_storage='recompute',
+            covariant_memory=0.25,
+            covariant_sampling=0.5,
+            covariant_folder='/',
+            covariant_transient=1.0,
+        ),
+    ),
     (dict(observables=['hydro', 'steps']), dict(observables=['steps', 'hydro'])),
-    (dict(checkpoint='', checkpoint_interval=0.0, resume=''), dict(checkpoint='', checkpoint_interval=0.0, resumed_time=-1.0)),
+    (
+        dict(checkpoint='', checkpoint_interval=0.0, resume=''),
+        dict(checkpoint='', checkpoint_interval=0.0, resumed_time=-1.0),
+    ),
 ]
 
 
@@ -136,9 +205,11 @@ class Parameters(unittest.TestCase):
     def check_refused(self, cases):
         """cases: (what the line begins with, what is in it, parameters, arguments)."""
         for first in range(0, len(cases), AT_ONCE):
-            some = cases[first:first + AT_ONCE]
-            nodes = [harness.start(params, 'refused_%d' % k, args=args)
-                     for k, (_, _, params, args) in enumerate(some)]
+            some = cases[first : first + AT_ONCE]
+            nodes = [
+                harness.start(params, 'refused_%d' % k, args=args)
+                for k, (_, _, params, args) in enumerate(some)
+            ]
             for node, (begin, value, params, _) in zip(nodes, some):
                 self.addCleanup(node.stop)
                 with self.subTest(params=params):
@@ -157,12 +228,18 @@ class Parameters(unittest.TestCase):
         self.assertEqual([topic for topic in types if topic.startswith('/refused')], [])
 
     def test_refused(self):
-        self.check_refused([(name + ' = ', shown(value), dict(SHORT, **{name: value}), [])
-                            for name, values in BAD.items() for value in values])
+        self.check_refused(
+            [
+                (name + ' = ', shown(value), dict(SHORT, **{name: value}), [])
+                for name, values in BAD.items()
+                for value in values
+            ]
+        )
 
     def test_refused_together(self):
-        self.check_refused([(name + ' = ', '', dict(SHORT, **params), [])
-                            for name, params in BAD_TOGETHER])
+        self.check_refused(
+            [(name + ' = ', '', dict(SHORT, **params), []) for name, params in BAD_TOGETHER]
+        )
 
     def test_refused_argument(self):
         self.check_refused([('argument disks=5', '', SHORT, ['disks=5'])])
@@ -173,11 +250,17 @@ class Parameters(unittest.TestCase):
                 self.taken(params, shows)
 
     def test_lists_on_the_command_line(self):
-        self.taken({}, dict(observables=['fields', 'state'], field_indices='[1, 7]'),
-                   args=['_observables:=[fields, state]', '_field_indices:=[1, 7]'])
-        self.check_refused([('observables', '[fields, spectra]', SHORT,
-                             ['_observables:=[fields,spectra]']),
-                            ('field_indices', '[0]', SHORT, ['_field_indices:=[0]'])])
+        self.taken(
+            {},
+            dict(observables=['fields', 'state'], field_indices='[1, 7]'),
+            args=['_observables:=[fields, state]', '_field_indices:=[1, 7]'],
+        )
+        self.check_refused(
+            [
+                ('observables', '[fields, spectra]', SHORT, ['_observables:=[fields,spectra]']),
+                ('field_indices', '[0]', SHORT, ['_field_indices:=[0]']),
+            ]
+        )
 
     def taken(self, params, shows, args=()):
         listener = harness.Listener('run_info')
@@ -197,15 +280,38 @@ class Parameters(unittest.TestCase):
         self.addCleanup(node.stop)
         self.assertTrue(listener.wait_for(lambda info: True), node.text())
         info = listener.messages[0]
-        want = dict(scene='paper_periodic', disks=780, density=0.8, aspect=0.867, seed='1',
-                    boundary_x='periodic', boundary_y='periodic', exponents='positive',
-                    vectors=1557, zero_exponents=6, duration=0.0, target_std_error=0.0,
-                    interval=0.0, accuracy=1e-8, report_interval=1.0, pace=0.0,
-                    observables=['spectrum', 'modes', 'steps', 'lp_phases', 'fields', 'state'],
-                    max_node=0, max_wave_number=0.0, field_indices='steps', field_interval=10.0,
-                    wait_for_subscribers=[], covariant_window=50.0, covariant_transient=100.0, covariant_sampling=5.0,
-                    covariant_memory=4.0, covariant_storage='memory', covariant_folder='/tmp',
-                    wave_nx=(1, 0, 1, 2, 0, 2, 1, 2), wave_ny=(0, 1, 1, 0, 2, 1, 2, 2))
+        want = dict(
+            scene='paper_periodic',
+            disks=780,
+            density=0.8,
+            aspect=0.867,
+            seed='1',
+            boundary_x='periodic',
+            boundary_y='periodic',
+            exponents='positive',
+            vectors=1557,
+            zero_exponents=6,
+            duration=0.0,
+            target_std_error=0.0,
+            interval=0.0,
+            accuracy=1e-8,
+            report_interval=1.0,
+            pace=0.0,
+            observables=['spectrum', 'modes', 'steps', 'lp_phases', 'fields', 'state'],
+            max_node=0,
+            max_wave_number=0.0,
+            field_indices='steps',
+            field_interval=10.0,
+            wait_for_subscribers=[],
+            covariant_window=50.0,
+            covariant_transient=100.0,
+            covariant_sampling=5.0,
+            covariant_memory=4.0,
+            covariant_storage='memory',
+            covariant_folder='/tmp',
+            wave_nx=(1, 0, 1, 2, 0, 2, 1, 2),
+            wave_ny=(0, 1, 1, 0, 2, 1, 2, 2),
+        )
         for field, value in want.items():
             self.assertEqual(getattr(info, field), value)
 

@@ -26,7 +26,9 @@ class Pictures:
 
     def __init__(self):
         self.all = []
-        self.subscriber = rospy.Subscriber('/hdlyap/markers', MarkerArray, self.all.append, queue_size=None)
+        self.subscriber = rospy.Subscriber(
+            '/hdlyap/markers', MarkerArray, self.all.append, queue_size=None
+        )
 
     def close(self):
         self.subscriber.unregister()
@@ -38,7 +40,9 @@ def of(picture, ns, kind):
 
 def modes(picture):
     """Namespaces of the modes that are drawn."""
-    return [m.ns for m in picture.markers if m.type == Marker.TRIANGLE_LIST and m.action == Marker.ADD]
+    return [
+        m.ns for m in picture.markers if m.type == Marker.TRIANGLE_LIST and m.action == Marker.ADD
+    ]
 
 
 def text(picture):
@@ -48,17 +52,18 @@ def text(picture):
 def places(picture):
     """Of the disks in the first panel."""
     points = of(picture, 'disks', Marker.SPHERE_LIST)[0].points
-    return np.array([(p.x, p.y) for p in points[:MODES['disks']]])
+    return np.array([(p.x, p.y) for p in points[: MODES['disks']]])
 
 
 def arrows(marker):
     """Of each disk: the difference of the ends."""
-    tails = [((a.x + b.x) / 2, (a.y + b.y) / 2) for a, b in zip(marker.points[0::9], marker.points[5::9])]
+    tails = [
+        ((a.x + b.x) / 2, (a.y + b.y) / 2) for a, b in zip(marker.points[0::9], marker.points[5::9])
+    ]
     return np.array([(tip.x - x, tip.y - y) for (x, y), tip in zip(tails, marker.points[7::9])])
 
 
 class Markers(unittest.TestCase):
-
     def start(self, params, **kw):
         node = harness.start(params, **kw)
         self.addCleanup(node.stop)
@@ -79,7 +84,10 @@ class Markers(unittest.TestCase):
             self.addCleanup(listener.close)
         pictures = self.look()
         node = self.start(dict(ENDLESS, marker_rate=100.0, field_interval=0.0, pace=10.0))
-        self.assertTrue(harness.wait_until(lambda: sum(len(modes(p)) == 2 for p in pictures.all) > 60), node.text())
+        self.assertTrue(
+            harness.wait_until(lambda: sum(len(modes(p)) == 2 for p in pictures.all) > 60),
+            node.text(),
+        )
         node.stop()
         compared = 0
         by_place = {(s.x[0], s.y[0]): s.sim_time for s in states.messages}
@@ -88,11 +96,18 @@ class Markers(unittest.TestCase):
             for name in modes(picture) if at is not None else ():
                 nx, ny = map(int, re.search(r'(\d+),(\d+)', name).groups())
                 kind = 2 if 'T' in name else 3
-                field = [f for f in fields.messages if (f.sim_time, f.kind, f.nx, f.ny) == (at, kind, nx, ny)]
+                field = [
+                    f
+                    for f in fields.messages
+                    if (f.sim_time, f.kind, f.nx, f.ny) == (at, kind, nx, ny)
+                ]
                 if not field:
                     continue
-                drawn, wanted = arrows(of(picture, name, Marker.TRIANGLE_LIST)[0]), np.c_[field[0].dqx, field[0].dqy]
-                longest = abs(drawn).max(axis=1) < 3.0      # the longest are clipped
+                drawn, wanted = (
+                    arrows(of(picture, name, Marker.TRIANGLE_LIST)[0]),
+                    np.c_[field[0].dqx, field[0].dqy],
+                )
+                longest = abs(drawn).max(axis=1) < 3.0  # the longest are clipped
                 factor = (drawn[longest] * wanted[longest]).sum() / (wanted[longest] ** 2).sum()
                 self.assertGreater(factor, 0)
                 np.testing.assert_allclose(drawn[longest], factor * wanted[longest], atol=1e-9)
@@ -101,7 +116,9 @@ class Markers(unittest.TestCase):
         self.assertGreater(compared, 5)
 
     def redraw(self, *args):
-        node = harness.Process([roslib.packages.find_node('hdlyap', 'redraw')[0], '__name:=hdlyap', *args])
+        node = harness.Process(
+            [roslib.packages.find_node('hdlyap', 'redraw')[0], '__name:=hdlyap', *args]
+        )
         self.addCleanup(node.stop)
         return node
 
@@ -111,20 +128,26 @@ class Markers(unittest.TestCase):
         listeners = {topic: Listener(topic) for topic in topics}
         live = self.look()
         node = self.start(dict(ENDLESS, marker_rate=100.0, field_interval=0.0, pace=10.0))
-        self.assertTrue(harness.wait_until(lambda: sum(len(modes(p)) == 2 for p in live.all) > 60), node.text())
+        self.assertTrue(
+            harness.wait_until(lambda: sum(len(modes(p)) == 2 for p in live.all) > 60), node.text()
+        )
         node.send(signal.SIGINT)
         node.wait()
         for listener in (*listeners.values(), live):
-            listener.close()        # what is said again is not heard again
+            listener.close()  # what is said again is not heard again
         originals = {tuple(places(p).flat): p for p in live.all if len(modes(p)) == 2}
         rospy.delete_param('/hdlyap')
         again = self.look()
         redraw = self.redraw()
-        publishers = {topic: rospy.Publisher('/hdlyap/' + topic, harness.TYPES[topic], queue_size=1000)
-                      for topic in topics}
+        publishers = {
+            topic: rospy.Publisher('/hdlyap/' + topic, harness.TYPES[topic], queue_size=1000)
+            for topic in topics
+        }
         for publisher in publishers.values():
             self.addCleanup(publisher.unregister)
-        self.assertTrue(harness.wait_until(lambda: all(p.get_num_connections() for p in publishers.values())))
+        self.assertTrue(
+            harness.wait_until(lambda: all(p.get_num_connections() for p in publishers.values()))
+        )
         publishers['run_info'].publish(listeners['run_info'].messages[-1])
         compared = 0
         for cost in listeners['cost'].messages:
@@ -132,7 +155,7 @@ class Markers(unittest.TestCase):
                 for message in listeners[topic].messages:
                     if message.sim_time == cost.sim_time:
                         publishers[topic].publish(message)
-            time.sleep(0.02)        # topics do not keep step
+            time.sleep(0.02)  # topics do not keep step
             count = len(again.all)
             publishers['cost'].publish(cost)
             harness.wait_until(lambda: len(again.all) > count, 0.2)
@@ -142,10 +165,15 @@ class Markers(unittest.TestCase):
                 continue
             compared += 1
             self.assertEqual(modes(picture), modes(original))
-            for ns, kind in [(ns, Marker.TRIANGLE_LIST) for ns in modes(picture)] + [('phases', Marker.LINE_LIST)]:
+            for ns, kind in [(ns, Marker.TRIANGLE_LIST) for ns in modes(picture)] + [
+                ('phases', Marker.LINE_LIST)
+            ]:
                 for new, old in zip(of(picture, ns, kind), of(original, ns, kind)):
-                    np.testing.assert_allclose([(p.x, p.y) for p in new.points], [(p.x, p.y) for p in old.points],
-                                               atol=1e-9)
+                    np.testing.assert_allclose(
+                        [(p.x, p.y) for p in new.points],
+                        [(p.x, p.y) for p in old.points],
+                        atol=1e-9,
+                    )
         self.assertGreater(compared, 3, redraw.text())
 
     def test_redraw_refuses(self):
@@ -159,12 +187,23 @@ class Markers(unittest.TestCase):
     def test_named_modes_in_their_order(self):
         pictures = self.look()
         self.start(dict(ENDLESS, marker_modes=['LP(1,0)', 'T(2,0)', 'T(1,0)']))
-        self.assertTrue(harness.wait_until(lambda: pictures.all and len(modes(pictures.all[-1])) == 3))
+        self.assertTrue(
+            harness.wait_until(lambda: pictures.all and len(modes(pictures.all[-1])) == 3)
+        )
         self.assertEqual(modes(pictures.all[-1]), ['mode/LP(1,0)', 'mode/T(2,0)', 'mode/T(1,0)'])
         self.assertIn('c_T', text(pictures.all[-1]))
 
     def test_what_is_not_looked_for_is_refused(self):
-        for value in ('T(1,0)', ['T(1,0'], ['T(1,0)x'], ['P(1,0)'], ['T(99,0)'], [], ['T(1,0)'] * 9, [3]):
+        for value in (
+            'T(1,0)',
+            ['T(1,0'],
+            ['T(1,0)x'],
+            ['P(1,0)'],
+            ['T(99,0)'],
+            [],
+            ['T(1,0)'] * 9,
+            [3],
+        ):
             node = self.start(dict(MODES, marker_modes=value))
             self.assertEqual(node.wait(), 2, value)
             self.assertEqual(len(node.lines('marker_modes = ')), 1, node.text())
@@ -181,16 +220,26 @@ class Markers(unittest.TestCase):
         self.assertTrue(harness.wait_until(lambda: len(averaging()) >= count + 20))
         self.assertGreater(time.monotonic() - begin, 0.8 * 20 / 10.0)
         times = [float(re.search(r't = ([0-9.]+)', text(p)).group(1)) for p in averaging()[3:]]
-        self.assertLess(max(np.diff(times)), 0.9)      # 0.2 apart, but for a busy machine
+        self.assertLess(max(np.diff(times)), 0.9)  # 0.2 apart, but for a busy machine
 
     def test_without_modes_or_exponents(self):
         pictures = self.look()
         self.start(dict(ENDLESS, observables=['spectrum']))
-        self.assertTrue(harness.wait_until(lambda: any(of(p, 'spectrum', Marker.LINE_STRIP) for p in pictures.all)))
-        self.assertFalse(any(of(p, 'dispersion', Marker.LINE_LIST) or modes(p) for p in pictures.all))
+        self.assertTrue(
+            harness.wait_until(
+                lambda: any(of(p, 'spectrum', Marker.LINE_STRIP) for p in pictures.all)
+            )
+        )
+        self.assertFalse(
+            any(of(p, 'dispersion', Marker.LINE_LIST) or modes(p) for p in pictures.all)
+        )
         pictures.all.clear()
         self.start(dict(ENDLESS, exponents='none'))
-        self.assertTrue(harness.wait_until(lambda: any(not of(p, 'spectrum', Marker.LINE_LIST) for p in pictures.all)))
+        self.assertTrue(
+            harness.wait_until(
+                lambda: any(not of(p, 'spectrum', Marker.LINE_LIST) for p in pictures.all)
+            )
+        )
 
     def test_only_modes_that_there_can_be(self):
         """Between close walls there are no transverse ones, and no panel for them."""
@@ -215,26 +264,44 @@ class Markers(unittest.TestCase):
         self.start(ENDLESS)
         self.assertTrue(harness.wait_until(lambda: before.all and len(modes(before.all[-1])) == 2))
         before.close()
-        time.sleep(1.2)     # a picture of less than a second ago is not drawn anew
+        time.sleep(1.2)  # a picture of less than a second ago is not drawn anew
         self.pause(True)
         late = self.look()
         self.assertTrue(harness.wait_until(lambda: late.all and not modes(late.all[-1]), 10))
-        titles = [m.text for m in late.all[-1].markers if m.ns.startswith('mode/') and m.action == Marker.ADD]
+        titles = [
+            m.text
+            for m in late.all[-1].markers
+            if m.ns.startswith('mode/') and m.action == Marker.ADD
+        ]
         self.assertEqual(len(titles), 2)
         for title in titles:
             self.assertRegex(title, r'index \d+ .*not known now')
 
     def test_no_memory_for_it(self):
         pictures = self.look()
-        node = self.start(dict(ENDLESS, disks=20000, aspect=1.0, exponents='none', warmup=0.0, equilibration=0.1, pace=1.0),
-                          probe={'PROBE_GROWTH': '300000'})
-        self.assertTrue(harness.wait_until(lambda: len(node.lines('markers not drawn: out of memory')) > 1), node.text())
+        node = self.start(
+            dict(
+                ENDLESS,
+                disks=20000,
+                aspect=1.0,
+                exponents='none',
+                warmup=0.0,
+                equilibration=0.1,
+                pace=1.0,
+            ),
+            probe={'PROBE_GROWTH': '300000'},
+        )
+        self.assertTrue(
+            harness.wait_until(lambda: len(node.lines('markers not drawn: out of memory')) > 1),
+            node.text(),
+        )
         self.assertTrue(node.running())
         self.assertEqual(pictures.all, [])
 
     def test_at_the_slowest_pace(self):
         """So slow that a picture's time is no number, and the next step's no wall time. What comes before the averaging
         is as fast as ever."""
+
         def sleeps(thread):
             with open(thread) as file:
                 return file.read().rsplit(')', 1)[1].split()[0] == 'S'
@@ -244,16 +311,28 @@ class Markers(unittest.TestCase):
                 calm.append(all(map(sleeps, glob.glob('/proc/%d/task/*/stat' % node.process.pid))))
                 time.sleep(0.005)
             return len(calm) >= 20 and all(calm[-20:])
+
         for pace in (1e-323, 1e-40):
             pictures = self.look()
-            node = self.start(dict(harness.SHORT, equilibration=100.0, duration=0.0, pace=pace,
-                                   wait_for_subscribers=['state']))
-            self.assertTrue(harness.wait_until(pictures.subscriber.get_num_connections), node.text())
-            states = Listener('state')      # the run is looked at from its first step
+            node = self.start(
+                dict(
+                    harness.SHORT,
+                    equilibration=100.0,
+                    duration=0.0,
+                    pace=pace,
+                    wait_for_subscribers=['state'],
+                )
+            )
+            self.assertTrue(
+                harness.wait_until(pictures.subscriber.get_num_connections), node.text()
+            )
+            states = Listener('state')  # the run is looked at from its first step
             self.addCleanup(states.close)
             self.assertTrue(harness.wait_until(lambda: pictures.all), node.text())
             calm = []
-            self.assertTrue(harness.wait_until(lambda: all(calm[-20:] or [False]) or rested()), node.text())
+            self.assertTrue(
+                harness.wait_until(lambda: all(calm[-20:] or [False]) or rested()), node.text()
+            )
             self.assertTrue(node.running(), node.text())
             for listener in (pictures, states):
                 listener.close()

@@ -47,9 +47,19 @@ class Bags(unittest.TestCase):
         return recording.read(self.path)
 
     def plot(self, *arguments):
-        return subprocess.run([sys.executable, os.path.join(SCRIPTS, 'plot_bag'), self.path,
-                               '--out', self.out, *arguments], universal_newlines=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        return subprocess.run(
+            [
+                sys.executable,
+                os.path.join(SCRIPTS, 'plot_bag'),
+                self.path,
+                '--out',
+                self.out,
+                *arguments,
+            ],
+            universal_newlines=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
 
     def succeeds(self, names, *arguments):
         done = self.plot(*arguments)
@@ -68,8 +78,14 @@ class Bags(unittest.TestCase):
 class Exponents(Bags):
     def test_positive_half(self):
         exponents = np.linspace(3, 1, 37)
-        self.write([made.run_info(), made.cost(1),
-                    *(made.spectrum(exponents, t) for t in range(1, 30)), made.cost(2)])
+        self.write(
+            [
+                made.run_info(),
+                made.cost(1),
+                *(made.spectrum(exponents, t) for t in range(1, 30)),
+                made.cost(2),
+            ]
+        )
         text = self.succeeds(SPECTRUM_FILES + COST_FILES)
         self.assertIn('the last 37 exponents before the zeros', text)
         self.assertIn('    37   1.00000  0.01000', text)
@@ -80,8 +96,9 @@ class Exponents(Bags):
     def test_all_exponents(self):
         half = np.linspace(3, 1, 37)
         exponents = [*half, 0, 0, 0, 0, 0, 0, *-half[::-1]]
-        self.write([made.run_info(), made.spectrum(exponents, 1.0, pairing_error=2e-5),
-                    made.cost(1)])
+        self.write(
+            [made.run_info(), made.spectrum(exponents, 1.0, pairing_error=2e-5), made.cost(1)]
+        )
         text = self.succeeds(SPECTRUM_FILES + COST_FILES)
         self.assertIn('the last 37 exponents before the zeros', text)
         self.assertIn('pairing error   2.00e-05', text)
@@ -100,25 +117,33 @@ class Exponents(Bags):
         info = made.paper_info()
         exponents = np.linspace(6.8, 1.0, 1557)
         for step in paper.steps(info):
-            exponents[step.first - 1:step.last] = 1.01 * step.fitted
+            exponents[step.first - 1 : step.last] = 1.01 * step.fitted
         self.write([info, made.spectrum(exponents, 10.0)])
         text = self.succeeds(SPECTRUM_FILES)
-        self.assertRegex(text, r'T\(1,0\) +1556-1557 +0\.18736 +0\.62\d+ +0\.01000 +0\.61\d\d '
-                               r'+\+1\.00 %')
+        self.assertRegex(
+            text, r'T\(1,0\) +1556-1557 +0\.18736 +0\.62\d+ +0\.01000 +0\.61\d\d ' r'+\+1\.00 %'
+        )
         self.assertEqual(text.count('+1.00 %'), 5)
 
     def test_averages_start_afresh_after_a_reset(self):
-        run = self.recorded(made.run_info(),
-                            *(made.spectrum([3.0, 2.0], t) for t in [1, 2, 3, 1, 2]))
+        run = self.recorded(
+            made.run_info(), *(made.spectrum([3.0, 2.0], t) for t in [1, 2, 3, 1, 2])
+        )
         self.assertEqual(list(run.course()['time']), [1, 2])
 
     def test_last_of_two_runs(self):
         info = made.run_info()
         step = made.step(info, LP, 1, 0, 34, 37)
-        run = self.recorded(info, made.spectrum([9.0], 5.0), made.steps([step]),
-                            made.lp_phases(info, [step], 5.0), made.mode_field(info, step),
-                            made.run_info(run_id='two'), made.steps([step]),    # late
-                            made.spectrum([3.0], 1.0, run_id='two'))
+        run = self.recorded(
+            info,
+            made.spectrum([9.0], 5.0),
+            made.steps([step]),
+            made.lp_phases(info, [step], 5.0),
+            made.mode_field(info, step),
+            made.run_info(run_id='two'),
+            made.steps([step]),  # late
+            made.spectrum([3.0], 1.0, run_id='two'),
+        )
         self.assertEqual((run.info.run_id, run.spectrum.lambda_max), ('two', 3.0))
         self.assertEqual((run.steps, list(run.fields()), run.phases.last), (None, [], None))
 
@@ -140,9 +165,11 @@ class Table(Bags):
 
     def test_steps(self):
         info = made.run_info()
-        lines, text = self.run_with(made.step(info, T, 1, 0, 36, 37),
-                                    made.step(info, LP, 1, 0, 32, 35, std_error=-1.0),
-                                    made.zero_modes())
+        lines, text = self.run_with(
+            made.step(info, T, 1, 0, 36, 37),
+            made.step(info, LP, 1, 0, 32, 35, std_error=-1.0),
+            made.zero_modes(),
+        )
         self.assertIn('at least 50 % of the expected multiplicity', text)
         self.assertEqual(lines['T(1,0)'], ['36-37', '1.98', '2', '0.99346', '1.4895(20)'])
         self.assertEqual(lines['LP(1,0)'], ['32-35', '3.96', '4', '0.99346', '1.98367'])
@@ -160,7 +187,8 @@ class Table(Bags):
         shared = {'set': 7, 'members': 2}
         lines, text = self.run_with(
             made.step(info, T, 1, 1, 26, 33, expected=4, multiplicity=3.9, **shared),
-            made.step(info, LP, 0, 1, 26, 33, expected=4, multiplicity=3.5, **shared))
+            made.step(info, LP, 0, 1, 26, 33, expected=4, multiplicity=3.5, **shared),
+        )
         self.assertEqual(lines['LP(0,1)+T(1,1)'], ['26-33', '7.40', '8'])
         self.assertEqual(lines['T(1,1)'], ['3.90', '4', '1.40496', '2.1643(20)'])
         self.assertEqual(lines['LP(0,1)'], ['3.50', '4', '0.99346', '1.9837(20)'])
@@ -168,9 +196,12 @@ class Table(Bags):
 
     def test_unresolved_steps_in_one_line(self):
         info = made.run_info()
-        _, text = self.run_with(made.step(info, T, 1, 0, 36, 37),
-                                made.unresolved(info, LP, 2, 2, 8),
-                                made.unresolved(info, T, 2, 2, 4), made.zero_modes())
+        _, text = self.run_with(
+            made.step(info, T, 1, 0, 36, 37),
+            made.unresolved(info, LP, 2, 2, 8),
+            made.unresolved(info, T, 2, 2, 4),
+            made.zero_modes(),
+        )
         self.assertIn('\n  not resolved (2): LP(2,2) T(2,2)\n', text)
         _, text = self.run_with(*(made.unresolved(info, T, n, 10, 4) for n in range(100)))
         line = next(line for line in text.splitlines() if 'not resolved (' in line)
@@ -180,18 +211,23 @@ class Table(Bags):
 
     def test_zero_modes(self):
         info = made.run_info()
-        text = report.report(self.recorded(info, made.spectrum(np.linspace(3, 0, 43), 50.0),
-                                           made.steps([made.zero_modes(38)])))
+        text = report.report(
+            self.recorded(
+                info, made.spectrum(np.linspace(3, 0, 43), 50.0), made.steps([made.zero_modes(38)])
+            )
+        )
         self.assertRegex(text, r'zero modes +38-43 +6\.00 +6 +0\.000100\(30\)')
-        text = report.report(self.recorded(info, made.spectrum(np.linspace(3, 0, 43), 50.0),
-                                           made.steps([made.zero_modes()])))
+        text = report.report(
+            self.recorded(
+                info, made.spectrum(np.linspace(3, 0, 43), 50.0), made.steps([made.zero_modes()])
+            )
+        )
         self.assertIn('zero modes not found', text)
 
     def test_conjugate_half_in_one_line(self):
         info = made.run_info()
         step = made.step(info, T, 1, 0, 36, 37)
-        mirrored = made.step(info, T, 1, 0, 44, 45, conjugate=True,
-                             exponent=-step.exponent + 3e-6)
+        mirrored = made.step(info, T, 1, 0, 44, 45, conjugate=True, exponent=-step.exponent + 3e-6)
         lost = made.unresolved(info, LP, 1, 0, 4)
         lost.conjugate = True
         _, text = self.run_with(step, mirrored, lost)
@@ -217,10 +253,18 @@ class Table(Bags):
 
     def test_paper_values_beside_the_fits(self):
         slopes = (r'c_T .*2005, c k alone: 2\.535 \+-3 %', r'c_L .* alone: 3\.352 \+-3 %')
-        curves = (r'c_T .*: 1\.412\n', r'c_T2 .*: 0\.086\n', r'c_L .*: 1\.422\n',
-                  r'c_L2 .*: 0\.550\n')
-        for density, disks, there in ((0.7, 400, slopes), (0.4, 780, curves), (0.7, 399, ()),
-                                      (0.81, 780, ())):
+        curves = (
+            r'c_T .*: 1\.412\n',
+            r'c_T2 .*: 0\.086\n',
+            r'c_L .*: 1\.422\n',
+            r'c_L2 .*: 0\.550\n',
+        )
+        for density, disks, there in (
+            (0.7, 400, slopes),
+            (0.4, 780, curves),
+            (0.7, 399, ()),
+            (0.81, 780, ()),
+        ):
             _, text = self.run_with(info=made.run_info(disks=disks, density=density))
             self.assertEqual(text.count('Eckmann'), len(there), (density, disks))
             for pattern in there:
@@ -228,26 +272,43 @@ class Table(Bags):
 
     def test_paper_scene(self):
         info = made.paper_info()
-        known = [made.step(info, kind, nx, ny, first, last)
-                 for kind, nx, ny, first, last in ((T, 1, 0, 1556, 1557), (LP, 1, 0, 1550, 1553))]
+        known = [
+            made.step(info, kind, nx, ny, first, last)
+            for kind, nx, ny, first, last in ((T, 1, 0, 1556, 1557), (LP, 1, 0, 1550, 1553))
+        ]
         for step, fitted in zip(known, (paper.slope_t(0.8), paper.slope_l(0.8))):
             step.exponent = 0.99 * fitted * step.wave_number
-        lines, _ = self.lines(info, made.spectrum(np.linspace(6, 1, 1557), 50.0),
-                              made.steps(known))
-        self.assertEqual(lines['T(1,0)'], ['1556-1557', '1.98', '2', '0.18736', '0.6093(20)',
-                                           '0.6155', '-1.00', '%'])
+        lines, _ = self.lines(info, made.spectrum(np.linspace(6, 1, 1557), 50.0), made.steps(known))
+        self.assertEqual(
+            lines['T(1,0)'],
+            ['1556-1557', '1.98', '2', '0.18736', '0.6093(20)', '0.6155', '-1.00', '%'],
+        )
         self.assertEqual(lines['LP(1,0)'][-3:], ['0.8664', '-1.00', '%'])
 
     def test_lp_dynamics(self):
         info = made.run_info()
         step = made.step(info, LP, 1, 0, 32, 35)
         message = made.lp_phases(info, [made.zero_modes(), step], 150.0)
-        for phase, (omega, error, state) in zip(message.phases, (
-                (1.50, 0.01, 3), (-1.60, 0.02, 3), (9.0, 0.01, 1), (9.0, 0.01, 2),
-                (1.52, -1.0, 3), (9.0, 0.01, 1), (9.0, 0.01, 1), (9.0, 0.01, 0))):
+        for phase, (omega, error, state) in zip(
+            message.phases,
+            (
+                (1.50, 0.01, 3),
+                (-1.60, 0.02, 3),
+                (9.0, 0.01, 1),
+                (9.0, 0.01, 2),
+                (1.52, -1.0, 3),
+                (9.0, 0.01, 1),
+                (9.0, 0.01, 1),
+                (9.0, 0.01, 0),
+            ),
+        ):
             phase.omega, phase.omega_error, phase.state = omega, error, state
-        lines, text = self.lines(info, made.spectrum(np.linspace(3, 1, 37), 50.0),
-                                 made.steps([made.zero_modes(), step]), message)
+        lines, text = self.lines(
+            info,
+            made.spectrum(np.linspace(3, 1, 37), 50.0),
+            made.steps([made.zero_modes(), step]),
+            message,
+        )
         # weights 4 : 1; the error is that of one phase: 0.01 / sqrt(5/4 / 2)
         self.assertRegex(text, r'LP\(1,0\) +1\.520\(13\) +1\.530\(13\) +3 of 8')
 
@@ -265,14 +326,18 @@ class Table(Bags):
         self.assertNotIn('LP dynamics', text)
 
     def test_cost_of_classification(self):
-        _, text = self.lines(made.run_info(), made.spectrum([3.0], 50.0), made.steps([]),
-                             made.cost(200.0))
+        _, text = self.lines(
+            made.run_info(), made.spectrum([3.0], 50.0), made.steps([]), made.cost(200.0)
+        )
         self.assertIn('took 5.0 % of the run (10.0 s of 200.0 s)', text)
 
     def test_steps_before_any_average(self):
         info = made.run_info()
-        _, text = self.lines(info, made.spectrum([3.0], 50.0),
-                             made.steps([made.step(info, T, 1, 0, 36, 37)], averaged_time=0.0))
+        _, text = self.lines(
+            info,
+            made.spectrum([3.0], 50.0),
+            made.steps([made.step(info, T, 1, 0, 36, 37)], averaged_time=0.0),
+        )
         self.assertNotIn('steps', text)
 
 
@@ -292,24 +357,44 @@ class Figures(Bags):
 
     def test_each_topic_may_be_missing(self):
         everything = made.small_run()
-        for left_out, gone in ((Steps, MODES_FILES), (LpPhases, files('phases')),
-                               (ModeField, files('modes', 'p_mode'))):
+        for left_out, gone in (
+            (Steps, MODES_FILES),
+            (LpPhases, files('phases')),
+            (ModeField, files('modes', 'p_mode')),
+        ):
             self.out += '_'
             self.write([one for one in everything if not isinstance(one, left_out)])
             self.succeeds(sorted(set(SPECTRUM_FILES + COST_FILES + MODES_FILES) - set(gone)))
 
     def test_channel(self):
-        info = made.run_info(disks=20, aspect=0.0375, box_x=40.0, box_y=1.5,
-                             boundary_y='reflecting', zero_exponents=4)
+        info = made.run_info(
+            disks=20,
+            aspect=0.0375,
+            box_x=40.0,
+            box_y=1.5,
+            boundary_y='reflecting',
+            zero_exponents=4,
+        )
         step = made.step(info, LP, 1, 0, 35, 38)
-        self.write([info, made.spectrum(np.linspace(3, 1, 38), 1.0), made.steps([step]),
-                    made.mode_field(info, step)])
+        self.write(
+            [
+                info,
+                made.spectrum(np.linspace(3, 1, 38), 1.0),
+                made.steps([step]),
+                made.mode_field(info, step),
+            ]
+        )
         self.succeeds(SPECTRUM_FILES + files('dispersion', 'steps', 'modes', 'p_mode'))
 
     def test_steps_without_one_resolved(self):
         info = made.run_info()
-        self.write([info, made.spectrum(np.linspace(3, 1, 37), 1.0),
-                    made.steps([made.unresolved(info, LP, 1, 0, 4), made.zero_modes()])])
+        self.write(
+            [
+                info,
+                made.spectrum(np.linspace(3, 1, 37), 1.0),
+                made.steps([made.unresolved(info, LP, 1, 0, 4), made.zero_modes()]),
+            ]
+        )
         self.assertIn('not resolved (1): LP(1,0)', self.succeeds(SPECTRUM_FILES))
 
     def test_both_halves(self):
@@ -317,32 +402,45 @@ class Figures(Bags):
         half = np.linspace(3, 1, 37)
         step = made.step(info, T, 1, 0, 36, 37)
         mirrored = made.step(info, T, 1, 0, 44, 45, conjugate=True, exponent=-step.exponent)
-        self.write([info, made.spectrum([*half, *[0.0] * 6, *-half[::-1]], 1.0),
-                    made.steps([step, mirrored, made.zero_modes(38)])])
+        self.write(
+            [
+                info,
+                made.spectrum([*half, *[0.0] * 6, *-half[::-1]], 1.0),
+                made.steps([step, mirrored, made.zero_modes(38)]),
+            ]
+        )
         self.succeeds(SPECTRUM_FILES + files('dispersion', 'steps'))
 
     def test_panels_are_the_last_fields_of_the_steps(self):
         info = made.run_info()
         low, high = made.step(info, T, 1, 0, 36, 37), made.step(info, LP, 1, 0, 32, 35)
-        run = self.recorded(info, made.steps([high, low]),
-                            made.mode_field(info, low, 149.0, index=37),
-                            made.mode_field(info, low, 150.0, index=36),
-                            made.mode_field(info, high, 150.0, index=35),
-                            made.mode_field(info, high, 90.0, index=12))
+        run = self.recorded(
+            info,
+            made.steps([high, low]),
+            made.mode_field(info, low, 149.0, index=37),
+            made.mode_field(info, low, 150.0, index=36),
+            made.mode_field(info, high, 150.0, index=35),
+            made.mode_field(info, high, 90.0, index=12),
+        )
         panels = modes.chosen(run)
-        self.assertEqual([(panel.name, panel.field.index) for panel in panels],
-                         [('T(1,0)', 36), ('LP(1,0)', 35)])
+        self.assertEqual(
+            [(panel.name, panel.field.index) for panel in panels], [('T(1,0)', 36), ('LP(1,0)', 35)]
+        )
         run.info.field_indices = '36 35 12'
-        self.assertEqual([panel.name for panel in modes.chosen(run)],
-                         ['T(1,0)', 'LP(1,0)', 'no step'])
+        self.assertEqual(
+            [panel.name for panel in modes.chosen(run)], ['T(1,0)', 'LP(1,0)', 'no step']
+        )
 
     def test_p_mode_is_what_the_field_says(self):
         info = made.run_info()
         along = made.step(info, LP, 0, 1, 28, 31)
         diagonal = made.step(info, LP, 1, 1, 30, 37, exponent=1.0)
-        run = self.recorded(info, made.steps([diagonal, along]),
-                            made.mode_field(info, diagonal, modulations=(0, 1, 2, 3)),
-                            made.mode_field(info, along, modulations=(0, 2)))
+        run = self.recorded(
+            info,
+            made.steps([diagonal, along]),
+            made.mode_field(info, diagonal, modulations=(0, 1, 2, 3)),
+            made.mode_field(info, along, modulations=(0, 2)),
+        )
         field = p_mode.chosen(run)
         self.assertEqual((field.nx, field.ny, field.pairs), (0, 1, 2))
         mode = p_mode.PMode(field, 1, info)
@@ -354,8 +452,14 @@ class Figures(Bags):
     def test_p_mode_of_a_diagonal_wave(self):
         info = made.run_info()
         step = made.step(info, LP, 1, 1, 30, 37)
-        self.write([info, made.spectrum(np.linspace(3, 1, 37), 1.0), made.steps([step]),
-                    made.mode_field(info, step, modulations=(0, 1, 2, 3))])
+        self.write(
+            [
+                info,
+                made.spectrum(np.linspace(3, 1, 37), 1.0),
+                made.steps([step]),
+                made.mode_field(info, step, modulations=(0, 1, 2, 3)),
+            ]
+        )
         self.succeeds(SPECTRUM_FILES + files('dispersion', 'steps', 'modes', 'p_mode'))
 
 
@@ -365,8 +469,9 @@ class Phases(Bags):
     def course(self, *times_and_beginnings, lost=()):
         info = made.run_info()
         step = made.step(info, LP, 1, 0, 32, 35)
-        messages = [made.lp_phases(info, [step], time, began=began)
-                    for time, began in times_and_beginnings]
+        messages = [
+            made.lp_phases(info, [step], time, began=began) for time, began in times_and_beginnings
+        ]
         for message in messages:
             if message.sim_time in lost:
                 for phase in message.phases:
@@ -378,7 +483,7 @@ class Phases(Bags):
 
     def test_one_curve(self):
         run = self.course(*((float(t), 100.0) for t in range(101, 106)))
-        (time, phase), = run.phases.curves(0)
+        ((time, phase),) = run.phases.curves(0)
         self.assertEqual(list(time), [101, 102, 103, 104, 105])
         self.assertTrue(np.allclose(np.diff(phase), -made.VELOCITY * 0.993459))
         # another vector and another pair
@@ -389,8 +494,10 @@ class Phases(Bags):
         self.assertEqual(self.curves(run), [[101, 102, 103], [105, 106, 107]])
 
     def test_begun_anew(self):
-        run = self.course(*((float(t), 100.0) for t in range(101, 104)),
-                          *((float(t), 103.5) for t in range(104, 107)))
+        run = self.course(
+            *((float(t), 100.0) for t in range(101, 104)),
+            *((float(t), 103.5) for t in range(104, 107)),
+        )
         self.assertEqual(self.curves(run), [[101, 102, 103], [104, 105, 106]])
 
     def test_never_tracked(self):
@@ -417,8 +524,15 @@ class LongBags(Bags):
         step = made.step(info, LP, 1, 0, 37, 37)
         run = recording.Recording(info)
         for t in range(3 * LIMIT):
-            run.phases.add(made.lp_phases(info, [step], float(t), modulations=(0,),
-                                          began=0.0 if t < LIMIT else LIMIT - 0.5))
+            run.phases.add(
+                made.lp_phases(
+                    info,
+                    [step],
+                    float(t),
+                    modulations=(0,),
+                    began=0.0 if t < LIMIT else LIMIT - 0.5,
+                )
+            )
         begins = [time[0] for time, _ in run.phases.curves(0)]
         self.assertEqual(begins, [0, LIMIT])
 
@@ -426,9 +540,12 @@ class LongBags(Bags):
         info = made.run_info(disks=2000, box_x=63.2, box_y=63.2)
         step = made.step(info, LP, 1, 0, 3994, 3997)
         field = made.mode_field(info, step)
-        one = 8 * 20 * info.disks   # bytes: vectors and two pairs
-        self.write(itertools.chain([info], itertools.repeat(field, 100),
-                                   itertools.repeat(made.steps([step]), 1000)))
+        one = 8 * 20 * info.disks  # bytes: vectors and two pairs
+        self.write(
+            itertools.chain(
+                [info], itertools.repeat(field, 100), itertools.repeat(made.steps([step]), 1000)
+            )
+        )
         self.assertGreater(os.path.getsize(self.path), 100 * one)
         tracemalloc.start()
         try:
@@ -442,13 +559,19 @@ class LongBags(Bags):
 
 class Numbers(unittest.TestCase):
     def test_with_error(self):
-        for value, error, text in ((0.612524, 0.00067, '0.61252(67)'),
-                                   (0.9, 0.0996, '0.90(10)'), (1.0, 0.00996, '1.000(10)'),
-                                   (-2.34567, 0.5, '-2.35(50)'), (12.345, 1.46, '12.3(1.5)'),
-                                   (1234.5, 23.4, '1234(23)'), (12345.6, 234.0, '12350(230)'),
-                                   (3.76e-16, 2.1e-17, '3.8e-16'), (0.5, -1.0, '0.50000'),
-                                   (0.5, float('nan'), '0.50000'),
-                                   (0.5, 0.0, '0.50000')):
+        for value, error, text in (
+            (0.612524, 0.00067, '0.61252(67)'),
+            (0.9, 0.0996, '0.90(10)'),
+            (1.0, 0.00996, '1.000(10)'),
+            (-2.34567, 0.5, '-2.35(50)'),
+            (12.345, 1.46, '12.3(1.5)'),
+            (1234.5, 23.4, '1234(23)'),
+            (12345.6, 234.0, '12350(230)'),
+            (3.76e-16, 2.1e-17, '3.8e-16'),
+            (0.5, -1.0, '0.50000'),
+            (0.5, float('nan'), '0.50000'),
+            (0.5, 0.0, '0.50000'),
+        ):
             self.assertEqual(with_error(value, error), text)
 
     def test_modulation(self):

@@ -12,8 +12,12 @@ ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 NODE = 'hdlyap_ros/src/node'
 REFERENCE = 'launch/scenes/paper_periodic.yaml'
 # defaults whose values in C are names
-NAMED = {'HD_EXPONENTS_POSITIVE': 'positive', '{HD_PERIODIC, HD_PERIODIC}': 'periodic', 'HD_STORAGE_MEMORY': 'memory'}
-BYTES = {'covariant_memory': 1e9}   # of the core, in the unit of the parameter
+NAMED = {
+    'HD_EXPONENTS_POSITIVE': 'positive',
+    '{HD_PERIODIC, HD_PERIODIC}': 'periodic',
+    'HD_STORAGE_MEMORY': 'memory',
+}
+BYTES = {'covariant_memory': 1e9}  # of the core, in the unit of the parameter
 
 UNIT = r'\[([\w/ ^]+)\]'
 
@@ -42,6 +46,7 @@ def table(title):
 
 # ---- what the sources say ---------------------------------------------------------------------
 
+
 def sources(folder=NODE):
     return ''.join(text_of(folder, name) for name in listed(folder) if name.endswith('.c'))
 
@@ -50,31 +55,49 @@ def types_of_views():
     """hdr_x -> package/Message, as the wrapper's headers say."""
     folder = 'hdlyap_ros/include/hdlyap_ros'
     text = ''.join(text_of(folder, name) for name in listed(folder))
-    return {view: kind for kind, view in
-            re.findall(r'/\*\* (\w+/\w+)\b(?:[^*]|\*(?!/))*\*/\s*typedef struct (hdr_\w+)', text)}
+    return {
+        view: kind
+        for kind, view in re.findall(
+            r'/\*\* (\w+/\w+)\b(?:[^*]|\*(?!/))*\*/\s*typedef struct (hdr_\w+)', text
+        )
+    }
 
 
 def advertised():
     """Topic -> type, of the table of topics and of those advertised by name."""
     names = dict(re.findall(r'\[(TOPIC_\w+)\] = \{"(\w+)"', text_of(NODE, 'topic.c')))
     outlets = text_of(NODE, 'outlets.c')
-    views = {topic: view or 'hdr_run_info' for topic, view in
-             re.findall(r'\[(TOPIC_\w+)\] = (?:(hdr_\w+)|run_info)_advertise', outlets)}
+    views = {
+        topic: view or 'hdr_run_info'
+        for topic, view in re.findall(
+            r'\[(TOPIC_\w+)\] = (?:(hdr_\w+)|run_info)_advertise', outlets
+        )
+    }
     assert names.keys() == views.keys()
     found = {'~' + name: views[topic] for topic, name in names.items()}
-    found.update((name, view) for view, name in
-                 re.findall(r'(hdr_\w+)_advertise\([^;"]*"([~/]\w+)"', sources()))
+    found.update(
+        (name, view)
+        for view, name in re.findall(r'(hdr_\w+)_advertise\([^;"]*"([~/]\w+)"', sources())
+    )
     return {name: types_of_views()[view] for name, view in found.items()}
 
 
 def services():
     kinds = dict(set_bool='std_srvs/SetBool', trigger='std_srvs/Trigger')
-    return {name: kinds[kind] for kind, name in re.findall(r'hdr_service_(\w+)\([^;"]*"(~\w+)"', sources())}
+    return {
+        name: kinds[kind]
+        for kind, name in re.findall(r'hdr_service_(\w+)\([^;"]*"(~\w+)"', sources())
+    }
 
 
 def parameters():
     """Name -> where in settings, in the order of the node's table."""
-    return dict(re.findall(r'\{"(\w+)", read_\w+,\s*offsetof\(settings, ([\w.\[\]]+)\)\}', text_of(NODE, 'settings.c')))
+    return dict(
+        re.findall(
+            r'\{"(\w+)", read_\w+,\s*offsetof\(settings, ([\w.\[\]]+)\)\}',
+            text_of(NODE, 'settings.c'),
+        )
+    )
 
 
 def body(text, name):
@@ -84,8 +107,11 @@ def body(text, name):
 def default_in_code(field):
     """As it is initialised; None if it is left zero."""
     in_scene = field.startswith('def.')
-    text = (body(text_of('hdlyap_core/src/scene.c'), 'hd_scene_def_default') if in_scene else
-            body(text_of(NODE, 'settings.c'), r'static settings defaults'))
+    text = (
+        body(text_of('hdlyap_core/src/scene.c'), 'hd_scene_def_default')
+        if in_scene
+        else body(text_of(NODE, 'settings.c'), r'static settings defaults')
+    )
     inner, last = re.fullmatch(r'(?:def\.)?(?:(\w+)\.)?(\w+)(?:\[\d\])?', field).groups()
     if inner:
         text = re.search(r'\.%s = \{(.*?)\}' % inner, text).group(1) + ','
@@ -133,7 +159,10 @@ def references():
 
 
 def numbers(text):
-    return {float(number) for number in re.findall(r'(?<![\w.^/])\d+(?:\.\d+)?(?:e-?\d+)?(?![\w^])', text)}
+    return {
+        float(number)
+        for number in re.findall(r'(?<![\w.^/])\d+(?:\.\d+)?(?:e-?\d+)?(?![\w^])', text)
+    }
 
 
 class Tables(unittest.TestCase):
@@ -152,7 +181,12 @@ class Tables(unittest.TestCase):
         messages = {name[:-4]: text_of('msg', name) for name in listed('msg')}
         for name in messages:
             if 'hdlyap/' + name not in kinds:
-                self.assertTrue(any(re.search(r'(?m)^%s(\[\d*\])? ' % name, text) for text in messages.values()), name)
+                self.assertTrue(
+                    any(
+                        re.search(r'(?m)^%s(\[\d*\])? ' % name, text) for text in messages.values()
+                    ),
+                    name,
+                )
 
     def test_parameters_are_all_there(self):
         self.assertGreater(len(parameters()), 20)
@@ -171,11 +205,16 @@ class Tables(unittest.TestCase):
     def check_reference(self, name, default):
         said = re.search(r'Default: (.*?)\.?$', references()[name].strip()).group(1)
         if name == 'observables':
-            observable = set(re.findall(r'\w+', said)) | set(default[len('all but '):].split(', '))
-            self.assertEqual(observable, {topic[1:] for topic in advertised() if topic.startswith('~')} -
-                             {'run_info', 'cost', 'markers'})
-        else:   # one comment may be that of two parameters
-            self.assertTrue(same(default, said) or all(same(default, part) for part in said.split(', ')), said)
+            observable = set(re.findall(r'\w+', said)) | set(default[len('all but ') :].split(', '))
+            self.assertEqual(
+                observable,
+                {topic[1:] for topic in advertised() if topic.startswith('~')}
+                - {'run_info', 'cost', 'markers'},
+            )
+        else:  # one comment may be that of two parameters
+            self.assertTrue(
+                same(default, said) or all(same(default, part) for part in said.split(', ')), said
+            )
 
     def test_ranges_and_units(self):
         """No other numbers than those of the reference, and its unit; one comment may be that of two parameters."""
@@ -195,7 +234,9 @@ class Tables(unittest.TestCase):
             if name.endswith('.launch'):
                 arguments = ElementTree.fromstring(text_of('launch', name)).findall('arg')
                 found[name] = [a.get('name') for a in arguments if a.get('value') is None]
-        self.assertEqual({name: re.findall(r'`(\w+)`', cells[0]) for name, cells in rows.items()}, found)
+        self.assertEqual(
+            {name: re.findall(r'`(\w+)`', cells[0]) for name, cells in rows.items()}, found
+        )
 
     def test_scenes(self):
         """Those that README names exist."""

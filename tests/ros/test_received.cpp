@@ -127,7 +127,8 @@ TEST(received, of_any_other_length_is_refused)
     expect_refused<hdr_diagnostic>(status);
 }
 
-/** Each count of four bytes in turn says the most that it can, and what times 8 is little in 32 bits. */
+/** Each count of four bytes in turn says the most that it can, and what times 8 is little in 32
+ * bits. */
 TEST(received, counts_that_lie_are_refused)
 {
     const bytes whole = bytes_of(some_field());

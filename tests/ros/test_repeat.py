@@ -24,7 +24,12 @@ def text_of(value):
 def info_of(scene, **others):
     """run_info of a node that was given a scene file."""
     texts = {name: text_of(scene[name]) for name in ('exponents', 'field_indices', 'marker_modes')}
-    params = dict(scene, **texts, interval=0.0 if scene['interval'] == 'auto' else scene['interval'], threads=2)
+    params = dict(
+        scene,
+        **texts,
+        interval=0.0 if scene['interval'] == 'auto' else scene['interval'],
+        threads=2,
+    )
     return made.run_info(**dict(params, **others))
 
 
@@ -35,7 +40,9 @@ class Repeat(unittest.TestCase):
         self.bag = os.path.join(folder.name, 'run.bag')
 
     def command(self, *args):
-        return subprocess.run([sys.executable, REPEAT, self.bag, *args], text=True, capture_output=True)
+        return subprocess.run(
+            [sys.executable, REPEAT, self.bag, *args], text=True, capture_output=True
+        )
 
     def text(self, node=None, number=None):
         return repetition.scene_file(repetition.chosen(self.bag, node, number))
@@ -56,7 +63,9 @@ class Repeat(unittest.TestCase):
         self.assertEqual(done.stdout, repetition.scene_file(infos[1]))
         done = self.command()
         self.assertEqual((done.returncode, done.stdout), (1, ''))
-        self.assertEqual(done.stderr, f'repeat: {self.bag}: several runs, choose with --run: 1 (1), 2 (2)\n')
+        self.assertEqual(
+            done.stderr, f'repeat: {self.bag}: several runs, choose with --run: 1 (1), 2 (2)\n'
+        )
 
     def test_every_scene(self):
         """What comes out is what went in, every parameter of it, and of the types that the node wants."""
@@ -72,9 +81,19 @@ class Repeat(unittest.TestCase):
 
     def test_values_that_yaml_may_misread(self):
         with open(os.path.join(SCENES, 'quick.yaml')) as file:
-            scene = dict(yaml.safe_load(file), seed='18446744073709551615', accuracy=1e-12, scene='off',
-                         exponents='007', field_indices=[37, 1], observables=[], interval=1e-6, density=0.1 + 0.2,
-                         wait_for_subscribers=['cost', 'run_info'], marker_modes=['T(1,0)', 'LP(1, 1)'])
+            scene = dict(
+                yaml.safe_load(file),
+                seed='18446744073709551615',
+                accuracy=1e-12,
+                scene='off',
+                exponents='007',
+                field_indices=[37, 1],
+                observables=[],
+                interval=1e-6,
+                density=0.1 + 0.2,
+                wait_for_subscribers=['cost', 'run_info'],
+                marker_modes=['T(1,0)', 'LP(1, 1)'],
+            )
         made.write(self.bag, [info_of(scene)])
         self.assertEqual(self.repeated(), dict(scene, threads=2))
 
@@ -94,14 +113,18 @@ class Repeat(unittest.TestCase):
         self.assertEqual(third, 'scene: made')
 
     def test_several_runs(self):
-        infos = [made.run_info(run_id=run_id, seed=seed) for run_id, seed in
-                 (('one', '1'), ('two', '2'), ('two', '2'))]     # as in files of a bag that was split
+        infos = [
+            made.run_info(run_id=run_id, seed=seed)
+            for run_id, seed in (('one', '1'), ('two', '2'), ('two', '2'))
+        ]  # as in files of a bag that was split
         made.write(self.bag, infos)
         self.assertIn('several runs, choose with --run: 1 (one), 2 (two)', self.refused())
         self.assertEqual([self.repeated(number=k)['seed'] for k in (1, 2)], ['1', '2'])
         for number in (0, 3, -1):
-            self.assertIn(f'no run {number} in it, choose with --run: 1 (one), 2 (two)',
-                          self.refused(number=number))
+            self.assertIn(
+                f'no run {number} in it, choose with --run: 1 (one), 2 (two)',
+                self.refused(number=number),
+            )
 
     def test_several_nodes(self):
         made.write(self.bag, [made.run_info(seed='1')], node='/one')

@@ -28,7 +28,9 @@ from hdlyap_reproduce.row import Row
 
 ROOT = os.path.realpath(os.path.join(made.SCRIPTS, '../..'))
 LAUNCH = os.path.join(ROOT, 'launch')
-ENTRY = dict(base='quick', duration=7.0, disks=30, full=dict(disks=20), quick=dict(disks=10), seconds=[4, 9])
+ENTRY = dict(
+    base='quick', duration=7.0, disks=30, full=dict(disks=20), quick=dict(disks=10), seconds=[4, 9]
+)
 
 
 class Folder(unittest.TestCase):
@@ -47,7 +49,9 @@ class Folder(unittest.TestCase):
 
     def bag(self, run, phase=Cost.FINISHED, progress=1.0, **changed):
         """A made one of the run."""
-        info = {name: value for name, value in run.parameters.items() if name in made.RunInfo.__slots__}
+        info = {
+            name: value for name, value in run.parameters.items() if name in made.RunInfo.__slots__
+        }
         info.update({'exponents': 'positive', 'interval': 0.0, **changed})
         last = made.cost(150.0)
         last.phase, last.progress = phase, progress
@@ -58,26 +62,40 @@ class Folder(unittest.TestCase):
 class Options(unittest.TestCase):
     def refused(self, *arguments):
         """The one line, by the file alone, as reproduce.sh has it looked at."""
-        done = subprocess.run([sys.executable, '-S', '-E', options.__file__, *arguments], text=True, capture_output=True)
-        self.assertEqual((done.returncode, done.stdout, done.stderr.count('\n')), (2, '', 1), done.stderr)
+        done = subprocess.run(
+            [sys.executable, '-S', '-E', options.__file__, *arguments],
+            text=True,
+            capture_output=True,
+        )
+        self.assertEqual(
+            (done.returncode, done.stdout, done.stderr.count('\n')), (2, '', 1), done.stderr
+        )
         return done.stderr
 
     def test_refused(self):
         here = os.path.abspath(__file__)
-        for arguments, what in ((['--part', '99'], f"--part: is '99', must be 1 .. {len(parts.PARTS)};"),
-                                (['--part', '0'], "--part: is '0', must be 1 .. "),
-                                (['--jobs', '0'], "--jobs: is '0', must be 1 or more;"),
-                                (['--jobs', '1.5'], "--jobs: is '1.5', must be 1 or more;"),
-                                (['--out', here], f"--out: is '{here}', but {here} is no folder;"),
-                                (['--out', here + '/x/y'], f"but {here} is no folder;"),
-                                (['--out', ''], '--out: is empty, must be a folder;'),
-                                (['--plan', '/nowhere'], "--plan: is '/nowhere', which is no file;"),
-                                (['--draw', '--write'], 'not allowed with'), (['more'], 'unrecognized arguments: more;'),
-                                (['--qui'], 'unrecognized arguments: --qui;'), (['--out'], 'expected one argument;')):
+        for arguments, what in (
+            (['--part', '99'], f"--part: is '99', must be 1 .. {len(parts.PARTS)};"),
+            (['--part', '0'], "--part: is '0', must be 1 .. "),
+            (['--jobs', '0'], "--jobs: is '0', must be 1 or more;"),
+            (['--jobs', '1.5'], "--jobs: is '1.5', must be 1 or more;"),
+            (['--out', here], f"--out: is '{here}', but {here} is no folder;"),
+            (['--out', here + '/x/y'], f"but {here} is no folder;"),
+            (['--out', ''], '--out: is empty, must be a folder;'),
+            (['--plan', '/nowhere'], "--plan: is '/nowhere', which is no file;"),
+            (['--draw', '--write'], 'not allowed with'),
+            (['more'], 'unrecognized arguments: more;'),
+            (['--qui'], 'unrecognized arguments: --qui;'),
+            (['--out'], 'expected one argument;'),
+        ):
             with self.subTest(arguments=arguments):
                 said = self.refused(*arguments)
                 self.assertIn(what, said)
-                self.assertTrue(said.startswith('reproduce: ') and said.endswith('; --help lists the options\n'), said)
+                self.assertTrue(
+                    said.startswith('reproduce: ')
+                    and said.endswith('; --help lists the options\n'),
+                    said,
+                )
 
     def test_taken(self):
         args = options.parse(['--part', '1', '--part', '1', '--quick'])
@@ -97,8 +115,13 @@ class Plan(Folder):
             scene = yaml.safe_load(file)
         for quick, disks, seconds in ((False, 20, 9), (True, 10, 4)):
             run = self.runs(quick, one=ENTRY)['one']
-            self.assertEqual(run.parameters, {**scene, 'threads': 1, 'duration': 7.0, 'disks': disks, 'scene': 'one'})
-            self.assertEqual((run.seconds, run.share_of(2), run.is_wide), (seconds, seconds / 2, False))
+            self.assertEqual(
+                run.parameters,
+                {**scene, 'threads': 1, 'duration': 7.0, 'disks': disks, 'scene': 'one'},
+            )
+            self.assertEqual(
+                (run.seconds, run.share_of(2), run.is_wide), (seconds, seconds / 2, False)
+            )
             run.write(self.folder)
             with open(self.path('one.yaml')) as file:
                 self.assertEqual(yaml.safe_load(file), run.parameters)
@@ -118,12 +141,17 @@ class Plan(Folder):
                 self.assertLessEqual(set(part.runs(runs)), set(runs), part.TITLE)
 
     def test_refused(self):
-        for entry, what in ((dict(ENTRY, base='nowhere'), r'nowhere\.yaml: No such file'), ([], 'one: '),
-                            (dict(ENTRY, duration=0.0), 'one: duration is 0'), (dict(ENTRY, quick=3), 'one: '),
-                            (dict(ENTRY, seconds=['x', 'y']), 'one: seconds is'),
-                            (dict(ENTRY, seconds=[0, 1]), 'one: seconds is'), (dict(ENTRY, seconds=[1]), 'one: '),
-                            (dict(ENTRY, warmup='x'), 'one: warmup is x, must be a number'),
-                            ({}, "one: 'seconds' is missing")):
+        for entry, what in (
+            (dict(ENTRY, base='nowhere'), r'nowhere\.yaml: No such file'),
+            ([], 'one: '),
+            (dict(ENTRY, duration=0.0), 'one: duration is 0'),
+            (dict(ENTRY, quick=3), 'one: '),
+            (dict(ENTRY, seconds=['x', 'y']), 'one: seconds is'),
+            (dict(ENTRY, seconds=[0, 1]), 'one: seconds is'),
+            (dict(ENTRY, seconds=[1]), 'one: '),
+            (dict(ENTRY, warmup='x'), 'one: warmup is x, must be a number'),
+            ({}, "one: 'seconds' is missing"),
+        ):
             with self.subTest(entry=entry), self.assertRaisesRegex(plan.PlanError, what) as caught:
                 self.runs(True, one=entry)
             self.assertNotIn('\n', str(caught.exception))
@@ -144,7 +172,7 @@ class Plan(Folder):
         self.assertEqual(run.done(self.folder)['seconds'], 3.0)
         self.assertIsNone(self.runs(one=dict(ENTRY, duration=8.0))['one'].done(self.folder))
         noted = os.path.getmtime(run.record(self.folder))
-        os.utime(run.bag(self.folder), (noted + 1, noted + 1))      # somebody has written another
+        os.utime(run.bag(self.folder), (noted + 1, noted + 1))  # somebody has written another
         self.assertIsNone(run.done(self.folder))
         os.remove(run.bag(self.folder))
         self.assertIsNone(run.done(self.folder))
@@ -156,8 +184,11 @@ class Bags(Folder):
     def test_complete(self):
         run = self.runs(one=ENTRY)['one']
         self.assertFalse(Bag(run.bag(self.folder)).is_complete())
-        for phase, progress, complete in ((Cost.FINISHED, 1.0, True), (Cost.FINISHED, 0.99, False),
-                                          (Cost.AVERAGING, 1.0, False)):
+        for phase, progress, complete in (
+            (Cost.FINISHED, 1.0, True),
+            (Cost.FINISHED, 0.99, False),
+            (Cost.AVERAGING, 1.0, False),
+        ):
             self.assertEqual(self.bag(run, phase, progress).is_complete(), complete)
         with open(run.bag(self.folder), 'r+b') as file:
             file.truncate(6000)
@@ -165,26 +196,46 @@ class Bags(Folder):
 
     def test_parameters(self):
         """As they are in run_info; how the run was computed makes no difference."""
-        run = self.runs(one=dict(ENTRY, observables=['spectrum', 'steps'], duration=7, interval=0.5))['one']
+        run = self.runs(
+            one=dict(ENTRY, observables=['spectrum', 'steps'], duration=7, interval=0.5)
+        )['one']
         same = dict(interval=0.5, threads=64, wait_for_subscribers=['spectrum'], resume='kept')
         self.assertTrue(self.bag(run, **same).was_run_with(run.parameters))
-        for name, value in dict(duration=7.5, disks=21, seed='2', scene='two', interval=0.0, observables=['steps'],
-                                boundary_x='reflecting', density=0.71).items():
-            self.assertFalse(self.bag(run, **{**same, name: value}).was_run_with(run.parameters), name)
+        for name, value in dict(
+            duration=7.5,
+            disks=21,
+            seed='2',
+            scene='two',
+            interval=0.0,
+            observables=['steps'],
+            boundary_x='reflecting',
+            density=0.71,
+        ).items():
+            self.assertFalse(
+                self.bag(run, **{**same, name: value}).was_run_with(run.parameters), name
+            )
 
 
 class Rows(unittest.TestCase):
     def test_verdicts(self):
         nan = float('nan')
         for published, measured, verdict in (
-                ((1.0, 0.0), (1.09, 0.031), 'agrees'), ((1.0, 0.0), (1.09, 0.029), 'differs'),
-                ((1.0, 0.1), (1.19, 0.031), 'agrees'), ((1.0, 0.1), (0.81, 0.029), 'differs'),
-                ((1.0, 0.1), (1.09, -1.0), 'agrees'), ((1.0, 0.1), (1.11, nan), 'differs'),
-                ((1.0, 0.1), (1.11, float('inf')), 'differs'),
-                ((1558, 0), (1558, 0), 'agrees'), ((1558, 0), (1557, 0), 'differs'), (('a', 0), ('a', 0), 'agrees'),
-                (('a', 0), ('b', 0), 'differs'),
-                ((1.0, 0), (None, 0), 'not measured'), ((1.0, 0), (nan, 0.1), 'not measured'),
-                ((None, 0), (1.0, 0.1), ''), ((None, 0), (None, 0), 'not measured')):
+            ((1.0, 0.0), (1.09, 0.031), 'agrees'),
+            ((1.0, 0.0), (1.09, 0.029), 'differs'),
+            ((1.0, 0.1), (1.19, 0.031), 'agrees'),
+            ((1.0, 0.1), (0.81, 0.029), 'differs'),
+            ((1.0, 0.1), (1.09, -1.0), 'agrees'),
+            ((1.0, 0.1), (1.11, nan), 'differs'),
+            ((1.0, 0.1), (1.11, float('inf')), 'differs'),
+            ((1558, 0), (1558, 0), 'agrees'),
+            ((1558, 0), (1557, 0), 'differs'),
+            (('a', 0), ('a', 0), 'agrees'),
+            (('a', 0), ('b', 0), 'differs'),
+            ((1.0, 0), (None, 0), 'not measured'),
+            ((1.0, 0), (nan, 0.1), 'not measured'),
+            ((None, 0), (1.0, 0.1), ''),
+            ((None, 0), (None, 0), 'not measured'),
+        ):
             with self.subTest(published=published, measured=measured):
                 one = Row('q', published[0], measured[0], measured[1], published[1])
                 self.assertEqual(one.verdict, verdict)
@@ -192,20 +243,29 @@ class Rows(unittest.TestCase):
 
     def test_an_error_with_which_nothing_would_differ(self):
         for published, measured, verdict in (
-                ((2.0, 0.0), (2.1, 0.066), 'agrees'), ((2.0, 0.0), (2.1, 0.067), 'known too poorly'),   # a tenth
-                ((-2.0, 0.0), (-2.1, 0.067), 'known too poorly'), ((2.0, 0.0), (9.0, 1.0), 'differs'),
-                ((2.0, 0.6), (2.1, 0.19), 'agrees'), ((2.0, 0.6), (2.1, 0.21), 'known too poorly'),     # what is open
-                ((0.0, 0.3), (0.1, 0.09), 'agrees'), ((0.0, 0.3), (0.1, 0.11), 'known too poorly'),
-                ((0.0, 0.0), (0.1, 9.0), 'agrees')):    # nothing to go by
-            self.assertEqual(Row('q', published[0], measured[0], measured[1], published[1]).verdict, verdict)
+            ((2.0, 0.0), (2.1, 0.066), 'agrees'),
+            ((2.0, 0.0), (2.1, 0.067), 'known too poorly'),  # a tenth
+            ((-2.0, 0.0), (-2.1, 0.067), 'known too poorly'),
+            ((2.0, 0.0), (9.0, 1.0), 'differs'),
+            ((2.0, 0.6), (2.1, 0.19), 'agrees'),
+            ((2.0, 0.6), (2.1, 0.21), 'known too poorly'),  # what is open
+            ((0.0, 0.3), (0.1, 0.09), 'agrees'),
+            ((0.0, 0.3), (0.1, 0.11), 'known too poorly'),
+            ((0.0, 0.0), (0.1, 9.0), 'agrees'),
+        ):  # nothing to go by
+            self.assertEqual(
+                Row('q', published[0], measured[0], measured[1], published[1]).verdict, verdict
+            )
         for error, verdict in ((0.5, 'agrees'), (0.51, 'known too poorly'), (-1.0, 'agrees')):
             self.assertEqual(Row('q', 0, 0.1, error, 0.2, enough=0.5).verdict, verdict)
         self.assertEqual(Row('q', 100.0, 100.0, 0.6, enough=0.5).verdict, 'known too poorly')
         self.assertEqual(Row('q', 'so', 'so', 9.0, enough=0.5).verdict, 'agrees')
 
     def test_cells(self):
-        self.assertEqual(Row('c', 3.285, 3.2316, 0.0043, 0.09855, 'sigma', 'why').cells(),
-                         ('c', '3.285 +-0.099', '3.2316(43)', 'sigma', 'agrees', 'why'))
+        self.assertEqual(
+            Row('c', 3.285, 3.2316, 0.0043, 0.09855, 'sigma', 'why').cells(),
+            ('c', '3.285 +-0.099', '3.2316(43)', 'sigma', 'agrees', 'why'),
+        )
         self.assertEqual(Row('n', 1558, 1557).cells()[1:3], ('1558', '1557'))
         self.assertEqual(Row('k', 1.6, None).cells()[1:3], ('1.6', '-'))
         self.assertEqual(Row('k', None, float('inf'), 1.0).cells()[1:3], ('-', '-'))
@@ -213,9 +273,20 @@ class Rows(unittest.TestCase):
     def test_values(self):
         one = Row('c', 3.285, 3.23164567, 0.0043, 0.0985, 'sigma', 'why')
         one.part = 2
-        self.assertEqual(dict(zip(row.HEADER, one.values())),
-                         dict(part=2, quantity='c', published='3.285', published_error='0.0985', measured='3.231646',
-                              error='0.0043', unit='sigma', verdict='agrees', remark='why'))
+        self.assertEqual(
+            dict(zip(row.HEADER, one.values())),
+            dict(
+                part=2,
+                quantity='c',
+                published='3.285',
+                published_error='0.0985',
+                measured='3.231646',
+                error='0.0043',
+                unit='sigma',
+                verdict='agrees',
+                remark='why',
+            ),
+        )
         self.assertEqual(Row('n', 'x', float('nan'), -1.0).values()[2:6], ('x', '', '', ''))
         self.assertEqual(Row('n', 4, 0.5, -1.0).values()[2:6], (4, '', '0.5', ''))
 
@@ -259,17 +330,37 @@ class Page(Folder):
     def test_all(self):
         text = self.write(self.parts)
         self.assertIn('Made by launch/reproduce.sh --quick at commit def. ', text)
-        self.assertIn('\n1. a part\n  quantity  published  measured  unit  verdict       remark\n'
-                      '  disks     20         20              agrees\n', text)
+        self.assertIn(
+            '\n1. a part\n  quantity  published  measured  unit  verdict       remark\n'
+            '  disks     20         20              agrees\n',
+            text,
+        )
         self.assertIn('\npart 3: not drawn, the run three is missing\n', text)
-        self.assertIn('\nof the rows with a published number 2 agree, 0 differ, 0 known too poorly, 0 not measured\n',
-                      text)
-        self.assertRegex(text, r'\n  one +1:02 +at abc\n  two +1:02  all cores, elsewhere  at abc\n  sum +2:04\n')
-        self.assertEqual(self.listed(), ['01_one.csv', '01_one.png', '01_one.svg', '02_two.csv', '02_two.png', '02_two.svg',
-                                         'results.txt', 'rows.csv'])
+        self.assertIn(
+            '\nof the rows with a published number 2 agree, 0 differ, 0 known too poorly, 0 not measured\n',
+            text,
+        )
+        self.assertRegex(
+            text, r'\n  one +1:02 +at abc\n  two +1:02  all cores, elsewhere  at abc\n  sum +2:04\n'
+        )
+        self.assertEqual(
+            self.listed(),
+            [
+                '01_one.csv',
+                '01_one.png',
+                '01_one.svg',
+                '02_two.csv',
+                '02_two.png',
+                '02_two.svg',
+                'results.txt',
+                'rows.csv',
+            ],
+        )
         self.assertTrue(text.startswith(files.read(self.path('results', 'results.txt'))))
         self.assertEqual(files.read(self.path('results', '01_one.csv')), 'a,b\n1,"x,y"\n')
-        self.assertEqual(files.read(self.path('results', 'rows.csv')).splitlines()[1], '1,disks,20,,20,,,agrees,')
+        self.assertEqual(
+            files.read(self.path('results', 'rows.csv')).splitlines()[1], '1,disks,20,,20,,,agrees,'
+        )
 
     def test_some(self):
         """The page of all parts stays."""
@@ -286,7 +377,9 @@ class Page(Folder):
         failed = []
         with mock.patch.object(self.parts[0][1], 'tables', side_effect=KeyError('x')):
             text = self.write(self.parts, failed)
-        self.assertEqual(failed, [f"part 1: KeyError: 'x'; more in {self.path('log', 'part_01.log')}"])
+        self.assertEqual(
+            failed, [f"part 1: KeyError: 'x'; more in {self.path('log', 'part_01.log')}"]
+        )
         self.assertIn(failed[0], text)
         self.assertIn('\n2. a part\n', text)
         self.assertIn('Traceback', files.read(self.path('log', 'part_01.log')))
@@ -309,34 +402,55 @@ class Shown(unittest.TestCase):
         """5 of 8 and so on; the time left by what has passed, and by the plan at first. A line every ten seconds."""
         now = [1000.0]
         out, err = io.StringIO(), io.StringIO()
-        with mock.patch('time.monotonic', lambda: now[0]), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        with mock.patch('time.monotonic', lambda: now[0]), contextlib.redirect_stdout(
+            out
+        ), contextlib.redirect_stderr(err):
             show = display.Display(8, before=4)
-            for seconds, under_way, done in ((0, [('a', 0), ('b', 0)], 0), (5, [('a', 0.5)], 100), (60, [('b', 0.25)], 140),
-                                             (60, [], 200)):
+            for seconds, under_way, done in (
+                (0, [('a', 0), ('b', 0)], 0),
+                (5, [('a', 0.5)], 100),
+                (60, [('b', 0.25)], 140),
+                (60, [], 200),
+            ):
                 now[0] += seconds
                 show([self.job(*job) for job in under_way], done, 1000.0)
             show.say('c: no')
             now[0] += 3600
             show.end()
-        self.assertEqual(out.getvalue().splitlines(), [
-            '4 of 12 runs done  a 0 %  b 0 %  all 0 %, about 16:40 left',       # as planned
-            '5 of 12 runs done  b 25 %  all 14 %, about 8:58 left',             # 860 * (65 + 60) / (140 + 60)
-            '6 of 12 runs done  all 20 %, about 9:29 left',                     # 800 * (125 + 60) / (200 + 60)
-            '5 of 12 runs done, 1 failed in 1:02:05'])
+        self.assertEqual(
+            out.getvalue().splitlines(),
+            [
+                '4 of 12 runs done  a 0 %  b 0 %  all 0 %, about 16:40 left',  # as planned
+                '5 of 12 runs done  b 25 %  all 14 %, about 8:58 left',  # 860 * (65 + 60) / (140 + 60)
+                '6 of 12 runs done  all 20 %, about 9:29 left',  # 800 * (125 + 60) / (200 + 60)
+                '5 of 12 runs done, 1 failed in 1:02:05',
+            ],
+        )
         self.assertEqual(err.getvalue(), 'reproduce: c: no\n')
 
     def test_terminal(self):
         """One line, as wide as the terminal: the time left stays on it."""
-        terminal = Terminal([sys.executable, '-c', '''
+        terminal = Terminal(
+            [
+                sys.executable,
+                '-c',
+                '''
 from types import SimpleNamespace as Made
 from hdlyap_reproduce import display
 show = display.Display(3)
 show([Made(run=Made(name=name), share=0.5) for name in ('first', 'second', 'third')], 30.0, 60.0)
-'''], columns=64, PYTHONPATH=made.SCRIPTS + ':' + os.environ.get('PYTHONPATH', ''))
+''',
+            ],
+            columns=64,
+            PYTHONPATH=made.SCRIPTS + ':' + os.environ.get('PYTHONPATH', ''),
+        )
         self.addCleanup(terminal.stop)
         self.assertEqual(terminal.wait(), 0)
         self.assertTrue(terminal.wait_for('left'))
-        self.assertRegex(terminal.screen()[0], r'^0 of 3 runs done  first 50 %  2 more  all 50 %, about 0:\d\d left$')
+        self.assertRegex(
+            terminal.screen()[0],
+            r'^0 of 3 runs done  first 50 %  2 more  all 50 %, about 0:\d\d left$',
+        )
         self.assertLess(len(terminal.screen()[0]), 64)
 
 
@@ -344,22 +458,35 @@ class Trees(unittest.TestCase):
     def test_end(self):
         """Of a command that hears, of one that does not, and of what outlives a command, in a session of its own."""
         deaf = 'trap "" INT; sleep 1000 & setsid sleep 1000 & echo; wait'
-        trees = [tree.Tree(['sleep', '1000']), tree.Tree(['sh', '-c', deaf]), tree.Tree(['sh', '-c', deaf])]
-        self.assertTrue(harness.wait_until(lambda: [len(one._members()) for one in trees] == [1, 3, 3]))
+        trees = [
+            tree.Tree(['sleep', '1000']),
+            tree.Tree(['sh', '-c', deaf]),
+            tree.Tree(['sh', '-c', deaf]),
+        ]
+        self.assertTrue(
+            harness.wait_until(lambda: [len(one._members()) for one in trees] == [1, 3, 3])
+        )
         trees[2]._process.kill()
         self.assertTrue(harness.wait_until(trees[2].has_ended))
         self.assertFalse(trees[2].is_gone())
         tree.end(trees, 0.5)
         self.assertTrue(harness.wait_until(lambda: all(one.is_gone() for one in trees)))
-        self.assertEqual([one._process.returncode for one in trees], [-signal.SIGINT, -signal.SIGKILL, -signal.SIGKILL])
+        self.assertEqual(
+            [one._process.returncode for one in trees],
+            [-signal.SIGINT, -signal.SIGKILL, -signal.SIGKILL],
+        )
 
 
 class Log(Folder):
     def test_last_words(self):
-        for lines, said in ((['[ INFO] a', '[FATAL] [1.5]: b', '\033[31m[ERROR] c\033[0m', 'd'], '[ERROR] c; '),
-                            (['[x/hdlyap-1] process has died [pid 7, exit code -9, cmd /a b].'],
-                             'process has died [pid 7, exit code -9]; '),
-                            (['process has finished cleanly'], '')):
+        for lines, said in (
+            (['[ INFO] a', '[FATAL] [1.5]: b', '\033[31m[ERROR] c\033[0m', 'd'], '[ERROR] c; '),
+            (
+                ['[x/hdlyap-1] process has died [pid 7, exit code -9, cmd /a b].'],
+                'process has died [pid 7, exit code -9]; ',
+            ),
+            (['process has finished cleanly'], ''),
+        ):
             files.write(self.path('log'), '\n'.join(lines))
             self.assertEqual(work.last_words(self.path('log')), said)
 
@@ -368,26 +495,58 @@ class Machines(Folder):
     """The machine tags of a file of the user, by turns; the recorder runs where its node does."""
 
     def loaded(self, names, machines):
-        files.write(self.path('machines.launch'), '<launch>%s</launch>' % ''.join(
-            f'<machine name="{name}" address="localhost" env-loader="/opt/{name}/env.sh"/>' for name in ('m1', 'm2')))
+        files.write(
+            self.path('machines.launch'),
+            '<launch>%s</launch>'
+            % ''.join(
+                f'<machine name="{name}" address="localhost" env-loader="/opt/{name}/env.sh"/>'
+                for name in ('m1', 'm2')
+            ),
+        )
         for name in names:
             files.write(self.path(name + '.yaml'), f'scene: {name}\n')
         with mock.patch.dict(os.environ, PWD=self.folder):
             return roslaunch.config.load_config_default(
-                [(os.path.join(LAUNCH, 'reproduce.launch'), ['runs:=' + ' '.join(names), 'machines:=' + machines,
-                                                             'machine_file:=machines.launch'])], 0)
+                [
+                    (
+                        os.path.join(LAUNCH, 'reproduce.launch'),
+                        [
+                            'runs:=' + ' '.join(names),
+                            'machines:=' + machines,
+                            'machine_file:=machines.launch',
+                        ],
+                    )
+                ],
+                0,
+            )
 
     def placed(self, config):
-        return {node.namespace + node.name: config.machines[node.machine_name].env_loader if node.machine_name else None
-                for node in config.nodes}
+        return {
+            node.namespace + node.name: config.machines[node.machine_name].env_loader
+            if node.machine_name
+            else None
+            for node in config.nodes
+        }
 
     def test_by_turns(self):
         config = self.loaded(['a', 'b', 'c'], 'm1 m2')
         one, two = '/opt/m1/env.sh', '/opt/m2/env.sh'
-        self.assertEqual(self.placed(config), {'/a/hdlyap': one, '/a/record': one, '/b/hdlyap': two, '/b/record': two,
-                                               '/c/hdlyap': one, '/c/record': one, '/sweep_table': None})
-        self.assertEqual({key: value.value for key, value in config.params.items() if key.endswith('/scene')},
-                         {f'/{name}/hdlyap/scene': name for name in 'abc'})
+        self.assertEqual(
+            self.placed(config),
+            {
+                '/a/hdlyap': one,
+                '/a/record': one,
+                '/b/hdlyap': two,
+                '/b/record': two,
+                '/c/hdlyap': one,
+                '/c/record': one,
+                '/sweep_table': None,
+            },
+        )
+        self.assertEqual(
+            {key: value.value for key, value in config.params.items() if key.endswith('/scene')},
+            {f'/{name}/hdlyap/scene': name for name in 'abc'},
+        )
         bags = [node.args for node in config.nodes if node.type == 'record']
         for name, args in zip('abc', bags):
             self.assertIn(f"--output-name='{self.folder}/./{name}.bag'", args)
@@ -406,7 +565,9 @@ class Submission(unittest.TestCase):
         subprocess.run(['bash', '-n', os.path.join(LAUNCH, 'reproduce.sbatch')], check=True)
         lines = files.read(os.path.join(LAUNCH, 'reproduce.sbatch')).splitlines()
         self.assertEqual(lines[0], '#!/usr/bin/env bash')
-        for line in lines[1:next(k for k, line in enumerate(lines) if k and not line.startswith('#SBATCH'))]:
+        for line in lines[
+            1 : next(k for k, line in enumerate(lines) if k and not line.startswith('#SBATCH'))
+        ]:
             self.assertRegex(line, r'^#SBATCH --[a-z-]+=\S+$')
 
 

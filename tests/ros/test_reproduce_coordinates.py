@@ -9,12 +9,14 @@ import made
 from reproduced import Part
 from hdlyap_reproduce.parts import coordinates
 
-DISKS, END = 20, 37         # of 80 vectors 38 .. 43 are zero modes
+DISKS, END = 20, 37  # of 80 vectors 38 .. 43 are zero modes
 COUNT = 4 * DISKS
 REPORTS = 20
 ACCURACY = 1e-8
 ROUNDING = 1e3 * np.finfo(float).eps
-EXPONENTS = np.concatenate([np.linspace(9, 2, END), [0.04, 0.02, 0.01, -0.01, -0.02, -0.04], np.linspace(-2, -9, END)])
+EXPONENTS = np.concatenate(
+    [np.linspace(9, 2, END), [0.04, 0.02, 0.01, -0.01, -0.02, -0.04], np.linspace(-2, -9, END)]
+)
 EXPONENTS[29] += 0.5
 ANGLES = 'cos Theta_l + cos Theta_(4N+1-l)'
 
@@ -37,7 +39,11 @@ class Coordinates(Part):
 
     def bags(self, *spectra, zeros=38, **fields):
         info = made.run_info(accuracy=ACCURACY, **fields)
-        return {'halves': self.bag('halves', [info, made.cost(1), *spectra, made.steps([made.zero_modes(zeros)])])}
+        return {
+            'halves': self.bag(
+                'halves', [info, made.cost(1), *spectra, made.steps([made.zero_modes(zeros)])]
+            )
+        }
 
     def full(self, change=lambda cos, ratio, report: None):
         """A report of before the averaging, and all of it; change(cos, ratio, number of the report) in place."""
@@ -50,30 +56,49 @@ class Coordinates(Part):
 
     def test_cosines_beside_the_zero_modes(self):
         def change(cos, ratio, report):
-            cos[END - 1] = 1.0 - 0.01 * (report // 2)       # pairs of reports are a block
+            cos[END - 1] = 1.0 - 0.01 * (report // 2)  # pairs of reports are a block
             cos[END + 6] = -0.95
+
         rows = self.rows(self.full(change))
-        below, above = (rows[f'cos Theta just {where} the zero modes, index {index}']
-                        for where, index in (('below', 37), ('above', 44)))
+        below, above = (
+            rows[f'cos Theta just {where} the zero modes, index {index}']
+            for where, index in (('below', 37), ('above', 44))
+        )
         self.assertEqual((below.published, above.published, below.verdict), (None, None, ''))
         self.assertAlmostEqual(below.measured, 1 - 0.045, delta=ROUNDING)
-        self.assertAlmostEqual(below.error, 0.01 * np.std(range(10), ddof=1) / np.sqrt(10), delta=ROUNDING)
+        self.assertAlmostEqual(
+            below.error, 0.01 * np.std(range(10), ddof=1) / np.sqrt(10), delta=ROUNDING
+        )
         self.assertAlmostEqual(above.measured, -0.95, delta=ROUNDING)
         self.assertEqual(below.remark, 'mean over 20 reports')
 
     def test_cosines_beside_the_papers_of_its_size_alone(self):
-        with mock.patch.object(coordinates.paper, 'DISKS', DISKS):      # as if its run had been as small
-            rows = self.rows(self.full(lambda cos, ratio, report: cos.__setitem__([END - 1, END + 6], [0.99, -0.95])))
-        below, above = (rows[f'cos Theta just {where} the zero modes, index {index}']
-                        for where, index in (('below', 37), ('above', 44)))
-        self.assertEqual((below.published, above.published, below.published_error), (1.0, -1.0, 0.02))
+        with mock.patch.object(
+            coordinates.paper, 'DISKS', DISKS
+        ):  # as if its run had been as small
+            rows = self.rows(
+                self.full(
+                    lambda cos, ratio, report: cos.__setitem__([END - 1, END + 6], [0.99, -0.95])
+                )
+            )
+        below, above = (
+            rows[f'cos Theta just {where} the zero modes, index {index}']
+            for where, index in (('below', 37), ('above', 44))
+        )
+        self.assertEqual(
+            (below.published, above.published, below.published_error), (1.0, -1.0, 0.02)
+        )
         self.assertEqual((below.verdict, above.verdict), ('agrees', 'differs'))
 
     def test_symmetric_vectors(self):
         rows = self.rows(self.full())
-        for quantity in ("ln(C / C'), mean over the positive half", f'{ANGLES}, mean over the positive half',
-                         "largest mean |C / C' - 1|", f'largest mean |{ANGLES}|',
-                         'sum of |dq|^2 less |dp|^2 of the conjugates, positive half'):
+        for quantity in (
+            "ln(C / C'), mean over the positive half",
+            f'{ANGLES}, mean over the positive half',
+            "largest mean |C / C' - 1|",
+            f'largest mean |{ANGLES}|',
+            'sum of |dq|^2 less |dp|^2 of the conjugates, positive half',
+        ):
             self.assertAlmostEqual(rows[quantity].measured, 0.0, delta=ROUNDING)
         pairing = rows['pairing error, max |lambda_l + lambda_(4N+1-l)|']
         self.assertEqual(pairing.measured, 0.25)
@@ -84,10 +109,14 @@ class Coordinates(Part):
             if report == 7:
                 ratio[4] *= 2
                 cos[10] += 0.1
+
         symmetric_ratio = symmetric()[1][4]
         rows = self.rows(self.full(change))
-        self.assertAlmostEqual(rows["ln(C / C'), mean over the positive half"].measured, np.log(2) / END / REPORTS,
-                               delta=ROUNDING)
+        self.assertAlmostEqual(
+            rows["ln(C / C'), mean over the positive half"].measured,
+            np.log(2) / END / REPORTS,
+            delta=ROUNDING,
+        )
         largest = rows["largest mean |C / C' - 1|"]
         self.assertAlmostEqual(largest.measured, 1 / REPORTS, delta=ROUNDING)
         self.assertTrue(largest.remark.startswith('index 5;'), largest.remark)
@@ -95,49 +124,68 @@ class Coordinates(Part):
         self.assertAlmostEqual(angle.measured, 0.1 / REPORTS, delta=ROUNDING)
         self.assertTrue(angle.remark.startswith('index 11;'), angle.remark)
         excess = rows['sum of |dq|^2 less |dp|^2 of the conjugates, positive half']
-        self.assertAlmostEqual(excess.measured, 1 / (1 + symmetric_ratio ** 2) - 1 / (1 + 4 * symmetric_ratio ** 2),
-                               delta=ROUNDING)
+        self.assertAlmostEqual(
+            excess.measured,
+            1 / (1 + symmetric_ratio**2) - 1 / (1 + 4 * symmetric_ratio**2),
+            delta=ROUNDING,
+        )
         self.assertEqual((excess.verdict, excess.published_error), ('differs', ACCURACY))
 
     def test_two_vectors_that_mix_leave_what_they_span(self):
         """Of |dq|^2 the one has more by what the other has less: no excess, though C and C' differ."""
+
         def change(cos, ratio, report):
             dq2 = 1 / (1 + ratio[4:6] ** 2)
             ratio[4:6] = np.sqrt(1 / (dq2 + [0.01, -0.01]) - 1)
+
         rows = self.rows(self.full(change))
         self.assertGreater(rows["largest mean |C / C' - 1|"].measured, 0.1)
-        self.assertAlmostEqual(rows['sum of |dq|^2 less |dp|^2 of the conjugates, positive half'].measured, 0.0,
-                               delta=ROUNDING)
+        self.assertAlmostEqual(
+            rows['sum of |dq|^2 less |dp|^2 of the conjugates, positive half'].measured,
+            0.0,
+            delta=ROUNDING,
+        )
 
     def test_zero_modes_beside_the_papers_of_its_size_alone(self):
         ends = ('first zero exponent', 'last zero exponent')
         rows = self.rows(self.full())
-        self.assertEqual([(rows[name].published, rows[name].measured) for name in ends], [(None, 38), (None, 43)])
+        self.assertEqual(
+            [(rows[name].published, rows[name].measured) for name in ends], [(None, 38), (None, 43)]
+        )
         self.assertEqual(rows[ends[0]].remark, '38-43, by their size')
         large = np.linspace(9, 2, 1557)
-        for zeros, found, verdict in (([0.04, 0.02, 0.01], [1558, 1563], 'agrees'),
-                                      ([1.9, 0.02, 0.01], [1559, 1562], 'differs')):    # whatever the scene says
+        for zeros, found, verdict in (
+            ([0.04, 0.02, 0.01], [1558, 1563], 'agrees'),
+            ([1.9, 0.02, 0.01], [1559, 1562], 'differs'),
+        ):  # whatever the scene says
             exponents = [*large, *zeros, *-np.array(zeros[::-1]), *-large[::-1]]
             rows = self.rows(self.bags(made.spectrum(exponents, 20.0), zeros=1558, disks=780))
             self.assertEqual([rows[name].published for name in ends], [1558, 1563])
-            self.assertEqual([(rows[name].measured, rows[name].verdict) for name in ends],
-                             [(index, verdict) for index in found])
+            self.assertEqual(
+                [(rows[name].measured, rows[name].verdict) for name in ends],
+                [(index, verdict) for index in found],
+            )
         rows = self.rows(self.bags(zeros=1558, disks=780))
         self.assertEqual([rows[name].verdict for name in ends], ['not measured'] * 2)
-        self.assertEqual(rows['cos Theta just below the zero modes, index 1557'].verdict, 'not measured')
+        self.assertEqual(
+            rows['cos Theta just below the zero modes, index 1557'].verdict, 'not measured'
+        )
 
     def test_figure(self):
         def change(cos, ratio, report):
             ratio[-5] *= 2
+
         whole, near, ratio = self.figures(self.full(change))['coordinates'].axes
         cos, symmetric_ratio = symmetric()
         np.testing.assert_allclose(whole.lines[0].get_ydata(), cos)
         np.testing.assert_allclose(near.lines[0].get_xdata(), range(END + 1 - 20, END + 6 + 21))
         self.assertEqual(near.get_title(loc='left'), '(b) shaded: zero modes 38-43')
-        np.testing.assert_allclose(near.lines[0].get_ydata(), cos[END - 20:END + 26])
+        np.testing.assert_allclose(near.lines[0].get_ydata(), cos[END - 20 : END + 26])
         conjugate, own = (line.get_ydata() for line in ratio.lines[:2])
         np.testing.assert_allclose(own, symmetric_ratio[:END])
-        np.testing.assert_allclose(conjugate, symmetric_ratio[:END] / np.where(np.arange(END) == 4, 2, 1))
+        np.testing.assert_allclose(
+            conjugate, symmetric_ratio[:END] / np.where(np.arange(END) == 4, 2, 1)
+        )
 
     def test_tables(self):
         tables = self.tables(self.full())
@@ -148,7 +196,9 @@ class Coordinates(Part):
 
     def test_half_of_the_vectors(self):
         info = made.run_info()
-        self.measures_nothing({'halves': self.bag('halves', [info, made.spectrum(EXPONENTS[:END], 1.0)])})
+        self.measures_nothing(
+            {'halves': self.bag('halves', [info, made.spectrum(EXPONENTS[:END], 1.0)])}
+        )
 
 
 if __name__ == '__main__':

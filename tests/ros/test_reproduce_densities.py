@@ -11,8 +11,8 @@ from hdlyap_plots import paper
 from hdlyap_reproduce import crossing
 from hdlyap_reproduce.parts import densities
 
-OFF = 1.01      # our slopes over the paper's fits
-ERROR = 0.001   # relative, of exponents
+OFF = 1.01  # our slopes over the paper's fits
+ERROR = 0.001  # relative, of exponents
 V_OVER_C = {0.7: 1.08, 0.8: 1.14}
 
 
@@ -24,9 +24,21 @@ def run(density, resolved=(T, LP), levels=None, velocity=None, first_t=1556):
     info = info_of(density)
     k = made.wave_number(info, 1, 0)
     exponents = {T: OFF * k * paper.slope_t(density), LP: OFF * k * paper.slope_l(density)}
-    found = [made.step(info, kind, 1, 0, first, last, exponent=exponents[kind], std_error=ERROR * exponents[kind])
-             if kind in resolved else made.unresolved(info, kind, 1, 0, last - first + 1)
-             for kind, first, last in ((T, first_t, first_t + 1), (LP, 1550, 1553))]
+    found = [
+        made.step(
+            info,
+            kind,
+            1,
+            0,
+            first,
+            last,
+            exponent=exponents[kind],
+            std_error=ERROR * exponents[kind],
+        )
+        if kind in resolved
+        else made.unresolved(info, kind, 1, 0, last - first + 1)
+        for kind, first, last in ((T, first_t, first_t + 1), (LP, 1550, 1553))
+    ]
     phases = made.lp_phases(info, found, 50.0)
     v = velocity or OFF * paper.slope_l(density) * V_OVER_C.get(density, 1.0)
     for phase in phases.phases:
@@ -57,26 +69,34 @@ class Densities(unittest.TestCase):
         v = rows['v at density 0.7']
         self.assertAlmostEqual(v.measured, 1.08 * OFF * paper.slope_l(0.7), places=9)
         self.assertAlmostEqual(v.error, 0.002 * v.measured, places=9)
-        self.assertEqual(v.remark, '8 phases of LP(1,0); all 8 phases: 1.612(23)')      # of made.steps
+        self.assertEqual(v.remark, '8 phases of LP(1,0); all 8 phases: 1.612(23)')  # of made.steps
         close = rows['v / c_L at density 0.5']
         self.assertAlmostEqual(close.measured, 1.0, places=9)
         self.assertAlmostEqual(close.error, np.hypot(0.001, 0.002), places=9)
-        self.assertEqual((close.published, close.published_error, close.verdict), (1.0, 0.03, 'agrees'))
+        self.assertEqual(
+            (close.published, close.published_error, close.verdict), (1.0, 0.03, 'agrees')
+        )
         self.assertEqual(rows['v / c_L at density 0.6'].verdict, '')
         for density, said in ((0.7, '1.0800(24)'), (0.8, '1.1400(25)')):
             above = rows[f'v / c_L at density {density}']
-            self.assertEqual((above.published, above.measured, above.remark), ('above 1', 'above 1', said))
+            self.assertEqual(
+                (above.published, above.measured, above.remark), ('above 1', 'above 1', said)
+            )
 
     def test_a_velocity_elsewhere_differs(self):
         far = run(0.5, velocity=1.05 * OFF * paper.slope_l(0.5))
-        below = run(0.8, velocity=1.005 * OFF * paper.slope_l(0.8))     # 2.2 standard errors above
+        below = run(0.8, velocity=1.005 * OFF * paper.slope_l(0.8))  # 2.2 standard errors above
         rows = recorded.by_quantity(densities, bags(density_05=far, density_08=below))
         self.assertEqual(rows['v / c_L at density 0.5'].verdict, 'differs')
         self.assertEqual(rows['v / c_L at density 0.8'].measured, 'not above 1')
         self.assertEqual(rows['v / c_L at density 0.8'].verdict, 'differs')
 
     def test_a_velocity_known_less_well_than_the_fits_is_not_told_from_the_slope(self):
-        for relative, v, word in ((0.0099, 1.0, 'not above 1'), (0.0101, 1.0, None), (0.0101, 1.05, 'above 1')):
+        for relative, v, word in (
+            (0.0099, 1.0, 'not above 1'),
+            (0.0101, 1.0, None),
+            (0.0101, 1.05, 'above 1'),
+        ):
             loose = run(0.8, velocity=v * OFF * paper.slope_l(0.8))
             for step in loose.recording.steps.steps:
                 step.std_error = 0.0
@@ -109,7 +129,9 @@ class Densities(unittest.TestCase):
         place = crossing.of_fits()
         self.assertAlmostEqual(row.published, place)
         self.assertAlmostEqual(row.published_error, max(place - low, high - place))
-        self.assertLess(abs(row.measured - place), 3 * row.error)      # both branches are off by the same factor
+        self.assertLess(
+            abs(row.measured - place), 3 * row.error
+        )  # both branches are off by the same factor
         self.assertLess(row.error, 0.003)
         self.assertNotIn('slopes', row.remark)
 
@@ -133,12 +155,21 @@ class Densities(unittest.TestCase):
         bare = recorded.Bag(recorded.Recorded(info_of(0.2)))
         found = bags(density_01=low, density_02=bare)
         rows = recorded.by_quantity(densities, found)
-        for quantity in ('c_T at density 0.1', 'c_L at density 0.1', 'c_T at density 0.2', 'v at density 0.2',
-                         'v / c_L at density 0.1', 'v / c_L at density 0.2'):
+        for quantity in (
+            'c_T at density 0.1',
+            'c_L at density 0.1',
+            'c_T at density 0.2',
+            'v at density 0.2',
+            'v / c_L at density 0.1',
+            'v / c_L at density 0.2',
+        ):
             verdict = rows[quantity].verdict
             self.assertEqual(verdict, 'not measured', quantity)
         error = rows['largest error of c_T']
-        self.assertEqual((error.verdict, error.remark), ('not measured', 'demanded: 0.6 %; not known at 2 densities'))
+        self.assertEqual(
+            (error.verdict, error.remark),
+            ('not measured', 'demanded: 0.6 %; not known at 2 densities'),
+        )
         self.assertEqual(recorded.pictures(self, densities, found), ['densities'])
 
     def test_nothing_at_all(self):
@@ -147,7 +178,7 @@ class Densities(unittest.TestCase):
         self.assertEqual(recorded.pictures(self, densities, found), [])
 
     def test_table(self):
-        (name, header, lines), = densities.tables(bags())
+        ((name, header, lines),) = densities.tables(bags())
         self.assertEqual((name, len(lines)), ('densities', 8))
         line = dict(zip(header, lines[6]))
         self.assertEqual(line['density'], '0.7')

@@ -20,10 +20,12 @@ class Dispersion(Part):
 
     def full(self):
         info = made.paper_info()
-        return self.bags(made.step(info, T, 1, 0, 1556, 1557, exponent=0.62),
-                         made.step(info, T, 0, 1, 1554, 1555, exponent=0.9),
-                         made.step(info, LP, 1, 0, 1550, 1553, exponent=0.86),
-                         made.unresolved(info, LP, 0, 1, 4))
+        return self.bags(
+            made.step(info, T, 1, 0, 1556, 1557, exponent=0.62),
+            made.step(info, T, 0, 1, 1554, 1555, exponent=0.9),
+            made.step(info, LP, 1, 0, 1550, 1553, exponent=0.86),
+            made.unresolved(info, LP, 0, 1, 4),
+        )
 
     def test_slope_of_a_step_beside_the_papers(self):
         info, bags = self.full()
@@ -38,22 +40,37 @@ class Dispersion(Part):
     def test_verdicts(self):
         rows = self.rows(self.full()[1])
         self.assertAlmostEqual(rows['lambda / k of LP(1,0)'].published, 4.624, delta=5e-4)
-        self.assertEqual([rows[f'lambda / k of {name}'].verdict for name in ('T(0,1)', 'LP(1,0)', 'LP(0,1)')],
-                         ['differs', 'agrees', 'not measured'])
+        self.assertEqual(
+            [rows[f'lambda / k of {name}'].verdict for name in ('T(0,1)', 'LP(1,0)', 'LP(0,1)')],
+            ['differs', 'agrees', 'not measured'],
+        )
 
     def test_fits_are_the_runs(self):
         _, bags = self.full()
         rows = self.rows(bags)
-        found = [rows[f'{name} of lambda = c k + c2 k^2'] for name in ('c_T', 'c_T2', 'c_L', 'c_L2')]
-        self.assertEqual([(row.measured, row.error) for row in found],
-                         [(1.4, 0.012), (0.1, 0.034), (1.5, 0.02), (0.5, 0.1)])
-        self.assertEqual([row.remark for row in found], ['over 3 wave numbers'] * 2 + ['over 2 wave numbers'] * 2)
+        found = [
+            rows[f'{name} of lambda = c k + c2 k^2'] for name in ('c_T', 'c_T2', 'c_L', 'c_L2')
+        ]
+        self.assertEqual(
+            [(row.measured, row.error) for row in found],
+            [(1.4, 0.012), (0.1, 0.034), (1.5, 0.02), (0.5, 0.1)],
+        )
+        self.assertEqual(
+            [row.remark for row in found], ['over 3 wave numbers'] * 2 + ['over 2 wave numbers'] * 2
+        )
         self.assertEqual([row.verdict for row in found], [''] * 4)
 
     def test_a_fit_needs_its_wave_numbers(self):
-        rows = self.rows(self.bags(made.step(made.paper_info(), T, 1, 0, 1556, 1557), t_points=1, l_points=0)[1])
-        self.assertEqual([rows[f'{name} of lambda = c k + c2 k^2'].verdict for name in ('c_T', 'c_T2', 'c_L', 'c_L2')],
-                         ['', 'not measured', 'not measured', 'not measured'])
+        rows = self.rows(
+            self.bags(made.step(made.paper_info(), T, 1, 0, 1556, 1557), t_points=1, l_points=0)[1]
+        )
+        self.assertEqual(
+            [
+                rows[f'{name} of lambda = c k + c2 k^2'].verdict
+                for name in ('c_T', 'c_T2', 'c_L', 'c_L2')
+            ],
+            ['', 'not measured', 'not measured', 'not measured'],
+        )
         self.assertEqual(rows['c_T of lambda = c k + c2 k^2'].remark, 'over 1 wave number')
 
     def test_table_and_figure(self):

@@ -28,25 +28,37 @@ class Waves(unittest.TestCase):
         for info in boxes():
             for bits in range(4):
                 where = info, 2, 1, bits
-                ends = [[waves.modulation(*where, x + sign * dx, y + sign * dy) for sign in (1, -1)]
-                        for dx, dy in ((h, 0), (0, h))]
+                ends = [
+                    [waves.modulation(*where, x + sign * dx, y + sign * dy) for sign in (1, -1)]
+                    for dx, dy in ((h, 0), (0, h))
+                ]
                 slopes = [(after - before) / (2 * h) for after, before in ends]
                 # of the differences: k^3 h^2 / 6, and rounding / h
-                self.assertLess(np.abs(np.subtract(waves.gradient(*where, x, y), slopes)).max(), 1e-9)
+                self.assertLess(
+                    np.abs(np.subtract(waves.gradient(*where, x, y), slopes)).max(), 1e-9
+                )
 
     def test_as_many_as_the_boundaries_allow(self):
         """Dimensions of T are the number of modulations, of LP twice that."""
         expected = {  # T(1,0) T(0,1) T(1,1), pairs of LP
-            ('periodic', 'periodic'): ([2, 2, 4], [2, 2, 4]), ('reflecting', 'reflecting'): ([0, 0, 1], [1, 1, 1]),
-            ('periodic', 'reflecting'): ([0, 1, 2], [2, 1, 2]), ('reflecting', 'periodic'): ([1, 0, 2], [1, 2, 2])}
+            ('periodic', 'periodic'): ([2, 2, 4], [2, 2, 4]),
+            ('reflecting', 'reflecting'): ([0, 0, 1], [1, 1, 1]),
+            ('periodic', 'reflecting'): ([0, 1, 2], [2, 1, 2]),
+            ('reflecting', 'periodic'): ([1, 0, 2], [1, 2, 2]),
+        }
         for info in boxes():
             nodes = (1, 0), (0, 1), (1, 1)
-            found = tuple([len(waves.modulations(info, *n, transverse=t)) for n in nodes] for t in (True, False))
+            found = tuple(
+                [len(waves.modulations(info, *n, transverse=t)) for n in nodes]
+                for t in (True, False)
+            )
             self.assertEqual(found, expected[info.boundary_x, info.boundary_y])
 
     def test_sine_between_walls_for_t_alone(self):
         walls = made.run_info(boundary_x='reflecting', boundary_y='reflecting')
-        self.assertEqual(waves.modulations(walls, 1, 1, transverse=True), [waves.SIN_X | waves.SIN_Y])
+        self.assertEqual(
+            waves.modulations(walls, 1, 1, transverse=True), [waves.SIN_X | waves.SIN_Y]
+        )
         self.assertEqual(waves.modulations(walls, 1, 1), [0])
 
 
@@ -69,7 +81,9 @@ def by_hand(info, letter, x, y, momenta):
     """T, L and P fields of the wave vector (1,0)."""
     k = 2 * np.pi / info.box_x
     if letter == 'P':
-        return [np.concatenate([f(k * x) * momenta[0], f(k * x) * momenta[1]]) for f in (np.cos, np.sin)]
+        return [
+            np.concatenate([f(k * x) * momenta[0], f(k * x) * momenta[1]]) for f in (np.cos, np.sin)
+        ]
     along = [-np.sin(k * x), np.cos(k * x)]
     zero = np.zeros_like(x)
     return [np.concatenate([zero, a] if letter == 'T' else [a, zero]) for a in along]
@@ -93,17 +107,28 @@ class Fields(Part):
     of = fields
 
     def found(self, info):
-        return [made.step(info, T, 1, 0, 36, 37), made.step(info, LP, 1, 0, 32, 35), made.step(info, T, 0, 1, 30, 31),
-                made.step(info, LP, 0, 1, 26, 29), made.step(info, T, 1, 1, 22, 25), made.step(info, LP, 1, 1, 14, 21)]
+        return [
+            made.step(info, T, 1, 0, 36, 37),
+            made.step(info, LP, 1, 0, 32, 35),
+            made.step(info, T, 0, 1, 30, 31),
+            made.step(info, LP, 0, 1, 26, 29),
+            made.step(info, T, 1, 1, 22, 25),
+            made.step(info, LP, 1, 1, 14, 21),
+        ]
 
     def full(self):
         info = made.run_info()
         found = self.found(info)
         messages = [info, made.cost(1), made.steps(found)]
         for share, sim_time in ((0.9, 150.0), (0.8, 170.0)):
-            messages += [field(info, found[0], share, 'T', 'TL', sim_time),
-                         field(info, found[1], share - 0.2, 'P', 'LP', sim_time)]
-        messages += [made.mode_field(info, one, modulations=(0, 1) if one.nx else (0, 2)) for one in found[2:]]
+            messages += [
+                field(info, found[0], share, 'T', 'TL', sim_time),
+                field(info, found[1], share - 0.2, 'P', 'LP', sim_time),
+            ]
+        messages += [
+            made.mode_field(info, one, modulations=(0, 1) if one.nx else (0, 2))
+            for one in found[2:]
+        ]
         return {'periodic': self.bag('periodic', messages)}
 
     def test_weights(self):
@@ -113,15 +138,23 @@ class Fields(Part):
             self.assertAlmostEqual(row.measured, expected, delta=ROUNDING)
             self.assertAlmostEqual(row.error, 0.05, delta=ROUNDING)
             self.assertIsNone(row.published)
-        self.assertEqual(rows['weight of T(1,0) in its T fields'].remark, '2 snapshots; by chance 0.0500')
-        self.assertEqual(rows['weight of LP(1,0) in its LP fields'].remark, '2 snapshots; by chance 0.1000')
+        self.assertEqual(
+            rows['weight of T(1,0) in its T fields'].remark, '2 snapshots; by chance 0.0500'
+        )
+        self.assertEqual(
+            rows['weight of LP(1,0) in its LP fields'].remark, '2 snapshots; by chance 0.1000'
+        )
 
     def test_curl_free_part(self):
         """What a pure gradient has in the L fields is all of it."""
         info = made.run_info()
         one = made.step(info, T, 1, 0, 36, 37)
-        rows = self.rows({'periodic': self.bag('periodic', [info, field(info, one, 1.0, 'L', 'TL')])})
-        self.assertAlmostEqual(rows['weight of T(1,0) in the L fields, curl-free'].measured, 1.0, delta=ROUNDING)
+        rows = self.rows(
+            {'periodic': self.bag('periodic', [info, field(info, one, 1.0, 'L', 'TL')])}
+        )
+        self.assertAlmostEqual(
+            rows['weight of T(1,0) in the L fields, curl-free'].measured, 1.0, delta=ROUNDING
+        )
         self.assertLess(rows['weight of T(1,0) in its T fields'].measured, 0.5)
 
     def test_curl_of_a_diagonal_wave(self):
@@ -138,20 +171,30 @@ class Fields(Part):
         x, y = np.meshgrid(np.linspace(0, info.box_x, 5), np.linspace(0, info.box_y, 4))
         along_x, along_y = projection.continued(info, one, 'T', x, y)
         np.testing.assert_allclose(along_x, 0, atol=ROUNDING)
-        np.testing.assert_allclose(along_y, size * np.cos(2 * np.pi * x / info.box_x), atol=ROUNDING)
+        np.testing.assert_allclose(
+            along_y, size * np.cos(2 * np.pi * x / info.box_x), atol=ROUNDING
+        )
 
     def test_table(self):
         header, lines = self.tables(self.full())['weights']
-        self.assertEqual(header, ('step', 'time', 'index', 'in_T_fields', 'in_L_fields', 'in_P_fields'))
-        self.assertEqual([line[:4] for line in lines if line[0] == 'T(1,0)'],
-                         [('T(1,0)', '150', '37', '0.90000'), ('T(1,0)', '170', '37', '0.80000')])
+        self.assertEqual(
+            header, ('step', 'time', 'index', 'in_T_fields', 'in_L_fields', 'in_P_fields')
+        )
+        self.assertEqual(
+            [line[:4] for line in lines if line[0] == 'T(1,0)'],
+            [('T(1,0)', '150', '37', '0.90000'), ('T(1,0)', '170', '37', '0.80000')],
+        )
 
     def test_six_panels_and_two_patterns(self):
         figures = self.figures(self.full())
         titles = [axes.get_title() for axes in figures['fields'].axes]
-        self.assertEqual([title.split(',$')[0].split(', $')[0] for title in titles],
-                         ['T(1,0)', 'LP(1,0)', 'T(0,1)', 'LP(0,1)', 'T(1,1)', 'LP(1,1)'])
-        wanted = made.mode_field(made.run_info(), self.found(made.run_info())[4], modulations=(0, 1))
+        self.assertEqual(
+            [title.split(',$')[0].split(', $')[0] for title in titles],
+            ['T(1,0)', 'LP(1,0)', 'T(0,1)', 'LP(0,1)', 'T(1,1)', 'LP(1,1)'],
+        )
+        wanted = made.mode_field(
+            made.run_info(), self.found(made.run_info())[4], modulations=(0, 1)
+        )
         rms = np.sqrt(np.mean(np.square([wanted.dqx, wanted.dqy])))
         for axes, component in zip(figures['patterns'].axes, (wanted.dqx, wanted.dqy)):
             colours = axes.collections[0].get_array()
@@ -159,7 +202,9 @@ class Fields(Part):
 
     def test_without_fields(self):
         info = made.run_info()
-        self.measures_nothing({'periodic': self.bag('periodic', [info, made.steps(self.found(info))])})
+        self.measures_nothing(
+            {'periodic': self.bag('periodic', [info, made.steps(self.found(info))])}
+        )
 
     def test_vectors_outside_of_every_step_are_left_out(self):
         info = made.run_info()

@@ -20,9 +20,15 @@ class Intervals(Part):
         """One run; its exponents are those of the time, and one of them is off."""
         info = made.run_info(interval=interval, accuracy=ACCURACY)
         messages = [info]
-        for number, (phase, in_use) in enumerate(((0, 9.0), (1, 5.0), (2, 2.5), (2, 0.75), (3, 0.5))):
+        for number, (phase, in_use) in enumerate(
+            ((0, 9.0), (1, 5.0), (2, 2.5), (2, 0.75), (3, 0.5))
+        ):
             cost = made.cost(100.0 + number)
-            cost.phase, cost.interval, cost.orthonormalisations = phase, min(in_use, interval), 4 * number
+            cost.phase, cost.interval, cost.orthonormalisations = (
+                phase,
+                min(in_use, interval),
+                4 * number,
+            )
             cost.error_bound = 3e-10
             messages.append(cost)
         for time in times:
@@ -36,18 +42,30 @@ class Intervals(Part):
         return {f'interval_{number}': trial for number, trial in enumerate(trials)}
 
     def test_runs(self):
-        self.assertEqual(intervals.runs(['periodic', 'interval_8', 'interval_0_25']), ['interval_8', 'interval_0_25'])
+        self.assertEqual(
+            intervals.runs(['periodic', 'interval_8', 'interval_0_25']),
+            ['interval_8', 'interval_0_25'],
+        )
 
     def test_deviations_are_of_one_time(self):
         """The last run has averaged for longer; that is no deviation."""
-        rows = self.rows(self.bags(self.trial(8.0, 1e-9, times=(10.0, 20.0, 20.5)), self.trial(0.25),
-                                   self.trial(1.0, -3e-8, index=5)))
-        far, near = (rows[f'largest deviation of an exponent, interval {name} from 0.25'] for name in (1, 8))
+        rows = self.rows(
+            self.bags(
+                self.trial(8.0, 1e-9, times=(10.0, 20.0, 20.5)),
+                self.trial(0.25),
+                self.trial(1.0, -3e-8, index=5),
+            )
+        )
+        far, near = (
+            rows[f'largest deviation of an exponent, interval {name} from 0.25'] for name in (1, 8)
+        )
         rounding = 10 * np.finfo(float).eps * 10
         self.assertAlmostEqual(far.measured, 3e-8, delta=rounding)
         self.assertAlmostEqual(near.measured, 1e-9, delta=rounding)
-        self.assertEqual((far.verdict, near.verdict, far.published, far.published_error),
-                         ('differs', 'agrees', 0.0, 2 * ACCURACY))
+        self.assertEqual(
+            (far.verdict, near.verdict, far.published, far.published_error),
+            ('differs', 'agrees', 0.0, 2 * ACCURACY),
+        )
         self.assertTrue(far.remark.startswith('index 5 of 37, averaged over 20'), far.remark)
         self.assertTrue(near.remark.startswith('index 20 of 37, averaged over 20'), near.remark)
         self.assertEqual(near.cells()[2], '1.0e-09')
@@ -67,19 +85,24 @@ class Intervals(Part):
 
     def test_what_other_programs_get_where_the_interval_was_not_taken(self):
         rows = self.rows(self.bags(self.trial(0.25), self.trial(1.0), self.trial(8.0)))
-        said = {name: '2.36' in rows[f'largest deviation of an exponent, interval {name} from 0.25'].remark
-                for name in (1, 8)}
+        said = {
+            name: '2.36'
+            in rows[f'largest deviation of an exponent, interval {name} from 0.25'].remark
+            for name in (1, 8)
+        }
         self.assertEqual(said, {1: False, 8: True})
 
     def test_indices(self):
         rows = self.rows(self.bags(self.trial(0.25), self.trial(1.0), self.trial(8.0, first=35)))
         same, other = (rows[f'indices of all steps, interval {name} and 0.25'] for name in (1, 8))
-        self.assertEqual((same.measured, same.verdict, same.remark), ('the same', 'agrees', '2 sets'))
+        self.assertEqual(
+            (same.measured, same.verdict, same.remark), ('the same', 'agrees', '2 sets')
+        )
         self.assertEqual((other.measured, other.verdict), ('1 differ', 'differs'))
         self.assertEqual(other.remark, '2 sets; differ: T(1,0)')
 
     def test_figure(self):
-        axes, = self.figures(self.bags(self.trial(0.25), self.trial(1.0, 1e-9)))['intervals'].axes
+        (axes,) = self.figures(self.bags(self.trial(0.25), self.trial(1.0, 1e-9)))['intervals'].axes
         drawn = axes.lines[0].get_ydata()
         self.assertEqual(np.argmax(drawn), 19)
         self.assertAlmostEqual(drawn[19] / 1e-9, 1, delta=1e-4)
@@ -90,17 +113,31 @@ class Intervals(Part):
         header, lines = tables['runs']
         line = dict(zip(header, lines[1]))
         info = made.run_info()
-        expected = {'interval': '1', 'longest_in_use': '1', 'mean_in_use': '0.25', 'error_bound': '3e-10', 'c_T': '1.4',
-                    'c_L': '1.5', 'v': '1.612', 'lambda_max': '9.005'}
+        expected = {
+            'interval': '1',
+            'longest_in_use': '1',
+            'mean_in_use': '0.25',
+            'error_bound': '3e-10',
+            'c_T': '1.4',
+            'c_L': '1.5',
+            'v': '1.612',
+            'lambda_max': '9.005',
+        }
         self.assertEqual({name: line[name] for name in expected}, expected)
-        self.assertAlmostEqual(float(line['T(1,0)_exponent']), made.exponent(info, T, 1, 0), delta=1e-8)
-        self.assertEqual((line['T(1,0)_multiplicity'], line['LP(1,0)_multiplicity']), ('1.98', '3.96'))
+        self.assertAlmostEqual(
+            float(line['T(1,0)_exponent']), made.exponent(info, T, 1, 0), delta=1e-8
+        )
+        self.assertEqual(
+            (line['T(1,0)_multiplicity'], line['LP(1,0)_multiplicity']), ('1.98', '3.96')
+        )
         self.assertEqual(tables['indices'][1][0], ('0.25', 'T(1,0)', '36-37'))
         self.assertEqual(tables['deviations'][1][19], ('20', '1.0e-09'))
 
     def test_without_spectrum_and_steps(self):
-        bags = {f'interval_{number}': self.bag(f'interval_{number}', [made.run_info(interval=number)])
-                for number in (1.0, 2.0)}
+        bags = {
+            f'interval_{number}': self.bag(f'interval_{number}', [made.run_info(interval=number)])
+            for number in (1.0, 2.0)
+        }
         self.measures_nothing(bags)
 
 

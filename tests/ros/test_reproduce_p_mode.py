@@ -10,7 +10,7 @@ from reproduced import Part
 from hdlyap_plots.figures.p_mode import EPSILON, Fit
 from hdlyap_reproduce.parts import p_mode
 
-RESIDUAL = 0.6          # 1 - residual^2 = 0.64
+RESIDUAL = 0.6  # 1 - residual^2 = 0.64
 ROUNDING = 1e3 * np.finfo(float).eps
 TRIALS = 400
 
@@ -24,13 +24,22 @@ def field(info, amplitudes, sim_time=150.0, noise=0.0, seed=1, nodes=(1, 0)):
     eps = EPSILON * np.mean(np.square(momenta))
     raw, over = [], []
     for a in (np.cos(k * x), np.sin(k * x)):
-        phi = [size * a * p + noise * rng.normal(size=x.size) for size, p in zip(amplitudes, momenta)]
+        phi = [
+            size * a * p + noise * rng.normal(size=x.size) for size, p in zip(amplitudes, momenta)
+        ]
         raw.append(phi)
         over.append([part * p / (p * p + eps) for part, p in zip(phi, momenta)])
-    parts = [np.concatenate([pair[axis] for pair in values]) for values in (raw, over) for axis in (0, 1)]
-    return made.mode_field(info, one, sim_time=sim_time, modulations=(0, 1 if nodes[0] else 2),
-                           residual_p=[RESIDUAL, RESIDUAL + 0.1],
-                           **dict(zip(('p_x', 'p_y', 'p_over_px', 'p_over_py'), parts)))
+    parts = [
+        np.concatenate([pair[axis] for pair in values]) for values in (raw, over) for axis in (0, 1)
+    ]
+    return made.mode_field(
+        info,
+        one,
+        sim_time=sim_time,
+        modulations=(0, 1 if nodes[0] else 2),
+        residual_p=[RESIDUAL, RESIDUAL + 0.1],
+        **dict(zip(('p_x', 'p_y', 'p_over_px', 'p_over_py'), parts)),
+    )
 
 
 class PMode(Part):
@@ -43,26 +52,34 @@ class PMode(Part):
 
     def test_amplitudes_without_noise(self):
         rows = self.rows(self.bags(field(made.run_info(), (0.64, 0.32))))
-        for name, expected in (('amplitude of phi_P,x / p_x on A / (1 - residual^2)', 1.0),
-                               ('amplitude of phi_P,y / p_y on A / (1 - residual^2)', 0.5),
-                               ('ratio of these amplitudes', 2.0)):
+        for name, expected in (
+            ('amplitude of phi_P,x / p_x on A / (1 - residual^2)', 1.0),
+            ('amplitude of phi_P,y / p_y on A / (1 - residual^2)', 0.5),
+            ('ratio of these amplitudes', 2.0),
+        ):
             self.assertAlmostEqual(rows[name].measured, expected, delta=ROUNDING)
             self.assertAlmostEqual(rows[name].error, 0, delta=ROUNDING)
             # x and y are 1 together by least squares: their ratio alone tells
             self.assertEqual(rows[name].published, 1.0 if 'ratio of' in name else None)
-        self.assertIn('amplitude 0.640, residual 0.600',
-                      rows['amplitude of phi_P,x / p_x on A / (1 - residual^2)'].remark)
+        self.assertIn(
+            'amplitude 0.640, residual 0.600',
+            rows['amplitude of phi_P,x / p_x on A / (1 - residual^2)'].remark,
+        )
 
     def test_means_over_snapshots(self):
         info = made.run_info()
         rows = self.rows(self.bags(field(info, (0.6, 0.6), 150), field(info, (0.8, 0.4), 170)))
         spanned = np.mean([1 / (1 - r * r) for r in (RESIDUAL, RESIDUAL + 0.1)])
-        for name, low, high in (('amplitude along x / (1 - residual^2), mean', 0.6 * spanned, 0.8 * spanned),
-                                ('ratio of the amplitudes, mean', 1.0, 2.0)):
+        for name, low, high in (
+            ('amplitude along x / (1 - residual^2), mean', 0.6 * spanned, 0.8 * spanned),
+            ('ratio of the amplitudes, mean', 1.0, 2.0),
+        ):
             self.assertAlmostEqual(rows[name].measured, (low + high) / 2, delta=ROUNDING)
             self.assertAlmostEqual(rows[name].error, (high - low) / 2, delta=ROUNDING)
-        self.assertEqual([name for name, row in rows.items() if row.published == 1.0],
-                         ['ratio of these amplitudes', 'ratio of the amplitudes, mean'])
+        self.assertEqual(
+            [name for name, row in rows.items() if row.published == 1.0],
+            ['ratio of these amplitudes', 'ratio of the amplitudes, mean'],
+        )
         residual = rows['distance of the P field from the vectors, residual']
         self.assertAlmostEqual(residual.measured, RESIDUAL + 0.05)
         self.assertIn('2 snapshots, 2 pairs', residual.remark)
@@ -80,17 +97,24 @@ class PMode(Part):
             for found, basis in zip(expected, (shape, shape * p)):
                 rest = phi - basis * (phi @ basis) / (basis @ basis)
                 found.append(np.sqrt((rest @ rest) / (phi @ phi)))
-        for name, values in (('scatter of phi_P,x about A / its rms', expected[0]),
-                             ('the same of phi_P,x / p_x', expected[1])):
+        for name, values in (
+            ('scatter of phi_P,x about A / its rms', expected[0]),
+            ('the same of phi_P,x / p_x', expected[1]),
+        ):
             self.assertAlmostEqual(rows[name].measured, np.mean(values), delta=ROUNDING)
-        self.assertGreater(rows['scatter of phi_P,x about A / its rms'].measured,
-                           1.2 * rows['the same of phi_P,x / p_x'].measured)
+        self.assertGreater(
+            rows['scatter of phi_P,x about A / its rms'].measured,
+            1.2 * rows['the same of phi_P,x / p_x'].measured,
+        )
 
     def test_error_is_the_scatter_of_amplitudes(self):
         """Of as many trials it is known to 1 / sqrt(2 TRIALS), here five times that; and no bias."""
         rng = np.random.default_rng(3)
         a, weights = np.cos(np.linspace(0, 6, 100)), np.linspace(0.1, 3, 100)
-        fits = [Fit(a, 0.7 * a + rng.normal(size=100) / np.sqrt(weights), weights) for _ in range(TRIALS)]
+        fits = [
+            Fit(a, 0.7 * a + rng.normal(size=100) / np.sqrt(weights), weights)
+            for _ in range(TRIALS)
+        ]
         amplitudes = np.array([fit.amplitude for fit in fits])
         error = np.mean([fit.error for fit in fits])
         self.assertAlmostEqual(amplitudes.std() / error, 1.0, delta=5 / np.sqrt(2 * TRIALS))
@@ -98,9 +122,13 @@ class PMode(Part):
 
     def test_error_of_the_ratio(self):
         rows = self.rows(self.bags(field(made.run_info(), (0.64, 0.64), noise=0.1)))
-        relative = [rows[f'amplitude of phi_P,{axis} / p_{axis} on A / (1 - residual^2)'] for axis in 'xy']
+        relative = [
+            rows[f'amplitude of phi_P,{axis} / p_{axis} on A / (1 - residual^2)'] for axis in 'xy'
+        ]
         ratio = rows['ratio of these amplitudes']
-        self.assertAlmostEqual(ratio.error / ratio.measured, np.hypot(*(row.error / row.measured for row in relative)))
+        self.assertAlmostEqual(
+            ratio.error / ratio.measured, np.hypot(*(row.error / row.measured for row in relative))
+        )
 
     def test_figure_and_table(self):
         bags = self.bags(field(made.run_info(), (0.64, 0.32)))

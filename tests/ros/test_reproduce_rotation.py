@@ -26,9 +26,11 @@ class Turning(Turned):
     WALLS = made.run_info(boundary_x='reflecting', boundary_y='reflecting')
 
     def waves(self, quarter, other, strength=0.9):
-        size = strength ** 0.5
-        return (Wave(1, 0, (0,), [[size], [1j * size]], np.pi / 2 / quarter),
-                Wave(1, 1, (0,), [[size], [1j * size]], np.pi / 2 / other, step=1, index=28))
+        size = strength**0.5
+        return (
+            Wave(1, 0, (0,), [[size], [1j * size]], np.pi / 2 / quarter),
+            Wave(1, 1, (0,), [[size], [1j * size]], np.pi / 2 / other, step=1, index=28),
+        )
 
     def measured(self, *waves, fields=()):
         return self.bag(self.WALLS, *course(self.TIMES, *waves), *fields)
@@ -42,7 +44,9 @@ class Turning(Turned):
         self.assertEqual(other.verdict, 'differs')
         self.assertIn('the text', one.remark)
         # a wave number of pi / L instead of pi / (L - 1)
-        self.assertIn(f'{3.2 * 40 ** 0.5 / (40 ** 0.5 - 1):.3f} if centres reached the walls', one.remark)
+        self.assertIn(
+            f'{3.2 * 40 ** 0.5 / (40 ** 0.5 - 1):.3f} if centres reached the walls', one.remark
+        )
         self.assertIn('+52.4 % off', other.remark)
         self.assertLess(one.error, 1e-6)
 
@@ -58,7 +62,9 @@ class Turning(Turned):
         one.weak = lambda t, vector, pair: vector == 1 and 6.5 < t < 38
         turns = rotation.read(self.measured(one))[1, 0].turns()
         theta = np.pi / 2 / 3.2 * self.TIMES[50:52]
-        self.assertAlmostEqual(turns[50], np.diff(np.unwrap(np.arctan2(0.6 * np.sin(theta), np.cos(theta))))[0], 9)
+        self.assertAlmostEqual(
+            turns[50], np.diff(np.unwrap(np.arctan2(0.6 * np.sin(theta), np.cos(theta))))[0], 9
+        )
         one.weak = lambda t, vector, pair: vector == int(t / 0.2 + 0.5) % 2
         self.assertTrue(np.isnan(rotation.read(self.measured(one))[1, 0].turns()).all())
 
@@ -92,7 +98,9 @@ class Turning(Turned):
         k = made.wave_number(self.WALLS, 1, 0)
         with_wobble = np.pi / 2 / 3.15 + 0.1 * (np.sin(1.7 * 59.8) - np.sin(1.7 * 0.2)) / 59.6
         self.assertIn(f'k = {k:.5f}, omega / k = {with_wobble / k:.5f}', remark)
-        self.assertRegex(remark, r'is \+1\.[4-8] % off, or 0\.[2-9] standard deviations of single quarters')
+        self.assertRegex(
+            remark, r'is \+1\.[4-8] % off, or 0\.[2-9] standard deviations of single quarters'
+        )
         row = self.owned(4.4, 3.25)['3.20 is a quarter period of']
         self.assertEqual((row.measured, row.verdict), ('LP(1,1)', 'differs'))
         self.assertEqual(self.owned(5.0, 2.0)['3.20 is a quarter period of'].measured, 'neither')
@@ -113,7 +121,9 @@ class Turning(Turned):
 
     def test_scatter_of_single_quarters(self):
         fast, slow = np.pi / 2 / 3.0, np.pi / 2 / 3.5
-        wave = Wave(1, 0, (0,), [[1.0]], lambda t: fast * t if t < 30 else fast * 30 + slow * (t - 30))
+        wave = Wave(
+            1, 0, (0,), [[1.0]], lambda t: fast * t if t < 30 else fast * 30 + slow * (t - 30)
+        )
         row = self.rows(self.measured(wave))['single quarters of LP(1,0), standard deviation']
         # nine of 3.0 and eight of 3.5
         self.assertAlmostEqual(row.measured, np.std([3.0] * 9 + [3.5] * 8), 6)
@@ -123,8 +133,13 @@ class Turning(Turned):
         """The standard deviation is known no better from a second vector that does the same at the same times."""
         lengths = 0.2 * np.random.default_rng(1).integers(12, 20, 50)
         ends = np.cumsum(lengths)
-        wave = Wave(1, 0, (0,), [[1.0], [1.0]],
-                    lambda t: np.pi / 2 * np.interp(t, np.r_[0, ends], np.arange(51)))
+        wave = Wave(
+            1,
+            0,
+            (0,),
+            [[1.0], [1.0]],
+            lambda t: np.pi / 2 * np.interp(t, np.r_[0, ends], np.arange(51)),
+        )
         self.TIMES = np.arange(0.0, ends[-1] - 0.5, 0.2)
         row = self.rows(self.measured(wave))['single quarters of LP(1,0), standard deviation']
         # from the first multiple of a quarter turn after the beginning to the last before the end
@@ -132,7 +147,7 @@ class Turning(Turned):
         self.assertAlmostEqual(row.measured, both.std(), 6)
         squares = ((both - both.mean()) ** 2).reshape(blocks.BLOCKS, -1).mean(axis=1)
         alone = 0.5 * squares.std(ddof=1) / 4 / both.std()
-        self.assertAlmostEqual(row.error / alone, 2 ** 0.5, 4)
+        self.assertAlmostEqual(row.error / alone, 2**0.5, 4)
 
     def test_uneven_quarters(self):
         wave = Wave(1, 0, (0,), [[1.0]], lambda t: np.pi / 2 * _alternating(t, 2.9, 3.3))
@@ -145,7 +160,9 @@ class Turning(Turned):
         self.TIMES = self.TIMES[:60]
         rows = self.rows(self.measured(*self.waves(3.2, 2.1)))
         self.assertEqual(rows['3.20 is a quarter period of'].verdict, 'not measured')
-        self.assertEqual(rows['single quarters of LP(1,0), standard deviation'].verdict, 'not measured')
+        self.assertEqual(
+            rows['single quarters of LP(1,0), standard deviation'].verdict, 'not measured'
+        )
         self.assertAlmostEqual(rows['quarter period of LP(1,0)'].measured, 3.2, 6)
 
     def test_strength(self):
@@ -155,7 +172,9 @@ class Turning(Turned):
             self.assertAlmostEqual(row.measured, strength, 6)
             self.assertEqual(row.verdict, verdict)
             # of this wave the paper does not say it
-            self.assertEqual((rows['a^2 + b^2 of LP(1,1), mean'].published, row.published), (None, 1.0))
+            self.assertEqual(
+                (rows['a^2 + b^2 of LP(1,1), mean'].published, row.published), (None, 1.0)
+            )
             self.assertAlmostEqual(rows['a^2 + b^2 of LP(1,1), mean'].measured, strength, 6)
 
     def test_untracked_is_left_out(self):
@@ -183,8 +202,11 @@ class Turning(Turned):
     def fields(self, times):
         step = made.step(self.WALLS, LP, 1, 0, 32, 33)
         other = made.step(self.WALLS, T, 1, 1, 34, 34)
-        return [made.mode_field(self.WALLS, one, sim_time=t, modulations=(0,), index=one.first_index)
-                for t in times for one in (step, other)]
+        return [
+            made.mode_field(self.WALLS, one, sim_time=t, modulations=(0,), index=one.first_index)
+            for t in times
+            for one in (step, other)
+        ]
 
     def test_snapshots(self):
         # L at 9.6, P at 12.8, .. in the fields; in the course of the phase the vector has the other sign
@@ -211,12 +233,17 @@ class Turning(Turned):
         _, lines = self.tables(self.measured(*self.waves(3.2, 2.1)))['phases']
         wave, time, _, a, b, phase = lines[3]
         self.assertEqual((wave, time), ('LP(1,0)', '0.8'))
-        z = 0.9 ** 0.5 * np.exp(1j * np.pi / 2 / 3.2 * 0.8)
-        np.testing.assert_allclose([float(a), float(b), float(phase)], [z.real, z.imag, np.angle(z)], atol=6e-5)
+        z = 0.9**0.5 * np.exp(1j * np.pi / 2 / 3.2 * 0.8)
+        np.testing.assert_allclose(
+            [float(a), float(b), float(phase)], [z.real, z.imag, np.angle(z)], atol=6e-5
+        )
 
     def test_nothing_measured(self):
         bag = self.bag(self.WALLS, made.cost(1))
-        self.assertEqual({row.verdict for row in turning.rows({turning.RUN: bag}) if row.published}, {'not measured'})
+        self.assertEqual(
+            {row.verdict for row in turning.rows({turning.RUN: bag}) if row.published},
+            {'not measured'},
+        )
         self.assertEqual(self.figures(bag), {})
         self.assertEqual(self.tables(bag)['phases'][1], [])
 
@@ -226,15 +253,19 @@ class Quarters(unittest.TestCase):
         time = np.arange(0.5, 6, 0.001)
         crossed = np.sqrt(rotation.QUARTER * np.arange(1, 23))
         for sign in (1, -1):
-            from_l, found = rotation.quarters(time, sign * time ** 2)
-            self.assertEqual(list(from_l[:4]), [False, True, False, True])      # the first level is a quarter turn
-            np.testing.assert_allclose(found, np.diff(crossed)[:len(found)], atol=1e-5)
+            from_l, found = rotation.quarters(time, sign * time**2)
+            self.assertEqual(
+                list(from_l[:4]), [False, True, False, True]
+            )  # the first level is a quarter turn
+            np.testing.assert_allclose(found, np.diff(crossed)[: len(found)], atol=1e-5)
             self.assertEqual(len(found), 21)
 
     def test_back_and_forth_over_a_multiple_counts_once(self):
         phase = np.array([0.1, 1.5, 1.6, 1.5, 1.6, 3.0, 3.2])
-        np.testing.assert_allclose(rotation.quarters(np.arange(7.0), phase)[1],
-                                   [5 + (np.pi - 3) / 0.2 - 1 - (np.pi / 2 - 1.5) / 0.1])
+        np.testing.assert_allclose(
+            rotation.quarters(np.arange(7.0), phase)[1],
+            [5 + (np.pi - 3) / 0.2 - 1 - (np.pi / 2 - 1.5) / 0.1],
+        )
 
 
 class Blocks(unittest.TestCase):

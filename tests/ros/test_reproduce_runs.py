@@ -21,10 +21,18 @@ from harness import Process, wait_until
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.realpath(os.path.join(HERE, '../..'))
 # of less than a second of computation
-TINY = dict(base='quick', disks=20, equilibration=1.0, warmup=1.0, full=dict(duration=2.0), quick=dict(duration=1.0),
-            observables=['spectrum'], seconds=[1, 1])
+TINY = dict(
+    base='quick',
+    disks=20,
+    equilibration=1.0,
+    warmup=1.0,
+    full=dict(duration=2.0),
+    quick=dict(duration=1.0),
+    observables=['spectrum'],
+    seconds=[1, 1],
+)
 LONG = dict(TINY, full=dict(duration=1e6))
-SOON = 90.0     # seconds within which all has ended that was asked to, on a busy machine: roslaunch alone takes up to 17
+SOON = 90.0  # seconds within which all has ended that was asked to, on a busy machine: roslaunch alone takes up to 17
 LATEST = 240.0  # that some runs of a second take there
 
 
@@ -45,8 +53,11 @@ class Reproduce(unittest.TestCase):
         """All parts of the plan of these runs, under the master of this test unless env names another."""
         with open(self.plan, 'w') as file:
             yaml.safe_dump(runs, file, sort_keys=False)
-        return Process([*self.command(runs).split(), '--plan', self.plan, '--out', self.out, *options],
-                       HDLYAP_MARK=self.mark, **env)
+        return Process(
+            [*self.command(runs).split(), '--plan', self.plan, '--out', self.out, *options],
+            HDLYAP_MARK=self.mark,
+            **env,
+        )
 
     @staticmethod
     def command(runs):
@@ -70,8 +81,11 @@ class Reproduce(unittest.TestCase):
         return os.path.join(self.out, *names)
 
     def files(self):
-        return sorted(os.path.relpath(path, self.out) for path in glob.glob(self.path('**'), recursive=True)
-                      if not os.path.isdir(path))
+        return sorted(
+            os.path.relpath(path, self.out)
+            for path in glob.glob(self.path('**'), recursive=True)
+            if not os.path.isdir(path)
+        )
 
     def times(self, *names):
         return [os.path.getmtime(self.path(name + '.bag')) for name in names]
@@ -80,10 +94,13 @@ class Reproduce(unittest.TestCase):
         """Processes of this test whose command line has the word, and whose environment has the variable."""
         found = []
         for folder in glob.glob('/proc/[0-9]*'):
-            with contextlib.suppress(OSError), open(folder + '/environ', 'rb') as environ, \
-                    open(folder + '/cmdline', 'rb') as command:
+            with contextlib.suppress(OSError), open(folder + '/environ', 'rb') as environ, open(
+                folder + '/cmdline', 'rb'
+            ) as command:
                 has = environ.read().decode(errors='replace').split('\0') + ['']
-                if {'HDLYAP_MARK=' + self.mark, variable} <= set(has) and word.encode() in command.read():
+                if {'HDLYAP_MARK=' + self.mark, variable} <= set(
+                    has
+                ) and word.encode() in command.read():
                     found.append(int(os.path.basename(folder)))
         return found
 
@@ -110,7 +127,9 @@ class Reproduce(unittest.TestCase):
         os.makedirs(self.out)
         with open(self.path('first.bag'), 'wb') as file:
             file.write(b'#ROSBAG V2.0\n' + bytes(5000))
-        self.check_failure(self.reproduce(runs, '--jobs', '2', status=1, HDLYAP_TEST_BROKEN='first'))
+        self.check_failure(
+            self.reproduce(runs, '--jobs', '2', status=1, HDLYAP_TEST_BROKEN='first')
+        )
         self.check_results(['first', 'second', 'wide'], broken=['first'])
         before = self.times('first', 'second', 'wide')
         runs['refused']['density'] = 0.5
@@ -130,25 +149,36 @@ class Reproduce(unittest.TestCase):
     def check_failure(self, said):
         log = self.path('log', 'refused.log')
         lines = [line for line in said.splitlines() if line.startswith('reproduce: ')]
-        self.assertEqual(len(lines), 3, said)       # when it failed, and at the end
-        self.assertEqual(lines.pop(), 'reproduce: part 2: ValueError: no such column; more in ' +
-                         self.path('log', 'part_02.log'))
+        self.assertEqual(len(lines), 3, said)  # when it failed, and at the end
+        self.assertEqual(
+            lines.pop(),
+            'reproduce: part 2: ValueError: no such column; more in '
+            + self.path('log', 'part_02.log'),
+        )
         for line in lines:
-            self.assertRegex(line, r"^reproduce: refused: the run has not come to its end; .*FATAL.*density = 2\.5: .*; "
-                             f'all that it said is in {log}$')
+            self.assertRegex(
+                line,
+                r"^reproduce: refused: the run has not come to its end; .*FATAL.*density = 2\.5: .*; "
+                f'all that it said is in {log}$',
+            )
         self.assertRegex(said, r'(?m)^3 of 4 runs done, 1 failed in \d+:\d\d$')
         self.assertIn('part 4: not drawn, the run refused is missing', said)
 
     def check_results(self, names, broken=()):
         wanted = [f'{name}.{ending}' for name in names for ending in ('bag', 'json', 'yaml')]
         self.assertLessEqual(set(wanted), set(self.files()))
-        self.assertEqual([name for name in self.files() if name.endswith('.bag')], [name + '.bag' for name in names])
+        self.assertEqual(
+            [name for name in self.files() if name.endswith('.bag')],
+            [name + '.bag' for name in names],
+        )
         with open(self.path('results', 'results.txt')) as file:
             text = file.read()
         for name in names:
             self.assertEqual(f'all about {name}\n' in text, name not in broken)
             self.assertRegex(text, rf'(?m)^  {name} +\d+:\d\d')
-            self.assertEqual(len(glob.glob(self.path('results', f'*_{name}.*'))), 3)    # png, svg, csv
+            self.assertEqual(
+                len(glob.glob(self.path('results', f'*_{name}.*'))), 3
+            )  # png, svg, csv
 
     def test_queue(self):
         """Runs made elsewhere with the files of --write: by one launch, and as tasks of a queue, one of which fails."""
@@ -156,8 +186,10 @@ class Reproduce(unittest.TestCase):
         names = self.reproduce(runs, '--write')
         self.assertEqual(names, 'one\ntwo\nwide\nrefused\n')
         self.assertEqual(self.files(), ['one.yaml', 'refused.yaml', 'two.yaml', 'wide.yaml'])
-        launch = Process(['roslaunch', 'hdlyap', 'reproduce.launch', 'runs:=one two', 'folder:=' + self.out],
-                         HDLYAP_MARK=self.mark)
+        launch = Process(
+            ['roslaunch', 'hdlyap', 'reproduce.launch', 'runs:=one two', 'folder:=' + self.out],
+            HDLYAP_MARK=self.mark,
+        )
         tasks = [self.task(runs, names, number) for number in (3, 4)]
         self.assertEqual(launch.wait(LATEST), 0, launch.text())
         for task, status in zip(tasks, (0, 1)):
@@ -171,22 +203,37 @@ class Reproduce(unittest.TestCase):
         with open(self.plan + '.names', 'w') as file:
             file.write(names)
         path = self.stand_in('rosrun', f'shift 2; exec {self.command(runs)} "$@"')
-        return Process(['bash', os.path.join(ROOT, 'launch/reproduce.sbatch'), self.out, file.name, '--plan', self.plan],
-                       HDLYAP_MARK=self.mark, SLURM_ARRAY_TASK_ID=str(number), PATH=path)
+        return Process(
+            [
+                'bash',
+                os.path.join(ROOT, 'launch/reproduce.sbatch'),
+                self.out,
+                file.name,
+                '--plan',
+                self.plan,
+            ],
+            HDLYAP_MARK=self.mark,
+            SLURM_ARRAY_TASK_ID=str(number),
+            PATH=path,
+        )
 
     # ---- ends ------------------------------------------------------------------------------------
 
     def test_interrupted(self):
         """Nothing is left of it, nor of a bag that was not whole; the run that was done stays done."""
-        process = self.start(dict(entries(first={}), long=LONG), '--jobs', '2', ROS_MASTER_URI=self.nobodys_master())
+        process = self.start(
+            dict(entries(first={}), long=LONG), '--jobs', '2', ROS_MASTER_URI=self.nobodys_master()
+        )
         wait_until(lambda: os.path.exists(self.path('first.json')) or not process.running())
         self.await_averaging(process)
         process.send(signal.SIGINT)
         self.assertEqual(process.wait(SOON), 130, process.text())
         self.assertRegex(process.text(), r'(?m)^1 of 2 runs done in \d+:\d\d$')
         self.assert_none_left()
-        self.assertEqual(self.files(), ['first.bag', 'first.json', 'first.yaml', 'log/first.log', 'log/long.log',
-                                        'long.yaml'])
+        self.assertEqual(
+            self.files(),
+            ['first.bag', 'first.json', 'first.yaml', 'log/first.log', 'log/long.log', 'long.yaml'],
+        )
 
     def test_terminated(self):
         process = self.start(dict(long=LONG))
@@ -213,15 +260,24 @@ class Reproduce(unittest.TestCase):
         process = self.start(dict(node=LONG, launch=LONG, **entries(good={})), '--jobs', '3')
         self.await_averaging(process, 2)
         names = ('node', 'launch')
-        self.assertTrue(wait_until(lambda: all(self.ours('hdlyap_node', 'ROS_NAMESPACE=/' + name) for name in names)))
+        self.assertTrue(
+            wait_until(
+                lambda: all(self.ours('hdlyap_node', 'ROS_NAMESPACE=/' + name) for name in names)
+            )
+        )
         time.sleep(1.5)
         os.kill(self.ours('hdlyap_node', 'ROS_NAMESPACE=/node')[0], signal.SIGKILL)
         os.kill(self.ours('runs:=launch')[0], signal.SIGKILL)
         self.assertEqual(process.wait(LATEST), 1, process.text())
         said = process.text()
-        self.assertRegex(said, r'reproduce: node: the run has not come to its end; '
-                         r'process has died \[pid \d+, exit code -9\]; all that it said')
-        self.assertRegex(said, r'reproduce: launch: the run has not come to its end; all that it said is in')
+        self.assertRegex(
+            said,
+            r'reproduce: node: the run has not come to its end; '
+            r'process has died \[pid \d+, exit code -9\]; all that it said',
+        )
+        self.assertRegex(
+            said, r'reproduce: launch: the run has not come to its end; all that it said is in'
+        )
         self.assertRegex(said, r'(?m)^1 of 3 runs done, 2 failed')
         self.assert_none_left()
         self.check_results(['good'])
@@ -231,7 +287,9 @@ class Reproduce(unittest.TestCase):
         self.await_averaging(process)
         os.kill(self.ours('rosmaster')[0], signal.SIGKILL)
         self.assertEqual(process.wait(SOON), 1, process.text())
-        self.assertRegex(process.text(), r'(?m)^reproduce: the ROS master at http://localhost:\d+ has gone')
+        self.assertRegex(
+            process.text(), r'(?m)^reproduce: the ROS master at http://localhost:\d+ has gone'
+        )
         self.assert_none_left()
 
     def test_node_does_not_come(self):

@@ -11,27 +11,49 @@ from hdlyap_plots import paper
 from hdlyap_reproduce import slopes
 from hdlyap_reproduce.parts import smallest
 
-SHAPES = {'400_05': (400, 0.5), '400_1': (400, 1.0), '600_075': (600, 0.75), '780_05': (780, 0.5),
-          '780_0867': (780, 0.867), '780_1': (780, 1.0)}
+SHAPES = {
+    '400_05': (400, 0.5),
+    '400_1': (400, 1.0),
+    '600_075': (600, 0.75),
+    '780_05': (780, 0.5),
+    '780_0867': (780, 0.867),
+    '780_1': (780, 1.0),
+}
 ERROR = 2e-4
 
 
 def run(box, boundary, factor):
     """Steps on the paper's curves times a factor; T(1,1) is the smallest one between walls."""
     info = recorded.info(*[SHAPES[box][0], 0.4, SHAPES[box][1]], boundaries=(boundary, boundary))
-    waves = {'periodic': ((T, 1, 0), (LP, 1, 0), (LP, 0, 1)), 'reflecting': ((T, 1, 1), (LP, 1, 0), (LP, 1, 1))}
+    waves = {
+        'periodic': ((T, 1, 0), (LP, 1, 0), (LP, 0, 1)),
+        'reflecting': ((T, 1, 1), (LP, 1, 0), (LP, 1, 1)),
+    }
     found = []
     for number, (kind, nx, ny) in enumerate(waves[boundary]):
         k = made.wave_number(info, nx, ny)
         c, c2 = paper.CURVES['T' if kind == T else 'LP']
-        found.append(made.step(info, kind, nx, ny, 100 - 4 * number, 101 - 4 * number,
-                               exponent=factor * (c * k + c2 * k * k), std_error=ERROR))
+        found.append(
+            made.step(
+                info,
+                kind,
+                nx,
+                ny,
+                100 - 4 * number,
+                101 - 4 * number,
+                exponent=factor * (c * k + c2 * k * k),
+                std_error=ERROR,
+            )
+        )
     return recorded.Bag(recorded.Recorded(info, made.steps(found)))
 
 
 def bags(**factors):
-    return {smallest.run_of(boundary, box): run(box, boundary, factors.get(boundary, 1.0))
-            for boundary in smallest.BOUNDARIES for box in SHAPES}
+    return {
+        smallest.run_of(boundary, box): run(box, boundary, factors.get(boundary, 1.0))
+        for boundary in smallest.BOUNDARIES
+        for box in SHAPES
+    }
 
 
 class Smallest(unittest.TestCase):
@@ -50,7 +72,9 @@ class Smallest(unittest.TestCase):
 
     def test_the_coefficients_are_of_both_boundaries(self):
         found = bags(reflecting=1.02)
-        curve = slopes.curve(smallest.points(found, 'LP', 'periodic') + smallest.points(found, 'LP', 'reflecting'))
+        curve = slopes.curve(
+            smallest.points(found, 'LP', 'periodic') + smallest.points(found, 'LP', 'reflecting')
+        )
         rows = recorded.by_quantity(smallest, found)
         for name, value, error in (('c', curve.c, curve.c_error), ('c2', curve.c2, curve.c2_error)):
             row = rows[f'{name} of lambda_L, both']
@@ -61,15 +85,21 @@ class Smallest(unittest.TestCase):
     def test_exponents_at_the_ends_of_the_range(self):
         rows = list(smallest.rows(bags(periodic=1.05)))
         info = recorded.info(780, 0.4, 0.5)
-        k = 2 * np.pi / info.box_x      # the smallest of the periodic ones
-        row, = [row for row in rows if row.quantity == f'lambda_L, periodic at smallest k = {k:.4f}']
+        k = 2 * np.pi / info.box_x  # the smallest of the periodic ones
+        (row,) = [
+            row for row in rows if row.quantity == f'lambda_L, periodic at smallest k = {k:.4f}'
+        ]
         there = 1.422 * k + 0.55 * k * k
         self.assertAlmostEqual(row.published, there, places=9)
         self.assertAlmostEqual(row.published_error, 0.03 * there, places=9)
         self.assertAlmostEqual(row.measured, 1.05 * there, places=9)
         self.assertEqual(row.verdict, 'differs')
         walls = np.pi / (info.box_x - 1)
-        row, = [row for row in rows if row.quantity == f'lambda_L, reflecting at smallest k = {walls:.4f}']
+        (row,) = [
+            row
+            for row in rows
+            if row.quantity == f'lambda_L, reflecting at smallest k = {walls:.4f}'
+        ]
         self.assertEqual(row.verdict, 'agrees')
         self.assertEqual(sum('both at' in row.quantity for row in rows), 4)
 
@@ -89,25 +119,36 @@ class Smallest(unittest.TestCase):
         for bag in loose.values():
             for step in bag.recording.steps.steps:
                 step.std_error *= 30
-        row = recorded.by_quantity(smallest, loose)['lambda_T: reflecting over periodic at equal k, less 1']
+        row = recorded.by_quantity(smallest, loose)[
+            'lambda_T: reflecting over periodic at equal k, less 1'
+        ]
         self.assertGreater(row.error, 1.0)
         self.assertEqual(row.verdict, 'known too poorly')
 
     def test_what_the_fits_go_through(self):
         found = bags()
-        one, other = (found[smallest.run_of('periodic', box)].recording.steps.steps for box in ('400_05', '600_075'))
-        one[0].set = one[1].set                             # T(1,0) with LP(1,0)
-        other[1].resolved = False                           # LP(1,0), so that LP(0,1) is taken
+        one, other = (
+            found[smallest.run_of('periodic', box)].recording.steps.steps
+            for box in ('400_05', '600_075')
+        )
+        one[0].set = one[1].set  # T(1,0) with LP(1,0)
+        other[1].resolved = False  # LP(1,0), so that LP(0,1) is taken
         rows = list(smallest.rows(found))
         remarks = {row.quantity.partition(' at ')[0]: row.remark for row in rows}
         beyond = '1 of them beyond a smaller step that is not resolved'
-        for name, said in (('lambda_T, periodic', '6 boxes, 1 of them share vectors, chi^2'),
-                           ('lambda_T, reflecting', '6 boxes, chi^2'),
-                           ('lambda_L, periodic', f'6 boxes, 1 of them share vectors; {beyond}, chi^2'),
-                           ('c of lambda_T, both', '12 boxes, 1 of them share vectors; c and c2 are correlated'),
-                           ('c2 of lambda_L, both', f'12 boxes, 1 of them share vectors; {beyond}; c and c2')):
+        for name, said in (
+            ('lambda_T, periodic', '6 boxes, 1 of them share vectors, chi^2'),
+            ('lambda_T, reflecting', '6 boxes, chi^2'),
+            ('lambda_L, periodic', f'6 boxes, 1 of them share vectors; {beyond}, chi^2'),
+            ('c of lambda_T, both', '12 boxes, 1 of them share vectors; c and c2 are correlated'),
+            ('c2 of lambda_L, both', f'12 boxes, 1 of them share vectors; {beyond}; c and c2'),
+        ):
             self.assertTrue(remarks[name].startswith(said), remarks[name])
-        self.assertTrue(remarks['lambda_T: reflecting over periodic'].endswith('12 boxes, 1 of them share vectors'))
+        self.assertTrue(
+            remarks['lambda_T: reflecting over periodic'].endswith(
+                '12 boxes, 1 of them share vectors'
+            )
+        )
         for name in ('lambda_T, both', 'c of lambda_T, both', 'c2 of lambda_L, both'):
             self.assertTrue(remarks[name].endswith('3 %: that of the density fits'), remarks[name])
 
@@ -120,17 +161,20 @@ class Smallest(unittest.TestCase):
         rows = recorded.by_quantity(smallest, bags())
         low, high = slopes.span(smallest.Branch(bags(), 'T').points['both'])
         # 3 % more of lambda at one end and less at the other, without curvature
-        matrix = np.array([[low, low ** 2], [high, high ** 2]])
+        matrix = np.array([[low, low**2], [high, high**2]])
         opens = np.abs(np.linalg.solve(matrix, [0.03 * 1.412 * low, -0.03 * 1.412 * high]))
         self.assertAlmostEqual(rows['c of lambda_T, both'].published_error, opens[0], places=9)
         self.assertAlmostEqual(rows['c2 of lambda_T, both'].published_error, opens[1], places=9)
 
     def test_not_measured(self):
-        bare = {name: recorded.Bag(recorded.Recorded(bag.recording.info)) for name, bag in bags().items()}
+        bare = {
+            name: recorded.Bag(recorded.Recorded(bag.recording.info))
+            for name, bag in bags().items()
+        }
         verdicts = {row.verdict for row in smallest.rows(bare)}
         self.assertEqual(verdicts, {'not measured'})
         self.assertEqual(recorded.pictures(self, smallest, bare), [])
-        (_, _, lines), = smallest.tables(bare)
+        ((_, _, lines),) = smallest.tables(bare)
         self.assertEqual({line[4] for line in lines}, {'none resolved'})
 
     def test_one_run_without_steps(self):
@@ -142,11 +186,13 @@ class Smallest(unittest.TestCase):
         self.assertEqual(recorded.pictures(self, smallest, found), ['smallest'])
 
     def test_table(self):
-        (name, header, lines), = smallest.tables(bags())
+        ((name, header, lines),) = smallest.tables(bags())
         self.assertEqual((name, len(lines)), ('smallest', 24))
         line = dict(zip(header, lines[6]))
-        self.assertEqual((line['boundaries'], line['disks'], line['kind'], line['step']),
-                         ('reflecting', 400, 'T', 'T(1,1)'))
+        self.assertEqual(
+            (line['boundaries'], line['disks'], line['kind'], line['step']),
+            ('reflecting', 400, 'T', 'T(1,1)'),
+        )
         info = recorded.info(400, 0.4, 0.5)
         k = np.pi * np.hypot(1 / (info.box_x - 1), 1 / (info.box_y - 1))
         self.assertAlmostEqual(float(line['wave_number']), k, places=5)

@@ -58,16 +58,22 @@ class Run(unittest.TestCase):
 
     def check_spectrum(self, spectrum, info):
         self.assertEqual(info.vectors, 80)
-        for array in (spectrum.exponents, spectrum.std_errors, spectrum.local_exponents,
-                      spectrum.cos_theta, spectrum.dp_dq_ratio):
+        for array in (
+            spectrum.exponents,
+            spectrum.std_errors,
+            spectrum.local_exponents,
+            spectrum.cos_theta,
+            spectrum.dp_dq_ratio,
+        ):
             self.assertEqual(len(array), info.vectors)
         self.assertEqual(spectrum.first_index, 1)
         self.assertEqual(spectrum.lambda_max, spectrum.exponents[0])
         positive = sum(e for e in spectrum.exponents if e > 0)
         self.assertAlmostEqual(spectrum.ks_entropy, positive, delta=1e-12 * positive)
         pairs = zip(spectrum.exponents, reversed(spectrum.exponents))
-        self.assertAlmostEqual(spectrum.pairing_error, max(abs(a + b) for a, b in pairs),
-                               delta=1e-12)
+        self.assertAlmostEqual(
+            spectrum.pairing_error, max(abs(a + b) for a, b in pairs), delta=1e-12
+        )
         self.assertEqual(spectrum.averaged_time, 2.0)
         self.assertGreater(spectrum.collisions, 100)
 
@@ -102,7 +108,7 @@ class Run(unittest.TestCase):
         self.assertTrue(pause(True).success)
         self.assertTrue(harness.wait_until(lambda: self.diagnostic().message == 'paused'))
         before = len(cost.messages)
-        rospy.sleep(0.3)    # at this pace six messages
+        rospy.sleep(0.3)  # at this pace six messages
         self.assertEqual(len(cost.messages), before)
         self.assertTrue(pause(False).success)
         time = cost.messages[-1].sim_time
@@ -115,8 +121,11 @@ class Run(unittest.TestCase):
         self.assertTrue(spectrum.wait_for(lambda message: message.averaged_time >= 2))
         self.assertTrue(self.service('reset_average', Trigger)().success)
         time = spectrum.messages[-1].averaged_time
-        self.assertTrue(spectrum.wait_for(
-            lambda message: message.averaged_time < time and message.sim_time > 2 + time))
+        self.assertTrue(
+            spectrum.wait_for(
+                lambda message: message.averaged_time < time and message.sim_time > 2 + time
+            )
+        )
 
     def test_reset_average_without_averages(self):
         self.start(dict(ENDLESS, equilibration=1e6))
@@ -138,7 +147,7 @@ class Run(unittest.TestCase):
         self.assertEqual(values['repairs'], '0')
         for key in ('phase', 'progress', 'interval', 'condition', 'collisions per second'):
             self.assertIn(key, values)
-        self.assertNotIn('resolved steps', values)     # nobody listens to them
+        self.assertNotIn('resolved steps', values)  # nobody listens to them
 
     def test_diagnostics_once_per_second(self):
         stamps = []
@@ -151,7 +160,7 @@ class Run(unittest.TestCase):
 
     def test_nothing_computed_without_subscribers(self):
         calls = harness.calls(self, SHORT)
-        self.assertEqual(calls.pop('run_info_publish'), 1)      # latched
+        self.assertEqual(calls.pop('run_info_publish'), 1)  # latched
         self.assertEqual(set(calls.values()), {0}, calls)
 
     def test_computed_for_subscribers(self):
@@ -165,8 +174,9 @@ class Run(unittest.TestCase):
     def fault(self, **probe):
         self.listen('state')
         cost = self.listen('cost')
-        node = self.start(dict(SHORT, wait_for_subscribers='all', observables=['state']),
-                          probe=probe)
+        node = self.start(
+            dict(SHORT, wait_for_subscribers='all', observables=['state']), probe=probe
+        )
         self.listen('run_info')
         self.assertEqual(node.wait(), 3, node.text())
         fatal = node.lines('FATAL')
@@ -187,8 +197,11 @@ class Run(unittest.TestCase):
         self.addCleanup(rospy.Subscriber('/diagnostics', DiagnosticArray, errors.append).unregister)
         node = self.start(dict(ENDLESS), probe={'PROBE_FAULT_AFTER': '30'})
         self.assertEqual(node.wait(), 3)
-        self.assertTrue(harness.wait_until(
-            lambda: errors and errors[-1].status[0].level == DiagnosticStatus.ERROR))
+        self.assertTrue(
+            harness.wait_until(
+                lambda: errors and errors[-1].status[0].level == DiagnosticStatus.ERROR
+            )
+        )
         self.assertTrue(re.search('ill-conditioned', errors[-1].status[0].message))
 
 

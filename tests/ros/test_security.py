@@ -19,25 +19,76 @@ import harness
 import links
 from harness import SHORT
 
-CALLS = ('open,openat,openat2,creat,execve,execveat,fork,vfork,clone,clone3,unlink,unlinkat,rename,renameat,'
-         'renameat2,mkdir,mkdirat,rmdir,symlink,symlinkat,link,linkat,chmod,fchmodat,chown,truncate,connect,'
-         'ptrace,kill,mknod,mknodat')
+CALLS = (
+    'open,openat,openat2,creat,execve,execveat,fork,vfork,clone,clone3,unlink,unlinkat,rename,renameat,'
+    'renameat2,mkdir,mkdirat,rmdir,symlink,symlinkat,link,linkat,chmod,fchmodat,chown,truncate,connect,'
+    'ptrace,kill,mknod,mknodat'
+)
 WRITING = re.compile(r'O_WRONLY|O_RDWR|O_CREAT|O_TRUNC|O_APPEND')
 # libraries, processors, names of hosts and time zones
-SYSTEM = ('/etc/ld.so', '/etc/host', '/etc/nsswitch.conf', '/etc/resolv.conf', '/etc/gai.conf',
-          '/etc/localtime', '/etc/ssl/openssl.cnf', '/usr/share/zoneinfo', '/lib', '/usr/lib', '/opt/ros',
-          '/sys/devices/system', '/sys/fs/cgroup', '/proc/self', '/proc/cpuinfo', '/proc/meminfo')
+SYSTEM = (
+    '/etc/ld.so',
+    '/etc/host',
+    '/etc/nsswitch.conf',
+    '/etc/resolv.conf',
+    '/etc/gai.conf',
+    '/etc/localtime',
+    '/etc/ssl/openssl.cnf',
+    '/usr/share/zoneinfo',
+    '/lib',
+    '/usr/lib',
+    '/opt/ros',
+    '/sys/devices/system',
+    '/sys/fs/cgroup',
+    '/proc/self',
+    '/proc/cpuinfo',
+    '/proc/meminfo',
+)
 FORGED = 'a\n[FATAL] [1.000]: forged'
-NASTY = ['$(touch nasty)', '`touch nasty`', '; touch nasty', '| touch nasty', '../../../etc/passwd',
-         '/etc/passwd', '%s%s%n%n%x', FORGED, '\x7f\x9b2Jtitle', '{{}}[]<&>"\'\\',
-         'x' * 100000, 'Lyapunov \u03bb \U0001f600', 'file:///etc/passwd', '[a, b', ' ']
-PARAMETERS = ['disks', 'density', 'aspect', 'boundary_x', 'boundary_y', 'seed', 'exponents', 'equilibration',
-              'warmup', 'duration', 'target_std_error', 'interval', 'accuracy', 'report_interval',
-              'max_wave_number', 'max_node', 'field_indices', 'observables', 'threads',
-              'wait_for_subscribers', 'pace', 'checkpoint_interval']
+NASTY = [
+    '$(touch nasty)',
+    '`touch nasty`',
+    '; touch nasty',
+    '| touch nasty',
+    '../../../etc/passwd',
+    '/etc/passwd',
+    '%s%s%n%n%x',
+    FORGED,
+    '\x7f\x9b2Jtitle',
+    '{{}}[]<&>"\'\\',
+    'x' * 100000,
+    'Lyapunov \u03bb \U0001f600',
+    'file:///etc/passwd',
+    '[a, b',
+    ' ',
+]
+PARAMETERS = [
+    'disks',
+    'density',
+    'aspect',
+    'boundary_x',
+    'boundary_y',
+    'seed',
+    'exponents',
+    'equilibration',
+    'warmup',
+    'duration',
+    'target_std_error',
+    'interval',
+    'accuracy',
+    'report_interval',
+    'max_wave_number',
+    'max_node',
+    'field_indices',
+    'observables',
+    'threads',
+    'wait_for_subscribers',
+    'pace',
+    'checkpoint_interval',
+]
 
 
-AT_ONCE = 4     # nodes that run at the same time
+AT_ONCE = 4  # nodes that run at the same time
 
 
 # of those that take texts and lists; each run under strace takes some hundred changes of the process
@@ -55,9 +106,28 @@ class Security(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         trace = os.path.join(folder.name, 'trace')
-        return self.start(params, command=['strace', '-f', '--seccomp-bpf', '-qq', '-s', '200', '-e', 'signal=none',
-                                           '-e', 'trace=' + CALLS, '-o', trace, harness.executable()],
-                          **how), trace
+        return (
+            self.start(
+                params,
+                command=[
+                    'strace',
+                    '-f',
+                    '--seccomp-bpf',
+                    '-qq',
+                    '-s',
+                    '200',
+                    '-e',
+                    'signal=none',
+                    '-e',
+                    'trace=' + CALLS,
+                    '-o',
+                    trace,
+                    harness.executable(),
+                ],
+                **how,
+            ),
+            trace,
+        )
 
     def check_watched(self, params, status, lines, ours=(), **how):
         """How it ends, with how many lines, and that it writes only these files."""
@@ -68,7 +138,7 @@ class Security(unittest.TestCase):
 
     def check_all(self, all_params, status, lines):
         for first in range(0, len(all_params), AT_ONCE):
-            some = all_params[first:first + AT_ONCE]
+            some = all_params[first : first + AT_ONCE]
             nodes = [self.start(params, name='short_%d' % k) for k, params in enumerate(some)]
             for node, params in zip(nodes, some):
                 with self.subTest(params={key: str(value)[:40] for key, value in params.items()}):
@@ -101,10 +171,10 @@ class Security(unittest.TestCase):
                 else:
                     self.assertEqual((name, '"/proc/self/exe"' in arguments), ('execve', True))
                     restarts += 1
-        self.assertLessEqual(restarts, 1)   # hd_blas_restart_if_slow
+        self.assertLessEqual(restarts, 1)  # hd_blas_restart_if_slow
 
     def check_open(self, arguments, returned, ours):
-        path, = paths_of(arguments)
+        (path,) = paths_of(arguments)
         built = os.path.dirname(os.path.dirname(os.path.dirname(harness.executable())))
         if WRITING.search(arguments):
             self.assertIn(path, ours)
@@ -115,8 +185,11 @@ class Security(unittest.TestCase):
         lines = [line for line in node.text().split('\n') if line]
         self.assertEqual(len(lines), count, node.text())
         for line in lines:
-            self.assertRegex(line, r'^(\x1b\[\d*m)?\[(FATAL|ERROR| WARN| INFO)\] \[[0-9.]{12,}\]: '
-                                   r'[^\x00-\x1f\x7f]*(\x1b\[0m)?$')
+            self.assertRegex(
+                line,
+                r'^(\x1b\[\d*m)?\[(FATAL|ERROR| WARN| INFO)\] \[[0-9.]{12,}\]: '
+                r'[^\x00-\x1f\x7f]*(\x1b\[0m)?$',
+            )
 
     def test_scene(self):
         """The one text that may be any line."""
@@ -139,18 +212,32 @@ class Security(unittest.TestCase):
 
     def test_every_parameter(self):
         values = [FORGED] + [value for value in NASTY if value.strip()]
-        self.check_all([dict(SHORT, **{name: values[(number + k) % len(values)]})
-                        for k, name in enumerate(PARAMETERS) for number in (0, -k)], 2, 1)
+        self.check_all(
+            [
+                dict(SHORT, **{name: values[(number + k) % len(values)]})
+                for k, name in enumerate(PARAMETERS)
+                for number in (0, -k)
+            ],
+            2,
+            1,
+        )
         for name, value in zip(WATCHED, NASTY):
             self.check_watched(dict(SHORT, **{name: value}), 2, 1)
 
     def test_names(self):
-        self.check_all([dict(SHORT, **{name: 1}) for name in (FORGED, '%s%n', '..', '$(touch nasty)')], 2, 1)
+        self.check_all(
+            [dict(SHORT, **{name: 1}) for name in (FORGED, '%s%n', '..', '$(touch nasty)')], 2, 1
+        )
 
     def test_arguments(self):
         """rosrun can say what XML cannot."""
-        for argument in (b'_scene:=\xff\xfe\xc3(\x80', b'_scene:=\x1b[2J\x1b]0;title\x07', b'\x1b[2J\n',
-                         b'__name:=a\nb', b'_a\n:=1'):
+        for argument in (
+            b'_scene:=\xff\xfe\xc3(\x80',
+            b'_scene:=\x1b[2J\x1b]0;title\x07',
+            b'\x1b[2J\n',
+            b'__name:=a\nb',
+            b'_a\n:=1',
+        ):
             with self.subTest(argument=argument):
                 node = self.start(SHORT, args=[argument])
                 self.assertIn(node.wait(), (0, 2), node.text())
@@ -178,9 +265,9 @@ class Security(unittest.TestCase):
             try:
                 level(text, text)
             except rospy.ServiceException:
-                pass    # refused
+                pass  # refused
         port = int(rosgraph.Master('/test').lookupService('/hdlyap/pause').rsplit(':', 1)[1])
-        for length, data in ((0, b''), (1, b'\xff'), (5, b'abcde'), (0xffffffff, b'abc')):
+        for length, data in ((0, b''), (1, b'\xff'), (5, b'abcde'), (0xFFFFFFFF, b'abc')):
             with socket.create_connection(('localhost', port)) as caller:
                 caller.sendall(links.pack(dict(callerid='/x', service='/hdlyap/pause', md5sum='*')))
                 caller.sendall(links.LENGTH.pack(length) + data)
@@ -191,7 +278,10 @@ class Security(unittest.TestCase):
 
 
 def paths_of(arguments):
-    return [text.encode().decode('unicode_escape') for text in re.findall(r'"((?:[^"\\]|\\.)*)"', arguments)]
+    return [
+        text.encode().decode('unicode_escape')
+        for text in re.findall(r'"((?:[^"\\]|\\.)*)"', arguments)
+    ]
 
 
 def node_pid(node):

@@ -1,4 +1,5 @@
-/** Ten thousand random sets of parameters, without ROS: each is accepted, or refused in one line with its name. */
+/** Ten thousand random sets of parameters, without ROS: each is accepted, or refused in one line
+ * with its name. */
 #include <gtest/gtest.h>
 
 #include <map>

@@ -14,7 +14,7 @@ import harness
 import links
 from harness import SHORT, Cost
 
-BOUND = 1.0     # seconds, the contract
+BOUND = 1.0  # seconds, the contract
 ENDLESS = dict(SHORT, disks=100, duration=0.0)
 
 
@@ -78,8 +78,9 @@ class Stop(unittest.TestCase):
 
     def test_during_a_step(self):
         cost = self.listen('cost')
-        node = self.start(dict(ENDLESS, wait_for_subscribers=['cost']),
-                          probe={'PROBE_STEP_SECONDS': '1.6'})
+        node = self.start(
+            dict(ENDLESS, wait_for_subscribers=['cost']), probe={'PROBE_STEP_SECONDS': '1.6'}
+        )
         self.assertTrue(cost.wait_for(lambda message: True))
         before = cost.messages[-1]
         self.stop(node)
@@ -96,8 +97,9 @@ class Stop(unittest.TestCase):
         echo = harness.Process(['rostopic', 'echo', '/hdlyap/state'])
         self.addCleanup(echo.stop)
         cost = self.listen('cost')
-        node = self.start(dict(ENDLESS, disks=5000, exponents='none',
-                               wait_for_subscribers=['state', 'cost']))
+        node = self.start(
+            dict(ENDLESS, disks=5000, exponents='none', wait_for_subscribers=['state', 'cost'])
+        )
         self.assertTrue(cost.wait_for(lambda message: True))
         echo.send(signal.SIGSTOP)
         self.assertTrue(cost.wait_for(lambda message: message.sim_time > 60))
@@ -132,15 +134,16 @@ class Stop(unittest.TestCase):
         reader = links.Reader([cost])
         time.sleep(0.3)
         master.send(signal.SIGSTOP)
-        time.sleep(0.3)     # the next question is out
+        time.sleep(0.3)  # the next question is out
         self.stop(node)
         reader.join(harness.PATIENCE)
-        self.assertEqual((cost.seqs, node.lines('WARN')), ([0], []))     # the last word alone
+        self.assertEqual((cost.seqs, node.lines('WARN')), ([0], []))  # the last word alone
 
     def test_while_keeping_pace(self):
         cost = self.listen('cost')
-        node = self.start(dict(ENDLESS, pace=0.1, report_interval=0.01,
-                               wait_for_subscribers=['cost']))
+        node = self.start(
+            dict(ENDLESS, pace=0.1, report_interval=0.01, wait_for_subscribers=['cost'])
+        )
         self.assertTrue(cost.wait_for(lambda message: True))
         self.stop(node)
 
@@ -155,8 +158,7 @@ class Stop(unittest.TestCase):
 
     def test_master_comes_later(self):
         port = harness.free_port()
-        node = harness.Process([harness.executable()],
-                               ROS_MASTER_URI='http://localhost:%d' % port)
+        node = harness.Process([harness.executable()], ROS_MASTER_URI='http://localhost:%d' % port)
         self.addCleanup(node.stop)
         self.assertTrue(harness.wait_until(lambda: node.lines('waiting for it')), node.text())
         master = harness.Master(port)

@@ -16,15 +16,24 @@ import harness
 import links
 from harness import MODES, OBSERVABLES, SHORT, TYPES
 
-BOUND = 1.0     # seconds from a request to stop to the end, the contract
+BOUND = 1.0  # seconds from a request to stop to the end, the contract
 MB = 1 << 20
-QUEUE_BYTES = 128e6     # of one topic at most, see outlets.c
-SLACK = 32 * MB         # of what is fragmented, and the node's own growth
-EVERY_TOPIC = dict(MODES, equilibration=1.0, warmup=1.0, duration=100.0, report_interval=0.25, field_interval=0.0,
-                   observables=OBSERVABLES)
+QUEUE_BYTES = 128e6  # of one topic at most, see outlets.c
+SLACK = 32 * MB  # of what is fragmented, and the node's own growth
+EVERY_TOPIC = dict(
+    MODES,
+    equilibration=1.0,
+    warmup=1.0,
+    duration=100.0,
+    report_interval=0.25,
+    field_interval=0.0,
+    observables=OBSERVABLES,
+)
 REPORTS, AVERAGED_REPORTS = 408, 400
 # messages of 160 kB, thousands of them in a second
-BULKY = dict(disks=5000, exponents='none', observables=['state'], report_interval=0.02, duration=0.0)
+BULKY = dict(
+    disks=5000, exponents='none', observables=['state'], report_interval=0.02, duration=0.0
+)
 
 
 def resident(node):
@@ -65,12 +74,15 @@ class Subscribers(unittest.TestCase):
     def test_ten_on_every_topic(self):
         node = self.start(dict(EVERY_TOPIC, wait_for_subscribers='all'))
         port = links.node_port(node)
-        ten = {topic: [self.link(port, topic, '/links_%d' % k) for k in range(10)]
-               for topic in TYPES if topic != 'run_info'}
+        ten = {
+            topic: [self.link(port, topic, '/links_%d' % k) for k in range(10)]
+            for topic in TYPES
+            if topic != 'run_info'
+        }
         for some in ten.values():
             for link in some:
                 link.greet()
-        ten['run_info'] = [self.link(port, 'run_info')]     # the run waits for it alone now
+        ten['run_info'] = [self.link(port, 'run_info')]  # the run waits for it alone now
         reader = self.read(sum(ten.values(), []))
         self.assertEqual(node.wait(), 0, node.text())
         reader.join(harness.PATIENCE)
@@ -80,9 +92,18 @@ class Subscribers(unittest.TestCase):
                 self.assertEqual(len({tuple(link.seqs) for link in some}), 1)
         counts = {topic: len(some[0].seqs) for topic, some in ten.items()}
         self.assertGreater(counts.pop('fields'), AVERAGED_REPORTS / 2)
-        self.assertEqual(counts, dict(run_info=1, state=REPORTS, cost=REPORTS,
-                                      **{topic: AVERAGED_REPORTS for topic in
-                                         ('spectrum', 'modes', 'steps', 'lp_phases', 'hydro')}))
+        self.assertEqual(
+            counts,
+            dict(
+                run_info=1,
+                state=REPORTS,
+                cost=REPORTS,
+                **{
+                    topic: AVERAGED_REPORTS
+                    for topic in ('spectrum', 'modes', 'steps', 'lp_phases', 'hydro')
+                },
+            ),
+        )
 
     def test_stopped_reading(self):
         """What they have not read is dropped; memory stays that of one queue, which they share."""
@@ -105,18 +126,31 @@ class Subscribers(unittest.TestCase):
         """Thousands of reports in a second, on all topics, nothing else to do."""
         for disks in (2, 10):
             with self.subTest(disks=disks):
-                node = self.start(dict(disks=disks, density=0.3, aspect=1.0, exponents='all',
-                                       equilibration=0.1, warmup=0.1, duration=0.0,
-                                       report_interval=1.0e-4, observables=OBSERVABLES,
-                                       wait_for_subscribers='all'))
+                node = self.start(
+                    dict(
+                        disks=disks,
+                        density=0.3,
+                        aspect=1.0,
+                        exponents='all',
+                        equilibration=0.1,
+                        warmup=0.1,
+                        duration=0.0,
+                        report_interval=1.0e-4,
+                        observables=OBSERVABLES,
+                        wait_for_subscribers='all',
+                    )
+                )
                 port = links.node_port(node)
                 every = [self.link(port, topic) for topic in TYPES]
                 before = resident(node)
                 self.read(every)
                 state = next(link for link in every if link.topic == 'state')
                 self.wait_for(lambda: len(state.seqs) > 5000)
-                queues = sum(1000 * link.bytes / max(len(link.seqs), 1) for link in every
-                             if link.topic != 'run_info')
+                queues = sum(
+                    1000 * link.bytes / max(len(link.seqs), 1)
+                    for link in every
+                    if link.topic != 'run_info'
+                )
                 self.assertLess(resident(node) - before, queues + SLACK)
                 self.stop(node)
 
@@ -150,10 +184,13 @@ class Subscribers(unittest.TestCase):
         cost = self.link(port, 'cost')
         self.read([cost])
         for k in range(40):
-            noise = [bytes(randomly.choices(range(256), k=randomly.randrange(1, 2000))), b'\xff' * 4 + b'a' * 100,
-                     b'POST / HTTP/1.1\r\nContent-Length: -5\r\n\r\n<methodCall>',
-                     links.pack(dict(md5sum='0' * 32, topic='/hdlyap/state', callerid='%n%s')),
-                     links.LENGTH.pack(8) + links.LENGTH.pack(0x7fffffff) + b'abcd'][k % 5]
+            noise = [
+                bytes(randomly.choices(range(256), k=randomly.randrange(1, 2000))),
+                b'\xff' * 4 + b'a' * 100,
+                b'POST / HTTP/1.1\r\nContent-Length: -5\r\n\r\n<methodCall>',
+                links.pack(dict(md5sum='0' * 32, topic='/hdlyap/state', callerid='%n%s')),
+                links.LENGTH.pack(8) + links.LENGTH.pack(0x7FFFFFFF) + b'abcd',
+            ][k % 5]
             with socket.create_connection(('localhost', (port, calls)[k % 2])) as stranger:
                 stranger.sendall(noise)
         now = len(cost.seqs)
@@ -167,8 +204,10 @@ class Subscribers(unittest.TestCase):
         master = harness.Master()
         uri, port_of_master = master.uri, int(master.uri.rsplit(':', 1)[1])
         self.addCleanup(master.stop)
-        node = self.start(dict(SHORT, duration=0.0, pace=20.0, wait_for_subscribers=['cost', 'state']),
-                          ROS_MASTER_URI=uri)
+        node = self.start(
+            dict(SHORT, duration=0.0, pace=20.0, wait_for_subscribers=['cost', 'state']),
+            ROS_MASTER_URI=uri,
+        )
         port = links.node_port(node, uri)
         some = [self.link(port, topic) for topic in ('cost', 'state')]
         self.read(some)

@@ -33,19 +33,35 @@ class Sweep(unittest.TestCase):
         lines = text.splitlines()
         self.assertRegex(text, '(?m)^density  lambda_max')
         head = next(k for k, line in enumerate(lines) if line.startswith('density  lambda_max'))
-        return {line.split()[0]: line.split()[1] for line in lines[head + 1:head + 1 + len(DENSITIES)] if line}
+        return {
+            line.split()[0]: line.split()[1]
+            for line in lines[head + 1 : head + 1 + len(DENSITIES)]
+            if line
+        }
 
     def sweep(self, folder, *args, **env):
-        return self.process(['roslaunch', 'hdlyap', 'sweep.launch', 'scene:=quick', *args], folder, **env)
+        return self.process(
+            ['roslaunch', 'hdlyap', 'sweep.launch', 'scene:=quick', *args], folder, **env
+        )
 
     def test_two_sweeps(self):
         """At once, of which one is recorded; the other, in a namespace and with a master of its own, has a density that
         is refused."""
         with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as other:
-            recorded = self.sweep(folder, 'densities:=' + ' '.join(DENSITIES), 'record:=true', 'seed:=5',
-                                  'duration:=20')
-            seen = self.sweep(other, 'densities:=0.3 2.5', 'duration:=10', ROS_NAMESPACE='/lab',
-                              ROS_MASTER_URI='http://localhost:%d' % harness.free_port())
+            recorded = self.sweep(
+                folder,
+                'densities:=' + ' '.join(DENSITIES),
+                'record:=true',
+                'seed:=5',
+                'duration:=20',
+            )
+            seen = self.sweep(
+                other,
+                'densities:=0.3 2.5',
+                'duration:=10',
+                ROS_NAMESPACE='/lab',
+                ROS_MASTER_URI='http://localhost:%d' % harness.free_port(),
+            )
             recorded.wait()
             seen.wait()
             self.check_recorded(recorded, folder)
@@ -66,12 +82,17 @@ class Sweep(unittest.TestCase):
     def check_seen(self, launch):
         """The other run goes on to its end, and the table says what is missing."""
         self.assertEqual(list(self.table(launch.text()))[:1], ['0.3'], launch.text())
-        self.assertEqual(len(launch.lines('sweep_table: density_2_5: no averages')), 1, launch.text())
+        self.assertEqual(
+            len(launch.lines('sweep_table: density_2_5: no averages')), 1, launch.text()
+        )
         self.assertEqual(len(launch.lines('FATAL')), 1)
 
     def check_bag(self, path, node, density):
         with rosbag.Bag(path) as bag:
-            count = {topic: entry.message_count for topic, entry in bag.get_type_and_topic_info()[1].items()}
+            count = {
+                topic: entry.message_count
+                for topic, entry in bag.get_type_and_topic_info()[1].items()
+            }
             info = next(message for _, message, _ in bag.read_messages(node + '/run_info'))
         self.assertEqual(count[node + '/spectrum'], 20)
         self.assertEqual(count[node + '/cost'], 60)

@@ -31,13 +31,22 @@ class Bag(unittest.TestCase):
 
 class SeveralRuns(Bag):
     def messages(self):
-        return [made.cost(1.0), made.run_info(), made.spectrum([3.0], 1.0),
-                made.run_info(run_id='two'), made.spectrum([4.0], 2.0, run_id='two'),
-                made.run_info(), made.spectrum([5.0], 2.0)]     # the first goes on being repeated
+        return [
+            made.cost(1.0),
+            made.run_info(),
+            made.spectrum([3.0], 1.0),
+            made.run_info(run_id='two'),
+            made.spectrum([4.0], 2.0, run_id='two'),
+            made.run_info(),
+            made.spectrum([5.0], 2.0),
+        ]  # the first goes on being repeated
 
     def test_the_last_or_the_chosen_one(self):
-        for number, (run_id, largest) in ((None, ('two', 4.0)), (1, ('one', 5.0)),
-                                          (2, ('two', 4.0))):
+        for number, (run_id, largest) in (
+            (None, ('two', 4.0)),
+            (1, ('one', 5.0)),
+            (2, ('two', 4.0)),
+        ):
             run = self.recorded(self.messages(), number=number)
             self.assertEqual((run.info.run_id, run.spectrum.lambda_max), (run_id, largest))
             self.assertIn('one of 2 runs in the bag; --run 1 .. 2 chooses', report.report(run))
@@ -45,8 +54,9 @@ class SeveralRuns(Bag):
 
     def test_a_number_that_is_none(self):
         for number in (0, 3, -1):
-            with self.assertRaisesRegex(recording.RecordingError,
-                                        f'no run {number} in it, only 1 .. 2'):
+            with self.assertRaisesRegex(
+                recording.RecordingError, f'no run {number} in it, only 1 .. 2'
+            ):
                 self.recorded(self.messages(), number=number)
 
     def test_what_was_recorded_before_run_info_counts(self):
@@ -56,22 +66,30 @@ class SeveralRuns(Bag):
 class Unfinished(Bag):
     def test_name_of_a_bag_that_is_still_recorded(self):
         open(self.path + '.active', 'w').close()
-        with self.assertRaisesRegex(recording.RecordingError,
-                                    r'run\.bag\.active is there: .* rosbag reindex .*\.active$'):
+        with self.assertRaisesRegex(
+            recording.RecordingError, r'run\.bag\.active is there: .* rosbag reindex .*\.active$'
+        ):
             recording.read(self.path)
 
 
 class Long(Bag):
     def test_time_left_on_a_terminal(self):
         """Every step of a thousand takes a tenth of a second of a clock that is made up."""
-        terminal = Terminal([sys.executable, '-c', '''
+        terminal = Terminal(
+            [
+                sys.executable,
+                '-c',
+                '''
 import itertools, time
 from hdlyap_plots.progress import Progress
 ticks = itertools.count()
 time.monotonic = lambda: 0.1 * next(ticks)
 for number in Progress('reading').over(range(1000), 1000):
     pass
-'''], PYTHONPATH=SCRIPTS)
+''',
+            ],
+            PYTHONPATH=SCRIPTS,
+        )
         self.addCleanup(terminal.stop)
         self.assertEqual(terminal.wait(), 0)
         self.assertTrue(terminal.wait_for(''))
@@ -84,17 +102,25 @@ class Steps(Bag):
     def test_figure(self):
         info = made.run_info()
         shared = {'set': 7, 'members': 2}
-        both = [made.step(info, T, 1, 1, 26, 33, expected=4, multiplicity=3.9, **shared),
-                made.step(info, LP, 0, 1, 26, 33, expected=4, multiplicity=3.5, **shared)]
+        both = [
+            made.step(info, T, 1, 1, 26, 33, expected=4, multiplicity=3.9, **shared),
+            made.step(info, LP, 0, 1, 26, 33, expected=4, multiplicity=3.5, **shared),
+        ]
         exponents = EXPONENTS.copy()
         exponents[35:] = 1.01, 0.99
-        run = self.recorded([info, made.spectrum(exponents, 50.0),
-                             made.steps([made.step(info, T, 1, 0, 36, 37), *both])])
+        run = self.recorded(
+            [
+                info,
+                made.spectrum(exponents, 50.0),
+                made.steps([made.step(info, T, 1, 0, 36, 37), *both]),
+            ]
+        )
         figure = figure_of_steps.draw(run)
         self.addCleanup(plt.close, figure)
         top, bottom = figure.axes
-        self.assertEqual([text.get_text() for text in bottom.get_xticklabels()],
-                         ['T(1,0)', 'LP(0,1)\n+T(1,1)'])
+        self.assertEqual(
+            [text.get_text() for text in bottom.get_xticklabels()], ['T(1,0)', 'LP(0,1)\n+T(1,1)']
+        )
         heights = [bar.get_height() for bar in top.patches]
         self.assertTrue(np.allclose(heights, [99.0, 92.5]), heights)
         off = bottom.containers[0][0].get_ydata()
@@ -103,10 +129,17 @@ class Steps(Bag):
 
 class Short(Bag):
     def verdict(self, lengths, smallest=0.25):
-        runs = [self.recorded([made.run_info(run_id=name),
-                               made.spectrum([3.0 + shift, *[smallest] * 36, *[1e-9] * 6], length,
-                                             run_id=name)])
-                for name, length, shift in zip(('one', 'two'), lengths, (0.0, 0.001))]
+        runs = [
+            self.recorded(
+                [
+                    made.run_info(run_id=name),
+                    made.spectrum(
+                        [3.0 + shift, *[smallest] * 36, *[1e-9] * 6], length, run_id=name
+                    ),
+                ]
+            )
+            for name, length, shift in zip(('one', 'two'), lengths, (0.0, 0.001))
+        ]
         return verdict.verdict(Comparison(*runs))[0]
 
     def test_warning(self):

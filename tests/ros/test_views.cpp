@@ -63,12 +63,54 @@ TEST(views, run_info)
     const char *const observables[] = {"spectrum", "state"}, *const awaited[] = {"cost"};
     const uint32_t nodes[] = {1, 0, 4294967295};
     /* clang-format off: one number a line otherwise */
-    const hdr_run_info view = {
-        header, "id", "0.1.0", "scene", 780, 0.8, 0.867, 33.5, 29.1, "periodic", "reflecting",
-        "18446744073709551615", "all", 3120, 6, 1, 2, 3, 4, 5, 6, 7, {observables, 2}, 0.25,
-        9, {nodes, 3}, {nodes + 1, 2}, 10, 11, 13, 14, "file", "folder", "[1, 5]", 2.5, {awaited, 1}, 8.5, "[T(1,0)]", 2.5, "file", 60, "before",
-        12.5, 2, 1,
-        "blas", "kernel", "openmp"};
+    const hdr_run_info view = {header,
+                               "id",
+                               "0.1.0",
+                               "scene",
+                               780,
+                               0.8,
+                               0.867,
+                               33.5,
+                               29.1,
+                               "periodic",
+                               "reflecting",
+                               "18446744073709551615",
+                               "all",
+                               3120,
+                               6,
+                               1,
+                               2,
+                               3,
+                               4,
+                               5,
+                               6,
+                               7,
+                               {observables, 2},
+                               0.25,
+                               9,
+                               {nodes, 3},
+                               {nodes + 1, 2},
+                               10,
+                               11,
+                               13,
+                               14,
+                               "file",
+                               "folder",
+                               "[1, 5]",
+                               2.5,
+                               {awaited, 1},
+                               8.5,
+                               "[T(1,0)]",
+                               2.5,
+                               "file",
+                               60,
+                               "before",
+                               12.5,
+                               2,
+                               1,
+                               "blas",
+                               "kernel",
+                               "openmp"};
     /* clang-format on */
     hdlyap::RunInfo message;
     fill_header(message);
@@ -330,9 +372,15 @@ TEST(views, covariant)
     const hdr_counts some = {bins.data(), 2}, all = {bins.data(), 3};
     const hdr_covariant_angle angle = {HDR_CENTRE_STABLE, 1, 2, 3, 4, 5, some, all};
     const hdr_covariant_weight weight = {HDR_MODE_LP, 1, 2, 3.5, 8, every(2), every(1), every(3)};
-    hdr_covariant view = {header, "id", 1.5, 2.5, 3, 4, 5, 6.5, 7, every(1), every(2), every(3), every(1, 1), every(1, 2),
-                          every(1, 3), every(1, 4), every(2, 1), every(3, 1), every(3, 2), 8.5, 9.5, 10.5, 11.5,
-                          &angle, 1, &weight, 1};
+    hdr_covariant view = {header,      "id",        1.5,
+                          2.5,         3,           4,
+                          5,           6.5,         7,
+                          every(1),    every(2),    every(3),
+                          every(1, 1), every(1, 2), every(1, 3),
+                          every(1, 4), every(2, 1), every(3, 1),
+                          every(3, 2), 8.5,         9.5,
+                          10.5,        11.5,        &angle,
+                          1,           &weight,     1};
     hdlyap::Covariant message;
     fill_header(message);
     message.run_id = "id";
@@ -410,8 +458,9 @@ TEST(views, state_without_disks)
 
 TEST(views, cost)
 {
-    const hdr_cost view = {header, "id", 1.5, HDR_AVERAGING, 2,  3,  4,  5,   6,    16, 18, 7, 8, 9,
-                           HDR_LIMIT_LOOK, 10, 11, 12,        13, 14, 17, 15, 0.25, 0.5, -1};
+    const hdr_cost view = {header, "id", 1.5, HDR_AVERAGING,  2,  3,  4,  5,  6,  16, 18,
+                           7,      8,    9,   HDR_LIMIT_LOOK, 10, 11, 12, 13, 14, 17, 15,
+                           0.25,   0.5,  -1};
     hdlyap::Cost message;
     fill_header(message);
     message.run_id = "id";

@@ -1,4 +1,5 @@
-/** The C API in a node that hears itself: what comes, what is dropped, what may still come, what is refused. */
+/** The C API in a node that hears itself: what comes, what is dropped, what may still come, what is
+ * refused. */
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,7 +86,7 @@ struct flood {
 };
 } // namespace
 
-/* ---- a view goes out and comes in through the functions of its type ---- */
+/* ---- a view goes out and comes in through the functions of its type ------------------------ */
 
 template <class View> struct functions;
 #define FUNCTIONS(view)                                                                            \
@@ -151,9 +152,9 @@ template <class View> void on_view(void *context, const View *view)
 
 template <class View> struct message : testing::Test {
 };
-using views =
-    testing::Types<hdr_run_info, hdr_spectrum, hdr_modes, hdr_steps, hdr_lp_phases, hdr_mode_field,
-                   hdr_hydro, hdr_covariant, hdr_state, hdr_cost, hdr_diagnostic, hdr_float64, hdr_string>;
+using views = testing::Types<hdr_run_info, hdr_spectrum, hdr_modes, hdr_steps, hdr_lp_phases,
+                             hdr_mode_field, hdr_hydro, hdr_covariant, hdr_state, hdr_cost,
+                             hdr_diagnostic, hdr_float64, hdr_string>;
 TYPED_TEST_SUITE(message, views, );
 
 TYPED_TEST(message, comes_back)
@@ -177,7 +178,7 @@ TYPED_TEST(message, comes_back)
     EXPECT_EQ(0, hdr_publisher_subscribers(publisher));
 }
 
-/* ---- queues ---- */
+/* ---- queues -------------------------------------------------------------------------------- */
 
 TEST(queue, drops_the_oldest)
 {
@@ -213,7 +214,7 @@ TEST(queue, long_enough_loses_nothing)
     for (size_t k = 0; k < 1000; k++) EXPECT_EQ(static_cast<double>(k), all.numbers.at(k));
 }
 
-/* ---- who has subscribed ---- */
+/* ---- who has subscribed -------------------------------------------------------------------- */
 
 /** A subscriber that the master alone knows. */
 static void at_master(const char *call, const std::string &topic)
@@ -248,7 +249,7 @@ TEST(publishers, registered)
     EXPECT_EQ((std::vector<int>{0, 0, 0}), registered());
 }
 
-/* ---- nothing comes any more ---- */
+/* ---- nothing comes any more ---------------------------------------------------------------- */
 
 TEST(freeing, again_and_again_under_load)
 {
@@ -315,7 +316,7 @@ TEST(freeing, by_the_callback_itself)
     hdr_subscriber_free(nullptr);
 }
 
-/* ---- what is refused ---- */
+/* ---- what is refused ----------------------------------------------------------------------- */
 
 static void on_string(void *, const hdr_string *) {}
 

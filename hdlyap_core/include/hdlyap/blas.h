@@ -19,19 +19,19 @@ typedef struct hd_blas {
 hd_blas hd_blas_query(void);
 
 /** The OPENBLAS_CORETYPE that a processor with these features wants instead of `kernel`,
- *  or NULL if the kernel in use is as good as this program knows. Pure. */
+ * or NULL if the kernel in use is as good as this program knows. Pure. */
 const char *hd_blas_better_kernel(const char *kernel, int has_avx2_fma, int has_avx512);
 
-/** Call first in main: where the library fell back to kernels older than the processor, or idle threads would
- *  spin for long, starts this program once more with OPENBLAS_CORETYPE, and GOMP_SPINCOUNT or OMP_WAIT_POLICY,
- *  set. A value that the user has set is never changed. Returns when nothing is to be done, or after a
- *  restart. Linux; elsewhere it does nothing. */
+/** Call first in main: where the library fell back to kernels older than the processor, or idle
+ * threads would spin for long, starts this program once more with OPENBLAS_CORETYPE, and
+ * GOMP_SPINCOUNT or OMP_WAIT_POLICY, set. A value that the user has set is never changed. Returns
+ * when nothing is to be done, or after a restart. Linux; elsewhere it does nothing. */
 void hd_blas_restart_if_slow(char **argv);
 
 void hd_blas_use_threads(int threads);
 
-/** HD_NO_MEMORY where so many threads would not find the address space for their stacks and buffers: OpenBLAS
- *  would ask for it for ever, and OpenMP would end the process. Takes none. */
+/** HD_NO_MEMORY where so many threads would not find the address space for their stacks and
+ * buffers: OpenBLAS would ask for it for ever, and OpenMP would end the process. Takes none. */
 HD_MUST_CHECK hd_status hd_blas_room(int threads);
 
 #ifdef __cplusplus

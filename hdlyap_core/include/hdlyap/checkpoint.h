@@ -1,8 +1,9 @@
 /** A run in a file: kept while it goes on, taken up again after whatever ended it.
  *
- *  The file is a list of named arrays behind a head with format, length and checksum (doc/survival.md). It
- *  holds disks, pending events, frame, averages, phases and what the intervals have taught; so a run that was taken up
- *  has the same events bit for bit, and with the same number of threads, BLAS kernels and stages observed the same exponents. */
+ * The file is a list of named arrays behind a head with format, length and checksum
+ * (doc/survival.md). It holds disks, pending events, frame, averages, phases and what the intervals
+ * have taught; so a run that was taken up has the same events bit for bit, and with the same number
+ * of threads, BLAS kernels and stages observed the same exponents. */
 #ifndef HDLYAP_CHECKPOINT_H
 #define HDLYAP_CHECKPOINT_H
 
@@ -21,24 +22,26 @@ typedef struct hd_checkpoint {
     double time;                     /**< simulated time since the start */
 } hd_checkpoint;
 
-/** Writes the run, between two steps, to `path`: to `path`.part first, which replaces the file only when it is whole and
- *  on the disk. label (at most HD_CHECKPOINT_LABEL - 1 bytes of it) is kept. HD_FILE_FAULT with one line in
- *  message (the file, the reason), HD_NOT_FINITE if a number of the run is none; an older file then stays as it was. Cost: 32 N n bytes. */
+/** Writes the run, between two steps, to `path`: to `path`.part first, which replaces the file only
+ * when it is whole and on the disk. label (at most HD_CHECKPOINT_LABEL - 1 bytes of it) is kept.
+ * HD_FILE_FAULT with one line in message (the file, the reason), HD_NOT_FINITE if a number of the
+ * run is none; an older file then stays as it was. Cost: 32 N n bytes. */
 HD_MUST_CHECK hd_status hd_run_save(hd_run *run, const char *path, const char *label, char *message,
                                     size_t size);
 
 /** HD_OK if hd_run_save could write there now; HD_FILE_FAULT with its line else. */
 HD_MUST_CHECK hd_status hd_checkpoint_writable(const char *path, char *message, size_t size);
 
-/** Reads a checkpoint, all of it, and says whose it is. HD_FILE_FAULT with one line in message: it is missing, no
- *  checkpoint, of a newer format, cut short, damaged. */
+/** Reads a checkpoint, all of it, and says whose it is. HD_FILE_FAULT with one line in message: it
+ * is missing, no checkpoint, of a newer format, cut short, damaged. */
 HD_MUST_CHECK hd_status hd_checkpoint_read(hd_checkpoint *out, const char *path, char *message,
                                            size_t size);
 
-/** The run of a checkpoint goes on. scene (NULL: the checkpoint's) may differ from the checkpoint's in duration (not
- *  shorter than what has been averaged), target_std_error and threads; anything else is HD_REFUSED with its line. With
- *  0 threads as many as before, if the machine has them. A run that had finished goes on if there is more to do.
- *  HD_FILE_FAULT as hd_checkpoint_read, and for contents that no run has; HD_NO_MEMORY. */
+/** The run of a checkpoint goes on. scene (NULL: the checkpoint's) may differ from the checkpoint's
+ * in duration (not shorter than what has been averaged), target_std_error and threads; anything
+ * else is HD_REFUSED with its line. With 0 threads as many as before, if the machine has them. A
+ * run that had finished goes on if there is more to do. HD_FILE_FAULT as hd_checkpoint_read, and
+ * for contents that no run has; HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_run_resume(hd_run **out, const char *path, const hd_scene_def *scene,
                                       char *message, size_t size);
 

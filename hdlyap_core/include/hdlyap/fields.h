@@ -10,8 +10,9 @@ extern "C" {
 
 typedef enum hd_mode_kind { HD_MODE_NONE, HD_MODE_ZERO, HD_MODE_T, HD_MODE_LP } hd_mode_kind;
 
-/** The fields of one kind at one wave vector: columns [column, column + dimension). Of an LP subspace the
- *  first half are the L fields, the second half the P fields of the same modulations. */
+/** The fields of one kind at one wave vector: columns [column, column + dimension). Of an LP
+ * subspace the first half are the L fields, the second half the P fields of the same modulations.
+ */
 typedef struct hd_subspace {
     hd_mode_kind kind; /**< HD_MODE_T or HD_MODE_LP */
     hd_wave wave;
@@ -22,11 +23,12 @@ typedef struct hd_subspace {
 typedef struct hd_fields hd_fields;
 
 /** HD_NO_MEMORY. Columns: those of all subspaces, in ascending k, T before LP; then the
- *  null fields. */
+ * null fields. */
 HD_MUST_CHECK hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def);
 void hd_fields_free(hd_fields *fields);
 
-/** Samples every field at q[2N], p[2N]; each column gets norm 1 (or stays zero). Cost O(N * columns). */
+/** Samples every field at q[2N], p[2N]; each column gets norm 1 (or stays zero). Cost O(N *
+ * columns). */
 void hd_fields_sample(hd_fields *fields, const double *q, const double *p);
 
 int hd_fields_columns(const hd_fields *fields); /**< all */
@@ -40,7 +42,8 @@ double hd_fields_norm(const hd_fields *fields, int column);
 int hd_fields_subspaces(const hd_fields *fields);
 const hd_subspace *hd_fields_subspace(const hd_fields *fields, int s);
 
-/** Null fields, the last HD_NULLS columns: uniform along x, along y (zero columns unless periodic), momenta. */
+/** Null fields, the last HD_NULLS columns: uniform along x, along y (zero columns unless periodic),
+ * momenta. */
 enum { HD_NULL_X, HD_NULL_Y, HD_NULL_P, HD_NULLS };
 
 #ifdef __cplusplus

@@ -9,7 +9,7 @@ extern "C" {
 #endif
 
 /** Rows 4i .. 4i+3 are dq_x, dq_y, dp_x, dp_y of disk i; row-major with leading dimension
- *  hd_frame_stride >= n, rows aligned to 64 bytes, columns beyond n zero. */
+ * hd_frame_stride >= n, rows aligned to 64 bytes, columns beyond n zero. */
 typedef struct hd_frame hd_frame;
 
 /** vectors: 1 .. 4 disks. Random entries from the seed; orthonormalise before use. */
@@ -17,15 +17,16 @@ HD_MUST_CHECK hd_status hd_frame_create(hd_frame **out, int disks, int vectors, 
                                         int threads);
 void hd_frame_free(hd_frame *frame);
 
-int hd_frame_rows(const hd_frame *frame);    /**< 4N */
-int hd_frame_vectors(const hd_frame *frame); /**< n */
-int hd_frame_stride(const hd_frame *frame);  /**< doubles from one row to the next */
-int hd_frame_threads(const hd_frame *frame); /**< that work on it */
+int hd_frame_rows(const hd_frame *frame);                /**< 4N */
+int hd_frame_vectors(const hd_frame *frame);             /**< n */
+int hd_frame_stride(const hd_frame *frame);              /**< doubles from one row to the next */
+int hd_frame_threads(const hd_frame *frame);             /**< that work on it */
 void hd_frame_use_threads(hd_frame *frame, int threads); /**< 1 .. as many as at its creation */
-double *hd_frame_data(hd_frame *frame);      /**< current vectors; valid until the next replay */
+double *hd_frame_data(hd_frame *frame); /**< current vectors; valid until the next replay */
 const double *hd_frame_read(const hd_frame *frame); /**< the same, to look at */
 
-/** Vectors first .. first + count - 1, wherever they are kept: data is the first one's entry of row 0. */
+/** Vectors first .. first + count - 1, wherever they are kept: data is the first one's entry of row
+ * 0. */
 typedef struct hd_columns {
     const double *data;
     int stride; /**< doubles from one row to the next */
@@ -34,9 +35,10 @@ typedef struct hd_columns {
 hd_columns hd_frame_columns(const hd_frame *frame); /**< all of them */
 
 /** Carries the vectors from t_begin to t_end (times as in the log) through the logged events with
- *  t_begin <= t < t_end, and keeps the vectors of t_begin for hd_frame_rewind. All cores; a block of
- *  columns stays in cache. t_end = log->duration includes events at that very time.
- *  HD_NO_MEMORY if the room for the maps could not grow. Cost about 40 n flops and 128 n bytes of cache traffic per pair event. */
+ * t_begin <= t < t_end, and keeps the vectors of t_begin for hd_frame_rewind. All cores; a block
+ * of columns stays in cache. t_end = log->duration includes events at that very time. HD_NO_MEMORY
+ * if the room for the maps could not grow. Cost about 40 n flops and 128 n bytes of cache traffic
+ * per pair event. */
 HD_MUST_CHECK hd_status hd_frame_replay(hd_frame *frame, const hd_event_log *log, double t_begin,
                                         double t_end);
 

@@ -1,4 +1,5 @@
-/** Linear response of the Fourier sums of density, momentum and energy to a Lyapunov vector [T15]. */
+/** Linear response of the Fourier sums of density, momentum and energy to a Lyapunov vector [T15].
+ */
 #ifndef HDLYAP_HYDRO_H
 #define HDLYAP_HYDRO_H
 
@@ -8,10 +9,10 @@
 extern "C" {
 #endif
 
-/** Response of sums over the disks to one normalised vector (|dq|^2 + |dp|^2 = 1), at one modulation A of its
- *  step's wave vector, over sqrt(N/2): density, of sum A, over k; momentum along, of sum p.grad A, over k, and
- *  across, of sum p.curl A', over k, A' being A with sines along reflecting directions (0 where n is 0 there);
- *  energy, of sum p^2 A. */
+/** Response of sums over the disks to one normalised vector (|dq|^2 + |dp|^2 = 1), at one
+ * modulation A of its step's wave vector, over sqrt(N/2): density, of sum A, over k; momentum
+ * along, of sum p.grad A, over k, and across, of sum p.curl A', over k, A' being A with sines along
+ * reflecting directions (0 where n is 0 there); energy, of sum p^2 A. */
 typedef struct hd_hydro_response {
     int step, col;
     unsigned char modulation; /**< HD_SIN_X | HD_SIN_Y */
@@ -24,11 +25,13 @@ HD_MUST_CHECK hd_status hd_hydro_create(hd_hydro **out, const hd_scene_def *def,
                                         const hd_steps *steps);
 void hd_hydro_free(hd_hydro *hydro);
 
-/** Responses of the vectors that belong to a resolved step (hd_steps_of_vector), in the state q[2N], p[2N]. */
+/** Responses of the vectors that belong to a resolved step (hd_steps_of_vector), in the state
+ * q[2N], p[2N]. */
 void hd_hydro_measure(hd_hydro *hydro, const hd_steps *steps, const hd_frame *frame,
                       const double *q, const double *p);
 
-/** expected multiplicity x modulations of each step, in their order; constant. col is -1 where there is none. */
+/** expected multiplicity x modulations of each step, in their order; constant. col is -1 where
+ * there is none. */
 int hd_hydro_count(const hd_hydro *hydro);
 const hd_hydro_response *hd_hydro_at(const hd_hydro *hydro, int index);
 

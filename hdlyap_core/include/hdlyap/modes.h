@@ -19,9 +19,9 @@ HD_MUST_CHECK hd_status hd_modes_create(hd_modes **out, const hd_scene_def *def,
                                         int threads);
 void hd_modes_free(hd_modes *modes);
 
-/** Measures orthonormal vectors (all of them, or some: the others keep their snapshot) at q[2N], p[2N]: a
- *  snapshot, without averaging. HD_NOT_FINITE. Cost 4 N columns flops per vector as dgemm, and one reading of
- *  the vectors. */
+/** Measures orthonormal vectors (all of them, or some: the others keep their snapshot) at q[2N],
+ * p[2N]: a snapshot, without averaging. HD_NOT_FINITE. Cost 4 N columns flops per vector as dgemm,
+ * and one reading of the vectors. */
 HD_MUST_CHECK hd_status hd_modes_measure(hd_modes *modes, hd_columns vectors, const double *q,
                                          const double *p);
 /** Adds the snapshot to the running averages. */
@@ -36,18 +36,19 @@ const hd_fields *hd_modes_fields(const hd_modes *modes);
 /** Which weight: of the whole subspace, or of the L or the P fields of an LP subspace alone. */
 typedef enum hd_weight { HD_WEIGHT, HD_WEIGHT_L, HD_WEIGHT_P, HD_WEIGHTS } hd_weight;
 
-/** Squared norm of the least-squares projection of each vector's dq half, normalised, onto subspace s; [n],
- *  0 .. 1. Snapshot, or running average (zero without samples). */
+/** Squared norm of the least-squares projection of each vector's dq half, normalised, onto subspace
+ * s; [n], 0 .. 1. Snapshot, or running average (zero without samples). */
 const double *hd_modes_snapshot(const hd_modes *modes, int s, hd_weight which);
 const double *hd_modes_average(const hd_modes *modes, int s, hd_weight which);
 
-/** Squared norms of the orthogonal projections of the whole vectors onto the exact null space [T9], its
- *  parts apart: N_x, N_y (uniform dq or dp along a periodic direction), N_p (dq = p or dp = p); [n]. */
+/** Squared norms of the orthogonal projections of the whole vectors onto the exact null space [T9],
+ * its parts apart: N_x, N_y (uniform dq or dp along a periodic direction), N_p (dq = p or dp = p);
+ * [n]. */
 const double *hd_modes_null_snapshot(const hd_modes *modes, int null);
 const double *hd_modes_null_average(const hd_modes *modes, int null);
 
-/** Snapshot of the least-squares coefficients of the normalised dq halves on the normalised field at a
- *  column of hd_fields; [n]. */
+/** Snapshot of the least-squares coefficients of the normalised dq halves on the normalised field
+ * at a column of hd_fields; [n]. */
 const double *hd_modes_coefficients(const hd_modes *modes, int column);
 
 /** |dq| of each vector in the snapshot; [n], 0 .. 1. */

@@ -1,4 +1,5 @@
-/** V = Q R with diag(R) > 0, by Cholesky of the Gram matrix (BLAS-3), watched for its conditioning. */
+/** V = Q R with diag(R) > 0, by Cholesky of the Gram matrix (BLAS-3), watched for its conditioning.
+ */
 #ifndef HDLYAP_ORTHO_H
 #define HDLYAP_ORTHO_H
 
@@ -19,16 +20,16 @@ typedef struct hd_ortho_limits {
     double defect;    /**< above this predicted loss of orthogonality a second pass is made, > 0 */
 } hd_ortho_limits;
 
-/** Replaces the frame's vectors by Q; ln diag R is then in hd_ortho_log_stretch. Spans and the sum of
- *  logarithms are right to rounding whatever the defect of Q: it cancels with the next step's [T5].
- *  HD_ILL_CONDITIONED (frame's contents undefined: rewind it) when the condition is above the limit, the
- *  Gram matrix is numerically not positive definite, or an entry overflowed.
- *  Cost per pass: 2 m n^2 + 2 n^3 / 3 flops. */
+/** Replaces the frame's vectors by Q; ln diag R is then in hd_ortho_log_stretch. Spans and the sum
+ * of logarithms are right to rounding whatever the defect of Q: it cancels with the next step's
+ * [T5]. HD_ILL_CONDITIONED (frame's contents undefined: rewind it) when the condition is above the
+ * limit, the Gram matrix is numerically not positive definite, or an entry overflowed. Cost per
+ * pass: 2 m n^2 + 2 n^3 / 3 flops. */
 HD_MUST_CHECK hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits);
 
-/** The same by Householder reflections: orthonormal whatever the conditioning, several times slower.
- *  For the single event (a grazing collision) that no shorter interval can tame. HD_ILL_CONDITIONED when
- *  the condition is above the limit, which may go to 1 / DBL_EPSILON. */
+/** The same by Householder reflections: orthonormal whatever the conditioning, several times
+ * slower. For the single event (a grazing collision) that no shorter interval can tame.
+ * HD_ILL_CONDITIONED when the condition is above the limit, which may go to 1 / DBL_EPSILON. */
 HD_MUST_CHECK hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame,
                                              double condition_max);
 
@@ -36,12 +37,14 @@ const double *hd_ortho_log_stretch(const hd_ortho *ortho); /**< [n], of the last
 
 /** From now on each step leaves its R, too; HD_NO_MEMORY (16 n^2 bytes). */
 HD_MUST_CHECK hd_status hd_ortho_keep_factor(hd_ortho *ortho);
-/** R of the last accepted step, V = Q R: [n * n] row-major, defined from the diagonal on; NULL unless kept. */
+/** R of the last accepted step, V = Q R: [n * n] row-major, defined from the diagonal on; NULL
+ * unless kept. */
 const double *hd_ortho_factor(const hd_ortho *ortho);
 
-/** max over l of sqrt(sum_k (R^-1)_kl^2 |V e_k|^2) >= 1: how much the rounding of V (relative to its
- *  columns) is amplified in column l of Q. Rounding enters an exponent as eps * condition / interval
- *  and the orthogonality of Q as eps * condition^2 [T6] [T7]. Of the last step's first pass. */
+/** max over l of sqrt(sum_k (R^-1)_kl^2 |V e_k|^2) >= 1: how much the rounding of V (relative to
+ * its columns) is amplified in column l of Q. Rounding enters an exponent as eps * condition /
+ * interval and the orthogonality of Q as eps * condition^2 [T6] [T7]. Of the last step's first
+ * pass. */
 double hd_ortho_condition(const hd_ortho *ortho);
 /** Predicted |Q^T Q - 1| after the last step [T7]. */
 double hd_ortho_defect(const hd_ortho *ortho);

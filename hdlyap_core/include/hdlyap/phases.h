@@ -1,4 +1,5 @@
-/** LP dynamics: how the vectors of an LP step rotate between the L and the P field of each pair [T13]. */
+/** LP dynamics: how the vectors of an LP step rotate between the L and the P field of each pair
+ * [T13]. */
 #ifndef HDLYAP_PHASES_H
 #define HDLYAP_PHASES_H
 
@@ -37,7 +38,8 @@ void hd_phases_clear(hd_phases *phases);
 /** Goes on to the snapshot in the steps' modes, taken at simulated time `time`. */
 void hd_phases_add(hd_phases *phases, const hd_steps *steps, double time);
 
-/** 2 d^2 for each LP subspace with d pairs, in the order of the steps: vectors outside, pairs inside. Constant. */
+/** 2 d^2 for each LP subspace with d pairs, in the order of the steps: vectors outside, pairs
+ * inside. Constant. */
 int hd_phases_count(const hd_phases *phases);
 const hd_lp_phase *hd_phases_phase(const hd_phases *phases, int index);
 

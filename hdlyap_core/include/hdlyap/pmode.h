@@ -1,4 +1,5 @@
-/** The L and P modes of a step, reconstructed from its measured vectors, as the paper does [T14]. */
+/** The L and P modes of a step, reconstructed from its measured vectors, as the paper does [T14].
+ */
 #ifndef HDLYAP_PMODE_H
 #define HDLYAP_PMODE_H
 
@@ -15,7 +16,8 @@ HD_MUST_CHECK hd_status hd_pmode_create(hd_pmode **out, int disks);
 void hd_pmode_free(hd_pmode *pmode);
 
 /** Best combinations of the normalised dq halves psi of the step's set for its normalised fields:
- *  (phi_L, phi_P) = psi Q by least squares. False if the step is no resolved LP step of its own (shares its set). */
+ * (phi_L, phi_P) = psi Q by least squares. False if the step is no resolved LP step of its own
+ * (shares its set). */
 bool hd_pmode_reconstruct(hd_pmode *pmode, const hd_step *step, const hd_modes *modes,
                           const hd_frame *frame);
 
@@ -29,8 +31,9 @@ const double *hd_pmode_rotation(const hd_pmode *pmode);
 /** Largest deviation of a singular value of Q from 1: its distance from a rotation. */
 double hd_pmode_rotation_distance(const hd_pmode *pmode);
 
-/** P field divided by the momenta, phi p / (p^2 + eps) component by component, p[2N]: both components are
- *  the modulation A itself, of amplitude 1 but for what the residual and eps take away. out[2N]. */
+/** P field divided by the momenta, phi p / (p^2 + eps) component by component, p[2N]: both
+ * components are the modulation A itself, of amplitude 1 but for what the residual and eps take
+ * away. out[2N]. */
 void hd_pmode_divide(const hd_pmode *pmode, double *out, int c, const double *p);
 
 /** eps in units of the mean square of a momentum component. */

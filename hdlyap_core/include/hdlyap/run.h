@@ -1,4 +1,5 @@
-/** A whole run of a scene: equilibration, warm-up of the frame, averaging, one interval at a time. */
+/** A whole run of a scene: equilibration, warm-up of the frame, averaging, one interval at a time.
+ */
 #ifndef HDLYAP_RUN_H
 #define HDLYAP_RUN_H
 
@@ -23,37 +24,38 @@ typedef enum hd_limit {
     HD_LIMIT_GROWTH,    /**< twice the one before: the conditioning is still being learnt */
     HD_LIMIT_OVERFLOW,  /**< vectors would outgrow their numbers */
     HD_LIMIT_SCENE,     /**< hd_scene_def.interval */
-    HD_LIMIT_EVENTS,    /**< the log of events would take too much memory, or the wait for an answer */
-    HD_LIMIT_LOOK,      /**< vectors were wanted for a report */
-    HD_LIMIT_REPAIR     /**< it was longer, and had to be taken back */
+    HD_LIMIT_EVENTS, /**< the log of events would take too much memory, or the wait for an answer */
+    HD_LIMIT_LOOK,   /**< vectors were wanted for a report */
+    HD_LIMIT_REPAIR  /**< it was longer, and had to be taken back */
 } hd_limit;
 
 /** What the run pays for, since its start unless said otherwise. */
 typedef struct hd_cost {
-    double wall;              /**< seconds */
-    double events;            /**< seconds in the trajectory */
-    double replay;            /**< seconds in the tangent frame */
-    double ortho;             /**< seconds in the factorisation */
-    double spectrum;          /**< seconds in averages */
-    double modes;             /**< seconds in classification, steps and phases */
-    double covariant;         /**< seconds in covariant vectors: what is kept for them, and the way back */
+    double wall;     /**< seconds */
+    double events;   /**< seconds in the trajectory */
+    double replay;   /**< seconds in the tangent frame */
+    double ortho;    /**< seconds in the factorisation */
+    double spectrum; /**< seconds in averages */
+    double modes;    /**< seconds in classification, steps and phases */
+    /** Seconds in covariant vectors: what is kept for them, and the way back */
+    double covariant;
     double events_per_second; /**< pair events over seconds in the trajectory */
     double interval;          /**< time units between orthonormalisations, last used */
     hd_limit limit;           /**< why it was not longer */
     double condition;         /**< of the last orthonormalisation, see hd_ortho_condition */
     double defect;            /**< predicted loss of orthogonality of the last one */
-    double
-        error_bound; /**< (sum of eps * condition, enlarged as [T6] says, + defect) / averaged time:
-                          what rounding may have done to a mean */
+    double error_bound; /**< (sum of eps * condition, enlarged as [T6] says, + defect) / averaged
+                           time: what rounding may have done to a mean */
     long orthonormalisations; /**< number of them */
     long second_passes;       /**< how many needed a second pass */
     long looks;               /**< at phases between two of them */
     long repairs;             /**< intervals that turned out too long and were replayed in pieces */
-    double std_error;         /**< largest of the exponents nearest to zero, which target_std_error is
-                                   for; negative if unknown */
-    double progress;          /**< 0 .. 1 of the time asked for, or to the target; 0 if unknown */
-    double remaining;         /**< predicted wall seconds to the end, or to target_std_error;
-                                  negative if unknown */
+    /** largest of the exponents nearest to zero, which target_std_error is for; negative if unknown
+     */
+    double std_error;
+    double progress;  /**< 0 .. 1 of the time asked for, or to the target; 0 if unknown */
+    double remaining; /**< predicted wall seconds to the end, or to target_std_error;
+                          negative if unknown */
 } hd_cost;
 
 typedef struct hd_run hd_run;
@@ -64,35 +66,36 @@ HD_MUST_CHECK hd_status hd_run_create(hd_run **out, const hd_scene_def *def, cha
 void hd_run_free(hd_run *run);
 
 /** Goes on by one interval; short enough (a fraction of a second for N below 1000) to be
- *  interrupted between two calls. Does nothing once HD_FINISHED. */
+ * interrupted between two calls. Does nothing once HD_FINISHED. */
 HD_MUST_CHECK hd_status hd_run_step(hd_run *run);
 
-/** True if the last step ended at a multiple of the report interval. Spectrum, modes, steps and the frame are then
- *  those of the last orthonormalisation, hd_spectrum_time after the averaging began: at most an interval
- *  ago, at once if the hydrodynamic response is looked at, or fields that are due. Phases are those of the very time. */
+/** True if the last step ended at a multiple of the report interval. Spectrum, modes, steps and the
+ * frame are then those of the last orthonormalisation, hd_spectrum_time after the averaging began:
+ * at most an interval ago, at once if the hydrodynamic response is looked at, or fields that are
+ * due. Phases are those of the very time. */
 bool hd_run_report_due(const hd_run *run);
 
-/** Fields are due from now on with the first report at or after each multiple of so many time units since the
- *  averaging began, 0 included, and with the last one; with 0 (as at first) at every report. Not kept in a
- *  checkpoint. */
+/** Fields are due from now on with the first report at or after each multiple of so many time units
+ * since the averaging began, 0 included, and with the last one; with 0 (as at first) at every
+ * report. Not kept in a checkpoint. */
 void hd_run_fields_every(hd_run *run, double interval);
 
-/** True if the last step ended at such a report: if they are looked at (HD_OBSERVE_FIELDS), the frame is
- *  orthonormalised at this very time. */
+/** True if the last step ended at such a report: if they are looked at (HD_OBSERVE_FIELDS), the
+ * frame is orthonormalised at this very time. */
 bool hd_run_fields_due(const hd_run *run);
 
-/** Which of the stages that the scene asks for (HD_OBSERVE_*) are needed from now on; at first all. A stage
- *  that nobody looks at is skipped: its averages miss that time, phases begin anew. */
+/** Which of the stages that the scene asks for (HD_OBSERVE_*) are needed from now on; at first all.
+ * A stage that nobody looks at is skipped: its averages miss that time, phases begin anew. */
 void hd_run_observe(hd_run *run, unsigned stages);
 
-/** For pictures: from now on no step is longer than `interval` [time units; INFINITY: nobody looks], and while the
- *  modes are observed each step ends with the vectors from column `first` on known (hd_run_vectors or more:
- *  none), by a look at the slowest or, where that cannot give them, an orthonormalisation. No average takes
- *  them up. */
+/** For pictures: from now on no step is longer than `interval` [time units; INFINITY: nobody
+ * looks], and while the modes are observed each step ends with the vectors from column `first` on
+ * known (hd_run_vectors or more: none), by a look at the slowest or, where that cannot give them,
+ * an orthonormalisation. No average takes them up. */
 void hd_run_view(hd_run *run, double interval, int first);
 
-/** The vectors known at the very time of the last step: all of them, the slowest, or none (count 0). Their
- *  coefficients are in the snapshot of hd_run_modes. */
+/** The vectors known at the very time of the last step: all of them, the slowest, or none (count
+ * 0). Their coefficients are in the snapshot of hd_run_modes. */
 hd_columns hd_run_columns(const hd_run *run);
 
 /** Starts the averages afresh at the present time. Fails as hd_run_step does. */

@@ -1,5 +1,5 @@
 /** What is asked for: the box, the disks and how accurately the exponents are wanted.
- *  Reduced units throughout: disk mass 1, diameter sigma = 1, kinetic energy per disk 1. */
+ * Reduced units throughout: disk mass 1, diameter sigma = 1, kinetic energy per disk 1. */
 #ifndef HDLYAP_SCENE_H
 #define HDLYAP_SCENE_H
 
@@ -17,13 +17,14 @@ typedef enum hd_boundary { HD_PERIODIC, HD_REFLECTING } hd_boundary;
 /** Values of hd_scene_def.exponents that are not a plain number. */
 enum { HD_EXPONENTS_NONE = 0, HD_EXPONENTS_POSITIVE = -1, HD_EXPONENTS_ALL = -2 };
 
-/** hd_scene_def.observe; phases, fields and hydro need steps, which need modes: these come with them. */
+/** hd_scene_def.observe; phases, fields and hydro need steps, which need modes: these come with
+ * them. */
 enum {
-    HD_OBSERVE_MODES = 1,  /**< weights of every vector */
-    HD_OBSERVE_STEPS = 2,  /**< degenerate sets, dispersion */
-    HD_OBSERVE_PHASES = 4, /**< of the LP pairs */
-    HD_OBSERVE_FIELDS = 8, /**< reconstructed P modes */
-    HD_OBSERVE_HYDRO = 16, /**< hydrodynamic response */
+    HD_OBSERVE_MODES = 1,     /**< weights of every vector */
+    HD_OBSERVE_STEPS = 2,     /**< degenerate sets, dispersion */
+    HD_OBSERVE_PHASES = 4,    /**< of the LP pairs */
+    HD_OBSERVE_FIELDS = 8,    /**< reconstructed P modes */
+    HD_OBSERVE_HYDRO = 16,    /**< hydrodynamic response */
     HD_OBSERVE_COVARIANT = 32 /**< covariant vectors; alone, it needs no modes */
 };
 
@@ -47,20 +48,25 @@ typedef struct hd_scene_def {
     double warmup;           /**< time units with the frame, before averaging, >= 0 */
     double duration;         /**< time units averaged, >= 0; 0 = until stopped */
     double
-        target_std_error; /**< stop when the smallest exponents carried are known so well; 0 = off */
-    double interval; /**< upper limit of the time between orthonormalisations, >= 1e-6; 0 = automatic */
-    double accuracy;      /**< largest tolerated deviation of an exponent, 1e-12 .. 1e-2 */
+        /** Stop when the smallest exponents carried are known so well; 0 = off */
+        target_std_error;
+    /** Upper limit of the time between orthonormalisations, >= 1e-6; 0 = automatic */
+    double interval;
+    double accuracy;        /**< largest tolerated deviation of an exponent, 1e-12 .. 1e-2 */
     double report_interval; /**< simulated time between reports, > 0 */
     unsigned observe;       /**< stages beyond the exponents: a set of HD_OBSERVE_*, 0 = none */
     double
-        max_wave_number; /**< wave vectors up to this |k| are classified; 0 = by max_node [1/sigma] */
+        /** Wave vectors up to this |k| are classified; 0 = by max_node [1/sigma] */
+        max_wave_number;
     int max_node; /**< wave vectors of up to so many nodes per direction; 0 = 2, or as sampled */
     int threads;  /**< 0 = as many as the machine has and the work is worth */
 
-    double covariant_window;    /**< time units at a stretch for which covariant vectors are computed, > 0 */
-    double covariant_transient; /**< time units beyond its end from which they are carried back, > 0 */
-    double covariant_sampling;  /**< time units between two looks at them, > 0 */
-    double covariant_memory;    /**< what may wait for the way back [bytes], > 0 */
+    /** Time units at a stretch for which covariant vectors are computed, > 0 */
+    double covariant_window;
+    /** Time units beyond its end from which they are carried back, > 0 */
+    double covariant_transient;
+    double covariant_sampling; /**< time units between two looks at them, > 0 */
+    double covariant_memory;   /**< what may wait for the way back [bytes], > 0 */
     hd_storage covariant_storage;
     char covariant_folder[HD_FOLDER_MAX]; /**< of a file for it; must be there */
 } hd_scene_def;

@@ -17,7 +17,8 @@ void hd_spectrum_clear(hd_spectrum *spectrum);
 
 /** Adds ln diag R of one orthonormalisation, dt after the one before; log_stretch[n]. */
 void hd_spectrum_add(hd_spectrum *spectrum, const double *log_stretch, double dt);
-/** Ends a sample of the block averages: all that was added since the last call, at equal spacing. */
+/** Ends a sample of the block averages: all that was added since the last call, at equal spacing.
+ */
 void hd_spectrum_sample(hd_spectrum *spectrum);
 
 double hd_spectrum_time(const hd_spectrum *spectrum); /**< averaged time */
@@ -25,9 +26,10 @@ int hd_spectrum_vectors(const hd_spectrum *spectrum); /**< n */
 double hd_spectrum_exponent(const hd_spectrum *spectrum,
                             int col); /**< running mean of ln R_ll / t */
 /** Standard error of the mean from blocks long against the correlation time [T8]; negative while
- *  there are fewer than HD_SPECTRUM_MIN_SAMPLES samples. */
+ * there are fewer than HD_SPECTRUM_MIN_SAMPLES samples. */
 double hd_spectrum_std_error(const hd_spectrum *spectrum, int col);
-/** Largest of the standard errors of the last `count` exponents carried; INFINITY while one is unknown. */
+/** Largest of the standard errors of the last `count` exponents carried; INFINITY while one is
+ * unknown. */
 double hd_spectrum_error_of_last(const hd_spectrum *spectrum, int count);
 double hd_spectrum_local(const hd_spectrum *spectrum, int col); /**< of the last sample */
 double hd_spectrum_lambda_max(const hd_spectrum *spectrum);     /**< exponent of col 0 */

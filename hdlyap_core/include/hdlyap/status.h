@@ -1,5 +1,5 @@
 /** Outcome of every core call that can fail because of data, numbers or the machine.
- *  Bugs of the caller are not statuses: they hit HD_ASSERT (see hd_assert_handler_replace). */
+ * Bugs of the caller are not statuses: they hit HD_ASSERT (see hd_assert_handler_replace). */
 #ifndef HDLYAP_STATUS_H
 #define HDLYAP_STATUS_H
 
@@ -33,7 +33,8 @@ typedef enum hd_status {
 /** One line of English for a status; never NULL. */
 const char *hd_status_text(hd_status status);
 
-/** Called with the failed condition and its place when a caller breaks a contract. Must not return. */
+/** Called with the failed condition and its place when a caller breaks a contract. Must not return.
+ */
 typedef void (*hd_assert_handler)(const char *condition, const char *file, int line);
 
 /** Replaces the handler (default: print to stderr and abort); NULL restores the default. */

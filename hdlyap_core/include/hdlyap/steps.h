@@ -1,4 +1,5 @@
-/** Degenerate sets of exponents with the waves that they belong to, and the dispersion relation [T12]. */
+/** Degenerate sets of exponents with the waves that they belong to, and the dispersion relation
+ * [T12]. */
 #ifndef HDLYAP_STEPS_H
 #define HDLYAP_STEPS_H
 
@@ -9,7 +10,8 @@
 extern "C" {
 #endif
 
-/** One kind of field at one wave vector, with the vectors that were found for it; or the zero modes. */
+/** One kind of field at one wave vector, with the vectors that were found for it; or the zero
+ * modes. */
 typedef struct hd_step {
     hd_mode_kind kind; /**< HD_MODE_T, HD_MODE_LP or HD_MODE_ZERO */
     hd_wave wave;      /**< zero for the zero modes */
@@ -26,15 +28,15 @@ typedef struct hd_step {
 } hd_step;
 
 /** lambda = c k + c2 k^2, least squares weighted with the errors of the resolved steps; errors are
- *  those of the fit, raised where it scatters more than they allow. */
+ * those of the fit, raised where it scatters more than they allow. */
 typedef struct hd_dispersion {
     int points;          /**< distinct wave numbers; below 2 c2 is 0, below 1 also c */
     double c, c_error;   /**< error negative if unknown [sigma/time unit] */
     double c2, c2_error; /**< [sigma^2/time unit] */
 } hd_dispersion;
 
-/** A set is resolved if of each of its steps at least this part of the expected multiplicity is found, beyond
- *  what random vectors would show. */
+/** A set is resolved if of each of its steps at least this part of the expected multiplicity is
+ * found, beyond what random vectors would show. */
 #define HD_STEP_THRESHOLD 0.5
 
 /** Larger sets are not resolved. */
@@ -48,21 +50,22 @@ HD_MUST_CHECK hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def,
 void hd_steps_free(hd_steps *steps);
 void hd_steps_clear(hd_steps *steps);
 
-/** Adds the last sample of the spectrum, of so many time units, to the error of each step's mean. */
+/** Adds the last sample of the spectrum, of so many time units, to the error of each step's mean.
+ */
 void hd_steps_sample(hd_steps *steps, const hd_spectrum *spectrum, double length);
 /** Finds the sets from running averages of weights and exponents. Cost O(n subspaces). */
 void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum);
 /** Counts the finds that changed any set: what was followed over a change is to be begun anew. */
 long hd_steps_changes(const hd_steps *steps);
 
-/** Steps of all subspaces in their order, the zero modes, and with all 4N vectors the conjugate steps in
- *  the same order; resolved or not: the number is constant. */
+/** Steps of all subspaces in their order, the zero modes, and with all 4N vectors the conjugate
+ * steps in the same order; resolved or not: the number is constant. */
 int hd_steps_count(const hd_steps *steps);
 const hd_modes *hd_steps_modes(const hd_steps *steps); /**< as at creation */
 const hd_step *hd_steps_step(const hd_steps *steps, int index);
 
-/** Step to which a vector belongs: the one of its set with the largest average weight; -1 if none: outside all
- *  sets, or with less than that part of it in its set. */
+/** Step to which a vector belongs: the one of its set with the largest average weight; -1 if none:
+ * outside all sets, or with less than that part of it in its set. */
 int hd_steps_of_vector(const hd_steps *steps, int col);
 
 /** kind: HD_MODE_T or HD_MODE_LP. */

@@ -1,4 +1,5 @@
-/** The disks: exact event-driven motion, and the log of its events that everything else is built on. */
+/** The disks: exact event-driven motion, and the log of its events that everything else is built
+ * on. */
 #ifndef HDLYAP_TRAJECTORY_H
 #define HDLYAP_TRAJECTORY_H
 
@@ -23,8 +24,8 @@ typedef struct hd_event {
     double p[2]; /**< p_j - p_i before the collision; for a wall the momentum before it */
 } hd_event;
 
-/** Events of one interval in their total order: time, pairs before walls, i, j; in a corner the x wall
- *  before the y wall; one pair through two images at once: the lower image in y, then in x. */
+/** Events of one interval in their total order: time, pairs before walls, i, j; in a corner the x
+ * wall before the y wall; one pair through two images at once: the lower image in y, then in x. */
 typedef struct hd_event_log {
     hd_event *event; /**< [count] */
     size_t count, capacity;
@@ -39,18 +40,20 @@ void hd_event_log_clear(hd_event_log *log);
 typedef struct hd_trajectory hd_trajectory;
 
 /** Lattice start, seeded momenta (zero total along periodic directions, kinetic energy N), time 0.
- *  Fails with HD_REFUSED (message filled as by hd_scene_check) and HD_NO_MEMORY. Cost O(N log N). */
+ * Fails with HD_REFUSED (message filled as by hd_scene_check) and HD_NO_MEMORY. Cost O(N log N).
+ */
 HD_MUST_CHECK hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def);
 
 /** A prepared state: q[2N] inside the box (x0 y0 x1 y1 ..), p[2N]; nothing is rescaled.
- *  HD_REFUSED for a box that hd_scene_check refuses, positions outside it, |p| above 1e6; HD_OVERLAP for disks deeper than 1e-9. */
+ * HD_REFUSED for a box that hd_scene_check refuses, positions outside it, |p| above 1e6;
+ * HD_OVERLAP for disks deeper than 1e-9. */
 HD_MUST_CHECK hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def,
                                                   const double *q, const double *p);
 void hd_trajectory_free(hd_trajectory *trajectory);
 
-/** Moves the disks to simulated time t_end (>= now) and replaces the log's contents by the events on
- *  the way; log may be NULL. The events do not depend on where the intervals are cut.
- *  Fails with HD_OVERLAP, HD_NOT_FINITE, HD_NO_MEMORY. Cost O(1) per event. */
+/** Moves the disks to simulated time t_end (>= now) and replaces the log's contents by the events
+ * on the way; log may be NULL. The events do not depend on where the intervals are cut. Fails with
+ * HD_OVERLAP, HD_NOT_FINITE, HD_NO_MEMORY. Cost O(1) per event. */
 HD_MUST_CHECK hd_status hd_trajectory_advance(hd_trajectory *trajectory, hd_event_log *log,
                                               double t_end);
 
@@ -70,8 +73,8 @@ double hd_trajectory_collision_rate(const hd_trajectory *trajectory);
 void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p);
 
 double hd_trajectory_kinetic_energy(const hd_trajectory *trajectory); /**< sum p^2 / 2, = N */
-/** More than rounding makes of its relative error: each event so far rounds the energy of its disks by some eps, and the
- *  roundings add up as a random walk. Seen: 0.01 of this. */
+/** More than rounding makes of its relative error: each event so far rounds the energy of its disks
+ * by some eps, and the roundings add up as a random walk. Seen: 0.01 of this. */
 double hd_trajectory_energy_rounding(const hd_trajectory *trajectory);
 /** Deepest overlap of any pair now: max(0, 1 - distance) over all pairs and images. Cost O(N). */
 double hd_trajectory_overlap(const hd_trajectory *trajectory);

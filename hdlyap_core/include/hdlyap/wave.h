@@ -17,7 +17,8 @@ typedef struct hd_wave {
     double number; /**< |k| [1/sigma] */
 } hd_wave;
 
-/** A is a product of a function of x and one of y; a set bit: sine, otherwise cosine (1 for n = 0). */
+/** A is a product of a function of x and one of y; a set bit: sine, otherwise cosine (1 for n = 0).
+ */
 enum { HD_SIN_X = 1, HD_SIN_Y = 2 };
 
 enum { HD_MODULATIONS_MAX = 4 };
@@ -46,8 +47,8 @@ typedef struct hd_wave_limits {
 } hd_wave_limits;
 hd_wave_limits hd_wave_limits_of(const hd_scene_def *def);
 
-/** Writes the wave vectors that the scene asks for to out[capacity], in ascending k, and returns their
- *  number; with capacity 0 only counts. */
+/** Writes the wave vectors that the scene asks for to out[capacity], in ascending k, and returns
+ * their number; with capacity 0 only counts. */
 int hd_waves(const hd_scene_def *def, hd_wave *out, int capacity);
 
 #ifdef __cplusplus

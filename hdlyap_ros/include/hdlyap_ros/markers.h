@@ -1,4 +1,5 @@
-/** Pictures for rviz: visualization_msgs/MarkerArray as C sees it, and the static frame that it is in. */
+/** Pictures for rviz: visualization_msgs/MarkerArray as C sees it, and the static frame that it is
+ * in. */
 #ifndef HDLYAP_ROS_MARKERS_H
 #define HDLYAP_ROS_MARKERS_H
 
@@ -37,14 +38,15 @@ typedef struct hdr_marker {
     int32_t id;     /**< of one marker of ns */
     int32_t type, action;
     hdr_point position, scale;
-    hdr_colour colour;        /**< where there is none per point */
-    const hdr_point *points;  /**< of lists; [count] */
+    hdr_colour colour;         /**< where there is none per point */
+    const hdr_point *points;   /**< of lists; [count] */
     const hdr_colour *colours; /**< [count], or NULL */
     uint32_t count;
     const char *text; /**< "" but for HDR_MARKER_TEXT */
 } hdr_marker;
 
-/** visualization_msgs/MarkerArray. Stamped 0: drawn whenever it arrives, also late and from a bag. */
+/** visualization_msgs/MarkerArray. Stamped 0: drawn whenever it arrives, also late and from a bag.
+ */
 typedef struct hdr_markers {
     const char *frame_id;
     const hdr_marker *markers;

@@ -1,5 +1,6 @@
-/** Messages as C sees them: views that point into the publisher's own buffers, or into what was received, one
- *  struct per message. Field by field the .msg files of the same names, where the units are. Strings are never NULL. */
+/** Messages as C sees them: views that point into the publisher's own buffers, or into what was
+ * received, one struct per message. Field by field the .msg files of the same names, where the
+ * units are. Strings are never NULL. */
 #ifndef HDLYAP_ROS_MESSAGES_H
 #define HDLYAP_ROS_MESSAGES_H
 

@@ -13,7 +13,7 @@ extern "C" {
 typedef struct hdr_params hdr_params;
 
 /** Fetches all private parameters of the node with one call to the master.
- *  Fails with HDR_FAULT if the master does not answer, or HDR_NO_MEMORY. */
+ * Fails with HDR_FAULT if the master does not answer, or HDR_NO_MEMORY. */
 HDR_MUST_CHECK hdr_status hdr_params_create(hdr_params **out, const hdr_node *node);
 void hdr_params_free(hdr_params *params);
 
@@ -30,7 +30,8 @@ const char *hdr_param_text(const hdr_params *params, const char *name);
 
 hdr_status hdr_param_bool(const hdr_params *params, const char *name, bool *out);
 hdr_status hdr_param_int(const hdr_params *params, const char *name, int *out);
-/** Takes an integer, and a string that is a number from end to end: 1e-6 is a string in YAML 1.1. */
+/** Takes an integer, and a string that is a number from end to end: 1e-6 is a string in YAML 1.1.
+ */
 hdr_status hdr_param_double(const hdr_params *params, const char *name, double *out);
 hdr_status hdr_param_string(const hdr_params *params, const char *name, const char **out);
 hdr_status hdr_param_string_list(const hdr_params *params, const char *name,

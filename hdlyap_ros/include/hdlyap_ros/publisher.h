@@ -12,8 +12,8 @@ extern "C" {
 typedef struct hdr_publisher hdr_publisher;
 
 /* Topic names: "~x" is private to the node. queue >= 1 is the number of messages kept for each
- * subscriber that is behind; the oldest are dropped first. The publishers belong to the node and live
- * as long as it does. Fail with HDR_FAULT or HDR_NO_MEMORY. */
+ * subscriber that is behind; the oldest are dropped first. The publishers belong to the node and
+ * live as long as it does. Fail with HDR_FAULT or HDR_NO_MEMORY. */
 
 /** Latched: who comes late gets the last message. */
 HDR_MUST_CHECK hdr_status hdr_run_info_advertise(hdr_publisher **out, hdr_node *node,
@@ -46,9 +46,10 @@ HDR_MUST_CHECK hdr_status hdr_string_advertise(hdr_publisher **out, hdr_node *no
 /** Number of subscribers connected now. */
 int hdr_publisher_subscribers(const hdr_publisher *publisher);
 
-/** Asks the master how many nodes have subscribed to each topic, whether they are connected yet or not: registered[k]
- *  of publishers[k], 0 where that is NULL. Waits that long at most, and no longer than until a stop is requested.
- *  HDR_FAULT if the master has not answered by then; HDR_NO_MEMORY. */
+/** Asks the master how many nodes have subscribed to each topic, whether they are connected yet or
+ * not: registered[k] of publishers[k], 0 where that is NULL. Waits that long at most, and no longer
+ * than until a stop is requested. HDR_FAULT if the master has not answered by then; HDR_NO_MEMORY.
+ */
 HDR_MUST_CHECK hdr_status hdr_publishers_registered(int registered[],
                                                     hdr_publisher *const publishers[], int count,
                                                     double seconds);
@@ -56,12 +57,13 @@ HDR_MUST_CHECK hdr_status hdr_publishers_registered(int registered[],
 /** How far the slowest subscriber is behind; what waits in buffers of the kernel does not count. */
 typedef struct hdr_lag {
     const char *topic; /**< resolved and remapped; as long as the publisher lives */
-    double seconds; /**< that a message waits, or has waited; 0 if none does now */
-    int messages;   /**< published meanwhile, with that one */
-    bool losing;    /**< as many as the queue holds: the oldest are lost */
+    double seconds;    /**< that a message waits, or has waited; 0 if none does now */
+    int messages;      /**< published meanwhile, with that one */
+    bool losing;       /**< as many as the queue holds: the oldest are lost */
 } hdr_lag;
 
-/** May be called by any thread, the more often the more exactly; does not wait. 0 for latched topics. */
+/** May be called by any thread, the more often the more exactly; does not wait. 0 for latched
+ * topics. */
 hdr_lag hdr_publisher_lag(hdr_publisher *publisher);
 
 /* The view is serialised before these return and never waited for. Without a subscriber and without

@@ -11,11 +11,12 @@ extern "C" {
 #endif
 
 /** Answers a call: returns `success` and writes `message` (size bytes, begins as ""). Runs on the
- *  node's callback thread, so it should be short. */
+ * node's callback thread, so it should be short. */
 typedef bool (*hdr_set_bool_callback)(void *context, bool value, char *message, size_t size);
 typedef bool (*hdr_trigger_callback)(void *context, char *message, size_t size);
 
-/* The service lives as long as the node; context must too. Names as for topics. HDR_FAULT or HDR_NO_MEMORY on failure. */
+/* The service lives as long as the node; context must too. Names as for topics. HDR_FAULT or
+ * HDR_NO_MEMORY on failure. */
 
 HDR_MUST_CHECK hdr_status hdr_service_set_bool(hdr_node *node, const char *name,
                                                hdr_set_bool_callback callback, void *context);

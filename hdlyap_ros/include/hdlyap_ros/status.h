@@ -1,4 +1,5 @@
-/** Outcome of every call of this C API over roscpp. No C++ exception ever leaves a function of it. */
+/** Outcome of every call of this C API over roscpp. No C++ exception ever leaves a function of it.
+ */
 #ifndef HDLYAP_ROS_STATUS_H
 #define HDLYAP_ROS_STATUS_H
 
@@ -20,7 +21,8 @@ typedef enum hdr_status {
 #define HDR_MUST_CHECK
 #endif
 
-/** What the last HDR_FAULT or HDR_NO_MEMORY of this thread was about; never NULL, valid until its next one. */
+/** What the last HDR_FAULT or HDR_NO_MEMORY of this thread was about; never NULL, valid until its
+ * next one. */
 const char *hdr_error_text(void);
 
 #ifdef __cplusplus

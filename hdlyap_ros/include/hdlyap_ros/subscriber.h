@@ -13,15 +13,15 @@ typedef struct hdr_subscriber hdr_subscriber;
 
 /** For message = hdr_steps:
  *      typedef void (*hdr_steps_callback)(void *context, const hdr_steps *view);
- *      hdr_status hdr_steps_subscribe(hdr_subscriber **out, hdr_node *node, const char *topic, int queue,
- *                                     hdr_steps_callback callback, void *context);
- *  Topic names as in publisher.h. The view and all that it points into is valid until the callback returns; an
- *  array without elements may be NULL. Callbacks run one after the other on the node's one callback thread, which
- *  they share with services, possibly before this returns: what they share with other threads needs a lock.
- *  Messages that arrive meanwhile wait; beyond queue >= 1 of them the oldest are dropped (see hdr_header.seq).
- *  A publisher of another type under the topic is not connected, and an ERROR line says so; a message that is
- *  damaged is dropped with an ERROR line.
- *  Fails with HDR_FAULT (also where this node itself publishes the topic with another type) or HDR_NO_MEMORY. */
+ *      hdr_status hdr_steps_subscribe(hdr_subscriber **out, hdr_node *node, const char *topic, int
+ * queue, hdr_steps_callback callback, void *context); Topic names as in publisher.h. The view and
+ * all that it points into is valid until the callback returns; an array without elements may be
+ * NULL. Callbacks run one after the other on the node's one callback thread, which they share with
+ * services, possibly before this returns: what they share with other threads needs a lock. Messages
+ * that arrive meanwhile wait; beyond queue >= 1 of them the oldest are dropped (see
+ * hdr_header.seq). A publisher of another type under the topic is not connected, and an ERROR line
+ * says so; a message that is damaged is dropped with an ERROR line. Fails with HDR_FAULT (also
+ * where this node itself publishes the topic with another type) or HDR_NO_MEMORY. */
 #define HDR_SUBSCRIBE(message)                                                                     \
     typedef void (*message##_callback)(void *context, const message *view);                        \
     HDR_MUST_CHECK hdr_status message##_subscribe(hdr_subscriber **out, hdr_node *node,            \
@@ -42,9 +42,10 @@ HDR_SUBSCRIBE(hdr_float64)
 HDR_SUBSCRIBE(hdr_string)
 #undef HDR_SUBSCRIBE
 
-/** Waits for a callback that is running; when it has returned none is running and none will: what context points to
- *  may go, and what has not been handed over is dropped. So hold no lock that the callback waits for. May also be
- *  called by the callback itself. NULL is allowed. hdr_node_free frees those that are left. */
+/** Waits for a callback that is running; when it has returned none is running and none will: what
+ * context points to may go, and what has not been handed over is dropped. So hold no lock that the
+ * callback waits for. May also be called by the callback itself. NULL is allowed. hdr_node_free
+ * frees those that are left. */
 void hdr_subscriber_free(hdr_subscriber *subscriber);
 
 /** Number of publishers connected now. */

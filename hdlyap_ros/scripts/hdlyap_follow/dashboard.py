@@ -10,7 +10,7 @@ from . import layout
 from .screen import Screen
 from .watch import Watch
 
-PERIOD = 0.25           # seconds between two looks
+PERIOD = 0.25  # seconds between two looks
 INTERRUPTED = 130
 WENT_AWAY = 3
 
@@ -23,7 +23,7 @@ def follow(node, plain=False):
     with screen:
         status = _redraw(watch, screen, drawn)
     last = layout.lines(watch.view(), screen.size, drawn)
-    screen.leave_behind([line for line in last[:-1] if line])   # without the keys
+    screen.leave_behind([line for line in last[:-1] if line])  # without the keys
     return status
 
 

@@ -7,21 +7,27 @@ ORDER = ('head', 'progress', 'numbers', 'table', 'phases', 'cost', 'diagnosis', 
 TABLES = ('table', 'phases')
 # of the others, by importance where there is not room for all
 FIRST = ('progress', 'diagnosis', 'head', 'numbers', 'keys', 'cost')
-SPACED = ('table', 'phases', 'cost', 'diagnosis', 'numbers', 'keys', 'progress')   # likewise
+SPACED = ('table', 'phases', 'cost', 'diagnosis', 'numbers', 'keys', 'progress')  # likewise
 
 
 def lines(view, size, glyphs):
     """At most as many as the screen has."""
     width, height = size
-    wanted = {'head': panels.head(view), 'progress': panels.progress(view, width, glyphs),
-              'numbers': panels.numbers(view, width), 'table': panels.table(view, width),
-              'phases': panels.phases(view, glyphs), 'cost': panels.cost(view, width, glyphs),
-              'diagnosis': panels.diagnosis(view), 'keys': panels.keys(view)}
+    wanted = {
+        'head': panels.head(view),
+        'progress': panels.progress(view, width, glyphs),
+        'numbers': panels.numbers(view, width),
+        'table': panels.table(view, width),
+        'phases': panels.phases(view, glyphs),
+        'cost': panels.cost(view, width, glyphs),
+        'diagnosis': panels.diagnosis(view),
+        'keys': panels.keys(view),
+    }
     room = allotted({name: len(panel) for name, panel in wanted.items()}, height)
-    shown = {name: wanted[name][:room[name]] for name in FIRST}
+    shown = {name: wanted[name][: room[name]] for name in FIRST}
     shown.update((name, shortened(wanted[name], room[name])) for name in TABLES)
     spare = height - sum(map(len, shown.values()))
-    spaced = [name for name in SPACED if shown[name]][:max(0, spare)]
+    spaced = [name for name in SPACED if shown[name]][: max(0, spare)]
     return [line for name in ORDER for line in ([[]] if name in spaced else []) + shown[name]]
 
 

@@ -13,9 +13,9 @@ from hdlyap_plots.stages import LIMITS, PHASES
 
 from .nodes import is_alive
 
-LINE_PERIOD = 10.0      # seconds between lines where there is no terminal
-SILENCE = 2.0           # seconds without a message after which the node is asked
-LAST_SPECTRUM = 0.3     # seconds that it may be behind the last word about the cost
+LINE_PERIOD = 10.0  # seconds between lines where there is no terminal
+SILENCE = 2.0  # seconds without a message after which the node is asked
+LAST_SPECTRUM = 0.3  # seconds that it may be behind the last word about the cost
 
 
 class Progress:
@@ -51,8 +51,10 @@ class Progress:
         if self.spectrum is not None and self.spectrum.averaged_time > 0:
             parts.append(f'lambda_max {self.spectrum.lambda_max:.4f}' + self._error())
         if cost.orthonormalisations:
-            parts.append(f'interval {cost.interval:.3g} ({LIMITS.get(cost.interval_limit, "?")}), '
-                         f'repairs {cost.repairs}')
+            parts.append(
+                f'interval {cost.interval:.3g} ({LIMITS.get(cost.interval_limit, "?")}), '
+                f'repairs {cost.repairs}'
+            )
         if cost.modes_seconds > 0:
             share = 100 * cost.modes_seconds / cost.wall_seconds
             parts.append(f'classification {share:.0f} % of the time')
@@ -73,7 +75,7 @@ class Display:
     def show(self, line, last=False):
         if self._terminal:
             width = os.get_terminal_size(sys.stdout.fileno()).columns
-            print('\r' + line[:max(0, width - 1)] + '\033[K', end='', flush=True)
+            print('\r' + line[: max(0, width - 1)] + '\033[K', end='', flush=True)
         elif last or time.monotonic() >= self._next:
             print(line, flush=True)
             self._next = time.monotonic() + LINE_PERIOD

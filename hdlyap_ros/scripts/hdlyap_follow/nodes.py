@@ -9,7 +9,7 @@ import rospy
 
 from hdlyap.msg import Cost
 
-ANSWER = 5.0            # seconds that a master or a node may take to answer
+ANSWER = 5.0  # seconds that a master or a node may take to answer
 # a question that could not be asked, or whose answer is none
 UNANSWERED = (rosgraph.MasterException, OSError, xmlrpc.client.Error, ValueError, TypeError)
 
@@ -24,8 +24,9 @@ def wait_for_master(deadline):
 def wait_for_node(name, deadline):
     """Name of the node that publishes hdlyap/Cost; None after the deadline."""
     while time.monotonic() < deadline and not rospy.is_shutdown():
-        nodes = {topic.rpartition('/')[0] for topic, kind in _published_topics()
-                 if kind == Cost._type}
+        nodes = {
+            topic.rpartition('/')[0] for topic, kind in _published_topics() if kind == Cost._type
+        }
         if name in nodes or (name is None and len(nodes) == 1):
             return name or nodes.pop()
         if name is None and nodes:

@@ -11,8 +11,8 @@ from hdlyap_plots.stages import LIMITS, PHASES, seconds
 
 LEVELS = {0: ('OK', 'ok'), 1: ('WARN', 'warn'), 2: ('ERROR', 'error'), 3: ('STALE', 'warn')}
 KIND_STYLES = {steps.T: 'T', steps.LP: 'LP'}
-PAPER_WIDTH = 88        # of a table of steps with the paper's values
-STAGE_BAR = 6           # columns
+PAPER_WIDTH = 88  # of a table of steps with the paper's values
+STAGE_BAR = 6  # columns
 GAP = '   '
 STATES = {LpPhase.WEAK: 'too weak now', LpPhase.COARSE: 'turns too fast'}
 PHASE_ROW = '  {:<9} {:<17} {:>6} {:>7}  {} {:<6}{:<14} {}'
@@ -24,9 +24,10 @@ def head(view):
     info = view.info
     if info is None:
         return [[(view.node, 'strong')]]
-    return [[(f'{view.node}  {info.scene}', 'strong'),
-             (f'  seed {info.seed}  run {info.run_id}', '')],
-            [(system(info), '')]]
+    return [
+        [(f'{view.node}  {info.scene}', 'strong'), (f'  seed {info.seed}  run {info.run_id}', '')],
+        [(system(info), '')],
+    ]
 
 
 def progress(view, width, glyphs):
@@ -81,8 +82,11 @@ def _numbers(view):
             yield 'pairing error', f'{spectrum.pairing_error:.1e}'
     if message is None or message.averaged_time <= 0:
         return
-    for name, value, points in (('c_T', 'c_t', 't_points'), ('c_L', 'c_l', 'l_points'),
-                                ('v', 'v', 'v_phases')):
+    for name, value, points in (
+        ('c_T', 'c_t', 't_points'),
+        ('c_L', 'c_l', 'l_points'),
+        ('v', 'v', 'v_phases'),
+    ):
         if getattr(message, points):
             yield name, _measured(getattr(message, value), getattr(message, value + '_error'))
     looked_for = [step for step in message.steps if step.kind != steps.ZERO]
@@ -95,16 +99,20 @@ def table(view, width):
     message = view.steps
     if message is None or message.averaged_time <= 0:
         return _without(view, 'steps')
-    fitted = ({step.name: step.fitted for step in paper.steps(view.info)}
-              if view.info and width >= PAPER_WIDTH else {})
+    fitted = (
+        {step.name: step.fitted for step in paper.steps(view.info)}
+        if view.info and width >= PAPER_WIDTH
+        else {}
+    )
     found = list(step_table.block_rows(message, fitted))
     if view.info and view.is_averaged and view.last_index > view.positive_end:
         found.insert(0, (step_table.zero_cells(view), None))
     if not found:
         return _note('steps', 'none resolved yet')
     first, *rest = step_table.layout([row for row, _ in found], bool(fitted))
-    return [[(first, 'faint')]] + [[(text, KIND_STYLES.get(kind, ''))]
-                                   for text, (_, kind) in zip(rest, found)]
+    return [[(first, 'faint')]] + [
+        [(text, KIND_STYLES.get(kind, ''))] for text, (_, kind) in zip(rest, found)
+    ]
 
 
 def phases(view, glyphs):
@@ -142,9 +150,16 @@ def _phase_row(phase, glyphs):
         omega = _measured(phase.omega, phase.omega_error)
         error = phase.velocity * phase.omega_error / abs(phase.omega) if phase.omega else -1.0
         v = _measured(phase.velocity, error)
-    return PHASE_ROW.format(steps.wave_name('LP', phase),
-                            waves.plain_formula(phase.nx, phase.ny, phase.modulation), phase.index,
-                            f'{hypot(a, b):.2f}', glyphs.dial(turn), f'{turn:.2f}', omega, v)
+    return PHASE_ROW.format(
+        steps.wave_name('LP', phase),
+        waves.plain_formula(phase.nx, phase.ny, phase.modulation),
+        phase.index,
+        f'{hypot(a, b):.2f}',
+        glyphs.dial(turn),
+        f'{turn:.2f}',
+        omega,
+        v,
+    )
 
 
 def cost(view, width, glyphs):
@@ -152,8 +167,14 @@ def cost(view, width, glyphs):
     if view.cost is None or view.cost.wall_seconds <= 0:
         return []
     shares = {stage: spent / view.cost.wall_seconds for stage, spent in seconds(view.cost).items()}
-    return (flow([f'{stage:<9} {glyphs.bar(share, STAGE_BAR)} {100 * share:3.0f} %'
-                  for stage, share in shares.items()], width, '  ') + flow(_interval(view), width))
+    return flow(
+        [
+            f'{stage:<9} {glyphs.bar(share, STAGE_BAR)} {100 * share:3.0f} %'
+            for stage, share in shares.items()
+        ],
+        width,
+        '  ',
+    ) + flow(_interval(view), width)
 
 
 def _interval(view):
@@ -175,8 +196,12 @@ def diagnosis(view):
     if view.is_finished:
         return lines + [[('the run has finished', 'strong')]]
     if view.is_gone:
-        lines.append([('GONE', 'error'), (f'  {view.node} does not answer; waiting for it to come '
-                                          'back', '')])
+        lines.append(
+            [
+                ('GONE', 'error'),
+                (f'  {view.node} does not answer; waiting for it to come ' 'back', ''),
+            ]
+        )
     elif view.silence > 5:
         lines.append([(f'no message for {clock(view.silence)}', 'warn')])
     if view.is_master_gone:

@@ -9,9 +9,9 @@ import rospy
 
 from .nodes import UNANSWERED, address, answers, ask_master
 
-PERIOD = 1.0            # seconds between two looks at the master
-SILENCE = 2.0           # seconds without a message after which the node is asked
-FOLLOWER = re.compile(r'/follow_\d+_\d+$')      # names that rospy gives to our like
+PERIOD = 1.0  # seconds between two looks at the master
+SILENCE = 2.0  # seconds without a message after which the node is asked
+FOLLOWER = re.compile(r'/follow_\d+_\d+$')  # names that rospy gives to our like
 
 
 class Scout:
@@ -36,7 +36,8 @@ class Scout:
             self._soon.clear()
             self._look()
             self.is_node_gone = self._silence() > SILENCE and not (
-                self._address and answers(self._address))
+                self._address and answers(self._address)
+            )
             self._soon.wait(PERIOD)
 
     def _look(self):
@@ -50,15 +51,23 @@ class Scout:
         try:
             self._address = address(self._node)
         except UNANSWERED:
-            pass    # a node that no master knows may still be where it was
+            pass  # a node that no master knows may still be where it was
 
     def _listen(self, speakers, listeners):
         """Both: {topic: names of nodes}"""
         self.others = frozenset(
-            topic for topic in self._computed
-            if not all(FOLLOWER.search(name) for name in listeners.get(topic, ())))
-        topics = {**self._always, **{topic: ear for topic, ear in self._computed.items()
-                                     if self.wanted or topic in self.others}}
+            topic
+            for topic in self._computed
+            if not all(FOLLOWER.search(name) for name in listeners.get(topic, ()))
+        )
+        topics = {
+            **self._always,
+            **{
+                topic: ear
+                for topic, ear in self._computed.items()
+                if self.wanted or topic in self.others
+            },
+        }
         for topic in list(self._ears):
             # by a master that was restarted; a node that it does not know either is still connected
             forgotten = topic in speakers and rospy.get_name() not in listeners.get(topic, ())

@@ -8,22 +8,30 @@ import tempfile
 import termios
 import tty
 
-ENTER = '\033[?1049h\033[?25l\033[?7l'      # another screen, no cursor, no wrapping at the edge
+ENTER = '\033[?1049h\033[?25l\033[?7l'  # another screen, no cursor, no wrapping at the edge
 LEAVE = '\033[0m\033[?7h\033[?25h\033[?1049l'
 HOME, TO_LINE_END, TO_END, CLEAR = '\033[H', '\033[K', '\033[J', '\033[2J'
 HANGUP = 128 + signal.SIGHUP
 UNKNOWN_SIZE = (80, 24)
 # blue and vermilion as in the figures, of a lightness that shows on black and on white
-COLOURS = {'T': '38;5;32', 'LP': '38;5;166', 'ok': '38;5;35', 'warn': '1;38;5;172',
-           'error': '1;38;5;160'}
+COLOURS = {
+    'T': '38;5;32',
+    'LP': '38;5;166',
+    'ok': '38;5;35',
+    'warn': '1;38;5;172',
+    'error': '1;38;5;160',
+}
 WEIGHTS = {'strong': '1', 'faint': '2'}
 
 
 def is_usable():
     """Whether stdout is a terminal that this process may have for itself."""
     try:
-        return (sys.stdout.isatty() and os.environ.get('TERM', 'dumb') != 'dumb'
-                and os.tcgetpgrp(sys.stdout.fileno()) == os.getpgrp())
+        return (
+            sys.stdout.isatty()
+            and os.environ.get('TERM', 'dumb') != 'dumb'
+            and os.tcgetpgrp(sys.stdout.fileno()) == os.getpgrp()
+        )
     except OSError:
         return False
 
@@ -33,8 +41,8 @@ class Screen:
 
     def __init__(self, plain=False):
         self._styles = {} if plain else _styles()
-        self._saved = None      # settings of the keyboard; None where it is none of ours
-        self._shown = None      # (size, text) of what stands there
+        self._saved = None  # settings of the keyboard; None where it is none of ours
+        self._shown = None  # (size, text) of what stands there
         self._handlers = {}
         self._complaints = Complaints()
 
@@ -60,8 +68,9 @@ class Screen:
     def show(self, lines, size):
         """As many lines as the screen has, each cut to its width; nothing is sent if they stand
         there already."""
-        text = (TO_LINE_END + '\r\n').join(self._painted(cut(line, size[0]))
-                                           for line in lines[:size[1]])
+        text = (TO_LINE_END + '\r\n').join(
+            self._painted(cut(line, size[0])) for line in lines[: size[1]]
+        )
         if self._shown != (size, text):
             begin = HOME if self._shown and self._shown[0] == size else CLEAR + HOME
             _write(begin + text + TO_LINE_END + TO_END)
@@ -79,12 +88,16 @@ class Screen:
             return ''
         pressed = os.read(sys.stdin.fileno(), 1)
         if not pressed:
-            raise EOFError      # the terminal has gone
+            raise EOFError  # the terminal has gone
         return pressed.decode('ascii', 'replace')
 
     def _painted(self, line):
-        return ''.join(f'\033[{self._styles[style]}m{clean(text)}\033[0m'
-                       if style in self._styles else clean(text) for text, style in line)
+        return ''.join(
+            f'\033[{self._styles[style]}m{clean(text)}\033[0m'
+            if style in self._styles
+            else clean(text)
+            for text, style in line
+        )
 
     def _take(self):
         if sys.stdin.isatty():
@@ -99,7 +112,7 @@ class Screen:
             if self._saved:
                 termios.tcsetattr(sys.stdin, termios.TCSADRAIN, self._saved)
         except (OSError, termios.error):
-            pass    # no terminal is left to be given back
+            pass  # no terminal is left to be given back
 
     def _suspend(self, number, frame):
         """Ctrl-Z: the shell gets its terminal, until the program is in the foreground again."""
@@ -151,7 +164,7 @@ def _styles():
 def _write(text):
     data = text.encode(sys.stdout.encoding or 'ascii', 'replace')
     while data:
-        data = data[os.write(sys.stdout.fileno(), data):]
+        data = data[os.write(sys.stdout.fileno(), data) :]
 
 
 def _hang_up(number, frame):

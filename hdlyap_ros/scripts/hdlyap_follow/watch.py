@@ -11,7 +11,7 @@ from .scout import Scout
 
 ALWAYS = {'run_info': RunInfo, 'cost': Cost, 'spectrum': Spectrum}
 COMPUTED = {'steps': Steps, 'lp_phases': LpPhases}
-SPEED_OVER = 10.0       # wall seconds
+SPEED_OVER = 10.0  # wall seconds
 
 
 class View(Run):
@@ -42,8 +42,12 @@ class Watch:
         self._heard, self._speed = time.monotonic(), Speed()
         always = {f'{node}/{name}': (lazy(kind), self._hear) for name, kind in ALWAYS.items()}
         always['/diagnostics'] = DiagnosticArray, self._hear_diagnostics
-        self._scout = Scout(node, always, {f'{node}/{name}': (lazy(kind), self._hear)
-                                           for name, kind in COMPUTED.items()}, self._silence)
+        self._scout = Scout(
+            node,
+            always,
+            {f'{node}/{name}': (lazy(kind), self._hear) for name, kind in COMPUTED.items()},
+            self._silence,
+        )
 
     def toggle_computed(self):
         """Has the node compute steps and LP phases although nobody else listens, or no more."""
@@ -52,13 +56,17 @@ class Watch:
     def view(self):
         scout, view = self._scout, View()
         listened = scout.listened
-        last = {topic.rpartition('/')[2]: message.unpacked()
-                for topic, message in dict(self._last).items() if topic in listened}
+        last = {
+            topic.rpartition('/')[2]: message.unpacked()
+            for topic, message in dict(self._last).items()
+            if topic in listened
+        }
         fill(view, last)
         view.node, view.silence = self._node, self._silence()
         view.diagnosis, view.speed = self._diagnosis, self._speed.add(view.cost)
-        view.wanted, view.others = scout.wanted, {topic.rpartition('/')[2]
-                                                  for topic in scout.others}
+        view.wanted, view.others = scout.wanted, {
+            topic.rpartition('/')[2] for topic in scout.others
+        }
         view.is_gone, view.is_master_gone = scout.is_node_gone, scout.is_master_gone
         return view
 
@@ -80,8 +88,11 @@ def fill(view, last):
     """With the last messages of the topics, but those that are left of a run before the one that
     the cost is of."""
     newest = last.get('cost') or last.get('run_info')
-    last = {name: message for name, message in last.items()
-            if message.run_id == newest.run_id} if newest else {}
+    last = (
+        {name: message for name, message in last.items() if message.run_id == newest.run_id}
+        if newest
+        else {}
+    )
     view.info, view.cost = last.get('run_info'), last.get('cost')
     view.spectrum, view.steps = last.get('spectrum'), last.get('steps')
     view.phases = last.get('lp_phases')
@@ -99,7 +110,7 @@ class Speed:
             return None
         marks = self._marks
         if marks and cost.wall_seconds < marks[-1][0]:
-            marks.clear()   # another run
+            marks.clear()  # another run
         if not marks or cost.wall_seconds > marks[-1][0]:
             marks.append((cost.wall_seconds, cost.sim_time))
         while len(marks) > 2 and marks[-1][0] - marks[1][0] >= SPEED_OVER:
@@ -111,6 +122,7 @@ class Speed:
 def lazy(kind):
     """The class of messages, unpacked only when asked: most are replaced before they are seen, and
     what is spent on them a node on the same cores does not get."""
+
     class Lazy(kind):
         def deserialize(self, data):
             self.data, self.message = data, None
@@ -120,4 +132,5 @@ def lazy(kind):
             if self.message is None:
                 self.message = kind().deserialize(self.data)
             return self.message
+
     return Lazy

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-LIMIT = 4096    # rows; twice what can be seen in a figure
+LIMIT = 4096  # rows; twice what can be seen in a figure
 
 
 class Course:

@@ -9,9 +9,11 @@ from hdlyap.msg import CovariantAngle
 from . import steps
 from .numbers import known
 
-SPACES = {CovariantAngle.UNSTABLE_STABLE: 'unstable-stable',
-          CovariantAngle.UNSTABLE_CENTRE: 'unstable-centre',
-          CovariantAngle.CENTRE_STABLE: 'centre-stable'}
+SPACES = {
+    CovariantAngle.UNSTABLE_STABLE: 'unstable-stable',
+    CovariantAngle.UNSTABLE_CENTRE: 'unstable-centre',
+    CovariantAngle.CENTRE_STABLE: 'centre-stable',
+}
 RIGHT_ANGLE = pi / 2
 
 
@@ -57,11 +59,17 @@ class Compared:
             return None
         # members of a step fluctuate together, so their errors do not average out
         forward, forward_error, backward, backward_error = (
-            float(values[inside].mean()) for values in (self.forward, self.forward_error, self.backward,
-                                                        self.backward_error))
+            float(values[inside].mean())
+            for values in (self.forward, self.forward_error, self.backward, self.backward_error)
+        )
         combined = np.hypot(forward_error, backward_error)
-        return (forward, forward_error, backward, backward_error,
-                float(_ratio(np.array(backward - forward), np.array(combined))))
+        return (
+            forward,
+            forward_error,
+            backward,
+            backward_error,
+            float(_ratio(np.array(backward - forward), np.array(combined))),
+        )
 
 
 def _ratio(difference, error):
@@ -92,6 +100,7 @@ def blocks(run):
 
 # ---- weights ----------------------------------------------------------------------------------
 
+
 def weight_name(weight):
     return steps.name(weight)
 
@@ -106,8 +115,10 @@ def weights_over(run, block):
     and dp halves, and what chance would give."""
     inside = within(indices(run.covariant), block)
     for step in block.steps if inside is not None else ():
-        found = next((weight for weight in run.covariant.weights
-                      if weight_name(weight) == steps.name(step)), None)
+        found = next(
+            (weight for weight in run.covariant.weights if weight_name(weight) == steps.name(step)),
+            None,
+        )
         if found is None:
             continue
         yield step, (*_means(found, inside), chance(run, found))
@@ -122,15 +133,18 @@ def unresolved_weights(run):
     for weight in run.covariant.weights:
         if weight_name(weight) in resolved or weight.dimension > carried:
             continue
-        best = np.sort(np.argsort(weight.dq[:carried], kind='stable')[carried - weight.dimension:])
+        best = np.sort(np.argsort(weight.dq[:carried], kind='stable')[carried - weight.dimension :])
         yield weight, numbers[best], (*_means(weight, best), chance(run, weight))
 
 
 def _means(weight, chosen):
-    return tuple(np.array(values)[chosen].mean() for values in (weight.gram_schmidt, weight.dq, weight.dp))
+    return tuple(
+        np.array(values)[chosen].mean() for values in (weight.gram_schmidt, weight.dq, weight.dp)
+    )
 
 
 # ---- angles, order ----------------------------------------------------------------------------
+
 
 def edges(counts):
     return np.linspace(0, RIGHT_ANGLE, len(counts) + 1)
@@ -145,7 +159,7 @@ def density(counts):
 def only_bin(counts):
     """(from, to) of the bin that holds everything [rad]; None if there are several or none."""
     filled = np.flatnonzero(counts)
-    return tuple(edges(counts)[filled[0]:filled[0] + 2]) if len(filled) == 1 else None
+    return tuple(edges(counts)[filled[0] : filled[0] + 2]) if len(filled) == 1 else None
 
 
 def isolated(message):

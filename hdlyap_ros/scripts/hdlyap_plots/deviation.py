@@ -6,7 +6,7 @@ import numpy as np
 
 from .numbers import known
 
-FREEDOM = 7     # of an error: the node asks blocks for it only while there are at least 8
+FREEDOM = 7  # of an error: the node asks blocks for it only while there are at least 8
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(64)
 
 
@@ -30,7 +30,7 @@ class Deviation:
     @property
     def chance(self):
         """Probability of a difference as large between means over few blocks (Welch)."""
-        a, b = self.errors ** 2
+        a, b = self.errors**2
         spread = a * a + b * b
         return student_tail(self.z, FREEDOM * (a + b) ** 2 / spread if spread > 0 else FREEDOM)
 
@@ -40,7 +40,7 @@ class Deviation:
         if self.difference == 0:
             return 0.0
         z = self.difference / self.error if self.error > 0 else np.inf
-        return np.inf if np.isnan(z) else z     # what is no number does not agree
+        return np.inf if np.isnan(z) else z  # what is no number does not agree
 
 
 def student_tail(z, freedom):

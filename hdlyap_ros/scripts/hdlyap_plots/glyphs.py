@@ -7,7 +7,7 @@ class Glyphs:
     """Finely drawn, or in ASCII."""
 
     def __init__(self, plain=False):
-        self._parts = ' #' if plain else ' ▏▎▍▌▋▊▉█'     # of a column that is filled
+        self._parts = ' #' if plain else ' ▏▎▍▌▋▊▉█'  # of a column that is filled
         self._rest = '.' if plain else '░'
         self._hands = '>/^\\</v\\' if plain else '→↗↑↖←↙↓↘'
 

@@ -4,7 +4,7 @@ from math import floor, isfinite, log10
 
 import numpy as np
 
-PLACES = 9      # with more, only the size of a number can be read
+PLACES = 9  # with more, only the size of a number can be read
 
 
 def with_error(value, error, decimals=5):

@@ -6,18 +6,24 @@ from collections import namedtuple
 from math import hypot, isclose, pi
 
 DISKS, DENSITY, ASPECT = 780, 0.8, 0.867
-FIT_ACCURACY = 0.03     # of the fitted slopes
+FIT_ACCURACY = 0.03  # of the fitted slopes
 FITS = 'fits of Eckmann, Forster, Posch, Zabey 2005'
 # kind, nodes, first and last index
-INDICES = (('T', 1, 0, 1556, 1557), ('T', 0, 1, 1554, 1555), ('LP', 1, 0, 1550, 1553),
-           ('T', 1, 1, 1546, 1549), ('LP', 0, 1, 1542, 1545), ('T', 2, 0, 1540, 1541),
-           ('LP', 1, 1, 1532, 1539))
-STEPS = INDICES[:5]     # small enough for slopes without curvature
+INDICES = (
+    ('T', 1, 0, 1556, 1557),
+    ('T', 0, 1, 1554, 1555),
+    ('LP', 1, 0, 1550, 1553),
+    ('T', 1, 1, 1546, 1549),
+    ('LP', 0, 1, 1542, 1545),
+    ('T', 2, 0, 1540, 1541),
+    ('LP', 1, 1, 1532, 1539),
+)
+STEPS = INDICES[:5]  # small enough for slopes without curvature
 # lambda = c k + c2 k^2; c2 is None where only a slope is given
 Branch = namedtuple('Branch', 'c c2')
 CURVES = {'T': Branch(1.412, 0.086), 'LP': Branch(1.422, 0.55)}
 CURVES_DENSITY = 0.4
-CURVES_DISKS, CURVES_ASPECTS = (400, 800), (0.5, 1.0)     # from, to; of the smallest steps
+CURVES_DISKS, CURVES_ASPECTS = (400, 800), (0.5, 1.0)  # from, to; of the smallest steps
 
 
 class Step:
@@ -33,12 +39,12 @@ class Step:
 
 def slope_t(density):
     """c_T at N = 780, A = 0.867, density <= 0.8."""
-    return 0.902 + 1.050 * density - 0.053 * density ** 2 + 3.85 * density ** 4
+    return 0.902 + 1.050 * density - 0.053 * density**2 + 3.85 * density**4
 
 
 def slope_l(density):
     """c_L at N = 780, A = 0.867, density <= 0.8."""
-    return 0.790 + 0.970 * density + 0.785 * density ** 2 + 6.24 * density ** 4
+    return 0.790 + 0.970 * density + 0.785 * density**2 + 6.24 * density**4
 
 
 def steps(info):
@@ -53,8 +59,7 @@ def branches(info):
     if isclose(info.density, CURVES_DENSITY, rel_tol=1e-6) and _within(info.disks, CURVES_DISKS):
         return CURVES
     if info.density <= DENSITY * (1 + 1e-6) and info.disks >= 400:
-        return {'T': Branch(slope_t(info.density), None),
-                'LP': Branch(slope_l(info.density), None)}
+        return {'T': Branch(slope_t(info.density), None), 'LP': Branch(slope_l(info.density), None)}
     return {}
 
 
@@ -68,6 +73,9 @@ def _within(value, ends):
 
 
 def _is_periodic_scene(info):
-    return (info.disks == DISKS and isclose(info.density, DENSITY, rel_tol=1e-6)
-            and isclose(info.aspect, ASPECT, rel_tol=1e-6)
-            and info.boundary_x == info.boundary_y == 'periodic')
+    return (
+        info.disks == DISKS
+        and isclose(info.density, DENSITY, rel_tol=1e-6)
+        and isclose(info.aspect, ASPECT, rel_tol=1e-6)
+        and info.boundary_x == info.boundary_y == 'periodic'
+    )

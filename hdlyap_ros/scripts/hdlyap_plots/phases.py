@@ -5,7 +5,7 @@ import numpy as np
 from .course import Course
 from .numbers import known
 
-SHORTEST = 3    # points of a curve
+SHORTEST = 3  # points of a curve
 
 
 def goes_on(time, tracked_time):
@@ -24,10 +24,13 @@ class PhaseCourse:
     def add(self, msg):
         self.last = msg
         tracked = [phase.state == phase.TRACKED for phase in msg.phases]
-        self._course.add((msg.sim_time,
-                          *(phase.phase if on else np.nan
-                            for phase, on in zip(msg.phases, tracked)),
-                          *(phase.tracked_time for phase in msg.phases)))
+        self._course.add(
+            (
+                msg.sim_time,
+                *(phase.phase if on else np.nan for phase, on in zip(msg.phases, tracked)),
+                *(phase.tracked_time for phase in msg.phases),
+            )
+        )
 
     def of_step(self, step):
         """Numbers of the phases of an element of Steps.steps."""
@@ -54,8 +57,9 @@ def regression(time, phase):
 def mean_omega(phases):
     """(|omega|, its error, number) over the tracked phases of one step, weighted with their
     errors. The vectors of a step move together, so their errors do not average out."""
-    omega = np.array([[abs(phase.omega), phase.omega_error] for phase in phases
-                      if phase.state == phase.TRACKED]).reshape(-1, 2)
+    omega = np.array(
+        [[abs(phase.omega), phase.omega_error] for phase in phases if phase.state == phase.TRACKED]
+    ).reshape(-1, 2)
     if not len(omega):
         return np.nan, np.nan, 0
     errors = known(omega[:, 1])
@@ -70,7 +74,10 @@ def apart(phases, ranked):
     """Of the numbers in ranked, the first ones that have neither vector nor pair in common."""
     found = []
     for number in ranked:
-        if all(phases[number].index != phases[other].index
-               and phases[number].modulation != phases[other].modulation for other in found):
+        if all(
+            phases[number].index != phases[other].index
+            and phases[number].modulation != phases[other].modulation
+            for other in found
+        ):
             found.append(number)
     return found

@@ -6,8 +6,8 @@ import time
 from . import glyphs
 from .numbers import clock
 
-SILENT = 1.0        # seconds without a bar: what is done by then needs none
-PERIOD = 0.2        # seconds between two of them
+SILENT = 1.0  # seconds without a bar: what is done by then needs none
+PERIOD = 0.2  # seconds between two of them
 COLUMNS = 30
 
 

@@ -19,7 +19,7 @@ RUN_INFO, SPECTRUM, COST = 'hdlyap/RunInfo', 'hdlyap/Spectrum', 'hdlyap/Cost'
 STEPS, PHASES, FIELD = 'hdlyap/Steps', 'hdlyap/LpPhases', 'hdlyap/ModeField'
 COVARIANT = 'hdlyap/Covariant'
 TYPES = (RUN_INFO, SPECTRUM, COST, STEPS, PHASES, FIELD, COVARIANT)
-SMALLEST = 4    # exponents whose course is kept, counted back from the last positive one
+SMALLEST = 4  # exponents whose course is kept, counted back from the last positive one
 DAMAGE = (genpy.DeserializationError, struct.error, UnicodeDecodeError, KeyError)
 
 
@@ -35,7 +35,7 @@ class Recording(Run):
 
     def __init__(self, info, runs=1):
         self.info = info
-        self.runs = runs        # in the bag
+        self.runs = runs  # in the bag
         self.spectrum = None
         self.phases = PhaseCourse()
         self._history, self._costs = Course(), Course()
@@ -73,34 +73,52 @@ class Recording(Run):
         elif kind == FIELD:
             self._fields[packed.field_index()] = packed
         else:
-            {SPECTRUM: self._add_spectrum, COST: self._add_cost,
-             PHASES: self.phases.add}[kind](packed.message())
+            {SPECTRUM: self._add_spectrum, COST: self._add_cost, PHASES: self.phases.add}[kind](
+                packed.message()
+            )
 
     def _add_spectrum(self, msg):
         if msg.averaged_time <= 0:
             return
         if self.spectrum is not None and msg.averaged_time < self.spectrum.averaged_time:
-            self._history.clear()   # the averages were reset
-            self._last.pop(COVARIANT, None)     # the next one takes a while
+            self._history.clear()  # the averages were reset
+            self._last.pop(COVARIANT, None)  # the next one takes a while
         self.spectrum = msg
         small = [index - msg.first_index for index in self.smallest]
-        self._history.add((msg.averaged_time, msg.lambda_max, msg.std_errors[0],
-                           max(msg.std_errors),
-                           *(msg.exponents[i] for i in small),
-                           *(msg.std_errors[i] for i in small)))
+        self._history.add(
+            (
+                msg.averaged_time,
+                msg.lambda_max,
+                msg.std_errors[0],
+                max(msg.std_errors),
+                *(msg.exponents[i] for i in small),
+                *(msg.std_errors[i] for i in small),
+            )
+        )
 
     def _add_cost(self, msg):
-        self._costs.add((msg.sim_time, msg.phase, msg.wall_seconds,
-                         # older bags do not know every stage
-                         *(getattr(msg, stage + '_seconds', 0.0) for stage in STAGES)))
+        self._costs.add(
+            (
+                msg.sim_time,
+                msg.phase,
+                msg.wall_seconds,
+                # older bags do not know every stage
+                *(getattr(msg, stage + '_seconds', 0.0) for stage in STAGES),
+            )
+        )
 
     def course(self):
         """Running means against averaged time, unknown errors as NaN."""
         table = self._history.table()
         n = len(self.smallest)
-        course = {'time': table[:, 0], 'lambda_max': table[:, 1], 'lambda_max_error': table[:, 2],
-                  'largest_error': table[:, 3], 'small': table[:, 4:4 + n],
-                  'small_errors': table[:, 4 + n:]}
+        course = {
+            'time': table[:, 0],
+            'lambda_max': table[:, 1],
+            'lambda_max_error': table[:, 2],
+            'largest_error': table[:, 3],
+            'small': table[:, 4 : 4 + n],
+            'small_errors': table[:, 4 + n :],
+        }
         for name in ('lambda_max_error', 'largest_error', 'small_errors'):
             course[name] = known(course[name])
         return course
@@ -121,12 +139,12 @@ class Packed:
 
     def __init__(self, data, pytype):
         self._data, self._pytype = data, pytype
-        _, after_frame = self._string(12)   # seq and stamp
+        _, after_frame = self._string(12)  # seq and stamp
         self.run_id, self._after_run_id = self._string(after_frame)
 
     def _string(self, at):
-        length, = struct.unpack_from('<I', self._data, at)
-        return self._data[at + 4:at + 4 + length].decode(), at + 4 + length
+        (length,) = struct.unpack_from('<I', self._data, at)
+        return self._data[at + 4 : at + 4 + length].decode(), at + 4 + length
 
     def field_index(self):
         """Lyapunov index of a ModeField: it follows sim_time."""
@@ -166,8 +184,10 @@ def _opened(path):
         with rosbag.Bag(path) as bag:
             yield bag
     except rosbag.ROSBagUnindexedException:
-        raise RecordingError(f'{path}: not closed, as of a recording that goes on or was cut off; '
-                             f'if it was: rosbag reindex {path}')
+        raise RecordingError(
+            f'{path}: not closed, as of a recording that goes on or was cut off; '
+            f'if it was: rosbag reindex {path}'
+        )
     except rosbag.ROSBagException as error:
         raise RecordingError(f'{path}: not a readable bag: {error}')
     except DAMAGE as error:
@@ -179,8 +199,12 @@ def _opened(path):
 def _unfinished(path):
     """rosbag record gives a bag its name when it is whole."""
     active = path + '.active'
-    return (f'; {active} is there: it is still recorded, or was cut off, and then needs '
-            f'rosbag reindex {active}' if os.path.exists(active) else '')
+    return (
+        f'; {active} is there: it is still recorded, or was cut off, and then needs '
+        f'rosbag reindex {active}'
+        if os.path.exists(active)
+        else ''
+    )
 
 
 def _topics_of_node(bag, path, node, types):

@@ -7,8 +7,22 @@ import yaml
 from . import recording
 
 # of run_info, what is no parameter: what follows from them, and what the run ran on
-RESULTS = ('header', 'run_id', 'version', 'box_x', 'box_y', 'vectors', 'zero_exponents', 'wave_nx', 'wave_ny',
-           'resumed_time', 'blas_threads', 'blas_library', 'blas_kernel', 'blas_threading')
+RESULTS = (
+    'header',
+    'run_id',
+    'version',
+    'box_x',
+    'box_y',
+    'vectors',
+    'zero_exponents',
+    'wave_nx',
+    'wave_ny',
+    'resumed_time',
+    'blas_threads',
+    'blas_library',
+    'blas_kernel',
+    'blas_threading',
+)
 # a word, or a list as text: numbers, or modes such as T(1,0)
 LISTS = ('field_indices', 'marker_modes')
 # bags of before these parameters
@@ -28,8 +42,9 @@ def chosen(path, node=None, number=None):
 
 
 def scene_file(info):
-    return ''.join(f'# {_one_line(line)}\n' for line in _remarks(info)) + \
-        yaml.safe_dump(parameters(info), sort_keys=False, default_flow_style=None, allow_unicode=True)
+    return ''.join(f'# {_one_line(line)}\n' for line in _remarks(info)) + yaml.safe_dump(
+        parameters(info), sort_keys=False, default_flow_style=None, allow_unicode=True
+    )
 
 
 def parameters(info):
@@ -37,22 +52,30 @@ def parameters(info):
     makes no difference to its numbers."""
     names = [name for name in info.__slots__ if name not in RESULTS]
     asked = {name: getattr(info, name) for name in names}
-    asked.update({name: _list_of(asked[name]) for name in LISTS if name in asked},
-                 interval=info.interval or 'auto', checkpoint='', resume='')
+    asked.update(
+        {name: _list_of(asked[name]) for name in LISTS if name in asked},
+        interval=info.interval or 'auto',
+        checkpoint='',
+        resume='',
+    )
     return {**asked, **{name: value for name, value in OLDER.items() if name not in asked}}
 
 
 def _list_of(text):
     if not text.startswith('['):
         return text
-    return [int(item) if item.isdigit() else item for item in re.findall(r'\w+(?:\([^)]*\))?', text)]
+    return [
+        int(item) if item.isdigit() else item for item in re.findall(r'\w+(?:\([^)]*\))?', text)
+    ]
 
 
 def _remarks(info):
     yield f'Repeats the run {info.run_id}.'
-    yield (f'The same numbers bit for bit with the same version ({info.version}), linear algebra '
-           f'({info.blas_library}), kernels (OPENBLAS_CORETYPE={info.blas_kernel}) and threads, and the same '
-           'topics listened to.')
+    yield (
+        f'The same numbers bit for bit with the same version ({info.version}), linear algebra '
+        f'({info.blas_library}), kernels (OPENBLAS_CORETYPE={info.blas_kernel}) and threads, and the same '
+        'topics listened to.'
+    )
     if info.wait_for_subscribers:
         yield 'Waits for subscribers, as that run did: roslaunch hdlyap run.launch scene:=FILE.yaml record:=true'
     if info.resume:

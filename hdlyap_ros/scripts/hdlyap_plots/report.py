@@ -5,7 +5,7 @@ import numpy as np
 from . import covariant_table, paper, step_table
 from .numbers import known
 
-TAIL = 64       # exponents in the table
+TAIL = 64  # exponents in the table
 COLUMNS = 3
 
 
@@ -13,8 +13,9 @@ def report(recording):
     blocks = [_head(recording)]
     if recording.spectrum is not None:
         blocks += [_sums(recording), _tail(recording)]
-        blocks += (_paper_block(recording) if recording.steps is None
-                   else step_table.blocks(recording))
+        blocks += (
+            _paper_block(recording) if recording.steps is None else step_table.blocks(recording)
+        )
     if recording.covariant is not None:
         blocks += covariant_table.blocks(recording)
     return '\n\n'.join(blocks)
@@ -28,9 +29,11 @@ def _head(recording):
 
 
 def system(info):
-    return (f'N = {info.disks}, density {info.density:g}, '
-            f'box {info.box_x:.3f} x {info.box_y:.3f}, '
-            f'x {info.boundary_x}, y {info.boundary_y}')
+    return (
+        f'N = {info.disks}, density {info.density:g}, '
+        f'box {info.box_x:.3f} x {info.box_y:.3f}, '
+        f'x {info.boundary_x}, y {info.boundary_y}'
+    )
 
 
 def origin(info):
@@ -39,15 +42,20 @@ def origin(info):
 
 def _sums(recording):
     spectrum, disks = recording.spectrum, recording.info.disks
-    lines = [f'averaged time   {spectrum.averaged_time:g}',
-             f'collisions      {spectrum.collisions}',
-             f'lambda_max      {spectrum.lambda_max:.6f}{_error(spectrum.std_errors[0])}']
+    lines = [
+        f'averaged time   {spectrum.averaged_time:g}',
+        f'collisions      {spectrum.collisions}',
+        f'lambda_max      {spectrum.lambda_max:.6f}{_error(spectrum.std_errors[0])}',
+    ]
     if recording.last_index >= recording.positive_end:
-        lines += [f'h_KS            {spectrum.ks_entropy:.4f}' + _at_most(recording.sum_error),
-                  f'h_KS / N        {spectrum.ks_entropy / disks:.6f}']
+        lines += [
+            f'h_KS            {spectrum.ks_entropy:.4f}' + _at_most(recording.sum_error),
+            f'h_KS / N        {spectrum.ks_entropy / disks:.6f}',
+        ]
     elif len(spectrum.exponents) > 1:
-        lines.append(f'sum of the {len(spectrum.exponents)} exponents carried '
-                     f'{spectrum.ks_entropy:.4f}')
+        lines.append(
+            f'sum of the {len(spectrum.exponents)} exponents carried ' f'{spectrum.ks_entropy:.4f}'
+        )
     if spectrum.pairing_error >= 0:
         lines.append(f'pairing error   {spectrum.pairing_error:.2e}')
     return '\n'.join(lines)
@@ -73,14 +81,13 @@ def _tail(recording):
         cells.append(f'{index:6d} {spectrum.exponents[i]:9.5f} {error:>8}')
     head = f'{"index":>6} {"exponent":>9} {"error":>8}'
     number = 'exponent' if len(cells) == 1 else f'last {len(cells)} exponents'
-    return '\n'.join([f'the {number} {what} (standard errors)',
-                      *_in_columns(head, cells)])
+    return '\n'.join([f'the {number} {what} (standard errors)', *_in_columns(head, cells)])
 
 
 def _in_columns(head, cells):
     """Reads down, then to the right."""
     rows = -(-len(cells) // COLUMNS)
-    columns = [cells[start:start + rows] for start in range(0, len(cells), rows)]
+    columns = [cells[start : start + rows] for start in range(0, len(cells), rows)]
     yield '  '.join([head] * len(columns))
     for row in range(rows):
         yield '  '.join(column[row] for column in columns if row < len(column))
@@ -89,14 +96,20 @@ def _in_columns(head, cells):
 def _paper_block(recording):
     """Of a run that did not look for steps, those that the paper has at the same indices."""
     spectrum = recording.spectrum
-    steps = [step for step in paper.steps(recording.info)
-             if spectrum.first_index <= step.first and step.last <= recording.last_index]
+    steps = [
+        step
+        for step in paper.steps(recording.info)
+        if spectrum.first_index <= step.first and step.last <= recording.last_index
+    ]
     if not steps:
         return
-    yield '\n'.join(['steps beside the ' + paper.FITS + ' (+-3 %)',
-                     '  step     indices      k [1/sigma]  mean exponent      error    c k     '
-                     'deviation',
-                     *(_paper_line(spectrum, step) for step in steps)])
+    yield '\n'.join(
+        [
+            'steps beside the ' + paper.FITS + ' (+-3 %)',
+            '  step     indices      k [1/sigma]  mean exponent      error    c k     ' 'deviation',
+            *(_paper_line(spectrum, step) for step in steps),
+        ]
+    )
 
 
 def _paper_line(spectrum, step):
@@ -104,6 +117,8 @@ def _paper_line(spectrum, step):
     mean = np.mean(spectrum.exponents[inside])
     # the members of a step fluctuate together, so their errors do not average out
     error = np.mean(known(spectrum.std_errors[inside]))
-    return (f'  {step.name:<8} {step.first}-{step.last}  {step.wave_number:11.5f}  '
-            f'{mean:13.5f}   {error:8.5f}  {step.fitted:6.4f}  '
-            f'{100 * (mean / step.fitted - 1):+8.2f} %')
+    return (
+        f'  {step.name:<8} {step.first}-{step.last}  {step.wave_number:11.5f}  '
+        f'{mean:13.5f}   {error:8.5f}  {step.fitted:6.4f}  '
+        f'{100 * (mean / step.fitted - 1):+8.2f} %'
+    )

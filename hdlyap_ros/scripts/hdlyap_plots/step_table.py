@@ -4,9 +4,14 @@ from . import paper, steps
 from .numbers import with_error
 from .phases import mean_omega
 
-WIDTH = 100     # of a line with a list of names
-COLUMNS = (('indices', '<10'), ('measured', '>8'), ('of', '>3'), ('k [1/sigma]', '>12'),
-           ('exponent', '>13'))
+WIDTH = 100  # of a line with a list of names
+COLUMNS = (
+    ('indices', '<10'),
+    ('measured', '>8'),
+    ('of', '>3'),
+    ('k [1/sigma]', '>12'),
+    ('exponent', '>13'),
+)
 PAPER_COLUMNS = (('c k', '>8'), ('deviation', '>11'))
 FITS = (('T', 't', 't_points'), ('LP', 'l', 'l_points'))
 
@@ -22,8 +27,10 @@ def blocks(recording):
 def _steps(recording):
     message = recording.steps
     fitted = {step.name: step.fitted for step in paper.steps(recording.info)}
-    title = (f'steps: at least {100 * message.threshold:.0f} % of the expected multiplicity found '
-             '(standard errors)')
+    title = (
+        f'steps: at least {100 * message.threshold:.0f} % of the expected multiplicity found '
+        '(standard errors)'
+    )
     rows = [zero_cells(recording)] + [cells for cells, _ in block_rows(message, fitted)]
     if fitted:
         title += f'\nc k: {paper.FITS} (+-3 %)'
@@ -53,8 +60,14 @@ def zero_cells(run):
     if zero is None or not zero.resolved:
         carried = run.last_index > run.positive_end
         return ['zero modes', 'not found' if carried else 'not carried']
-    return ['zero modes', steps.Block([zero]).indices, f'{zero.multiplicity:.2f}',
-            str(zero.expected), '', with_error(zero.exponent, zero.std_error)]
+    return [
+        'zero modes',
+        steps.Block([zero]).indices,
+        f'{zero.multiplicity:.2f}',
+        str(zero.expected),
+        '',
+        with_error(zero.exponent, zero.std_error),
+    ]
 
 
 def _shared_cells(block):
@@ -65,9 +78,14 @@ def _cells(block, step, fitted):
     """A step that shares its set is indented below the names of all."""
     shared = len(block.steps) > 1
     name = steps.name(step)
-    cells = ['  ' + name if shared else name, '' if shared else block.indices,
-             f'{step.multiplicity:.2f}', str(step.expected), f'{step.wave_number:.5f}',
-             with_error(step.exponent, step.std_error)]
+    cells = [
+        '  ' + name if shared else name,
+        '' if shared else block.indices,
+        f'{step.multiplicity:.2f}',
+        str(step.expected),
+        f'{step.wave_number:.5f}',
+        with_error(step.exponent, step.std_error),
+    ]
     if name in fitted:
         cells += [f'{fitted[name]:.4f}', f'{100 * (step.exponent / fitted[name] - 1):+.2f} %']
     return cells
@@ -98,23 +116,33 @@ def _conjugates(message, half):
     """The negative half in a line: found as often, and how far it is from a mirror image."""
     found = [step for step in half if step.resolved]
     line = f'conjugate steps of the negative half: {len(found)} of {len(half)} resolved'
-    mirror = {steps.name(step): step.exponent for step in message.steps
-              if step.resolved and not step.conjugate}
-    sums = [abs(step.exponent + mirror[steps.name(step)]) for step in found
-            if steps.name(step) in mirror]
+    mirror = {
+        steps.name(step): step.exponent
+        for step in message.steps
+        if step.resolved and not step.conjugate
+    }
+    sums = [
+        abs(step.exponent + mirror[steps.name(step)])
+        for step in found
+        if steps.name(step) in mirror
+    ]
     return line + (f', largest |sum with its partner| {max(sums):.1e}' if sums else '')
 
 
 def _fits(recording):
     message = recording.steps
-    lines = ['fits lambda = c k + c2 k^2 over the resolved steps [sigma/time unit, '
-             'sigma^2/time unit]']
+    lines = [
+        'fits lambda = c k + c2 k^2 over the resolved steps [sigma/time unit, ' 'sigma^2/time unit]'
+    ]
     for kind, letter, points in FITS:
-        lines += _fit_lines(message, letter, getattr(message, points),
-                            paper.branches(recording.info).get(kind))
-    velocity = (with_error(message.v, message.v_error) if message.v_phases else 'not known')
-    lines.append(f'  v     {velocity:<15}' + (f'|omega| / k of {message.v_phases} LP phases'
-                                              if message.v_phases else ''))
+        lines += _fit_lines(
+            message, letter, getattr(message, points), paper.branches(recording.info).get(kind)
+        )
+    velocity = with_error(message.v, message.v_error) if message.v_phases else 'not known'
+    lines.append(
+        f'  v     {velocity:<15}'
+        + (f'|omega| / k of {message.v_phases} LP phases' if message.v_phases else '')
+    )
     return '\n'.join(line.rstrip() for line in lines)
 
 
@@ -129,8 +157,10 @@ def _fit_lines(message, letter, points, branch):
             continue
         name = f'c_{letter}{suffix}'
         value = with_error(getattr(message, name), getattr(message, name + '_error'))
-        lines.append(f'  {"c_" + letter.upper() + suffix:<5} {value:<15}{waves:<17}'
-                     + _published(published, branch))
+        lines.append(
+            f'  {"c_" + letter.upper() + suffix:<5} {value:<15}{waves:<17}'
+            + _published(published, branch)
+        )
         waves = ''
     return lines
 
@@ -147,9 +177,10 @@ def _lp_dynamics(recording):
     """One line for each resolved LP step; nothing if phases were not recorded."""
     if recording.phases.last is None:
         return
-    lines = ['LP dynamics: rotation of the vectors between L and P [rad/time unit, '
-             'sigma/time unit]',
-             f'  {"step":<14} {"omega":<15} {"v = omega / k":<15} phases tracked']
+    lines = [
+        'LP dynamics: rotation of the vectors between L and P [rad/time unit, ' 'sigma/time unit]',
+        f'  {"step":<14} {"omega":<15} {"v = omega / k":<15} phases tracked',
+    ]
     for number, step in steps.resolved_lp(recording.steps):
         phases = [recording.phases.last.phases[i] for i in recording.phases.of_step(number)]
         omega, error, tracked = mean_omega(phases)
@@ -157,8 +188,10 @@ def _lp_dynamics(recording):
             lines.append(f'  {steps.name(step):<14} {"-":<15} {"-":<15} 0 of {len(phases)}')
             continue
         k = step.wave_number
-        lines.append(f'  {steps.name(step):<14} {with_error(omega, error):<15} '
-                     f'{with_error(omega / k, error / k):<15} {tracked} of {len(phases)}')
+        lines.append(
+            f'  {steps.name(step):<14} {with_error(omega, error):<15} '
+            f'{with_error(omega / k, error / k):<15} {tracked} of {len(phases)}'
+        )
     if len(lines) > 2:
         yield '\n'.join(lines)
 
@@ -167,5 +200,7 @@ def _cost(recording):
     cost = recording.cost()
     if cost is not None and cost['wall'][-1] > 0:
         spent, wall = cost['modes'][-1], cost['wall'][-1]
-        yield (f'classification, steps and phases took {100 * spent / wall:.1f} % of the run '
-               f'({spent:.1f} s of {wall:.1f} s)')
+        yield (
+            f'classification, steps and phases took {100 * spent / wall:.1f} % of the run '
+            f'({spent:.1f} s of {wall:.1f} s)'
+        )

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-NAMES = {1: 'zero', 2: 'T', 3: 'LP'}    # of Mode's kinds
+NAMES = {1: 'zero', 2: 'T', 3: 'LP'}  # of Mode's kinds
 ZERO, T, LP = NAMES
 
 
@@ -42,8 +42,9 @@ class Block:
     def height(self):
         """Mean exponent of its vectors."""
         shares = [step.multiplicity for step in self.steps]
-        return np.average([step.exponent for step in self.steps],
-                          weights=shares if sum(shares) > 0 else None)
+        return np.average(
+            [step.exponent for step in self.steps], weights=shares if sum(shares) > 0 else None
+        )
 
 
 def blocks(message, conjugate=False):
@@ -53,19 +54,24 @@ def blocks(message, conjugate=False):
     for step in message.steps if message is not None else ():
         if step.resolved and step.kind != ZERO and step.conjugate == conjugate:
             sets.setdefault(step.set, []).append(step)
-    return sorted((Block(steps) for steps in sets.values()),
-                  key=lambda block: abs(block.height))
+    return sorted((Block(steps) for steps in sets.values()), key=lambda block: abs(block.height))
 
 
 def resolved(message, conjugate=False):
     """{name: step} of one half of the spectrum without the zero modes; empty without a message."""
-    return {name(step): step for step in (message.steps if message is not None else ())
-            if step.resolved and step.kind != ZERO and step.conjugate == conjugate}
+    return {
+        name(step): step
+        for step in (message.steps if message is not None else ())
+        if step.resolved and step.kind != ZERO and step.conjugate == conjugate
+    }
 
 
 def unresolved(message, conjugate=False):
-    return [step for step in message.steps
-            if not step.resolved and step.kind != ZERO and step.conjugate == conjugate]
+    return [
+        step
+        for step in message.steps
+        if not step.resolved and step.kind != ZERO and step.conjugate == conjugate
+    ]
 
 
 def zero_modes(message):
@@ -75,6 +81,9 @@ def zero_modes(message):
 
 def resolved_lp(message):
     """(number, step) of the resolved LP steps of the positive half, smallest exponent first."""
-    found = [(number, step) for number, step in enumerate(message.steps)
-             if step.resolved and step.kind == LP and not step.conjugate]
+    found = [
+        (number, step)
+        for number, step in enumerate(message.steps)
+        if step.resolved and step.kind == LP and not step.conjugate
+    ]
     return sorted(found, key=lambda pair: pair[1].exponent)

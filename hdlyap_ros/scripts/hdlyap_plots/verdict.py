@@ -9,14 +9,14 @@ from .numbers import with_error
 from .recording import RecordingError
 from .report import origin, system
 
-AGREE, DIFFER = 0, 1    # exit status
+AGREE, DIFFER = 0, 1  # exit status
 # Of two runs of one system at most one pair in a hundred is said to differ.
 CHANCE = 0.01
-LARGEST = 8     # deviations in the list
+LARGEST = 8  # deviations in the list
 # Averaged time in units of 1 / the smallest positive exponent below which the blocks of an error
 # may be shorter than what fluctuates.
 SHORT = 30
-WIDTH = 40      # of a parameter
+WIDTH = 40  # of a parameter
 ROW = '  {:<14} {:>15} {:>15} {:>15} {:>7}  {}'
 HEAD = ROW.format('', 'a', 'b', 'b - a', 'z', '{}')
 
@@ -29,12 +29,14 @@ def verdict(comparison):
     if not unlikeliest(deviations):
         raise RecordingError('nothing can be compared: no quantity has a known error in both bags')
     chance, judged = chance_of_largest(deviations)
-    one, = unlikeliest(deviations)
-    found = (f'least likely of {judged}: {one.name}, z = {one.z:+.2f}, '
-             f'probability {one.chance:.1e} alone\n'
-             f'one of {judged} as unlikely by chance: probability at most {chance:.2g}, however '
-             'they fluctuate together\n'
-             f'(Bonferroni, and Student\'s t as if every error were of {FREEDOM + 1} blocks)')
+    (one,) = unlikeliest(deviations)
+    found = (
+        f'least likely of {judged}: {one.name}, z = {one.z:+.2f}, '
+        f'probability {one.chance:.1e} alone\n'
+        f'one of {judged} as unlikely by chance: probability at most {chance:.2g}, however '
+        'they fluctuate together\n'
+        f'(Bonferroni, and Student\'s t as if every error were of {FREEDOM + 1} blocks)'
+    )
     found = '\n'.join([found, *_warnings(comparison)])
     if chance < CHANCE:
         return f'{found}\ndiffer: less than {CHANCE:g}', DIFFER
@@ -45,31 +47,47 @@ def _warnings(comparison):
     for letter, run in zip('ab', comparison.runs):
         length = _length_in_slowest(run)
         if length < SHORT:
-            yield (f'{letter} is short: {length:.2g} times 1 / its smallest positive exponent; below '
-                   f'{SHORT}\n  single errors may be far too small, and runs that agree seem to '
-                   'differ')
+            yield (
+                f'{letter} is short: {length:.2g} times 1 / its smallest positive exponent; below '
+                f'{SHORT}\n  single errors may be far too small, and runs that agree seem to '
+                'differ'
+            )
 
 
 def _length_in_slowest(run):
     """Averaged time in units of 1 / the smallest positive exponent; infinite without one."""
     if run.spectrum is None:
         return inf
-    positive = run.spectrum.exponents[:run.positive_end + 1 - run.spectrum.first_index]
+    positive = run.spectrum.exponents[: run.positive_end + 1 - run.spectrum.first_index]
     return run.spectrum.averaged_time * min((x for x in positive if x > 0), default=inf)
 
 
 def report(comparison):
     """All but the verdict."""
-    return '\n\n'.join([_head(comparison), *_parameters(comparison), *_remarks(comparison),
-                        *_quantities(comparison), *_exponents(comparison), *_largest(comparison)])
+    return '\n\n'.join(
+        [
+            _head(comparison),
+            *_parameters(comparison),
+            *_remarks(comparison),
+            *_quantities(comparison),
+            *_exponents(comparison),
+            *_largest(comparison),
+        ]
+    )
 
 
 def _head(comparison):
     a, b = comparison.runs
     lines = [f'{letter}  {origin(run.info)}' + _length(run) for letter, run in zip('ab', (a, b))]
     systems = dict.fromkeys(system(run.info) for run in (a, b))
-    return '\n'.join(lines + ([f'both  {one}' for one in systems] if len(systems) == 1
-                              else [f'{letter}  {one}' for letter, one in zip('ab', systems)]))
+    return '\n'.join(
+        lines
+        + (
+            [f'both  {one}' for one in systems]
+            if len(systems) == 1
+            else [f'{letter}  {one}' for letter, one in zip('ab', systems)]
+        )
+    )
 
 
 def _length(run):
@@ -78,8 +96,10 @@ def _length(run):
 
 
 def _parameters(comparison):
-    rows = [f'  {name:<20} {_short(a):<{WIDTH}} {_short(b)}'.rstrip()
-            for name, a, b in comparison.parameters]
+    rows = [
+        f'  {name:<20} {_short(a):<{WIDTH}} {_short(b)}'.rstrip()
+        for name, a, b in comparison.parameters
+    ]
     if rows:
         yield '\n'.join(['parameters that differ'] + rows)
 
@@ -93,11 +113,15 @@ def _remarks(comparison):
     a, b = comparison.runs
     lines = []
     if not comparison.same_disks:
-        lines.append('other N: exponents belong to other wave numbers; only the fits are '
-                     'compared,\nwhich do not depend on N as far as the boxes are large')
+        lines.append(
+            'other N: exponents belong to other wave numbers; only the fits are '
+            'compared,\nwhich do not depend on N as far as the boxes are large'
+        )
     if comparison.same_disks and a.info.seed == b.info.seed:
-        lines.append('the same seed: where the runs share their trajectory their errors are no '
-                     'measure of their difference')
+        lines.append(
+            'the same seed: where the runs share their trajectory their errors are no '
+            'measure of their difference'
+        )
     lines += [f'no steps in {letter}' for letter, run in zip('ab', (a, b)) if run.steps is None]
     if lines:
         yield '\n'.join(lines)
@@ -107,8 +131,11 @@ def _quantities(comparison):
     rows = [_row(one) for one in comparison.exponents[:1] + comparison.sums]
     rows += [_row(one, _of_step(one)) for one in comparison.steps]
     rows += [_row(one, _of_fit(one)) for one in comparison.fits]
-    once = [f'  resolved in {letter} alone: {" ".join(names)}'
-            for letter, names in zip('ab', comparison.found_once) if names]
+    once = [
+        f'  resolved in {letter} alone: {" ".join(names)}'
+        for letter, names in zip('ab', comparison.found_once)
+        if names
+    ]
     yield '\n'.join([HEAD.format('').rstrip(), *rows, *once])
 
 
@@ -116,15 +143,18 @@ def _row(one, remark=''):
     z = f'{one.z:+.2f}' if one.is_known else '-'
     measured = (with_error(value, error) for value, error in zip(one.values, one.errors))
     remark += '' if one.judged else ' (not judged)'
-    return ROW.format(one.name, *measured, with_error(one.difference, one.error), z,
-                      remark).rstrip()
+    return ROW.format(
+        one.name, *measured, with_error(one.difference, one.error), z, remark
+    ).rstrip()
 
 
 def _of_step(one):
     a, b = one.origins
     indices = dict.fromkeys(steps.Block([step]).indices for step in (a, b))
-    return (f'{" and ".join(indices)}: {a.multiplicity:.2f} and {b.multiplicity:.2f} '
-            f'of {a.expected}')
+    return (
+        f'{" and ".join(indices)}: {a.multiplicity:.2f} and {b.multiplicity:.2f} '
+        f'of {a.expected}'
+    )
 
 
 def _of_fit(one):
@@ -138,18 +168,25 @@ def _exponents(comparison):
     if not judged:
         return
     seen = [one for one in judged if one.is_known]
-    text = (f'exponents: {len(seen)} of {len(exponents)} compared, {len(judged) - len(seen)} of '
-            f'unknown error, {len(exponents) - len(judged)} zero')
+    text = (
+        f'exponents: {len(seen)} of {len(exponents)} compared, {len(judged) - len(seen)} of '
+        f'unknown error, {len(exponents) - len(judged)} zero'
+    )
     if seen:
-        mean = sum(one.z ** 2 for one in seen) / len(seen)
-        text += (f'\n  chi^2 / exponent {mean:.2f}; no test, because neighbours fluctuate '
-                 'together')
+        mean = sum(one.z**2 for one in seen) / len(seen)
+        text += (
+            f'\n  chi^2 / exponent {mean:.2f}; no test, because neighbours fluctuate ' 'together'
+        )
     yield text
 
 
 def _largest(comparison):
-    rows = [_row(one, f'{one.chance:.1e}')
-            for one in unlikeliest(comparison.deviations, LARGEST) if one.z]
+    rows = [
+        _row(one, f'{one.chance:.1e}')
+        for one in unlikeliest(comparison.deviations, LARGEST)
+        if one.z
+    ]
     if rows:
-        yield '\n'.join(['largest deviations, and the probability of each alone',
-                         HEAD.format('chance'), *rows])
+        yield '\n'.join(
+            ['largest deviations, and the probability of each alone', HEAD.format('chance'), *rows]
+        )

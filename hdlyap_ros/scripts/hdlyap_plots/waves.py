@@ -2,35 +2,49 @@
 
 import numpy as np
 
-SIN_X, SIN_Y = 1, 2     # bits of LpPhase's constants for a modulation
+SIN_X, SIN_Y = 1, 2  # bits of LpPhase's constants for a modulation
 FUNCTIONS = (np.cos, np.sin)
-SLOPES = (lambda phase: -np.sin(phase), np.cos)     # their derivatives
+SLOPES = (lambda phase: -np.sin(phase), np.cos)  # their derivatives
 
 
 def wave_vector(info, nx, ny):
     """Along a reflecting direction the wave fits into what a disk's centre can reach."""
-    return [2 * np.pi * n / box if boundary == 'periodic' else np.pi * n / (box - 1)
-            for n, box, boundary in ((nx, info.box_x, info.boundary_x),
-                                     (ny, info.box_y, info.boundary_y))]
+    return [
+        2 * np.pi * n / box if boundary == 'periodic' else np.pi * n / (box - 1)
+        for n, box, boundary in (
+            (nx, info.box_x, info.boundary_x),
+            (ny, info.box_y, info.boundary_y),
+        )
+    ]
 
 
 def modulation(info, nx, ny, bits, x, y):
     """A at the given positions."""
-    along_x, along_y = (FUNCTIONS[sine](phase) for _, phase, sine in _phases(info, nx, ny, bits, x, y))
+    along_x, along_y = (
+        FUNCTIONS[sine](phase) for _, phase, sine in _phases(info, nx, ny, bits, x, y)
+    )
     return along_x * along_y
 
 
 def gradient(info, nx, ny, bits, x, y):
     """dA/dx and dA/dy at the given positions."""
-    value, slope = zip(*((FUNCTIONS[sine](phase), k * SLOPES[sine](phase))
-                         for k, phase, sine in _phases(info, nx, ny, bits, x, y)))
+    value, slope = zip(
+        *(
+            (FUNCTIONS[sine](phase), k * SLOPES[sine](phase))
+            for k, phase, sine in _phases(info, nx, ny, bits, x, y)
+        )
+    )
     return slope[0] * value[1], value[0] * slope[1]
 
 
 def _phases(info, nx, ny, bits, x, y):
     """(k, k q, whether A has a sine of it) along x and along y."""
-    starts = (0.0 if boundary == 'periodic' else 0.5 for boundary in (info.boundary_x, info.boundary_y))
-    for k, q, start, sine in zip(wave_vector(info, nx, ny), (x, y), starts, (bits & SIN_X, bits & SIN_Y)):
+    starts = (
+        0.0 if boundary == 'periodic' else 0.5 for boundary in (info.boundary_x, info.boundary_y)
+    )
+    for k, q, start, sine in zip(
+        wave_vector(info, nx, ny), (x, y), starts, (bits & SIN_X, bits & SIN_Y)
+    ):
         yield k, k * (np.asarray(q) - start), bool(sine)
 
 
@@ -47,8 +61,11 @@ def modulations(info, nx, ny, transverse=False):
 
 def formula(nx, ny, bits):
     """A as text for a figure."""
-    return '$' + r'\,'.join(f'\\{function} k_{axis} {axis}'
-                              for function, axis in _factors(nx, ny, bits)) + '$'
+    return (
+        '$'
+        + r'\,'.join(f'\\{function} k_{axis} {axis}' for function, axis in _factors(nx, ny, bits))
+        + '$'
+    )
 
 
 def plain_formula(nx, ny, bits):
@@ -57,5 +74,8 @@ def plain_formula(nx, ny, bits):
 
 
 def _factors(nx, ny, bits):
-    return [('sin' if sine else 'cos', axis)
-            for axis, n, sine in (('x', nx, bits & SIN_X), ('y', ny, bits & SIN_Y)) if n]
+    return [
+        ('sin' if sine else 'cos', axis)
+        for axis, n, sine in (('x', nx, bits & SIN_X), ('y', ny, bits & SIN_Y))
+        if n
+    ]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-BLOCKS = 10     # longer than what fluctuates, and still enough of them for an error
+BLOCKS = 10  # longer than what fluctuates, and still enough of them for an error
 LEAST = 4
 
 
@@ -21,5 +21,9 @@ def of_series(values):
     if count < LEAST:
         return values.mean(axis=0), np.zeros_like(values[0])
     length = len(values) // count
-    blocks = values[len(values) - count * length:].reshape(count, length, *values.shape[1:]).mean(axis=1)
+    blocks = (
+        values[len(values) - count * length :]
+        .reshape(count, length, *values.shape[1:])
+        .mean(axis=1)
+    )
     return values.mean(axis=0), of_snapshots(blocks)[1]

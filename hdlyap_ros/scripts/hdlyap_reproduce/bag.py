@@ -4,7 +4,7 @@ from hdlyap_plots import recording, repetition
 
 # parameters that make no difference to what is measured, or that run_info has as they were resolved
 HERE = ('threads', 'wait_for_subscribers', 'checkpoint', 'resume')
-FINISHED = 3        # phase of the last message of Cost of a run that was not stopped
+FINISHED = 3  # phase of the last message of Cost of a run that was not stopped
 
 
 class Bag:
@@ -49,8 +49,11 @@ class Bag:
     def was_run_with(self, parameters):
         """Whether its run had these parameters of the node."""
         asked = repetition.parameters(self.info)
-        return all(_same(asked[name], value) for name, value in parameters.items()
-                   if name not in HERE and name in asked)
+        return all(
+            _same(asked[name], value)
+            for name, value in parameters.items()
+            if name not in HERE and name in asked
+        )
 
 
 def _same(one, other):

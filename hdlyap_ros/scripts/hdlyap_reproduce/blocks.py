@@ -2,7 +2,9 @@
 
 import numpy as np
 
-BLOCKS = 16     # as many as an error needs to be known to a fifth; longer ones forget each other sooner
+BLOCKS = (
+    16  # as many as an error needs to be known to a fifth; longer ones forget each other sooner
+)
 
 
 def of_sums(estimate, statistics, blocks=BLOCKS):
@@ -19,8 +21,7 @@ def of_sums(estimate, statistics, blocks=BLOCKS):
 
 def quotient(above, below, blocks=BLOCKS):
     """(sum of above / sum of below, its standard error)."""
-    value, error = of_sums(lambda sums: sums[0] / sums[1], np.column_stack([above, below]),
-                           blocks)
+    value, error = of_sums(lambda sums: sums[0] / sums[1], np.column_stack([above, below]), blocks)
     return value if value is None else float(value), float(error)
 
 

@@ -4,8 +4,8 @@ import numpy as np
 
 from hdlyap_plots import paper
 
-REAL = 1e-9         # imaginary part of a zero that is real
-STEPS = 4000        # of the densities in which a sign change of the fits is looked for
+REAL = 1e-9  # imaginary part of a zero that is real
+STEPS = 4000  # of the densities in which a sign change of the fits is looked for
 
 
 def of_fits(factor_l=1.0, factor_t=1.0):
@@ -28,18 +28,23 @@ def of_fits_between():
 def measured(density, apart, errors):
     """(where a smooth difference goes through zero from below, its standard error): a polynomial through the four
     densities round it. Errors are taken through its slope there, since a crossing that moves far may leave the
-    densities that were run; how far that of three of them moves it is part of the error. (None, 0) if nowhere."""
-    density, apart, errors = (np.asarray(values, dtype=float) for values in (density, apart, errors))
+    densities that were run; how far that of three of them moves it is part of the error. (None, 0) if nowhere.
+    """
+    density, apart, errors = (
+        np.asarray(values, dtype=float) for values in (density, apart, errors)
+    )
     behind = np.flatnonzero((apart[:-1] < 0) & (apart[1:] >= 0))
     if not len(behind):
         return None, 0.0
-    middle = density[behind[0]:behind[0] + 2].mean()
-    near = np.argsort(np.abs(density - middle), kind='stable')[:4]      # the two neighbours first
+    middle = density[behind[0] : behind[0] + 2].mean()
+    near = np.argsort(np.abs(density - middle), kind='stable')[:4]  # the two neighbours first
     curve = _through(density[near], apart[near])
-    fewer = near[:max(2, len(near) - 1)]
+    fewer = near[: max(2, len(near) - 1)]
     place = _root(curve, middle)
     moved = errors[near] * _weights(density[near], place) / np.polyval(np.polyder(curve), place)
-    return place, float(np.linalg.norm([*moved, place - _root(_through(density[fewer], apart[fewer]), place)]))
+    return place, float(
+        np.linalg.norm([*moved, place - _root(_through(density[fewer], apart[fewer]), place)])
+    )
 
 
 def _through(density, values):
@@ -56,5 +61,9 @@ def _root(curve, beside):
 
 def _weights(density, place):
     """How much a polynomial moves there with each of the values that it goes through: Lagrange's polynomials."""
-    return np.array([np.prod([(place - other) / (one - other) for other in density if other != one])
-                     for one in density])
+    return np.array(
+        [
+            np.prod([(place - other) / (one - other) for other in density if other != one])
+            for one in density
+        ]
+    )

@@ -7,7 +7,7 @@ import time
 from hdlyap_follow.line import Display as Line
 from hdlyap_plots.numbers import clock
 
-PLANNED = 60.0      # seconds of work that the plan's own estimate counts for, beside what has been seen
+PLANNED = 60.0  # seconds of work that the plan's own estimate counts for, beside what has been seen
 
 
 class Display:
@@ -42,13 +42,17 @@ class Display:
 
     def end(self):
         """The total."""
-        self._line.show(f'{self._count_of_runs()} in {clock(time.monotonic() - self._began)}', last=True)
+        self._line.show(
+            f'{self._count_of_runs()} in {clock(time.monotonic() - self._began)}', last=True
+        )
         self._line.close()
 
 
 def _fitting(count, shares, rest):
     """As many of the runs as a terminal has room for; the rest is what one wants to know."""
-    width = os.get_terminal_size(sys.stdout.fileno()).columns - 1 if sys.stdout.isatty() else 10 ** 6
+    width = (
+        os.get_terminal_size(sys.stdout.fileno()).columns - 1 if sys.stdout.isatty() else 10**6
+    )
     for shown in range(len(shares), -1, -1):
         others = [f'{len(shares) - shown} more'] if shown < len(shares) else []
         line = '  '.join([count, *shares[:shown], *others, rest])

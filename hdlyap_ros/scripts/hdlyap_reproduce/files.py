@@ -7,7 +7,7 @@ import uuid
 
 
 def write(path, text):
-    unfinished = f'{path}.{uuid.uuid4().hex}.new'       # other computers may write it too
+    unfinished = f'{path}.{uuid.uuid4().hex}.new'  # other computers may write it too
     try:
         with open(unfinished, 'w') as file:
             file.write(text)

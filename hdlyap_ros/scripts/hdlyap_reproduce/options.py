@@ -4,8 +4,13 @@ import argparse
 import os
 import sys
 
-PARTS = len([name for name in os.listdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), 'parts'))
-             if name.endswith('.py') and not name.startswith('_')])
+PARTS = len(
+    [
+        name
+        for name in os.listdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), 'parts'))
+        if name.endswith('.py') and not name.startswith('_')
+    ]
+)
 ABOUT = """The figures and tables of the paper (Eckmann, Forster, Posch, Zabey 2005), measured again: does the
 runs that are missing, then draws the figures and writes published beside measured numbers. What has been done is
 not done again."""
@@ -20,19 +25,43 @@ class Parser(argparse.ArgumentParser):
 
 def parser():
     made = Parser(prog='reproduce', description=ABOUT, allow_abbrev=False)
-    made.add_argument('--quick', action='store_true',
-                      help='shorter runs, larger errors: about ten minutes, not an hour')
-    made.add_argument('--part', type=_part, action='append', metavar='N',
-                      help=f'only this part, 1 .. {PARTS}; may be given several times')
-    made.add_argument('--out', type=_folder, metavar='DIR',
-                      help='folder of bags and results (default: reproduction, or reproduction_quick)')
-    made.add_argument('--jobs', type=_jobs, default=len(os.sched_getaffinity(0)), metavar='J',
-                      help='runs of one core each at a time (default: all cores, %(default)s)')
-    made.add_argument('--plan', type=_file, metavar='FILE', help='other runs than those of launch/reproduce.yaml')
+    made.add_argument(
+        '--quick',
+        action='store_true',
+        help='shorter runs, larger errors: about ten minutes, not an hour',
+    )
+    made.add_argument(
+        '--part',
+        type=_part,
+        action='append',
+        metavar='N',
+        help=f'only this part, 1 .. {PARTS}; may be given several times',
+    )
+    made.add_argument(
+        '--out',
+        type=_folder,
+        metavar='DIR',
+        help='folder of bags and results (default: reproduction, or reproduction_quick)',
+    )
+    made.add_argument(
+        '--jobs',
+        type=_jobs,
+        default=len(os.sched_getaffinity(0)),
+        metavar='J',
+        help='runs of one core each at a time (default: all cores, %(default)s)',
+    )
+    made.add_argument(
+        '--plan', type=_file, metavar='FILE', help='other runs than those of launch/reproduce.yaml'
+    )
     what = made.add_mutually_exclusive_group()
-    what.add_argument('--list', action='store_true', help='only say what the parts are and which runs they need')
-    what.add_argument('--write', action='store_true',
-                      help='only write the scene files, for reproduce.launch, and print which runs are missing')
+    what.add_argument(
+        '--list', action='store_true', help='only say what the parts are and which runs they need'
+    )
+    what.add_argument(
+        '--write',
+        action='store_true',
+        help='only write the scene files, for reproduce.launch, and print which runs are missing',
+    )
     what.add_argument('--draw', action='store_true', help='only draw from the bags that are there')
     return made
 

@@ -28,7 +28,10 @@ class Run:
         base = _load(os.path.join(scenes, entry['base'] + '.yaml'))
         asked = {key: value for key, value in entry.items() if key not in OWN}
         self.parameters = {**base, 'threads': 1, **asked, **entry.get(which, {}), 'scene': name}
-        if not all(is_number(seconds) and seconds > 0 for seconds in entry['seconds']) or len(entry['seconds']) != 2:
+        if (
+            not all(is_number(seconds) and seconds > 0 for seconds in entry['seconds'])
+            or len(entry['seconds']) != 2
+        ):
             raise ValueError(f'seconds is {entry["seconds"]}, must be two positive numbers')
         for name in ('equilibration', 'warmup', 'duration'):
             if not is_number(self.parameters[name]):
@@ -60,8 +63,10 @@ class Run:
 
     def write(self, folder):
         """The scene file, if it is not there with these very parameters."""
-        text = ('# A run of the reproduction of the paper: launch/reproduce.yaml.\n'
-                + yaml.safe_dump(self.parameters, sort_keys=False, default_flow_style=None))
+        text = (
+            '# A run of the reproduction of the paper: launch/reproduce.yaml.\n'
+            + yaml.safe_dump(self.parameters, sort_keys=False, default_flow_style=None)
+        )
         if files.read(self.scene_file(folder)) != text:
             files.write(self.scene_file(folder), text)
 
@@ -71,7 +76,9 @@ class Run:
             noted = json.loads(files.read(self.record(folder)) or '{}')
         except ValueError:
             return {}
-        return noted if isinstance(noted, dict) and noted.get('parameters') == self.parameters else {}
+        return (
+            noted if isinstance(noted, dict) and noted.get('parameters') == self.parameters else {}
+        )
 
     def done(self, folder):
         """What was noted of it when it ended; None if it has not been done with these parameters, or if something has
@@ -85,7 +92,10 @@ class Run:
 
     def note(self, folder, **facts):
         """To be called when the bag is whole; facts: seconds, run_id, commit, and whether it was made elsewhere."""
-        files.write(self.record(folder), json.dumps({**facts, 'parameters': self.parameters}, indent=1) + '\n')
+        files.write(
+            self.record(folder),
+            json.dumps({**facts, 'parameters': self.parameters}, indent=1) + '\n',
+        )
 
 
 def is_number(value):
@@ -99,12 +109,15 @@ def runs(package, quick, path=None):
     entries = _load(path)
     if not isinstance(entries, dict):
         raise PlanError(f'{path}: no runs in it')
-    return {name: _run(path, name, entry, os.path.join(launch, 'scenes'), quick) for name, entry in entries.items()}
+    return {
+        name: _run(path, name, entry, os.path.join(launch, 'scenes'), quick)
+        for name, entry in entries.items()
+    }
 
 
 def _run(path, name, entry, scenes, quick):
     try:
-        if not re.fullmatch('[A-Za-z][A-Za-z0-9_]*', name):     # of a namespace of ROS
+        if not re.fullmatch('[A-Za-z][A-Za-z0-9_]*', name):  # of a namespace of ROS
             raise ValueError('a name consists of letters, digits and underscores')
         return Run(name, entry, scenes, quick)
     except KeyError as error:

@@ -20,7 +20,9 @@ def _columns(info, wave, letter, x, y, momenta=None):
             found.append(np.concatenate([a * p for p in momenta]))
         else:
             along_x, along_y = waves.gradient(*where)
-            found.append(np.concatenate([along_y, -along_x] if letter == 'T' else [along_x, along_y]))
+            found.append(
+                np.concatenate([along_y, -along_x] if letter == 'T' else [along_x, along_y])
+            )
     return np.array(found).reshape(-1, 2 * x.size).T
 
 

@@ -5,13 +5,23 @@ from numbers import Integral, Real
 
 from hdlyap_plots.numbers import with_error
 
-SIGMAS = 3.0        # standard errors of ours that numbers may be apart, beyond what the paper leaves open
-TELLING = 0.1       # of the published number, or what the paper leaves open if that is more: agreeing says little if
-                    # our uncertainty is larger
-SMALL = 1e-3        # without an error: below, the usual decimals would show little of a number
+SIGMAS = 3.0  # standard errors of ours that numbers may be apart, beyond what the paper leaves open
+TELLING = 0.1  # of the published number, or what the paper leaves open if that is more: agreeing says little if
+# our uncertainty is larger
+SMALL = 1e-3  # without an error: below, the usual decimals would show little of a number
 AGREES, DIFFERS, MISSING, SHOWN = 'agrees', 'differs', 'not measured', ''
-POOR = 'known too poorly'   # not apart, but hardly any number would have been
-HEADER = ('part', 'quantity', 'published', 'published_error', 'measured', 'error', 'unit', 'verdict', 'remark')
+POOR = 'known too poorly'  # not apart, but hardly any number would have been
+HEADER = (
+    'part',
+    'quantity',
+    'published',
+    'published_error',
+    'measured',
+    'error',
+    'unit',
+    'verdict',
+    'remark',
+)
 
 
 class Row:
@@ -20,9 +30,18 @@ class Row:
     bags. published None: the paper has none, ours is only shown. enough: the largest standard error with which agreeing
     says something; None: by the published number."""
 
-    def __init__(self, quantity, published=None, measured=None, error=0.0, published_error=0.0, unit='', remark='',
-                 enough=None):
-        self.part = None        # set by who collects the rows
+    def __init__(
+        self,
+        quantity,
+        published=None,
+        measured=None,
+        error=0.0,
+        published_error=0.0,
+        unit='',
+        remark='',
+        enough=None,
+    ):
+        self.part = None  # set by who collects the rows
         self.quantity, self.unit, self.remark = quantity, unit, remark
         self.published, self.published_error = published, published_error
         self.measured, self.error, self.enough = measured, error, enough
@@ -30,7 +49,9 @@ class Row:
     def _agrees(self):
         if isinstance(self.published, str) or isinstance(self.measured, str):
             return self.published == self.measured
-        return abs(self.measured - self.published) <= self.published_error + SIGMAS * self._known_error
+        return (
+            abs(self.measured - self.published) <= self.published_error + SIGMAS * self._known_error
+        )
 
     @property
     def _known_error(self):
@@ -57,13 +78,26 @@ class Row:
 
     def cells(self):
         """As text, for the page."""
-        return (self.quantity, _bounded(self.published, self.published_error), _number(self.measured, self.error),
-                self.unit, self.verdict, self.remark)
+        return (
+            self.quantity,
+            _bounded(self.published, self.published_error),
+            _number(self.measured, self.error),
+            self.unit,
+            self.verdict,
+            self.remark,
+        )
 
     def values(self):
         """As in HEADER, for the CSV file."""
-        return (self.part, self.quantity, *_plain(self.published, self.published_error),
-                *_plain(self.measured, self.error), self.unit, self.verdict, self.remark)
+        return (
+            self.part,
+            self.quantity,
+            *_plain(self.published, self.published_error),
+            *_plain(self.measured, self.error),
+            self.unit,
+            self.verdict,
+            self.remark,
+        )
 
 
 def _number(value, error):
@@ -81,7 +115,11 @@ def _number(value, error):
 def _bounded(value, bound):
     if bound and not isinstance(value, (str, type(None))):
         return f'{value:.4g} +-{bound:.2g}'
-    return f'{value:.6g}' if isinstance(value, Real) and not isinstance(value, Integral) else _number(value, 0.0)
+    return (
+        f'{value:.6g}'
+        if isinstance(value, Real) and not isinstance(value, Integral)
+        else _number(value, 0.0)
+    )
 
 
 def _plain(value, error):

@@ -12,7 +12,7 @@ def held():
     """A list that each of them which comes meanwhile is added to; the first one's exit follows at the end."""
     came, before = [], {}
     for number in ASK:
-        if signal.getsignal(number) is not signal.SIG_IGN:      # as nohup asks
+        if signal.getsignal(number) is not signal.SIG_IGN:  # as nohup asks
             before[number] = signal.signal(number, lambda number, _: came.append(number))
     try:
         yield came

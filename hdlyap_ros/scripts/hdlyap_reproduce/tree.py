@@ -7,7 +7,7 @@ import subprocess
 import time
 import uuid
 
-MARK = 'HDLYAP_TREE'    # of the environment, which its processes inherit, whatever becomes of their parents
+MARK = 'HDLYAP_TREE'  # of the environment, which its processes inherit, whatever becomes of their parents
 POLL = 0.1
 
 
@@ -17,9 +17,14 @@ class Tree:
     def __init__(self, command, output=subprocess.DEVNULL):
         mark = uuid.uuid4().hex
         self._entry = f'{MARK}={mark}'.encode()
-        self._process = subprocess.Popen(['setpriv', '--pdeathsig', 'INT', *command], stdin=subprocess.DEVNULL,
-                                         stdout=output, stderr=subprocess.STDOUT, start_new_session=True,
-                                         env={**os.environ, MARK: mark})
+        self._process = subprocess.Popen(
+            ['setpriv', '--pdeathsig', 'INT', *command],
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+            env={**os.environ, MARK: mark},
+        )
 
     def has_ended(self):
         """Whether the command has."""
@@ -43,7 +48,11 @@ class Tree:
 
     def _members(self):
         """Processes; not those that are dead but for their parents' wait, which have no environment."""
-        return [int(entry) for entry in os.listdir('/proc') if entry.isdecimal() and self._entry in _environment(entry)]
+        return [
+            int(entry)
+            for entry in os.listdir('/proc')
+            if entry.isdecimal() and self._entry in _environment(entry)
+        ]
 
 
 def end(trees, patience, is_pressed=lambda: False):
@@ -51,7 +60,11 @@ def end(trees, patience, is_pressed=lambda: False):
     for tree in trees:
         tree.ask()
     deadline = time.monotonic() + patience
-    while not all(tree.is_gone() for tree in trees) and time.monotonic() < deadline and not is_pressed():
+    while (
+        not all(tree.is_gone() for tree in trees)
+        and time.monotonic() < deadline
+        and not is_pressed()
+    ):
         time.sleep(POLL)
     for tree in trees:
         tree.insist()
@@ -68,5 +81,5 @@ def _environment(pid):
     try:
         with open(f'/proc/{pid}/environ', 'rb') as file:
             return file.read()
-    except OSError:     # it has ended, or is somebody else's
+    except OSError:  # it has ended, or is somebody else's
         return b''

@@ -5,7 +5,7 @@ from hdlyap_plots import paper, steps
 from .row import SIGMAS, Row
 
 ABOVE, NEAR, BELOW = 'above c_L', 'near c_L', 'below c_L'
-CROSSING = 0.6      # the paper: v is close to c_L below this density, above it beyond
+CROSSING = 0.6  # the paper: v is close to c_L below this density, above it beyond
 
 
 def against_slope(quantity, v, error, recording):
@@ -19,8 +19,12 @@ def against_slope(quantity, v, error, recording):
     own = [step for _, step in steps.resolved_lp(recording.steps)] if recording.steps else []
     if own:
         remark += f', {v * own[0].wave_number / own[0].exponent:.3f} with our {steps.name(own[0])}'
-    return Row(f'{quantity} against c_L', published, _word(v - slope, paper.FIT_ACCURACY * slope, SIGMAS * error),
-               remark=remark)
+    return Row(
+        f'{quantity} against c_L',
+        published,
+        _word(v - slope, paper.FIT_ACCURACY * slope, SIGMAS * error),
+        remark=remark,
+    )
 
 
 def _word(off, scatter, uncertain):

@@ -15,10 +15,10 @@ from .bag import Bag
 from .master import Master, MasterError
 from .tree import Tree, end
 
-POLL = 0.2          # seconds between two looks
-PATIENCE = 20.0     # with roslaunch, which gives its nodes 17 s
-SILENCE = 180.0     # seconds to the first word of a node; it waits for its recorder
-UNDER_WAY = 'under_way'     # folder of bags that are being recorded
+POLL = 0.2  # seconds between two looks
+PATIENCE = 20.0  # with roslaunch, which gives its nodes 17 s
+SILENCE = 180.0  # seconds to the first word of a node; it waits for its recorder
+UNDER_WAY = 'under_way'  # folder of bags that are being recorded
 SAID = re.compile('FATAL|ERROR')
 DIED = re.compile(r'process has died \[[^\]]*?(?=, cmd|\])')
 COLOUR = re.compile('\033' + r'\[[0-9;]*m')
@@ -33,16 +33,26 @@ class Job:
 
     def __init__(self, run, folder, log):
         self.run, self.log = run, log
-        self._folder, self._new = folder, os.path.join(folder, UNDER_WAY, f'{run.name}.{os.getpid()}')
-        self.cost = None        # its last message
+        self._folder, self._new = folder, os.path.join(
+            folder, UNDER_WAY, f'{run.name}.{os.getpid()}'
+        )
+        self.cost = None  # its last message
         self._began = time.monotonic()
         os.makedirs(self._new, exist_ok=True)
         run.write(folder)
         run.write(self._new)
         self._subscriber = rospy.Subscriber(run.node + '/cost', Cost, self._hear, queue_size=10)
         with open(log, 'w') as file:
-            self.tree = Tree(['roslaunch', 'hdlyap', 'reproduce.launch',
-                              f'runs:={run.name}', f'folder:={self._new}'], file)
+            self.tree = Tree(
+                [
+                    'roslaunch',
+                    'hdlyap',
+                    'reproduce.launch',
+                    f'runs:={run.name}',
+                    f'folder:={self._new}',
+                ],
+                file,
+            )
 
     def _hear(self, message):
         self.cost = message
@@ -71,16 +81,22 @@ class Job:
             why = 'the run has not come to its end'
             if self.is_silent():
                 why = f'no word of its node within {SILENCE:.0f} s'
-            raise WorkError(f'{self.run.name}: {why}; {last_words(self.log)}all that it said is in {self.log}')
+            raise WorkError(
+                f'{self.run.name}: {why}; {last_words(self.log)}all that it said is in {self.log}'
+            )
         os.replace(made.path, self.run.bag(self._folder))
-        self.run.note(self._folder, seconds=round(self.seconds, 1), commit=commit,
-                      run_id=Bag(self.run.bag(self._folder)).info.run_id)
+        self.run.note(
+            self._folder,
+            seconds=round(self.seconds, 1),
+            commit=commit,
+            run_id=Bag(self.run.bag(self._folder)).info.run_id,
+        )
 
     def leave(self):
         """No trace but the log, and the bag if it is whole."""
         shutil.rmtree(self._new, ignore_errors=True)
         with contextlib.suppress(OSError):
-            os.rmdir(os.path.dirname(self._new))    # the last one
+            os.rmdir(os.path.dirname(self._new))  # the last one
         self._subscriber.unregister()
 
 
@@ -104,18 +120,26 @@ class Work:
 
     def progress(self):
         """Seconds of work done, of all."""
-        return self._done + sum(job.share * job.run.share_of(self._jobs) for job in self.under_way), self._total
+        return (
+            self._done + sum(job.share * job.run.share_of(self._jobs) for job in self.under_way),
+            self._total,
+        )
 
     def begin(self):
         """What there is room for."""
         while self.waiting and self._has_room():
             run = self.waiting.pop(0)
-            self.under_way.append(Job(run, self._folder, os.path.join(self._logs, run.name + '.log')))
+            self.under_way.append(
+                Job(run, self._folder, os.path.join(self._logs, run.name + '.log'))
+            )
 
     def _has_room(self):
         if not self.under_way:
             return True
-        return not (self.waiting[0].is_wide or self.under_way[0].run.is_wide) and len(self.under_way) < self._jobs
+        return (
+            not (self.waiting[0].is_wide or self.under_way[0].run.is_wide)
+            and len(self.under_way) < self._jobs
+        )
 
     def close(self):
         """Those that have ended; what went wrong, in a line each."""
@@ -146,7 +170,8 @@ class Work:
 
 def work(runs, folder, logs, jobs, commit, show):
     """Does the runs. show(jobs under way, seconds of work done, of all) is called some times a second, show.say(line)
-    when a run has failed, which stops none of the others; WorkError at the end names all that did."""
+    when a run has failed, which stops none of the others; WorkError at the end names all that did.
+    """
     if not runs:
         return
     with signals.held() as came:
@@ -158,7 +183,7 @@ def work(runs, folder, logs, jobs, commit, show):
                 _go_on(all_of_it, master, came, show)
             finally:
                 all_of_it.stop(came)
-                with contextlib.suppress(OSError):      # a terminal that is gone
+                with contextlib.suppress(OSError):  # a terminal that is gone
                     show.end()
                 rospy.signal_shutdown('the work is done')
                 master.stop()

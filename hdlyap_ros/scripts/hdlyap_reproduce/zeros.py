@@ -4,7 +4,7 @@ from math import log
 
 import numpy as np
 
-SMALL = 10.0        # times what linear growth gives: an exponent that may be zero
+SMALL = 10.0  # times what linear growth gives: an exponent that may be zero
 
 
 def linear_growth(info, time):
@@ -19,7 +19,9 @@ def threshold(info, spectrum):
 
 def indices(info, spectrum):
     """Lyapunov indices of the exponents that are smaller."""
-    return spectrum.first_index + np.flatnonzero(np.abs(spectrum.exponents) < threshold(info, spectrum))
+    return spectrum.first_index + np.flatnonzero(
+        np.abs(spectrum.exponents) < threshold(info, spectrum)
+    )
 
 
 def span(found):

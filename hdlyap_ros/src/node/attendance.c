@@ -1,5 +1,5 @@
-/** One subscriber of each topic is not enough: of those that come at the same time, one is connected first, and a recorder
- *  would miss what is published before it is. */
+/** One subscriber of each topic is not enough: of those that come at the same time, one is
+ * connected first, and a recorder would miss what is published before it is. */
 #include "attendance.h"
 
 #include <math.h>
@@ -8,7 +8,8 @@
 
 /** How long those who have subscribed are waited for, once each topic has its first one [s]. */
 static const double patience_seconds = 3.0;
-/** Between two questions to the master [s]: who subscribes to several topics has done so meanwhile. */
+/** Between two questions to the master [s]: who subscribes to several topics has done so meanwhile.
+ */
 static const double ask_seconds = 0.1;
 
 static bool is_missed(const outlets *out, topic t, const int registered[TOPICS])
@@ -35,8 +36,8 @@ static void warn(const outlets *out, unsigned set, const int registered[TOPICS])
                 patience_seconds);
 }
 
-/** Each topic has a subscriber. Complete twice in succession: who has subscribed to one topic may be about to subscribe
- *  to the next. */
+/** Each topic has a subscriber. Complete twice in succession: who has subscribed to one topic may
+ * be about to subscribe to the next. */
 static bool all_connected(attendance *a, const outlets *out, unsigned awaited)
 {
     int registered[TOPICS];

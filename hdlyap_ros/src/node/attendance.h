@@ -11,9 +11,10 @@ typedef struct attendance {
     bool complete; /**< when it was last asked */
 } attendance;
 
-/** A look, to be repeated: true once each topic of the set has a subscriber and, besides, all that the master knows of are
- *  connected. Those are not waited for longer than a few seconds, nor if the master does not answer; a warning says so. A
- *  look takes as long as the answer of the master, within these seconds. */
+/** A look, to be repeated: true once each topic of the set has a subscriber and, besides, all that
+ * the master knows of are connected. Those are not waited for longer than a few seconds, nor if the
+ * master does not answer; a warning says so. A look takes as long as the answer of the master,
+ * within these seconds. */
 bool attendance_complete(attendance *a, const outlets *out, unsigned awaited);
 
 #endif

@@ -1,5 +1,5 @@
-/** OK while it computes and there is nothing to say. ERROR: a fault has ended it, or what it says or keeps is no longer
- *  right. WARN: the numbers are right, but not what was hoped for. */
+/** OK while it computes and there is nothing to say. ERROR: a fault has ended it, or what it says
+ * or keeps is no longer right. WARN: the numbers are right, but not what was hoped for. */
 #include "conditions.h"
 
 #include <stdarg.h>

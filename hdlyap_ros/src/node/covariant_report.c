@@ -16,8 +16,9 @@ static const double SPACES_APART = 1e-3;
 
 struct covariant_report {
     const outlets *to;
-    uint32_t vectors, angles, weights;                  /**< lengths of the arrays below */
-    double *exponents, *std_errors, *local_exponents;   /**< in one block at exponents; [vectors] each */
+    uint32_t vectors, angles, weights; /**< lengths of the arrays below */
+    /** In one block at exponents; [vectors] each */
+    double *exponents, *std_errors, *local_exponents;
     hdr_covariant_angle angle[HD_PAIRS_OF_SPACES];
     histograms counts[HD_PAIRS_OF_SPACES];
     hdr_covariant_weight *weight;
@@ -163,18 +164,26 @@ static hdr_covariant view_of(covariant_report *r, const hd_run *run)
 
 static bool view_finite(const hdr_covariant *v)
 {
-    const hdr_doubles arrays[] = {v->exponents,        v->std_errors,  v->local_exponents,
-                                  v->apart,            v->violations,  v->entangled,
-                                  v->neighbour_angles, v->widths,      v->least_neighbour_angles,
+    const hdr_doubles arrays[] = {v->exponents,
+                                  v->std_errors,
+                                  v->local_exponents,
+                                  v->apart,
+                                  v->violations,
+                                  v->entangled,
+                                  v->neighbour_angles,
+                                  v->widths,
+                                  v->least_neighbour_angles,
                                   v->cos_theta};
-    const double scalars[] = {v->sim_time,     v->averaged_time, v->seconds,           v->centre_apart,
-                              v->stable_apart, v->null_angle,    v->largest_null_angle};
+    const double scalars[] = {v->sim_time,          v->averaged_time, v->seconds,
+                              v->centre_apart,      v->stable_apart,  v->null_angle,
+                              v->largest_null_angle};
     bool finite = outlets_finite(scalars, sizeof scalars / sizeof *scalars);
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
         finite = finite && outlets_finite(arrays[a].data, arrays[a].count);
     for (uint32_t k = 0; k < v->angle_count; k++) {
         const hdr_covariant_angle *angle = &v->angles[k];
-        finite = finite && isfinite(angle->last + angle->mean + angle->std_error + angle->least + angle->mean_of_all);
+        finite = finite && isfinite(angle->last + angle->mean + angle->std_error + angle->least +
+                                    angle->mean_of_all);
     }
     for (uint32_t k = 0; k < v->weight_count; k++) {
         const hdr_covariant_weight *weight = &v->weights[k];
@@ -185,7 +194,8 @@ static bool view_finite(const hdr_covariant *v)
     return finite;
 }
 
-/** Spaces that have not met are those of the random starts; windows that find no room are missed. */
+/** Spaces that have not met are those of the random starts; windows that find no room are missed.
+ */
 static void warn(covariant_report *r, const hd_run *run)
 {
     const hd_covariant *covariant = hd_run_covariant(run);
@@ -194,11 +204,15 @@ static void warn(covariant_report *r, const hd_run *run)
     const long lost = hd_covariant_lost(covariant);
     if (worst > SPACES_APART && !r->warned)
         hdr_log(HDR_WARN,
-                "covariant_transient = %g: too short, spaces of two starts are %.2g rad apart where a window ends",
+                "covariant_transient = %g: too short, spaces of two starts are %.2g rad apart "
+                "where a window ends",
                 hd_run_scene(run)->covariant_transient, worst);
     if (lost > r->lost)
-        hdr_log(HDR_WARN, "covariant vectors: a window found no room, orthonormalisations have become more frequent "
-                          "(%ld so far)", lost);
+        hdr_log(HDR_WARN,
+                "covariant vectors: a window found no room, orthonormalisations have become more "
+                "frequent "
+                "(%ld so far)",
+                lost);
     r->warned = worst > SPACES_APART;
     r->lost = lost;
 }
@@ -210,7 +224,8 @@ hd_status covariant_report_publish(covariant_report *r, const hd_run *run)
     r->windows = hd_covariant_windows(hd_run_covariant(run));
     warn(r, run);
     /* a reset takes them back to none */
-    if (r->windows == 0 || r->windows == before || hdr_publisher_subscribers(publisher) == 0) return HD_OK;
+    if (r->windows == 0 || r->windows == before || hdr_publisher_subscribers(publisher) == 0)
+        return HD_OK;
     const hdr_covariant view = view_of(r, run);
     if (!view_finite(&view)) return HD_NOT_FINITE;
     return outlets_sent(hdr_covariant_publish(publisher, &view), TOPIC_COVARIANT);

@@ -1,6 +1,7 @@
-/** The rule: over eight times the averaged time an error falls to 0.35, over 32 times to 0.18 of what it was. Errors
- *  from few blocks are uncertain themselves, most of all the first ones: without them, the error has fallen
- *  to 0.55 or less in all of 420 runs of 15 scenes and many seeds, with them to 2.1 in one. */
+/** The rule: over eight times the averaged time an error falls to 0.35, over 32 times to 0.18 of
+ * what it was. Errors from few blocks are uncertain themselves, most of all the first ones: without
+ * them, the error has fallen to 0.55 or less in all of 420 runs of 15 scenes and many seeds, with
+ * them to 2.1 in one. */
 #include "error_course.h"
 
 #include <math.h>

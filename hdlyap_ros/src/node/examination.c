@@ -4,7 +4,8 @@
 #include <float.h>
 #include <math.h>
 
-/** Times are kept relative to an epoch, which lasts some 32 to 64 collisions of a disk, in a thin gas less. */
+/** Times are kept relative to an epoch, which lasts some 32 to 64 collisions of a disk, in a thin
+ * gas less. */
 static const double epoch_collisions = 64.0, epoch_longest = 32768.0;
 /** Of two disks, relative [sigma/time unit]; the mean square of a momentum is 2. */
 static const double speed_max = 16.0;

@@ -29,10 +29,10 @@ static hd_status fault(const char *path, const char *what, char *message, size_t
     return HD_FILE_FAULT;
 }
 
-/* ---- one at a time ---------------------------------------------------------------------------- */
+/* ---- one at a time ------------------------------------------------------------------------- */
 
-/** Locks the file's folder, so that whose the file is does not change between looking and writing; -1 where that
- *  cannot be had within seconds: then it is only looked at. */
+/** Locks the file's folder, so that whose the file is does not change between looking and writing;
+ * -1 where that cannot be had within seconds: then it is only looked at. */
 static int folder_lock(const char *path)
 {
     const struct timespec pause = {.tv_nsec = 10000000};
@@ -54,7 +54,7 @@ static void folder_unlock(int folder_file)
     if (folder_file >= 0) close(folder_file);
 }
 
-/* ---- the first file --------------------------------------------------------------------------- */
+/* ---- the first file ------------------------------------------------------------------------ */
 
 /** True if there is a file of that name which is not the one that is gone on from. */
 static bool is_anothers(const settings *set)
@@ -130,7 +130,7 @@ hd_status keeper_begin(keeper *out, const settings *set, hd_run *run, char *mess
     return HD_OK;
 }
 
-/* ---- the next ones ---------------------------------------------------------------------------- */
+/* ---- the next ones ------------------------------------------------------------------------- */
 
 void keeper_touch(keeper *k) { k->changed = true; }
 
@@ -153,10 +153,10 @@ static hd_status save(keeper *k, hd_run *run)
     kept *state = &k->state;
     const char *path = k->set->checkpoint;
     const int lock = folder_lock(path);
-    const hd_status status =
-        is_mine(k) ? hd_run_save(run, path, k->set->scene, state->message, sizeof state->message)
-                   : fault(path, "another process has replaced it", state->message,
-                           sizeof state->message);
+    const hd_status status = is_mine(k) ? hd_run_save(run, path, k->set->scene, state->message,
+                                                      sizeof state->message)
+                                        : fault(path, "another process has replaced it",
+                                                state->message, sizeof state->message);
     if (status == HD_OK) remember(k);
     folder_unlock(lock);
     return status;

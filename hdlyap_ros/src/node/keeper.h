@@ -1,4 +1,5 @@
-/** The run in its file: when it is written, and whether that went well. Used by one thread at a time. */
+/** The run in its file: when it is written, and whether that went well. Used by one thread at a
+ * time. */
 #ifndef HDLYAP_KEEPER_H
 #define HDLYAP_KEEPER_H
 
@@ -25,13 +26,14 @@ typedef struct keeper {
     kept state;
 } keeper;
 
-/** Whether checkpoints could be written, if they are asked for; another run with the same file may be writing it: then after
- *  that. HD_FILE_FAULT, with its line in message. */
+/** Whether checkpoints could be written, if they are asked for; another run with the same file may
+ * be writing it: then after that. HD_FILE_FAULT, with its line in message. */
 HD_MUST_CHECK hd_status keeper_check(const settings *set, char *message, size_t size);
 
-/** Writes the first file, so that what cannot be kept is not begun; does nothing without one. A file of that name, unless
- *  it is the one that is gone on from, is set aside under a name of its own (FILE.old, FILE.old2 ..); the log
- *  says so. Fails as hd_run_save, with its line in message; all files are then as they were. */
+/** Writes the first file, so that what cannot be kept is not begun; does nothing without one. A
+ * file of that name, unless it is the one that is gone on from, is set aside under a name of its
+ * own (FILE.old, FILE.old2 ..); the log says so. Fails as hd_run_save, with its line in message;
+ * all files are then as they were. */
 HD_MUST_CHECK hd_status keeper_begin(keeper *out, const settings *set, hd_run *run, char *message,
                                      size_t size);
 

@@ -1,6 +1,7 @@
-/** Address space -> the exit status of a fault, before any library is initialised. OpenBLAS takes a buffer for
- *  every processor while it is being loaded; where there is no room it asks for ever, before main.
- *  Linux with glibc; elsewhere the loader knows no such functions and this one is never called. */
+/** Address space -> the exit status of a fault, before any library is initialised. OpenBLAS takes a
+ * buffer for every processor while it is being loaded; where there is no room it asks for ever,
+ * before main. Linux with glibc; elsewhere the loader knows no such functions and this one is never
+ * called. */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include <sched.h>
 #include <stdio.h>

@@ -45,7 +45,8 @@ static void kinds_find(marker_report *r, const hd_steps *steps)
     const hd_mode_kind kinds[] = {HD_MODE_T, HD_MODE_LP};
     for (int k = 0; k < 2; k++) {
         bool found = false;
-        for (int s = 0; s < hd_steps_count(steps); s++) found |= hd_steps_step(steps, s)->kind == kinds[k];
+        for (int s = 0; s < hd_steps_count(steps); s++)
+            found |= hd_steps_step(steps, s)->kind == kinds[k];
         if (found) r->kind[r->kinds++] = kinds[k];
     }
 }
@@ -55,7 +56,8 @@ hdr_status marker_report_create(marker_report **out, hdr_node *ros, const settin
 {
     marker_report *r = *out = calloc(1, sizeof *r);
     if (!r) return HDR_NO_MEMORY;
-    *r = (marker_report){.set = set, .modes = modes, .vectors = hd_run_vectors(run), .last = -HUGE_VAL};
+    *r = (marker_report){
+        .set = set, .modes = modes, .vectors = hd_run_vectors(run), .last = -HUGE_VAL};
     if (modes) kinds_find(r, hd_run_steps(run));
     hdr_status status = parts_create(r) ? HDR_OK : HDR_NO_MEMORY;
     if (status == HDR_OK) status = hdr_markers_advertise(&r->publisher, ros, "~markers");
@@ -79,7 +81,7 @@ bool marker_report_watched(const marker_report *r)
     return hdr_publisher_subscribers(r->publisher) > 0;
 }
 
-/* ---- which modes ------------------------------------------------------------------------------- */
+/* ---- which modes --------------------------------------------------------------------------- */
 
 /** In the positive half. */
 static bool can_be_shown(const hd_step *step)
@@ -152,9 +154,10 @@ void marker_report_demand(marker_report *r, hd_run *run)
     hd_run_view(run, watched ? between : INFINITY, r->due ? first_wanted(r, run) : r->vectors);
 }
 
-/* ---- the picture ------------------------------------------------------------------------------- */
+/* ---- the picture --------------------------------------------------------------------------- */
 
-static void fill_name(picture_mode *mode, const marker_report *r, const hd_steps *steps, int k, int s)
+static void fill_name(picture_mode *mode, const marker_report *r, const hd_steps *steps, int k,
+                      int s)
 {
     const char *kind = kind_of(r, k) == HD_MODE_T ? "T" : "LP";
     const marker_mode *asked = &r->set->markers.mode[k];
@@ -192,7 +195,8 @@ static void fill_mode(picture_mode *mode, const marker_report *r, const hd_run *
     mode->known = true;
     mode->dx = outlets_array(known.data + (col - known.first), disks, 4 * stride);
     mode->dy = outlets_array(known.data + stride + (size_t)(col - known.first), disks, 4 * stride);
-    if (mode->kind == HDR_MODE_LP) fill_pairs(mode, hd_run_modes(run), hd_steps_step(steps, s), col);
+    if (mode->kind == HDR_MODE_LP)
+        fill_pairs(mode, hd_run_modes(run), hd_steps_step(steps, s), col);
 }
 
 static void fill_exponents(picture *p, marker_report *r, const hd_run *run)

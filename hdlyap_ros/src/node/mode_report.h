@@ -1,5 +1,5 @@
-/** What the core knows of the modes -> the messages modes, steps, lp_phases and hydro. Owns the buffers
- *  that they are written from, and the hydrodynamic response. */
+/** What the core knows of the modes -> the messages modes, steps, lp_phases and hydro. Owns the
+ * buffers that they are written from, and the hydrodynamic response. */
 #ifndef HDLYAP_MODE_REPORT_H
 #define HDLYAP_MODE_REPORT_H
 
@@ -8,8 +8,8 @@
 
 typedef struct mode_report mode_report;
 
-/** With buffers for those of a set of topics that are its own; `to` lives longer and is read only by
- *  mode_report_publish. False if out of memory. */
+/** With buffers for those of a set of topics that are its own; `to` lives longer and is read only
+ * by mode_report_publish. False if out of memory. */
 bool mode_report_create(mode_report **out, const outlets *to, const hd_run *run, unsigned set);
 void mode_report_free(mode_report *m);
 
@@ -19,8 +19,9 @@ void mode_report_sizes(const mode_report *m, double *doubles);
 /** The message of steps, valid until the next one. False if a number of it is not finite. */
 bool mode_report_steps(mode_report *m, hdr_steps *view, const hd_run *run);
 
-/** Publishes those of a set of topics that are its own, of a run with samples of modes. Hydro reads the
- *  state. HD_NOT_FINITE, and nothing of the message concerned is published, if a number of it is not. */
+/** Publishes those of a set of topics that are its own, of a run with samples of modes. Hydro reads
+ * the state. HD_NOT_FINITE, and nothing of the message concerned is published, if a number of it is
+ * not. */
 HD_MUST_CHECK hd_status mode_report_publish(mode_report *m, const snapshot *now, unsigned set);
 
 #endif

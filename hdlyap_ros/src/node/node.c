@@ -20,7 +20,8 @@ enum { EXIT_REFUSED = 2, EXIT_NUMERICAL_FAULT = 3, EXIT_FILE_FAULT = 4 };
 static const double stop_seconds = 0.8;
 /** Of them for the step that is under way. */
 static const double stop_step_seconds = 0.25;
-/** The same where a checkpoint is to be written first: less than roslaunch waits before it insists. */
+/** The same where a checkpoint is to be written first: less than roslaunch waits before it insists.
+ */
 static const double stop_keeping_seconds = 12.0, stop_step_keeping_seconds = 10.0;
 /** How long the last messages of a finished run may take to reach a slow subscriber. */
 static const double linger_seconds = 5.0;
@@ -95,12 +96,14 @@ static int read_settings(app *a)
 static hd_status check_folder(const hd_scene_def *def, char *message, size_t size)
 {
     struct stat found;
-    const bool needed = def->observe & HD_OBSERVE_COVARIANT && def->covariant_storage == HD_STORAGE_FILE;
+    const bool needed = def->observe & HD_OBSERVE_COVARIANT &&
+                        def->covariant_storage == HD_STORAGE_FILE;
     if (!needed) return HD_OK;
     errno = 0;
     if (stat(def->covariant_folder, &found) == 0 && !S_ISDIR(found.st_mode)) errno = ENOTDIR;
     if (!errno && access(def->covariant_folder, W_OK | X_OK) == 0) return HD_OK;
-    snprintf(message, size, "covariant_folder = %.200s: %s", def->covariant_folder, strerror(errno));
+    snprintf(message, size, "covariant_folder = %.200s: %s", def->covariant_folder,
+             strerror(errno));
     return HD_FILE_FAULT;
 }
 

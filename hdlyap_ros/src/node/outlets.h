@@ -1,4 +1,5 @@
-/** The node's topics out: a publisher for each that is asked for, and what messages have in common. */
+/** The node's topics out: a publisher for each that is asked for, and what messages have in common.
+ */
 #ifndef HDLYAP_OUTLETS_H
 #define HDLYAP_OUTLETS_H
 
@@ -14,16 +15,16 @@ typedef struct outlets {
     char run_id[96];
 } outlets;
 
-/** Advertises a set of topics; doubles[t]: about so many numbers in a message, for the length of the
- *  queue. The run's id is made here. HDR_NO_MEMORY, or HDR_FAULT if ROS refuses. */
+/** Advertises a set of topics; doubles[t]: about so many numbers in a message, for the length of
+ * the queue. The run's id is made here. HDR_NO_MEMORY, or HDR_FAULT if ROS refuses. */
 HDR_MUST_CHECK hdr_status outlets_advertise(outlets *out, hdr_node *ros, unsigned set,
                                             const double doubles[TOPICS], const char *seed);
 
 /** Set of the topics that have a subscriber now. */
 unsigned outlets_subscribed(const outlets *out);
 
-/** Of the topic whose slowest subscriber is furthest behind, losing messages or else in time; topic "" if nobody
- *  is. Any thread. */
+/** Of the topic whose slowest subscriber is furthest behind, losing messages or else in time; topic
+ * "" if nobody is. Any thread. */
 hdr_lag outlets_lag(const outlets *out);
 
 /** Name of the frame that positions are in. */

@@ -23,7 +23,8 @@ bool reader_accepts(const reader *r, hdr_status status, const char *allowed);
 /** Without line ends and other control characters. */
 bool is_one_line(const char *text);
 
-/* Into the variable at field, which stays as it is where the parameter is missing. False if refused. */
+/* Into the variable at field, which stays as it is where the parameter is missing. False if
+ * refused. */
 
 bool read_int(const reader *r, void *field);
 bool read_double(const reader *r, void *field);

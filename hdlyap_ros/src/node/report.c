@@ -36,8 +36,8 @@ struct report {
     covariant_report *covariant;
     marker_report *markers;
     attendance awaited;
-    unsigned demand;      /**< set of topics that the step under way is made for */
-    double seconds;       /**< spent here */
+    unsigned demand; /**< set of topics that the step under way is made for */
+    double seconds;  /**< spent here */
 };
 
 /** -1 while nobody looks at them. */
@@ -252,29 +252,21 @@ static hd_status publish_cost(report *rep, const progress *now, hd_phase phase)
         .progress = cost->progress,
         .remaining_seconds = cost->remaining < 0.0 ? -1.0 : cost->remaining,
     };
-    const double numbers[] = {cost->wall,
-                              cost->events,
-                              cost->replay,
-                              cost->ortho,
-                              cost->spectrum,
-                              cost->interval,
-                              cost->condition,
-                              cost->defect,
-                              now->time,
-                              cost->progress,
-                              cost->remaining,
-                              cost->error_bound,
-                              cost->std_error,
-                              cost->events_per_second,
-                              cost->modes,
-                              cost->covariant};
+    const double numbers[] = {cost->wall,      cost->events,
+                              cost->replay,    cost->ortho,
+                              cost->spectrum,  cost->interval,
+                              cost->condition, cost->defect,
+                              now->time,       cost->progress,
+                              cost->remaining, cost->error_bound,
+                              cost->std_error, cost->events_per_second,
+                              cost->modes,     cost->covariant};
     if (!outlets_finite(numbers, sizeof numbers / sizeof *numbers)) return HD_NOT_FINITE;
     return outlets_sent(hdr_cost_publish(rep->out.publisher[TOPIC_COST], &view), TOPIC_COST);
 }
 
 /** Topics that have something to say after this step and someone to listen. The modes were measured
- *  only if someone listened before. The cost of a finished run is left to report_finish: it is the
- *  last message. */
+ * only if someone listened before. The cost of a finished run is left to report_finish: it is the
+ * last message. */
 static unsigned topics_due(const report *rep, const hd_run *run)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);

@@ -1,5 +1,5 @@
 /** What is published of a run: its numbers -> messages. Owns the topics and the buffers that the
- *  messages are written from; nothing is computed for a topic without a subscriber. */
+ * messages are written from; nothing is computed for a topic without a subscriber. */
 #ifndef HDLYAP_REPORT_H
 #define HDLYAP_REPORT_H
 
@@ -22,7 +22,7 @@ progress progress_of(const hd_run *run);
 typedef struct report report;
 
 /** Advertises the topics that the settings ask for. Both live longer than the report.
- *  HDR_NO_MEMORY, or HDR_FAULT if ROS refuses. */
+ * HDR_NO_MEMORY, or HDR_FAULT if ROS refuses. */
 HDR_MUST_CHECK hdr_status report_create(report **out, hdr_node *ros, const settings *set,
                                         const hd_run *run);
 void report_free(report *rep);
@@ -38,23 +38,23 @@ bool report_awaited_here(report *rep);
 /** Publishes everything needed to repeat the run; latched. */
 HDR_MUST_CHECK hdr_status report_run_info(report *rep, const hd_run *run);
 
-/** Stages of the core (HD_OBSERVE_*) that somebody listens to now: of the modes, what the next step does
- *  not measure is not published after it. */
+/** Stages of the core (HD_OBSERVE_*) that somebody listens to now: of the modes, what the next step
+ * does not measure is not published after it. */
 unsigned report_demand(report *rep);
 
 /** Tells the run which vectors the next step is to end with, for a picture. */
 void report_demand_picture(report *rep, hd_run *run);
 
-/** Publishes a picture after a step, if somebody looks and it is time to; `at_rest`: the run will stand still, and who
- *  comes while it does gets this one. HD_NOT_FINITE, HD_NO_MEMORY. */
+/** Publishes a picture after a step, if somebody looks and it is time to; `at_rest`: the run will
+ * stand still, and who comes while it does gets this one. HD_NOT_FINITE, HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status report_picture(report *rep, const hd_run *run, bool at_rest);
 
 /** Publishes what has a subscriber of a run that has a report due.
- *  HD_NOT_FINITE, and nothing of the message concerned is published, if a number of it is not. */
+ * HD_NOT_FINITE, and nothing of the message concerned is published, if a number of it is not. */
 HD_MUST_CHECK hd_status report_publish(report *rep, const hd_run *run);
 
-/** Publishes the covariant vectors, if somebody listens, once a window of them has ended: after a step or a checkpoint.
- *  HD_NOT_FINITE as above. */
+/** Publishes the covariant vectors, if somebody listens, once a window of them has ended: after a
+ * step or a checkpoint. HD_NOT_FINITE as above. */
 HD_MUST_CHECK hd_status report_window(report *rep, const hd_run *run);
 
 /** Publishes the run's last message, if anybody listens: the cost, with phase FINISHED. */

@@ -1,5 +1,5 @@
 /** Private parameters -> settings. One table row per parameter; the ranges of the scene itself are
- *  the core's, everything that only the node knows is checked here. */
+ * the core's, everything that only the node knows is checked here. */
 #include "settings.h"
 
 #include <errno.h>
@@ -179,11 +179,13 @@ static bool read_path(const reader *r, void *field)
 {
     const char **path = field;
     const hdr_status status = hdr_param_string(r->params, r->name, path);
-    return reader_accepts(r, status, "a string") && (is_one_line(*path) || reader_refuse(r, "a path in one line"));
+    return reader_accepts(r, status, "a string") &&
+           (is_one_line(*path) || reader_refuse(r, "a path in one line"));
 }
 
-static const char *const storage_names[] = {
-    [HD_STORAGE_MEMORY] = "memory", [HD_STORAGE_FILE] = "file", [HD_STORAGE_RECOMPUTE] = "recompute"};
+static const char *const storage_names[] = {[HD_STORAGE_MEMORY] = "memory",
+                                            [HD_STORAGE_FILE] = "file",
+                                            [HD_STORAGE_RECOMPUTE] = "recompute"};
 
 const char *settings_storage_name(hd_storage storage) { return storage_names[storage]; }
 
@@ -205,7 +207,8 @@ static bool read_gigabytes(const reader *r, void *field)
     const hdr_status status = hdr_param_double(r->params, r->name, &gigabytes);
     if (status == HDR_MISSING) return true;
     *bytes = gigabytes * BYTES_PER_GB;
-    return (status == HDR_OK && gigabytes >= 1e-3 && gigabytes <= 1e6) || reader_refuse(r, "from 0.001 to 1e6 [GB]");
+    return (status == HDR_OK && gigabytes >= 1e-3 && gigabytes <= 1e6) ||
+           reader_refuse(r, "from 0.001 to 1e6 [GB]");
 }
 
 static bool read_folder(const reader *r, void *field)
@@ -273,7 +276,8 @@ static bool check_names(reader *r)
 {
     for (int k = 0; k < hdr_params_count(r->params); k++) {
         r->name = hdr_params_name(r->params, k);
-        if (!is_known(r->name)) return reader_refuse(r, "removed: there is no parameter of this name");
+        if (!is_known(r->name))
+            return reader_refuse(r, "removed: there is no parameter of this name");
     }
     return true;
 }
@@ -324,7 +328,8 @@ static bool check_awaited(settings *set, reader *r)
     const unsigned published = set->observables | TOPICS_ALWAYS;
     r->name = "wait_for_subscribers";
     if (set->awaited == ALL_PUBLISHED) set->awaited = published;
-    return !(set->awaited & ~published) || reader_refuse(r, "out of run_info, cost and the observables");
+    return !(set->awaited & ~published) ||
+           reader_refuse(r, "out of run_info, cost and the observables");
 }
 
 /** What is asked for of modes that nobody observes. */
@@ -352,17 +357,20 @@ static bool check_covariant(const settings *set, reader *r)
     } table[] = {
 #define UNLESS " unless covariant is an observable"
         {"covariant_window", def->covariant_window != usual.covariant_window, "50" UNLESS},
-        {"covariant_transient", def->covariant_transient != usual.covariant_transient, "100" UNLESS},
+        {"covariant_transient", def->covariant_transient != usual.covariant_transient,
+         "100" UNLESS},
         {"covariant_sampling", def->covariant_sampling != usual.covariant_sampling, "5" UNLESS},
         {"covariant_memory", def->covariant_memory != usual.covariant_memory, "4" UNLESS},
         {"covariant_storage", def->covariant_storage != usual.covariant_storage, "memory" UNLESS},
-        {"covariant_folder", strcmp(def->covariant_folder, usual.covariant_folder) != 0, "/tmp" UNLESS},
+        {"covariant_folder", strcmp(def->covariant_folder, usual.covariant_folder) != 0,
+         "/tmp" UNLESS},
 #undef UNLESS
     };
     if (set->observables & topic_bit(TOPIC_COVARIANT)) return true;
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
         r->name = table[k].name;
-        if (table[k].changed && *hdr_param_text(r->params, r->name)) return reader_refuse(r, table[k].allowed);
+        if (table[k].changed && *hdr_param_text(r->params, r->name))
+            return reader_refuse(r, table[k].allowed);
     }
     return true;
 }
@@ -376,7 +384,8 @@ static bool check_field_indices(const settings *set, reader *r)
     snprintf(allowed, sizeof allowed,
              "steps or a list of integers from 1 to %d, the vectors carried", vectors);
     for (int k = 0; k < set->fields.count; k++)
-        if (set->fields.index[k] < 1 || set->fields.index[k] > vectors) return reader_refuse(r, allowed);
+        if (set->fields.index[k] < 1 || set->fields.index[k] > vectors)
+            return reader_refuse(r, allowed);
     return true;
 }
 
@@ -398,8 +407,9 @@ static bool check_marker_modes(const settings *set, reader *r)
     r->name = "marker_modes";
     for (int k = 0; k < set->markers.count; k++)
         if (!is_looked_for(set, &set->markers.mode[k]))
-            return reader_refuse(r, MARKER_MODES_TEXT
-                                 ", of wave vectors that are looked for (max_node, max_wave_number)");
+            return reader_refuse(
+                r, MARKER_MODES_TEXT
+                ", of wave vectors that are looked for (max_node, max_wave_number)");
     return true;
 }
 

@@ -1,5 +1,5 @@
-/** What the user asks for: private parameters -> a scene and what to publish of it, or one line that
- *  refuses them. */
+/** What the user asks for: private parameters -> a scene and what to publish of it, or one line
+ * that refuses them. */
 #ifndef HDLYAP_SETTINGS_H
 #define HDLYAP_SETTINGS_H
 
@@ -56,8 +56,9 @@ const char *settings_storage_name(hd_storage storage);
 /** The file to go on from, "" if none. False if refused. */
 bool settings_resume(const char **path, const hdr_params *params, char *message, size_t size);
 
-/** False if refused, with one line in message: the parameter, its value, what is allowed. What is not given is as in
- *  the checkpoint that is gone on from (NULL: as documented). The params and it must outlive the settings. */
+/** False if refused, with one line in message: the parameter, its value, what is allowed. What is
+ * not given is as in the checkpoint that is gone on from (NULL: as documented). The params and it
+ * must outlive the settings. */
 bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint *kept,
                    char *message, size_t size);
 

@@ -1,5 +1,5 @@
 /** One thread that steps the run. Two locks: `lock` for what is asked and known, never held during
- *  work; `publishing` around messages, so that nothing follows the last one. */
+ * work; `publishing` around messages, so that nothing follows the last one. */
 #include "worker.h"
 
 #include <errno.h>
@@ -68,8 +68,7 @@ static bool awaited_here(worker *w)
 static bool wait_for_subscribers(worker *w)
 {
     pthread_mutex_lock(&w->lock);
-    while (!w->stop && !awaited_here(w))
-        wait_until(w, clock_seconds() + look_seconds);
+    while (!w->stop && !awaited_here(w)) wait_until(w, clock_seconds() + look_seconds);
     const bool go_on = !w->stop;
     enter(w, go_on ? WORKER_RUNNING : WORKER_ENDED);
     pthread_mutex_unlock(&w->lock);
@@ -90,7 +89,8 @@ static void save(worker *w)
     pthread_cond_broadcast(&w->changed);
 }
 
-/** Before a pause, for who looks on. Lock held, but not while it is drawn. A picture that fails is no fault of the run. */
+/** Before a pause, for who looks on. Lock held, but not while it is drawn. A picture that fails is
+ * no fault of the run. */
 static void draw_at_rest(worker *w)
 {
     pthread_mutex_unlock(&w->lock);
@@ -101,7 +101,8 @@ static void draw_at_rest(worker *w)
     pthread_mutex_lock(&w->lock);
 }
 
-/** Between two steps: keeps the run if it is time to, pauses and keeps pace. False if asked to stop. */
+/** Between two steps: keeps the run if it is time to, pauses and keeps pace. False if asked to
+ * stop. */
 static bool obey(worker *w)
 {
     pthread_mutex_lock(&w->lock);
@@ -159,7 +160,8 @@ static hd_status publish(worker *w)
     return status;
 }
 
-/** Sets when the step after the one that begins now is due. Nobody waits for what comes before the averaging. */
+/** Sets when the step after the one that begins now is due. Nobody waits for what comes before the
+ * averaging. */
 static hd_status paced_step(worker *w)
 {
     const double begin = clock_seconds(), from = hd_run_time(w->run);
@@ -186,7 +188,8 @@ static hd_status step(worker *w)
     return status;
 }
 
-/** The checkpoint of the end, and what it has ended: the way back through a window of covariant vectors. */
+/** The checkpoint of the end, and what it has ended: the way back through a window of covariant
+ * vectors. */
 static hd_status finish(worker *w)
 {
     hd_status status = HD_OK;
@@ -199,8 +202,8 @@ static hd_status finish(worker *w)
     return status;
 }
 
-/** What ended the run, while errno is as that has left it: the only file of a step is that of covariant vectors.
- *  Lock held. */
+/** What ended the run, while errno is as that has left it: the only file of a step is that of
+ * covariant vectors. Lock held. */
 static void explain(worker *w, hd_status status)
 {
     const int error = errno;
@@ -210,7 +213,8 @@ static void explain(worker *w, hd_status status)
     const size_t size = sizeof w->state.fault;
     snprintf(fault, size, "%s", hd_status_text(status));
     if (status == HD_FILE_FAULT)
-        snprintf(fault, size, "covariant_folder = %.150s: %s", scene->covariant_folder, strerror(error));
+        snprintf(fault, size, "covariant_folder = %.150s: %s", scene->covariant_folder,
+                 strerror(error));
     else if (status == HD_NO_ROOM && hd_covariant_check_room(scene, interval, fault, size) == HD_OK)
         snprintf(fault, size, "%s = %.3g GB, orthonormalised more often than every %.3g time units",
                  hd_status_text(status), scene->covariant_memory / BYTES_PER_GB, interval);

@@ -1,5 +1,5 @@
-/** The computation in a thread of its own: steps a run, reports when due, keeps it in its file, obeys pause and
- *  reset. */
+/** The computation in a thread of its own: steps a run, reports when due, keeps it in its file,
+ * obeys pause and reset. */
 #ifndef HDLYAP_WORKER_H
 #define HDLYAP_WORKER_H
 
@@ -29,7 +29,7 @@ typedef struct worker_state {
 typedef struct worker worker;
 
 /** Starts the thread, which alone uses run and rep until worker_state says WORKER_ENDED.
- *  False if the system has no thread for it. */
+ * False if the system has no thread for it. */
 bool worker_create(worker **out, hd_run *run, report *rep, const settings *set, const keeper *keep);
 /** Asks the thread to end and waits for the step that it is in. NULL is allowed. */
 void worker_end(worker *w);
@@ -42,19 +42,20 @@ void worker_pause(worker *w, bool pause);
 /** Starts the averages afresh before the next step. */
 void worker_reset_average(worker *w);
 
-/** Examines the disks before the next step, unless that would take more than a hundredth of the time. */
+/** Examines the disks before the next step, unless that would take more than a hundredth of the
+ * time. */
 void worker_examine(worker *w);
 
-/** Writes a checkpoint before the next step, and waits for it at most that long. False if it was not written, with
- *  the reason in message. */
+/** Writes a checkpoint before the next step, and waits for it at most that long. False if it was
+ * not written, with the reason in message. */
 bool worker_checkpoint(worker *w, double seconds, char *message, size_t size);
 
 /** Waits at most that long for the end; true if it has come. */
 bool worker_wait(worker *w, double seconds);
 /** Asks the thread to end after the step that it is in. */
 void worker_stop(worker *w);
-/** Publishes the last message from the caller's thread; the worker publishes nothing after it, even if
- *  it is still in a step. */
+/** Publishes the last message from the caller's thread; the worker publishes nothing after it, even
+ * if it is still in a step. */
 HD_MUST_CHECK hd_status worker_finish(worker *w);
 
 #endif

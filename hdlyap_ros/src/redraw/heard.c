@@ -71,7 +71,8 @@ static void *replaced(const void *old, const void *from, size_t bytes)
 
 void heard_state(heard *h, const hdr_state *state)
 {
-    if (!is_ours(h, state->run_id) || state->x.count != h->disks || state->y.count != h->disks) return;
+    if (!is_ours(h, state->run_id) || state->x.count != h->disks || state->y.count != h->disks)
+        return;
     copy(h->x, &state->x);
     copy(h->y, &state->y);
     h->time = state->sim_time;

@@ -1,6 +1,6 @@
-/** The pictures of a run from its messages, for bags that were recorded without them: a node of the same name as the one
- *  that was recorded, which hears its topics and publishes ~markers.
- *      rosrun hdlyap redraw __name:=hdlyap [_modes:=[T(1,0), LP(1,0)]] */
+/** The pictures of a run from its messages, for bags that were recorded without them: a node of the
+ * same name as the one that was recorded, which hears its topics and publishes ~markers. rosrun
+ * hdlyap redraw __name:=hdlyap [_modes:=[T(1,0), LP(1,0)]] */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,15 +17,16 @@ typedef struct redraw {
     hdr_publisher *markers;
     const char *const *modes; /**< names; NULL: the lowest T and LP field */
     int count;
-    double drawn; /**< simulated time of the last picture */
+    double drawn;     /**< simulated time of the last picture */
     int drawn_fields; /**< of that time in it: topics do not keep step */
 } redraw;
 
-/* ---- from what was heard to a picture ----------------------------------------------------------- */
+/* ---- from what was heard to a picture ------------------------------------------------------ */
 
 static void write_name(char *name, size_t size, const heard_field *f)
 {
-    snprintf(name, size, "%s(%u,%u)", f->kind == HDR_MODE_T ? "T" : "LP", (unsigned)f->nx, (unsigned)f->ny);
+    snprintf(name, size, "%s(%u,%u)", f->kind == HDR_MODE_T ? "T" : "LP", (unsigned)f->nx,
+             (unsigned)f->ny);
 }
 
 /** Simulated time of the newest fields; that of the state if there are none. */
@@ -49,7 +50,8 @@ static const heard_field *lowest(const heard *h, uint8_t kind, double time)
     const heard_field *found = NULL;
     for (int k = 0; k < h->fields; k++) {
         const heard_field *f = &h->field[k];
-        if (f->kind == kind && f->time == time && (!found || f->exponent < found->exponent)) found = f;
+        if (f->kind == kind && f->time == time && (!found || f->exponent < found->exponent))
+            found = f;
     }
     return found;
 }
@@ -141,11 +143,12 @@ static void draw(redraw *r, const hdr_cost *cost)
     r->drawn_fields = fields;
     fill_places(&p, h, time);
     if (h->has_fields) fill_modes(&p, r, time);
-    if (!view_draw(r->view, &markers, &p, "box") || hdr_markers_publish(r->markers, &markers) != HDR_OK)
+    if (!view_draw(r->view, &markers, &p, "box") ||
+        hdr_markers_publish(r->markers, &markers) != HDR_OK)
         hdr_log(HDR_ERROR, "no picture of t = %g", time);
 }
 
-/* ---- the node ----------------------------------------------------------------------------------- */
+/* ---- the node ------------------------------------------------------------------------------ */
 
 static void on_run_info(void *context, const hdr_run_info *info)
 {
@@ -153,11 +156,26 @@ static void on_run_info(void *context, const hdr_run_info *info)
     heard_run_info(&r->said, info);
     r->drawn = -1.0;
 }
-static void on_state(void *context, const hdr_state *state) { heard_state(&((redraw *)context)->said, state); }
-static void on_spectrum(void *context, const hdr_spectrum *s) { heard_spectrum(&((redraw *)context)->said, s); }
-static void on_steps(void *context, const hdr_steps *steps) { heard_steps(&((redraw *)context)->said, steps); }
-static void on_phases(void *context, const hdr_lp_phases *p) { heard_phases(&((redraw *)context)->said, p); }
-static void on_field(void *context, const hdr_mode_field *f) { heard_mode_field(&((redraw *)context)->said, f); }
+static void on_state(void *context, const hdr_state *state)
+{
+    heard_state(&((redraw *)context)->said, state);
+}
+static void on_spectrum(void *context, const hdr_spectrum *s)
+{
+    heard_spectrum(&((redraw *)context)->said, s);
+}
+static void on_steps(void *context, const hdr_steps *steps)
+{
+    heard_steps(&((redraw *)context)->said, steps);
+}
+static void on_phases(void *context, const hdr_lp_phases *p)
+{
+    heard_phases(&((redraw *)context)->said, p);
+}
+static void on_field(void *context, const hdr_mode_field *f)
+{
+    heard_mode_field(&((redraw *)context)->said, f);
+}
 /** The last message of each report. */
 static void on_cost(void *context, const hdr_cost *cost) { draw(context, cost); }
 
@@ -166,12 +184,16 @@ static hdr_status connect(redraw *r, hdr_node *node)
     hdr_subscriber *s; /* the node's, until its end */
     hdr_status status = hdr_markers_advertise(&r->markers, node, "~markers");
     if (status == HDR_OK) status = hdr_frame_publish(node, "world", "box");
-    if (status == HDR_OK) status = hdr_run_info_subscribe(&s, node, "~run_info", QUEUE, on_run_info, r);
+    if (status == HDR_OK)
+        status = hdr_run_info_subscribe(&s, node, "~run_info", QUEUE, on_run_info, r);
     if (status == HDR_OK) status = hdr_state_subscribe(&s, node, "~state", QUEUE, on_state, r);
-    if (status == HDR_OK) status = hdr_spectrum_subscribe(&s, node, "~spectrum", QUEUE, on_spectrum, r);
+    if (status == HDR_OK)
+        status = hdr_spectrum_subscribe(&s, node, "~spectrum", QUEUE, on_spectrum, r);
     if (status == HDR_OK) status = hdr_steps_subscribe(&s, node, "~steps", QUEUE, on_steps, r);
-    if (status == HDR_OK) status = hdr_lp_phases_subscribe(&s, node, "~lp_phases", QUEUE, on_phases, r);
-    if (status == HDR_OK) status = hdr_mode_field_subscribe(&s, node, "~fields", QUEUE, on_field, r);
+    if (status == HDR_OK)
+        status = hdr_lp_phases_subscribe(&s, node, "~lp_phases", QUEUE, on_phases, r);
+    if (status == HDR_OK)
+        status = hdr_mode_field_subscribe(&s, node, "~fields", QUEUE, on_field, r);
     if (status == HDR_OK) status = hdr_cost_subscribe(&s, node, "~cost", QUEUE, on_cost, r);
     return status;
 }
@@ -184,7 +206,8 @@ static bool read_modes(redraw *r, const hdr_params *params)
     if (unknown)
         hdr_log(HDR_FATAL, "%s = %s: must be removed: there is no parameter of this name", unknown,
                 hdr_param_text(params, unknown));
-    else if (status == HDR_WRONG_TYPE || (r->modes && (r->count < 1 || r->count > PICTURE_MODES_MAX)))
+    else if (status == HDR_WRONG_TYPE ||
+             (r->modes && (r->count < 1 || r->count > PICTURE_MODES_MAX)))
         hdr_log(HDR_FATAL, "modes = %s: must be a list of 1 to %d modes such as T(1,0)",
                 hdr_param_text(params, "modes"), PICTURE_MODES_MAX);
     else

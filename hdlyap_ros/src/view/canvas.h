@@ -15,8 +15,8 @@ void canvas_free(canvas *c);
 /** Begins a picture. */
 void canvas_clear(canvas *c);
 
-/** The points that follow are of one marker of a list type; ns: at most 31 characters; thickness of lines, or
- *  diameter [sigma]. */
+/** The points that follow are of one marker of a list type; ns: at most 31 characters; thickness of
+ * lines, or diameter [sigma]. */
 void canvas_layer(canvas *c, const char *ns, int type, hdr_colour colour, double thickness);
 void canvas_point(canvas *c, double x, double y, double z);
 /** A point of its own colour: all of a layer, or none. */
@@ -30,8 +30,8 @@ __attribute__((format(printf, 7, 8)))
 void canvas_text(canvas *c, const char *ns, double x, double y, double height, hdr_colour colour,
                  const char *format, ...);
 
-/** The picture: its markers, and the deletion of what was in one before and is not in it. Valid until the
- *  next change. False if memory or room ran out: then it is not to be shown. */
+/** The picture: its markers, and the deletion of what was in one before and is not in it. Valid
+ * until the next change. False if memory or room ran out: then it is not to be shown. */
 bool canvas_markers(canvas *c, hdr_markers *out, const char *frame_id);
 
 #endif

@@ -15,7 +15,7 @@ enum {
 };
 static const double LINE = 0.2, DOT = 0.55, FIT_LINE = 0.12; /* in units of the text's height */
 
-/* ---- the spectrum ------------------------------------------------------------------------------ */
+/* ---- the spectrum -------------------------------------------------------------------------- */
 
 static double exponent(const picture *p, uint32_t index)
 {
@@ -70,7 +70,8 @@ static const hdr_step *step_of(const picture *p, uint32_t index)
     return NULL;
 }
 
-/** From the lowest upwards, above to the right and below to the left in turn: there is no other exponent. */
+/** From the lowest upwards, above to the right and below to the left in turn: there is no other
+ * exponent. */
 static void step_names(const plot *axes, const picture *p, uint32_t last)
 {
     const hdr_step *before = NULL;
@@ -94,8 +95,8 @@ static void lowest(canvas *on, const layout *l, const picture *p)
     const uint32_t last = p->exponents.count ? last_positive(p) : 1;
     const uint32_t first = first_magnified(p, last);
     const double top = p->exponents.count ? 1.05 * exponent(p, first) : 1.0;
-    const plot axes = {
-        on, "spectrum", l->lowest, l->unit, {first - 1.0, 0.0}, {last + 1.0, plot_round_up(top)}};
+    const plot axes = {on,      "spectrum",         l->lowest,
+                       l->unit, {first - 1.0, 0.0}, {last + 1.0, plot_round_up(top)}};
     plot_axes(&axes, "smallest positive exponents", "index", "lambda");
     canvas_layer(on, "spectrum", HDR_MARKER_POINTS, PALETTE_INK, DOT * l->unit);
     for (uint32_t i = first; i <= last && p->exponents.count; i++) {
@@ -112,7 +113,7 @@ void curves_spectrum(canvas *on, const layout *l, const picture *p)
     lowest(on, l, p);
 }
 
-/* ---- the dispersion relation -------------------------------------------------------------------- */
+/* ---- the dispersion relation --------------------------------------------------------------- */
 
 static void dispersion_range(plot *axes, const picture *p)
 {
@@ -130,12 +131,14 @@ static void fit_curve(const plot *axes, const hdr_fit *fit, int kind)
 {
     enum { PIECES = 40 };
     if (fit->points == 0) return;
-    canvas_layer(axes->on, axes->ns, HDR_MARKER_LINE_LIST, palette_kind(kind), FIT_LINE * axes->unit);
+    canvas_layer(axes->on, axes->ns, HDR_MARKER_LINE_LIST, palette_kind(kind),
+                 FIT_LINE * axes->unit);
     for (int piece = 0; piece < PIECES; piece++) {
         const double k0 = axes->max[0] * piece / PIECES, k1 = axes->max[0] * (piece + 1) / PIECES;
         const double y0 = fit->c * k0 + fit->c2 * k0 * k0, y1 = fit->c * k1 + fit->c2 * k1 * k1;
         if (plot_contains(axes, k0, y0) && plot_contains(axes, k1, y1))
-            canvas_line(axes->on, plot_x(axes, k0), plot_y(axes, y0), plot_x(axes, k1), plot_y(axes, y1));
+            canvas_line(axes->on, plot_x(axes, k0), plot_y(axes, y0), plot_x(axes, k1),
+                        plot_y(axes, y1));
     }
 }
 
@@ -146,8 +149,9 @@ static void error_bars(const plot *axes, const hdr_steps *steps)
         const hdr_step *step = &steps->steps[k];
         const double error = fmin(fmax(step->std_error, 0.0), step->exponent);
         if (is_shown(step) && error > 0.0)
-            canvas_line(axes->on, plot_x(axes, step->wave_number), plot_y(axes, step->exponent - error),
-                        plot_x(axes, step->wave_number), plot_y(axes, step->exponent + error));
+            canvas_line(axes->on, plot_x(axes, step->wave_number),
+                        plot_y(axes, step->exponent - error), plot_x(axes, step->wave_number),
+                        plot_y(axes, step->exponent + error));
     }
 }
 
@@ -157,8 +161,8 @@ static void step_points(const plot *axes, const hdr_steps *steps)
     for (uint32_t k = 0; k < steps->count; k++) {
         const hdr_step *step = &steps->steps[k];
         if (is_shown(step))
-            canvas_coloured(axes->on, plot_x(axes, step->wave_number), plot_y(axes, step->exponent), 0.0,
-                            palette_kind(step->kind));
+            canvas_coloured(axes->on, plot_x(axes, step->wave_number), plot_y(axes, step->exponent),
+                            0.0, palette_kind(step->kind));
     }
 }
 
@@ -174,10 +178,11 @@ void curves_dispersion(canvas *on, const layout *l, const picture *p)
     step_points(&axes, p->steps);
 }
 
-/* ---- the caption ------------------------------------------------------------------------------- */
+/* ---- the caption --------------------------------------------------------------------------- */
 
 /** "c_T 3.230 +- 0.004"; without what is not known. */
-static void write_fit(char *text, size_t size, const char *name, bool known, double value, double error)
+static void write_fit(char *text, size_t size, const char *name, bool known, double value,
+                      double error)
 {
     if (!known)
         snprintf(text, size, "%s unknown", name);
@@ -205,5 +210,6 @@ void curves_caption(canvas *on, const layout *l, const picture *p)
     canvas_text(on, "text", l->caption_x, l->caption_y, 1.4 * l->unit, PALETTE_INK,
                 "%.60s: %u disks, x %s, y %s\nt = %.1f, %s%s, averaged %.1f\n%s", p->scene,
                 (unsigned)p->x.count, p->periodic[0] ? "periodic" : "reflecting",
-                p->periodic[1] ? "periodic" : "reflecting", p->time, p->phase, done, p->averaged, fits);
+                p->periodic[1] ? "periodic" : "reflecting", p->time, p->phase, done, p->averaged,
+                fits);
 }

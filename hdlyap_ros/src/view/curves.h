@@ -1,4 +1,5 @@
-/** The plots of a picture: the spectrum, its lowest exponents with their steps, the dispersion relation. */
+/** The plots of a picture: the spectrum, its lowest exponents with their steps, the dispersion
+ * relation. */
 #ifndef HDLYAP_CURVES_H
 #define HDLYAP_CURVES_H
 

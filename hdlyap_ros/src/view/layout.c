@@ -5,9 +5,9 @@
 
 /** In units of the text's height. */
 static const double WIDTH_UNITS = 80.0, GAP = 4.0, TITLE = 4.0, AXIS = 6.0, CAPTION = 6.0;
-static const double LONG = 2.5; /* boxes this much longer than high lie above each other */
-static const double TOO_LONG = 40.0; /* arrows of neighbours would cover each other */
-static const double STRIP = 8.0;     /* height */
+static const double LONG = 2.5;        /* boxes this much longer than high lie above each other */
+static const double TOO_LONG = 40.0;   /* arrows of neighbours would cover each other */
+static const double STRIP = 8.0;       /* height */
 static const double PLOT_HEIGHT = 0.8; /* of its width */
 
 /** Columns of a grid of panels that is not much higher than wide. */
@@ -53,9 +53,11 @@ static void place_plots(layout *l, double width, double bottom)
 
 layout layout_of(const picture *p)
 {
-    layout l = {.panels = p->modes > 0 ? p->modes : 1, .strips = p->modes > 0 && p->box[0] > TOO_LONG * p->box[1]};
+    layout l = {.panels = p->modes > 0 ? p->modes : 1,
+                .strips = p->modes > 0 && p->box[0] > TOO_LONG * p->box[1]};
     const int columns = columns_of(p, l.panels);
-    const double least = fmax(p->box[0], 0.8 * p->box[1]); /* plots need room beside a high box too */
+    const double least = fmax(p->box[0],
+                              0.8 * p->box[1]); /* plots need room beside a high box too */
     l.unit = fmax(grid_width(p, columns, 0.0), least) / (WIDTH_UNITS - (columns - 1) * GAP);
     const double width = fmax(grid_width(p, columns, l.unit), WIDTH_UNITS * l.unit);
     place_panels(&l, p, columns);

@@ -1,4 +1,5 @@
-/** Where the parts of a picture lie, in the frame of the box [sigma]: the first panel is the box itself. */
+/** Where the parts of a picture lie, in the frame of the box [sigma]: the first panel is the box
+ * itself. */
 #ifndef HDLYAP_LAYOUT_H
 #define HDLYAP_LAYOUT_H
 
@@ -12,7 +13,8 @@ typedef struct layout {
     double unit; /**< height of text */
     rect panel[PICTURE_MODES_MAX];
     int panels; /**< one per mode, at least one */
-    bool strips;                   /**< the boxes are too long for arrows: their field is plotted below them */
+    /** The boxes are too long for arrows: their field is plotted below them */
+    bool strips;
     rect strip[PICTURE_MODES_MAX]; /**< the same x as the panel's */
     rect spectrum, lowest, dispersion;
     double caption_x, caption_y; /**< middle of the caption's text */

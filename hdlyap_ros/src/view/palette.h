@@ -1,16 +1,19 @@
-/** Colours of Okabe and Ito, safe for colour-blind readers; hue says the kind, as in the figures of plot_bag. */
+/** Colours of Okabe and Ito, safe for colour-blind readers; hue says the kind, as in the figures of
+ * plot_bag. */
 #ifndef HDLYAP_PALETTE_H
 #define HDLYAP_PALETTE_H
 
 #include "hdlyap_ros/markers.h"
 
-static const hdr_colour PALETTE_T = {0.0F, 0.447F, 0.698F, 1.0F};   /* #0072B2 */
-static const hdr_colour PALETTE_LP = {0.835F, 0.369F, 0.0F, 1.0F};  /* #D55E00 */
-static const hdr_colour PALETTE_L = {0.902F, 0.624F, 0.0F, 1.0F};   /* #E69F00, an LP mode that is all L */
-static const hdr_colour PALETTE_P = {0.40F, 0.12F, 0.02F, 1.0F};    /* and one that is all P */
+static const hdr_colour PALETTE_T = {0.0F, 0.447F, 0.698F, 1.0F};  /* #0072B2 */
+static const hdr_colour PALETTE_LP = {0.835F, 0.369F, 0.0F, 1.0F}; /* #D55E00 */
+static const hdr_colour PALETTE_L = {0.902F, 0.624F, 0.0F,
+                                     1.0F}; /* #E69F00, an LP mode that is all L */
+static const hdr_colour PALETTE_P = {0.40F, 0.12F, 0.02F, 1.0F};     /* and one that is all P */
 static const hdr_colour PALETTE_ZERO = {0.0F, 0.620F, 0.451F, 1.0F}; /* #009E73 */
 static const hdr_colour PALETTE_DISK = {0.80F, 0.80F, 0.80F, 1.0F};
-/** Lines, numbers and exponents that are of no step: legible on white and on rviz's own dark grey. */
+/** Lines, numbers and exponents that are of no step: legible on white and on rviz's own dark grey.
+ */
 static const hdr_colour PALETTE_INK = {0.42F, 0.42F, 0.42F, 1.0F};
 
 /** part 0 .. 1 of the way from a to b. */

@@ -7,7 +7,8 @@
 #include "palette.h"
 
 static const double DISKS_Z = -1.0; /* below the arrows, which they would hide */
-/** Root mean square length of an arrow, as a part of the mean distance of disks; the longest one may have. */
+/** Root mean square length of an arrow, as a part of the mean distance of disks; the longest one
+ * may have. */
 static const double ARROW = 1.3, ARROW_MAX = 3.5;
 /** Of an arrow, as parts of its length or of the mean distance. */
 static const double HEAD = 0.4, HEAD_WIDTH = 0.16, SHAFT_WIDTH = 0.05;
@@ -106,11 +107,13 @@ static void arrows(canvas *on, const rect *r, const picture *p, const picture_mo
 }
 
 /** One component against x, between the edges of a strip. */
-static void dots(canvas *on, const rect *strip, const picture *p, const hdr_doubles *d, double scale)
+static void dots(canvas *on, const rect *strip, const picture *p, const hdr_doubles *d,
+                 double scale)
 {
     for (uint32_t i = 0; i < d->count; i++) {
         const double off = fmax(-1.0, fmin(1.0, scale * element(d, i)));
-        canvas_point(on, strip->x + element(&p->x, i), strip->y + 0.5 * (1.0 + off) * strip->height, 0.0);
+        canvas_point(on, strip->x + element(&p->x, i), strip->y + 0.5 * (1.0 + off) * strip->height,
+                     0.0);
     }
 }
 
@@ -165,6 +168,6 @@ void panel_mode(canvas *on, const layout *l, const picture *p, int k)
                     m->known ? "" : "   (vector not known now)",
                     l->strips ? "   below: dq along the box, across it grey" : "");
     else
-        canvas_text(on, ns, r->x + 0.5 * r->width, top, 1.2 * l->unit, PALETTE_INK, "%s: not resolved",
-                    m->name);
+        canvas_text(on, ns, r->x + 0.5 * r->width, top, 1.2 * l->unit, PALETTE_INK,
+                    "%s: not resolved", m->name);
 }

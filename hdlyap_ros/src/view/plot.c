@@ -59,10 +59,7 @@ static void draw_frame(const plot *p)
 }
 
 /** Without the remains of rounding. */
-static double tidy(double number, double step)
-{
-    return fabs(number) < 1e-6 * step ? 0.0 : number;
-}
+static double tidy(double number, double step) { return fabs(number) < 1e-6 * step ? 0.0 : number; }
 
 static void draw_numbers(const plot *p)
 {
@@ -82,8 +79,10 @@ void plot_axes(const plot *p, const char *title, const char *x_label, const char
     const double away = LABEL_DISTANCE * p->unit;
     draw_frame(p);
     draw_numbers(p);
-    canvas_text(p->on, p->ns, r->x + 0.5 * r->width, r->y - 2.2 * away, p->unit, PALETTE_INK, "%s", x_label);
-    canvas_text(p->on, p->ns, r->x + 0.5 * r->width, r->y + r->height + 1.2 * away, p->unit, PALETTE_INK, "%s",
-                title);
-    canvas_text(p->on, p->ns, r->x - away, r->y + r->height + 0.9 * away, p->unit, PALETTE_INK, "%s", y_label);
+    canvas_text(p->on, p->ns, r->x + 0.5 * r->width, r->y - 2.2 * away, p->unit, PALETTE_INK, "%s",
+                x_label);
+    canvas_text(p->on, p->ns, r->x + 0.5 * r->width, r->y + r->height + 1.2 * away, p->unit,
+                PALETTE_INK, "%s", title);
+    canvas_text(p->on, p->ns, r->x - away, r->y + r->height + 0.9 * away, p->unit, PALETTE_INK,
+                "%s", y_label);
 }

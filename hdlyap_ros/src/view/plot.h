@@ -9,8 +9,8 @@ typedef struct plot {
     canvas *on;
     const char *ns;
     rect area;
-    double unit;                /**< height of text */
-    double min[2], max[2];      /**< numbers at the ends of the axes */
+    double unit;           /**< height of text */
+    double min[2], max[2]; /**< numbers at the ends of the axes */
 } plot;
 
 /** Frame, ticks and labels, and the layers that they are in. */

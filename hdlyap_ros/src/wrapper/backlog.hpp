@@ -1,4 +1,5 @@
-/** What the subscribers of one topic have not been handed yet: messages in -> how far they are behind. */
+/** What the subscribers of one topic have not been handed yet: messages in -> how far they are
+ * behind. */
 #pragma once
 
 #include <cstdint>
@@ -8,9 +9,10 @@
 
 #include "hdlyap_ros/publisher.h"
 
-/** Every queue and socket on a message's way holds a reference to it, so being its only owner means that
- *  it has been handed to the kernel, or dropped. The last message tells whether anything waits; one more,
- *  followed until it is gone, how long it had to. Times in seconds of any clock. Any thread. */
+/** Every queue and socket on a message's way holds a reference to it, so being its only owner means
+ * that it has been handed to the kernel, or dropped. The last message tells whether anything waits;
+ * one more, followed until it is gone, how long it had to. Times in seconds of any clock. Any
+ * thread. */
 class hdr_backlog
 {
   public:
@@ -19,7 +21,8 @@ class hdr_backlog
     void add(const buffer &message, double now);
     /** True if nothing waits. */
     bool empty() const;
-    /** The longer of the followed message's wait and that of the one before it; with neither topic nor losing. */
+    /** The longer of the followed message's wait and that of the one before it; with neither topic
+     * nor losing. */
     hdr_lag lag(double now);
 
   private:

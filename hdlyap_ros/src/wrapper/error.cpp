@@ -17,8 +17,10 @@ bool hdr_error_of_memory(const std::exception &error) noexcept
 {
     if (dynamic_cast<const std::bad_alloc *>(&error)) return true;
     int code = 0; /* of threads */
-    if (const auto *boosts = dynamic_cast<const boost::system::system_error *>(&error)) code = boosts->code().value();
-    if (const auto *ours = dynamic_cast<const std::system_error *>(&error)) code = ours->code().value();
+    if (const auto *boosts = dynamic_cast<const boost::system::system_error *>(&error))
+        code = boosts->code().value();
+    if (const auto *ours = dynamic_cast<const std::system_error *>(&error))
+        code = ours->code().value();
     return code == EAGAIN || code == ENOMEM;
 }
 

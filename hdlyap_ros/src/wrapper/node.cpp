@@ -34,7 +34,8 @@ bool master_wait()
 /** roscpp's own answer leaves the graph at once, with messages still queued. */
 void on_rosnode_kill(XmlRpc::XmlRpcValue &params, XmlRpc::XmlRpcValue &result)
 {
-    const bool says_why = params.size() > 1 && params[1].getType() == XmlRpc::XmlRpcValue::TypeString;
+    const bool says_why = params.size() > 1 &&
+                          params[1].getType() == XmlRpc::XmlRpcValue::TypeString;
     const std::string why = says_why ? std::string(params[1]) : "";
     hdr_log(HDR_WARN, "asked to shut down: %s", why.c_str());
     hdr_stop_request();
@@ -53,7 +54,8 @@ hdr_node *node_start()
     return node.release();
 }
 
-/** Waits for a callback of theirs that is running. They are to stay until no callback runs at all: one may free them. */
+/** Waits for a callback of theirs that is running. They are to stay until no callback runs at all:
+ * one may free them. */
 std::vector<std::unique_ptr<hdr_subscriber>> unsubscribe(hdr_node &node)
 {
     std::vector<std::unique_ptr<hdr_subscriber>> all;

@@ -46,7 +46,7 @@ double seconds_now()
 }
 
 /** Past ros::Publisher, which keeps what it has serialised to itself, but for latched topics, whose
- *  last message only it can keep. */
+ * last message only it can keep. */
 template <class View> void send(hdr_publisher &publisher, const View &view)
 {
     if (publisher.publisher.isLatched()) {

@@ -1,5 +1,6 @@
-/** Bytes on the wire -> C views, through roscpp's traits and by the lists of fields of views.hpp. The bytes are copied
- *  once, since on the wire numbers lie at any address and strings end nowhere. */
+/** Bytes on the wire -> C views, through roscpp's traits and by the lists of fields of views.hpp.
+ * The bytes are copied once, since on the wire numbers lie at any address and strings end nowhere.
+ */
 #pragma once
 
 #include <memory>
@@ -11,7 +12,8 @@
 namespace hdlyap_ros
 {
 
-/** A message as its callback sees it: one view, or of an array of diagnostics one for each status. */
+/** A message as its callback sees it: one view, or of an array of diagnostics one for each status.
+ */
 template <class View> struct received {
     std::vector<View> views;
     std::vector<std::shared_ptr<const void>> kept; /**< what the views point into */

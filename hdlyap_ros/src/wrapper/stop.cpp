@@ -1,5 +1,5 @@
-/** Signals -> a flag that the node polls, and a timer that ends a process which does not; exceptions that
- *  nobody catches -> an exit status. */
+/** Signals -> a flag that the node polls, and a timer that ends a process which does not;
+ * exceptions that nobody catches -> an exit status. */
 #include "stop.hpp"
 
 #include <algorithm>

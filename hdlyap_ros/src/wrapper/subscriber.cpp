@@ -90,8 +90,8 @@ HDR_SUBSCRIBE(hdr_float64)
 HDR_SUBSCRIBE(hdr_string)
 #undef HDR_SUBSCRIBE
 
-/** roscpp waits for a callback that another thread is in; the node's lock must not be held then, since the callback
- *  may want it. */
+/** roscpp waits for a callback that another thread is in; the node's lock must not be held then,
+ * since the callback may want it. */
 void hdr_subscriber_free(hdr_subscriber *subscriber)
 {
     if (!subscriber) return;

@@ -1,4 +1,5 @@
-/** Subscribers that are connected to nobody although their topic is published: roscpp keeps to itself why. */
+/** Subscribers that are connected to nobody although their topic is published: roscpp keeps to
+ * itself why. */
 #include "unheard.hpp"
 
 #include <algorithm>

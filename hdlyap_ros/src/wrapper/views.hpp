@@ -1,6 +1,6 @@
 /** C views -> bytes on the wire, through roscpp's traits: type, md5 and definition are those of the
- *  generated messages, and the fields are written straight from the caller's buffers. What a view consists of is
- *  listed once: received.hpp reads by the same lists. */
+ * generated messages, and the fields are written straight from the caller's buffers. What a view
+ * consists of is listed once: received.hpp reads by the same lists. */
 #pragma once
 
 #include <cstring>
@@ -41,8 +41,8 @@ static_assert(int(HDR_MARKER_TEXT) == int(visualization_msgs::Marker::TEXT_VIEW_
 namespace hdlyap_ros
 {
 
-/** What a view stands for: the generated message, unless it is a part of another one only, and its fields
- *  in the order of the message, each passed to the stream or filled from it. */
+/** What a view stands for: the generated message, unless it is a part of another one only, and its
+ * fields in the order of the message, each passed to the stream or filled from it. */
 template <class View> struct message_of;
 
 template <class Stream> void put(Stream &stream, const char *text)
@@ -193,8 +193,9 @@ template <> struct message_of<hdr_run_info> {
              v.equilibration, v.warmup, v.duration, v.target_std_error, v.interval, v.accuracy,
              v.report_interval, v.observables, v.max_wave_number, v.max_node, v.wave_nx, v.wave_ny,
              v.covariant_window, v.covariant_transient, v.covariant_sampling, v.covariant_memory,
-             v.covariant_storage, v.covariant_folder, v.field_indices, v.field_interval, v.wait_for_subscribers, v.pace, v.marker_modes,
-             v.marker_rate, v.checkpoint, v.checkpoint_interval, v.resume, v.resumed_time, v.threads, v.blas_threads,
+             v.covariant_storage, v.covariant_folder, v.field_indices, v.field_interval,
+             v.wait_for_subscribers, v.pace, v.marker_modes, v.marker_rate, v.checkpoint,
+             v.checkpoint_interval, v.resume, v.resumed_time, v.threads, v.blas_threads,
              v.blas_library, v.blas_kernel, v.blas_threading);
     }
 };
@@ -328,9 +329,10 @@ template <> struct message_of<hdr_cost> {
     {
         pass(s, v.header, v.run_id, v.sim_time, v.phase, v.wall_seconds, v.events_seconds,
              v.replay_seconds, v.ortho_seconds, v.spectrum_seconds, v.modes_seconds,
-             v.covariant_seconds, v.publish_seconds, v.events_per_second, v.interval, v.interval_limit, v.condition,
-             v.orthogonality_defect, v.error_bound, v.orthonormalisations, v.second_passes, v.looks,
-             v.repairs, v.std_error, v.progress, v.remaining_seconds);
+             v.covariant_seconds, v.publish_seconds, v.events_per_second, v.interval,
+             v.interval_limit, v.condition, v.orthogonality_defect, v.error_bound,
+             v.orthonormalisations, v.second_passes, v.looks, v.repairs, v.std_error, v.progress,
+             v.remaining_seconds);
     }
 };
 

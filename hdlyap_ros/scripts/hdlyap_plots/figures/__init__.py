@@ -1,13 +1,38 @@
 """Recording -> figures, as PNG and SVG: one file here for each."""
 
-from . import (convergence, cost, covariant_angles, covariant_domination, covariant_exponents,
-               covariant_vectors, covariant_weights, dispersion, modes, p_mode, phases, spectrum,
-               steps)
+from . import (
+    convergence,
+    cost,
+    covariant_angles,
+    covariant_domination,
+    covariant_exponents,
+    covariant_vectors,
+    covariant_weights,
+    dispersion,
+    modes,
+    p_mode,
+    phases,
+    spectrum,
+    steps,
+)
 from .style import STYLE, plt, save
 
 # in the order in which plot_bag names them; each gives None where the bag has nothing for it
-FIGURES = (spectrum, convergence, steps, dispersion, modes, p_mode, phases, covariant_exponents,
-           covariant_weights, covariant_angles, covariant_domination, covariant_vectors, cost)
+FIGURES = (
+    spectrum,
+    convergence,
+    steps,
+    dispersion,
+    modes,
+    p_mode,
+    phases,
+    covariant_exponents,
+    covariant_weights,
+    covariant_angles,
+    covariant_domination,
+    covariant_vectors,
+    cost,
+)
 
 
 def draw_all(recording, folder, progress):

@@ -9,17 +9,25 @@ from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, plt, thinned
 def draw(recording):
     if recording.spectrum is None:
         return None
-    figure, (top, middle, bottom) = plt.subplots(3, 1, figsize=(5.2, 6.6), sharex=True,
-                                                 constrained_layout=True)
+    figure, (top, middle, bottom) = plt.subplots(
+        3, 1, figsize=(5.2, 6.6), sharex=True, constrained_layout=True
+    )
     course = recording.course()
     kept = thinned(len(course['time']))
     time = course['time'][kept]
     _with_error(top, time, course['lambda_max'][kept], course['lambda_max_error'][kept], INK)
     top.set_ylabel(r'$\lambda_{\max}$  [1/time unit]')
-    for column, (index, colour) in enumerate(zip(recording.smallest,
-                                                 (SKY, BLUE, ORANGE, VERMILION))):
-        _with_error(middle, time, course['small'][kept, column],
-                    course['small_errors'][kept, column], colour, rf'$\ell={index}$')
+    for column, (index, colour) in enumerate(
+        zip(recording.smallest, (SKY, BLUE, ORANGE, VERMILION))
+    ):
+        _with_error(
+            middle,
+            time,
+            course['small'][kept, column],
+            course['small_errors'][kept, column],
+            colour,
+            rf'$\ell={index}$',
+        )
     middle.set_ylabel(r'$\lambda_\ell$  [1/time unit]')
     middle.legend(ncol=2)
     _largest_error(bottom, time, course['largest_error'][kept])
@@ -43,8 +51,13 @@ def _largest_error(axes, time, error):
         axes.annotate('not yet known', (0.5, 0.5), xycoords='axes fraction', ha='center')
         return
     axes.loglog(time[measured], error[measured], color=INK, label='largest standard error')
-    axes.loglog(time[measured], error[measured][-1] * np.sqrt(time[-1] / time[measured]), '--',
-                color=GREY, label=r'$\propto 1/\sqrt{t}$')
+    axes.loglog(
+        time[measured],
+        error[measured][-1] * np.sqrt(time[-1] / time[measured]),
+        '--',
+        color=GREY,
+        label=r'$\propto 1/\sqrt{t}$',
+    )
     axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
     axes.yaxis.set_major_formatter(ticker.FormatStrFormatter('%g'))
     axes.yaxis.set_minor_formatter(ticker.NullFormatter())

@@ -5,8 +5,8 @@ import numpy as np
 from .. import covariant
 from .style import BLUE, GREEN, VERMILION, plt, scene
 
-COLOURS = (VERMILION, BLUE, GREEN)      # of the pairs of spaces
-ROOM = 1.4     # above the curves, for what is said
+COLOURS = (VERMILION, BLUE, GREEN)  # of the pairs of spaces
+ROOM = 1.4  # above the curves, for what is said
 
 
 def draw(run):
@@ -14,8 +14,10 @@ def draw(run):
     if message is None or not message.angles:
         return None
     figure, (left, right) = plt.subplots(1, 2, figsize=(7.2, 3.4), constrained_layout=True)
-    for axes, counts, title in ((left, 'smallest_counts', '(a) smallest angle'),
-                                (right, 'all_counts', '(b) all principal angles')):
+    for axes, counts, title in (
+        (left, 'smallest_counts', '(a) smallest angle'),
+        (right, 'all_counts', '(b) all principal angles'),
+    ):
         _histograms(axes, message.angles, counts)
         axes.set_title(title, loc='left')
         axes.set_xlim(0, covariant.RIGHT_ANGLE)
@@ -36,8 +38,14 @@ def _histograms(axes, angles, name):
         if at:
             axes.plot([], [], linestyle='', label=_said(angle, at))
         elif sum(counts):
-            axes.step(covariant.edges(counts), np.append(covariant.density(counts), 0), where='post',
-                      color=colour, linewidth=1, label=covariant.SPACES[angle.spaces])
+            axes.step(
+                covariant.edges(counts),
+                np.append(covariant.density(counts), 0),
+                where='post',
+                color=colour,
+                linewidth=1,
+                label=covariant.SPACES[angle.spaces],
+            )
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc='upper left', handlelength=1, borderaxespad=0.2, fontsize=7)
 

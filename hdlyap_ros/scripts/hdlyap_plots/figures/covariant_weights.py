@@ -16,13 +16,20 @@ def draw(run):
     first, last = near_zero(run, indices)
     columns = min(2, len(shown))
     rows = -(-len(shown) // columns)
-    figure, grid = plt.subplots(rows, columns, sharex=True, sharey=True, squeeze=False,
-                                figsize=(3.8 * columns, 2.6 * rows + 0.6), constrained_layout=True)
+    figure, grid = plt.subplots(
+        rows,
+        columns,
+        sharex=True,
+        sharey=True,
+        squeeze=False,
+        figsize=(3.8 * columns, 2.6 * rows + 0.6),
+        constrained_layout=True,
+    )
     for axes, weight in zip(grid.flat, shown):
         _panel(axes, run, weight, indices)
         shade([axes], run, first, last)
         axes.set_xlim(first - 0.8, last + 0.8)
-    for axes in list(grid.flat)[len(shown):]:
+    for axes in list(grid.flat)[len(shown) :]:
         axes.set_axis_off()
     for axes in grid[:, 0]:
         axes.set_ylabel('weight')
@@ -35,12 +42,40 @@ def draw(run):
 
 
 def _panel(axes, run, weight, indices):
-    axes.plot(indices, weight.dq, 'o', color=KIND_COLOURS[steps.NAMES[weight.kind]], markersize=3,
-              label=r'covariant, $\delta q$')
-    axes.plot(indices, weight.dp, 'x', color=GREY, markersize=3.5, markeredgewidth=0.8, label=r'covariant, $\delta p$')
-    axes.plot(indices, weight.gram_schmidt, 'o', color=INK, markerfacecolor='none', markersize=5, markeredgewidth=0.7,
-              label=r'Gram-Schmidt, $\delta q$')
+    axes.plot(
+        indices,
+        weight.dq,
+        'o',
+        color=KIND_COLOURS[steps.NAMES[weight.kind]],
+        markersize=3,
+        label=r'covariant, $\delta q$',
+    )
+    axes.plot(
+        indices,
+        weight.dp,
+        'x',
+        color=GREY,
+        markersize=3.5,
+        markeredgewidth=0.8,
+        label=r'covariant, $\delta p$',
+    )
+    axes.plot(
+        indices,
+        weight.gram_schmidt,
+        'o',
+        color=INK,
+        markerfacecolor='none',
+        markersize=5,
+        markeredgewidth=0.7,
+        label=r'Gram-Schmidt, $\delta q$',
+    )
     level(axes, covariant.chance(run, weight), 'by chance')
     axes.set_ylim(-0.03, 1.03)
-    axes.annotate(covariant.weight_name(weight), (0.03, 0.95), xycoords='axes fraction', va='top',
-                  weight='bold', fontsize=8)
+    axes.annotate(
+        covariant.weight_name(weight),
+        (0.03, 0.95),
+        xycoords='axes fraction',
+        va='top',
+        weight='bold',
+        fontsize=8,
+    )

@@ -7,10 +7,10 @@ from ..numbers import with_error
 from .style import GREY, KIND_COLOURS, bars, plt, scene
 
 MARKERS = {'T': 'o', 'LP': 's'}
-CLOSE = 0.028       # of the width of the axes: nearer names stand behind one another
-NAMES = 3           # that stand behind one another
+CLOSE = 0.028  # of the width of the axes: nearer names stand behind one another
+NAMES = 3  # that stand behind one another
 MARGIN = 1.08
-PUBLISHED_UP_TO = 0.3   # wave numbers for which slopes without curvature are meant
+PUBLISHED_UP_TO = 0.3  # wave numbers for which slopes without curvature are meant
 
 
 def draw(recording):
@@ -38,9 +38,18 @@ def _point(axes, step, alone):
     """Open where the step shares its vectors with another."""
     kind = steps.NAMES[step.kind]
     colour = KIND_COLOURS[kind]
-    axes.errorbar(step.wave_number, step.exponent, bars(step.std_error), fmt=MARKERS[kind],
-                  color=colour, markerfacecolor=colour if alone else 'white', markersize=4.5,
-                  elinewidth=0.9, capsize=2, zorder=3)
+    axes.errorbar(
+        step.wave_number,
+        step.exponent,
+        bars(step.std_error),
+        fmt=MARKERS[kind],
+        color=colour,
+        markerfacecolor=colour if alone else 'white',
+        markersize=4.5,
+        elinewidth=0.9,
+        capsize=2,
+        zorder=3,
+    )
 
 
 def _branch(axes, recording, kind, letter, count, end):
@@ -49,13 +58,20 @@ def _branch(axes, recording, kind, letter, count, end):
     if count:
         c, c2 = getattr(message, 'c_' + letter), getattr(message, f'c_{letter}2')
         k = np.linspace(0, end, 100)
-        axes.plot(k, c * k + c2 * k ** 2, color=colour,
-                  label=_fit_label(message, kind, letter, count))
+        axes.plot(
+            k, c * k + c2 * k**2, color=colour, label=_fit_label(message, kind, letter, count)
+        )
     published = paper.branches(recording.info).get(kind)
     if published is not None:
         k = np.linspace(0, end if published.c2 else min(end, PUBLISHED_UP_TO), 100)
-        axes.plot(k, published.c * k + (published.c2 or 0) * k ** 2, color=colour, linewidth=0.8,
-                  dashes=(2, 2), label='_published')
+        axes.plot(
+            k,
+            published.c * k + (published.c2 or 0) * k**2,
+            color=colour,
+            linewidth=0.8,
+            dashes=(2, 2),
+            label='_published',
+        )
 
 
 def _fit_label(message, kind, letter, count):
@@ -80,8 +96,15 @@ def _wave_axis(axes, points, end):
             groups[-1][1].setdefault(name)
         else:
             groups.append((step.wave_number, {name: None}))
-        axes.vlines(step.wave_number, step.exponent, axes.get_ylim()[1], color=GREY, linewidth=0.4,
-                    alpha=0.4, zorder=0)
+        axes.vlines(
+            step.wave_number,
+            step.exponent,
+            axes.get_ylim()[1],
+            color=GREY,
+            linewidth=0.4,
+            alpha=0.4,
+            zorder=0,
+        )
     axes.tick_params(top=False)
     upper = axes.twiny()
     upper.set_xlim(axes.get_xlim())
@@ -107,9 +130,16 @@ def _legend(axes, blocks):
     if any(line.get_label() == '_published' for line in axes.get_lines()):
         handles.append(plt.Line2D([], [], color=GREY, linewidth=0.8, dashes=(2, 2)))
         labels.append('Eckmann et al. 2005')
-    axes.legend(handles, labels, loc='lower right')     # below the branches
+    axes.legend(handles, labels, loc='lower right')  # below the branches
 
 
 def _marker(kind, face):
-    return plt.Line2D([], [], linestyle='', marker=MARKERS[kind], markersize=4.5,
-                      color=KIND_COLOURS[kind] if face != 'white' else GREY, markerfacecolor=face)
+    return plt.Line2D(
+        [],
+        [],
+        linestyle='',
+        marker=MARKERS[kind],
+        markersize=4.5,
+        color=KIND_COLOURS[kind] if face != 'white' else GREY,
+        markerfacecolor=face,
+    )

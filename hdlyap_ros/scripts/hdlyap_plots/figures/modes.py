@@ -7,13 +7,13 @@ from .. import steps
 from .style import GREY, LIGHT, MEMBER_COLOURS, kind_colour, plt, scene
 
 PANELS = 6
-WIDTH = 7.2         # of the figure [inch]
+WIDTH = 7.2  # of the figure [inch]
 TALLEST = 9.0
-LONG = 26           # names do not fit over a panel in the usual size
-ALONE = 4.2         # of a figure with one panel [inch]
-MANY = 10000        # arrows, as curves, would fill megabytes of an SVG file
-ARROW = 1.3         # root mean square length of the arrows [sigma]
-CHANNEL = 2.0       # a box narrower than this, in sigma, has no room for arrows
+LONG = 26  # names do not fit over a panel in the usual size
+ALONE = 4.2  # of a figure with one panel [inch]
+MANY = 10000  # arrows, as curves, would fill megabytes of an SVG file
+ARROW = 1.3  # root mean square length of the arrows [sigma]
+CHANNEL = 2.0  # a box narrower than this, in sigma, has no room for arrows
 
 
 class Panel:
@@ -28,8 +28,7 @@ class Panel:
 
     @property
     def title(self):
-        return (f'{self.name}, $\\ell={self.field.index}$, '
-                f'$\\lambda={self.field.exponent:.4f}$')
+        return f'{self.name}, $\\ell={self.field.index}$, ' f'$\\lambda={self.field.exponent:.4f}$'
 
     @property
     def colour(self):
@@ -85,24 +84,27 @@ def draw_panels(panels, info):
     rows = -(-len(panels) // columns)
     width = WIDTH if len(panels) > 1 else ALONE
     height = rows * (width / columns * info.box_y / info.box_x + 0.3) + 0.5
-    figure, grid = plt.subplots(rows, columns, figsize=(width, min(height, TALLEST)),
-                                squeeze=False, constrained_layout=True)
+    figure, grid = plt.subplots(
+        rows, columns, figsize=(width, min(height, TALLEST)), squeeze=False, constrained_layout=True
+    )
     for axes, panel in zip(grid.flat, panels):
         _arrows(axes, panel, info, as_pixels=len(panels) * info.disks > MANY)
     for axes in grid[:, 0]:
         axes.set_ylabel(r'$y$  [$\sigma$]', fontsize=7)
     for column, lowest in zip(grid.T, _lowest(len(panels), columns)):
         column[lowest].set_xlabel(r'$x$  [$\sigma$]', fontsize=7)
-    for axes in grid.flat[len(panels):]:
+    for axes in grid.flat[len(panels) :]:
         axes.set_axis_off()
     return figure
 
 
 def _columns(count, info):
     """As many as make the panels as large as possible on the page."""
+
     def size(columns):
         rows = -(-count // columns)
         return min(WIDTH / columns / info.box_x, TALLEST / rows / info.box_y)
+
     return max(range(1, min(count, 3) + 1), key=lambda columns: (size(columns), columns))
 
 
@@ -114,11 +116,25 @@ def _lowest(count, columns):
 def _arrows(axes, panel, info, as_pixels):
     field = panel.field
     dq = np.array([field.dqx, field.dqy])
-    dq = dq * ARROW / np.sqrt(np.mean(np.sum(dq ** 2, axis=0)))
+    dq = dq * ARROW / np.sqrt(np.mean(np.sum(dq**2, axis=0)))
     axes.add_collection(_disks(axes, field))
-    axes.quiver(field.x, field.y, *dq, angles='xy', scale_units='xy', scale=1, units='xy',
-                width=0.13, headwidth=3.5, headlength=4, headaxislength=3.5, minlength=0,
-                color=panel.colour, zorder=3, rasterized=as_pixels)
+    axes.quiver(
+        field.x,
+        field.y,
+        *dq,
+        angles='xy',
+        scale_units='xy',
+        scale=1,
+        units='xy',
+        width=0.13,
+        headwidth=3.5,
+        headlength=4,
+        headaxislength=3.5,
+        minlength=0,
+        color=panel.colour,
+        zorder=3,
+        rasterized=as_pixels,
+    )
     axes.set_aspect('equal')
     axes.set_xlim(0, info.box_x)
     axes.set_ylim(0, info.box_y)
@@ -129,31 +145,55 @@ def _arrows(axes, panel, info, as_pixels):
 def _disks(axes, field):
     """One outline, repeated: much less of a file than one for each disk."""
     # matplotlib 3.6 has given it another name
-    transform = ('offset_transform' if hasattr(EllipseCollection, 'set_offset_transform')
-                 else 'transOffset')
-    return EllipseCollection([1.0], [1.0], [0.0], units='xy', offsets=np.c_[field.x, field.y],
-                             facecolors='none', edgecolors=LIGHT, linewidths=0.4,
-                             **{transform: axes.transData})
+    transform = (
+        'offset_transform' if hasattr(EllipseCollection, 'set_offset_transform') else 'transOffset'
+    )
+    return EllipseCollection(
+        [1.0],
+        [1.0],
+        [0.0],
+        units='xy',
+        offsets=np.c_[field.x, field.y],
+        facecolors='none',
+        edgecolors=LIGHT,
+        linewidths=0.4,
+        **{transform: axes.transData},
+    )
 
 
 def _channel(panels, info):
     """In a channel: both components along it, normalised to a mean square of one."""
-    figure, rows = plt.subplots(len(panels), 1, figsize=(WIDTH, 1.35 * len(panels) + 0.6),
-                                sharex=True, sharey=True, squeeze=False, constrained_layout=True)
+    figure, rows = plt.subplots(
+        len(panels),
+        1,
+        figsize=(WIDTH, 1.35 * len(panels) + 0.6),
+        sharex=True,
+        sharey=True,
+        squeeze=False,
+        constrained_layout=True,
+    )
     along = 'x' if info.box_x >= info.box_y else 'y'
     for axes, panel in zip(rows.flat, panels):
         field = panel.field
-        dq = np.array([field.dqx, field.dqy]) * np.sqrt(len(field.x) / np.sum(
-            np.square([field.dqx, field.dqy])))
+        dq = np.array([field.dqx, field.dqy]) * np.sqrt(
+            len(field.x) / np.sum(np.square([field.dqx, field.dqy]))
+        )
         place = getattr(field, along)
         for component, axis, colour, marker in zip(dq, 'xy', MEMBER_COLOURS, 'os'):
-            axes.plot(place, component, marker, markersize=3, color=colour,
-                      label=rf'$\delta q_{axis}$')
+            axes.plot(
+                place, component, marker, markersize=3, color=colour, label=rf'$\delta q_{axis}$'
+            )
         axes.axhline(0, color=GREY, linewidth=0.5)
         axes.set_title(panel.title, fontsize=8)
         axes.set_xlim(0, max(info.box_x, info.box_y))
         axes.set_ylabel(r'$\delta q$ / rms', fontsize=7)
-    rows.flat[0].legend(ncol=2, loc='lower right', bbox_to_anchor=(1, 0.97), borderpad=0,
-                        handletextpad=0.2, columnspacing=1)
+    rows.flat[0].legend(
+        ncol=2,
+        loc='lower right',
+        bbox_to_anchor=(1, 0.97),
+        borderpad=0,
+        handletextpad=0.2,
+        columnspacing=1,
+    )
     rows.flat[-1].set_xlabel(rf'${along}$  [$\sigma$]')
     return figure

@@ -6,7 +6,7 @@ from matplotlib import ticker
 from .. import covariant, steps
 from .style import GREY, ZERO, kind_colour, plt, scene
 
-LEAST, MOST = 16, 40    # vectors of the positive half in the magnified panels
+LEAST, MOST = 16, 40  # vectors of the positive half in the magnified panels
 
 
 class Panels:
@@ -17,11 +17,19 @@ class Panels:
         self._run, self._indices = run, covariant.indices(message)
         whole, near = (self._indices[0], self._indices[-1]), near_zero(run, self._indices)
         self.ranges = [whole] if whole == near else [whole, near]
-        self.figure, self.grid = plt.subplots(rows, len(self.ranges), sharex='col', squeeze=False,
-                                              figsize=(4.6 if len(self.ranges) == 1 else 7.6, height),
-                                              constrained_layout=True)
-        self.figure.suptitle(f'{scene(run.info)}, covariant vectors of {message.windows} '
-                             f'window{"s" if message.windows != 1 else ""}', fontsize=9)
+        self.figure, self.grid = plt.subplots(
+            rows,
+            len(self.ranges),
+            sharex='col',
+            squeeze=False,
+            figsize=(4.6 if len(self.ranges) == 1 else 7.6, height),
+            constrained_layout=True,
+        )
+        self.figure.suptitle(
+            f'{scene(run.info)}, covariant vectors of {message.windows} '
+            f'window{"s" if message.windows != 1 else ""}',
+            fontsize=9,
+        )
 
     def plot(self, row, places, values, form, error=None, **style):
         """In every column what lies in its range."""
@@ -38,7 +46,9 @@ class Panels:
         for axes, (first, last) in zip(self.grid[-1], self.ranges):
             axes.set_xlabel(r'index $\ell$')
             axes.set_xlim(first - 0.8, last + 0.8)
-            axes.xaxis.set_major_locator(ticker.MaxNLocator(nbins=6, integer=True, steps=[1, 2, 5, 10]))
+            axes.xaxis.set_major_locator(
+                ticker.MaxNLocator(nbins=6, integer=True, steps=[1, 2, 5, 10])
+            )
         shade(self.grid[:, -1], self._run, *self.ranges[-1])
         return self.figure
 
@@ -58,13 +68,26 @@ def shade(column, run, first, last):
             continue
         colour = ZERO if block.kind == steps.ZERO else kind_colour(block.kind)
         for axes in column:
-            axes.axvspan(block.first - 0.5, block.last + 0.5, color=colour, alpha=0.13, linewidth=0, zorder=0)
+            axes.axvspan(
+                block.first - 0.5, block.last + 0.5, color=colour, alpha=0.13, linewidth=0, zorder=0
+            )
         # the conjugate half has the colours of its steps in reverse
         if not name.startswith('conj.'):
-            column[0].annotate(name.replace('+', '\n+'), (0.5 * (block.first + block.last), 1),
-                               xycoords=('data', 'axes fraction'), xytext=(0, 3), textcoords='offset points',
-                               fontsize=6, rotation=90, ha='center', va='bottom', color=colour)
+            column[0].annotate(
+                name.replace('+', '\n+'),
+                (0.5 * (block.first + block.last), 1),
+                xycoords=('data', 'axes fraction'),
+                xytext=(0, 3),
+                textcoords='offset points',
+                fontsize=6,
+                rotation=90,
+                ha='center',
+                va='bottom',
+                color=colour,
+            )
 
 
 def level(axes, value, label=None):
-    axes.axhline(value, color=GREY, linewidth=0.6, linestyle=':' if label else '-', label=label, zorder=0)
+    axes.axhline(
+        value, color=GREY, linewidth=0.6, linestyle=':' if label else '-', label=label, zorder=0
+    )

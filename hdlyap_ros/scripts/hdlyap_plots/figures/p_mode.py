@@ -7,10 +7,10 @@ from .. import steps, waves
 from .pattern import pattern
 from .style import BLUE, GREY, VERMILION, plt, scene
 
-CUT = 2.5       # amplitudes shown: where a momentum is tiny, the quotient is not
+CUT = 2.5  # amplitudes shown: where a momentum is tiny, the quotient is not
 EPSILON = 1e-2  # of the mean square of a momentum component, in the quotients: HD_PMODE_EPSILON
-TINY = 1e-30    # a momentum of 0 has no weight, as its quotient is 0 too
-NOISE = 4.0     # root mean squares shown of the mode itself
+TINY = 1e-30  # a momentum of 0 has no weight, as its quotient is 0 too
+NOISE = 4.0  # root mean squares shown of the mode itself
 
 
 def draw(recording):
@@ -18,34 +18,59 @@ def draw(recording):
     if field is None:
         return None
     mode = PMode(field, clearest(field), recording.info)
-    figure, grid = plt.subplots(2, 2, figsize=(7.2, 4.6 if mode.along else 6.2), sharex=True,
-                                sharey='row' if mode.along else True, constrained_layout=True)
+    figure, grid = plt.subplots(
+        2,
+        2,
+        figsize=(7.2, 4.6 if mode.along else 6.2),
+        sharex=True,
+        sharey='row' if mode.along else True,
+        constrained_layout=True,
+    )
     panel = _curve if mode.along else _map
     for column, axis in enumerate('xy'):
         panel(grid[0, column], mode, mode.raw[column], NOISE, f'$\\phi_{{P,{axis}}}$')
         amplitude = mode.amplitude(column)
-        panel(grid[1, column], mode, mode.divided[column], CUT,
-              f'$\\phi_{{P,{axis}}} / p_{axis}$, fit ${amplitude:.2f}\\,{mode.formula[1:]}')
+        panel(
+            grid[1, column],
+            mode,
+            mode.divided[column],
+            CUT,
+            f'$\\phi_{{P,{axis}}} / p_{axis}$, fit ${amplitude:.2f}\\,{mode.formula[1:]}',
+        )
         if mode.along:
             _modulation(grid[1, column], mode, amplitude)
     _label(grid, mode)
-    figure.suptitle(f'{scene(recording.info)}, {mode.name}, $t={field.sim_time:g}$: P mode with '
-                    f'$A={mode.formula[1:]}\nabove as measured, below divided by the momenta',
-                    fontsize=9)
+    figure.suptitle(
+        f'{scene(recording.info)}, {mode.name}, $t={field.sim_time:g}$: P mode with '
+        f'$A={mode.formula[1:]}\nabove as measured, below divided by the momenta',
+        fontsize=9,
+    )
     return figure
 
 
 def chosen(recording):
     """The field with P modes of the lowest resolved LP step; a wave along an axis, if any, is
     clearer."""
-    numbers = {(step.nx, step.ny): order
-               for order, (_, step) in enumerate(steps.resolved_lp(recording.steps))} \
-        if recording.steps is not None else {}
-    fields = [field for field in recording.fields()
-              if field.pairs and (field.nx, field.ny) in numbers]
-    return min(fields, default=None,
-               key=lambda field: (field.nx > 0 and field.ny > 0, numbers[field.nx, field.ny],
-                                  -field.sim_time))
+    numbers = (
+        {
+            (step.nx, step.ny): order
+            for order, (_, step) in enumerate(steps.resolved_lp(recording.steps))
+        }
+        if recording.steps is not None
+        else {}
+    )
+    fields = [
+        field for field in recording.fields() if field.pairs and (field.nx, field.ny) in numbers
+    ]
+    return min(
+        fields,
+        default=None,
+        key=lambda field: (
+            field.nx > 0 and field.ny > 0,
+            numbers[field.nx, field.ny],
+            -field.sim_time,
+        ),
+    )
 
 
 def clearest(field):
@@ -59,7 +84,7 @@ class PMode:
     def __init__(self, field, pair, info):
         part = slice(pair * len(field.x), (pair + 1) * len(field.x))
         raw = np.array([field.p_x[part], field.p_y[part]])
-        self.raw = raw / np.sqrt(np.mean(raw ** 2))
+        self.raw = raw / np.sqrt(np.mean(raw**2))
         self.divided = np.array([field.p_over_px[part], field.p_over_py[part]])
         self.bits = field.modulation[pair]
         self.name = steps.wave_name('LP', field)
@@ -91,8 +116,8 @@ class PMode:
             return Fit(a, self.raw[component], np.ones_like(a))
         # p^2 / (p^2 + eps): what the division has left of A
         p2 = self._p[component] ** 2
-        more = p2 + EPSILON * np.mean(self._p ** 2)
-        return Fit(a * p2 / more, self.divided[component], more ** 2 / np.maximum(p2, TINY))
+        more = p2 + EPSILON * np.mean(self._p**2)
+        return Fit(a * p2 / more, self.divided[component], more**2 / np.maximum(p2, TINY))
 
 
 class Fit:
@@ -104,7 +129,7 @@ class Fit:
         # of the amplitude, if the noise at one disk knows nothing of the next
         self.error = np.sqrt(rest / (len(a) - 1) / np.sum(weights * a * a))
         # of the values, their root mean square being 1
-        self.scatter = np.sqrt(rest / np.sum(weights * values ** 2))
+        self.scatter = np.sqrt(rest / np.sum(weights * values**2))
 
 
 def _curve(axes, mode, values, limit, name):

@@ -7,8 +7,8 @@ from ..phases import apart, mean_omega, regression
 from ..numbers import with_error
 from .style import MEMBER_COLOURS, plt, scene, thinned
 
-STEPS = 4           # are shown
-PER_STEP = 2        # phases of each: more would hide one another
+STEPS = 4  # are shown
+PER_STEP = 2  # phases of each: more would hide one another
 
 
 def draw(recording, speeds=None):
@@ -16,8 +16,9 @@ def draw(recording, speeds=None):
     shown = chosen(recording)
     if not shown:
         return None
-    figure, (top, bottom) = plt.subplots(2, 1, figsize=(5.6, 5.6), sharex=True,
-                                         constrained_layout=True)
+    figure, (top, bottom) = plt.subplots(
+        2, 1, figsize=(5.6, 5.6), sharex=True, constrained_layout=True
+    )
     for (step, numbers), colour in zip(shown, MEMBER_COLOURS):
         for number in numbers:
             for time, phase in recording.phases.curves(number):
@@ -41,8 +42,10 @@ def chosen(recording):
     shown = []
     for number, _ in steps.resolved_lp(recording.steps):
         tracked = {phase: _tracked(recording, phase) for phase in recording.phases.of_step(number)}
-        ranked = sorted((phase for phase in tracked if tracked[phase] > 0),
-                        key=lambda phase: (-tracked[phase], phase))
+        ranked = sorted(
+            (phase for phase in tracked if tracked[phase] > 0),
+            key=lambda phase: (-tracked[phase], phase),
+        )
         if ranked:
             shown.append((number, apart(recording.phases.last.phases, ranked)[:PER_STEP]))
     return shown[:STEPS]

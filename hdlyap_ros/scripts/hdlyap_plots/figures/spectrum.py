@@ -4,7 +4,7 @@ from matplotlib import patches, ticker
 import numpy as np
 
 from .. import paper, steps
-from .style import (GREY, INK, KIND_COLOURS, MIXED, VERMILION, ZERO, bars, kind_colour, plt, scene)
+from .style import GREY, INK, KIND_COLOURS, MIXED, VERMILION, ZERO, bars, kind_colour, plt, scene
 
 # Smallest exponents in the second panel: so many at least, and at most if the steps need them; with
 # more, their names would not fit
@@ -17,21 +17,38 @@ def draw(recording):
     if _magnified_range(recording) == (recording.spectrum.first_index, recording.last_index):
         figure, small = plt.subplots(figsize=(4.6, 4.0), constrained_layout=True)
     else:
-        figure, (whole, small) = plt.subplots(1, 2, figsize=(7.6, 4.0), constrained_layout=True,
-                                              gridspec_kw={'width_ratios': [1, 1.7]})
+        figure, (whole, small) = plt.subplots(
+            1,
+            2,
+            figsize=(7.6, 4.0),
+            constrained_layout=True,
+            gridspec_kw={'width_ratios': [1, 1.7]},
+        )
         _whole(whole, recording)
         small.set_title('(b) smallest exponents', loc='left')
     _small(small, recording)
-    figure.suptitle(f'{scene(recording.info)}, averaged over '
-                    f'{recording.spectrum.averaged_time:g} time units', fontsize=9)
+    figure.suptitle(
+        f'{scene(recording.info)}, averaged over '
+        f'{recording.spectrum.averaged_time:g} time units',
+        fontsize=9,
+    )
     return figure
 
 
 def _whole(axes, recording):
     spectrum = recording.spectrum
     indices = np.arange(spectrum.first_index, recording.last_index + 1)
-    axes.errorbar(indices, spectrum.exponents, bars(spectrum.std_errors), fmt='.', color=INK,
-                  ecolor=GREY, markersize=2, elinewidth=0.7, rasterized=True)
+    axes.errorbar(
+        indices,
+        spectrum.exponents,
+        bars(spectrum.std_errors),
+        fmt='.',
+        color=INK,
+        ecolor=GREY,
+        markersize=2,
+        elinewidth=0.7,
+        rasterized=True,
+    )
     _exponent_axes(axes)
     axes.set_title('(a) all exponents carried', loc='left')
     _frame_magnified(axes, recording)
@@ -48,10 +65,19 @@ def _frame_magnified(axes, recording):
     """A light frame round what panel (b) shows."""
     first, last = _magnified_range(recording)
     offset = recording.spectrum.first_index
-    inside = recording.spectrum.exponents[first - offset:last + 1 - offset]
+    inside = recording.spectrum.exponents[first - offset : last + 1 - offset]
     low, high = min(0, *inside), max(inside)
-    axes.add_patch(plt.Rectangle((first, low), last - first, high - low, fill=False,
-                                 edgecolor=VERMILION, linewidth=0.8, zorder=4))
+    axes.add_patch(
+        plt.Rectangle(
+            (first, low),
+            last - first,
+            high - low,
+            fill=False,
+            edgecolor=VERMILION,
+            linewidth=0.8,
+            zorder=4,
+        )
+    )
 
 
 def _magnified_range(recording):
@@ -73,14 +99,24 @@ def _small(axes, recording):
     colours = _colours(recording)
     for index in range(first, last + 1):
         i = index - spectrum.first_index
-        axes.errorbar(index, spectrum.exponents[i], bars(spectrum.std_errors[i]), fmt='o',
-                      color=colours.get(index, INK), markersize=2.6, elinewidth=0.8, capsize=1.5)
-    shown = [block for block in _all_blocks(recording) if first <= block.first
-             and block.last <= last]
+        axes.errorbar(
+            index,
+            spectrum.exponents[i],
+            bars(spectrum.std_errors[i]),
+            fmt='o',
+            color=colours.get(index, INK),
+            markersize=2.6,
+            elinewidth=0.8,
+            capsize=1.5,
+        )
+    shown = [
+        block for block in _all_blocks(recording) if first <= block.first and block.last <= last
+    ]
     for block in shown:
         _name_block(axes, spectrum, block)
-    bands = [step for step in paper.steps(recording.info)
-             if first <= step.first and step.last <= last]
+    bands = [
+        step for step in paper.steps(recording.info) if first <= step.first and step.last <= last
+    ]
     for step in bands:
         _draw_band(axes, step, named=not shown)
     _exponent_axes(axes)
@@ -121,9 +157,17 @@ def _name_block(axes, spectrum, block):
     inside = slice(block.first - spectrum.first_index, block.last + 1 - spectrum.first_index)
     highest = max(np.add(spectrum.exponents[inside], np.maximum(0, spectrum.std_errors[inside])))
     name = 'zero modes' if block.kind == steps.ZERO else block.name.replace('+', '\n+')
-    axes.annotate(name, (0.5 * (block.first + block.last), highest), xytext=(0, 6),
-                  textcoords='offset points', color=_block_colour(block), fontsize=7, rotation=90,
-                  ha='center', va='bottom')
+    axes.annotate(
+        name,
+        (0.5 * (block.first + block.last), highest),
+        xytext=(0, 6),
+        textcoords='offset points',
+        color=_block_colour(block),
+        fontsize=7,
+        rotation=90,
+        ha='center',
+        va='bottom',
+    )
 
 
 def _room_for_names(axes):
@@ -136,25 +180,42 @@ def _draw_band(axes, step, named):
     measured step has one."""
     colour = KIND_COLOURS[step.kind]
     low, high = (step.fitted * (1 + sign * paper.FIT_ACCURACY) for sign in (-1, 1))
-    axes.fill_between([step.first - 1.2, step.last + 1.2], low, high, color=colour, alpha=0.2,
-                      linewidth=0)
+    axes.fill_between(
+        [step.first - 1.2, step.last + 1.2], low, high, color=colour, alpha=0.2, linewidth=0
+    )
     if named:
-        axes.annotate(step.name, (step.first - 1.2, step.fitted), xytext=(-3, 0),
-                      textcoords='offset points', color=colour, fontsize=7, ha='right',
-                      va='center')
+        axes.annotate(
+            step.name,
+            (step.first - 1.2, step.fitted),
+            xytext=(-3, 0),
+            textcoords='offset points',
+            color=colour,
+            fontsize=7,
+            ha='right',
+            va='center',
+        )
 
 
 def _legend(axes, blocks, bands):
-    handles = [plt.Line2D([], [], linestyle='', marker='o', markersize=4, color=colour,
-                          label=label)
-               for colour, label in ((KIND_COLOURS['T'], 'T, transverse'),
-                                     (KIND_COLOURS['LP'], 'LP, longitudinal and momentum'),
-                                     (MIXED, 'T and LP coincide'), (ZERO, 'zero modes'))
-               if colour in {_block_colour(block) for block in blocks}]
+    handles = [
+        plt.Line2D([], [], linestyle='', marker='o', markersize=4, color=colour, label=label)
+        for colour, label in (
+            (KIND_COLOURS['T'], 'T, transverse'),
+            (KIND_COLOURS['LP'], 'LP, longitudinal and momentum'),
+            (MIXED, 'T and LP coincide'),
+            (ZERO, 'zero modes'),
+        )
+        if colour in {_block_colour(block) for block in blocks}
+    ]
     if bands:
-        handles += [patches.Patch(color=KIND_COLOURS[kind], alpha=0.2, label=label)
-                    for kind, label in (('T', r'$c_T k \pm 3$ %, Eckmann et al. 2005'),
-                                        ('LP', r'$c_L k \pm 3$ %'))]
+        handles += [
+            patches.Patch(color=KIND_COLOURS[kind], alpha=0.2, label=label)
+            for kind, label in (
+                ('T', r'$c_T k \pm 3$ %, Eckmann et al. 2005'),
+                ('LP', r'$c_L k \pm 3$ %'),
+            )
+        ]
     if handles:
-        axes.legend(handles=handles, loc='lower left', handletextpad=0.4,
-                    bbox_to_anchor=(0, 0.05))   # below the curve, above the line of zero
+        axes.legend(
+            handles=handles, loc='lower left', handletextpad=0.4, bbox_to_anchor=(0, 0.05)
+        )  # below the curve, above the line of zero

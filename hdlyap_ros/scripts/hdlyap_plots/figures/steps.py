@@ -5,22 +5,28 @@ import numpy as np
 from .. import steps
 from .style import GREY, INK, bars, kind_colour, plt, scene
 
-MOST = 24           # steps shown: the names of more would not fit
-ROOM = 6            # for so many at least
+MOST = 24  # steps shown: the names of more would not fit
+ROOM = 6  # for so many at least
 
 
 def draw(recording):
     blocks = steps.blocks(recording.steps)[:MOST]
     if not blocks or recording.spectrum is None:
         return None
-    figure, (top, bottom) = plt.subplots(2, 1, figsize=(5.6, 5.2), sharex=True,
-                                         constrained_layout=True)
+    figure, (top, bottom) = plt.subplots(
+        2, 1, figsize=(5.6, 5.2), sharex=True, constrained_layout=True
+    )
     for place, block in enumerate(blocks):
         _found(top, place, block)
         _degeneracy(bottom, place, block, recording.spectrum)
     top.axhline(100, color=GREY, linewidth=0.6)
-    top.axhline(100 * recording.steps.threshold, color=INK, linewidth=0.8, linestyle=':',
-                label='least for a step (beyond chance)')
+    top.axhline(
+        100 * recording.steps.threshold,
+        color=INK,
+        linewidth=0.8,
+        linestyle=':',
+        label='least for a step (beyond chance)',
+    )
     top.set_ylim(0, 108)
     top.set_ylabel('multiplicity found  [% of expected]')
     top.legend(loc='lower right', bbox_to_anchor=(1, 1), borderpad=0)
@@ -32,18 +38,28 @@ def draw(recording):
     for axes, name in zip((top, bottom), 'ab'):
         axes.set_title(f'({name})', loc='left')
         axes.tick_params(axis='x', length=0)
-    figure.suptitle(f'{scene(recording.info)}, averaged over '
-                    f'{recording.steps.averaged_time:g} time units', fontsize=9)
+    figure.suptitle(
+        f'{scene(recording.info)}, averaged over ' f'{recording.steps.averaged_time:g} time units',
+        fontsize=9,
+    )
     return figure
 
 
 def _found(axes, place, block):
     """Of steps that coincide, of all together."""
-    axes.bar(place, 100 * block.multiplicity / block.expected, width=0.7,
-             color=kind_colour(block.kind))
-    axes.annotate(f'{block.multiplicity:.1f}/{block.expected}',
-                  (place, 100 * block.multiplicity / block.expected), xytext=(0, -3),
-                  textcoords='offset points', ha='center', va='top', fontsize=6, color='white')
+    axes.bar(
+        place, 100 * block.multiplicity / block.expected, width=0.7, color=kind_colour(block.kind)
+    )
+    axes.annotate(
+        f'{block.multiplicity:.1f}/{block.expected}',
+        (place, 100 * block.multiplicity / block.expected),
+        xytext=(0, -3),
+        textcoords='offset points',
+        ha='center',
+        va='top',
+        fontsize=6,
+        color='white',
+    )
 
 
 def _degeneracy(axes, place, block, spectrum):
@@ -53,6 +69,13 @@ def _degeneracy(axes, place, block, spectrum):
     errors = bars(spectrum.std_errors[inside])
     mean = exponents.mean()
     spread = np.linspace(-0.3, 0.3, len(exponents)) if len(exponents) > 1 else [0.0]
-    axes.errorbar(np.add(place, spread), 100 * (exponents / mean - 1),
-                  None if errors is None else 100 * errors / abs(mean), fmt='o', markersize=2.6,
-                  elinewidth=0.8, capsize=1.5, color=kind_colour(block.kind))
+    axes.errorbar(
+        np.add(place, spread),
+        100 * (exponents / mean - 1),
+        None if errors is None else 100 * errors / abs(mean),
+        fmt='o',
+        markersize=2.6,
+        elinewidth=0.8,
+        capsize=1.5,
+        color=kind_colour(block.kind),
+    )

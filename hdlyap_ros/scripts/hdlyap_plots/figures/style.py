@@ -3,34 +3,55 @@
 import os
 
 import matplotlib
+
 matplotlib.use('Agg')
-import matplotlib.pyplot as plt     # noqa: E402
-import numpy as np                  # noqa: E402
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
 
-from ..numbers import known       # noqa: E402
-from .. import steps                # noqa: E402
+from ..numbers import known  # noqa: E402
+from .. import steps  # noqa: E402
 
-POINTS = 2000       # of a curve; more cannot be seen
+POINTS = 2000  # of a curve; more cannot be seen
 # Okabe and Ito's palette, safe for colour-blind readers
 BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = (
-    '#0072B2', '#E69F00', '#009E73', '#D55E00', '#CC79A7', '#56B4E9')
+    '#0072B2',
+    '#E69F00',
+    '#009E73',
+    '#D55E00',
+    '#CC79A7',
+    '#56B4E9',
+)
 GREY, LIGHT, INK = '#8C8C8C', '#C8C8C8', '#1A1A1A'
 KIND_COLOURS = {'T': BLUE, 'LP': VERMILION}
-MIXED = PURPLE      # vectors that T and LP steps share
+MIXED = PURPLE  # vectors that T and LP steps share
 ZERO = GREEN
 MEMBER_COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY)
-STYLE = {'font.size': 9, 'axes.titlesize': 9, 'axes.labelsize': 9, 'legend.fontsize': 8,
-         'xtick.labelsize': 8, 'ytick.labelsize': 8, 'xtick.direction': 'in',
-         'ytick.direction': 'in', 'xtick.top': True, 'ytick.right': True, 'axes.linewidth': 0.7,
-         'lines.linewidth': 1.2, 'legend.frameon': False, 'mathtext.fontset': 'dejavusans',
-         'svg.hashsalt': 'hdlyap'}
+STYLE = {
+    'font.size': 9,
+    'axes.titlesize': 9,
+    'axes.labelsize': 9,
+    'legend.fontsize': 8,
+    'xtick.labelsize': 8,
+    'ytick.labelsize': 8,
+    'xtick.direction': 'in',
+    'ytick.direction': 'in',
+    'xtick.top': True,
+    'ytick.right': True,
+    'axes.linewidth': 0.7,
+    'lines.linewidth': 1.2,
+    'legend.frameon': False,
+    'mathtext.fontset': 'dejavusans',
+    'svg.hashsalt': 'hdlyap',
+}
 
 
 def save(figure, folder, name, dpi=250):
     """Complete files only: a good older one is replaced in one step. dpi: of the PNG file."""
     files = []
-    for suffix, options in (('png', {'dpi': dpi}),
-                            ('svg', {'dpi': 200, 'metadata': {'Date': None}})):
+    for suffix, options in (
+        ('png', {'dpi': dpi}),
+        ('svg', {'dpi': 200, 'metadata': {'Date': None}}),
+    ):
         path = os.path.join(folder, f'{name}.{suffix}')
         unfinished = os.path.join(folder, f'.{name}.{os.getpid()}.{suffix}')
         try:
@@ -45,8 +66,9 @@ def save(figure, folder, name, dpi=250):
 
 
 def scene(info):
-    return (f'{info.scene}: $N={info.disks}$, $\\rho={info.density:g}$, '
-            f'$L_y/L_x={info.aspect:g}$')
+    return (
+        f'{info.scene}: $N={info.disks}$, $\\rho={info.density:g}$, ' f'$L_y/L_x={info.aspect:g}$'
+    )
 
 
 def bars(std_errors):

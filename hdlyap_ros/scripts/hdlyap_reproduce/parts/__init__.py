@@ -5,16 +5,48 @@
   figures(bags)    (name, matplotlib figure)
   tables(bags)     (name, header, lines) of CSV files: the numbers behind the figures"""
 
-from . import (aspect, coordinates, densities, dispersion, fields, hydro, intervals, multiplicities, p_mode, phases,
-               smallest, spectrum, travelling, turning)
+from . import (
+    aspect,
+    coordinates,
+    densities,
+    dispersion,
+    fields,
+    hydro,
+    intervals,
+    multiplicities,
+    p_mode,
+    phases,
+    smallest,
+    spectrum,
+    travelling,
+    turning,
+)
 
-PARTS = (spectrum, dispersion, coordinates, fields, p_mode, turning, phases, densities, smallest, aspect,
-         multiplicities, hydro, travelling, intervals)
+PARTS = (
+    spectrum,
+    dispersion,
+    coordinates,
+    fields,
+    p_mode,
+    turning,
+    phases,
+    densities,
+    smallest,
+    aspect,
+    multiplicities,
+    hydro,
+    travelling,
+    intervals,
+)
 
 
 def chosen(numbers):
     """[(number, part)] in their order; all without numbers."""
-    return [(number, part) for number, part in enumerate(PARTS, start=1) if not numbers or number in numbers]
+    return [
+        (number, part)
+        for number, part in enumerate(PARTS, start=1)
+        if not numbers or number in numbers
+    ]
 
 
 def runs_of(chosen_parts, plan):

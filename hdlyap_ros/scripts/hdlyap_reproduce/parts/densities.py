@@ -13,13 +13,13 @@ from ..row import SIGMAS, Row
 
 TITLE = 'Slopes c_T, c_L and velocity v against the density, 780 disks, periodic'
 RUNS = tuple(f'density_{tenths:02d}' for tenths in range(1, 9))
-CLOSE_BELOW = 0.6       # density: v is close to c_L before it, above c_L behind it
-DEMANDED = 0.2          # by this project, of the scatter of the fits: largest error
+CLOSE_BELOW = 0.6  # density: v is close to c_L before it, above c_L behind it
+DEMANDED = 0.2  # by this project, of the scatter of the fits: largest error
 UNIT = 'sigma/time unit'
 FITS = {'T': paper.slope_t, 'LP': paper.slope_l}
 SYMBOLS = {'T': 'c_T', 'LP': 'c_L'}
-BESIDE = 0.005          # density: so that error bars can be seen beside each other
-EDGE = 1e-6             # relative: densities that are one
+BESIDE = 0.005  # density: so that error bars can be seen beside each other
+EDGE = 1e-6  # relative: densities that are one
 
 
 def runs(plan):
@@ -34,7 +34,9 @@ class Measured:
         self.branch = {'T': _step(recording, steps.T), 'LP': _step(recording, steps.LP)}
         self.v, self.v_error, self.phases = slopes.velocity(recording, 1, 0)
         message = recording.steps
-        self.v_all = (message.v, message.v_error, message.v_phases) if message else (np.nan, np.nan, 0)
+        self.v_all = (
+            (message.v, message.v_error, message.v_phases) if message else (np.nan, np.nan, 0)
+        )
 
     @property
     def ratio(self):
@@ -42,7 +44,9 @@ class Measured:
         lp = self.branch['LP']
         if lp is None or lp.error < 0 or not isfinite(self.v_error):
             return np.nan, np.nan
-        return self.v / lp.slope, self.v / lp.slope * hypot(self.v_error / self.v, lp.error / lp.exponent)
+        return self.v / lp.slope, self.v / lp.slope * hypot(
+            self.v_error / self.v, lp.error / lp.exponent
+        )
 
 
 def _step(recording, kind):
@@ -55,6 +59,7 @@ def _all(bags):
 
 # ---- rows ----------------------------------------------------------------------------------------
 
+
 def rows(bags):
     found = _all(bags)
     for kind in FITS:
@@ -65,8 +70,14 @@ def rows(bags):
     for one in found:
         yield _ratio_row(one)
     for kind, symbol in SYMBOLS.items():
-        yield _error_row(symbol, [(one.branch[kind].slope, one.branch[kind].slope_error, one.density)
-                                  for one in found if one.branch[kind]])
+        yield _error_row(
+            symbol,
+            [
+                (one.branch[kind].slope, one.branch[kind].slope_error, one.density)
+                for one in found
+                if one.branch[kind]
+            ],
+        )
     yield _error_row('v', [(one.v, one.v_error, one.density) for one in found if one.phases])
     yield _crossing_row(found)
 
@@ -76,15 +87,32 @@ def _slope_row(kind, one):
     quantity = f'{SYMBOLS[kind]} at density {one.density:.1f}'
     if point is None:
         return Row(quantity, fitted, None, 0.0, paper.FIT_ACCURACY * fitted, UNIT)
-    return Row(quantity, fitted, point.slope, point.slope_error, paper.FIT_ACCURACY * fitted, UNIT,
-               '; '.join(filter(None, (f'{100 * (point.slope / fitted - 1):+.1f} % of the fit', point.remark))))
+    return Row(
+        quantity,
+        fitted,
+        point.slope,
+        point.slope_error,
+        paper.FIT_ACCURACY * fitted,
+        UNIT,
+        '; '.join(
+            filter(None, (f'{100 * (point.slope / fitted - 1):+.1f} % of the fit', point.remark))
+        ),
+    )
 
 
 def _velocity_row(one):
     v, error, count = one.v_all
-    remark = f'{one.phases} phases of LP(1,0)' + (f'; all {count} phases: {with_error(v, error)}' if count else '')
-    return Row(f'v at density {one.density:.1f}', None, one.v if one.phases else None, one.v_error, unit=UNIT,
-               remark=remark if one.phases else '')
+    remark = f'{one.phases} phases of LP(1,0)' + (
+        f'; all {count} phases: {with_error(v, error)}' if count else ''
+    )
+    return Row(
+        f'v at density {one.density:.1f}',
+        None,
+        one.v if one.phases else None,
+        one.v_error,
+        unit=UNIT,
+        remark=remark if one.phases else '',
+    )
 
 
 def _ratio_row(one):
@@ -95,8 +123,12 @@ def _ratio_row(one):
         return Row(quantity, 1.0, measured, error, paper.FIT_ACCURACY, remark='close to c_L')
     if one.density <= CLOSE_BELOW * (1 + EDGE):
         return Row(quantity, None, measured, error)
-    return Row(quantity, 'above 1', measured and _word(ratio, SIGMAS * error),
-               remark=with_error(ratio, error) if measured else '')
+    return Row(
+        quantity,
+        'above 1',
+        measured and _word(ratio, SIGMAS * error),
+        remark=with_error(ratio, error) if measured else '',
+    )
 
 
 def _word(ratio, uncertain):
@@ -110,22 +142,37 @@ def _error_row(symbol, values):
     """Nothing that the paper says."""
     demanded = 100 * DEMANDED * paper.FIT_ACCURACY
     known = [(100 * error / value, density) for value, error, density in values if error > 0]
-    quantity, remark, short = f'largest error of {symbol}', f'demanded: {demanded:g} %', len(RUNS) - len(known)
+    quantity, remark, short = (
+        f'largest error of {symbol}',
+        f'demanded: {demanded:g} %',
+        len(RUNS) - len(known),
+    )
     if short:
         return Row(quantity, unit='%', remark=f'{remark}; not known at {short} densities')
     worst, density = max(known)
     kept = 'kept' if worst <= demanded else 'not kept'
-    return Row(quantity, None, worst, unit='%', remark=f'{remark}, {kept}; at density {density:.1f}')
+    return Row(
+        quantity, None, worst, unit='%', remark=f'{remark}, {kept}; at density {density:.1f}'
+    )
 
 
 def _crossing_row(found):
     place, (low, high) = crossing.of_fits(), crossing.of_fits_between()
     both = [one for one in found if all(point and point.error > 0 for point in one.branch.values())]
-    measured, error = crossing.measured(*zip(*[_apart(one) for one in both])) if len(both) > 1 else (None, 0.0)
+    measured, error = (
+        crossing.measured(*zip(*[_apart(one) for one in both])) if len(both) > 1 else (None, 0.0)
+    )
     remark = f'the paper\'s fits +-{100 * paper.FIT_ACCURACY:g} % cross anywhere from {low:.2f} to {high:.2f}'
     shared = slopes.noted([point for one in both for point in one.branch.values()])
-    return Row('c_T = c_L at density', place, measured, error, max(place - low, high - place), '1/sigma^2',
-               '; '.join(filter(None, (remark, shared and f'{2 * len(both)} slopes, {shared}'))))
+    return Row(
+        'c_T = c_L at density',
+        place,
+        measured,
+        error,
+        max(place - low, high - place),
+        '1/sigma^2',
+        '; '.join(filter(None, (remark, shared and f'{2 * len(both)} slopes, {shared}'))),
+    )
 
 
 def _apart(one):
@@ -135,6 +182,7 @@ def _apart(one):
 
 
 # ---- figure and table ----------------------------------------------------------------------------
+
 
 def figures(bags):
     found = _all(bags)
@@ -159,14 +207,30 @@ def _against_density(axes, found):
     for kind, fit in FITS.items():
         colour = KIND_COLOURS[kind]
         published = fit(density)
-        axes.fill_between(density, (1 - paper.FIT_ACCURACY) * published, (1 + paper.FIT_ACCURACY) * published,
-                          color=colour, alpha=0.2, linewidth=0,
-                          label=f'${SYMBOLS[kind]}$, fit of Eckmann et al. $\\pm3$ %')
-        values = [(one.density, one.branch[kind].slope, one.branch[kind].slope_error)
-                  for one in found if one.branch[kind]]
+        axes.fill_between(
+            density,
+            (1 - paper.FIT_ACCURACY) * published,
+            (1 + paper.FIT_ACCURACY) * published,
+            color=colour,
+            alpha=0.2,
+            linewidth=0,
+            label=f'${SYMBOLS[kind]}$, fit of Eckmann et al. $\\pm3$ %',
+        )
+        values = [
+            (one.density, one.branch[kind].slope, one.branch[kind].slope_error)
+            for one in found
+            if one.branch[kind]
+        ]
         _points(axes, values, 'o' if kind == 'T' else 's', colour, f'${SYMBOLS[kind]}$')
-    _points(axes, [(one.density, one.v, one.v_error) for one in found if one.phases], '^', GREEN, '$v$', face='none',
-            markersize=6)
+    _points(
+        axes,
+        [(one.density, one.v, one.v_error) for one in found if one.phases],
+        '^',
+        GREEN,
+        '$v$',
+        face='none',
+        markersize=6,
+    )
     axes.set_xlim(0, 0.85)
     axes.set_ylim(bottom=0)
     axes.tick_params(labelbottom=False)
@@ -178,8 +242,18 @@ def _against_density(axes, found):
 def _points(axes, values, marker, colour, label, face=None, markersize=4):
     if values:
         x, y, error = zip(*values)
-        axes.errorbar(x, y, _shown(error), fmt=marker, color=colour, markerfacecolor=face or colour, elinewidth=0.9,
-                      markersize=markersize, capsize=2, label=label)
+        axes.errorbar(
+            x,
+            y,
+            _shown(error),
+            fmt=marker,
+            color=colour,
+            markerfacecolor=face or colour,
+            elinewidth=0.9,
+            markersize=markersize,
+            capsize=2,
+            label=label,
+        )
 
 
 def _shown(errors):
@@ -192,8 +266,15 @@ def _deviations(axes, found):
     axes.axhspan(-bound, bound, color=GREY, alpha=0.2, linewidth=0)
     axes.axhline(0, color=GREY, linewidth=0.6)
     for (kind, fit), side in zip(FITS.items(), (-BESIDE, BESIDE)):
-        values = [(one.density + side, 100 * (one.branch[kind].slope / fit(one.density) - 1),
-                   100 * one.branch[kind].slope_error / fit(one.density)) for one in found if one.branch[kind]]
+        values = [
+            (
+                one.density + side,
+                100 * (one.branch[kind].slope / fit(one.density) - 1),
+                100 * one.branch[kind].slope_error / fit(one.density),
+            )
+            for one in found
+            if one.branch[kind]
+        ]
         _points(axes, values, 'o' if kind == 'T' else 's', KIND_COLOURS[kind], '_')
     axes.set_xlabel(r'density $\rho$  [1/$\sigma^2$]')
     axes.set_ylabel('deviation from\nthe fit  [%]')
@@ -201,12 +282,29 @@ def _deviations(axes, found):
 
 def _against_c_l(axes, found):
     found = [one for one in found if one.branch['LP']]
-    largest = 1.08 * max([one.branch['LP'].slope for one in found] + [one.v for one in found if one.phases],
-                         default=1.0)
+    largest = 1.08 * max(
+        [one.branch['LP'].slope for one in found] + [one.v for one in found if one.phases],
+        default=1.0,
+    )
     axes.plot([0, largest], [0, largest], color=GREY, linewidth=0.8, label='diagonal')
-    _points(axes, [(one.branch['LP'].slope, one.branch['T'].slope, one.branch['T'].slope_error)
-                   for one in found if one.branch['T']], 'o', KIND_COLOURS['T'], '$c_T$')
-    _points(axes, [(one.branch['LP'].slope, one.v, one.v_error) for one in found if one.phases], '^', GREEN, '$v$')
+    _points(
+        axes,
+        [
+            (one.branch['LP'].slope, one.branch['T'].slope, one.branch['T'].slope_error)
+            for one in found
+            if one.branch['T']
+        ],
+        'o',
+        KIND_COLOURS['T'],
+        '$c_T$',
+    )
+    _points(
+        axes,
+        [(one.branch['LP'].slope, one.v, one.v_error) for one in found if one.phases],
+        '^',
+        GREEN,
+        '$v$',
+    )
     axes.set_xlim(0, largest)
     axes.set_ylim(0, largest)
     axes.set_xlabel(r'$c_L$  [$\sigma$/time unit]')
@@ -216,8 +314,19 @@ def _against_c_l(axes, found):
 
 
 def tables(bags):
-    header = ('density', 'c_t', 'c_t_error', 'c_t_fit', 'c_l', 'c_l_error', 'c_l_fit', 'v', 'v_error', 'v_all',
-              'v_all_error')
+    header = (
+        'density',
+        'c_t',
+        'c_t_error',
+        'c_t_fit',
+        'c_l',
+        'c_l_error',
+        'c_l_fit',
+        'v',
+        'v_error',
+        'v_all',
+        'v_all_error',
+    )
     yield 'densities', header, [_line(one) for one in _all(bags)]
 
 

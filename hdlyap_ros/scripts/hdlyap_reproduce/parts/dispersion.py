@@ -29,9 +29,15 @@ def _slope(published, step):
     """lambda / k of one step."""
     k = published.wave_number
     slope = published.fitted / k
-    return Row(f'lambda / k of {published.name}', slope, step and step.exponent / k,
-               max(step.std_error, 0.0) / k if step else 0.0, paper.FIT_ACCURACY * slope, UNITS[False],
-               'c of the paper\'s fit at this density')
+    return Row(
+        f'lambda / k of {published.name}',
+        slope,
+        step and step.exponent / k,
+        max(step.std_error, 0.0) / k if step else 0.0,
+        paper.FIT_ACCURACY * slope,
+        UNITS[False],
+        'c of the paper\'s fit at this density',
+    )
 
 
 def _fit(message, name, points):
@@ -40,10 +46,14 @@ def _fit(message, name, points):
     count = getattr(message, points) if message else 0
     known = count > (1 if curved else 0)
     waves = f'{count} wave number' + ('s' if count != 1 else '')
-    return Row(f'{name[0]}{name[1:].upper()} of lambda = c k + c2 k^2', None,
-               getattr(message, name) if known else None,
-               max(getattr(message, name + '_error'), 0.0) if known else 0.0, unit=UNITS[curved],
-               remark=f'over {waves}')
+    return Row(
+        f'{name[0]}{name[1:].upper()} of lambda = c k + c2 k^2',
+        None,
+        getattr(message, name) if known else None,
+        max(getattr(message, name + '_error'), 0.0) if known else 0.0,
+        unit=UNITS[curved],
+        remark=f'over {waves}',
+    )
 
 
 def figures(bags):
@@ -54,8 +64,28 @@ def figures(bags):
 
 def tables(bags):
     found = steps.resolved(bags['periodic'].recording.steps)
-    header = ('kind', 'nx', 'ny', 'k', 'exponent', 'std_error', 'multiplicity', 'expected', 'steps_of_its_vectors')
+    header = (
+        'kind',
+        'nx',
+        'ny',
+        'k',
+        'exponent',
+        'std_error',
+        'multiplicity',
+        'expected',
+        'steps_of_its_vectors',
+    )
     yield 'steps', header, [
-        (steps.NAMES[step.kind], step.nx, step.ny, f'{step.wave_number:.6f}', f'{step.exponent:.7g}',
-         f'{step.std_error:.2g}', f'{step.multiplicity:.4f}', step.expected, step.members)
-        for step in sorted(found.values(), key=lambda step: (step.kind, step.wave_number))]
+        (
+            steps.NAMES[step.kind],
+            step.nx,
+            step.ny,
+            f'{step.wave_number:.6f}',
+            f'{step.exponent:.7g}',
+            f'{step.std_error:.2g}',
+            f'{step.multiplicity:.4f}',
+            step.expected,
+            step.members,
+        )
+        for step in sorted(found.values(), key=lambda step: (step.kind, step.wave_number))
+    ]

@@ -12,11 +12,13 @@ from ..row import Row
 
 TITLE = 'Vector fields of T and LP modes'
 NODES = ((1, 0), (0, 1), (1, 1))
-STEPS = [f'{kind}({nx},{ny})' for nx, ny in NODES for kind in ('T', 'LP')]   # T and LP side by side in the figure
+STEPS = [
+    f'{kind}({nx},{ny})' for nx, ny in NODES for kind in ('T', 'LP')
+]  # T and LP side by side in the figure
 PATTERN = 'T(1,1)'
-LIMIT = 2.5         # root mean squares shown
-WIDTH = 7.2         # of a figure [inch]
-GRID = 60           # points along a direction
+LIMIT = 2.5  # root mean squares shown
+WIDTH = 7.2  # of a figure [inch]
+GRID = 60  # points along a direction
 
 
 def runs(plan):
@@ -46,9 +48,17 @@ def _row(quantity, bags, fields, letters):
     if not fields:
         return Row(quantity)
     info = bags['periodic'].recording.info
-    mean, error = averages.of_snapshots([projection.weight(info, field, letters) for field in fields])
+    mean, error = averages.of_snapshots(
+        [projection.weight(info, field, letters) for field in fields]
+    )
     chance = projection.chance(info, fields[0], letters)
-    return Row(quantity, None, float(mean), float(error), remark=f'{len(fields)} snapshots; by chance {chance:.4f}')
+    return Row(
+        quantity,
+        None,
+        float(mean),
+        float(error),
+        remark=f'{len(fields)} snapshots; by chance {chance:.4f}',
+    )
 
 
 def figures(bags):
@@ -66,7 +76,7 @@ def _patterns(panel, info):
     field = panel.field
     height = 0.5 * WIDTH * info.box_y / info.box_x + 0.3
     figure, grid = plt.subplots(1, 2, figsize=(WIDTH, height), sharey=True, constrained_layout=True)
-    size = (0.4 * WIDTH * 72 / info.box_x) ** 2     # about as large as the disks
+    size = (0.4 * WIDTH * 72 / info.box_x) ** 2  # about as large as the disks
     scale = np.sqrt(np.mean(np.square([field.dqx, field.dqy])))
     for axes, axis, values, shape in zip(grid, 'xy', (field.dqx, field.dqy), _shape(field, info)):
         pattern(axes, field.x, field.y, np.array(values) / scale, LIMIT, size)
@@ -74,9 +84,13 @@ def _patterns(panel, info):
         axes.set_xlim(0, info.box_x)
         axes.set_ylim(0, info.box_y)
         axes.set_xlabel(r'$x$  [$\sigma$]')
-        axes.set_title(f'{panel.name}, $\\ell={field.index}$: $\\delta q_{axis}$ / rms', loc='left', fontsize=8)
+        axes.set_title(
+            f'{panel.name}, $\\ell={field.index}$: $\\delta q_{axis}$ / rms', loc='left', fontsize=8
+        )
     grid[0].set_ylabel(r'$y$  [$\sigma$]')
-    figure.suptitle(f'{scene(info)}, $t={field.sim_time:g}$; lines: zeros of the fitted curl', fontsize=9)
+    figure.suptitle(
+        f'{scene(info)}, $t={field.sim_time:g}$; lines: zeros of the fitted curl', fontsize=9
+    )
     return figure
 
 
@@ -94,6 +108,13 @@ def tables(bags):
     lines = []
     for name, fields in _by_step(bags['periodic']).items():
         if name in STEPS:
-            lines += [(name, f'{field.sim_time:g}', field.index, *(f'{projection.weight(info, field, letters):.5f}'
-                                                                  for letters in 'TLP')) for field in fields]
+            lines += [
+                (
+                    name,
+                    f'{field.sim_time:g}',
+                    field.index,
+                    *(f'{projection.weight(info, field, letters):.5f}' for letters in 'TLP'),
+                )
+                for field in fields
+            ]
     yield 'weights', ('step', 'time', 'index', 'in_T_fields', 'in_L_fields', 'in_P_fields'), lines

@@ -17,16 +17,26 @@ TITLE = 'Hydrodynamic table: response of density, momentum and energy to T, L an
 RUN = 'hydro'
 HYDRO = 'hdlyap/Hydro'
 WAVES = ((1, 0), (0, 1))
-SMALL = 0.05        # of the largest response of a kind: less than this is zero
+SMALL = 0.05  # of the largest response of a kind: less than this is zero
 ZERO, NOT_ZERO, BOTH = 'zero', 'not zero', 'zero at one wave, not at the other'
 # one HydroMode field each: the momentum's part along grad A, and along curl A
 KINDS = ('density', 'along', 'across', 'energy')
-NAMES = {'density': 'density', 'along': 'momentum along grad A', 'across': 'momentum along curl A', 'energy': 'energy'}
-UNITS = {'density': '', 'along': 'sigma/time unit', 'across': 'sigma/time unit', 'energy': 'sigma^2/time unit^2'}
+NAMES = {
+    'density': 'density',
+    'along': 'momentum along grad A',
+    'across': 'momentum along curl A',
+    'energy': 'energy',
+}
+UNITS = {
+    'density': '',
+    'along': 'sigma/time unit',
+    'across': 'sigma/time unit',
+    'energy': 'sigma^2/time unit^2',
+}
 # T: 0, curl A, 0; L: laplacian A, grad A, laplacian A; P: 0, grad A, A
 TABLE = {'T': ('across',), 'L': ('density', 'along', 'energy'), 'P': ('along', 'energy')}
 Response = namedtuple('Response', 'value error')
-FLOOR = 'LP', 'across'      # what noise alone is like along curl A
+FLOOR = 'LP', 'across'  # what noise alone is like along curl A
 
 
 def runs(plan):
@@ -38,9 +48,19 @@ def rows(bags):
     for mode, there in TABLE.items():
         for kind in KINDS:
             words = {_word(found[wave], mode, kind) for wave in WAVES if wave in found}
-            word = BOTH if words == {ZERO, NOT_ZERO} else None if None in words else next(iter(words), None)
-            yield Row(f'{NAMES[kind]}: {mode}', NOT_ZERO if kind in there else ZERO, word,
-                      remark=_remark(found, mode, kind))
+            word = (
+                BOTH
+                if words == {ZERO, NOT_ZERO}
+                else None
+                if None in words
+                else next(iter(words), None)
+            )
+            yield Row(
+                f'{NAMES[kind]}: {mode}',
+                NOT_ZERO if kind in there else ZERO,
+                word,
+                remark=_remark(found, mode, kind),
+            )
 
 
 def _word(found, mode, kind):
@@ -64,13 +84,20 @@ def _stands_out(found):
 
 def _remark(found, mode, kind):
     numbers = _numbers(found, mode, kind)
-    noise = f'; rms of LP vectors: {_numbers(found, *FLOOR)}' if numbers and (mode, kind) == ('T', 'across') else ''
+    noise = (
+        f'; rms of LP vectors: {_numbers(found, *FLOOR)}'
+        if numbers and (mode, kind) == ('T', 'across')
+        else ''
+    )
     return numbers + (f' {UNITS[kind]}' if numbers else '') + noise
 
 
 def _numbers(found, mode, kind):
-    return ', '.join(f'{with_error(*found[wave][mode, kind])} at ({wave[0]},{wave[1]})'
-                     for wave in WAVES if wave in found)
+    return ', '.join(
+        f'{with_error(*found[wave][mode, kind])} at ({wave[0]},{wave[1]})'
+        for wave in WAVES
+        if wave in found
+    )
 
 
 def responses(bag):
@@ -92,7 +119,11 @@ def responses(bag):
             of_lp.append(_lp_sums([(one, now[_key(one)]) for one in ones if _key(one) in now]))
             noise.append(_squares([one for one in ones if one.kind == Mode.LP]))
     estimated = {wave: _all_estimated(*of_wave) for wave, of_wave in sums.items()}
-    return {wave: found for wave, found in estimated.items() if len(found) == len(TABLE) * len(KINDS) + 1}
+    return {
+        wave: found
+        for wave, found in estimated.items()
+        if len(found) == len(TABLE) * len(KINDS) + 1
+    }
 
 
 def _key(one):
@@ -101,8 +132,14 @@ def _key(one):
 
 def _coefficients(bag):
     """{time: {(nx, ny, modulation, index): (a, b)}} where a phase is tracked: LP vectors alone."""
-    return {message.sim_time: {_key(phase): (phase.a, phase.b) for phase in message.phases
-                               if phase.state == LpPhase.TRACKED} for message in bag.messages(PHASES)}
+    return {
+        message.sim_time: {
+            _key(phase): (phase.a, phase.b)
+            for phase in message.phases
+            if phase.state == LpPhase.TRACKED
+        }
+        for message in bag.messages(PHASES)
+    }
 
 
 def _values(one):
@@ -110,6 +147,7 @@ def _values(one):
 
 
 # ---- at one time: sums over vectors and modulations --------------------------------------------------------------
+
 
 def _t_sums(ones):
     """Products with the response along curl A, and vectors."""
@@ -119,7 +157,9 @@ def _t_sums(ones):
 
 def _squares(ones):
     """Of responses along curl A, and vectors."""
-    return np.array([sum(one.across ** 2 for one in ones), len({one.index for one in ones})], dtype=float)
+    return np.array(
+        [sum(one.across**2 for one in ones), len({one.index for one in ones})], dtype=float
+    )
 
 
 def _lp_sums(pairs):
@@ -131,6 +171,7 @@ def _lp_sums(pairs):
 
 
 # ---- sums over time -> responses --------------------------------------------------------------------------------
+
 
 def _t_estimate(sums):
     """A vector's coefficients at all modulations have squares that add up to one."""
@@ -147,8 +188,11 @@ def _lp_estimate(sums):
 
 def _all_estimated(of_t, of_lp, noise):
     every = {mode: [(one, kind) for one in mode for kind in KINDS] for mode in ('T', 'LP')}
-    return {**_estimated(_t_estimate, of_t, every['T']), **_estimated(_lp_estimate, of_lp, every['LP']),
-            **_estimated(lambda sums: np.sqrt(sums[:1] / sums[1]), noise, [FLOOR])}
+    return {
+        **_estimated(_t_estimate, of_t, every['T']),
+        **_estimated(_lp_estimate, of_lp, every['LP']),
+        **_estimated(lambda sums: np.sqrt(sums[:1] / sums[1]), noise, [FLOOR]),
+    }
 
 
 def _estimated(estimate, sums, keys):
@@ -157,10 +201,13 @@ def _estimated(estimate, sums, keys):
     values, errors = blocks.of_sums(estimate, sums)
     if values is None:
         return {}
-    return {key: Response(float(value), float(error)) for key, value, error in zip(keys, values, errors)}
+    return {
+        key: Response(float(value), float(error)) for key, value, error in zip(keys, values, errors)
+    }
 
 
 # ---- as a figure and a table ------------------------------------------------------------------------------------
+
 
 def figures(bags):
     found = responses(bags[RUN])
@@ -170,9 +217,19 @@ def figures(bags):
 
 def tables(bags):
     yield 'responses', ('wave', 'mode', 'response', 'value', 'error', 'published', 'found'), [
-        ('({},{})'.format(*wave), mode, kind, f'{one.value:.5g}', f'{one.error:.2g}',
-         NOT_ZERO if kind in TABLE[mode] else ZERO, _word(found, mode, kind) or 'not known')
-        for wave, found in responses(bags[RUN]).items() for (mode, kind), one in found.items() if mode in TABLE]
+        (
+            '({},{})'.format(*wave),
+            mode,
+            kind,
+            f'{one.value:.5g}',
+            f'{one.error:.2g}',
+            NOT_ZERO if kind in TABLE[mode] else ZERO,
+            _word(found, mode, kind) or 'not known',
+        )
+        for wave, found in responses(bags[RUN]).items()
+        for (mode, kind), one in found.items()
+        if mode in TABLE
+    ]
 
 
 def _draw(info, found):
@@ -182,8 +239,15 @@ def _draw(info, found):
         for number, (wave, colour) in enumerate(zip(found, (BLUE, VERMILION))):
             ones = [found[wave][mode, kind] for mode in TABLE]
             places = np.arange(len(TABLE)) + width * (number - 0.5 * (len(found) - 1))
-            axes.bar(places, [one.value for one in ones], width, yerr=[SIGMAS * one.error for one in ones],
-                     color=colour, ecolor=GREY, label='({},{})'.format(*wave))
+            axes.bar(
+                places,
+                [one.value for one in ones],
+                width,
+                yerr=[SIGMAS * one.error for one in ones],
+                color=colour,
+                ecolor=GREY,
+                label='({},{})'.format(*wave),
+            )
         largest = max(abs(found[wave][mode, kind].value) for wave in found for mode in TABLE)
         axes.axhspan(-SMALL * largest, SMALL * largest, color=GREY, alpha=0.3, linewidth=0)
         axes.axhline(0, color=GREY, linewidth=0.5)
@@ -191,8 +255,13 @@ def _draw(info, found):
         axes.set_xticklabels(TABLE)
         unit = UNITS[kind].replace('^2', '$^2$').replace('sigma', r'$\sigma$')
         axes.set_title(NAMES[kind] + (f'\n[{unit}]' if unit else '\n'), fontsize=8)
-    row[KINDS.index('across')].legend(fontsize=7, title='wave', title_fontsize=7)      # where there is room
+    row[KINDS.index('across')].legend(
+        fontsize=7, title='wave', title_fontsize=7
+    )  # where there is room
     row[0].set_ylabel('response to a pure mode')
-    figure.suptitle(f'{scene(info)}; grey: less than {100 * SMALL:g} % of the largest, '
-                    f'bars: {SIGMAS:g} standard errors', fontsize=9)
+    figure.suptitle(
+        f'{scene(info)}; grey: less than {100 * SMALL:g} % of the largest, '
+        f'bars: {SIGMAS:g} standard errors',
+        fontsize=9,
+    )
     return figure

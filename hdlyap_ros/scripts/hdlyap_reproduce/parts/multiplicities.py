@@ -10,12 +10,21 @@ from ..row import Row
 from ..stairs import stairs
 
 TITLE = 'Multiplicities of the steps and number of zero exponents, by the boundaries'
-BOXES = {'periodic': 'periodic', 'reflecting': 'reflecting', 'mixed': 'mixed', 'square': 'periodic square',
-         'narrow_periodic': 'narrow periodic', 'narrow_reflecting': 'narrow, walls along x'}
-ZEROS = {'zeros_periodic': (6, 'both directions periodic'), 'zeros_mixed': (4, 'one direction periodic'),
-         'zeros_reflecting': (2, 'both directions reflecting')}
-NARROW = 2.0        # diameters: disks cannot pass each other
-SHOWN = 36          # exponents in a panel of the figure
+BOXES = {
+    'periodic': 'periodic',
+    'reflecting': 'reflecting',
+    'mixed': 'mixed',
+    'square': 'periodic square',
+    'narrow_periodic': 'narrow periodic',
+    'narrow_reflecting': 'narrow, walls along x',
+}
+ZEROS = {
+    'zeros_periodic': (6, 'both directions periodic'),
+    'zeros_mixed': (4, 'one direction periodic'),
+    'zeros_reflecting': (2, 'both directions reflecting'),
+}
+NARROW = 2.0  # diameters: disks cannot pass each other
+SHOWN = 36  # exponents in a panel of the figure
 SPECTRUM = 'hdlyap/Spectrum'
 
 
@@ -25,10 +34,14 @@ def runs(plan):
 
 # ---- the paper's rule ----------------------------------------------------------------------------
 
+
 def prescribed(info, kind, nx, ny):
     """Multiplicity of a step: the number of modulations A that the boundaries allow; twice that for LP pairs."""
     count = 1
-    for nodes, box, boundary in ((nx, info.box_x, info.boundary_x), (ny, info.box_y, info.boundary_y)):
+    for nodes, box, boundary in (
+        (nx, info.box_x, info.boundary_x),
+        (ny, info.box_y, info.boundary_y),
+    ):
         if nodes and box < NARROW:
             return 0
         count *= _functions(nodes, boundary, kind)
@@ -43,6 +56,7 @@ def _functions(nodes, boundary, kind):
 
 
 # ---- steps ---------------------------------------------------------------------------------------
+
 
 class Level:
     """Resolved steps that have stairs of exponents in common: mostly one step on one stair."""
@@ -81,7 +95,10 @@ class Level:
 
     def _of(self, stair):
         """How many of a stair's vectors belong to the steps."""
-        return sum(max(0, min(stair.last, block.last) - max(stair.first, block.first) + 1) for block in self.blocks)
+        return sum(
+            max(0, min(stair.last, block.last) - max(stair.first, block.first) + 1)
+            for block in self.blocks
+        )
 
 
 def levels(recording):
@@ -114,8 +131,12 @@ def _step_rows(recording, box):
         yield Row(f'{box}: multiplicities', 'by the rule')
         return
     missed = [steps.name(step) for step in steps.unresolved(recording.steps)]
-    yield Row(f'{box}: steps found', None, len(steps_of(found)), remark='not resolved: ' + ' '.join(missed)
-              if missed else 'all that were asked for')
+    yield Row(
+        f'{box}: steps found',
+        None,
+        len(steps_of(found)),
+        remark='not resolved: ' + ' '.join(missed) if missed else 'all that were asked for',
+    )
 
 
 def steps_of(found):
@@ -133,10 +154,13 @@ def _level_row(recording, box, level):
         remark += f'; goes on without a jump in the other exponents of {indices}'
     elif len(level.pieces) > 1:
         remark += f'; the exponents {indices} are no stair'
-    return Row(f'{box}: {level.name}', level.prescribed(recording.info), level.measured, remark=remark)
+    return Row(
+        f'{box}: {level.name}', level.prescribed(recording.info), level.measured, remark=remark
+    )
 
 
 # ---- zero modes ----------------------------------------------------------------------------------
+
 
 def _zero_rows(bag, count, boundaries):
     recording = bag.recording
@@ -146,14 +170,20 @@ def _zero_rows(bag, count, boundaries):
         return
     size, found = np.abs(spectrum.exponents), zeros.indices(recording.info, spectrum)
     vanish = np.isin(spectrum.first_index + np.arange(len(size)), found)
-    remark = f'indices {zeros.span(found)}, smaller than {zeros.threshold(recording.info, spectrum):.2g}'
+    remark = (
+        f'indices {zeros.span(found)}, smaller than {zeros.threshold(recording.info, spectrum):.2g}'
+    )
     if not vanish.all():
         remark += f'; the next is {size[~vanish].min():.2g}'
     yield Row(f'zero exponents, {boundaries}', count, len(found), remark=remark)
     yield _trace_row(zero, boundaries)
     scale = zeros.linear_growth(recording.info, spectrum.averaged_time)
-    yield Row(f'largest zero exponent over ln(1 + t/w)/t, {boundaries}', None,
-              float(size[vanish].max()) / scale if vanish.any() else None, remark=_course_remark(bag, len(found)))
+    yield Row(
+        f'largest zero exponent over ln(1 + t/w)/t, {boundaries}',
+        None,
+        float(size[vanish].max()) / scale if vanish.any() else None,
+        remark=_course_remark(bag, len(found)),
+    )
 
 
 def _trace_row(zero, boundaries):
@@ -161,7 +191,9 @@ def _trace_row(zero, boundaries):
     quantity = f'trace of the zero modes in the exact null space, {boundaries}'
     if zero is None or not zero.resolved:
         return Row(quantity)
-    return Row(quantity, None, zero.multiplicity, remark=f'vectors {zero.first_index}-{zero.last_index}')
+    return Row(
+        quantity, None, zero.multiplicity, remark=f'vectors {zero.first_index}-{zero.last_index}'
+    )
 
 
 def zero_course(bag, count):
@@ -185,6 +217,7 @@ def _course_remark(bag, count):
 
 # ---- figure and tables ---------------------------------------------------------------------------
 
+
 def figures(bags):
     boxes = [name for name in BOXES if bags[name].recording.spectrum is not None]
     if boxes:
@@ -193,11 +226,13 @@ def figures(bags):
 
 def _stairs_figure(recordings):
     rows_count = -(-len(recordings) // 2)
-    figure, grid = plt.subplots(rows_count, 2, figsize=(7.6, 2.6 * rows_count), squeeze=False, constrained_layout=True)
+    figure, grid = plt.subplots(
+        rows_count, 2, figsize=(7.6, 2.6 * rows_count), squeeze=False, constrained_layout=True
+    )
     for axes, letter, (box, recording) in zip(grid.flat, 'abcdef', recordings):
         _panel(axes, recording)
         axes.set_title(f'({letter}) {box}', loc='left')
-    for axes in grid.flat[len(recordings):]:
+    for axes in grid.flat[len(recordings) :]:
         axes.set_visible(False)
     return figure
 
@@ -209,11 +244,19 @@ def _panel(axes, recording):
     first = max(spectrum.first_index, last - SHOWN + 1)
     inside = slice(first - spectrum.first_index, last + 1 - spectrum.first_index)
     exponents = np.array(spectrum.exponents[inside])
-    axes.errorbar(np.arange(first, last + 1), exponents, bars(spectrum.std_errors[inside]), fmt='.', color=GREY,
-                  ecolor=GREY, markersize=3, elinewidth=0.7)
+    axes.errorbar(
+        np.arange(first, last + 1),
+        exponents,
+        bars(spectrum.std_errors[inside]),
+        fmt='.',
+        color=GREY,
+        ecolor=GREY,
+        markersize=3,
+        elinewidth=0.7,
+    )
     for block in steps.blocks(recording.steps):
         if first <= block.first:
-            _step(axes, block, exponents[block.first - first:block.last + 1 - first])
+            _step(axes, block, exponents[block.first - first : block.last + 1 - first])
     axes.set_xlim(first - 1, last + 1)
     axes.set_ylim(0, 1.4 * exponents.max())
     axes.set_xlabel(r'index $\ell$')
@@ -225,18 +268,51 @@ def _step(axes, block, exponents):
     colour = kind_colour(block.kind)
     indices = np.arange(block.first, block.last + 1)
     axes.plot(indices, exponents, '.', color=colour, markersize=4, zorder=3)
-    axes.annotate(f'{block.name} {block.last - block.first + 1}'.replace('+', '\n+'), (indices.mean(), exponents.max()),
-                  xytext=(0, 4), textcoords='offset points', rotation=90, ha='center', va='bottom', fontsize=6,
-                  color=colour if block.kind else INK)
+    axes.annotate(
+        f'{block.name} {block.last - block.first + 1}'.replace('+', '\n+'),
+        (indices.mean(), exponents.max()),
+        xytext=(0, 4),
+        textcoords='offset points',
+        rotation=90,
+        ha='center',
+        va='bottom',
+        fontsize=6,
+        color=colour if block.kind else INK,
+    )
 
 
 def tables(bags):
-    header = ('box', 'step', 'wave_number', 'prescribed', 'resolved', 'first_index', 'last_index', 'members', 'trace',
-              'exponent', 'std_error')
-    yield 'multiplicities', header, [line for name, box in BOXES.items() for line in _lines(bags[name].recording, box)]
-    yield 'zero_exponents', ('boundaries', 'averaged_time', 'largest_zero_exponent', 'linear_growth'), [
-        (boundaries, f'{time:g}', f'{size:.4g}', f'{zeros.linear_growth(bags[name].recording.info, time):.4g}')
-        for name, (count, boundaries) in ZEROS.items() for time, size in _thinned(bags[name], count)]
+    header = (
+        'box',
+        'step',
+        'wave_number',
+        'prescribed',
+        'resolved',
+        'first_index',
+        'last_index',
+        'members',
+        'trace',
+        'exponent',
+        'std_error',
+    )
+    yield 'multiplicities', header, [
+        line for name, box in BOXES.items() for line in _lines(bags[name].recording, box)
+    ]
+    yield 'zero_exponents', (
+        'boundaries',
+        'averaged_time',
+        'largest_zero_exponent',
+        'linear_growth',
+    ), [
+        (
+            boundaries,
+            f'{time:g}',
+            f'{size:.4g}',
+            f'{zeros.linear_growth(bags[name].recording.info, time):.4g}',
+        )
+        for name, (count, boundaries) in ZEROS.items()
+        for time, size in _thinned(bags[name], count)
+    ]
 
 
 def _lines(recording, box):
@@ -244,12 +320,28 @@ def _lines(recording, box):
     for step in recording.steps.steps if recording.steps else ():
         if step.kind == steps.ZERO or step.conjugate:
             continue
-        found = (step.first_index, step.last_index, step.members, f'{step.multiplicity:.3f}', f'{step.exponent:.6g}',
-                 f'{step.std_error:.2g}') if step.resolved else ('',) * 6
-        yield (box, steps.name(step), f'{step.wave_number:.6g}', prescribed(info, step.kind, step.nx, step.ny),
-               'yes' if step.resolved else 'no', *found)
+        found = (
+            (
+                step.first_index,
+                step.last_index,
+                step.members,
+                f'{step.multiplicity:.3f}',
+                f'{step.exponent:.6g}',
+                f'{step.std_error:.2g}',
+            )
+            if step.resolved
+            else ('',) * 6
+        )
+        yield (
+            box,
+            steps.name(step),
+            f'{step.wave_number:.6g}',
+            prescribed(info, step.kind, step.nx, step.ny),
+            'yes' if step.resolved else 'no',
+            *found,
+        )
 
 
 def _thinned(bag, count, most=60):
     course = list(zero_course(bag, count))
-    return course[::max(1, len(course) // most)]
+    return course[:: max(1, len(course) // most)]

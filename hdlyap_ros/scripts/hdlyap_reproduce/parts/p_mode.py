@@ -42,18 +42,40 @@ def rows(bags):
     # single amplitudes are no test of the paper's 1: by least squares both axes are 1 together
     for axis, name in enumerate('xy'):
         yield _amplitude(shown, axis, name)
-    yield Row('ratio of these amplitudes', 1.0, shown and shown.ratio, shown.ratio_error if shown else 0.0,
-              remark='tells more than both: weighted with p^2 they are 1 together, by least squares')
+    yield Row(
+        'ratio of these amplitudes',
+        1.0,
+        shown and shown.ratio,
+        shown.ratio_error if shown else 0.0,
+        remark='tells more than both: weighted with p^2 they are 1 together, by least squares',
+    )
     times = _times(bags['periodic'])
-    yield _mean(times, 'amplitude along x / (1 - residual^2), mean', None,
-                lambda one: one.after[0].amplitude / one.spanned)
-    yield _mean(times, 'amplitude along y / (1 - residual^2), mean', None,
-                lambda one: one.after[1].amplitude / one.spanned)
+    yield _mean(
+        times,
+        'amplitude along x / (1 - residual^2), mean',
+        None,
+        lambda one: one.after[0].amplitude / one.spanned,
+    )
+    yield _mean(
+        times,
+        'amplitude along y / (1 - residual^2), mean',
+        None,
+        lambda one: one.after[1].amplitude / one.spanned,
+    )
     yield _mean(times, 'ratio of the amplitudes, mean', 1.0, lambda one: one.ratio)
-    yield _mean(times, 'distance of the P field from the vectors, residual', None, lambda one: one.residual)
+    yield _mean(
+        times, 'distance of the P field from the vectors, residual', None, lambda one: one.residual
+    )
     for axis, name in enumerate('xy'):
-        yield _mean(times, f'scatter of phi_P,{name} about A / its rms', None, lambda one: one.before[axis].scatter)
-        yield _mean(times, f'the same of phi_P,{name} / p_{name}', None, lambda one: one.after[axis].scatter)
+        yield _mean(
+            times,
+            f'scatter of phi_P,{name} about A / its rms',
+            None,
+            lambda one: one.before[axis].scatter,
+        )
+        yield _mean(
+            times, f'the same of phi_P,{name} / p_{name}', None, lambda one: one.after[axis].scatter
+        )
 
 
 def _shown(bag):
@@ -69,8 +91,13 @@ def _amplitude(shown, axis, name):
     if shown is None:
         return Row(quantity)
     fit = shown.after[axis]
-    return Row(quantity, None, fit.amplitude / shown.spanned, fit.error / shown.spanned,
-               remark=f'of the figure: amplitude {fit.amplitude:.3f}, residual {shown.residual:.3f}')
+    return Row(
+        quantity,
+        None,
+        fit.amplitude / shown.spanned,
+        fit.error / shown.spanned,
+        remark=f'of the figure: amplitude {fit.amplitude:.3f}, residual {shown.residual:.3f}',
+    )
 
 
 def _times(bag):
@@ -80,15 +107,26 @@ def _times(bag):
 
 
 def _fields(bag):
-    return [field for field in bag.messages(recording.FIELD)
-            if field.pairs and (steps.NAMES[field.kind], field.nx, field.ny) == ('LP', 1, 0)]
+    return [
+        field
+        for field in bag.messages(recording.FIELD)
+        if field.pairs and (steps.NAMES[field.kind], field.nx, field.ny) == ('LP', 1, 0)
+    ]
 
 
 def _mean(times, quantity, published, number):
     if not times:
         return Row(quantity, published)
-    mean, error = averages.of_snapshots([np.mean([number(one) for one in pairs]) for pairs in times])
-    return Row(quantity, published, float(mean), float(error), remark=SNAPSHOTS.format(len(times), len(times[0])))
+    mean, error = averages.of_snapshots(
+        [np.mean([number(one) for one in pairs]) for pairs in times]
+    )
+    return Row(
+        quantity,
+        published,
+        float(mean),
+        float(error),
+        remark=SNAPSHOTS.format(len(times), len(times[0])),
+    )
 
 
 def figures(bags):
@@ -100,8 +138,24 @@ def tables(bags):
     lines = []
     for field, pairs in zip(_fields(bags['periodic']), _times(bags['periodic'])):
         for pair, one in enumerate(pairs):
-            numbers = [one.residual] + [number for axis in (0, 1) for number in (
-                one.after[axis].amplitude, one.after[axis].error, one.before[axis].scatter, one.after[axis].scatter)]
+            numbers = [one.residual] + [
+                number
+                for axis in (0, 1)
+                for number in (
+                    one.after[axis].amplitude,
+                    one.after[axis].error,
+                    one.before[axis].scatter,
+                    one.after[axis].scatter,
+                )
+            ]
             lines.append((f'{field.sim_time:g}', pair, *(f'{number:.5g}' for number in numbers)))
-    yield 'amplitudes', ('time', 'pair', 'residual', *(f'{name}_{axis}' for axis in 'xy' for name in (
-        'amplitude', 'error', 'scatter_before', 'scatter_after'))), lines
+    yield 'amplitudes', (
+        'time',
+        'pair',
+        'residual',
+        *(
+            f'{name}_{axis}'
+            for axis in 'xy'
+            for name in ('amplitude', 'error', 'scatter_before', 'scatter_after')
+        ),
+    ), lines

@@ -13,10 +13,12 @@ from ..velocity import against_slope
 TITLE = 'Phases of LP pairs of the periodic system; their rate in proportion to k'
 RUN = 'periodic'
 HOLDS, FAILS = 'yes', 'no'
-WINDOW = 50.0       # over which a phase that diffuses is compared with even turning [time units]
-KEPT = 200          # of a curve in the table
-SHORTEST = 10       # reports in it
-PRECISE = 0.01      # part of omega / k that its error may be at most: steps known worse could not disagree
+WINDOW = 50.0  # over which a phase that diffuses is compared with even turning [time units]
+KEPT = 200  # of a curve in the table
+SHORTEST = 10  # reports in it
+PRECISE = (
+    0.01  # part of omega / k that its error may be at most: steps known worse could not disagree
+)
 MODULATIONS = ('cos cos', 'sin cos', 'cos sin', 'sin sin')
 
 
@@ -30,17 +32,42 @@ def rows(bags):
     line = Line(turning.values())
     for one in turning.values():
         omega, error = one.omega()
-        yield Row(f'omega of {one.name}', None, omega, error, unit='rad/time unit', remark=f'k = {one.wave_number:.5f}')
+        yield Row(
+            f'omega of {one.name}',
+            None,
+            omega,
+            error,
+            unit='rad/time unit',
+            remark=f'k = {one.wave_number:.5f}',
+        )
     for one in turning.values():
         v, error = one.velocity()
-        yield Row(f'omega / k of {one.name}', None, v, error, unit='sigma/time unit', remark=line.remark(one))
+        yield Row(
+            f'omega / k of {one.name}',
+            None,
+            v,
+            error,
+            unit='sigma/time unit',
+            remark=line.remark(one),
+        )
     yield Row('omega in proportion to k', HOLDS, line.holds, remark=line.known_to)
-    yield Row('chi^2 / freedom of omega = v k', None, line.chi2, remark=f'{line.count - 1} degrees of freedom')
+    yield Row(
+        'chi^2 / freedom of omega = v k',
+        None,
+        line.chi2,
+        remark=f'{line.count - 1} degrees of freedom',
+    )
     yield Row('v, common', None, line.v, line.error, unit='sigma/time unit')
     yield against_slope('v', line.v, line.error, bag.recording)
     for name, rms, error, whole in _fluctuations(bag.recording):
-        yield Row(f'phase fluctuation of {name}', None, rms, error, unit='% of 2 pi',
-                  remark=f'rms about even turning over {WINDOW:g} time units; {whole}')
+        yield Row(
+            f'phase fluctuation of {name}',
+            None,
+            rms,
+            error,
+            unit='% of 2 pi',
+            remark=f'rms about even turning over {WINDOW:g} time units; {whole}',
+        )
 
 
 class Line:
@@ -58,7 +85,7 @@ class Line:
         weights = known[:, 1] ** -2
         self.v = float(np.average(known[:, 0], weights=weights))
         off = (known[:, 0] - self.v) / known[:, 1]
-        self.chi2 = float(np.sum(off ** 2) / (self.count - 1))
+        self.chi2 = float(np.sum(off**2) / (self.count - 1))
         # where the steps scatter more than their errors allow, the error grows
         self.error = float(np.sqrt(max(1.0, self.chi2) / weights.sum()))
         worst = float((known[:, 1] / known[:, 0]).max())
@@ -68,7 +95,11 @@ class Line:
 
     def remark(self, one):
         v, error = one.velocity()
-        return f'{(v - self.v) / error:+.1f} standard errors from the common v' if self.v and error else ''
+        return (
+            f'{(v - self.v) / error:+.1f} standard errors from the common v'
+            if self.v and error
+            else ''
+        )
 
 
 def _fluctuations(recording):
@@ -113,12 +144,14 @@ def _root(squares, independent):
     of fewer than two of those."""
     mean = float(np.mean(squares))
     error = np.std(squares) / np.sqrt(independent - 1) if independent >= 2 else 0.0
-    return mean ** 0.5, float(0.5 * error / mean ** 0.5) if mean else 0.0
+    return mean**0.5, float(0.5 * error / mean**0.5) if mean else 0.0
 
 
 def figures(bags):
     speeds = {one.name: one.velocity() for one in rotation.read(bags[RUN]).values()}
-    figure = figure_of_phases.draw(bags[RUN].recording, {name: v for name, v in speeds.items() if v[0]})
+    figure = figure_of_phases.draw(
+        bags[RUN].recording, {name: v for name, v in speeds.items() if v[0]}
+    )
     if figure is not None:
         yield 'phases', figure
 
@@ -126,9 +159,18 @@ def figures(bags):
 def tables(bags):
     """The phases that the figure shows, thinned."""
     recording = bags[RUN].recording
-    lines = [(steps.name(recording.steps.steps[step]), last[number].index, MODULATIONS[last[number].modulation],
-              f'{time:.6g}', f'{phase:.4f}')
-             for last in [recording.phases.last and recording.phases.last.phases]
-             for step, numbers in figure_of_phases.chosen(recording) for number in numbers
-             for times, course in recording.phases.curves(number) for time, phase in _thinned(times, course)]
+    lines = [
+        (
+            steps.name(recording.steps.steps[step]),
+            last[number].index,
+            MODULATIONS[last[number].modulation],
+            f'{time:.6g}',
+            f'{phase:.4f}',
+        )
+        for last in [recording.phases.last and recording.phases.last.phases]
+        for step, numbers in figure_of_phases.chosen(recording)
+        for number in numbers
+        for times, course in recording.phases.curves(number)
+        for time, phase in _thinned(times, course)
+    ]
     yield 'phases', ('step', 'index', 'modulation', 'time', 'phase'), lines

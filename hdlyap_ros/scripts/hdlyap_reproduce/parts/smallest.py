@@ -15,13 +15,17 @@ BOUNDARIES = ('periodic', 'reflecting')
 KINDS = {'T': steps.T, 'LP': steps.LP}
 SYMBOLS = {'T': 'lambda_T', 'LP': 'lambda_L'}
 UNIT = '1/time unit'
-ENOUGH = 1.0    # %: a third of the scatter of the fits; with a larger error, 'alike' says little
-OPENS = f'{100 * paper.FIT_ACCURACY:g} %: that of the density fits'     # with which the paper says nothing of these
+ENOUGH = 1.0  # %: a third of the scatter of the fits; with a larger error, 'alike' says little
+OPENS = f'{100 * paper.FIT_ACCURACY:g} %: that of the density fits'  # with which the paper says nothing of these
 
 
 def run_of(boundary, box):
     """The first density run is one of them."""
-    return 'density_04' if (boundary, box) == ('periodic', '780_0867') else f'smallest_{boundary}_{box}'
+    return (
+        'density_04'
+        if (boundary, box) == ('periodic', '780_0867')
+        else f'smallest_{boundary}_{box}'
+    )
 
 
 def runs(plan):
@@ -47,10 +51,13 @@ class Branch:
 
     def noted(self, which):
         """What a fit goes through."""
-        return ', '.join(filter(None, (f'{len(self.found(which))} boxes', slopes.noted(self.points[which]))))
+        return ', '.join(
+            filter(None, (f'{len(self.found(which))} boxes', slopes.noted(self.points[which])))
+        )
 
 
 # ---- rows ----------------------------------------------------------------------------------------
+
 
 def rows(bags):
     for kind in KINDS:
@@ -72,7 +79,15 @@ def _curve_rows(branch, which):
     for end, k in zip(('smallest', 'largest'), slopes.span(branch.points[which])):
         there = published.c * k + published.c2 * k * k
         value, error = curve.at(k)
-        yield Row(f'{quantity} at {end} k = {k:.4f}', there, value, error, paper.FIT_ACCURACY * there, UNIT, fitted)
+        yield Row(
+            f'{quantity} at {end} k = {k:.4f}',
+            there,
+            value,
+            error,
+            paper.FIT_ACCURACY * there,
+            UNIT,
+            fitted,
+        )
 
 
 def _coefficient_rows(branch):
@@ -83,11 +98,23 @@ def _coefficient_rows(branch):
     if curve is None:
         yield from (Row(name, value, None) for name, value in zip(names, published))
         return
-    remark = (f'{branch.noted("both")}; c and c2 are correlated: {curve.correlation:.2f}; +-: of lambda at both ends '
-              f'{OPENS}')
+    remark = (
+        f'{branch.noted("both")}; c and c2 are correlated: {curve.correlation:.2f}; +-: of lambda at both ends '
+        f'{OPENS}'
+    )
     opens = paper.FIT_ACCURACY * published.c / (high - low)
-    yield Row(names[0], published.c, curve.c, curve.c_error, opens * (low + high), 'sigma/time unit', remark)
-    yield Row(names[1], published.c2, curve.c2, curve.c2_error, 2 * opens, 'sigma^2/time unit', remark)
+    yield Row(
+        names[0],
+        published.c,
+        curve.c,
+        curve.c_error,
+        opens * (low + high),
+        'sigma/time unit',
+        remark,
+    )
+    yield Row(
+        names[1], published.c2, curve.c2, curve.c2_error, 2 * opens, 'sigma^2/time unit', remark
+    )
 
 
 def _alike_row(branch):
@@ -99,8 +126,16 @@ def _alike_row(branch):
     if None in curves or not low < high:
         return Row(quantity, 0, None, unit='%', enough=ENOUGH)
     difference, error = slopes.mean_difference(*curves, low, high)
-    return Row(quantity, 0, 100 * difference, 100 * error, 0.0, '%',
-               f'mean of the fits from k = {low:.4f} to {high:.4f}; {branch.noted("both")}', ENOUGH)
+    return Row(
+        quantity,
+        0,
+        100 * difference,
+        100 * error,
+        0.0,
+        '%',
+        f'mean of the fits from k = {low:.4f} to {high:.4f}; {branch.noted("both")}',
+        ENOUGH,
+    )
 
 
 def common(spans):
@@ -111,6 +146,7 @@ def common(spans):
 
 
 # ---- figure and table ----------------------------------------------------------------------------
+
 
 def figures(bags):
     branches = [Branch(bags, kind) for kind in KINDS]
@@ -133,42 +169,95 @@ def _figure(branches):
     left.set_ylabel(r'$\lambda$  [1/time unit]')
     right.set_ylabel(r'$\lambda/k$  [$\sigma$/time unit]')
     left.legend(loc='upper left')
-    figure.suptitle(f'smallest steps, $\\rho={paper.CURVES_DENSITY}$, $N=400$ to $780$, $L_y/L_x=0.5$ to $1$',
-                    fontsize=9)
+    figure.suptitle(
+        f'smallest steps, $\\rho={paper.CURVES_DENSITY}$, $N=400$ to $780$, $L_y/L_x=0.5$ to $1$',
+        fontsize=9,
+    )
     return figure
 
 
 def _lines(axes, branch, k, power):
     """Points, our fit through all, and the paper's with what it leaves open; over k^power."""
     colour, published = KIND_COLOURS[branch.kind], paper.CURVES[branch.kind]
-    there = (published.c * k + published.c2 * k ** 2) / k ** power
-    axes.plot(k, there, color=colour, linewidth=0.8, dashes=(2, 2), label=f'{branch.kind}, fit of Eckmann et al.')
+    there = (published.c * k + published.c2 * k**2) / k**power
+    axes.plot(
+        k,
+        there,
+        color=colour,
+        linewidth=0.8,
+        dashes=(2, 2),
+        label=f'{branch.kind}, fit of Eckmann et al.',
+    )
     if power:
-        axes.fill_between(k, (1 - paper.FIT_ACCURACY) * there, (1 + paper.FIT_ACCURACY) * there, color=colour,
-                          alpha=0.12, linewidth=0)
+        axes.fill_between(
+            k,
+            (1 - paper.FIT_ACCURACY) * there,
+            (1 + paper.FIT_ACCURACY) * there,
+            color=colour,
+            alpha=0.12,
+            linewidth=0,
+        )
     curve = branch.curves['both']
     if curve is not None:
-        axes.plot(k, (curve.c * k + curve.c2 * k ** 2) / k ** power, color=colour, label=f'{branch.kind}, our fit')
+        axes.plot(
+            k,
+            (curve.c * k + curve.c2 * k**2) / k**power,
+            color=colour,
+            label=f'{branch.kind}, our fit',
+        )
     for boundary, face in zip(BOUNDARIES, (colour, 'white')):
         found = branch.found(boundary)
         if found:
-            _points(axes, found, power, 'o' if branch.kind == 'T' else 's', colour, face, f'{branch.kind}, {boundary}')
+            _points(
+                axes,
+                found,
+                power,
+                'o' if branch.kind == 'T' else 's',
+                colour,
+                face,
+                f'{branch.kind}, {boundary}',
+            )
 
 
 def _points(axes, found, power, marker, colour, face, label):
     k = np.array([point.wave_number for point in found])
     errors = np.maximum(0, [point.error for point in found])
-    axes.errorbar(k, np.array([point.exponent for point in found]) / k ** power, errors / k ** power, fmt=marker,
-                  color=colour, markerfacecolor=face, markersize=4, elinewidth=0.9, capsize=2, label=label, zorder=3)
+    axes.errorbar(
+        k,
+        np.array([point.exponent for point in found]) / k**power,
+        errors / k**power,
+        fmt=marker,
+        color=colour,
+        markerfacecolor=face,
+        markersize=4,
+        elinewidth=0.9,
+        capsize=2,
+        label=label,
+        zorder=3,
+    )
 
 
 def tables(bags):
-    header = ('boundaries', 'disks', 'aspect', 'kind', 'step', 'wave_number', 'exponent', 'std_error', 'slope',
-              'slope_error', 'remark')
+    header = (
+        'boundaries',
+        'disks',
+        'aspect',
+        'kind',
+        'step',
+        'wave_number',
+        'exponent',
+        'std_error',
+        'slope',
+        'slope_error',
+        'remark',
+    )
     yield 'smallest', header, [
-        line for kind in KINDS for boundary in BOUNDARIES
+        line
+        for kind in KINDS
+        for boundary in BOUNDARIES
         for box, point in zip(BOXES, points(bags, kind, boundary))
-        for line in _line(bags[run_of(boundary, box)].recording.info, boundary, kind, point)]
+        for line in _line(bags[run_of(boundary, box)].recording.info, boundary, kind, point)
+    ]
 
 
 def _line(info, boundary, kind, point):
@@ -176,5 +265,13 @@ def _line(info, boundary, kind, point):
     if point is None:
         yield (*about, 'none resolved') + ('',) * 6
         return
-    yield (*about, point.name, f'{point.wave_number:.6g}', f'{point.exponent:.6g}', f'{point.error:.2g}',
-           f'{point.slope:.6g}', f'{point.slope_error:.2g}', point.remark)
+    yield (
+        *about,
+        point.name,
+        f'{point.wave_number:.6g}',
+        f'{point.exponent:.6g}',
+        f'{point.error:.2g}',
+        f'{point.slope:.6g}',
+        f'{point.slope_error:.2g}',
+        point.remark,
+    )

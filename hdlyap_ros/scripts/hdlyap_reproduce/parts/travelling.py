@@ -12,11 +12,11 @@ from ..velocity import against_slope
 TITLE = 'Travelling wave of the periodic LP dynamics'
 RUN = 'travelling'
 WAVE = (1, 0)
-SHOWN = 25.0        # of the space-time diagram [time units]
-FEWEST = 4          # blocks of time for an error
-LISTED = 20         # stretches in the table, the longest first
+SHOWN = 25.0  # of the space-time diagram [time units]
+FEWEST = 4  # blocks of time for an error
+LISTED = 20  # stretches in the table, the longest first
 LOCKED = 'no test: locked within a quarter turn by the choice of the stretch'
-PLACES = 200        # of it, along x
+PLACES = 200  # of it, along x
 
 
 def runs(plan):
@@ -32,9 +32,13 @@ class Front:
 
     def __init__(self, turning, columns, piece):
         cos, sin = turning.z[piece][:, columns].T
-        self.columns, self.time, self.wave_number = columns, turning.time[piece], turning.wave_number
+        self.columns, self.time, self.wave_number = (
+            columns,
+            turning.time[piece],
+            turning.wave_number,
+        )
         self.l_part = np.array([cos.real, sin.real])
-        self.turns = turning.turns()[piece.start:piece.stop - 1]
+        self.turns = turning.turns()[piece.start : piece.stop - 1]
         self.way = 1.0 if np.nansum(self.turns) >= 0 else -1.0
         self.handedness = float(self.way * np.mean(circular(cos, sin)))
         self.sign = 1 if self.handedness >= 0 else -1
@@ -73,7 +77,10 @@ def circular(cos, sin):
 def vectors(turning):
     """Columns of each vector: the pair with the cosine, the pair with the sine."""
     for begin in range(0, turning.z.shape[1], turning.pairs):
-        yield sorted(range(begin, begin + turning.pairs), key=lambda column: turning.modulation[column] & SIN_X)
+        yield sorted(
+            range(begin, begin + turning.pairs),
+            key=lambda column: turning.modulation[column] & SIN_X,
+        )
 
 
 def fronts(turning):
@@ -90,7 +97,11 @@ def fronts(turning):
 
 def chosen(turning):
     """The front that runs the farthest for the least part of the other direction; None without one."""
-    return max(fronts(turning) if turning else (), default=None, key=lambda one: one.length * abs(one.handedness))
+    return max(
+        fronts(turning) if turning else (),
+        default=None,
+        key=lambda one: one.length * abs(one.handedness),
+    )
 
 
 def one_way(turning):
@@ -109,14 +120,31 @@ def rows(bags):
     remark = f'{front.length:.1f} time units, {_direction(front)}' if front else ''
     locked = f'{LOCKED}; {remark}' if remark else LOCKED
     yield Row('front velocity / (omega / k), same times', None, ratio, ratio_error, remark=locked)
-    yield Row('front velocity, mean slope', None, slope, slope_error, unit='sigma/time unit', remark=remark)
+    yield Row(
+        'front velocity, mean slope',
+        None,
+        slope,
+        slope_error,
+        unit='sigma/time unit',
+        remark=remark,
+    )
     yield Row('omega / k of LP(1,0), same run', None, v, v_error, unit='sigma/time unit')
     yield against_slope('front velocity', slope, slope_error, bags[RUN].recording)
     size, size_error = one_way(turning) if turning else (None, 0.0)
-    yield Row('handedness of LP(1,0), mean size', None, size, size_error,
-              remark='1: every vector runs one way; 1/2: random parts of both directions')
-    yield Row('unevenness of the front, rms', None, _unevenness(front) if front else None, unit='sigma',
-              remark='about the straight line, while shown')
+    yield Row(
+        'handedness of LP(1,0), mean size',
+        None,
+        size,
+        size_error,
+        remark='1: every vector runs one way; 1/2: random parts of both directions',
+    )
+    yield Row(
+        'unevenness of the front, rms',
+        None,
+        _unevenness(front) if front else None,
+        unit='sigma',
+        remark='about the straight line, while shown',
+    )
 
 
 def _direction(front):
@@ -150,32 +178,59 @@ def tables(bags):
     for one in found:
         v, error = one.velocity()
         ratio, ratio_error = one.against_turns()
-        lines.append((one.index[-1], f'{one.time[0]:.6g}', f'{one.length:.4g}', f'{one.handedness:.3f}',
-                      f'{v:.5g}', f'{error:.2g}',
-                      *((f'{ratio:.5g}', f'{ratio_error:.2g}') if ratio else ('', ''))))
-    yield 'stretches', ('index', 'from', 'for', 'handedness', 'velocity', 'error', 'over_omega_by_k', 'error'), lines
+        lines.append(
+            (
+                one.index[-1],
+                f'{one.time[0]:.6g}',
+                f'{one.length:.4g}',
+                f'{one.handedness:.3f}',
+                f'{v:.5g}',
+                f'{error:.2g}',
+                *((f'{ratio:.5g}', f'{ratio_error:.2g}') if ratio else ('', '')),
+            )
+        )
+    yield 'stretches', (
+        'index',
+        'from',
+        'for',
+        'handedness',
+        'velocity',
+        'error',
+        'over_omega_by_k',
+        'error',
+    ), lines
     front = chosen(turning)
     yield 'front', ('time', 'a_cos', 'a_sin', 'place'), [
-        (f'{time:.6g}', f'{cos:.4f}', f'{sin:.4f}', f'{place:.4f}') for time, cos, sin, place in
-        (zip(front.time, *front.l_part, front.place) if front else ())]
+        (f'{time:.6g}', f'{cos:.4f}', f'{sin:.4f}', f'{place:.4f}')
+        for time, cos, sin, place in (zip(front.time, *front.l_part, front.place) if front else ())
+    ]
 
 
 def _draw(info, turning, front):
-    figure, (top, bottom) = plt.subplots(2, 1, figsize=(6.4, 6.4), sharex=True, constrained_layout=True)
+    figure, (top, bottom) = plt.subplots(
+        2, 1, figsize=(6.4, 6.4), sharex=True, constrained_layout=True
+    )
     part = _shown(front)
     time, k = front.time[part], front.wave_number
     x = np.linspace(0, info.box_x, PLACES + 1)
     cos, sin = front.l_part[:, part]
     field = -np.outer(np.sin(k * x), cos) + np.outer(np.cos(k * x), sin)
     largest = np.abs(field).max()
-    picture = top.pcolormesh(time, x, field, cmap='RdBu_r', vmin=-largest, vmax=largest, shading='auto',
-                             rasterized=True)
+    picture = top.pcolormesh(
+        time, x, field, cmap='RdBu_r', vmin=-largest, vmax=largest, shading='auto', rasterized=True
+    )
     figure.colorbar(picture, ax=top, label='L part along $x$  [arb. units]')
     front_x = np.mod(front.theta[part] / k, info.box_x)
-    top.plot(time, np.where(np.abs(np.diff(front_x, append=front_x[-1])) > info.box_x / 2, np.nan, front_x),
-             color=INK, linewidth=1.2)
+    top.plot(
+        time,
+        np.where(np.abs(np.diff(front_x, append=front_x[-1])) > info.box_x / 2, np.nan, front_x),
+        color=INK,
+        linewidth=1.2,
+    )
     top.set_ylabel(r'$x$  [$\sigma$]')
-    top.set_title(f'(a) {turning.name}, L part of one vector; line: its front $\\theta/k$', loc='left')
+    top.set_title(
+        f'(a) {turning.name}, L part of one vector; line: its front $\\theta/k$', loc='left'
+    )
     _line(bottom, turning, front, part)
     bottom.set_xlabel('simulated time  [time units]')
     figure.suptitle(scene(info), fontsize=9)
@@ -188,7 +243,16 @@ def _line(axes, turning, front, part):
     axes.plot(time, place, color=BLUE, label=r'front $\theta/k$')
     if v:
         middle = np.mean(place - v * time)
-        axes.plot(time, middle + v * time, color=VERMILION, linewidth=0.9, label=rf'slope $|\omega|/k = {v:.3f}$')
+        axes.plot(
+            time,
+            middle + v * time,
+            color=VERMILION,
+            linewidth=0.9,
+            label=rf'slope $|\omega|/k = {v:.3f}$',
+        )
     axes.set_ylabel(r'place of the front  [$\sigma$]')
-    axes.set_title('(b)' + ('' if front.sign > 0 else ' with $x$ reversed: the wave runs towards $-x$'), loc='left')
+    axes.set_title(
+        '(b)' + ('' if front.sign > 0 else ' with $x$ reversed: the wave runs towards $-x$'),
+        loc='left',
+    )
     axes.legend(loc='upper left')
