@@ -51,35 +51,35 @@ def sources(folder=NODE):
     return ''.join(text_of(folder, name) for name in listed(folder) if name.endswith('.c'))
 
 
-def types_of_views():
+def types_of_messages():
     """hdr_x -> package/Message, as the wrapper's headers say."""
     folder = 'hdlyap_ros/include/hdlyap_ros'
     text = ''.join(text_of(folder, name) for name in listed(folder))
-    return {
-        view: kind
-        for kind, view in re.findall(
+    types = {
+        'hdr_' + re.sub('(?<=[a-z])(?=[A-Z])', '_', name[:-4]).lower(): 'hdlyap/' + name[:-4]
+        for name in listed('msg')
+    }
+    types.update(
+        (message, kind)
+        for kind, message in re.findall(
             r'/\*\* (\w+/\w+)\b(?:[^*]|\*(?!/))*\*/\s*typedef struct (hdr_\w+)', text
         )
-    }
+    )
+    return types
 
 
 def advertised():
     """Topic -> type, of the table of topics and of those advertised by name."""
     names = dict(re.findall(r'\[(TOPIC_\w+)\] = \{"(\w+)"', text_of(NODE, 'topic.c')))
     outlets = text_of(NODE, 'outlets.c')
-    views = {
-        topic: view or 'hdr_run_info'
-        for topic, view in re.findall(
-            r'\[(TOPIC_\w+)\] = (?:(hdr_\w+)|run_info)_advertise', outlets
-        )
-    }
-    assert names.keys() == views.keys()
-    found = {'~' + name: views[topic] for topic, name in names.items()}
+    structs = dict(re.findall(r'\[(TOPIC_\w+)\] = (hdr_\w+)_advertise', outlets))
+    assert names.keys() == structs.keys()
+    found = {'~' + name: structs[topic] for topic, name in names.items()}
     found.update(
-        (name, view)
-        for view, name in re.findall(r'(hdr_\w+)_advertise\([^;"]*"([~/]\w+)"', sources())
+        (name, struct)
+        for struct, name in re.findall(r'(hdr_\w+)_advertise\([^;"]*"([~/]\w+)"', sources())
     )
-    return {name: types_of_views()[view] for name, view in found.items()}
+    return {name: types_of_messages()[struct] for name, struct in found.items()}
 
 
 def services():
