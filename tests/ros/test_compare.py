@@ -15,9 +15,9 @@ from std_msgs.msg import String
 
 import made
 from made import LP, SCRIPTS, T
-from hdlyap_plots import recording, verdict
-from hdlyap_plots.comparison import Comparison
-from hdlyap_plots.deviation import Deviation, chance_of_largest, student_tail, unlikeliest
+from hdlyap.plots import recording, verdict
+from hdlyap.plots.comparison import Comparison
+from hdlyap.plots.deviation import Deviation, chance_of_largest, student_tail, unlikeliest
 
 ERROR = 0.01  # of the exponents
 EXPONENTS = np.linspace(9, 3, 37)

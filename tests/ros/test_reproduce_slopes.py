@@ -9,8 +9,8 @@ from hdlyap.msg import LpPhase, LpPhases
 import made
 import recorded
 from made import LP, T
-from hdlyap_plots import paper
-from hdlyap_reproduce import crossing, slopes, stairs
+from hdlyap.plots import paper
+from hdlyap.reproduce import crossing, slopes, stairs
 
 
 class Points(unittest.TestCase):
