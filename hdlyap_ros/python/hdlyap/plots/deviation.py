@@ -1,13 +1,11 @@
 """Two measurements of the same -> how far apart they are, and how likely that is by chance."""
 
-from math import atan, exp, lgamma, pi, sqrt
-
 import numpy as np
+from scipy.special import stdtr
 
 from .numbers import known
 
 FREEDOM = 7  # of an error: the node asks blocks for it only while there are at least 8
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(64)
 
 
 class Deviation:
@@ -32,7 +30,8 @@ class Deviation:
         """Probability of a difference as large between means over few blocks (Welch)."""
         a, b = self.errors**2
         spread = a * a + b * b
-        return student_tail(self.z, FREEDOM * (a + b) ** 2 / spread if spread > 0 else FREEDOM)
+        freedom = FREEDOM * (a + b) ** 2 / spread if spread > 0 else FREEDOM
+        return 2 * float(stdtr(freedom, -abs(self.z)))  # both tails of Student's t
 
     def _in_errors(self):
         if not self.is_known:
@@ -41,15 +40,6 @@ class Deviation:
             return 0.0
         z = self.difference / self.error if self.error > 0 else np.inf
         return np.inf if np.isnan(z) else z  # what is no number does not agree
-
-
-def student_tail(z, freedom):
-    """Probability that |t| is at least |z|: with t = sqrt(freedom) tan(angle), the integral of
-    cos(angle)^(freedom - 1) over the angles beyond."""
-    begin = atan(abs(z) / sqrt(freedom))
-    half = 0.5 * (0.5 * pi - begin)
-    integral = half * np.sum(WEIGHTS * np.cos(begin + half * (1 + NODES)) ** (freedom - 1))
-    return 2 * exp(lgamma(0.5 * (freedom + 1)) - lgamma(0.5 * freedom)) / sqrt(pi) * integral
 
 
 def unlikeliest(deviations, count=1):

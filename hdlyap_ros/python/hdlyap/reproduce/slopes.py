@@ -3,7 +3,7 @@ fits through such steps of several runs."""
 
 import numpy as np
 
-from hdlyap.plots import phases, steps
+from hdlyap.plots import dispersion, phases, steps
 from hdlyap.plots.numbers import known
 
 from .stairs import stairs
@@ -179,52 +179,16 @@ def velocity(recording, nx, ny):
     return omega / wave.wave_number, error / wave.wave_number, count
 
 
-class Curve:
-    """lambda = c k + c2 k^2 through points, weighted with their errors. Errors are multiplied by
-    sqrt(chi^2 / freedom) where that exceeds 1, as those of the node."""
-
-    def __init__(self, points):
-        k = np.array([point.wave_number for point in points])
-        weights = np.array([point.error for point in points]) ** -2.0
-        powers = np.stack([k, k**2], axis=1)
-        inverse = np.linalg.inv(powers.T @ (weights[:, None] * powers))
-        values = np.array([point.exponent for point in points])
-        self.c, self.c2 = self.coefficients = inverse @ powers.T @ (weights * values)
-        self.freedom = len(points) - 2
-        self.chi2 = float(weights @ (values - powers @ self.coefficients) ** 2)
-        self.covariance = inverse * max(1.0, self.chi2 / self.freedom if self.freedom else 1.0)
-        self.c_error, self.c2_error = np.sqrt(np.diag(self.covariance))
-
-    @property
-    def correlation(self):
-        """Of c and c2."""
-        return float(self.covariance[0, 1] / (self.c_error * self.c2_error))
-
-    def at(self, k):
-        """(lambda, its error) at a wave number."""
-        powers = np.array([k, k * k])
-        return float(powers @ self.coefficients), float(np.sqrt(powers @ self.covariance @ powers))
-
-
 def curve(points):
-    """None if there are not two wave numbers with known errors."""
+    """The dispersion relation; None if there are not two wave numbers with known errors."""
     points = [point for point in points if point is not None and point.error > 0]
-    numbers = {round(point.wave_number, 9) for point in points}
-    return Curve(points) if len(numbers) > 1 else None
+    k, exponents, errors = (
+        [getattr(point, name) for point in points] for name in ('wave_number', 'exponent', 'error')
+    )
+    return dispersion.Curve(k, exponents, errors) if dispersion.number_of(k) > 1 else None
 
 
 def span(points):
     """Smallest and largest wave number; None without points."""
     numbers = [point.wave_number for point in points if point is not None]
     return (min(numbers), max(numbers)) if numbers else None
-
-
-def mean_difference(one, other, low, high, samples=101):
-    """(mean relative difference of two curves, other over one less 1, from low to high, its error)."""
-    k = np.linspace(low, high, samples)
-    powers = np.stack([k, k**2], axis=1)
-    first, second = powers @ one.coefficients, powers @ other.coefficients
-    by_other = (powers / first[:, None]).mean(axis=0)
-    by_one = (powers * (second / first**2)[:, None]).mean(axis=0)
-    variance = by_other @ other.covariance @ by_other + by_one @ one.covariance @ by_one
-    return float(np.mean(second / first) - 1), float(np.sqrt(variance))

@@ -3,7 +3,7 @@
 from matplotlib import ticker
 import numpy as np
 
-from hdlyap.plots import paper, steps
+from hdlyap.plots import dispersion, paper, steps
 from hdlyap.plots.figures.style import KIND_COLOURS, plt
 
 from .. import slopes
@@ -125,7 +125,7 @@ def _alike_row(branch):
     low, high = common(spans)
     if None in curves or not low < high:
         return Row(quantity, 0, None, unit='%', enough=ENOUGH)
-    difference, error = slopes.mean_difference(*curves, low, high)
+    difference, error = dispersion.mean_difference(*curves, low, high)
     return Row(
         quantity,
         0,
