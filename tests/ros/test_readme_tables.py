@@ -71,8 +71,8 @@ def types_of_messages():
 def advertised():
     """Topic -> type, of the table of topics and of those advertised by name."""
     names = dict(re.findall(r'\[(TOPIC_\w+)\] = \{"(\w+)"', text_of(NODE, 'topic.c')))
-    outlets = text_of(NODE, 'outlets.c')
-    structs = dict(re.findall(r'\[(TOPIC_\w+)\] = (hdr_\w+)_advertise', outlets))
+    publishers = text_of(NODE, 'publishers.c')
+    structs = dict(re.findall(r'\[(TOPIC_\w+)\] = (hdr_\w+)_advertise', publishers))
     assert names.keys() == structs.keys()
     found = {'~' + name: structs[topic] for topic, name in names.items()}
     found.update(

@@ -62,7 +62,7 @@ hdr_status marker_report_create(marker_report **out, hdr_node *ros, const settin
     if (modes) kinds_find(r, hd_run_steps(run));
     hdr_status status = parts_create(r) ? HDR_OK : HDR_NO_MEMORY;
     if (status == HDR_OK) status = hdr_markers_advertise(&r->publisher, ros, "~markers");
-    if (status == HDR_OK) status = hdr_frame_publish(ros, "world", outlets_frame());
+    if (status == HDR_OK) status = hdr_frame_publish(ros, "world", message_frame());
     if (status == HDR_OK) return HDR_OK;
     marker_report_free(r);
     *out = NULL;
@@ -194,8 +194,8 @@ static void fill_mode(picture_mode *mode, const marker_report *r, const hd_run *
     mode->exponent = hd_spectrum_exponent(hd_run_spectrum(run), col);
     if (col < known.first || col >= known.first + known.count) return;
     mode->known = true;
-    mode->dx = outlets_array(known.data + (col - known.first), disks, 4 * stride);
-    mode->dy = outlets_array(known.data + stride + (size_t)(col - known.first), disks, 4 * stride);
+    mode->dx = message_array(known.data + (col - known.first), disks, 4 * stride);
+    mode->dy = message_array(known.data + stride + (size_t)(col - known.first), disks, 4 * stride);
     if (mode->kind == HDR_MODE_LP)
         fill_pairs(mode, hd_run_modes(run), hd_steps_step(steps, s), col);
 }
@@ -207,7 +207,7 @@ static void fill_exponents(picture *p, marker_report *r, const hd_run *run)
     p->averaged = spectrum ? hd_spectrum_time(spectrum) : 0.0;
     if (!(p->averaged > 0.0)) return;
     for (int k = 0; k < r->vectors; k++) r->exponents[k] = hd_spectrum_exponent(spectrum, k);
-    p->exponents = outlets_array(r->exponents, (size_t)r->vectors, 1);
+    p->exponents = message_array(r->exponents, (size_t)r->vectors, 1);
 }
 
 static void fill_scene(picture *p, const settings *set)
@@ -227,8 +227,8 @@ static bool is_finite(const picture *p, const double *q, size_t disks)
         for (uint32_t c = 0; c < m->pairs; c++) sum += m->a[c] + m->b[c];
         if (!isfinite(sum)) return false;
     }
-    return outlets_finite(q, 2 * disks) &&
-           (p->exponents.count == 0 || outlets_finite(p->exponents.data, p->exponents.count));
+    return message_finite(q, 2 * disks) &&
+           (p->exponents.count == 0 || message_finite(p->exponents.data, p->exponents.count));
 }
 
 static hd_status draw(marker_report *r, const hd_run *run)
@@ -238,8 +238,8 @@ static hd_status draw(marker_report *r, const hd_run *run)
         .phase = hdr_phase_name((unsigned)hd_run_stage(run)),
         .time = hd_run_time(run),
         .progress = hd_run_cost(run).progress,
-        .x = outlets_array(r->q, disks, 2),
-        .y = outlets_array(r->q + 1, disks, 2),
+        .x = message_array(r->q, disks, 2),
+        .y = message_array(r->q + 1, disks, 2),
         .modes = modes_count(r),
     };
     hdr_steps steps;
@@ -251,7 +251,7 @@ static hd_status draw(marker_report *r, const hd_run *run)
     if (r->modes && !mode_report_steps(r->modes, &steps, run)) return HD_NOT_FINITE;
     if (r->modes) p.steps = &steps;
     if (!is_finite(&p, r->q, disks)) return HD_NOT_FINITE;
-    if (!view_draw(r->view, &markers, &p, outlets_frame()))
+    if (!view_draw(r->view, &markers, &p, message_frame()))
         hdr_log(HDR_ERROR, "markers not drawn: out of memory");
     else if (hdr_markers_publish(r->publisher, &markers) != HDR_OK)
         hdr_log(HDR_ERROR, "markers not sent: %s", hdr_error_text());
