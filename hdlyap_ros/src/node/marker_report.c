@@ -235,7 +235,7 @@ static hd_status draw(marker_report *r, const hd_run *run)
 {
     const size_t disks = (size_t)r->set->def.disks;
     picture p = {
-        .phase = hdr_phase_name((unsigned)hd_run_stage(run)),
+        .phase = hdr_stage_name((unsigned)hd_run_stage(run)),
         .time = hd_run_time(run),
         .progress = hd_run_cost(run).progress,
         .x = message_array(r->q, disks, 2),

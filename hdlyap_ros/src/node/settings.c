@@ -123,7 +123,7 @@ static bool read_awaited(const reader *r, void *field)
     if (hdr_param_string(r->params, r->name, &text) == HDR_OK && strcmp(text, "all") == 0)
         return *awaited = ALL_PUBLISHED, true;
     return read_topics(r, awaited, TOPICS_OBSERVABLE | TOPICS_ALWAYS,
-                       "all or a list out of run_info, " OBSERVABLES_TEXT ", cost");
+                       "all or a list out of run_info, " OBSERVABLES_TEXT ", status, cost");
 }
 
 /** The range is known only with the scene. */
@@ -316,7 +316,7 @@ static bool check_awaited(settings *set, reader *r)
     r->name = "wait_for_subscribers";
     if (set->awaited == ALL_PUBLISHED) set->awaited = published;
     return !(set->awaited & ~published) ||
-           reader_refuse(r, "out of run_info, cost and the observables");
+           reader_refuse(r, "out of run_info, status, cost and the observables");
 }
 
 /** What is asked for of modes that nobody observes. */

@@ -39,7 +39,7 @@ typedef struct settings {
     const char *scene;    /**< name; in the params, or in the checkpoint */
     char seed[24];        /**< decimal */
     char exponents[16];   /**< as asked for: positive, all, none or a number */
-    unsigned observables; /**< set of topics: all but run_info and cost */
+    unsigned observables; /**< set of topics: all but run_info, status and cost */
     field_choice fields;
     marker_choice markers;
     double field_interval;  /**< time units between publications of fields; 0: with every report */

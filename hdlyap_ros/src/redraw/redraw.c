@@ -120,7 +120,7 @@ static void fill_places(picture *p, const heard *h, double time)
     p->y = array_of(y, h->disks);
 }
 
-static void draw(redraw *r, const hdr_cost *cost)
+static void draw(redraw *r, const hdr_run_status *status)
 {
     const heard *h = &r->said;
     const double time = newest(h);
@@ -129,12 +129,12 @@ static void draw(redraw *r, const hdr_cost *cost)
     if (!h->begun || time < 0.0 || (time == r->drawn && fields == r->drawn_fields)) return;
     picture p = {
         .scene = h->scene,
-        .phase = hdr_phase_name(cost->phase),
+        .phase = hdr_stage_name(status->stage),
         .box = {h->box[0], h->box[1]},
         .periodic = {h->periodic[0], h->periodic[1]},
         .time = time,
         .averaged = h->averaged,
-        .progress = cost->progress,
+        .progress = status->progress,
         .has_exponents = h->has_exponents,
         .exponents = array_of(h->exponents, h->vectors),
         .steps = h->has_steps ? &h->steps : NULL,
@@ -177,7 +177,7 @@ static void on_field(void *context, const hdr_mode_field *f)
     heard_mode_field(&((redraw *)context)->said, f);
 }
 /** The last message of each report. */
-static void on_cost(void *context, const hdr_cost *cost) { draw(context, cost); }
+static void on_status(void *context, const hdr_run_status *status) { draw(context, status); }
 
 static hdr_status connect(redraw *r, hdr_node *node)
 {
@@ -194,7 +194,8 @@ static hdr_status connect(redraw *r, hdr_node *node)
         status = hdr_lp_phases_subscribe(&s, node, "~lp_phases", QUEUE, on_phases, r);
     if (status == HDR_OK)
         status = hdr_mode_field_subscribe(&s, node, "~fields", QUEUE, on_field, r);
-    if (status == HDR_OK) status = hdr_cost_subscribe(&s, node, "~cost", QUEUE, on_cost, r);
+    if (status == HDR_OK)
+        status = hdr_run_status_subscribe(&s, node, "~status", QUEUE, on_status, r);
     return status;
 }
 
