@@ -68,7 +68,8 @@ OF_SYSTEM = {
 # lint, a display
 TOOLS = set(
     'build-essential cmake procps libcmocka-dev shellcheck strace valgrind clang libomp-dev '
-    'libclang-rt-dev catkin-lint python3-catkin-lint xvfb imagemagick libgl1-mesa-dri'.split()
+    'libclang-rt-dev catkin-lint python3-catkin-lint xvfb imagemagick libgl1-mesa-dri '
+    'black flake8 clang-format doxygen'.split()
 )
 
 # commands, options and variables that CMake has only since 3.17 or later
@@ -143,10 +144,8 @@ class Dependencies(unittest.TestCase):
         found = set()
         for path in ('CMakeLists.txt', 'tests/ros/CMakeLists.txt'):
             text = re.sub(r'#.*', '', text_of(path))
-            for components in re.findall(
-                r'find_package\(catkin REQUIRED COMPONENTS([^)]*)\)', text
-            ):
-                found |= set(components.split())
+            for names in re.findall(r'COMPONENTS([^)$]*)|NODE_DEPENDS ([^)}]*)\)', text):
+                found |= set(' '.join(names).split())
             found |= set(re.findall(r'find_package\((ros\w+)', text))
         self.assertGreater(len(found), 5)
         self.assertLessEqual(found, dependencies())
@@ -180,9 +179,8 @@ class Noetic(unittest.TestCase):
     def test_scripts_are_installed_as_python(self):
         """And so made executable there; rosrun would find an executable source a second time."""
         cmake = text_of('CMakeLists.txt')
-        programs = (
-            re.search(r'catkin_install_python\(PROGRAMS([^)]*?)DESTINATION', cmake).group(1).split()
-        )
+        installed = re.findall(r'catkin_install_python\(PROGRAMS([^)]*?)DESTINATION', cmake)
+        programs = ' '.join(installed).split()
         here = os.path.join(ROOT, 'hdlyap_ros/scripts')
         scripts = [name for name in os.listdir(here) if os.path.isfile(os.path.join(here, name))]
         self.assertEqual(sorted(programs), sorted('hdlyap_ros/scripts/' + name for name in scripts))
