@@ -49,7 +49,8 @@ def of_function(of, file, function):
 
 
 class Stages(unittest.TestCase):
-    """A stage that is not asked for executes nothing; each test sees it work where it is asked for."""
+    """A stage that is not asked for executes nothing; each test sees it work where it is asked
+    for."""
 
     def test_trajectory_alone(self):
         for scene in (dict(), dict(x=1, y=1)):
@@ -132,7 +133,8 @@ class Vectors(unittest.TestCase):
 
 
 class Loop(unittest.TestCase):
-    """After its first steps no part of a run asks for memory; libraries for linear algebra and threads do."""
+    """After its first steps no part of a run asks for memory; libraries for linear algebra and
+    threads do."""
 
     def test_nothing_is_allocated(self):
         for scene in (

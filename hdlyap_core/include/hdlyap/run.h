@@ -47,7 +47,7 @@ typedef struct hd_cost {
 
 typedef struct hd_run hd_run;
 
-/** HD_REFUSED with its line in message as by hd_scene_check (message may be NULL). */
+/** HD_REFUSED with its line in `message` as by hd_scene_check (`message` may be NULL). */
 HD_MUST_CHECK hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message,
                                       size_t size);
 void hd_run_free(hd_run *run);
