@@ -99,7 +99,7 @@ static void report_interval(side *s)
 /** Until the intervals have found their length, and the steps are found. */
 static void warm(side *s)
 {
-    while (hd_run_phase(s->run) < HD_AVERAGING) require(hd_run_step(s->run), "warm-up");
+    while (hd_run_stage(s->run) < HD_AVERAGING) require(hd_run_step(s->run), "warm-up");
     for (int k = 0; k < WARM_REPORTS; k++) report_interval(s);
 }
 

@@ -34,7 +34,7 @@ static hd_run *ours_create(int disks)
     const hd_scene_def scene = scene_of(disks);
     hd_run *run;
     require(hd_run_create(&run, &scene, NULL, 0), "scene");
-    while (hd_run_phase(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
+    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
     return run;
 }
 

@@ -17,7 +17,7 @@ MODES, STEPS, PHASES, EVERYTHING = 1, 2, 4, 31  # HD_OBSERVE_*
 
 # sources of each stage; what is common to all is in none
 OF_TRAJECTORY = {'trajectory.c', 'prediction.c', 'contact.h', 'cells.c', 'queue.c'}
-OF_FRAME = {'frame.c', 'ortho.c', 'spectrum.c', 'blocks.c', 'blas.c'}
+OF_FRAME = {'frame.c', 'ortho.c', 'spectrum.c', 'block_average.c', 'blas.c'}
 OF_MODES = {'fields.c', 'modes.c'}
 OF_STEPS = {'steps.c', 'sets.c'}
 OF_PHASES = {'phases.c'}
@@ -85,11 +85,12 @@ class Stages(unittest.TestCase):
 
 
 class Walls(unittest.TestCase):
-    PLACES = (('trajectory.c', 'reflect'), ('frame.c', 'reflect'))
+    PLACES = (('events/trajectory.c', 'reflect'), ('tangent/frame.c', 'reflect'))
 
     @staticmethod
     def count(of, file, function):
-        return of.of_lines(file, *callgrind.body(os.path.join(CORE, 'src', file), function))
+        lines = callgrind.body(os.path.join(CORE, 'src', file), function)
+        return of.of_lines(os.path.basename(file), *lines)
 
     def test_without_walls_nothing_is_reflected(self):
         for place in self.PLACES:

@@ -18,7 +18,7 @@ int main(void)
     if (status == HD_REFUSED) {
         fprintf(stderr, "%s\n", message);
     }
-    while (status == HD_OK && hd_run_phase(run) != HD_FINISHED) {
+    while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) {
         status = hd_run_step(run);
     }
     if (status != HD_OK) {

@@ -81,7 +81,7 @@ static const struct known {
     {"accuracy", STRING, "1e-6"},
     {"report_interval", REAL, "2"},
     {"max_wave_number", REAL, "1"},
-    {"max_node", INTEGER, "1"},
+    {"max_mode_number", INTEGER, "1"},
     {"covariant_window", REAL, "50"},
     {"covariant_transient", REAL, "100"},
     {"covariant_sampling", REAL, "5"},

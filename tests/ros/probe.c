@@ -16,7 +16,7 @@
 #include "hdlyap/pmode.h"
 #include "hdlyap/run.h"
 #include "hdlyap_ros/markers.h"
-#include "memory.h"
+#include "base/memory.h"
 
 static atomic_long steps, overlaps, states, halves, measures, phases, pmodes, hydros, allocations;
 

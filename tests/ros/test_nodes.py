@@ -194,7 +194,7 @@ class Nodes(unittest.TestCase):
             interval=0.5,
             accuracy=1.0e-7,
             report_interval=0.25,
-            max_node=1,
+            max_mode_number=1,
             observables=['spectrum', 'modes', 'state'],
             threads=1,
             pace=1.0e3,

@@ -78,7 +78,7 @@ PARAMETERS = [
     'accuracy',
     'report_interval',
     'max_wave_number',
-    'max_node',
+    'max_mode_number',
     'field_indices',
     'observables',
     'threads',

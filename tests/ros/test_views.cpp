@@ -137,7 +137,7 @@ TEST(views, run_info)
     message.report_interval = 7;
     message.observables = {"spectrum", "state"};
     message.max_wave_number = 0.25;
-    message.max_node = 9;
+    message.max_mode_number = 9;
     message.wave_nx = {1, 0, 4294967295};
     message.wave_ny = {0, 4294967295};
     message.covariant_window = 10;

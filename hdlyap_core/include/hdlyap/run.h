@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "hdlyap/covariant.h"
+#include "hdlyap/interval.h"
 #include "hdlyap/ortho.h"
 #include "hdlyap/phases.h"
 #include "hdlyap/spectrum.h"
@@ -14,20 +15,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef enum hd_phase { HD_EQUILIBRATING, HD_WARMING_UP, HD_AVERAGING, HD_FINISHED } hd_phase;
-
-/** Why an interval between orthonormalisations is not longer. */
-typedef enum hd_limit {
-    HD_LIMIT_SCHEDULE,  /**< a sample ends: the next one would not fit whole between reports */
-    HD_LIMIT_CONDITION, /**< rounding would exceed the accuracy asked for */
-    HD_LIMIT_GROWTH,    /**< twice the one before: the conditioning is still being learnt */
-    HD_LIMIT_OVERFLOW,  /**< vectors would outgrow their numbers */
-    HD_LIMIT_SCENE,     /**< hd_scene_def.interval */
-    HD_LIMIT_EVENTS, /**< the log of events would take too much memory, or the wait for an answer */
-    HD_LIMIT_LOOK,   /**< vectors were wanted for a report */
-    HD_LIMIT_REPAIR  /**< it was longer, and had to be taken back */
-} hd_limit;
 
 /** What the run pays for, since its start unless said otherwise. */
 typedef struct hd_cost {
@@ -101,7 +88,7 @@ hd_columns hd_run_columns(const hd_run *run);
 /** Starts the averages afresh at the present time. Fails as hd_run_step does. */
 HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 
-hd_phase hd_run_phase(const hd_run *run);
+hd_stage hd_run_stage(const hd_run *run);
 double hd_run_time(const hd_run *run); /**< simulated time since the start */
 const hd_scene_def *hd_run_scene(const hd_run *run);
 int hd_run_vectors(const hd_run *run); /**< n, 0 without exponents */

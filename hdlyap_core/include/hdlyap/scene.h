@@ -14,11 +14,14 @@ extern "C" {
 
 typedef enum hd_boundary { HD_PERIODIC, HD_REFLECTING } hd_boundary;
 
+/** Stages of a run, one after the other: disks alone; with the frame; averages are taken; done. */
+typedef enum hd_stage { HD_EQUILIBRATING, HD_WARMING_UP, HD_AVERAGING, HD_FINISHED } hd_stage;
+
 /** Values of hd_scene_def.exponents that are not a plain number. */
 enum { HD_EXPONENTS_NONE = 0, HD_EXPONENTS_POSITIVE = -1, HD_EXPONENTS_ALL = -2 };
 
-/** hd_scene_def.observe; phases, fields and hydro need steps, which need modes: these come with
- * them. */
+/** hd_scene_def.observe: what is computed beyond the exponents. Phases, fields and hydro need
+ * steps, which need modes: these come with them. */
 enum {
     HD_OBSERVE_MODES = 1,     /**< weights of every vector */
     HD_OBSERVE_STEPS = 2,     /**< degenerate sets, dispersion */
@@ -56,10 +59,11 @@ typedef struct hd_scene_def {
     double report_interval; /**< simulated time between reports, > 0 */
     unsigned observe;       /**< stages beyond the exponents: a set of HD_OBSERVE_*, 0 = none */
     double
-        /** Wave vectors up to this |k| are classified; 0 = by max_node [1/sigma] */
+        /** Wave vectors up to this |k| are classified; 0 = by max_mode_number [1/sigma] */
         max_wave_number;
-    int max_node; /**< wave vectors of up to so many nodes per direction; 0 = 2, or as sampled */
-    int threads;  /**< 0 = as many as the machine has and the work is worth */
+    int max_mode_number; /**< wave vectors of up to so many nodes per direction; 0 = 2, or as
+                            sampled */
+    int threads;         /**< 0 = as many as the machine has and the work is worth */
 
     /** Time units at a stretch for which covariant vectors are computed, > 0 */
     double covariant_window;

@@ -148,7 +148,7 @@ static int first_wanted(const marker_report *r, const hd_run *run)
 void marker_report_demand(marker_report *r, hd_run *run)
 {
     const bool watched = marker_report_watched(r);
-    const bool paced = r->set->pace > 0.0 && hd_run_phase(run) == HD_AVERAGING;
+    const bool paced = r->set->pace > 0.0 && hd_run_stage(run) == HD_AVERAGING;
     const double between = paced ? fmax(r->set->pace / r->set->markers.rate, DBL_MIN) : INFINITY;
     r->due = watched && clock_seconds() >= r->next;
     hd_run_view(run, watched ? between : INFINITY, r->due ? first_wanted(r, run) : r->vectors);
@@ -234,7 +234,7 @@ static hd_status draw(marker_report *r, const hd_run *run)
 {
     const size_t disks = (size_t)r->set->def.disks;
     picture p = {
-        .phase = hdr_phase_name((unsigned)hd_run_phase(run)),
+        .phase = hdr_phase_name((unsigned)hd_run_stage(run)),
         .time = hd_run_time(run),
         .progress = hd_run_cost(run).progress,
         .x = outlets_array(r->q, disks, 2),

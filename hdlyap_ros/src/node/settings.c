@@ -243,7 +243,7 @@ static const struct parameter {
     {"accuracy", read_double, offsetof(settings, def.accuracy)},
     {"report_interval", read_double, offsetof(settings, def.report_interval)},
     {"max_wave_number", read_double, offsetof(settings, def.max_wave_number)},
-    {"max_node", read_int, offsetof(settings, def.max_node)},
+    {"max_mode_number", read_int, offsetof(settings, def.max_mode_number)},
     {"covariant_window", read_double, offsetof(settings, def.covariant_window)},
     {"covariant_transient", read_double, offsetof(settings, def.covariant_transient)},
     {"covariant_sampling", read_double, offsetof(settings, def.covariant_sampling)},
@@ -339,8 +339,8 @@ static bool check_modes(const settings *set, reader *r)
     const bool observed = set->observables & OF_WAVES;
     r->name = "max_wave_number";
     if (set->def.max_wave_number != 0.0 && !observed) return reader_refuse(r, allowed);
-    r->name = "max_node";
-    if (set->def.max_node != 0 && !observed) return reader_refuse(r, allowed);
+    r->name = "max_mode_number";
+    if (set->def.max_mode_number != 0 && !observed) return reader_refuse(r, allowed);
     r->name = "field_indices";
     return set->fields.count == 0 || (set->observables & topic_bit(TOPIC_FIELDS)) ||
            reader_refuse(r, "steps unless fields is an observable");
@@ -409,7 +409,7 @@ static bool check_marker_modes(const settings *set, reader *r)
         if (!is_looked_for(set, &set->markers.mode[k]))
             return reader_refuse(
                 r, MARKER_MODES_TEXT
-                ", of wave vectors that are looked for (max_node, max_wave_number)");
+                ", of wave vectors that are looked for (max_mode_number, max_wave_number)");
     return true;
 }
 

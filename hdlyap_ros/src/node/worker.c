@@ -165,7 +165,7 @@ static hd_status publish(worker *w)
 static hd_status paced_step(worker *w)
 {
     const double begin = clock_seconds(), from = hd_run_time(w->run);
-    const bool paced = hd_run_phase(w->run) == HD_AVERAGING;
+    const bool paced = hd_run_stage(w->run) == HD_AVERAGING;
     const hd_status status = hd_run_step(w->run);
     if (paced) w->due = fmax(w->due, begin) + (hd_run_time(w->run) - from) / w->set->pace;
     return status;
@@ -225,7 +225,7 @@ static void *work(void *context)
     worker *w = context;
     hd_status status = HD_OK;
     if (!wait_for_subscribers(w)) return NULL;
-    while (status == HD_OK && hd_run_phase(w->run) != HD_FINISHED && obey(w)) status = step(w);
+    while (status == HD_OK && hd_run_stage(w->run) != HD_FINISHED && obey(w)) status = step(w);
     if (status == HD_OK) status = finish(w);
     pthread_mutex_lock(&w->lock);
     if (status != HD_OK) explain(w, status);
