@@ -8,7 +8,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 run_packages() {
     echo build-essential cmake pkg-config procps libopenblas-openmp-dev liblapacke-dev zlib1g-dev \
-        python3-numpy python3-matplotlib python3-yaml
+        python3-setuptools python3-numpy python3-scipy python3-matplotlib python3-yaml
     case $1 in
         debian)
             echo catkin ros-message-generation ros-message-runtime libroscpp-dev \

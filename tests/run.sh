@@ -110,7 +110,7 @@ lint() {
 }
 
 warnings() {
-    ! grep -n 'warning:' "$LOGS"/*_build.log
+    ! grep -n ': warning:' "$LOGS"/*_build.log
 }
 
 # ---- how many tests a log reports: total and failed ------------------------------------------

@@ -27,12 +27,14 @@ typedef struct row {
     double transient;
 } row;
 
-static const row rows[] = {{HD_STORAGE_MEMORY, 5},  {HD_STORAGE_MEMORY, 20},
-                           {HD_STORAGE_MEMORY, 50}, {HD_STORAGE_MEMORY, 100},
-                           {HD_STORAGE_FILE, 100},  {HD_STORAGE_RECOMPUTE, 100}};
+static const row rows[] = {{HD_STORAGE_MEMORY, 5},
+                           {HD_STORAGE_MEMORY, 20},
+                           {HD_STORAGE_MEMORY, 50},
+                           {HD_STORAGE_MEMORY, 100},
+                           {HD_STORAGE_RECOMPUTE, 100}};
 enum { ROWS = sizeof rows / sizeof *rows };
 
-static const char *const storages[] = {"memory", "file", "recompute"};
+static const char *const storages[] = {"memory", "recompute"};
 
 static hd_scene_def scene_of(const asked *a, row r)
 {

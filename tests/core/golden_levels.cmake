@@ -3,7 +3,7 @@
 # expects the same events of every program.
 cmake_minimum_required(VERSION 3.16)
 
-set(SOURCES base/archive base/random base/memory base/status scene/lattice scene/scene scene/wave events/trajectory events/prediction
+set(SOURCES base/archive base/random base/memory base/status scene/lattice scene/scene scene/scene_check scene/wave events/trajectory events/prediction
   events/prefetch events/nearby events/cells events/queue events/event_log)
 list(TRANSFORM SOURCES PREPEND ${CORE}/src/)
 list(TRANSFORM SOURCES APPEND .c)

@@ -86,8 +86,11 @@ scripts_run() {
 }
 
 finds_package() {
-    [[ $(in_prefix rospack find hdlyap) == "$PREFIX/share/hdlyap" ]] &&
-        [[ $(in_prefix python3 -c 'import hdlyap.msg; print(hdlyap.msg.__file__)') == "$PREFIX"/lib/* ]]
+    local name
+    [[ $(in_prefix rospack find hdlyap) == "$PREFIX/share/hdlyap" ]] || return 1
+    for name in msg plots follow reproduce; do
+        [[ $(in_prefix python3 -c "import hdlyap.$name as one; print(one.__file__)") == "$PREFIX"/lib/* ]] || return 1
+    done
 }
 
 finds_messages() {

@@ -87,7 +87,6 @@ static const struct known {
     {"covariant_sampling", REAL, "5"},
     {"covariant_memory", REAL, "4"},
     {"covariant_storage", STRING, "memory"},
-    {"covariant_folder", STRING, "/tmp"},
     {"field_indices", STRING, "steps"},
     {"field_interval", REAL, "10"},
     {"observables", STRINGS, "spectrum"},

@@ -6,9 +6,9 @@ import runpy
 import sys
 
 import made
-from hdlyap_plots.figures import plt
-from hdlyap_reproduce import parts, work
-from hdlyap_reproduce.row import Row
+from hdlyap.plots.figures import plt
+from hdlyap.reproduce import parts, work
+from hdlyap.reproduce.row import Row
 
 
 class Part:

@@ -3,8 +3,6 @@
  */
 #define _GNU_SOURCE /* RTLD_NEXT */
 #include <dlfcn.h>
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -86,15 +84,6 @@ void *realloc(void *block, size_t size)
     if (most > 0.0 && (double)size > most) return NULL;
     next(&real, "realloc");
     return real(block, size);
-}
-
-/** PROBE_DISK_FULL: no file gets room. */
-int posix_fallocate(int file, off_t start, off_t length)
-{
-    int (*real)(int, off_t, off_t);
-    if (getenv("PROBE_DISK_FULL")) return ENOSPC;
-    next(&real, "posix_fallocate");
-    return real(file, start, length);
 }
 
 /** PROBE_NAN: the first momentum is not a number. */

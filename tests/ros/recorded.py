@@ -6,8 +6,8 @@ from math import sqrt
 import numpy as np
 
 import made
-from hdlyap_plots.phases import PhaseCourse
-from hdlyap_plots.run import Run
+from hdlyap.plots.phases import PhaseCourse
+from hdlyap.plots.run import Run
 
 COUNTS = {made.T: 2, made.LP: 4}
 
@@ -23,7 +23,7 @@ class Recorded(Run):
 
 
 class Bag:
-    """In place of hdlyap_reproduce.bag.Bag."""
+    """In place of hdlyap.reproduce.bag.Bag."""
 
     def __init__(self, recording, spectra=()):
         self.recording, self._spectra = recording, spectra

@@ -238,10 +238,6 @@ class Windows(unittest.TestCase):
 class Choices(Case):
     def test_storages_say_the_same(self):
         want = [plain(message) for message in self.run_of(threads=1)]
-        with tempfile.TemporaryDirectory() as folder:
-            got = self.run_of(threads=1, covariant_storage='file', covariant_folder=folder)
-            self.assertEqual(os.listdir(folder), [])
-        self.assertEqual([plain(message) for message in got], want)
         got = self.run_of(threads=1, covariant_storage='recompute')
         self.assertEqual([plain(message) for message in got], want)
 
@@ -290,8 +286,7 @@ class Choices(Case):
                     resume=path,
                     duration=100.0,
                     wait_for_subscribers=['covariant', 'run_info'],
-                    covariant_storage='file',
-                    covariant_folder=folder,
+                    covariant_storage='recompute',
                 )
             )
             self.assertEqual(node.wait(), 0, node.text())
@@ -304,7 +299,7 @@ class Choices(Case):
         info = info.messages[0]
         self.assertEqual(
             (info.observables, info.covariant_window, info.covariant_storage),
-            (['spectrum', 'covariant', 'state'], WINDOW, 'file'),
+            (['spectrum', 'covariant', 'state'], WINDOW, 'recompute'),
         )
 
 
@@ -373,14 +368,6 @@ class Faults(Case):
             ' need 0.00',
         )
 
-    def test_no_folder(self):
-        for folder, word in (
-            ('/nowhere/at all', 'No such file or directory'),
-            ('/dev/null', 'Not a directory'),
-        ):
-            node = self.start(dict(SCENE, covariant_storage='file', covariant_folder=folder))
-            self.refused(node, 4, 'covariant_folder = %s: %s' % (folder, word))
-
     def test_too_short_a_transient_is_warned_of(self):
         """Once; a long one is not."""
         for transient, lines in ((0.5, 1), (TRANSIENT, 0)):
@@ -394,15 +381,6 @@ class Faults(Case):
                 lines,
                 node.text(),
             )
-
-    def test_full_disk(self):
-        self.listen('covariant')
-        with tempfile.TemporaryDirectory() as folder:
-            node = self.start(
-                dict(SCENE, covariant_storage='file', covariant_folder=folder),
-                probe={'PROBE_DISK_FULL': '1'},
-            )
-            self.refused(node, 4, 'covariant_folder = %s: No space left on device' % folder)
 
     def test_not_a_number(self):
         covariant = self.listen('covariant')

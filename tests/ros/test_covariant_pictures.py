@@ -12,8 +12,8 @@ from hdlyap.msg import Cost, Spectrum, Steps
 
 import made
 from made import LP, SCRIPTS, T
-from hdlyap_plots import covariant, recording, report
-from hdlyap_plots.figures import (
+from hdlyap.plots import covariant, recording, report
+from hdlyap.plots.figures import (
     covariant_angles,
     covariant_domination,
     covariant_exponents,

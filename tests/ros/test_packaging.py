@@ -55,6 +55,8 @@ OF_SYSTEM = {
     'python3-matplotlib': 'python3-matplotlib',
     'python3-numpy': 'python3-numpy',
     'python3-rospkg': 'python3-rospkg',
+    'python3-scipy': 'python3-scipy',
+    'python3-setuptools': 'python3-setuptools',
     'python3-yaml': 'python3-yaml',
     'xvfb': 'xvfb',
     'zlib': 'zlib1g-dev',

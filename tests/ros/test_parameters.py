@@ -80,8 +80,7 @@ BAD = dict(
     covariant_transient=COVARIANT,
     covariant_sampling=COVARIANT,
     covariant_memory=[0, -1, 0.9e-3, 1.1e6, 'x', '', [1.0], True, NAN, INFINITY],
-    covariant_storage=['', 'disk', 'Memory', 5, ['file']],
-    covariant_folder=['', 5, True, ['/tmp']],
+    covariant_storage=['', 'disk', 'file', 'Memory', 5, ['memory']],
     densty=[0.8],
     Disks=[100],
 )
@@ -106,8 +105,6 @@ BAD_TOGETHER = [
     ('covariant_sampling', dict(covariant_sampling=4.0)),
     ('covariant_memory', dict(covariant_memory=3.0)),
     ('covariant_storage', dict(covariant_storage='recompute')),
-    ('covariant_folder', dict(covariant_folder='/')),
-    ('covariant_folder', dict(WINDOW, covariant_folder='/' + 'x' * 511)),
     *(
         (name, dict(WINDOW, **{name: value}))
         for name in ('covariant_window', 'covariant_transient', 'covariant_sampling')
@@ -163,7 +160,6 @@ GOOD = [
             covariant_sampling=5.0,
             covariant_memory=4,
             covariant_storage='memory',
-            covariant_folder='/tmp',
         ),
         dict(covariant_storage='memory', covariant_memory=4.0),
     ),
@@ -183,13 +179,11 @@ GOOD = [
             covariant_storage='recompute',
             covariant_memory='0.25',
             covariant_sampling=0.5,
-            covariant_folder='/',
         ),
         dict(
             covariant_storage='recompute',
             covariant_memory=0.25,
             covariant_sampling=0.5,
-            covariant_folder='/',
             covariant_transient=1.0,
         ),
     ),
@@ -308,7 +302,6 @@ class Parameters(unittest.TestCase):
             covariant_sampling=5.0,
             covariant_memory=4.0,
             covariant_storage='memory',
-            covariant_folder='/tmp',
             wave_nx=(1, 0, 1, 2, 0, 2, 1, 2),
             wave_ny=(0, 1, 1, 0, 2, 1, 2, 2),
         )

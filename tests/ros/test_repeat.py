@@ -10,7 +10,7 @@ import unittest
 import yaml
 
 import made
-from hdlyap_plots import recording, repetition
+from hdlyap.plots import recording, repetition
 
 SCENES = os.path.join(made.SCRIPTS, '../../launch/scenes')
 REPEAT = os.path.join(made.SCRIPTS, 'repeat')

@@ -21,10 +21,10 @@ import harness
 import made
 from terminal import Terminal
 from hdlyap.msg import Cost
-from hdlyap_plots.figures import plt
-from hdlyap_reproduce import display, files, options, page, parts, plan, row, tree, work
-from hdlyap_reproduce.bag import Bag
-from hdlyap_reproduce.row import Row
+from hdlyap.plots.figures import plt
+from hdlyap.reproduce import display, files, options, page, parts, plan, row, tree, work
+from hdlyap.reproduce.bag import Bag
+from hdlyap.reproduce.row import Row
 
 ROOT = os.path.realpath(os.path.join(made.SCRIPTS, '../..'))
 LAUNCH = os.path.join(ROOT, 'launch')
@@ -436,13 +436,12 @@ class Shown(unittest.TestCase):
                 '-c',
                 '''
 from types import SimpleNamespace as Made
-from hdlyap_reproduce import display
+from hdlyap.reproduce import display
 show = display.Display(3)
 show([Made(run=Made(name=name), share=0.5) for name in ('first', 'second', 'third')], 30.0, 60.0)
 ''',
             ],
             columns=64,
-            PYTHONPATH=made.SCRIPTS + ':' + os.environ.get('PYTHONPATH', ''),
         )
         self.addCleanup(terminal.stop)
         self.assertEqual(terminal.wait(), 0)

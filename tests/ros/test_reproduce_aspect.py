@@ -8,9 +8,9 @@ import numpy as np
 import made
 import recorded
 from made import LP, T
-from hdlyap_plots import paper
-from hdlyap_reproduce import plan
-from hdlyap_reproduce.parts import aspect
+from hdlyap.plots import paper
+from hdlyap.reproduce import plan
+from hdlyap.reproduce.parts import aspect
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..')
 DISKS = {

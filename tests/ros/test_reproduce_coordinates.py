@@ -7,7 +7,7 @@ import numpy as np
 
 import made
 from reproduced import Part
-from hdlyap_reproduce.parts import coordinates
+from hdlyap.reproduce.parts import coordinates
 
 DISKS, END = 20, 37  # of 80 vectors 38 .. 43 are zero modes
 COUNT = 4 * DISKS

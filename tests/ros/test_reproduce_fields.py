@@ -7,9 +7,9 @@ import numpy as np
 import made
 from made import LP, T
 from reproduced import Part
-from hdlyap_plots import waves
-from hdlyap_reproduce import averages, projection
-from hdlyap_reproduce.parts import fields
+from hdlyap.plots import waves
+from hdlyap.reproduce import averages, projection
+from hdlyap.reproduce.parts import fields
 
 BOUNDARIES = ('periodic', 'reflecting')
 # least squares in 2N = 40 dimensions, all of order 1

@@ -8,7 +8,7 @@ from hdlyap.msg import Hydro, HydroMode, LpPhase, LpPhases
 
 import made
 from made import LP, T
-from hdlyap_reproduce.parts import hydro
+from hdlyap.reproduce.parts import hydro
 from turned import Turned
 
 INFO = made.run_info()

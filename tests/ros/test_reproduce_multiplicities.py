@@ -11,8 +11,8 @@ import numpy as np
 import made
 import recorded
 from made import LP, T
-from hdlyap_reproduce.bag import Bag
-from hdlyap_reproduce.parts import multiplicities as part
+from hdlyap.reproduce.bag import Bag
+from hdlyap.reproduce.parts import multiplicities as part
 
 PERIODIC, WALLS = 'periodic', 'reflecting'
 

@@ -7,8 +7,8 @@ import numpy as np
 import made
 from made import LP
 from reproduced import Part
-from hdlyap_plots.figures.p_mode import EPSILON, Fit
-from hdlyap_reproduce.parts import p_mode
+from hdlyap.plots.figures.p_mode import EPSILON, Fit
+from hdlyap.reproduce.parts import p_mode
 
 RESIDUAL = 0.6  # 1 - residual^2 = 0.64
 ROUNDING = 1e3 * np.finfo(float).eps

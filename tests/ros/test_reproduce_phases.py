@@ -6,8 +6,8 @@ import numpy as np
 
 import made
 from made import LP
-from hdlyap_reproduce import blocks
-from hdlyap_reproduce.parts import phases
+from hdlyap.reproduce import blocks
+from hdlyap.reproduce.parts import phases
 from turned import Turned, Wave, course
 
 

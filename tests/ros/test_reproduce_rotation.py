@@ -8,8 +8,8 @@ from hdlyap.msg import LpPhase
 
 import made
 from made import LP, T
-from hdlyap_reproduce import blocks, rotation
-from hdlyap_reproduce.parts import turning
+from hdlyap.reproduce import blocks, rotation
+from hdlyap.reproduce.parts import turning
 from turned import WEAK, Turned, Wave, course
 
 

@@ -144,8 +144,7 @@ TEST(views, run_info)
     message.covariant_transient = 11;
     message.covariant_sampling = 13;
     message.covariant_memory = 14;
-    message.covariant_storage = "file";
-    message.covariant_folder = "folder";
+    message.covariant_storage = "recompute";
     message.field_indices = "[1, 5]";
     message.field_interval = 2.5;
     message.wait_for_subscribers = {"cost"};

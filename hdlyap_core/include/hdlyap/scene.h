@@ -34,11 +34,8 @@ enum {
 /** Where the triangles that covariant vectors need wait for the way back. */
 typedef enum hd_storage {
     HD_STORAGE_MEMORY,
-    HD_STORAGE_FILE,     /**< one without a name */
     HD_STORAGE_RECOMPUTE /**< they are computed again, from some frames and the events */
 } hd_storage;
-
-enum { HD_FOLDER_MAX = 512 };
 
 typedef struct hd_scene_def {
     int disks;      /**< N, 2 .. 1000000 */
@@ -72,7 +69,6 @@ typedef struct hd_scene_def {
     double covariant_sampling; /**< time units between two looks at them, > 0 */
     double covariant_memory;   /**< what may wait for the way back [bytes], > 0 */
     hd_storage covariant_storage;
-    char covariant_folder[HD_FOLDER_MAX]; /**< of a file for it; must be there */
 } hd_scene_def;
 
 /** The paper's periodic scene: 780 disks, density 0.8, aspect 0.867. */

@@ -7,7 +7,6 @@
 #include "hdlyap/covariant.h"
 
 #include <cblas.h>
-#include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <string.h>
@@ -20,7 +19,6 @@
 #include "covariant/backward.h"
 #include "covariant/history.h"
 #include "covariant/localization.h"
-#include "covariant/store.h"
 #include "modes/archived.h"
 
 /** Intervals that there is room for, over those that are expected: they vary. */
@@ -70,25 +68,11 @@ static hd_history_def past_of(const hd_scene_def *def, double interval)
     const double intervals = ceil(SPARE * both / interval) + 8.0,
                  looks = ceil(both / def->covariant_sampling) + 4.0;
     const double most = 1e9; /* far beyond any room */
-    return (hd_history_def){
-        .disks = def->disks,
-        .vectors = hd_scene_vectors(def),
-        .intervals = (long)fmin(intervals, most),
-        .snapshots = (long)fmin(looks, most),
-        .recompute = def->covariant_storage == HD_STORAGE_RECOMPUTE,
-        .folder = def->covariant_storage == HD_STORAGE_FILE ? def->covariant_folder : NULL};
-}
-
-static hd_status refuse_room(const hd_scene_def *def, const hd_history_def *past,
-                             const char *allowed, double most, char *message, size_t size)
-{
-    return hd_refuse(message, size,
-                     "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and "
-                     "%ld frames of %d "
-                     "vectors need %.3g GB, must be at most %s %.3g GB",
-                     def->covariant_window, def->covariant_transient, past->intervals,
-                     past->snapshots, past->vectors, 1e-9 * hd_history_bytes(past), allowed,
-                     1e-9 * most);
+    return (hd_history_def){.disks = def->disks,
+                            .vectors = hd_scene_vectors(def),
+                            .intervals = (long)fmin(intervals, most),
+                            .snapshots = (long)fmin(looks, most),
+                            .recompute = def->covariant_storage == HD_STORAGE_RECOMPUTE};
 }
 
 hd_status hd_covariant_check_room(const hd_scene_def *def, double interval, char *message,
@@ -96,15 +80,13 @@ hd_status hd_covariant_check_room(const hd_scene_def *def, double interval, char
 {
     const hd_history_def past = past_of(def, interval);
     const double bytes = hd_history_bytes(&past);
-    if (!(bytes <= def->covariant_memory))
-        return refuse_room(def, &past, "covariant_memory =", def->covariant_memory, message, size);
-    if (!past.folder) return HD_OK;
-    const double left = hd_store_folder_room(past.folder);
-    if (left < 0)
-        return hd_refuse(message, size, "covariant_folder = %s: %s", past.folder, strerror(errno));
-    if (bytes > left)
-        return refuse_room(def, &past, "what is free in covariant_folder,", left, message, size);
-    return HD_OK;
+    if (bytes <= def->covariant_memory) return HD_OK;
+    return hd_refuse(message, size,
+                     "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and "
+                     "%ld frames of %d vectors need %.3g GB, must be at most covariant_memory = "
+                     "%.3g GB",
+                     def->covariant_window, def->covariant_transient, past.intervals,
+                     past.snapshots, past.vectors, 1e-9 * bytes, 1e-9 * def->covariant_memory);
 }
 
 static hd_status allocate_arrays(hd_covariant *c)
@@ -383,7 +365,7 @@ static hd_status look(hd_covariant *c, long interval)
     const double *coefficients = hd_backward_read(c->start[0]);
     end_growth(c);
     HD_TRY(hd_splitting_add(c->splitting, coefficients));
-    HD_TRY(hd_history_vectors(c->past, c->frame, c->q, c->p, interval));
+    hd_history_vectors(c->past, c->frame, c->q, c->p, interval);
     HD_TRY(measure_weights(c, c->of_frame));
     cblas_dtrmm(CblasRowMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, c->rows,
                 c->vectors, 1.0, coefficients, c->vectors, c->frame, c->vectors);

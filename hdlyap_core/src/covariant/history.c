@@ -25,7 +25,6 @@ struct hd_history {
     hd_store *triangles; /**< NULL if recomputed */
     hd_recompute *recompute;
     hd_store *snapshots;
-    double *triangle, *record; /**< packed, one of each */
     long first, end, snapshots_end;
     double time;
 };
@@ -63,13 +62,11 @@ static hd_status allocate(hd_history *past)
     const hd_history_def *def = &past->def;
     const size_t triangle = hd_triangle_size(def->vectors), record = record_size(def);
     past->kept = hd_memory_alloc((size_t)past->slots, sizeof *past->kept);
-    past->triangle = hd_memory_alloc(triangle, sizeof(double));
-    past->record = hd_memory_alloc(record, sizeof(double));
-    if (!past->kept || !past->triangle || !past->record) return HD_NO_MEMORY;
-    HD_TRY(hd_store_create(&past->snapshots, record, def->snapshots, def->folder));
+    if (!past->kept) return HD_NO_MEMORY;
+    HD_TRY(hd_store_create(&past->snapshots, record, def->snapshots));
     const hd_recompute_def again = recompute_of(def);
     if (def->recompute) return hd_recompute_create(&past->recompute, &again);
-    return hd_store_create(&past->triangles, triangle, past->slots, def->folder);
+    return hd_store_create(&past->triangles, triangle, past->slots);
 }
 
 hd_status hd_history_create(hd_history **out, const hd_history_def *def)
@@ -93,8 +90,6 @@ void hd_history_free(hd_history *past)
 {
     if (!past) return;
     hd_memory_free(past->kept);
-    hd_memory_free(past->triangle);
-    hd_memory_free(past->record);
     hd_store_free(past->triangles);
     hd_store_free(past->snapshots);
     hd_recompute_free(past->recompute);
@@ -136,8 +131,9 @@ hd_status hd_history_add(hd_history *past, const double *factor, hd_columns fram
     if (past->recompute) {
         HD_TRY(hd_recompute_events(past->recompute, slot, log, t_begin, t_end));
     } else {
-        hd_triangle_pack(past->triangle, factor, past->def.vectors);
-        HD_TRY(hd_store_put(past->triangles, slot, past->triangle));
+        double *triangle = hd_store_put(past->triangles, slot);
+        if (!triangle) return HD_NO_MEMORY;
+        hd_triangle_pack(triangle, factor, past->def.vectors);
     }
     past->time += t_end - t_begin;
     past->kept[slot] = (interval_kept){past->time, t_end - t_begin, -1};
@@ -149,11 +145,12 @@ hd_status hd_history_snapshot(hd_history *past, hd_columns frame, const double *
 {
     const size_t n = (size_t)past->def.vectors, rows = (size_t)past->rows, half = rows / 2;
     const long record = past->snapshots_end % past->def.snapshots;
+    double *kept = hd_store_put(past->snapshots, record);
+    if (!kept) return HD_NO_MEMORY;
     for (size_t row = 0; row < rows; row++)
-        memcpy(past->record + row * n, frame.data + row * (size_t)frame.stride, n * sizeof(double));
-    memcpy(past->record + rows * n, q, half * sizeof *q);
-    memcpy(past->record + rows * n + half, p, half * sizeof *p);
-    HD_TRY(hd_store_put(past->snapshots, record, past->record));
+        memcpy(kept + row * n, frame.data + row * (size_t)frame.stride, n * sizeof(double));
+    memcpy(kept + rows * n, q, half * sizeof *q);
+    memcpy(kept + rows * n + half, p, half * sizeof *p);
     kept_at(past, past->end - 1)->snapshot = record;
     past->snapshots_end++;
     return HD_OK;
@@ -190,19 +187,18 @@ hd_status hd_history_factor(hd_history *past, double *factor, long interval)
         return hd_recompute_factor(past->recompute, factor, slot,
                                    slot + (ahead < to_wrap ? ahead : to_wrap));
     }
-    HD_TRY(hd_store_fetch(past->triangles, past->triangle, slot));
-    hd_triangle_unpack(factor, past->triangle, past->def.vectors);
+    hd_triangle_unpack(factor, hd_store_fetch(past->triangles, slot), past->def.vectors);
     return HD_OK;
 }
 
-hd_status hd_history_vectors(hd_history *past, double *vectors, double *q, double *p, long interval)
+void hd_history_vectors(const hd_history *past, double *vectors, double *q, double *p,
+                        long interval)
 {
     const size_t n = (size_t)past->def.vectors, rows = (size_t)past->rows, half = rows / 2;
     const long record = kept_at(past, interval)->snapshot;
     HD_ASSERT(record >= 0);
-    HD_TRY(hd_store_fetch(past->snapshots, past->record, record));
-    memcpy(vectors, past->record, rows * n * sizeof *vectors);
-    memcpy(q, past->record + rows * n, half * sizeof *q);
-    memcpy(p, past->record + rows * n + half, half * sizeof *p);
-    return HD_OK;
+    const double *kept = hd_store_fetch(past->snapshots, record);
+    memcpy(vectors, kept, rows * n * sizeof *vectors);
+    memcpy(q, kept + rows * n, half * sizeof *q);
+    memcpy(p, kept + rows * n + half, half * sizeof *p);
 }

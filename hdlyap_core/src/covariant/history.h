@@ -10,10 +10,9 @@
 /** Where triangles are kept. */
 typedef struct hd_history_def {
     int disks, vectors, threads;
-    long intervals;     /**< of which triangles are kept, at most */
-    long snapshots;     /**< at most */
-    bool recompute;     /**< triangles are computed again instead of being kept */
-    const char *folder; /**< of a file for what is kept; NULL: in memory */
+    long intervals; /**< of which triangles are kept, at most */
+    long snapshots; /**< at most */
+    bool recompute; /**< triangles are computed again instead of being kept */
 } hd_history_def;
 
 /** Bytes that it keeps at most; of recomputed ones without the events, some tens of bytes each. */
@@ -21,7 +20,7 @@ double hd_history_bytes(const hd_history_def *def);
 
 typedef struct hd_history hd_history;
 
-/** HD_NO_MEMORY, HD_FILE_FAULT (errno). */
+/** HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_history_create(hd_history **out, const hd_history_def *def);
 void hd_history_free(hd_history *past);
 
@@ -52,7 +51,7 @@ bool hd_history_has_snapshot(const hd_history *past, long interval); /**< at its
 /** R [n * n], row-major, of one interval. */
 HD_MUST_CHECK hd_status hd_history_factor(hd_history *past, double *factor, long interval);
 /** Vectors [4N * n] row-major, q[2N], p[2N] of a snapshot. */
-HD_MUST_CHECK hd_status hd_history_vectors(hd_history *past, double *vectors, double *q, double *p,
-                                           long interval);
+void hd_history_vectors(const hd_history *past, double *vectors, double *q, double *p,
+                        long interval);
 
 #endif

@@ -24,8 +24,6 @@ struct hd_recompute {
     hd_store *triangles; /**< packed, of one stretch */
     long from, to;       /**< slots whose triangles are there: from <= slot < to */
     hd_event_log **log;  /**< [slots] */
-    double *vectors;     /**< [rows * vectors] */
-    double *packed;
     hd_frame *frame;
     hd_ortho *ortho;
 };
@@ -40,8 +38,8 @@ double hd_recompute_doubles(const hd_recompute_def *def)
 {
     const double frame = (double)def->rows * def->vectors,
                  frames = (double)def->slots / (double)def->stretch;
-    /* beside those of the stretches: one to replay with, in two copies, and one to load */
-    return (frames + 3.0) * frame + (double)def->stretch * (double)hd_triangle_size(def->vectors);
+    /* beside those of the stretches: one to replay with, in two copies */
+    return (frames + 2.0) * frame + (double)def->stretch * (double)hd_triangle_size(def->vectors);
 }
 
 static size_t frame_size(const hd_recompute *r)
@@ -53,15 +51,13 @@ static hd_status allocate(hd_recompute *r)
 {
     const hd_recompute_def *def = &r->def;
     const size_t triangle = hd_triangle_size(def->vectors);
-    HD_TRY(hd_store_create(&r->frames, frame_size(r), def->slots / def->stretch, NULL));
-    HD_TRY(hd_store_create(&r->triangles, triangle, def->stretch, NULL));
+    HD_TRY(hd_store_create(&r->frames, frame_size(r), def->slots / def->stretch));
+    HD_TRY(hd_store_create(&r->triangles, triangle, def->stretch));
     HD_TRY(hd_frame_create(&r->frame, def->rows / 4, def->vectors, 1, def->threads));
     HD_TRY(hd_ortho_create(&r->ortho, def->rows, def->vectors));
     HD_TRY(hd_ortho_keep_factor(r->ortho));
-    r->vectors = hd_memory_alloc(frame_size(r), sizeof(double));
-    r->packed = hd_memory_alloc(triangle, sizeof(double));
     r->log = hd_memory_alloc((size_t)def->slots, sizeof *r->log);
-    return r->vectors && r->packed && r->log ? HD_OK : HD_NO_MEMORY;
+    return r->log ? HD_OK : HD_NO_MEMORY;
 }
 
 hd_status hd_recompute_create(hd_recompute **out, const hd_recompute_def *def)
@@ -84,8 +80,6 @@ void hd_recompute_free(hd_recompute *r)
     if (!r) return;
     for (long slot = 0; r->log && slot < r->def.slots; slot++) hd_event_log_free(r->log[slot]);
     hd_memory_free(r->log);
-    hd_memory_free(r->vectors);
-    hd_memory_free(r->packed);
     hd_store_free(r->frames);
     hd_store_free(r->triangles);
     hd_frame_free(r->frame);
@@ -99,11 +93,13 @@ hd_status hd_recompute_frame(hd_recompute *r, long slot, hd_columns columns)
 {
     HD_ASSERT(columns.count == r->def.vectors);
     if (slot % r->def.stretch != 0) return HD_OK;
+    double *vectors = hd_store_put(r->frames, slot / r->def.stretch);
+    if (!vectors) return HD_NO_MEMORY;
     for (int row = 0; row < r->def.rows; row++)
-        memcpy(r->vectors + (size_t)row * (size_t)r->def.vectors,
+        memcpy(vectors + (size_t)row * (size_t)r->def.vectors,
                columns.data + (size_t)row * (size_t)columns.stride,
                (size_t)r->def.vectors * sizeof(double));
-    return hd_store_put(r->frames, slot / r->def.stretch, r->vectors);
+    return HD_OK;
 }
 
 /** As hd_frame_replay chooses them. */
@@ -135,11 +131,11 @@ hd_status hd_recompute_events(hd_recompute *r, long slot, const hd_event_log *lo
 
 /* ---- backward ------------------------------------------------------------------------------ */
 
-static void load_frame(hd_recompute *r)
+static void load_frame(hd_recompute *r, const double *vectors)
 {
     for (int row = 0; row < r->def.rows; row++)
         memcpy(hd_frame_data(r->frame) + (size_t)row * (size_t)hd_frame_stride(r->frame),
-               r->vectors + (size_t)row * (size_t)r->def.vectors,
+               vectors + (size_t)row * (size_t)r->def.vectors,
                (size_t)r->def.vectors * sizeof(double));
 }
 
@@ -152,8 +148,10 @@ static hd_status recompute_slot(hd_recompute *r, long slot)
         HD_TRY(hd_frame_replay(r->frame, log, 0.0, log->duration));
         HD_TRY(hd_ortho_step_stable(r->ortho, r->frame, 1.0 / DBL_EPSILON));
     }
-    hd_triangle_pack(r->packed, hd_ortho_factor(r->ortho), r->def.vectors);
-    return hd_store_put(r->triangles, slot % r->def.stretch, r->packed);
+    double *triangle = hd_store_put(r->triangles, slot % r->def.stretch);
+    if (!triangle) return HD_NO_MEMORY;
+    hd_triangle_pack(triangle, hd_ortho_factor(r->ortho), r->def.vectors);
+    return HD_OK;
 }
 
 static hd_status recompute_stretch(hd_recompute *r, long slot, long last)
@@ -161,8 +159,7 @@ static hd_status recompute_stretch(hd_recompute *r, long slot, long last)
     const long first = slot / r->def.stretch * r->def.stretch;
     const long end = last < first + r->def.stretch ? last + 1 : first + r->def.stretch;
     r->from = r->to = 0;
-    HD_TRY(hd_store_fetch(r->frames, r->vectors, first / r->def.stretch));
-    load_frame(r);
+    load_frame(r, hd_store_fetch(r->frames, first / r->def.stretch));
     for (long k = first; k < end; k++) HD_TRY(recompute_slot(r, k));
     r->from = first;
     r->to = end;
@@ -173,7 +170,7 @@ hd_status hd_recompute_factor(hd_recompute *r, double *factor, long slot, long l
 {
     HD_ASSERT(slot >= 0 && slot <= last && last < r->def.slots);
     if (slot < r->from || slot >= r->to) HD_TRY(recompute_stretch(r, slot, last));
-    HD_TRY(hd_store_fetch(r->triangles, r->packed, slot % r->def.stretch));
-    hd_triangle_unpack(factor, r->packed, r->def.vectors);
+    const double *triangle = hd_store_fetch(r->triangles, slot % r->def.stretch);
+    hd_triangle_unpack(factor, triangle, r->def.vectors);
     return HD_OK;
 }

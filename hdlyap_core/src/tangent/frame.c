@@ -51,7 +51,7 @@ struct hd_frame {
 /* ---- creation ------------------------------------------------------------------------------ */
 
 /** Rows of whole cache lines; with room for the neutral vectors that complete the positive half
- * (tail.h). */
+ * (slow_vectors.h). */
 static int padded(int vectors)
 {
     enum { NEUTRAL_MAX = 3, MANY = 64 };

@@ -75,7 +75,6 @@ static void fill_scene(hdr_run_info *info, const settings *set)
     info->covariant_sampling = def->covariant_sampling;
     info->covariant_memory = def->covariant_memory / BYTES_PER_GB;
     info->covariant_storage = settings_storage_name(def->covariant_storage);
-    info->covariant_folder = def->covariant_folder;
 }
 
 /** What it runs on. */

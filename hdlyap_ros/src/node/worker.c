@@ -2,7 +2,6 @@
  * work; `publishing` around messages, so that nothing follows the last one. */
 #include "worker.h"
 
-#include <errno.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -202,20 +201,15 @@ static hd_status finish(worker *w)
     return status;
 }
 
-/** What ended the run, while errno is as that has left it: the only file of a step is that of
- * covariant vectors. Lock held. */
+/** What ended the run. Lock held. */
 static void explain(worker *w, hd_status status)
 {
-    const int error = errno;
     const hd_scene_def *scene = hd_run_scene(w->run);
     const double interval = hd_run_cost(w->run).interval;
     char *fault = w->state.fault;
     const size_t size = sizeof w->state.fault;
     snprintf(fault, size, "%s", hd_status_text(status));
-    if (status == HD_FILE_FAULT)
-        snprintf(fault, size, "covariant_folder = %.150s: %s", scene->covariant_folder,
-                 strerror(error));
-    else if (status == HD_NO_ROOM && hd_covariant_check_room(scene, interval, fault, size) == HD_OK)
+    if (status == HD_NO_ROOM && hd_covariant_check_room(scene, interval, fault, size) == HD_OK)
         snprintf(fault, size, "%s = %.3g GB, orthonormalised more often than every %.3g time units",
                  hd_status_text(status), scene->covariant_memory / BYTES_PER_GB, interval);
 }

@@ -193,10 +193,10 @@ template <> struct message_of<hdr_run_info> {
              v.equilibration, v.warmup, v.duration, v.target_std_error, v.interval, v.accuracy,
              v.report_interval, v.observables, v.max_wave_number, v.max_mode_number, v.wave_nx,
              v.wave_ny, v.covariant_window, v.covariant_transient, v.covariant_sampling,
-             v.covariant_memory, v.covariant_storage, v.covariant_folder, v.field_indices,
-             v.field_interval, v.wait_for_subscribers, v.pace, v.marker_modes, v.marker_rate,
-             v.checkpoint, v.checkpoint_interval, v.resume, v.resumed_time, v.threads,
-             v.blas_threads, v.blas_library, v.blas_kernel, v.blas_threading);
+             v.covariant_memory, v.covariant_storage, v.field_indices, v.field_interval,
+             v.wait_for_subscribers, v.pace, v.marker_modes, v.marker_rate, v.checkpoint,
+             v.checkpoint_interval, v.resume, v.resumed_time, v.threads, v.blas_threads,
+             v.blas_library, v.blas_kernel, v.blas_threading);
     }
 };
 

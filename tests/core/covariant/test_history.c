@@ -1,5 +1,4 @@
-/** What the forward pass leaves comes back as it was, from memory, from a file and computed again.
- */
+/** What the forward pass leaves comes back as it was, kept and computed again. */
 #include <float.h>
 
 #include "covariant/backward.h"
@@ -8,7 +7,7 @@
 #include "covariant/history.h"
 #include "triangles.h"
 
-enum { DISKS = 6, INTERVALS = 24, SNAPSHOTS = 8, PASTS = 3, STEPS = 150 };
+enum { DISKS = 6, INTERVALS = 24, SNAPSHOTS = 8, PASTS = 2, STEPS = 150 };
 
 static hd_history_def def_of(int way, int vectors)
 {
@@ -17,8 +16,7 @@ static hd_history_def def_of(int way, int vectors)
                             .threads = 1,
                             .intervals = INTERVALS,
                             .snapshots = SNAPSHOTS,
-                            .recompute = way == 2,
-                            .folder = way == 1 ? "." : NULL};
+                            .recompute = way == 1};
 }
 
 /** What each interval left. */
@@ -105,7 +103,7 @@ static void check_snapshot(const forward *x, hd_history *past, long interval)
     const left *want = &x->left[interval];
     const size_t size = 4 * DISKS * (size_t)forward_vectors(&x->f);
     double *vectors = malloc(size * sizeof *vectors), q[2 * DISKS], p[2 * DISKS];
-    CHECK_OK(hd_history_vectors(past, vectors, q, p, interval));
+    hd_history_vectors(past, vectors, q, p, interval);
     assert_memory_equal(vectors, want->vectors, size * sizeof *vectors);
     assert_memory_equal(q, want->q, sizeof q);
     assert_memory_equal(p, want->p, sizeof p);
@@ -124,7 +122,7 @@ static void check_past(const forward *x, int way, long first)
         CHECK_CLOSE(hd_history_time(past, k), x->left[k].time, 64 * DBL_EPSILON * x->left[k].time);
         CHECK_CLOSE(hd_history_length(past, k), x->left[k].length, 0.0);
         CHECK_OK(hd_history_factor(past, found, k));
-        if (way < 2) check_same_triangle(found, x->left[k].factor, n);
+        if (way == 0) check_same_triangle(found, x->left[k].factor, n);
         check_triangle(found, x->left[k].factor, n, rounding_of(x));
         assert_int_equal(hd_history_has_snapshot(past, k), k % 3 == 0);
         if (k % 3 == 0) check_snapshot(x, past, k);

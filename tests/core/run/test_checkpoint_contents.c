@@ -86,7 +86,7 @@ static void contents_that_no_run_has_are_refused(void **state)
         {"trajectory q p t", 4, 1e9, 0, "ahead"},
         {"trajectory wrap cell", 0, 0, 1000, "cell"},
         {"trajectory wrap cell", 1, 0, 1000, "out of its range"},
-        {"schedule phase", 0, 0, 4, "out of its range"},
+        {"schedule stage", 0, 0, 4, "out of its range"},
         {"schedule start", 0, 1e9, 0, "schedule"},
         {"schedule samples", 0, 0, 0, "schedule"},
         {"schedule piece", 0, 0, 1000000, "make up a sample"},

@@ -307,23 +307,21 @@ static void check_same(const hd_covariant *c, const hd_covariant *want, double t
                     tolerance);
 }
 
-/** The same triangles give the same numbers; those computed again are the same to rounding of Q,
+/** Triangles that are computed again are the same to rounding of Q,
  * eps condition, which a vector that leans little out of those before it feels the more. */
-static void all_storages_give_the_same(void **state)
+static void both_storages_give_the_same(void **state)
 {
     (void)state;
     hd_scene_def scene = windows_scene(6, HD_PERIODIC, HD_PERIODIC);
-    strcpy(scene.covariant_folder, ".");
-    windows w[3];
-    for (int storage = 0; storage < 3; storage++) {
+    windows w[2];
+    for (int storage = 0; storage < 2; storage++) {
         scene.covariant_storage = (hd_storage)storage;
         w[storage] = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
         windows_finish(&w[storage], 20);
     }
-    check_same(w[HD_STORAGE_FILE].c, w[HD_STORAGE_MEMORY].c, 0.0);
     check_same(w[HD_STORAGE_RECOMPUTE].c, w[HD_STORAGE_MEMORY].c,
                64.0 * DBL_EPSILON * w[0].f.worst);
-    for (int storage = 0; storage < 3; storage++) windows_free(&w[storage]);
+    for (int storage = 0; storage < 2; storage++) windows_free(&w[storage]);
 }
 
 /** In memory a ring grows as it is needed, once. */
@@ -508,7 +506,7 @@ int main(void)
         cmocka_unit_test(windows_follow_each_other),
         cmocka_unit_test(looks_that_fall_elsewhere_shorten_nothing),
         cmocka_unit_test(exponents_are_those_of_the_frame),
-        cmocka_unit_test(all_storages_give_the_same),
+        cmocka_unit_test(both_storages_give_the_same),
         cmocka_unit_test(later_windows_take_no_memory),
         cmocka_unit_test(a_window_without_room_is_lost_and_the_next_is_not),
         cmocka_unit_test(too_little_room_is_refused_with_the_numbers),

@@ -50,7 +50,7 @@ static double bytes_for(int exponents, unsigned observe)
 static void the_trajectory_alone_is_all_there_is(void **state)
 {
     (void)state;
-    const size_t run_itself = 1000 + HD_FOLDER_MAX;
+    const size_t run_itself = 1000;
     const hd_scene_def scene = small(HD_EXPONENTS_NONE, 0);
     const ledger before = ledger_now();
     hd_trajectory *trajectory;

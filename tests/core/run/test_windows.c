@@ -282,34 +282,6 @@ static void too_little_room_is_found_when_windows_begin(void **state)
     assert_int_equal(run_to_a_fault(&scene), HD_NO_ROOM);
 }
 
-static void a_folder_that_is_none_is_refused(void **state)
-{
-    (void)state;
-    char message[700] = "";
-    hd_scene_def scene = small();
-    hd_run *run;
-    scene.covariant_storage = HD_STORAGE_FILE;
-    strcpy(scene.covariant_folder, "no/such/folder");
-    assert_int_equal(hd_run_create(&run, &scene, message, sizeof message), HD_REFUSED);
-    assert_string_equal(message, "covariant_folder = no/such/folder: No such file or directory");
-}
-
-/** Disks have less. */
-static void more_than_is_free_is_refused(void **state)
-{
-    (void)state;
-    char message[700] = "";
-    hd_scene_def scene = small();
-    hd_run *run;
-    scene.covariant_storage = HD_STORAGE_FILE;
-    strcpy(scene.covariant_folder, ".");
-    scene.covariant_window = 1e12;
-    scene.covariant_memory = 1e15;
-    scene.duration = 0.0;
-    assert_int_equal(hd_run_create(&run, &scene, message, sizeof message), HD_REFUSED);
-    assert_non_null(strstr(message, "GB, must be at most what is free in covariant_folder, "));
-}
-
 /** Once its ring has gone round, a run with windows takes no more memory. */
 static void later_windows_take_no_memory(void **state)
 {
@@ -336,8 +308,6 @@ int main(void)
         cmocka_unit_test(the_positive_half_has_no_spaces),
         cmocka_unit_test(too_long_a_window_is_refused),
         cmocka_unit_test(too_little_room_is_found_when_windows_begin),
-        cmocka_unit_test(a_folder_that_is_none_is_refused),
-        cmocka_unit_test(more_than_is_free_is_refused),
         cmocka_unit_test(later_windows_take_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
