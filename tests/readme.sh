@@ -57,7 +57,7 @@ type_in() {
             run bash -ec "${1/scene:=covariant/scene:=$PWD/few.yaml}"
             ;;
         *rviz:=true*) opens_rviz bash -ec "$1" ;;
-        *'hdlyap view') beside_a_node opens_rviz bash -ec "$1" ;;
+        *rviz.launch) beside_a_node opens_rviz bash -ec "$1" ;;
         *follow* | rostopic*) beside_a_node bash -ec "timeout 60 $1" ;;
         *) run bash -ec "$1" ;;
     esac
