@@ -76,15 +76,14 @@ def advertised():
     """Topic -> type, of the table of topics and of those advertised by name."""
     text = sources()
     names = dict(re.findall(r'\[(TOPIC_\w+)\] = \{"(\w+)"', text))
-    structs = {
-        topic: struct or 'hdr_run_info'
-        for topic, struct in re.findall(r'\[(TOPIC_\w+)\] = (?:(hdr_\w+)|run_info)_advertise', text)
-    }
+    structs = dict(re.findall(r'\[(TOPIC_\w+)\] = (hdr_\w+?)_advertise', text))
     assert names.keys() == structs.keys()
     found = {'~' + name: structs[topic] for topic, name in names.items()}
     found.update(
         (name, struct)
-        for struct, name in re.findall(r'(hdr_\w+)_advertise\([^;"]*"([~/]\w+)"', text)
+        for struct, name in re.findall(
+            r'(hdr_\w+?)_advertise(?:_latched)?\([^;"]*"([~/]\w+)"', text
+        )
     )
     return {name: type_of(struct) for name, struct in found.items()}
 
@@ -333,7 +332,7 @@ class Text(unittest.TestCase):
         known |= names_of_messages()
         for path in documents():
             for name in re.findall(r'\b(?:hdr?_|HDR?_)\w+', read(path)):
-                stem = re.sub('_(advertise|publish|subscribe|callback)$', '', name)
+                stem = re.sub('_(advertise(_latched)?|publish|subscribe|callback)$', '', name)
                 self.assertTrue(known & {name, stem} or stem == 'hdr_x', (path, name))
 
     def test_files(self):
