@@ -2,6 +2,7 @@
  * work; `publishing` around messages, so that nothing follows the last one. */
 #include "worker.h"
 
+#include <errno.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
