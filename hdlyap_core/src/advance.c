@@ -66,7 +66,7 @@ static void learn_step(hd_run *run)
 hd_status hd_advance(hd_run *run, hd_event_log *log)
 {
     const double start = hd_clock_now(), left = run->plan.end - run->now;
-    const double most = fmax(run->view.interval, hd_advance_shortest(run));
+    const double most = fmax(run->watch.interval, hd_advance_shortest(run));
     const double end = left <= most ? run->plan.end : run->now + left / ceil(left / most);
     HD_TRY(hd_trajectory_extend(run->trajectory, log, end));
     run->now = end;

@@ -15,8 +15,8 @@ double hd_advance_longest(const hd_run *run);
 /** Plans the step from now to at most `stop`. */
 void hd_advance_plan(hd_run *run, double stop);
 
-/** Moves the disks on to the end of the planned step, or as far as a view lets it; the log may be
- * NULL. Fails as hd_trajectory_extend. */
+/** Moves the disks on to the end of the planned step, or as far as a watcher lets it; the log may
+ * be NULL. Fails as hd_trajectory_extend. */
 HD_MUST_CHECK hd_status hd_advance(hd_run *run, hd_event_log *log);
 
 #endif

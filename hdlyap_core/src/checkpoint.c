@@ -52,7 +52,7 @@ static void clocks_archive(hd_run *run, hd_archive *archive)
     run->frame_started = carried >= 0 ? now - carried : 0.0;
 }
 
-/** A view can stop a run in the middle of a step that is planned. */
+/** A watcher can stop a run in the middle of a step that is planned. */
 static void plan_archive(hd_step_plan *plan, hd_archive *archive)
 {
     hd_archive_double(archive, "run plan begin", &plan->begin);

@@ -20,7 +20,7 @@ const hd_steps *hd_run_steps(const hd_run *run) { return run->steps; }
 const hd_phases *hd_run_phases(const hd_run *run) { return run->phases; }
 const hd_covariant *hd_run_covariant(const hd_run *run) { return run->covariant; }
 
-hd_columns hd_run_columns(const hd_run *run) { return run->view.columns; }
+hd_columns hd_run_columns(const hd_run *run) { return run->watch.columns; }
 
 int hd_run_samples_per_report(const hd_run *run)
 {

@@ -95,7 +95,7 @@ static hd_status prepare(hd_run *run, char *message, size_t size)
     const double limit = scene->interval > 0 ? scene->interval : INFINITY;
     run->sample_max = HD_COLLISIONS_PER_SAMPLE / per_disk;
     hd_advance_first(run, per_disk);
-    run->view = (hd_view){.interval = INFINITY, .first = run->vectors};
+    run->watch = (hd_watch){.interval = INFINITY, .first = run->vectors};
     run->interval = hd_interval_first(2.0 / per_disk, limit, scene->accuracy);
     run->schedule = hd_schedule_of(scene);
     if (run->vectors == 0) return HD_OK;
@@ -292,9 +292,9 @@ static double phases_due(const hd_run *run)
 static hd_status measure(hd_run *run)
 {
     const double start = hd_clock_now();
-    run->view.columns = hd_frame_columns(run->frame);
+    run->watch.columns = hd_frame_columns(run->frame);
     hd_trajectory_state(run->trajectory, run->q, run->p);
-    HD_TRY(hd_modes_measure(run->modes, run->view.columns, run->q, run->p));
+    HD_TRY(hd_modes_measure(run->modes, run->watch.columns, run->q, run->p));
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
 }
@@ -346,7 +346,7 @@ static hd_status look(hd_run *run, int count)
     hd_frame_rewind(run->frame);
     if (status == HD_OK)
         status = hd_modes_measure(run->modes, hd_tail_columns(run->tail), run->q, run->p);
-    if (status == HD_OK) run->view.columns = hd_tail_columns(run->tail);
+    if (status == HD_OK) run->watch.columns = hd_tail_columns(run->tail);
     run->cost.replay += replayed - start;
     run->cost.modes += hd_clock_now() - replayed;
     run->cost.looks += status == HD_OK;
@@ -366,10 +366,10 @@ static hd_status find_slowest(hd_run *run, int count)
     return status == HD_ILL_CONDITIONED ? end_early(run) : status;
 }
 
-/** Number of slowest vectors that a view wants now. */
-static int viewed(const hd_run *run)
+/** Number of slowest vectors that a watcher wants now. */
+static int watched(const hd_run *run)
 {
-    return observing(run) && run->view.first < run->vectors ? run->vectors - run->view.first : 0;
+    return observing(run) && run->watch.first < run->vectors ? run->vectors - run->watch.first : 0;
 }
 
 /** In the middle of an interval: what is wanted there. What a look cannot give, an early end does;
@@ -381,18 +381,18 @@ static hd_status look_or_end(hd_run *run)
         return end_early(run);
     const bool follows = observing(run) && (run->observe & HD_OBSERVE_PHASES);
     const int count = follows ? hd_phases_vectors(run->steps) : 0;
-    const int most = count > viewed(run) ? count : viewed(run);
+    const int most = count > watched(run) ? count : watched(run);
     if (most == 0) return HD_OK;
     HD_TRY(find_slowest(run, most));
     if (count > 0 && run->now < run->interval_end) hd_phases_add(run->phases, run->steps, run->now);
     return HD_OK;
 }
 
-/** Between two cuts: what a view wants. */
+/** Between two cuts: what a watcher wants. */
 static hd_status show(hd_run *run)
 {
-    if (viewed(run) == 0) return HD_OK;
-    if (run->now < run->interval_end) HD_TRY(find_slowest(run, viewed(run)));
+    if (watched(run) == 0) return HD_OK;
+    if (run->now < run->interval_end) HD_TRY(find_slowest(run, watched(run)));
     return run->now == run->interval_end ? measure(run) : HD_OK;
 }
 
@@ -452,7 +452,7 @@ static void plan_interval(hd_run *run)
 hd_status hd_run_step(hd_run *run)
 {
     run->report_due = run->fields_due = false;
-    run->view.columns.count = 0;
+    run->watch.columns.count = 0;
     if (run->schedule.phase == HD_FINISHED) return HD_OK;
     const bool with_frame = run->frame && run->schedule.phase != HD_EQUILIBRATING;
     if (with_frame) hd_blas_use_threads(run->threads); /* with OpenMP: of the calling thread */
@@ -485,9 +485,9 @@ hd_status hd_run_reset_average(hd_run *run)
     return HD_OK;
 }
 
-void hd_run_view(hd_run *run, double interval, int first)
+void hd_run_watch(hd_run *run, double interval, int first)
 {
     HD_ASSERT(interval > 0.0 && first >= 0);
-    run->view.interval = interval;
-    run->view.first = first;
+    run->watch.interval = interval;
+    run->watch.first = first;
 }

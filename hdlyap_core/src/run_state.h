@@ -9,19 +9,19 @@
 #include "schedule.h"
 #include "tail.h"
 
-/** The step that the disks are in: what is learnt of it waits for its end, however often a view
+/** The step that the disks are in: what is learnt of it waits for its end, however often a watcher
  * stops it. */
 typedef struct hd_step_plan {
     double begin, end; /**< simulated times */
     uint64_t events;   /**< before it */
 } hd_step_plan;
 
-/** What somebody looks at between orthonormalisations, see hd_run_view. */
-typedef struct hd_view {
+/** What somebody looks at between orthonormalisations, see hd_run_watch. */
+typedef struct hd_watch {
     double interval;    /**< INFINITY: nobody looks */
     int first;          /**< column from which vectors are wanted */
     hd_columns columns; /**< known at this very time */
-} hd_view;
+} hd_watch;
 
 struct hd_run {
     hd_scene_def scene;
@@ -44,7 +44,7 @@ struct hd_run {
     double step_max; /**< longest step that keeps to EVENTS_PER_STEP, as far as events are known */
     double sample_max; /**< simulated time of COLLISIONS_PER_SAMPLE */
     hd_step_plan plan;
-    hd_view view;
+    hd_watch watch;
     int vectors, threads;
     double now; /**< simulated time */
     bool report_due, fields_due;

@@ -198,17 +198,17 @@ static void exponents_agree_with_the_forward_ones(void **state)
 static void other_stages_do_not_disturb(void **state)
 {
     (void)state;
-    for (int viewed = 0; viewed < 2; viewed++) {
+    for (int watched = 0; watched < 2; watched++) {
         hd_scene_def scene = small();
         scene.interval = 0.0;
         scene.report_interval = 0.25;
         scene.observe |= HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_HYDRO;
         hd_run *run = created(&scene);
-        if (viewed) hd_run_view(run, 0.1, 8);
+        if (watched) hd_run_watch(run, 0.1, 8);
         finish(run);
         const hd_covariant *c = hd_run_covariant(run);
-        assert_in_range(hd_covariant_windows(c), viewed ? 8 : 11, 12);
-        assert_int_equal(hd_covariant_lost(c), viewed);
+        assert_in_range(hd_covariant_windows(c), watched ? 8 : 11, 12);
+        assert_int_equal(hd_covariant_lost(c), watched);
         /* rounding turns the space by eps times the worst condition that is let pass */
         const double condition = scene.accuracy / (2.0 * DBL_EPSILON);
         CHECK_CLOSE(hd_covariant_null_most(c), 0.0, 16.0 * DBL_EPSILON * condition);

@@ -44,21 +44,21 @@ static void check_same_phases(const hd_run *a, const hd_run *b)
 }
 
 /** Whoever only looks at the disks changes no bit, however short the steps become. */
-static void a_view_of_the_disks_changes_nothing(void **state)
+static void watching_the_disks_changes_nothing(void **state)
 {
     (void)state;
     const hd_scene_def scene = long_box(60.0);
-    hd_run *plain = created(&scene), *viewed = created(&scene);
-    hd_run_view(viewed, 0.037, hd_run_vectors(viewed));
-    const int few = finish(plain), many = finish(viewed);
+    hd_run *plain = created(&scene), *watched = created(&scene);
+    hd_run_watch(watched, 0.037, hd_run_vectors(watched));
+    const int few = finish(plain), many = finish(watched);
     assert_true(many > 105.0 / 0.037);
     assert_true(few < many / 10);
     for (int col = 0; col < hd_run_vectors(plain); col++)
         assert_true(hd_spectrum_exponent(hd_run_spectrum(plain), col) ==
-                    hd_spectrum_exponent(hd_run_spectrum(viewed), col));
-    check_same_phases(plain, viewed);
+                    hd_spectrum_exponent(hd_run_spectrum(watched), col));
+    check_same_phases(plain, watched);
     hd_run_free(plain);
-    hd_run_free(viewed);
+    hd_run_free(watched);
 }
 
 static double dot(hd_columns v, int a, hd_columns w, int b, int rows)
@@ -105,7 +105,7 @@ static void each_step_ends_with_the_vectors_wanted(void **state)
     int looked = 0, factored = 0;
     begin_to_look(run);
     while (hd_run_phase(run) != HD_FINISHED) {
-        hd_run_view(run, 0.25, n - WANTED);
+        hd_run_watch(run, 0.25, n - WANTED);
         CHECK_OK(hd_run_step(run));
         const hd_columns v = hd_run_columns(run);
         assert_true(v.count >= WANTED && v.first <= n - WANTED && v.first + v.count == n);
@@ -134,17 +134,17 @@ static void looking_spoils_no_exponent(void **state)
 {
     (void)state;
     const hd_scene_def scene = long_box(40.0);
-    hd_run *plain = created(&scene), *viewed = created(&scene);
-    hd_run_view(viewed, 0.3, hd_run_vectors(viewed) - WANTED);
+    hd_run *plain = created(&scene), *watched = created(&scene);
+    hd_run_watch(watched, 0.3, hd_run_vectors(watched) - WANTED);
     finish(plain);
-    finish(viewed);
-    const double bound = hd_run_cost(plain).error_bound + hd_run_cost(viewed).error_bound;
+    finish(watched);
+    const double bound = hd_run_cost(plain).error_bound + hd_run_cost(watched).error_bound;
     assert_true(bound > 0.0 && bound < 4e-8); /* accuracy 1e-8, stated with room [T6] */
     for (int col = 0; col < hd_run_vectors(plain); col++)
-        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(viewed), col),
+        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(watched), col),
                     hd_spectrum_exponent(hd_run_spectrum(plain), col), bound);
     hd_run_free(plain);
-    hd_run_free(viewed);
+    hd_run_free(watched);
 }
 
 /** In the middle of an interval nothing is known unless somebody wants it, and modes are wanted at
@@ -158,7 +158,7 @@ static void nobody_looks_nothing_is_known(void **state)
     assert_int_equal(hd_run_columns(run).count, 0);
     begin_to_look(run);
     hd_run_observe(run, 0);
-    hd_run_view(run, 0.1, 0);
+    hd_run_watch(run, 0.1, 0);
     while (hd_run_phase(run) != HD_FINISHED) {
         CHECK_OK(hd_run_step(run));
         known += hd_run_columns(run).count > 0;
@@ -172,7 +172,7 @@ static void nobody_looks_nothing_is_known(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_view_of_the_disks_changes_nothing),
+        cmocka_unit_test(watching_the_disks_changes_nothing),
         cmocka_unit_test(each_step_ends_with_the_vectors_wanted),
         cmocka_unit_test(looking_spoils_no_exponent),
         cmocka_unit_test(nobody_looks_nothing_is_known),

@@ -100,8 +100,8 @@ TEST(views, run_info)
                                2.5,
                                {awaited, 1},
                                8.5,
-                               "[T(1,0)]",
                                2.5,
+                               60,
                                "file",
                                60,
                                "before",
@@ -150,8 +150,8 @@ TEST(views, run_info)
     message.field_interval = 2.5;
     message.wait_for_subscribers = {"cost"};
     message.pace = 8.5;
-    message.marker_modes = "[T(1,0)]";
-    message.marker_rate = 2.5;
+    message.slow_vectors_rate = 2.5;
+    message.slow_vectors_count = 60;
     message.checkpoint = "file";
     message.checkpoint_interval = 60;
     message.resume = "before";
@@ -443,6 +443,36 @@ TEST(views, state)
     message.py = copy(view.py);
     EXPECT_EQ((std::vector<double>{1.5, 3e300, 5}), message.x);
     EXPECT_EQ((std::vector<double>{-2.25, 4e-300, 6}), message.y);
+    expect_both_ways(view, message);
+}
+
+TEST(views, slow_vectors)
+{
+    const uint8_t kind[] = {HDR_MODE_LP, HDR_MODE_T}, pairs[] = {4, 0};
+    const uint32_t nodes[] = {1, 2, 3};
+    const hdr_slow_vectors view = {
+        header,         "id",       1.5,      every(2),    every(2, 1), every(3),
+        every(3, 1),    1556,       2,        every(5),    {kind, 2},   {nodes, 2},
+        {nodes + 1, 2}, {pairs, 2}, every(1), every(1, 1), every(1, 2), every(2)};
+    hdlyap::SlowVectors message;
+    fill_header(message);
+    message.run_id = "id";
+    message.sim_time = 1.5;
+    message.x = copy(view.x);
+    message.y = copy(view.y);
+    message.px = copy(view.px);
+    message.py = copy(view.py);
+    message.first_index = 1556;
+    message.vectors = 2;
+    message.exponents = copy(view.exponents);
+    message.kind = {hdlyap::Mode::LP, hdlyap::Mode::T};
+    message.nx = {1, 2};
+    message.ny = {2, 3};
+    message.pairs = {4, 0};
+    message.a = copy(view.a);
+    message.b = copy(view.b);
+    message.dqx = copy(view.dqx);
+    message.dqy = copy(view.dqy);
     expect_both_ways(view, message);
 }
 

@@ -88,11 +88,11 @@ bool hd_run_fields_due(const hd_run *run);
  * A stage that nobody looks at is skipped: its averages miss that time, phases begin anew. */
 void hd_run_observe(hd_run *run, unsigned stages);
 
-/** For pictures: from now on no step is longer than `interval` [time units; INFINITY: nobody
+/** For who watches: from now on no step is longer than `interval` [time units; INFINITY: nobody
  * looks], and while the modes are observed each step ends with the vectors from column `first` on
  * known (hd_run_vectors or more: none), by a look at the slowest or, where that cannot give them,
  * an orthonormalisation. No average takes them up. */
-void hd_run_view(hd_run *run, double interval, int first);
+void hd_run_watch(hd_run *run, double interval, int first);
 
 /** The vectors known at the very time of the last step: all of them, the slowest, or none (count
  * 0). Their coefficients are in the snapshot of hd_run_modes. */

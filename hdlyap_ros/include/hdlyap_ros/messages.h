@@ -71,8 +71,8 @@ typedef struct hdr_run_info {
     double field_interval;
     hdr_strings wait_for_subscribers;
     double pace;
-    const char *marker_modes;
-    double marker_rate;
+    double slow_vectors_rate;
+    uint32_t slow_vectors_count;
     const char *checkpoint;
     double checkpoint_interval;
     const char *resume;
@@ -248,6 +248,20 @@ typedef struct hdr_state {
     double sim_time, kinetic_energy;
     hdr_doubles x, y, px, py;
 } hdr_state;
+
+/** hdlyap/SlowVectors */
+typedef struct hdr_slow_vectors {
+    hdr_header header;
+    const char *run_id;
+    double sim_time;
+    hdr_doubles x, y, px, py;
+    uint32_t first_index, vectors;
+    hdr_doubles exponents;
+    hdr_bytes kind;
+    hdr_uints nx, ny;
+    hdr_bytes pairs;
+    hdr_doubles a, b, dqx, dqy;
+} hdr_slow_vectors;
 
 /** hdr_cost.phase */
 enum { HDR_EQUILIBRATING, HDR_WARMING_UP, HDR_AVERAGING, HDR_FINISHED };

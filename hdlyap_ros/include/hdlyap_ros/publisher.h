@@ -18,6 +18,9 @@ typedef struct hdr_publisher hdr_publisher;
 /** Latched: who comes late gets the last message. */
 HDR_MUST_CHECK hdr_status hdr_run_info_advertise(hdr_publisher **out, hdr_node *node,
                                                  const char *topic);
+/** The same, with a queue of one: who is behind gets the newest only. */
+HDR_MUST_CHECK hdr_status hdr_slow_vectors_advertise(hdr_publisher **out, hdr_node *node,
+                                                     const char *topic);
 HDR_MUST_CHECK hdr_status hdr_spectrum_advertise(hdr_publisher **out, hdr_node *node,
                                                  const char *topic, int queue);
 HDR_MUST_CHECK hdr_status hdr_modes_advertise(hdr_publisher **out, hdr_node *node,
@@ -81,6 +84,8 @@ HDR_MUST_CHECK hdr_status hdr_hydro_publish(hdr_publisher *publisher, const hdr_
 HDR_MUST_CHECK hdr_status hdr_covariant_publish(hdr_publisher *publisher,
                                                 const hdr_covariant *view);
 HDR_MUST_CHECK hdr_status hdr_state_publish(hdr_publisher *publisher, const hdr_state *view);
+HDR_MUST_CHECK hdr_status hdr_slow_vectors_publish(hdr_publisher *publisher,
+                                                   const hdr_slow_vectors *view);
 HDR_MUST_CHECK hdr_status hdr_cost_publish(hdr_publisher *publisher, const hdr_cost *view);
 HDR_MUST_CHECK hdr_status hdr_diagnostic_publish(hdr_publisher *publisher,
                                                  const hdr_diagnostic *view);

@@ -73,6 +73,11 @@ hdr_status hdr_run_info_advertise(hdr_publisher **out, hdr_node *node, const cha
     return advertise<hdr_run_info>(out, node, topic, 1, true);
 }
 
+hdr_status hdr_slow_vectors_advertise(hdr_publisher **out, hdr_node *node, const char *topic)
+{
+    return advertise<hdr_slow_vectors>(out, node, topic, 1, true);
+}
+
 hdr_status hdr_markers_advertise(hdr_publisher **out, hdr_node *node, const char *topic)
 {
     return advertise<hdr_markers>(out, node, topic, 1, true);
@@ -92,6 +97,7 @@ hdr_status hdr_markers_advertise(hdr_publisher **out, hdr_node *node, const char
     HDR_PUBLISH(view)
 HDR_PUBLISH(hdr_run_info)
 HDR_PUBLISH(hdr_markers)
+HDR_PUBLISH(hdr_slow_vectors)
 HDR_TOPIC(hdr_spectrum)
 HDR_TOPIC(hdr_modes)
 HDR_TOPIC(hdr_steps)

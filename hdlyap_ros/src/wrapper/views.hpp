@@ -15,6 +15,7 @@
 #include <hdlyap/ModeField.h>
 #include <hdlyap/Modes.h>
 #include <hdlyap/RunInfo.h>
+#include <hdlyap/SlowVectors.h>
 #include <hdlyap/Spectrum.h>
 #include <hdlyap/State.h>
 #include <hdlyap/Steps.h>
@@ -194,9 +195,9 @@ template <> struct message_of<hdr_run_info> {
              v.report_interval, v.observables, v.max_wave_number, v.max_node, v.wave_nx, v.wave_ny,
              v.covariant_window, v.covariant_transient, v.covariant_sampling, v.covariant_memory,
              v.covariant_storage, v.covariant_folder, v.field_indices, v.field_interval,
-             v.wait_for_subscribers, v.pace, v.marker_modes, v.marker_rate, v.checkpoint,
-             v.checkpoint_interval, v.resume, v.resumed_time, v.threads, v.blas_threads,
-             v.blas_library, v.blas_kernel, v.blas_threading);
+             v.wait_for_subscribers, v.pace, v.slow_vectors_rate, v.slow_vectors_count,
+             v.checkpoint, v.checkpoint_interval, v.resume, v.resumed_time, v.threads,
+             v.blas_threads, v.blas_library, v.blas_kernel, v.blas_threading);
     }
 };
 
@@ -323,6 +324,15 @@ template <> struct message_of<hdr_state> {
     }
 };
 
+template <> struct message_of<hdr_slow_vectors> {
+    using type = hdlyap::SlowVectors;
+    template <class Stream, class View> static void fields(Stream &s, View &v)
+    {
+        pass(s, v.header, v.run_id, v.sim_time, v.x, v.y, v.px, v.py, v.first_index, v.vectors,
+             v.exponents, v.kind, v.nx, v.ny, v.pairs, v.a, v.b, v.dqx, v.dqy);
+    }
+};
+
 template <> struct message_of<hdr_cost> {
     using type = hdlyap::Cost;
     template <class Stream, class View> static void fields(Stream &s, View &v)
@@ -424,6 +434,7 @@ HDR_VIEW_TRAITS(hdr_mode_field)
 HDR_VIEW_TRAITS(hdr_hydro)
 HDR_VIEW_TRAITS(hdr_covariant)
 HDR_VIEW_TRAITS(hdr_state)
+HDR_VIEW_TRAITS(hdr_slow_vectors)
 HDR_VIEW_TRAITS(hdr_cost)
 HDR_VIEW_TRAITS(hdr_diagnostic)
 HDR_VIEW_TRAITS(hdr_float64)
@@ -464,6 +475,8 @@ template <> struct Serializer<hdr_hydro> : ViewSerializer<hdr_hydro> {
 template <> struct Serializer<hdr_covariant> : ViewSerializer<hdr_covariant> {
 };
 template <> struct Serializer<hdr_state> : ViewSerializer<hdr_state> {
+};
+template <> struct Serializer<hdr_slow_vectors> : ViewSerializer<hdr_slow_vectors> {
 };
 template <> struct Serializer<hdr_cost> : ViewSerializer<hdr_cost> {
 };
