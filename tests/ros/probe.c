@@ -162,7 +162,7 @@ void hd_hydro_measure(hd_hydro *hydro, const hd_steps *found, const hd_frame *fr
 #define TOPICS(DO)                                                                                 \
     DO(run_info) DO(spectrum)                                                                      \
     DO(modes) DO(steps) DO(lp_phases) DO(mode_field)                                               \
-    DO(hydro) DO(covariant) DO(state) DO(cost) DO(diagnostic) DO(markers)
+    DO(hydro) DO(covariant) DO(state) DO(cost) DO(diagnostic) DO(slow_vectors)
 #define COUNT_MESSAGES(topic)                                                                      \
     static atomic_long messages_##topic;                                                           \
     hdr_status hdr_##topic##_publish(hdr_publisher *publisher, const hdr_##topic *view)            \

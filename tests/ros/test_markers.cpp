@@ -543,7 +543,7 @@ TEST(heard, fields_of_a_bag)
 {
     hearing on;
     on.steps(true);
-    on.state(10.0);
+    on.state(9.0);
     on.field(10.0, HDR_MODE_T, 1, 7);
     on.field(10.0, HDR_MODE_LP, 0, 5);
     on.state(11.0); // is not drawn
