@@ -15,12 +15,12 @@ run_packages() {
                 ros-std-msgs libstd-msgs-dev python3-std-msgs \
                 ros-std-srvs libstd-srvs-dev python3-std-srvs \
                 ros-diagnostic-msgs libdiagnostic-msgs-dev python3-diagnostic-msgs \
-                ros-visualization-msgs libvisualization-msgs-dev python3-visualization-msgs libtf2-ros-dev \
+                ros-visualization-msgs libvisualization-msgs-dev python3-visualization-msgs libtf2-msgs-dev python3-tf2-msgs \
                 python3-rospy python3-rosbag python3-roslaunch python3-rospkg python3-yaml rosbash rviz
             ;;
         noetic)
             printf 'ros-noetic-%s\n' catkin message-generation message-runtime roscpp \
-                std-msgs std-srvs diagnostic-msgs visualization-msgs tf2-ros rospy rosbag roslaunch rosbash rviz
+                std-msgs std-srvs diagnostic-msgs visualization-msgs tf2-msgs rospy rosbag roslaunch rosbash rviz
             echo python3-rospkg python3-yaml
             ;;
     esac
@@ -32,10 +32,10 @@ test_packages() {
         debian)
             echo libclang-rt-dev librostest-dev python3-rostest python3-rostopic python3-rosnode \
                 python3-rosservice python3-rosgraph python3-roslib python3-rosmaster python3-rosmsg rospack-tools \
-                python3-rosgraph-msgs python3-tf2-msgs catkin-lint
+                python3-rosgraph-msgs catkin-lint
             ;;
         noetic)
-            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice rosgraph roslib rosmaster rosmsg rospack rosgraph-msgs tf2-msgs
+            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice rosgraph roslib rosmaster rosmsg rospack rosgraph-msgs
             echo python3-catkin-lint
             ;;
     esac
