@@ -5,7 +5,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 BUILD=$ROOT/build
-OPTIONS=$ROOT/hdlyap_ros/scripts/hdlyap_reproduce/options.py
+OPTIONS=$ROOT/hdlyap_ros/python/hdlyap/reproduce/options.py
 
 usage() {
     cat <<END

@@ -27,12 +27,14 @@ typedef struct row {
     double transient;
 } row;
 
-static const row rows[] = {{HD_STORAGE_MEMORY, 5},  {HD_STORAGE_MEMORY, 20},
-                           {HD_STORAGE_MEMORY, 50}, {HD_STORAGE_MEMORY, 100},
-                           {HD_STORAGE_FILE, 100},  {HD_STORAGE_RECOMPUTE, 100}};
+static const row rows[] = {{HD_STORAGE_MEMORY, 5},
+                           {HD_STORAGE_MEMORY, 20},
+                           {HD_STORAGE_MEMORY, 50},
+                           {HD_STORAGE_MEMORY, 100},
+                           {HD_STORAGE_RECOMPUTE, 100}};
 enum { ROWS = sizeof rows / sizeof *rows };
 
-static const char *const storages[] = {"memory", "file", "recompute"};
+static const char *const storages[] = {"memory", "recompute"};
 
 static hd_scene_def scene_of(const asked *a, row r)
 {
@@ -105,9 +107,9 @@ static void go(const asked *a, row r, table *t)
         fprintf(stderr, "hdlyap_covariant: %s\n", message);
         exit(2);
     }
-    while (hd_run_phase(run) < HD_AVERAGING) require(hd_run_step(run), "warm-up");
+    while (hd_run_stage(run) < HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     const hd_cost before = hd_run_cost(run);
-    while (hd_run_phase(run) < HD_FINISHED) require(hd_run_step(run), "run");
+    while (hd_run_stage(run) < HD_FINISHED) require(hd_run_advance(run), "run");
     tell(run, r, t, forward_seconds(&before));
     hd_run_free(run);
 }

@@ -7,7 +7,7 @@
 
 #include "gemm.h"
 #include "options.h"
-#include "prediction.h"
+#include "events/trajectory_state.h"
 #include "progress.h"
 #include "table.h"
 #include "timing.h"
@@ -46,13 +46,14 @@ static void raise(double *worst, double seen)
  * contact. */
 static double overlap_at_contact(hd_trajectory *tr)
 {
-    const int32_t i = hd_queue_next(&tr->queue);
-    if (i < 0 || hd_queue_kind(tr->queue.entry[i].key.order) != PAIR) return 0.0;
-    const prediction *next = &tr->predicted[i];
-    const hd_disk *a = &tr->disk[i], *b = &tr->disk[next->partner];
+    const int32_t i = hd_queue_next(&tr->motion.queue);
+    if (i < 0 || hd_queue_kind(tr->motion.queue.entry[i].key.order) != PAIR) return 0.0;
+    const prediction *next = &tr->motion.predicted[i];
+    const hd_disk *a = &tr->motion.disk[i], *b = &tr->motion.disk[next->partner];
     if (next->partner_collisions != b->collisions) return 0.0;
-    const hd_pair shift = {next->image[0] * tr->cells.box[0], next->image[1] * tr->cells.box[1]};
-    const hd_pair r = hd_contact_separation(a, b, shift, tr->queue.entry[i].key.t);
+    const hd_pair shift = {next->image[0] * tr->motion.cells.box[0],
+                           next->image[1] * tr->motion.cells.box[1]};
+    const hd_pair r = hd_contact_separation(a, b, shift, tr->motion.queue.entry[i].key.t);
     return 1.0 - sqrt(hd_contact_dot(r, r));
 }
 

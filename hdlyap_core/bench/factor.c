@@ -10,9 +10,9 @@
 #include <lapacke.h>
 #include <math.h>
 
-#include "check.h"
+#include "base/check.h"
 #include "columns.h"
-#include "interval.h"
+#include "tangent/interval.h"
 #include "timing.h"
 
 /** Loss of orthogonality that hd_run allows between measured states. */

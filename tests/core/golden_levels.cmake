@@ -3,10 +3,11 @@
 # expects the same events of every program.
 cmake_minimum_required(VERSION 3.16)
 
-set(SOURCES archive trajectory prediction fetch nearby cells queue lattice scene wave random memory status event_log)
+set(SOURCES base/archive base/random base/memory base/status scene/lattice scene/scene scene/scene_check scene/wave events/trajectory events/prediction
+  events/prefetch events/nearby events/cells events/queue events/event_log)
 list(TRANSFORM SOURCES PREPEND ${CORE}/src/)
 list(TRANSFORM SOURCES APPEND .c)
-set(TESTS ${CMAKE_CURRENT_LIST_DIR})
+set(TESTS ${CMAKE_CURRENT_LIST_DIR}/support)
 set(EXACT -std=c11 -ffp-contract=off -fno-math-errno -fno-trapping-math)
 set(LEVELS "-O0" "-O2" "-O3 -march=native")
 file(MAKE_DIRECTORY ${WORK})

@@ -12,7 +12,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "checkpoint.h"
+#include "run/checkpoint.h"
 
 /** Of a file before its arrays; of an array before its elements, with their number in the last
  * eight bytes. */
@@ -54,8 +54,8 @@ static void go_on(hd_run *run)
 {
     for (int step = 0; step < STEPS; step++) {
         const double before = hd_run_time(run);
-        const hd_phase phase = hd_run_phase(run);
-        if (phase == HD_FINISHED || hd_run_step(run) != HD_OK) return;
+        const hd_stage phase = hd_run_stage(run);
+        if (phase == HD_FINISHED || hd_run_advance(run) != HD_OK) return;
         require(hd_run_time(run) >= before, "the time goes back", "");
         require(isfinite(hd_run_time(run)), "the time is no number", "");
     }

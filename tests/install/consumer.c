@@ -18,8 +18,8 @@ int main(void)
     if (status == HD_REFUSED) {
         fprintf(stderr, "%s\n", message);
     }
-    while (status == HD_OK && hd_run_phase(run) != HD_FINISHED) {
-        status = hd_run_step(run);
+    while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) {
+        status = hd_run_advance(run);
     }
     if (status != HD_OK) {
         fprintf(stderr, "%s\n", hd_status_text(status));

@@ -2,7 +2,6 @@
 
 import itertools
 import os
-import sys
 
 import numpy as np
 import rosbag
@@ -22,11 +21,9 @@ from hdlyap.msg import (
     Step,
     Steps,
 )
+from hdlyap.plots import waves
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../hdlyap_ros/scripts')
-sys.path.insert(0, SCRIPTS)
-from hdlyap_plots import waves  # noqa: E402
-
 T, LP, ZERO = Step.T, Step.LP, Step.ZERO
 CURVES = {T: (1.4, 0.1), LP: (1.5, 0.5)}  # c, c2
 ERROR = 0.002  # of the exponents of steps

@@ -1,14 +1,15 @@
-"""`reproduce` with a part for each run of a plan instead of the paper's: parts_of.py RUN,RUN.. OPTION..
-HDLYAP_TEST_SILENCE: seconds that a node may be silent. HDLYAP_TEST_BROKEN: a part that fails."""
+"""`reproduce` with a part for each run of a plan instead of the paper's: parts_of.py RUN,RUN..
+OPTION.. HDLYAP_TEST_SILENCE: seconds that a node may be silent. HDLYAP_TEST_BROKEN: a part that
+fails."""
 
 import os
 import runpy
 import sys
 
 import made
-from hdlyap_plots.figures import plt
-from hdlyap_reproduce import parts, work
-from hdlyap_reproduce.row import Row
+from hdlyap.plots.figures import plt
+from hdlyap.reproduce import parts, work
+from hdlyap.reproduce.row import Row
 
 
 class Part:

@@ -3,8 +3,6 @@
  */
 #define _GNU_SOURCE /* RTLD_NEXT */
 #include <dlfcn.h>
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -16,7 +14,7 @@
 #include "hdlyap/pmode.h"
 #include "hdlyap/run.h"
 #include "hdlyap_ros/markers.h"
-#include "memory.h"
+#include "base/memory.h"
 
 static atomic_long steps, overlaps, states, halves, measures, phases, pmodes, hydros, allocations;
 
@@ -35,7 +33,7 @@ static double number(const char *variable)
 }
 
 /** PROBE_STEP_SECONDS: a step takes so much longer. PROBE_FAULT_AFTER: steps before one fails. */
-hd_status hd_run_step(hd_run *run)
+hd_status hd_run_advance(hd_run *run)
 {
     hd_status (*real)(hd_run *);
     const double seconds = number("PROBE_STEP_SECONDS"), fault_after = number("PROBE_FAULT_AFTER");
@@ -43,7 +41,7 @@ hd_status hd_run_step(hd_run *run)
     while (nanosleep(&left, &left)) continue;
     if ((double)atomic_fetch_add(&steps, 1) >= fault_after && fault_after > 0.0)
         return HD_ILL_CONDITIONED;
-    next(&real, "hd_run_step");
+    next(&real, "hd_run_advance");
     return real(run);
 }
 
@@ -86,15 +84,6 @@ void *realloc(void *block, size_t size)
     if (most > 0.0 && (double)size > most) return NULL;
     next(&real, "realloc");
     return real(block, size);
-}
-
-/** PROBE_DISK_FULL: no file gets room. */
-int posix_fallocate(int file, off_t start, off_t length)
-{
-    int (*real)(int, off_t, off_t);
-    if (getenv("PROBE_DISK_FULL")) return ENOSPC;
-    next(&real, "posix_fallocate");
-    return real(file, start, length);
 }
 
 /** PROBE_NAN: the first momentum is not a number. */

@@ -6,8 +6,8 @@ from math import sqrt
 import numpy as np
 
 import made
-from hdlyap_plots.phases import PhaseCourse
-from hdlyap_plots.run import Run
+from hdlyap.plots.phases import PhaseCourse
+from hdlyap.plots.run import Run
 
 COUNTS = {made.T: 2, made.LP: 4}
 
@@ -23,7 +23,7 @@ class Recorded(Run):
 
 
 class Bag:
-    """In place of hdlyap_reproduce.bag.Bag."""
+    """In place of hdlyap.reproduce.bag.Bag."""
 
     def __init__(self, recording, spectra=()):
         self.recording, self._spectra = recording, spectra
@@ -49,7 +49,8 @@ def info(disks, density, aspect, boundaries=('periodic', 'periodic'), **fields):
 
 
 def stairs(info, levels, size=40, error=1e-3):
-    """Spectrum of positive exponents whose last ones are stairs: (exponent, count), smallest first."""
+    """Spectrum of positive exponents whose last ones are stairs: (exponent, count), smallest
+    first."""
     small = list(itertools.chain(*([exponent] * count for exponent, count in levels)))[::-1]
     end = (4 * info.disks - info.zero_exponents) // 2
     large = np.linspace(small[0] + 0.1 * size, small[0] + 0.1, size - len(small))

@@ -5,9 +5,9 @@ import tempfile
 import unittest
 
 import made  # also finds the scripts
-from hdlyap_plots.figures.style import STYLE, plt
-from hdlyap_reproduce.bag import Bag
-from hdlyap_reproduce.row import HEADER
+from hdlyap.plots.figures.style import STYLE, plt
+from hdlyap.reproduce.bag import Bag
+from hdlyap.reproduce.row import HEADER
 
 
 class Part(unittest.TestCase):

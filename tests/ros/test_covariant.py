@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What a run says of its covariant vectors: window by window, right, and only to those who listen."""
+"""What a run says of its covariant vectors: window by window, right, and only to those who
+listen."""
 
 import math
 import os
@@ -108,8 +109,8 @@ class Windows(unittest.TestCase):
             self.assertEqual({len(getattr(message, name)) for name in OF_NEIGHBOURS}, {VECTORS - 1})
 
     def test_exponents_are_those_of_the_way_there(self):
-        """Averages over nearly the same time of nearly the same fluctuations: five errors are beyond chance.
-        Vanishing ones fall like ln(t) / t, which is no matter of chance."""
+        """Averages over nearly the same time of nearly the same fluctuations: five errors are
+        beyond chance. Vanishing ones fall like ln(t) / t, which is no matter of chance."""
         last = self.last
         for k, (back, there) in enumerate(zip(last.exponents, self.spectrum.exponents)):
             error = math.hypot(last.std_errors[k], self.spectrum.std_errors[k])
@@ -238,10 +239,6 @@ class Windows(unittest.TestCase):
 class Choices(Case):
     def test_storages_say_the_same(self):
         want = [plain(message) for message in self.run_of(threads=1)]
-        with tempfile.TemporaryDirectory() as folder:
-            got = self.run_of(threads=1, covariant_storage='file', covariant_folder=folder)
-            self.assertEqual(os.listdir(folder), [])
-        self.assertEqual([plain(message) for message in got], want)
         got = self.run_of(threads=1, covariant_storage='recompute')
         self.assertEqual([plain(message) for message in got], want)
 
@@ -280,7 +277,8 @@ class Choices(Case):
         )
 
     def test_goes_on_from_a_checkpoint(self):
-        """With the averages of its windows, what was observed and the parameters; windows may wait elsewhere."""
+        """With the averages of its windows, what was observed and the parameters; windows may wait
+        elsewhere."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, 'run.checkpoint')
             first = self.run_of(duration=60.0, checkpoint=path)
@@ -290,8 +288,7 @@ class Choices(Case):
                     resume=path,
                     duration=100.0,
                     wait_for_subscribers=['covariant', 'run_info'],
-                    covariant_storage='file',
-                    covariant_folder=folder,
+                    covariant_storage='recompute',
                 )
             )
             self.assertEqual(node.wait(), 0, node.text())
@@ -304,7 +301,7 @@ class Choices(Case):
         info = info.messages[0]
         self.assertEqual(
             (info.observables, info.covariant_window, info.covariant_storage),
-            (['spectrum', 'covariant', 'state'], WINDOW, 'file'),
+            (['spectrum', 'covariant', 'state'], WINDOW, 'recompute'),
         )
 
 
@@ -356,7 +353,8 @@ class Demand(Case):
 
 class Faults(Case):
     def test_no_room(self):
-        """Triangles of every interval need more than those of the longest ones, which it was begun with."""
+        """Triangles of every interval need more than those of the longest ones, which it was begun
+        with."""
         self.listen('covariant')
         node = self.start(
             dict(
@@ -373,14 +371,6 @@ class Faults(Case):
             ' need 0.00',
         )
 
-    def test_no_folder(self):
-        for folder, word in (
-            ('/nowhere/at all', 'No such file or directory'),
-            ('/dev/null', 'Not a directory'),
-        ):
-            node = self.start(dict(SCENE, covariant_storage='file', covariant_folder=folder))
-            self.refused(node, 4, 'covariant_folder = %s: %s' % (folder, word))
-
     def test_too_short_a_transient_is_warned_of(self):
         """Once; a long one is not."""
         for transient, lines in ((0.5, 1), (TRANSIENT, 0)):
@@ -394,15 +384,6 @@ class Faults(Case):
                 lines,
                 node.text(),
             )
-
-    def test_full_disk(self):
-        self.listen('covariant')
-        with tempfile.TemporaryDirectory() as folder:
-            node = self.start(
-                dict(SCENE, covariant_storage='file', covariant_folder=folder),
-                probe={'PROBE_DISK_FULL': '1'},
-            )
-            self.refused(node, 4, 'covariant_folder = %s: No space left on device' % folder)
 
     def test_not_a_number(self):
         covariant = self.listen('covariant')

@@ -15,10 +15,10 @@ import rosgraph
 from hdlyap.msg import Cost, LpPhase
 from made import LP, SCRIPTS, T
 from terminal import Terminal
-from hdlyap_follow import layout, panels
-from hdlyap_follow.screen import clean, cut
-from hdlyap_follow.watch import Speed, View, fill, lazy
-from hdlyap_plots.glyphs import Glyphs
+from hdlyap.follow import layout, panels
+from hdlyap.follow.screen import clean, cut
+from hdlyap.follow.watch import Speed, View, fill, lazy
+from hdlyap.plots.glyphs import Glyphs
 
 FOLLOW = os.path.join(SCRIPTS, 'follow')
 SIZES = (80, 24), (120, 40), (200, 60), (60, 15), (30, 5), (7, 2), (1, 1)
@@ -26,7 +26,7 @@ OBSERVED = ['spectrum', 'steps', 'lp_phases']
 PACED = dict(harness.MODES, equilibration=1.0, warmup=20.0, duration=0.0, pace=100.0)
 # a short run does not begin before it is watched
 SEEN = dict(wait_for_subscribers=['cost', 'spectrum'])
-SCREEN = 'from hdlyap_follow.screen import Screen\n'
+SCREEN = 'from hdlyap.follow.screen import Screen\n'
 
 
 def cost(**fields):
@@ -293,7 +293,7 @@ class OnATerminal(unittest.TestCase):
     """Of the terminal alone, without ROS."""
 
     def program(self, text):
-        terminal = Terminal([sys.executable, '-c', SCREEN + text], PYTHONPATH=SCRIPTS)
+        terminal = Terminal([sys.executable, '-c', SCREEN + text])
         self.addCleanup(terminal.stop)
         return terminal
 

@@ -63,7 +63,7 @@ class Agreement(unittest.TestCase):
 
     def test_wave_vectors(self):
         self.assertEqual(list(zip(self.info.wave_nx, self.info.wave_ny)), [(1, 0), (2, 0)])
-        self.assertEqual((self.info.max_node, self.info.max_wave_number), (0, 0.0))
+        self.assertEqual((self.info.max_mode_number, self.info.max_wave_number), (0, 0.0))
         half = [(Mode.T, 1, 2), (Mode.LP, 1, 4), (Mode.T, 2, 2), (Mode.LP, 2, 4)]
         self.assertEqual(
             [(s.kind, s.nx, s.expected, s.conjugate) for s in self.last('steps').steps],
@@ -243,7 +243,8 @@ class Agreement(unittest.TestCase):
             self.check_modulation(field, c)
 
     def check_modulation(self, field, c):
-        """The P field divided by the momenta is the pair's own modulation, as far as it spans it."""
+        """The P field divided by the momenta is the pair's own modulation, as far as it spans
+        it."""
         wave = math.sin if field.modulation[c] & 1 else math.cos
         a = [wave(field.wave_number * x) for x in field.x]
         for ratio in (field.p_over_px, field.p_over_py):

@@ -17,10 +17,10 @@ from std_msgs.msg import String
 
 import made
 from made import LP, SCRIPTS, T
-from hdlyap_plots import paper, recording, report, waves
-from hdlyap_plots.course import LIMIT, Course
-from hdlyap_plots.figures import modes, p_mode, phases, plt
-from hdlyap_plots.numbers import with_error
+from hdlyap.plots import paper, recording, report, waves
+from hdlyap.plots.course import LIMIT, Course
+from hdlyap.plots.figures import modes, p_mode, phases, plt
+from hdlyap.plots.numbers import with_error
 
 
 def files(*names):

@@ -10,7 +10,7 @@ import unittest
 import yaml
 
 import made
-from hdlyap_plots import recording, repetition
+from hdlyap.plots import recording, repetition
 
 SCENES = os.path.join(made.SCRIPTS, '../../launch/scenes')
 REPEAT = os.path.join(made.SCRIPTS, 'repeat')
@@ -68,7 +68,8 @@ class Repeat(unittest.TestCase):
         )
 
     def test_every_scene(self):
-        """What comes out is what went in, every parameter of it, and of the types that the node wants."""
+        """What comes out is what went in, every parameter of it, and of the types that the node
+        wants."""
         for name in sorted(os.listdir(SCENES)):
             with self.subTest(scene=name):
                 with open(os.path.join(SCENES, name)) as file:

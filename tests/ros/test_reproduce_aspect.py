@@ -8,9 +8,9 @@ import numpy as np
 import made
 import recorded
 from made import LP, T
-from hdlyap_plots import paper
-from hdlyap_reproduce import plan
-from hdlyap_reproduce.parts import aspect
+from hdlyap.plots import paper
+from hdlyap.reproduce import plan
+from hdlyap.reproduce.parts import aspect
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..')
 DISKS = {
@@ -63,7 +63,8 @@ class Aspect(unittest.TestCase):
         self.assertEqual(sorted(bags()), sorted(aspect.runs(None)))
 
     def test_wave_numbers_of_the_plan(self):
-        """All within what the rounding of N moves: k falls as N^-1/2, and N is rounded by a half."""
+        """All within what the rounding of N moves: k falls as N^-1/2, and N is rounded by a
+        half."""
         for quick in (False, True):
             planned = plan.runs(ROOT, quick)
             for which, _, nodes in aspect.SERIES:

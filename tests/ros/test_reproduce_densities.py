@@ -7,9 +7,9 @@ import numpy as np
 import made
 import recorded
 from made import LP, T
-from hdlyap_plots import paper
-from hdlyap_reproduce import crossing
-from hdlyap_reproduce.parts import densities
+from hdlyap.plots import paper
+from hdlyap.reproduce import crossing
+from hdlyap.reproduce.parts import densities
 
 OFF = 1.01  # our slopes over the paper's fits
 ERROR = 0.001  # relative, of exponents

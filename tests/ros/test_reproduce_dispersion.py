@@ -5,7 +5,7 @@ import unittest
 import made
 from made import LP, T
 from reproduced import Part
-from hdlyap_reproduce.parts import dispersion
+from hdlyap.reproduce.parts import dispersion
 
 
 class Dispersion(Part):

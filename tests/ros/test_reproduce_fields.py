@@ -7,9 +7,9 @@ import numpy as np
 import made
 from made import LP, T
 from reproduced import Part
-from hdlyap_plots import waves
-from hdlyap_reproduce import averages, projection
-from hdlyap_reproduce.parts import fields
+from hdlyap.plots import waves
+from hdlyap.reproduce import averages, projection
+from hdlyap.reproduce.parts import fields
 
 BOUNDARIES = ('periodic', 'reflecting')
 # least squares in 2N = 40 dimensions, all of order 1
@@ -90,7 +90,8 @@ def by_hand(info, letter, x, y, momenta):
 
 
 def field(info, one, share, letter, others, sim_time=150.0):
-    """A vector of (1,0), so much of it in its last field by hand; the rest knows nothing of any field of `others`."""
+    """A vector of (1,0), so much of it in its last field by hand; the rest knows nothing of any
+    field of `others`."""
     made_field = made.mode_field(info, one, sim_time=sim_time)
     x, y, *momenta = made.disks(info)
     inside = by_hand(info, letter, x, y, momenta)[-1]

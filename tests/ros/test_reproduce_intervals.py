@@ -7,7 +7,7 @@ import numpy as np
 import made
 from made import LP, T
 from reproduced import Part
-from hdlyap_reproduce.parts import intervals
+from hdlyap.reproduce.parts import intervals
 
 EXPONENTS = np.linspace(9, 3, 37)
 ACCURACY = 1e-8

@@ -9,8 +9,8 @@ from hdlyap.msg import LpPhase, LpPhases
 import made
 import recorded
 from made import LP, T
-from hdlyap_plots import paper
-from hdlyap_reproduce import crossing, slopes, stairs
+from hdlyap.plots import dispersion, paper
+from hdlyap.reproduce import crossing, slopes, stairs
 
 
 class Points(unittest.TestCase):
@@ -247,6 +247,14 @@ class Fits(unittest.TestCase):
         self.assertLess(calm.chi2, 1)
         self.assertAlmostEqual(wild.c_error / calm.c_error, np.sqrt(wild.chi2 / 6), places=9)
 
+    def test_one_wave_number(self):
+        """Of a square box, say: c alone, the mean of lambda / k."""
+        line = dispersion.Curve([0.1, 0.1], [0.14, 0.15], [1e-3, 1e-3])
+        self.assertAlmostEqual(line.c, 1.45)
+        self.assertEqual((line.c2, line.c2_error, line.freedom), (0.0, 0.0, 1))
+        self.assertAlmostEqual(line.chi2, 50.0)
+        self.assertAlmostEqual(line.c_error, np.sqrt(50.0 / 2) * 0.01)
+
     def test_too_few_points(self):
         self.assertIsNone(slopes.curve(self.points(1.4, 0.5, (0.1, 0.1))))
         self.assertIsNone(slopes.curve(self.points(1.4, 0.5, (0.1, 0.2), error=-1.0)))
@@ -256,7 +264,7 @@ class Fits(unittest.TestCase):
         numbers = (0.05, 0.1, 0.15)
         one = slopes.curve(self.points(1.4, 0.5, numbers))
         other = slopes.curve(self.points(1.428, 0.51, numbers))  # 2 % more at every k
-        difference, error = slopes.mean_difference(one, other, 0.05, 0.15)
+        difference, error = dispersion.mean_difference(one, other, 0.05, 0.15)
         self.assertAlmostEqual(difference, 0.02, places=12)
         # every exponent moved by its error, one after the other
         moved = [
@@ -267,7 +275,7 @@ class Fits(unittest.TestCase):
     def difference_with(self, numbers, which, i):
         pair = [self.points(1.4, 0.5, numbers), self.points(1.428, 0.51, numbers)]
         pair[which][i].exponent += 1e-3
-        return slopes.mean_difference(*map(slopes.Curve, pair), 0.05, 0.15)[0]
+        return dispersion.mean_difference(*map(slopes.curve, pair), 0.05, 0.15)[0]
 
 
 class Crossings(unittest.TestCase):
@@ -296,7 +304,8 @@ class Crossings(unittest.TestCase):
         apart = (density - 0.37) * (1 + density)  # a parabola: the cubic moves nothing
         errors = 1e-5 * np.arange(1, 9)
         _, error = crossing.measured(density, apart, errors)
-        # on its way through zero it rises by 1.37: Lagrange's polynomials of the four nearest, over that
+        # on its way through zero it rises by 1.37: Lagrange's polynomials of the four nearest, over
+        # that
         near = density[1:5]
         weights = [
             np.prod([(0.37 - other) / (one - other) for other in near if other != one])

@@ -7,9 +7,9 @@ import numpy as np
 import made
 import recorded
 from made import LP, T
-from hdlyap_plots import paper
-from hdlyap_reproduce import slopes
-from hdlyap_reproduce.parts import smallest
+from hdlyap.plots import paper
+from hdlyap.reproduce import slopes
+from hdlyap.reproduce.parts import smallest
 
 SHAPES = {
     '400_05': (400, 0.5),

@@ -6,8 +6,8 @@ import numpy as np
 
 import made
 from made import LP
-from hdlyap_reproduce import rotation
-from hdlyap_reproduce.parts import travelling
+from hdlyap.reproduce import rotation
+from hdlyap.reproduce.parts import travelling
 from turned import Turned, Wave, course
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The real rviz, on a screen of its own without a monitor: it shows what ~markers says, where it says so, live, to who comes
-late, and from a bag."""
+"""The real rviz, on a screen of its own without a monitor: it shows what ~markers says, where it
+says so, live, to who comes late, and from a bag."""
 
 import os
 import signal
@@ -24,7 +24,7 @@ import harness
 
 VIEW = roslib.packages.find_node('hdlyap', 'view')[0]
 SCREEN = (1360, 960)
-PAPER = (250, 251, 255)     # a background that nothing else has
+PAPER = (250, 251, 255)  # a background that nothing else has
 # steps within seconds, then slow enough to look on
 SCENE = dict(harness.MODES, warmup=40.0, duration=0.0, pace=2.0)
 
@@ -34,8 +34,11 @@ class Screen:
 
     def __init__(self):
         read, write = os.pipe()
-        self.server = subprocess.Popen(['Xvfb', '-displayfd', str(write), '-screen', '0', '%dx%dx24' % SCREEN],
-                                       pass_fds=[write], stderr=subprocess.DEVNULL)
+        self.server = subprocess.Popen(
+            ['Xvfb', '-displayfd', str(write), '-screen', '0', '%dx%dx24' % SCREEN],
+            pass_fds=[write],
+            stderr=subprocess.DEVNULL,
+        )
         os.close(write)
         with os.fdopen(read) as number:
             self.env = dict(DISPLAY=':' + number.readline().strip(), LIBGL_ALWAYS_SOFTWARE='1')
@@ -43,7 +46,11 @@ class Screen:
     def shot(self):
         """Pixels of the screen, [row, column, colour]."""
         with tempfile.NamedTemporaryFile(suffix='.png') as file:
-            subprocess.run(['import', '-window', 'root', 'png24:' + file.name], check=True, env=dict(os.environ, **self.env))
+            subprocess.run(
+                ['import', '-window', 'root', 'png24:' + file.name],
+                check=True,
+                env=dict(os.environ, **self.env),
+            )
             return np.rint(255 * matplotlib.image.imread(file.name)[:, :, :3]).astype(int)
 
     def close(self):
@@ -79,7 +86,9 @@ class Paper:
         column = self.middle[0] + (x - self.view['X']) * scale
         row = self.middle[1] - (y - self.view['Y']) * scale
         row, column = int(round(row)), int(round(column))
-        return self.shot[row - around:row + around + 1, column - around:column + around + 1].reshape(-1, 3)
+        return self.shot[
+            row - around : row + around + 1, column - around : column + around + 1
+        ].reshape(-1, 3)
 
     def has(self, x, y, colour, around=1, tolerance=45):
         wanted = 255 * np.array([colour.r, colour.g, colour.b])
@@ -94,8 +103,8 @@ def middles(marker):
     points = marker.points
     if marker.type == Marker.LINE_LIST:
         return [(0.5 * (a.x + b.x), 0.5 * (a.y + b.y)) for a, b in zip(points[::2], points[1::2])]
-    if marker.type == Marker.TRIANGLE_LIST:     # heads of arrows: their shafts are a pixel wide
-        heads = [points[k + 6:k + 9] for k in range(0, len(points), 9)]
+    if marker.type == Marker.TRIANGLE_LIST:  # heads of arrows: their shafts are a pixel wide
+        heads = [points[k + 6 : k + 9] for k in range(0, len(points), 9)]
         return [(sum(p.x for p in head) / 3, sum(p.y for p in head) / 3) for head in heads]
     return [(p.x, p.y) for p in points]
 
@@ -104,10 +113,12 @@ def part_seen(paper, marker):
     """Of what a marker draws, the part that has its colour on the screen."""
     if marker.type == Marker.TEXT_VIEW_FACING:
         place = marker.pose.position
-        return float(paper.is_inked(place.x, place.y, int(0.6 * marker.scale.z * paper.view['Scale']) + 1))
+        return float(
+            paper.is_inked(place.x, place.y, int(0.6 * marker.scale.z * paper.view['Scale']) + 1)
+        )
     places = middles(marker)
     colours = marker.colors or [marker.color] * len(places)
-    if marker.type == Marker.SPHERE_LIST:       # shaded, and an arrow lies on their middle
+    if marker.type == Marker.SPHERE_LIST:  # shaded, and an arrow lies on their middle
         seen = [paper.is_inked(x + 0.3, y + 0.25, 1) for x, y in places]
     else:
         seen = [paper.has(x, y, colour) for (x, y), colour in zip(places, colours)]
@@ -119,14 +130,15 @@ def drawn(picture):
 
 
 class Rviz(unittest.TestCase):
-
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         self.screen = Screen()
         self.addCleanup(self.screen.close)
         self.pictures = []
-        self.listener = rospy.Subscriber('/hdlyap/markers', MarkerArray, self.pictures.append, queue_size=None)
+        self.listener = rospy.Subscriber(
+            '/hdlyap/markers', MarkerArray, self.pictures.append, queue_size=None
+        )
         self.addCleanup(self.listener.unregister)
 
     def start(self, params):
@@ -135,9 +147,18 @@ class Rviz(unittest.TestCase):
         return node
 
     def open_rviz(self):
-        rviz = harness.Process([VIEW, '--config', config(self.folder.name)], ROS_HOME=self.folder.name, **self.screen.env)
+        rviz = harness.Process(
+            [VIEW, '--config', config(self.folder.name)],
+            ROS_HOME=self.folder.name,
+            **self.screen.env,
+        )
         self.addCleanup(rviz.stop)
-        self.assertTrue(harness.wait_until(lambda: any(name.startswith('/rviz_') for name in self.subscribers())), rviz.text())
+        self.assertTrue(
+            harness.wait_until(
+                lambda: any(name.startswith('/rviz_') for name in self.subscribers())
+            ),
+            rviz.text(),
+        )
         with open(os.path.join(self.folder.name, 'view_hdlyap_markers.rviz')) as file:
             self.view = yaml.safe_load(file)['Visualization Manager']['Views']['Current']
         return rviz
@@ -148,7 +169,11 @@ class Rviz(unittest.TestCase):
 
     def modes_seen(self):
         """Both modes in the newest picture."""
-        names = {m.ns for m in drawn(self.pictures[-1]) if m.type == Marker.TRIANGLE_LIST} if self.pictures else ()
+        names = (
+            {m.ns for m in drawn(self.pictures[-1]) if m.type == Marker.TRIANGLE_LIST}
+            if self.pictures
+            else ()
+        )
         return len(names) == 2
 
     def pause(self, yes):
@@ -159,13 +184,15 @@ class Rviz(unittest.TestCase):
         """What the screen does not show of a picture: (namespace, type, part that is seen)."""
         shot = self.screen.shot()
         if not (shot == PAPER).all(axis=2).any():
-            return ['rviz']     # is not there yet
+            return ['rviz']  # is not there yet
         paper = Paper(shot, self.view)
         parts = [(m.ns, m.type, round(part_seen(paper, m), 2)) for m in drawn(picture)]
         return [part for part in parts if part[2] < 0.8]
 
     def check_shown(self, picture):
-        self.assertTrue(harness.wait_until(lambda: not self.missing(picture), 20), self.missing(picture))
+        self.assertTrue(
+            harness.wait_until(lambda: not self.missing(picture), 20), self.missing(picture)
+        )
 
     def rest(self):
         """Pauses the node, and returns its last picture."""
@@ -179,9 +206,9 @@ class Rviz(unittest.TestCase):
         node = self.start(SCENE)
         self.assertTrue(harness.wait_until(self.modes_seen), node.text())
         first = self.rest()
-        rviz = self.open_rviz()             # late: nothing more is published
+        rviz = self.open_rviz()  # late: nothing more is published
         self.check_shown(first)
-        self.pause(False)                   # live
+        self.pause(False)  # live
         count = len(self.pictures)
         self.assertTrue(harness.wait_until(lambda: len(self.pictures) > count + 20))
         second = self.rest()
@@ -190,7 +217,9 @@ class Rviz(unittest.TestCase):
         node.stop()
         viewer.stop()
         bag = os.path.join(self.folder.name, 'markers.bag')
-        with rosbag.Bag(bag, 'w') as file:  # and from a bag, in which the run stands where it did at first
+        with rosbag.Bag(
+            bag, 'w'
+        ) as file:  # and from a bag, in which the run stands where it did at first
             file.write('/hdlyap/markers', first)
         play = harness.Process(['rosbag', 'play', '--quiet', '--delay=1', '--keep-alive', bag])
         self.addCleanup(play.stop)
@@ -203,7 +232,9 @@ class View(unittest.TestCase):
         view = harness.Process([VIEW, '--config', 'none.rviz'])
         self.addCleanup(view.stop)
         self.assertEqual(view.wait(), 1)
-        self.assertEqual(view.text().strip(), "view: [Errno 2] No such file or directory: 'none.rviz'")
+        self.assertEqual(
+            view.text().strip(), "view: [Errno 2] No such file or directory: 'none.rviz'"
+        )
         view = harness.Process([VIEW], ROS_MASTER_URI='http://localhost:1', PYTHONUNBUFFERED='1')
         self.addCleanup(view.stop)
         self.assertTrue(harness.wait_until(lambda: 'Will keep trying' in view.text()), view.text())

@@ -8,11 +8,11 @@ import unittest
 import numpy as np
 
 import made
-from made import LP, SCRIPTS, T
+from made import LP, T
 from terminal import Terminal
-from hdlyap_plots import recording, report, verdict
-from hdlyap_plots.comparison import Comparison
-from hdlyap_plots.figures import plt, steps as figure_of_steps
+from hdlyap.plots import recording, report, verdict
+from hdlyap.plots.comparison import Comparison
+from hdlyap.plots.figures import plt, steps as figure_of_steps
 
 EXPONENTS = np.linspace(9, 3, 37)
 
@@ -81,14 +81,13 @@ class Long(Bag):
                 '-c',
                 '''
 import itertools, time
-from hdlyap_plots.progress import Progress
+from hdlyap.plots.progress import Progress
 ticks = itertools.count()
 time.monotonic = lambda: 0.1 * next(ticks)
 for number in Progress('reading').over(range(1000), 1000):
     pass
 ''',
-            ],
-            PYTHONPATH=SCRIPTS,
+            ]
         )
         self.addCleanup(terminal.stop)
         self.assertEqual(terminal.wait(), 0)

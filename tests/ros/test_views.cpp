@@ -137,15 +137,14 @@ TEST(views, run_info)
     message.report_interval = 7;
     message.observables = {"spectrum", "state"};
     message.max_wave_number = 0.25;
-    message.max_node = 9;
+    message.max_mode_number = 9;
     message.wave_nx = {1, 0, 4294967295};
     message.wave_ny = {0, 4294967295};
     message.covariant_window = 10;
     message.covariant_transient = 11;
     message.covariant_sampling = 13;
     message.covariant_memory = 14;
-    message.covariant_storage = "file";
-    message.covariant_folder = "folder";
+    message.covariant_storage = "recompute";
     message.field_indices = "[1, 5]";
     message.field_interval = 2.5;
     message.wait_for_subscribers = {"cost"};

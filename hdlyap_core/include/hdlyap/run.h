@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "hdlyap/covariant.h"
+#include "hdlyap/interval.h"
 #include "hdlyap/ortho.h"
 #include "hdlyap/phases.h"
 #include "hdlyap/spectrum.h"
@@ -14,20 +15,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef enum hd_phase { HD_EQUILIBRATING, HD_WARMING_UP, HD_AVERAGING, HD_FINISHED } hd_phase;
-
-/** Why an interval between orthonormalisations is not longer. */
-typedef enum hd_limit {
-    HD_LIMIT_SCHEDULE,  /**< a sample ends: the next one would not fit whole between reports */
-    HD_LIMIT_CONDITION, /**< rounding would exceed the accuracy asked for */
-    HD_LIMIT_GROWTH,    /**< twice the one before: the conditioning is still being learnt */
-    HD_LIMIT_OVERFLOW,  /**< vectors would outgrow their numbers */
-    HD_LIMIT_SCENE,     /**< hd_scene_def.interval */
-    HD_LIMIT_EVENTS, /**< the log of events would take too much memory, or the wait for an answer */
-    HD_LIMIT_LOOK,   /**< vectors were wanted for a report */
-    HD_LIMIT_REPAIR  /**< it was longer, and had to be taken back */
-} hd_limit;
 
 /** What the run pays for, since its start unless said otherwise. */
 typedef struct hd_cost {
@@ -60,16 +47,16 @@ typedef struct hd_cost {
 
 typedef struct hd_run hd_run;
 
-/** HD_REFUSED with its line in message as by hd_scene_check (message may be NULL). */
+/** HD_REFUSED with its line in `message` as by hd_scene_check (`message` may be NULL). */
 HD_MUST_CHECK hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message,
                                       size_t size);
 void hd_run_free(hd_run *run);
 
 /** Goes on by one interval; short enough (a fraction of a second for N below 1000) to be
  * interrupted between two calls. Does nothing once HD_FINISHED. */
-HD_MUST_CHECK hd_status hd_run_step(hd_run *run);
+HD_MUST_CHECK hd_status hd_run_advance(hd_run *run);
 
-/** True if the last step ended at a multiple of the report interval. Spectrum, modes, steps and the
+/** True if the last call ended at a multiple of the report interval. Spectrum, modes, steps and the
  * frame are then those of the last orthonormalisation, hd_spectrum_time after the averaging began:
  * at most an interval ago, at once if the hydrodynamic response is looked at, or fields that are
  * due. Phases are those of the very time. */
@@ -80,7 +67,7 @@ bool hd_run_report_due(const hd_run *run);
  * report. Not kept in a checkpoint. */
 void hd_run_fields_every(hd_run *run, double interval);
 
-/** True if the last step ended at such a report: if they are looked at (HD_OBSERVE_FIELDS), the
+/** True if the last call ended at such a report: if they are looked at (HD_OBSERVE_FIELDS), the
  * frame is orthonormalised at this very time. */
 bool hd_run_fields_due(const hd_run *run);
 
@@ -88,20 +75,20 @@ bool hd_run_fields_due(const hd_run *run);
  * A stage that nobody looks at is skipped: its averages miss that time, phases begin anew. */
 void hd_run_observe(hd_run *run, unsigned stages);
 
-/** For who watches: from now on no step is longer than `interval` [time units; INFINITY: nobody
- * looks], and while the modes are observed each step ends with the vectors from column `first` on
- * known (hd_run_vectors or more: none), by a look at the slowest or, where that cannot give them,
- * an orthonormalisation. No average takes them up. */
+/** For who watches: from now on no call goes on by more than `interval` [time units; INFINITY:
+ * nobody watches], and while the modes are observed each ends with the vectors from column `first`
+ * on known (hd_run_vectors or more: none), by a look at the slowest or, where that cannot give
+ * them, an orthonormalisation. No average takes them up. */
 void hd_run_watch(hd_run *run, double interval, int first);
 
-/** The vectors known at the very time of the last step: all of them, the slowest, or none (count
+/** The vectors known at the very time of the last call: all of them, the slowest, or none (count
  * 0). Their coefficients are in the snapshot of hd_run_modes. */
 hd_columns hd_run_columns(const hd_run *run);
 
-/** Starts the averages afresh at the present time. Fails as hd_run_step does. */
+/** Starts the averages afresh at the present time. Fails as hd_run_advance does. */
 HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 
-hd_phase hd_run_phase(const hd_run *run);
+hd_stage hd_run_stage(const hd_run *run);
 double hd_run_time(const hd_run *run); /**< simulated time since the start */
 const hd_scene_def *hd_run_scene(const hd_run *run);
 int hd_run_vectors(const hd_run *run); /**< n, 0 without exponents */

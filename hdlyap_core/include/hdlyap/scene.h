@@ -14,11 +14,14 @@ extern "C" {
 
 typedef enum hd_boundary { HD_PERIODIC, HD_REFLECTING } hd_boundary;
 
+/** Stages of a run, one after the other: disks alone; with the frame; averages are taken; done. */
+typedef enum hd_stage { HD_EQUILIBRATING, HD_WARMING_UP, HD_AVERAGING, HD_FINISHED } hd_stage;
+
 /** Values of hd_scene_def.exponents that are not a plain number. */
 enum { HD_EXPONENTS_NONE = 0, HD_EXPONENTS_POSITIVE = -1, HD_EXPONENTS_ALL = -2 };
 
-/** hd_scene_def.observe; phases, fields and hydro need steps, which need modes: these come with
- * them. */
+/** hd_scene_def.observe: what is computed beyond the exponents. Phases, fields and hydro need
+ * steps, which need modes: these come with them. */
 enum {
     HD_OBSERVE_MODES = 1,     /**< weights of every vector */
     HD_OBSERVE_STEPS = 2,     /**< degenerate sets, dispersion */
@@ -31,11 +34,8 @@ enum {
 /** Where the triangles that covariant vectors need wait for the way back. */
 typedef enum hd_storage {
     HD_STORAGE_MEMORY,
-    HD_STORAGE_FILE,     /**< one without a name */
     HD_STORAGE_RECOMPUTE /**< they are computed again, from some frames and the events */
 } hd_storage;
-
-enum { HD_FOLDER_MAX = 512 };
 
 typedef struct hd_scene_def {
     int disks;      /**< N, 2 .. 1000000 */
@@ -56,10 +56,11 @@ typedef struct hd_scene_def {
     double report_interval; /**< simulated time between reports, > 0 */
     unsigned observe;       /**< stages beyond the exponents: a set of HD_OBSERVE_*, 0 = none */
     double
-        /** Wave vectors up to this |k| are classified; 0 = by max_node [1/sigma] */
+        /** Wave vectors up to this |k| are classified; 0 = by max_mode_number [1/sigma] */
         max_wave_number;
-    int max_node; /**< wave vectors of up to so many nodes per direction; 0 = 2, or as sampled */
-    int threads;  /**< 0 = as many as the machine has and the work is worth */
+    int max_mode_number; /**< wave vectors of up to so many nodes per direction; 0 = 2, or as
+                            sampled */
+    int threads;         /**< 0 = as many as the machine has and the work is worth */
 
     /** Time units at a stretch for which covariant vectors are computed, > 0 */
     double covariant_window;
@@ -68,13 +69,12 @@ typedef struct hd_scene_def {
     double covariant_sampling; /**< time units between two looks at them, > 0 */
     double covariant_memory;   /**< what may wait for the way back [bytes], > 0 */
     hd_storage covariant_storage;
-    char covariant_folder[HD_FOLDER_MAX]; /**< of a file for it; must be there */
 } hd_scene_def;
 
 /** The paper's periodic scene: 780 disks, density 0.8, aspect 0.867. */
 hd_scene_def hd_scene_def_default(void);
 
-/** HD_OK, or HD_REFUSED with one line in message: the parameter, its value, what is allowed. */
+/** HD_OK, or HD_REFUSED with one line in `message`: the parameter, its value, what is allowed. */
 HD_MUST_CHECK hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size);
 
 /** Box edges [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx. */

@@ -35,13 +35,6 @@ typedef struct hd_dispersion {
     double c2, c2_error; /**< [sigma^2/time unit] */
 } hd_dispersion;
 
-/** A set is resolved if of each of its steps at least this part of the expected multiplicity is
- * found, beyond what random vectors would show. */
-#define HD_STEP_THRESHOLD 0.5
-
-/** Larger sets are not resolved. */
-enum { HD_STEP_VECTORS_MAX = 64 };
-
 typedef struct hd_steps hd_steps;
 
 /** For the fields of `modes`, which lives longer. HD_NO_MEMORY. */
@@ -55,6 +48,9 @@ void hd_steps_clear(hd_steps *steps);
 void hd_steps_sample(hd_steps *steps, const hd_spectrum *spectrum, double length);
 /** Finds the sets from running averages of weights and exponents. Cost O(n subspaces). */
 void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum);
+/** A step is resolved if at least this part of its expected multiplicity is found, beyond what
+ * random vectors would show. */
+double hd_steps_threshold(void);
 /** Counts the finds that changed any set: what was followed over a change is to be begun anew. */
 long hd_steps_changes(const hd_steps *steps);
 

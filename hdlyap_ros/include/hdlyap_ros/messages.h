@@ -63,10 +63,10 @@ typedef struct hdr_run_info {
     double interval, accuracy, report_interval;
     hdr_strings observables;
     double max_wave_number;
-    uint32_t max_node;
+    uint32_t max_mode_number;
     hdr_uints wave_nx, wave_ny;
     double covariant_window, covariant_transient, covariant_sampling, covariant_memory;
-    const char *covariant_storage, *covariant_folder;
+    const char *covariant_storage;
     const char *field_indices;
     double field_interval;
     hdr_strings wait_for_subscribers;

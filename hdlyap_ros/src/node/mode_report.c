@@ -219,7 +219,7 @@ static bool fill_steps(mode_report *m, hdr_steps *view, const hd_run *run)
         .run_id = m->to->run_id,
         .sim_time = hd_run_time(run),
         .averaged_time = hd_spectrum_time(hd_run_spectrum(run)),
-        .threshold = HD_STEP_THRESHOLD,
+        .threshold = hd_steps_threshold(),
         .steps = m->step,
         .count = m->steps,
         .v_phases = (uint32_t)v.phases,

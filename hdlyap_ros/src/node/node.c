@@ -1,10 +1,8 @@
 /** hdlyap_node: reads the parameters, starts the worker, looks after it until the end. */
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "diagnostics.h"
@@ -92,28 +90,12 @@ static int read_settings(app *a)
     return EXIT_SUCCESS;
 }
 
-/** Of the file for covariant vectors, which will have no name. */
-static hd_status check_folder(const hd_scene_def *def, char *message, size_t size)
-{
-    struct stat found;
-    const bool needed = def->observe & HD_OBSERVE_COVARIANT &&
-                        def->covariant_storage == HD_STORAGE_FILE;
-    if (!needed) return HD_OK;
-    errno = 0;
-    if (stat(def->covariant_folder, &found) == 0 && !S_ISDIR(found.st_mode)) errno = ENOTDIR;
-    if (!errno && access(def->covariant_folder, W_OK | X_OK) == 0) return HD_OK;
-    snprintf(message, size, "covariant_folder = %.200s: %s", def->covariant_folder,
-             strerror(errno));
-    return HD_FILE_FAULT;
-}
-
 /** A run whose checkpoints could not be written is not begun. */
 static int create_run(app *a)
 {
     char message[512] = "";
     const settings *set = &a->set;
     hd_status status = keeper_check(set, message, sizeof message);
-    if (status == HD_OK) status = check_folder(&set->def, message, sizeof message);
     if (status == HD_OK && *set->resume)
         status = hd_run_resume(&a->run, set->resume, &set->def, message, sizeof message);
     else if (status == HD_OK)

@@ -55,7 +55,7 @@ progress progress_of(const hd_run *run)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     return (progress){
-        .phase = hd_run_phase(run),
+        .phase = hd_run_stage(run),
         .time = hd_run_time(run),
         .collisions = hd_trajectory_collisions(hd_run_trajectory(run)),
         .cost = hd_run_cost(run),
@@ -223,7 +223,7 @@ static hd_status publish_state(report *rep, const hd_run *run)
     return outlets_sent(hdr_state_publish(rep->out.publisher[TOPIC_STATE], &view), TOPIC_STATE);
 }
 
-static hd_status publish_cost(report *rep, const progress *now, hd_phase phase)
+static hd_status publish_cost(report *rep, const progress *now, hd_stage phase)
 {
     const hd_cost *cost = &now->cost;
     const hdr_cost view = {
@@ -277,7 +277,7 @@ static unsigned topics_due(const report *rep, const hd_run *run)
     if (!spectrum || !(hd_spectrum_time(spectrum) > 0.0)) set &= ~topic_bit(TOPIC_SPECTRUM);
     if (!modes || hd_modes_samples(modes) == 0) set &= ~of_modes;
     if (!hd_run_fields_due(run)) set &= ~topic_bit(TOPIC_FIELDS);
-    if (hd_run_phase(run) == HD_FINISHED) set &= ~topic_bit(TOPIC_COST);
+    if (hd_run_stage(run) == HD_FINISHED) set &= ~topic_bit(TOPIC_COST);
     return set & (rep->demand | ~of_modes);
 }
 

@@ -9,7 +9,7 @@
 
 /** What other threads may know of the run: a copy as of its last finished step. */
 typedef struct progress {
-    hd_phase phase;
+    hd_stage phase;
     double time;         /**< simulated time since the start */
     uint64_t collisions; /**< pairs, since the start */
     hd_cost cost;

@@ -69,13 +69,12 @@ static void fill_scene(hdr_run_info *info, const settings *set)
     info->accuracy = def->accuracy;
     info->report_interval = def->report_interval;
     info->max_wave_number = def->max_wave_number;
-    info->max_node = (uint32_t)def->max_node;
+    info->max_mode_number = (uint32_t)def->max_mode_number;
     info->covariant_window = def->covariant_window;
     info->covariant_transient = def->covariant_transient;
     info->covariant_sampling = def->covariant_sampling;
     info->covariant_memory = def->covariant_memory / BYTES_PER_GB;
     info->covariant_storage = settings_storage_name(def->covariant_storage);
-    info->covariant_folder = def->covariant_folder;
 }
 
 /** What it runs on. */

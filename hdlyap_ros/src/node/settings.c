@@ -149,9 +149,8 @@ static bool read_path(const reader *r, void *field)
            (is_one_line(*path) || reader_refuse(r, "a path in one line"));
 }
 
-static const char *const storage_names[] = {[HD_STORAGE_MEMORY] = "memory",
-                                            [HD_STORAGE_FILE] = "file",
-                                            [HD_STORAGE_RECOMPUTE] = "recompute"};
+static const char *const storage_names[] = {
+    [HD_STORAGE_MEMORY] = "memory", [HD_STORAGE_RECOMPUTE] = "recompute"};
 
 const char *settings_storage_name(hd_storage storage) { return storage_names[storage]; }
 
@@ -163,7 +162,7 @@ static bool read_storage(const reader *r, void *field)
     if (status == HDR_MISSING) return true;
     for (hd_storage s = HD_STORAGE_MEMORY; status == HDR_OK && s <= HD_STORAGE_RECOMPUTE; s++)
         if (strcmp(text, storage_names[s]) == 0) return *storage = s, true;
-    return reader_refuse(r, "memory, file or recompute");
+    return reader_refuse(r, "memory or recompute");
 }
 
 /** GB of a parameter, bytes of the core. */
@@ -175,17 +174,6 @@ static bool read_gigabytes(const reader *r, void *field)
     *bytes = gigabytes * BYTES_PER_GB;
     return (status == HDR_OK && gigabytes >= 1e-3 && gigabytes <= 1e6) ||
            reader_refuse(r, "from 0.001 to 1e6 [GB]");
-}
-
-static bool read_folder(const reader *r, void *field)
-{
-    const char *path = NULL;
-    const hdr_status status = hdr_param_string(r->params, r->name, &path);
-    if (status == HDR_MISSING) return true;
-    if (status != HDR_OK || !*path || !is_one_line(path) || strlen(path) >= HD_FOLDER_MAX)
-        return reader_refuse(r, "a path in one line, of at most 511 bytes");
-    strcpy(field, path);
-    return true;
 }
 
 static const struct parameter {
@@ -209,13 +197,12 @@ static const struct parameter {
     {"accuracy", read_double, offsetof(settings, def.accuracy)},
     {"report_interval", read_double, offsetof(settings, def.report_interval)},
     {"max_wave_number", read_double, offsetof(settings, def.max_wave_number)},
-    {"max_node", read_int, offsetof(settings, def.max_node)},
+    {"max_mode_number", read_int, offsetof(settings, def.max_mode_number)},
     {"covariant_window", read_double, offsetof(settings, def.covariant_window)},
     {"covariant_transient", read_double, offsetof(settings, def.covariant_transient)},
     {"covariant_sampling", read_double, offsetof(settings, def.covariant_sampling)},
     {"covariant_memory", read_gigabytes, offsetof(settings, def.covariant_memory)},
     {"covariant_storage", read_storage, offsetof(settings, def.covariant_storage)},
-    {"covariant_folder", read_folder, offsetof(settings, def.covariant_folder)},
     {"field_indices", read_field_indices, offsetof(settings, fields)},
     {"slow_vectors_rate", read_double, offsetof(settings, slow_vectors_rate)},
     {"slow_vectors_count", read_int, offsetof(settings, slow_vectors_count)},
@@ -313,8 +300,8 @@ static bool check_modes(const settings *set, reader *r)
     const bool observed = set->observables & OF_WAVES;
     r->name = "max_wave_number";
     if (set->def.max_wave_number != 0.0 && !observed) return reader_refuse(r, allowed);
-    r->name = "max_node";
-    if (set->def.max_node != 0 && !observed) return reader_refuse(r, allowed);
+    r->name = "max_mode_number";
+    if (set->def.max_mode_number != 0 && !observed) return reader_refuse(r, allowed);
     r->name = "field_indices";
     return set->fields.count == 0 || (set->observables & topic_bit(TOPIC_FIELDS)) ||
            reader_refuse(r, "steps unless fields is an observable");
@@ -336,8 +323,6 @@ static bool check_covariant(const settings *set, reader *r)
         {"covariant_sampling", def->covariant_sampling != usual.covariant_sampling, "5" UNLESS},
         {"covariant_memory", def->covariant_memory != usual.covariant_memory, "4" UNLESS},
         {"covariant_storage", def->covariant_storage != usual.covariant_storage, "memory" UNLESS},
-        {"covariant_folder", strcmp(def->covariant_folder, usual.covariant_folder) != 0,
-         "/tmp" UNLESS},
 #undef UNLESS
     };
     if (set->observables & topic_bit(TOPIC_COVARIANT)) return true;

@@ -110,7 +110,7 @@ static int first_of(const slow_vectors_report *r, const hd_run *run)
 {
     const hd_steps *steps = hd_run_steps(run);
     const int asked = r->set->slow_vectors_count;
-    if (!steps || hd_run_phase(run) != HD_AVERAGING) return r->end;
+    if (!steps || hd_run_stage(run) != HD_AVERAGING) return r->end;
     if (asked > 0) return asked < r->end ? r->end - asked : 0;
     const int t = lowest_of(steps, HD_MODE_T, r->end), lp = lowest_of(steps, HD_MODE_LP, r->end);
     return t < lp ? t : lp;
@@ -119,7 +119,7 @@ static int first_of(const slow_vectors_report *r, const hd_run *run)
 void slow_vectors_report_demand(slow_vectors_report *r, hd_run *run)
 {
     const bool watched = slow_vectors_report_watched(r), paced = r->set->pace > 0.0;
-    const bool averaging = hd_run_phase(run) == HD_AVERAGING;
+    const bool averaging = hd_run_stage(run) == HD_AVERAGING;
     const double between = paced && averaging
                                ? fmax(r->set->pace / r->set->slow_vectors_rate, DBL_MIN)
                                : INFINITY;

@@ -165,8 +165,8 @@ static hd_status publish(worker *w)
 static hd_status paced_step(worker *w)
 {
     const double begin = clock_seconds(), from = hd_run_time(w->run);
-    const bool paced = hd_run_phase(w->run) == HD_AVERAGING;
-    const hd_status status = hd_run_step(w->run);
+    const bool paced = hd_run_stage(w->run) == HD_AVERAGING;
+    const hd_status status = hd_run_advance(w->run);
     if (paced) w->due = fmax(w->due, begin) + (hd_run_time(w->run) - from) / w->set->pace;
     return status;
 }
@@ -178,7 +178,7 @@ static hd_status step(worker *w)
     report_demand_slow(w->rep, w->run);
     hd_status status = reset_if_asked(w);
     keeper_touch(&w->keep);
-    if (status == HD_OK) status = w->set->pace > 0.0 ? paced_step(w) : hd_run_step(w->run);
+    if (status == HD_OK) status = w->set->pace > 0.0 ? paced_step(w) : hd_run_advance(w->run);
     if (status != HD_OK) return status;
     status = publish(w);
     pthread_mutex_lock(&w->lock);
@@ -202,20 +202,15 @@ static hd_status finish(worker *w)
     return status;
 }
 
-/** What ended the run, while errno is as that has left it: the only file of a step is that of
- * covariant vectors. Lock held. */
+/** What ended the run. Lock held. */
 static void explain(worker *w, hd_status status)
 {
-    const int error = errno;
     const hd_scene_def *scene = hd_run_scene(w->run);
     const double interval = hd_run_cost(w->run).interval;
     char *fault = w->state.fault;
     const size_t size = sizeof w->state.fault;
     snprintf(fault, size, "%s", hd_status_text(status));
-    if (status == HD_FILE_FAULT)
-        snprintf(fault, size, "covariant_folder = %.150s: %s", scene->covariant_folder,
-                 strerror(error));
-    else if (status == HD_NO_ROOM && hd_covariant_check_room(scene, interval, fault, size) == HD_OK)
+    if (status == HD_NO_ROOM && hd_covariant_check_room(scene, interval, fault, size) == HD_OK)
         snprintf(fault, size, "%s = %.3g GB, orthonormalised more often than every %.3g time units",
                  hd_status_text(status), scene->covariant_memory / BYTES_PER_GB, interval);
 }
@@ -225,7 +220,7 @@ static void *work(void *context)
     worker *w = context;
     hd_status status = HD_OK;
     if (!wait_for_subscribers(w)) return NULL;
-    while (status == HD_OK && hd_run_phase(w->run) != HD_FINISHED && obey(w)) status = step(w);
+    while (status == HD_OK && hd_run_stage(w->run) != HD_FINISHED && obey(w)) status = step(w);
     if (status == HD_OK) status = finish(w);
     pthread_mutex_lock(&w->lock);
     if (status != HD_OK) explain(w, status);

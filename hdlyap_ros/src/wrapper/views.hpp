@@ -192,12 +192,12 @@ template <> struct message_of<hdr_run_info> {
         pass(s, v.header, v.run_id, v.version, v.scene, v.disks, v.density, v.aspect, v.box_x,
              v.box_y, v.boundary_x, v.boundary_y, v.seed, v.exponents, v.vectors, v.zero_exponents,
              v.equilibration, v.warmup, v.duration, v.target_std_error, v.interval, v.accuracy,
-             v.report_interval, v.observables, v.max_wave_number, v.max_node, v.wave_nx, v.wave_ny,
-             v.covariant_window, v.covariant_transient, v.covariant_sampling, v.covariant_memory,
-             v.covariant_storage, v.covariant_folder, v.field_indices, v.field_interval,
-             v.wait_for_subscribers, v.pace, v.slow_vectors_rate, v.slow_vectors_count,
-             v.checkpoint, v.checkpoint_interval, v.resume, v.resumed_time, v.threads,
-             v.blas_threads, v.blas_library, v.blas_kernel, v.blas_threading);
+             v.report_interval, v.observables, v.max_wave_number, v.max_mode_number, v.wave_nx,
+             v.wave_ny, v.covariant_window, v.covariant_transient, v.covariant_sampling,
+             v.covariant_memory, v.covariant_storage, v.field_indices, v.field_interval,
+             v.wait_for_subscribers, v.pace, v.slow_vectors_rate, v.slow_vectors_count, v.checkpoint,
+             v.checkpoint_interval, v.resume, v.resumed_time, v.threads, v.blas_threads,
+             v.blas_library, v.blas_kernel, v.blas_threading);
     }
 };
 

@@ -1,0 +1,156 @@
+/** ln diag R -> exponents, their errors, and what is summed up from them [T5] [T8]. One thread. */
+#include "hdlyap/spectrum.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "averages/archived.h"
+#include "averages/block_average.h"
+#include "base/check.h"
+#include "base/memory.h"
+
+struct hd_spectrum {
+    int rows, vectors;
+    double *sum;        /**< [vectors], of ln R_ll */
+    double *sample_sum; /**< [vectors], since the last sample */
+    double *local;      /**< [vectors], means over the last sample */
+    double *work;       /**< [vectors] */
+    double time, sample_time;
+    hd_block_average blocks;
+};
+
+static hd_status spectrum_allocate(hd_spectrum *spectrum)
+{
+    double **arrays[] = {&spectrum->sum, &spectrum->sample_sum, &spectrum->local, &spectrum->work};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
+        *arrays[k] = hd_memory_alloc((size_t)spectrum->vectors, sizeof(double));
+        if (!*arrays[k]) return HD_NO_MEMORY;
+    }
+    return hd_block_average_create(&spectrum->blocks, spectrum->vectors);
+}
+
+hd_status hd_spectrum_create(hd_spectrum **out, int rows, int vectors)
+{
+    HD_ASSERT(vectors >= 1 && vectors <= rows);
+    hd_spectrum *spectrum = hd_memory_alloc(1, sizeof *spectrum);
+    *out = NULL;
+    if (!spectrum) return HD_NO_MEMORY;
+    spectrum->rows = rows;
+    spectrum->vectors = vectors;
+    const hd_status status = spectrum_allocate(spectrum);
+    if (status == HD_OK)
+        *out = spectrum;
+    else
+        hd_spectrum_free(spectrum);
+    return status;
+}
+
+void hd_spectrum_free(hd_spectrum *spectrum)
+{
+    if (!spectrum) return;
+    hd_memory_free(spectrum->sum);
+    hd_memory_free(spectrum->sample_sum);
+    hd_memory_free(spectrum->local);
+    hd_memory_free(spectrum->work);
+    hd_block_average_clear(&spectrum->blocks);
+    hd_memory_free(spectrum);
+}
+
+void hd_spectrum_clear(hd_spectrum *spectrum)
+{
+    for (int col = 0; col < spectrum->vectors; col++)
+        spectrum->sum[col] = spectrum->sample_sum[col] = spectrum->local[col] = 0.0;
+    spectrum->time = spectrum->sample_time = 0.0;
+    hd_block_average_restart(&spectrum->blocks);
+}
+
+void hd_spectrum_add(hd_spectrum *spectrum, const double *log_stretch, double dt)
+{
+    HD_ASSERT(dt > 0);
+    for (int col = 0; col < spectrum->vectors; col++) {
+        spectrum->sum[col] += log_stretch[col];
+        spectrum->sample_sum[col] += log_stretch[col];
+    }
+    spectrum->time += dt;
+    spectrum->sample_time += dt;
+}
+
+void hd_spectrum_sample(hd_spectrum *spectrum)
+{
+    HD_ASSERT(spectrum->sample_time > 0);
+    for (int col = 0; col < spectrum->vectors; col++) {
+        spectrum->local[col] = spectrum->sample_sum[col] / spectrum->sample_time;
+        spectrum->work[col] = spectrum->local[col];
+        spectrum->sample_sum[col] = 0.0;
+    }
+    spectrum->sample_time = 0.0;
+    hd_block_average_add(&spectrum->blocks, spectrum->work);
+}
+
+double hd_spectrum_time(const hd_spectrum *spectrum) { return spectrum->time; }
+int hd_spectrum_vectors(const hd_spectrum *spectrum) { return spectrum->vectors; }
+
+double hd_spectrum_exponent(const hd_spectrum *spectrum, int col)
+{
+    HD_ASSERT(col >= 0 && col < spectrum->vectors);
+    return spectrum->time > 0 ? spectrum->sum[col] / spectrum->time : 0.0;
+}
+
+double hd_spectrum_std_error(const hd_spectrum *spectrum, int col)
+{
+    HD_ASSERT(col >= 0 && col < spectrum->vectors);
+    return hd_block_average_std_error(&spectrum->blocks, col);
+}
+
+double hd_spectrum_error_of_last(const hd_spectrum *spectrum, int count)
+{
+    double worst = 0.0;
+    for (int col = spectrum->vectors > count ? spectrum->vectors - count : 0;
+         col < spectrum->vectors; col++) {
+        const double error = hd_spectrum_std_error(spectrum, col);
+        worst = error >= 0 ? fmax(worst, error) : INFINITY; /* NaN is not known either */
+    }
+    return worst;
+}
+
+double hd_spectrum_local(const hd_spectrum *spectrum, int col)
+{
+    HD_ASSERT(col >= 0 && col < spectrum->vectors);
+    return spectrum->local[col];
+}
+
+double hd_spectrum_lambda_max(const hd_spectrum *spectrum)
+{
+    return hd_spectrum_exponent(spectrum, 0);
+}
+
+double hd_spectrum_ks_entropy(const hd_spectrum *spectrum)
+{
+    double sum = 0.0;
+    for (int col = 0; col < spectrum->vectors; col++)
+        sum += fmax(hd_spectrum_exponent(spectrum, col), 0.0);
+    return sum;
+}
+
+double hd_spectrum_pairing_error(const hd_spectrum *spectrum)
+{
+    if (spectrum->vectors < spectrum->rows) return -1.0;
+    double worst = 0.0;
+    for (int col = 0; col < spectrum->rows / 2; col++)
+        worst = fmax(worst, fabs(hd_spectrum_exponent(spectrum, col) +
+                                 hd_spectrum_exponent(spectrum, spectrum->rows - 1 - col)));
+    return worst;
+}
+
+void hd_spectrum_archive(hd_spectrum *spectrum, hd_archive *archive)
+{
+    const size_t n = (size_t)spectrum->vectors;
+    hd_archive_double(archive, "spectrum time", &spectrum->time);
+    hd_archive_double(archive, "spectrum sample time", &spectrum->sample_time);
+    hd_archive_doubles(archive, "spectrum sum", spectrum->sum, n);
+    hd_archive_doubles(archive, "spectrum sample sum", spectrum->sample_sum, n);
+    hd_archive_doubles(archive, "spectrum local", spectrum->local, n);
+    hd_block_average_archive(&spectrum->blocks, archive);
+    hd_archive_expect(archive, spectrum->time >= 0 && spectrum->sample_time >= 0, "spectrum time",
+                      "it is negative");
+}

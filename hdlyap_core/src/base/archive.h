@@ -1,0 +1,69 @@
+/** Named arrays in a file. One function of each part of a run both writes and reads its state: so
+ * what is written and what is read cannot differ.
+ *
+ * Each array is a record: name (HD_ARCHIVE_NAME bytes, zeros behind it), type (8 bytes: f8, i8 or
+ * S1 with zeros behind it, as numpy calls them), number of elements (i8), and the elements; in the
+ * byte order of the machine. */
+#ifndef HD_ARCHIVE_H
+#define HD_ARCHIVE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "hdlyap/status.h"
+
+enum { HD_ARCHIVE_NAME = 40 };
+
+typedef struct hd_archive {
+    FILE *file;
+    bool writing;
+    uint64_t bytes;    /**< written so far; of a file that is read: not yet read */
+    uint32_t crc;      /**< of what was written (CRC-32) */
+    hd_status status;  /**< the first failure; after it nothing is read or written any more */
+    const char *name;  /**< of the array that it happened at */
+    const char *fault; /**< NULL: see error */
+    int error;         /**< errno of a write that failed */
+} hd_archive;
+
+hd_archive hd_archive_writer(FILE *file);
+/** `bytes` are to be read, all of them: see hd_archive_end. */
+hd_archive hd_archive_reader(FILE *file, uint64_t bytes);
+
+/** What is read must be used only if this is HD_OK: HD_FILE_FAULT, HD_NO_MEMORY, or HD_NOT_FINITE
+ * when a number to be written is none. The reason is in name and fault. */
+HD_MUST_CHECK hd_status hd_archive_end(hd_archive *archive);
+
+/** The archive fails, unless it has failed before. */
+void hd_archive_fail(hd_archive *archive, hd_status status, const char *name, const char *fault);
+
+/** What was read cannot be: the archive fails, unless it has failed before or is being written. */
+void hd_archive_refuse(hd_archive *archive, const char *name, const char *fault);
+/** The same unless the condition holds. */
+void hd_archive_expect(hd_archive *archive, bool condition, const char *name, const char *fault);
+
+/** True while what is read can be relied on. */
+static inline bool hd_archive_good(const hd_archive *archive) { return archive->status == HD_OK; }
+
+/* Whole arrays. Numbers that are read are finite, integers from min to max. */
+
+void hd_archive_double(hd_archive *archive, const char *name, double *x);
+void hd_archive_doubles(hd_archive *archive, const char *name, double *x, size_t count);
+void hd_archive_int(hd_archive *archive, const char *name, int *x, int min, int max);
+void hd_archive_long(hd_archive *archive, const char *name, long *x, long min, long max);
+/** Any 64 bits. */
+void hd_archive_bits(hd_archive *archive, const char *name, uint64_t *x);
+/** Of elements of `size` bytes that are still to come. */
+void hd_archive_count(hd_archive *archive, const char *name, size_t *x, size_t size);
+/** In size bytes, zeros behind it. */
+void hd_archive_text(hd_archive *archive, const char *name, char *text, size_t size);
+
+/* An array in parts: its head, then all of its elements. */
+
+void hd_archive_of_doubles(hd_archive *archive, const char *name, size_t count);
+void hd_archive_of_ints(hd_archive *archive, const char *name, size_t count);
+void hd_archive_next_doubles(hd_archive *archive, double *x, size_t count);
+void hd_archive_next_int(hd_archive *archive, int *x, int min, int max);
+
+#endif

@@ -1,0 +1,12 @@
+/** The monotonic clock. */
+#define _POSIX_C_SOURCE 199309L
+#include "base/clock.h"
+
+#include <time.h>
+
+double hd_clock_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}

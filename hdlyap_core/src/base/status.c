@@ -1,0 +1,45 @@
+/** Texts of the statuses and the handler of broken contracts. */
+#include "base/check.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+const char *hd_status_text(hd_status status)
+{
+    switch (status) {
+#define HD_STATUS_CASE(name, text)                                                                 \
+    case name: return text;
+        HD_STATUS_LIST(HD_STATUS_CASE)
+#undef HD_STATUS_CASE
+    }
+    return "unknown status";
+}
+
+hd_status hd_refuse(char *message, size_t size, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    if (message && size > 0) vsnprintf(message, size, format, list);
+    va_end(list);
+    return HD_REFUSED;
+}
+
+static void print_and_abort(const char *condition, const char *file, int line)
+{
+    fprintf(stderr, "hdlyap: %s:%d: contract broken: %s\n", file, line, condition);
+    abort();
+}
+
+static hd_assert_handler assert_handler = print_and_abort;
+
+void hd_assert_handler_replace(hd_assert_handler handler)
+{
+    assert_handler = handler ? handler : print_and_abort;
+}
+
+void hd_assert_fail(const char *condition, const char *file, int line)
+{
+    assert_handler(condition, file, line);
+    abort(); /* a handler that returns must not let the caller go on */
+}

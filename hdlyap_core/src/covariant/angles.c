@@ -1,0 +1,126 @@
+/** Two sets of columns -> principal angles between what they span, by Bjoerck and Golub [T18].
+ *
+ * Q_a, Q_b: orthonormal bases by dgeqrf. The singular values of Q_a^T Q_b are the cosines; those
+ * of Q_b - Q_a (Q_a^T Q_b) are the sines, from which angles below pi / 4 are taken, as cosines near
+ * 1 do not know them. */
+#include "covariant/angles.h"
+
+#include <cblas.h>
+#include <float.h>
+#include <lapacke.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/check.h"
+#include "base/memory.h"
+
+struct hd_angles {
+    int rows, widest;
+    double *basis[2]; /**< [rows * widest] each */
+    double *product;  /**< [widest * widest] */
+    double *value[2]; /**< [widest]: sines, cosines; the latter also scalars of reflectors */
+    double *work;
+    int lwork;
+};
+
+/** Entries of workspace that LAPACK wants. */
+static int workspace(int rows, int widest)
+{
+    double qr = 0.0, q = 0.0, svd = 0.0, unused = 0.0;
+    (void)LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, rows, widest, &unused, rows, &unused, &qr, -1);
+    (void)LAPACKE_dorgqr_work(LAPACK_COL_MAJOR, rows, widest, widest, &unused, rows, &unused, &q,
+                              -1);
+    (void)LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'N', 'N', rows, widest, &unused, rows, &unused,
+                              &unused, 1, &unused, 1, &svd, -1);
+    return (int)fmax(fmax(qr, q), svd);
+}
+
+hd_status hd_angles_create(hd_angles **out, int rows, int widest)
+{
+    HD_ASSERT(widest >= 1 && widest <= rows);
+    hd_angles *angles = hd_memory_alloc(1, sizeof *angles);
+    const size_t wide = (size_t)widest, all = (size_t)rows * wide;
+    *out = NULL;
+    if (!angles) return HD_NO_MEMORY;
+    angles->rows = rows;
+    angles->widest = widest;
+    angles->lwork = workspace(rows, widest);
+    double **const array[] = {&angles->basis[0], &angles->basis[1], &angles->product,
+                              &angles->value[0], &angles->value[1], &angles->work};
+    const size_t size[] = {all, all, wide * wide, wide, wide, (size_t)angles->lwork};
+    for (size_t k = 0; k < sizeof size / sizeof *size; k++)
+        if (!(*array[k] = hd_memory_alloc(size[k], sizeof(double)))) {
+            hd_angles_free(angles);
+            return HD_NO_MEMORY;
+        }
+    *out = angles;
+    return HD_OK;
+}
+
+void hd_angles_free(hd_angles *angles)
+{
+    if (!angles) return;
+    for (int k = 0; k < 2; k++) {
+        hd_memory_free(angles->basis[k]);
+        hd_memory_free(angles->value[k]);
+    }
+    hd_memory_free(angles->product);
+    hd_memory_free(angles->work);
+    hd_memory_free(angles);
+}
+
+/** basis <- orthonormal, of the same span. Columns of numbers: LAPACK does not like others. */
+static hd_status orthonormalise(hd_angles *angles, double *basis, const double *c, hd_span span)
+{
+    const int rows = angles->rows;
+    double *tau = angles->value[1];
+    memcpy(basis, c + (size_t)span.first * (size_t)rows,
+           (size_t)span.count * (size_t)rows * sizeof *basis);
+    for (int col = 0; col < span.count; col++) {
+        double *column = basis + (size_t)col * (size_t)rows;
+        const double length = cblas_dnrm2(rows, column, 1);
+        if (!(length > 0 && length < INFINITY)) return HD_ILL_CONDITIONED;
+        cblas_dscal(rows, 1.0 / length, column, 1);
+    }
+    (void)LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, rows, span.count, basis, rows, tau, angles->work,
+                              angles->lwork);
+    for (int col = 0; col < span.count; col++)
+        if (!(fabs(basis[(size_t)col * (size_t)(rows + 1)]) > DBL_EPSILON))
+            return HD_ILL_CONDITIONED;
+    (void)LAPACKE_dorgqr_work(LAPACK_COL_MAJOR, rows, span.count, span.count, basis, rows, tau,
+                              angles->work, angles->lwork);
+    return HD_OK;
+}
+
+/** value <- singular values, largest first; the matrix is used up. */
+static hd_status singular_values(hd_angles *angles, double *value, double *matrix, int rows,
+                                 int columns)
+{
+    double unused = 0.0;
+    return LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'N', 'N', rows, columns, matrix, rows, value,
+                               &unused, 1, &unused, 1, angles->work, angles->lwork) == 0
+               ? HD_OK
+               : HD_ILL_CONDITIONED;
+}
+
+hd_status hd_angles_between(hd_angles *angles, double *angle, const double *c, hd_span a, hd_span b)
+{
+    const int rows = angles->rows;
+    if (a.count < b.count) return hd_angles_between(angles, angle, c, b, a);
+    HD_ASSERT(b.count >= 1 && a.count <= angles->widest);
+    double *qa = angles->basis[0], *qb = angles->basis[1], *sine = angles->value[0],
+           *cosine = angles->value[1];
+    HD_TRY(orthonormalise(angles, qa, c, a));
+    HD_TRY(orthonormalise(angles, qb, c, b));
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, a.count, b.count, rows, 1.0, qa, rows, qb,
+                rows, 0.0, angles->product, a.count);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, b.count, a.count, -1.0, qa, rows,
+                angles->product, a.count, 1.0, qb, rows);
+    HD_TRY(singular_values(angles, sine, qb, rows, b.count));
+    HD_TRY(singular_values(angles, cosine, angles->product, a.count, b.count));
+    for (int k = 0; k < b.count; k++) {
+        const double small = sine[b.count - 1 - k];
+        angle[k] = small < sqrt(0.5) ? asin(small) : acos(fmin(cosine[k], 1.0));
+    }
+    return HD_OK;
+}

@@ -1,0 +1,11 @@
+/** What a checkpoint holds of the averages of covariant vectors. */
+#ifndef HD_COVARIANT_ARCHIVED_H
+#define HD_COVARIANT_ARCHIVED_H
+
+#include "base/archive.h"
+#include "hdlyap/covariant.h"
+
+void hd_covariant_archive(hd_covariant *covariant, hd_archive *archive);
+void hd_splitting_archive(hd_splitting *splitting, hd_archive *archive);
+
+#endif

@@ -1,0 +1,487 @@
+/** Triangles of the forward pass -> covariant vectors of a window, and what is measured of them
+ * [T17] [T18].
+ *
+ * The history (history.h) reaches from the window's start to the transient's end. On the way back C
+ * is that of the end of the interval that is next: there vectors are looked at if they were kept,
+ * then C goes to the interval's start. */
+#include "hdlyap/covariant.h"
+
+#include <cblas.h>
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+#include "averages/archived.h"
+#include "base/check.h"
+#include "base/memory.h"
+#include "covariant/angles.h"
+#include "covariant/archived.h"
+#include "covariant/backward.h"
+#include "covariant/history.h"
+#include "covariant/localization.h"
+#include "modes/archived.h"
+
+/** Intervals that there is room for, over those that are expected: they vary. */
+static const double SPARE = 1.5;
+/** Times that are this close, as a part of what lies between two looks, are one. */
+static const double CLOSE = 1e-6;
+
+typedef enum way { FORWARD, THROUGH_TRANSIENT, THROUGH_WINDOW } way;
+
+struct hd_covariant {
+    hd_scene_def scene;
+    int rows, vectors, threads, unstable, centre;
+    hd_history *past;
+    hd_backward *start[2]; /**< two through the transient, the first through the window */
+    hd_spectrum *spectrum;
+    hd_splitting *splitting;
+    hd_localization *shape;
+    hd_modes *half[2];      /**< weights of the dq and of the dp halves */
+    hd_modes *of_frame;     /**< of the dq halves of the frame, at the same times */
+    hd_angles *spaces;      /**< of C's rows; NULL where there is no centre, as the next two */
+    hd_angles *null;        /**< of the vectors' rows */
+    double *null_columns;   /**< [2 * centre][rows]: the covariant centre, the null space */
+    double *factor;         /**< [vectors * vectors]; room for the centres of both starts, too */
+    double *growth, *grown; /**< [vectors]: of one interval, since the last look */
+    double *apart;          /**< [vectors]: sines between both starts where the last window ended */
+    double *frame, *q, *p;  /**< vectors [rows * vectors], state of a look */
+    double window, due;     /**< start of the window; time of the next look */
+    double grown_time;
+    double now; /**< of the forward pass */
+    double bytes;
+    way way;
+    long at;   /**< interval that is next on the way back */
+    long last; /**< interval that the window ends with */
+    long windows, lost, intervals;
+    uint64_t starts;
+    hd_covariant_apart spaces_apart;
+    double null_apart, null_apart_most;
+};
+
+/* ---- creation ------------------------------------------------------------------------------ */
+
+static hd_history_def past_of(const hd_scene_def *def, double interval)
+{
+    /* each ends with a look */
+    const double both = def->covariant_window + def->covariant_transient +
+                        2.0 * def->covariant_sampling;
+    const double intervals = ceil(SPARE * both / interval) + 8.0,
+                 looks = ceil(both / def->covariant_sampling) + 4.0;
+    const double most = 1e9; /* far beyond any room */
+    return (hd_history_def){.disks = def->disks,
+                            .vectors = hd_scene_vectors(def),
+                            .intervals = (long)fmin(intervals, most),
+                            .snapshots = (long)fmin(looks, most),
+                            .recompute = def->covariant_storage == HD_STORAGE_RECOMPUTE};
+}
+
+hd_status hd_covariant_check_room(const hd_scene_def *def, double interval, char *message,
+                                  size_t size)
+{
+    const hd_history_def past = past_of(def, interval);
+    const double bytes = hd_history_bytes(&past);
+    if (bytes <= def->covariant_memory) return HD_OK;
+    return hd_refuse(message, size,
+                     "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and "
+                     "%ld frames of %d vectors need %.3g GB, must be at most covariant_memory = "
+                     "%.3g GB",
+                     def->covariant_window, def->covariant_transient, past.intervals,
+                     past.snapshots, past.vectors, 1e-9 * bytes, 1e-9 * def->covariant_memory);
+}
+
+static hd_status allocate_arrays(hd_covariant *c)
+{
+    const size_t n = (size_t)c->vectors, rows = (size_t)c->rows, centres = 2 * (size_t)c->centre;
+    const struct {
+        double **array;
+        size_t size;
+    } wanted[] = {{&c->factor, n * (n > centres ? n : centres)},
+                  {&c->growth, n},
+                  {&c->grown, n},
+                  {&c->apart, n},
+                  {&c->frame, rows * n},
+                  {&c->q, rows / 2},
+                  {&c->p, rows / 2}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
+        if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
+            return HD_NO_MEMORY;
+    return HD_OK;
+}
+
+/** Spaces of both starts, and the centre beside the null space. */
+static hd_status allocate_spaces(hd_covariant *c)
+{
+    const int stable = c->vectors - c->unstable - c->centre;
+    const int widest = stable > c->centre ? stable : c->centre;
+    if (c->centre == 0) return HD_OK;
+    HD_TRY(hd_angles_create(&c->spaces, c->vectors, widest));
+    HD_TRY(hd_angles_create(&c->null, c->rows, c->centre));
+    c->null_columns = hd_memory_alloc(2 * (size_t)c->centre * (size_t)c->rows, sizeof(double));
+    return c->null_columns ? HD_OK : HD_NO_MEMORY;
+}
+
+static hd_status allocate(hd_covariant *c)
+{
+    HD_TRY(allocate_arrays(c));
+    HD_TRY(allocate_spaces(c));
+    for (int k = 0; k < 2; k++) {
+        HD_TRY(hd_backward_create(&c->start[k], c->vectors));
+        HD_TRY(hd_modes_create(&c->half[k], &c->scene, c->vectors, c->threads));
+    }
+    HD_TRY(hd_modes_create(&c->of_frame, &c->scene, c->vectors, c->threads));
+    HD_TRY(hd_spectrum_create(&c->spectrum, c->rows, c->vectors));
+    HD_TRY(hd_splitting_create(&c->splitting, c->vectors, c->unstable, c->centre));
+    return hd_localization_create(&c->shape, c->scene.disks, c->vectors);
+}
+
+hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int threads)
+{
+    const int positive = (4 * def->disks - hd_scene_zero_exponents(def)) / 2,
+              zero = hd_scene_zero_exponents(def);
+    *out = NULL;
+    hd_covariant *c = hd_memory_alloc(1, sizeof *c);
+    if (!c) return HD_NO_MEMORY;
+    c->scene = *def;
+    c->threads = threads;
+    c->rows = 4 * def->disks;
+    c->vectors = hd_scene_vectors(def);
+    c->centre = c->vectors >= positive + zero ? zero : 0;
+    c->unstable = c->centre > 0 ? positive
+                                : c->vectors; /* a part of the centre is no space of its own */
+    const hd_status status = allocate(c);
+    if (status != HD_OK) {
+        hd_covariant_free(c);
+        return status;
+    }
+    hd_covariant_clear(c);
+    *out = c;
+    return HD_OK;
+}
+
+void hd_covariant_free(hd_covariant *c)
+{
+    if (!c) return;
+    for (int k = 0; k < 2; k++) {
+        hd_backward_free(c->start[k]);
+        hd_modes_free(c->half[k]);
+    }
+    hd_modes_free(c->of_frame);
+    double *arrays[] = {c->factor, c->growth, c->grown, c->apart,
+                        c->frame,  c->q,      c->p,     c->null_columns};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) hd_memory_free(arrays[k]);
+    hd_history_free(c->past);
+    hd_spectrum_free(c->spectrum);
+    hd_splitting_free(c->splitting);
+    hd_localization_free(c->shape);
+    hd_angles_free(c->spaces);
+    hd_angles_free(c->null);
+    hd_memory_free(c);
+}
+
+/* ---- forward ------------------------------------------------------------------------------- */
+
+/** The first window of a stretch without gaps. */
+static hd_status begin_window(hd_covariant *c, hd_columns frame, double time)
+{
+    c->way = FORWARD;
+    c->window = c->now = time;
+    c->due = time + c->scene.covariant_sampling;
+    return hd_history_begin(c->past, frame, time);
+}
+
+/** Room for what this interval asks for. */
+static hd_status take_room(hd_covariant *c, double interval)
+{
+    hd_history_def past = past_of(&c->scene, interval);
+    past.threads = c->threads;
+    if (c->past && past.intervals <= c->intervals) return HD_OK;
+    if (hd_covariant_check_room(&c->scene, interval, NULL, 0) != HD_OK) return HD_NO_ROOM;
+    hd_history_free(c->past);
+    c->past = NULL;
+    c->intervals = past.intervals;
+    c->bytes = hd_history_bytes(&past);
+    return hd_history_create(&c->past, &past);
+}
+
+void hd_covariant_clear(hd_covariant *c)
+{
+    hd_spectrum_clear(c->spectrum);
+    hd_splitting_clear(c->splitting);
+    hd_localization_clear(c->shape);
+    for (int k = 0; k < 2; k++) hd_modes_clear(c->half[k]);
+    hd_modes_clear(c->of_frame);
+    c->windows = c->lost = 0;
+    c->null_apart = c->null_apart_most = -1.0;
+    c->spaces_apart = (hd_covariant_apart){-1.0, -1.0, -1.0};
+}
+
+hd_status hd_covariant_begin(hd_covariant *c, hd_columns frame, double time, double interval)
+{
+    HD_TRY(take_room(c, interval));
+    return begin_window(c, frame, time);
+}
+
+/** The interval that the window ends with, at the first look at which it is as long as asked; the
+ * past's end if that is yet to come. */
+static long window_last(const hd_covariant *c)
+{
+    const double asked = c->window + c->scene.covariant_window -
+                         CLOSE * c->scene.covariant_sampling;
+    long last = hd_history_first(c->past);
+    while (last < hd_history_end(c->past) &&
+           (!hd_history_has_snapshot(c->past, last) || hd_history_time(c->past, last) < asked))
+        last++;
+    return last;
+}
+
+/** The transient is that from the window's last look on. */
+static bool is_complete(const hd_covariant *c)
+{
+    const long last = window_last(c);
+    const double transient = c->scene.covariant_transient - CLOSE * c->scene.covariant_sampling;
+    return last < hd_history_end(c->past) && c->now >= hd_history_time(c->past, last) + transient;
+}
+
+static void begin_way_back(hd_covariant *c)
+{
+    for (int k = 0; k < 2; k++) hd_backward_start(c->start[k], c->scene.seed, c->starts++);
+    c->at = hd_history_end(c->past) - 1;
+    c->last = window_last(c);
+    memset(c->grown, 0,
+           (size_t)c->vectors * sizeof *c->grown); /* a way back may have been given up */
+    c->grown_time = 0.0;
+    c->way = THROUGH_TRANSIENT;
+}
+
+/** The next one gets room for intervals like those of this one, if there is so much. */
+static hd_status lose_window(hd_covariant *c, hd_columns frame, double time)
+{
+    const double count = (double)(hd_history_end(c->past) - hd_history_first(c->past) + 1);
+    const hd_status status = hd_covariant_begin(c, frame, time, (time - c->window) / count);
+    c->lost++;
+    return status == HD_NO_ROOM ? begin_window(c, frame, time) : status;
+}
+
+hd_status hd_covariant_add(hd_covariant *c, const hd_ortho *ortho, hd_columns frame,
+                           const hd_event_log *log, double t_begin, double t_end)
+{
+    HD_ASSERT(c->way == FORWARD);
+    if (hd_history_is_full(c->past)) return lose_window(c, frame, c->now + t_end - t_begin);
+    HD_TRY(hd_history_add(c->past, hd_ortho_factor(ortho), frame, log, t_begin, t_end));
+    c->now = hd_history_time(c->past, hd_history_end(c->past) - 1);
+    return HD_OK;
+}
+
+bool hd_covariant_wants_state(const hd_covariant *c)
+{
+    return c->way == FORWARD && c->now >= c->due - CLOSE * c->scene.covariant_sampling;
+}
+
+hd_status hd_covariant_state(hd_covariant *c, hd_columns frame, const hd_trajectory *trajectory)
+{
+    if (!hd_covariant_wants_state(c) || hd_history_end(c->past) == hd_history_first(c->past))
+        return HD_OK;
+    hd_trajectory_state(trajectory, c->q, c->p);
+    HD_TRY(hd_history_snapshot(c->past, frame, c->q, c->p));
+    while (c->due <= c->now + CLOSE * c->scene.covariant_sampling)
+        c->due += c->scene.covariant_sampling;
+    if (is_complete(c)) begin_way_back(c);
+    return HD_OK;
+}
+
+/* ---- a look -------------------------------------------------------------------------------- */
+
+static hd_columns vectors_of(const hd_covariant *c)
+{
+    return (hd_columns){c->frame, c->vectors, 0, c->vectors};
+}
+
+/** Column-major: the null vectors [T9], `centre` of them. */
+static void fill_null(const hd_covariant *c, double *column)
+{
+    for (int d = 0; d < 3; d++) {
+        if (d < 2 && c->scene.boundary[d] == HD_REFLECTING) continue;
+        for (int half = 0; half < 2; half++, column += c->rows) {
+            memset(column, 0, (size_t)c->rows * sizeof *column);
+            for (int disk = 0; disk < c->scene.disks; disk++)
+                for (int e = 0; e < 2; e++)
+                    column[4 * disk + 2 * half + e] = d == 2 ? c->p[2 * disk + e]
+                                                             : (double)(d == e);
+        }
+    }
+}
+
+/** NaN stays, which fmax would drop. */
+static void raise_to(double *most, double now)
+{
+    if (!(now <= *most) && !isnan(*most)) *most = now;
+}
+
+/** Largest angle between the covariant centre and the null space. */
+static hd_status measure_null(hd_covariant *c)
+{
+    const hd_span covariant = {0, c->centre}, exact = {c->centre, c->centre};
+    double *columns = c->null_columns;
+    if (c->centre == 0) return HD_OK;
+    for (int col = 0; col < c->centre; col++)
+        cblas_dcopy(c->rows, c->frame + c->unstable + col, c->vectors,
+                    columns + (size_t)col * (size_t)c->rows, 1);
+    fill_null(c, columns + (size_t)c->centre * (size_t)c->rows);
+    HD_TRY(hd_angles_between(c->null, c->growth, columns, covariant, exact));
+    c->null_apart = c->growth[c->centre - 1];
+    raise_to(&c->null_apart_most, c->null_apart);
+    return HD_OK;
+}
+
+static hd_status measure_weights(hd_covariant *c, hd_modes *weights)
+{
+    HD_TRY(hd_modes_measure(weights, vectors_of(c), c->q, c->p));
+    hd_modes_add(weights);
+    return HD_OK;
+}
+
+/** dq and dp change places. */
+static void swap_halves(hd_covariant *c)
+{
+    const int n = c->vectors;
+    for (int disk = 0; disk < c->scene.disks; disk++)
+        cblas_dswap(2 * n, c->frame + 4 * (size_t)disk * (size_t)n, 1,
+                    c->frame + (4 * (size_t)disk + 2) * (size_t)n, 1);
+}
+
+/** What the vectors grew by since the look before, which came later. */
+static void end_growth(hd_covariant *c)
+{
+    if (c->grown_time == 0) return;
+    hd_splitting_grow(c->splitting, c->grown);
+    hd_spectrum_sample(c->spectrum);
+    memset(c->grown, 0, (size_t)c->vectors * sizeof *c->grown);
+    c->grown_time = 0.0;
+}
+
+/** C is that of the end of the interval; V = Q C. */
+static hd_status look(hd_covariant *c, long interval)
+{
+    const double *coefficients = hd_backward_read(c->start[0]);
+    end_growth(c);
+    HD_TRY(hd_splitting_add(c->splitting, coefficients));
+    hd_history_vectors(c->past, c->frame, c->q, c->p, interval);
+    HD_TRY(measure_weights(c, c->of_frame));
+    cblas_dtrmm(CblasRowMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, c->rows,
+                c->vectors, 1.0, coefficients, c->vectors, c->frame, c->vectors);
+    hd_localization_add(c->shape, vectors_of(c));
+    HD_TRY(measure_null(c));
+    HD_TRY(measure_weights(c, c->half[0]));
+    swap_halves(c);
+    return measure_weights(c, c->half[1]);
+}
+
+/* ---- the way back -------------------------------------------------------------------------- */
+
+/** Largest angle between the spaces of columns first .. first + count - 1 of both starts. */
+static hd_status spaces_apart(hd_covariant *c, double *angle, int first, int count)
+{
+    const size_t n = (size_t)c->vectors, size = (size_t)count * n;
+    const hd_span one = {0, count}, other = {count, count};
+    for (int k = 0; k < 2; k++)
+        memcpy(c->factor + (size_t)k * size, hd_backward_read(c->start[k]) + (size_t)first * n,
+               size * sizeof(double));
+    HD_TRY(hd_angles_between(c->spaces, c->growth, c->factor, one, other));
+    *angle = c->growth[count - 1];
+    return HD_OK;
+}
+
+/** At the window's end: how far the two starts have met; the worst of all windows is kept. */
+static hd_status meet(hd_covariant *c)
+{
+    hd_covariant_apart *apart = &c->spaces_apart;
+    const int stable = c->vectors - c->unstable - c->centre;
+    double now;
+    apart->most = 0.0;
+    for (int col = 0; col < c->vectors; col++) {
+        c->apart[col] = hd_backward_apart(c->start[0], c->start[1], col);
+        raise_to(&apart->most, c->apart[col]);
+    }
+    c->way = THROUGH_WINDOW;
+    if (c->centre == 0) return HD_OK;
+    HD_TRY(spaces_apart(c, &now, c->unstable, c->centre));
+    raise_to(&apart->centre, now);
+    if (stable == 0) return HD_OK;
+    HD_TRY(spaces_apart(c, &now, c->unstable + c->centre, stable));
+    raise_to(&apart->stable, now);
+    return HD_OK;
+}
+
+/** The next window begins where this one ended. */
+static void end_window(hd_covariant *c)
+{
+    end_growth(c);
+    c->window = hd_history_time(c->past, c->last);
+    hd_history_drop(c->past, c->window);
+    c->windows++;
+    c->way = FORWARD;
+}
+
+hd_status hd_covariant_step(hd_covariant *c)
+{
+    HD_ASSERT(c->way != FORWARD);
+    if (c->way == THROUGH_TRANSIENT && c->at == c->last) HD_TRY(meet(c));
+    const bool measuring = c->way == THROUGH_WINDOW;
+    if (measuring && hd_history_has_snapshot(c->past, c->at)) HD_TRY(look(c, c->at));
+    HD_TRY(hd_history_factor(c->past, c->factor, c->at));
+    if (!measuring) HD_TRY(hd_backward_step(c->start[1], c->growth, c->factor));
+    HD_TRY(hd_backward_step(c->start[0], c->growth, c->factor));
+    if (measuring) {
+        const double length = hd_history_length(c->past, c->at);
+        hd_spectrum_add(c->spectrum, c->growth, length);
+        cblas_daxpy(c->vectors, 1.0, c->growth, 1, c->grown, 1);
+        c->grown_time += length;
+    }
+    if (--c->at < hd_history_first(c->past)) end_window(c);
+    return HD_OK;
+}
+
+/* ---- results ------------------------------------------------------------------------------- */
+
+bool hd_covariant_is_going_back(const hd_covariant *c) { return c->way != FORWARD; }
+int hd_covariant_vectors(const hd_covariant *c) { return c->vectors; }
+long hd_covariant_windows(const hd_covariant *c) { return c->windows; }
+long hd_covariant_lost(const hd_covariant *c) { return c->lost; }
+double hd_covariant_bytes(const hd_covariant *c) { return c->bytes; }
+double hd_covariant_window_end(const hd_covariant *c) { return c->window; }
+const hd_spectrum *hd_covariant_spectrum(const hd_covariant *c) { return c->spectrum; }
+const hd_splitting *hd_covariant_splitting(const hd_covariant *c) { return c->splitting; }
+hd_covariant_apart hd_covariant_met(const hd_covariant *c) { return c->spaces_apart; }
+const double *hd_covariant_met_each(const hd_covariant *c) { return c->apart; }
+double hd_covariant_null(const hd_covariant *c) { return c->null_apart; }
+double hd_covariant_null_most(const hd_covariant *c) { return c->null_apart_most; }
+const hd_modes *hd_covariant_half(const hd_covariant *c, int half) { return c->half[half]; }
+const hd_modes *hd_covariant_of_frame(const hd_covariant *c) { return c->of_frame; }
+const double *hd_covariant_widths(const hd_covariant *c)
+{
+    return hd_localization_widths(c->shape);
+}
+const double *hd_covariant_cosines(const hd_covariant *c)
+{
+    return hd_localization_cosines(c->shape);
+}
+
+/** The averages; the window under way is lost. */
+void hd_covariant_archive(hd_covariant *c, hd_archive *archive)
+{
+    double *const numbers[] = {
+        &c->window,     &c->spaces_apart.most, &c->spaces_apart.centre, &c->spaces_apart.stable,
+        &c->null_apart, &c->null_apart_most};
+    hd_archive_long(archive, "covariant windows", &c->windows, 0, LONG_MAX / 2);
+    hd_archive_long(archive, "covariant lost", &c->lost, 0, LONG_MAX / 2);
+    hd_archive_bits(archive, "covariant starts", &c->starts);
+    hd_archive_of_doubles(archive, "covariant numbers", sizeof numbers / sizeof *numbers);
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        hd_archive_next_doubles(archive, numbers[k], 1);
+    hd_archive_doubles(archive, "covariant apart", c->apart, (size_t)c->vectors);
+    hd_spectrum_archive(c->spectrum, archive);
+    hd_splitting_archive(c->splitting, archive);
+    hd_localization_archive(c->shape, archive);
+    for (int k = 0; k < 2; k++) hd_modes_archive(c->half[k], archive);
+    hd_modes_archive(c->of_frame, archive);
+}

@@ -1,0 +1,204 @@
+/** Orthonormalisations, one after the other -> triangles and snapshots, for whoever goes back.
+ *
+ * Rings: interval k is in slot k mod intervals. Triangles are kept packed, or computed again
+ * (recompute.h). */
+#include "covariant/history.h"
+
+#include <string.h>
+
+#include "base/check.h"
+#include "base/memory.h"
+#include "covariant/backward.h"
+#include "covariant/recompute.h"
+#include "covariant/store.h"
+
+typedef struct interval_kept {
+    double time, length;
+    long snapshot; /**< record; -1: none */
+} interval_kept;
+
+struct hd_history {
+    hd_history_def def;
+    int rows;
+    long slots;          /**< of the rings */
+    interval_kept *kept; /**< [slots] */
+    hd_store *triangles; /**< NULL if recomputed */
+    hd_recompute *recompute;
+    hd_store *snapshots;
+    long first, end, snapshots_end;
+    double time;
+};
+
+static size_t record_size(const hd_history_def *def)
+{
+    return 4 * (size_t)def->disks * ((size_t)def->vectors + 1);
+}
+
+/** Whole stretches, and one more: where one begins there must be a frame while any of its intervals
+ * is there. */
+static hd_recompute_def recompute_of(const hd_history_def *def)
+{
+    const int rows = 4 * def->disks;
+    const long stretch = hd_recompute_stretch(def->intervals, rows, def->vectors);
+    return (hd_recompute_def){.rows = rows,
+                              .vectors = def->vectors,
+                              .threads = def->threads,
+                              .slots = (def->intervals + 2 * stretch - 1) / stretch * stretch,
+                              .stretch = stretch};
+}
+
+double hd_history_bytes(const hd_history_def *def)
+{
+    const double snapshots = (double)def->snapshots * (double)record_size(def);
+    const hd_recompute_def again = recompute_of(def);
+    const double triangles = def->recompute
+                                 ? hd_recompute_doubles(&again)
+                                 : (double)def->intervals * (double)hd_triangle_size(def->vectors);
+    return (snapshots + triangles) * sizeof(double);
+}
+
+static hd_status allocate(hd_history *past)
+{
+    const hd_history_def *def = &past->def;
+    const size_t triangle = hd_triangle_size(def->vectors), record = record_size(def);
+    past->kept = hd_memory_alloc((size_t)past->slots, sizeof *past->kept);
+    if (!past->kept) return HD_NO_MEMORY;
+    HD_TRY(hd_store_create(&past->snapshots, record, def->snapshots));
+    const hd_recompute_def again = recompute_of(def);
+    if (def->recompute) return hd_recompute_create(&past->recompute, &again);
+    return hd_store_create(&past->triangles, triangle, past->slots);
+}
+
+hd_status hd_history_create(hd_history **out, const hd_history_def *def)
+{
+    HD_ASSERT(def->intervals >= 2 && def->snapshots >= 1);
+    hd_history *past = hd_memory_alloc(1, sizeof *past);
+    *out = NULL;
+    if (!past) return HD_NO_MEMORY;
+    past->def = *def;
+    past->rows = 4 * def->disks;
+    past->slots = def->recompute ? recompute_of(def).slots : def->intervals;
+    const hd_status status = allocate(past);
+    if (status == HD_OK)
+        *out = past;
+    else
+        hd_history_free(past);
+    return status;
+}
+
+void hd_history_free(hd_history *past)
+{
+    if (!past) return;
+    hd_memory_free(past->kept);
+    hd_store_free(past->triangles);
+    hd_store_free(past->snapshots);
+    hd_recompute_free(past->recompute);
+    hd_memory_free(past);
+}
+
+/* ---- forward ------------------------------------------------------------------------------- */
+
+static interval_kept *kept_at(const hd_history *past, long interval)
+{
+    HD_ASSERT(interval >= past->first && interval < past->end);
+    return &past->kept[interval % past->slots];
+}
+
+/** The frame at the start of the next interval. */
+static hd_status keep_frame(hd_history *past, hd_columns frame)
+{
+    return past->recompute ? hd_recompute_frame(past->recompute, past->end % past->slots, frame)
+                           : HD_OK;
+}
+
+hd_status hd_history_begin(hd_history *past, hd_columns frame, double time)
+{
+    past->first = past->end = past->snapshots_end = 0;
+    past->time = time;
+    return keep_frame(past, frame);
+}
+
+bool hd_history_is_full(const hd_history *past)
+{
+    return past->end - past->first >= past->def.intervals;
+}
+
+hd_status hd_history_add(hd_history *past, const double *factor, hd_columns frame,
+                         const hd_event_log *log, double t_begin, double t_end)
+{
+    HD_ASSERT(!hd_history_is_full(past));
+    const long slot = past->end % past->slots;
+    if (past->recompute) {
+        HD_TRY(hd_recompute_events(past->recompute, slot, log, t_begin, t_end));
+    } else {
+        double *triangle = hd_store_put(past->triangles, slot);
+        if (!triangle) return HD_NO_MEMORY;
+        hd_triangle_pack(triangle, factor, past->def.vectors);
+    }
+    past->time += t_end - t_begin;
+    past->kept[slot] = (interval_kept){past->time, t_end - t_begin, -1};
+    past->end++;
+    return keep_frame(past, frame);
+}
+
+hd_status hd_history_snapshot(hd_history *past, hd_columns frame, const double *q, const double *p)
+{
+    const size_t n = (size_t)past->def.vectors, rows = (size_t)past->rows, half = rows / 2;
+    const long record = past->snapshots_end % past->def.snapshots;
+    double *kept = hd_store_put(past->snapshots, record);
+    if (!kept) return HD_NO_MEMORY;
+    for (size_t row = 0; row < rows; row++)
+        memcpy(kept + row * n, frame.data + row * (size_t)frame.stride, n * sizeof(double));
+    memcpy(kept + rows * n, q, half * sizeof *q);
+    memcpy(kept + rows * n + half, p, half * sizeof *p);
+    kept_at(past, past->end - 1)->snapshot = record;
+    past->snapshots_end++;
+    return HD_OK;
+}
+
+void hd_history_drop(hd_history *past, double time)
+{
+    while (past->first < past->end && kept_at(past, past->first)->time <= time) past->first++;
+}
+
+/* ---- what is there ------------------------------------------------------------------------- */
+
+long hd_history_first(const hd_history *past) { return past->first; }
+long hd_history_end(const hd_history *past) { return past->end; }
+double hd_history_time(const hd_history *past, long interval)
+{
+    return kept_at(past, interval)->time;
+}
+double hd_history_length(const hd_history *past, long interval)
+{
+    return kept_at(past, interval)->length;
+}
+bool hd_history_has_snapshot(const hd_history *past, long interval)
+{
+    return kept_at(past, interval)->snapshot >= 0;
+}
+
+hd_status hd_history_factor(hd_history *past, double *factor, long interval)
+{
+    const long slot = interval % past->slots;
+    (void)kept_at(past, interval);
+    if (past->recompute) {
+        const long ahead = past->end - 1 - interval, to_wrap = past->slots - 1 - slot;
+        return hd_recompute_factor(past->recompute, factor, slot,
+                                   slot + (ahead < to_wrap ? ahead : to_wrap));
+    }
+    hd_triangle_unpack(factor, hd_store_fetch(past->triangles, slot), past->def.vectors);
+    return HD_OK;
+}
+
+void hd_history_vectors(const hd_history *past, double *vectors, double *q, double *p,
+                        long interval)
+{
+    const size_t n = (size_t)past->def.vectors, rows = (size_t)past->rows, half = rows / 2;
+    const long record = kept_at(past, interval)->snapshot;
+    HD_ASSERT(record >= 0);
+    const double *kept = hd_store_fetch(past->snapshots, record);
+    memcpy(vectors, kept, rows * n * sizeof *vectors);
+    memcpy(q, kept + rows * n, half * sizeof *q);
+    memcpy(p, kept + rows * n + half, half * sizeof *p);
+}

@@ -1,0 +1,57 @@
+/** What the forward pass leaves for the way back: the triangle of each interval, and the vectors of
+ * chosen times. */
+#ifndef HD_HISTORY_H
+#define HD_HISTORY_H
+
+#include <stdbool.h>
+
+#include "hdlyap/frame.h"
+
+/** Where triangles are kept. */
+typedef struct hd_history_def {
+    int disks, vectors, threads;
+    long intervals; /**< of which triangles are kept, at most */
+    long snapshots; /**< at most */
+    bool recompute; /**< triangles are computed again instead of being kept */
+} hd_history_def;
+
+/** Bytes that it keeps at most; of recomputed ones without the events, some tens of bytes each. */
+double hd_history_bytes(const hd_history_def *def);
+
+typedef struct hd_history hd_history;
+
+/** HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_history_create(hd_history **out, const hd_history_def *def);
+void hd_history_free(hd_history *past);
+
+/** Forgets everything; the frame is that of the start. */
+HD_MUST_CHECK hd_status hd_history_begin(hd_history *past, hd_columns frame, double time);
+
+/** What an orthonormalisation leaves: R of the interval from t_begin to t_end of the log, and the
+ * frame after it. There must be room (hd_history_is_full). */
+HD_MUST_CHECK hd_status hd_history_add(hd_history *past, const double *factor, hd_columns frame,
+                                       const hd_event_log *log, double t_begin, double t_end);
+bool hd_history_is_full(const hd_history *past);
+
+/** Keeps the frame and the state of the end of the last interval: q[2N], p[2N]. */
+HD_MUST_CHECK hd_status hd_history_snapshot(hd_history *past, hd_columns frame, const double *q,
+                                            const double *p);
+
+/** Forgets the intervals that end at or before that time. */
+void hd_history_drop(hd_history *past, double time);
+
+/* Intervals are numbered since the beginning; those from first on, before end, are there. */
+
+long hd_history_first(const hd_history *past);
+long hd_history_end(const hd_history *past);
+double hd_history_time(const hd_history *past, long interval); /**< of its end */
+double hd_history_length(const hd_history *past, long interval);
+bool hd_history_has_snapshot(const hd_history *past, long interval); /**< at its end */
+
+/** R [n * n], row-major, of one interval. */
+HD_MUST_CHECK hd_status hd_history_factor(hd_history *past, double *factor, long interval);
+/** Vectors [4N * n] row-major, q[2N], p[2N] of a snapshot. */
+void hd_history_vectors(const hd_history *past, double *vectors, double *q, double *p,
+                        long interval);
+
+#endif

@@ -1,0 +1,176 @@
+/** (frame at the start of a stretch, events since) -> the triangles of the stretch.
+ *
+ * The same frame, the same events, the same cuts: the triangles are those of the forward pass to
+ * rounding, and the vectors of the next frame that was kept are met again. */
+#include "covariant/recompute.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include "base/check.h"
+#include "base/memory.h"
+#include "covariant/backward.h"
+#include "covariant/store.h"
+#include "events/event_log.h"
+#include "hdlyap/ortho.h"
+
+static const hd_ortho_limits LIMITS = {1e7, 1e-6};
+
+struct hd_recompute {
+    hd_recompute_def def;
+    hd_store *frames;    /**< of the first slot of each stretch */
+    hd_store *triangles; /**< packed, of one stretch */
+    long from, to;       /**< slots whose triangles are there: from <= slot < to */
+    hd_event_log **log;  /**< [slots] */
+    hd_frame *frame;
+    hd_ortho *ortho;
+};
+
+long hd_recompute_stretch(long slots, int rows, int vectors)
+{
+    const double stretch = sqrt(2.0 * (double)slots * rows / (vectors + 1.0));
+    return (long)fmax(1.0, fmin(round(stretch), (double)slots));
+}
+
+double hd_recompute_doubles(const hd_recompute_def *def)
+{
+    const double frame = (double)def->rows * def->vectors,
+                 frames = (double)def->slots / (double)def->stretch;
+    /* beside those of the stretches: one to replay with, in two copies */
+    return (frames + 2.0) * frame + (double)def->stretch * (double)hd_triangle_size(def->vectors);
+}
+
+static size_t frame_size(const hd_recompute *r)
+{
+    return (size_t)r->def.rows * (size_t)r->def.vectors;
+}
+
+static hd_status allocate(hd_recompute *r)
+{
+    const hd_recompute_def *def = &r->def;
+    const size_t triangle = hd_triangle_size(def->vectors);
+    HD_TRY(hd_store_create(&r->frames, frame_size(r), def->slots / def->stretch));
+    HD_TRY(hd_store_create(&r->triangles, triangle, def->stretch));
+    HD_TRY(hd_frame_create(&r->frame, def->rows / 4, def->vectors, 1, def->threads));
+    HD_TRY(hd_ortho_create(&r->ortho, def->rows, def->vectors));
+    HD_TRY(hd_ortho_keep_factor(r->ortho));
+    r->log = hd_memory_alloc((size_t)def->slots, sizeof *r->log);
+    return r->log ? HD_OK : HD_NO_MEMORY;
+}
+
+hd_status hd_recompute_create(hd_recompute **out, const hd_recompute_def *def)
+{
+    HD_ASSERT(def->stretch >= 1 && def->slots % def->stretch == 0);
+    hd_recompute *r = hd_memory_alloc(1, sizeof *r);
+    *out = NULL;
+    if (!r) return HD_NO_MEMORY;
+    r->def = *def;
+    const hd_status status = allocate(r);
+    if (status == HD_OK)
+        *out = r;
+    else
+        hd_recompute_free(r);
+    return status;
+}
+
+void hd_recompute_free(hd_recompute *r)
+{
+    if (!r) return;
+    for (long slot = 0; r->log && slot < r->def.slots; slot++) hd_event_log_free(r->log[slot]);
+    hd_memory_free(r->log);
+    hd_store_free(r->frames);
+    hd_store_free(r->triangles);
+    hd_frame_free(r->frame);
+    hd_ortho_free(r->ortho);
+    hd_memory_free(r);
+}
+
+/* ---- forward ------------------------------------------------------------------------------- */
+
+hd_status hd_recompute_frame(hd_recompute *r, long slot, hd_columns columns)
+{
+    HD_ASSERT(columns.count == r->def.vectors);
+    if (slot % r->def.stretch != 0) return HD_OK;
+    double *vectors = hd_store_put(r->frames, slot / r->def.stretch);
+    if (!vectors) return HD_NO_MEMORY;
+    for (int row = 0; row < r->def.rows; row++)
+        memcpy(vectors + (size_t)row * (size_t)r->def.vectors,
+               columns.data + (size_t)row * (size_t)columns.stride,
+               (size_t)r->def.vectors * sizeof(double));
+    return HD_OK;
+}
+
+/** As hd_frame_replay chooses them. */
+static bool is_within(const hd_event_log *log, double t, double t_begin, double t_end)
+{
+    return t >= t_begin && (t < t_end || t_end == log->duration);
+}
+
+hd_status hd_recompute_events(hd_recompute *r, long slot, const hd_event_log *log, double t_begin,
+                              double t_end)
+{
+    if (slot >= r->from && slot < r->to) r->from = r->to = 0; /* written anew */
+    if (!r->log[slot]) HD_TRY(hd_event_log_create(&r->log[slot]));
+    hd_event_log *kept = r->log[slot];
+    size_t count = 0;
+    for (size_t k = 0; k < log->count; k++)
+        count += is_within(log, log->event[k].t, t_begin, t_end);
+    hd_event_log_clear(kept);
+    HD_TRY(hd_event_log_reserve(kept, count));
+    for (size_t k = 0; k < log->count; k++)
+        if (is_within(log, log->event[k].t, t_begin, t_end)) {
+            hd_event *event = &kept->event[kept->count++];
+            *event = log->event[k];
+            event->t -= t_begin;
+        }
+    kept->duration = t_end - t_begin;
+    return HD_OK;
+}
+
+/* ---- backward ------------------------------------------------------------------------------ */
+
+static void load_frame(hd_recompute *r, const double *vectors)
+{
+    for (int row = 0; row < r->def.rows; row++)
+        memcpy(hd_frame_data(r->frame) + (size_t)row * (size_t)hd_frame_stride(r->frame),
+               vectors + (size_t)row * (size_t)r->def.vectors,
+               (size_t)r->def.vectors * sizeof(double));
+}
+
+static hd_status recompute_slot(hd_recompute *r, long slot)
+{
+    const hd_event_log *log = r->log[slot];
+    HD_TRY(hd_frame_replay(r->frame, log, 0.0, log->duration));
+    if (hd_ortho_step(r->ortho, r->frame, LIMITS) == HD_ILL_CONDITIONED) {
+        hd_frame_rewind(r->frame);
+        HD_TRY(hd_frame_replay(r->frame, log, 0.0, log->duration));
+        HD_TRY(hd_ortho_step_stable(r->ortho, r->frame, 1.0 / DBL_EPSILON));
+    }
+    double *triangle = hd_store_put(r->triangles, slot % r->def.stretch);
+    if (!triangle) return HD_NO_MEMORY;
+    hd_triangle_pack(triangle, hd_ortho_factor(r->ortho), r->def.vectors);
+    return HD_OK;
+}
+
+static hd_status recompute_stretch(hd_recompute *r, long slot, long last)
+{
+    const long first = slot / r->def.stretch * r->def.stretch;
+    const long end = last < first + r->def.stretch ? last + 1 : first + r->def.stretch;
+    r->from = r->to = 0;
+    load_frame(r, hd_store_fetch(r->frames, first / r->def.stretch));
+    for (long k = first; k < end; k++) HD_TRY(recompute_slot(r, k));
+    r->from = first;
+    r->to = end;
+    return HD_OK;
+}
+
+hd_status hd_recompute_factor(hd_recompute *r, double *factor, long slot, long last)
+{
+    HD_ASSERT(slot >= 0 && slot <= last && last < r->def.slots);
+    if (slot < r->from || slot >= r->to) HD_TRY(recompute_stretch(r, slot, last));
+    const double *triangle = hd_store_fetch(r->triangles, slot % r->def.stretch);
+    hd_triangle_unpack(factor, triangle, r->def.vectors);
+    return HD_OK;
+}

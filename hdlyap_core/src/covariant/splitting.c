@@ -1,0 +1,212 @@
+/** C and the growth over finite times -> angles and their distributions, order of finite-time
+ * exponents [T18]. */
+#include "hdlyap/splitting.h"
+
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+#include "averages/block_average.h"
+#include "base/check.h"
+#include "base/memory.h"
+#include "covariant/angles.h"
+#include "covariant/archived.h"
+
+static const double RIGHT_ANGLE = 1.57079632679489661923;
+
+struct hd_splitting {
+    int vectors;
+    hd_span space[3];               /**< unstable, centre, stable */
+    hd_angles *angles;              /**< NULL without pairs of spaces */
+    double *found;                  /**< [vectors]: principal angles */
+    double *mean, *least;           /**< [vectors - 1]: of neighbours */
+    double *violations, *entangled; /**< [vectors - 1]: fractions */
+    double *later;                  /**< [vectors]: largest growth of later vectors */
+    hd_angle_of_spaces angle[HD_PAIRS_OF_SPACES];
+    hd_block_average blocks; /**< of the smallest angles */
+    long samples, times;
+};
+
+static const int PAIR[HD_PAIRS_OF_SPACES][2] = {{0, 2}, {0, 1}, {1, 2}};
+
+static hd_status allocate(hd_splitting *s)
+{
+    const size_t n = (size_t)s->vectors;
+    double **array[] = {&s->found, &s->mean, &s->least, &s->violations, &s->entangled, &s->later};
+    for (size_t k = 0; k < sizeof array / sizeof *array; k++)
+        if (!(*array[k] = hd_memory_alloc(n, sizeof(double)))) return HD_NO_MEMORY;
+    HD_TRY(hd_block_average_create(&s->blocks, HD_PAIRS_OF_SPACES));
+    if (s->space[2].count == 0) return HD_OK;
+    const int widest = s->space[0].count > s->space[2].count ? s->space[0].count
+                                                             : s->space[2].count;
+    return hd_angles_create(&s->angles, s->vectors,
+                            widest > s->space[1].count ? widest : s->space[1].count);
+}
+
+hd_status hd_splitting_create(hd_splitting **out, int vectors, int unstable, int centre)
+{
+    HD_ASSERT(unstable >= 1 && centre >= 0);
+    hd_splitting *s = hd_memory_alloc(1, sizeof *s);
+    const int stable = vectors - unstable - centre;
+    *out = NULL;
+    if (!s) return HD_NO_MEMORY;
+    s->vectors = vectors;
+    if (stable > 0) {
+        s->space[0] = (hd_span){0, unstable};
+        s->space[1] = (hd_span){unstable, centre};
+        s->space[2] = (hd_span){unstable + centre, stable};
+    }
+    const hd_status status = allocate(s);
+    if (status == HD_OK) {
+        hd_splitting_clear(s);
+        *out = s;
+    } else {
+        hd_splitting_free(s);
+    }
+    return status;
+}
+
+void hd_splitting_free(hd_splitting *s)
+{
+    if (!s) return;
+    hd_angles_free(s->angles);
+    hd_memory_free(s->found);
+    hd_memory_free(s->mean);
+    hd_memory_free(s->least);
+    hd_memory_free(s->violations);
+    hd_memory_free(s->entangled);
+    hd_memory_free(s->later);
+    hd_block_average_clear(&s->blocks);
+    hd_memory_free(s);
+}
+
+void hd_splitting_clear(hd_splitting *s)
+{
+    s->samples = s->times = 0;
+    for (int col = 0; col < s->vectors; col++) {
+        s->mean[col] = s->violations[col] = s->entangled[col] = 0.0;
+        s->least[col] = RIGHT_ANGLE;
+    }
+    memset(s->angle, 0, sizeof s->angle);
+    for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) s->angle[pair].least = RIGHT_ANGLE;
+    hd_block_average_restart(&s->blocks);
+}
+
+/* ---- angles -------------------------------------------------------------------------------- */
+
+/** Angle between two vectors of length 1, whatever their signs; small ones keep their digits. */
+static double angle_between(const double *x, const double *y, int count)
+{
+    double dot = 0.0, apart = 0.0;
+    for (int row = 0; row < count; row++) dot += x[row] * y[row];
+    const double sign = dot < 0 ? -1.0 : 1.0;
+    for (int row = 0; row < count; row++)
+        apart += (x[row] - sign * y[row]) * (x[row] - sign * y[row]);
+    return 2.0 * asin(fmin(1.0, 0.5 * sqrt(apart)));
+}
+
+static void add_neighbours(hd_splitting *s, const double *c)
+{
+    const size_t n = (size_t)s->vectors;
+    for (int col = 0; col + 1 < s->vectors; col++) {
+        const double *x = c + (size_t)col * n, angle = angle_between(x, x + n, col + 2);
+        s->mean[col] += (angle - s->mean[col]) / (double)s->samples;
+        s->least[col] = fmin(s->least[col], angle);
+    }
+}
+
+static int bin_of(double angle)
+{
+    const int bin = (int)(HD_ANGLE_BINS * angle / RIGHT_ANGLE);
+    return bin < HD_ANGLE_BINS ? bin : HD_ANGLE_BINS - 1;
+}
+
+static void add_angles(hd_angle_of_spaces *a, const double *found, int count, long samples)
+{
+    double sum = 0.0;
+    for (int k = 0; k < count; k++) {
+        sum += found[k];
+        a->all[bin_of(found[k])]++;
+    }
+    a->last = found[0];
+    a->mean += (a->last - a->mean) / (double)samples;
+    a->mean_of_all += (sum / count - a->mean_of_all) / (double)samples;
+    a->least = fmin(a->least, a->last);
+    a->smallest[bin_of(a->last)]++;
+}
+
+hd_status hd_splitting_add(hd_splitting *s, const double *c)
+{
+    double sample[HD_PAIRS_OF_SPACES] = {0};
+    s->samples++;
+    add_neighbours(s, c);
+    if (!s->angles) return HD_OK;
+    for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) {
+        const hd_span a = s->space[PAIR[pair][0]], b = s->space[PAIR[pair][1]];
+        HD_TRY(hd_angles_between(s->angles, s->found, c, a, b));
+        add_angles(&s->angle[pair], s->found, a.count < b.count ? a.count : b.count, s->samples);
+        sample[pair] = s->angle[pair].last;
+    }
+    hd_block_average_add(&s->blocks, sample);
+    for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++)
+        s->angle[pair].std_error = hd_block_average_std_error(&s->blocks, pair);
+    return HD_OK;
+}
+
+/* ---- order --------------------------------------------------------------------------------- */
+
+void hd_splitting_grow(hd_splitting *s, const double *growth)
+{
+    double before = INFINITY;
+    s->times++;
+    s->later[s->vectors - 1] = growth[s->vectors - 1];
+    for (int col = s->vectors - 2; col >= 0; col--)
+        s->later[col] = fmax(s->later[col + 1], growth[col]);
+    for (int col = 0; col + 1 < s->vectors; col++) {
+        before = fmin(before, growth[col]);
+        const double violated = growth[col] < growth[col + 1],
+                     entangled = before < s->later[col + 1];
+        s->violations[col] += (violated - s->violations[col]) / (double)s->times;
+        s->entangled[col] += (entangled - s->entangled[col]) / (double)s->times;
+    }
+}
+
+/* ---- results ------------------------------------------------------------------------------- */
+
+long hd_splitting_samples(const hd_splitting *s) { return s->samples; }
+int hd_splitting_has_spaces(const hd_splitting *s) { return s->angles != NULL; }
+const double *hd_splitting_neighbours(const hd_splitting *s) { return s->mean; }
+const double *hd_splitting_neighbours_least(const hd_splitting *s) { return s->least; }
+const double *hd_splitting_violations(const hd_splitting *s) { return s->violations; }
+const double *hd_splitting_entangled(const hd_splitting *s) { return s->entangled; }
+
+const hd_angle_of_spaces *hd_splitting_angle(const hd_splitting *s, hd_pair_of_spaces pair)
+{
+    return &s->angle[pair];
+}
+
+static void angle_archive(hd_angle_of_spaces *angle, hd_archive *archive)
+{
+    double *const numbers[] = {&angle->last, &angle->mean, &angle->std_error, &angle->least,
+                               &angle->mean_of_all};
+    hd_archive_of_doubles(archive, "angle of spaces", sizeof numbers / sizeof *numbers);
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        hd_archive_next_doubles(archive, numbers[k], 1);
+    for (int bin = 0; bin < HD_ANGLE_BINS; bin++) {
+        hd_archive_long(archive, "angle smallest", &angle->smallest[bin], 0, LONG_MAX / 2);
+        hd_archive_long(archive, "angle all", &angle->all[bin], 0, LONG_MAX / 2);
+    }
+}
+
+void hd_splitting_archive(hd_splitting *s, hd_archive *archive)
+{
+    const size_t n = (size_t)s->vectors;
+    hd_archive_long(archive, "splitting samples", &s->samples, 0, LONG_MAX / 2);
+    hd_archive_long(archive, "splitting times", &s->times, 0, LONG_MAX / 2);
+    hd_archive_doubles(archive, "splitting neighbours", s->mean, n);
+    hd_archive_doubles(archive, "splitting least", s->least, n);
+    hd_archive_doubles(archive, "splitting violations", s->violations, n);
+    hd_archive_doubles(archive, "splitting entangled", s->entangled, n);
+    for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) angle_archive(&s->angle[pair], archive);
+    hd_block_average_archive(&s->blocks, archive);
+}

@@ -1,0 +1,11 @@
+/** What a checkpoint holds of disks and events. */
+#ifndef HD_EVENTS_ARCHIVED_H
+#define HD_EVENTS_ARCHIVED_H
+
+#include "base/archive.h"
+#include "hdlyap/trajectory.h"
+
+void hd_trajectory_archive(hd_trajectory *trajectory, hd_archive *archive);
+void hd_event_log_archive(hd_event_log *log, hd_archive *archive, int disks);
+
+#endif

@@ -1,0 +1,414 @@
+/** Scene -> event log: event-driven motion of hard disks between periodic or reflecting edges.
+ *
+ * Every disk keeps the state of its last collision; contacts are predicted from two such states
+ * alone (contact.h), so the events do not depend on cells, queue or the cutting into intervals.
+ * Each disk has one entry in the queue: its earliest predicted contact, wall or cell edge. A
+ * contact whose partner has collided since is stale; it is noticed when its time comes, and
+ * predicted again. No event is missed by that: a disk that collides predicts anew with all its
+ * neighbours. Time is counted in epochs, a power of two long (tens of collisions per disk), at
+ * whose end all disks are brought up to date and predicted anew: so t = 1e6 is resolved as finely
+ * as t = 0. One thread. Only + - * / sqrt and comparisons: the same bits everywhere. */
+#include "hdlyap/trajectory.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/check.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "events/event_log.h"
+#include "events/prefetch.h"
+#include "events/trajectory_state.h"
+#include "scene/lattice.h"
+#include "scene/scene_check.h"
+
+/** Faster disks would lose the positions' digits within one epoch. */
+static const double MOMENTUM_MAX = 1e6;
+
+/* ---- events -------------------------------------------------------------------------------- */
+
+/** Back into the box; the cell that it is booked in stays. */
+static void fold(const hd_trajectory *tr, hd_disk *disk)
+{
+    for (int d = 0; d < 2; d++) {
+        if (tr->motion.cells.boundary[d] != HD_PERIODIC) continue;
+        const double turns = floor(disk->q[d] / tr->motion.cells.box[d]);
+        disk->q[d] -= turns * tr->motion.cells.box[d];
+        disk->wrap[d] -= (int32_t)turns;
+    }
+}
+
+static void move_to(hd_disk *disk, double t)
+{
+    for (int d = 0; d < 2; d++) disk->q[d] += disk->p[d] * (t - disk->t);
+    disk->t = t;
+}
+
+static hd_status log_append(hd_event_log *log, const hd_event *event)
+{
+    if (!log) return HD_OK;
+    if (log->count == log->capacity) HD_TRY(hd_event_log_reserve(log, log->count + 1));
+    log->event[log->count++] = *event;
+    return HD_OK;
+}
+
+/** r.r - 1 to twice the working precision (Dekker's product, Knuth's sum). */
+static double square_minus_one(hd_pair r)
+{
+    const double splitter = 134217729.0; /* 2^27 + 1 */
+    double product[2], error[2];
+    for (int d = 0; d < 2; d++) {
+        const double big = splitter * r[d], high = big - (big - r[d]), low = r[d] - high;
+        product[d] = r[d] * r[d];
+        error[d] = ((high * high - product[d]) + 2.0 * high * low) + low * low;
+    }
+    const double sum = product[0] + product[1], part = sum - product[0];
+    const double lost = (product[0] - (sum - part)) + (product[1] - part);
+    return (sum - 1.0) + (lost + error[0] + error[1]);
+}
+
+/** What two disks that are r apart exchange: false if nothing, because they graze within rounding.
+ * An approach that is lost in the rounding of their momenta might leave these as they are, and the
+ * pair would meet again at once, for ever: it is turned into a parting that rounding cannot take
+ * back, along the longer component of r. */
+static bool exchange(hd_disk *a, hd_disk *b, hd_pair r, double approach, double excess)
+{
+    const double lost = 8.0 * DBL_EPSILON *
+                        (fabs(a->p[0]) + fabs(a->p[1]) + fabs(b->p[0]) + fabs(b->p[1]));
+    if (approach < -lost) {
+        /* approach / r.r; with r.r rounded near 1 the energy would drift, 3e-16 a collision */
+        const double per_r = approach - approach * excess;
+        for (int d = 0; d < 2; d++) {
+            a->p[d] += per_r * r[d];
+            b->p[d] -= per_r * r[d];
+        }
+        return true;
+    }
+    if (approach < 0) {
+        const int d = fabs(r[1]) > fabs(r[0]);
+        a->p[d] -= copysign(lost, r[d]);
+        b->p[d] += copysign(lost, r[d]);
+    }
+    return false;
+}
+
+/** Pair contact [T3]: moves both disks to the contact and exchanges their normal momenta. */
+static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *contact,
+                         int32_t found_by, double t)
+{
+    hd_event event = *contact;
+    hd_disk *a = &tr->motion.disk[event.i], *b = &tr->motion.disk[event.j];
+    const prediction *how = &tr->motion.predicted[found_by];
+    const double sign = 1.0 - 2.0 * (found_by != event.i); /* the image is seen from the finder */
+    const hd_pair shift = {sign * how->image[0] * tr->motion.cells.box[0],
+                           sign * how->image[1] * tr->motion.cells.box[1]};
+    move_to(a, t);
+    move_to(b, t);
+    const hd_pair r = hd_contact_separation(a, b, shift, t);
+    const double distance = sqrt(hd_contact_dot(r, r));
+    double approach = 0;
+    for (int d = 0; d < 2; d++) {
+        event.n[d] = r[d] / distance;
+        event.p[d] = b->p[d] - a->p[d];
+        approach += event.p[d] * r[d];
+    }
+    const double excess = square_minus_one(r);
+    if (excess < -2.0 * HD_OVERLAP_MAX) return HD_OVERLAP;
+    hd_status status = HD_OK;
+    if (exchange(a, b, r, approach, excess)) {
+        tr->collisions++;
+        status = log_append(log, &event);
+    }
+    a->collisions++;
+    b->collisions++;
+    fold(tr, a);
+    fold(tr, b);
+    hd_prediction_renew(&tr->motion, found_by); /* the head of the queue first: foreseeable */
+    hd_prediction_renew(&tr->motion, event.i + event.j - found_by);
+    return status;
+}
+
+/** Reflection at a flat wall [T4]. */
+static hd_status reflect(hd_trajectory *tr, hd_event_log *log, hd_event *event, double t)
+{
+    hd_disk *disk = &tr->motion.disk[event->i];
+    const prediction *how = &tr->motion.predicted[event->i];
+    const int d = how->direction;
+    const hd_cell_line *line = &tr->motion.cells.line[d][disk->cell[d]];
+    move_to(disk, t);
+    disk->q[d] = line->bound[how->side == HIGH]; /* there within rounding: no drift */
+    event->n[d] = 1.0;
+    event->p[0] = disk->p[0];
+    event->p[1] = disk->p[1];
+    disk->p[d] = -disk->p[d];
+    disk->collisions++;
+    fold(tr, disk);
+    tr->wall_events++;
+    hd_prediction_renew(&tr->motion, event->i);
+    return log_append(log, event);
+}
+
+/** Over a cell edge: only the three cells that come into reach are new. */
+static void cross(hd_trajectory *tr, int32_t i)
+{
+    const int d = tr->motion.predicted[i].direction, side = tr->motion.predicted[i].side;
+    hd_cells_cross(&tr->motion.cells, tr->motion.disk, i, d, side);
+    hd_prediction_extend(&tr->motion, i, d, side);
+}
+
+/** The event at the head of the queue; log_start is the interval's start in this epoch's time. */
+static hd_status take_event(hd_trajectory *tr, hd_event_log *log, int32_t i, double log_start)
+{
+    const hd_queue_key key = tr->motion.queue.entry[i].key;
+    hd_event event = {.t = key.t > log_start ? key.t - log_start : 0.0,
+                      .i = hd_queue_i(key.order),
+                      .j = hd_queue_j(key.order)};
+    switch (hd_queue_kind(key.order)) {
+    case WALL: return reflect(tr, log, &event, key.t);
+    case EDGE: cross(tr, i); return HD_OK;
+    default: break;
+    }
+    const prediction *next = &tr->motion.predicted[i];
+    if (next->partner_collisions == tr->motion.disk[next->partner].collisions)
+        return collide(tr, log, &event, i, key.t);
+    hd_prediction_renew(&tr->motion, i); /* stale */
+    return HD_OK;
+}
+
+/** Brings all disks to the epoch's end, which becomes time 0, and predicts everything anew. */
+static hd_status turn_epoch(hd_trajectory *tr)
+{
+    for (int32_t i = 0; i < tr->motion.count; i++) {
+        hd_disk *disk = &tr->motion.disk[i];
+        move_to(disk, tr->epoch_length);
+        disk->t = 0;
+        fold(tr, disk);
+        disk->collisions++;
+        if (!isfinite(disk->q[0] + disk->q[1] + disk->p[0] + disk->p[1])) return HD_NOT_FINITE;
+    }
+    tr->epoch_start += tr->epoch_length;
+    hd_queue_restart(&tr->motion.queue);
+    for (int32_t i = 0; i < tr->motion.count; i++) hd_prediction_renew(&tr->motion, i);
+    return HD_OK;
+}
+
+hd_status hd_trajectory_advance(hd_trajectory *tr, hd_event_log *log, double t_end)
+{
+    if (log) hd_event_log_clear(log);
+    return hd_trajectory_extend(tr, log, t_end);
+}
+
+hd_status hd_trajectory_extend(hd_trajectory *tr, hd_event_log *log, double t_end)
+{
+    HD_ASSERT(t_end >= tr->now);
+    const double t_begin = log ? tr->now - log->duration : tr->now;
+    if (log) log->duration = t_end - t_begin;
+    for (;;) {
+        const double end = t_end - tr->epoch_start;
+        const int32_t bucket = tr->motion.queue.now, i = hd_queue_next(&tr->motion.queue);
+        if (tr->motion.queue.now != bucket) hd_prefetch_ahead(&tr->motion, bucket);
+        if (i >= 0 && tr->motion.queue.entry[i].key.t < end &&
+            tr->motion.queue.entry[i].key.t < tr->epoch_length) {
+            HD_TRY(take_event(tr, log, i, t_begin - tr->epoch_start));
+        } else if (end > tr->epoch_length) {
+            HD_TRY(turn_epoch(tr));
+        } else {
+            break;
+        }
+    }
+    tr->now = t_end;
+    return HD_OK;
+}
+
+/* ---- creation ------------------------------------------------------------------------------ */
+
+/** Mean pair events per time unit [T2]. */
+static double enskog_rate(const hd_scene_def *def)
+{
+    const double pi = 3.14159265358979323846;
+    const double eta = fmin(pi * def->density / 4.0, 0.9);
+    const double contact = (1.0 - 7.0 * eta / 16.0) / ((1.0 - eta) * (1.0 - eta));
+    return sqrt(pi) * def->density * contact * def->disks;
+}
+
+/** A power of two that holds about 32 to 64 collisions of a disk; in a thin gas less, so that no
+ * flight is so long that its rounding comes near HD_OVERLAP_MAX. */
+static double epoch_for(double rate_per_disk)
+{
+    const double wanted = fmin(32.0 / rate_per_disk, 16384.0);
+    double length = 1.0;
+    while (length < wanted) length *= 2.0;
+    while (length * 0.5 >= wanted) length *= 0.5;
+    return length;
+}
+
+static hd_status trajectory_prepare(hd_trajectory *tr, const hd_scene_def *def)
+{
+    tr->motion.count = def->disks;
+    tr->rate = enskog_rate(def);
+    tr->epoch_length = epoch_for(2.0 * tr->rate / def->disks);
+    tr->motion.disk = hd_memory_alloc((size_t)tr->motion.count, sizeof *tr->motion.disk);
+    tr->motion.predicted = hd_memory_alloc((size_t)tr->motion.count, sizeof *tr->motion.predicted);
+    if (!tr->motion.disk || !tr->motion.predicted) return HD_NO_MEMORY;
+    HD_TRY(hd_cells_create(&tr->motion.cells, def));
+    return hd_queue_create(&tr->motion.queue, tr->motion.count, tr->epoch_length);
+}
+
+static hd_status trajectory_start(hd_trajectory *tr, const double *q, const double *p)
+{
+    for (int32_t i = 0; i < tr->motion.count; i++) {
+        hd_disk *disk = &tr->motion.disk[i];
+        for (int d = 0; d < 2; d++) {
+            const double reach = tr->motion.cells.boundary[d] == HD_REFLECTING ? 0.5 : 0.0;
+            disk->q[d] = q[2 * i + d];
+            disk->p[d] = p[2 * i + d];
+            if (!(fabs(disk->p[d]) <= MOMENTUM_MAX)) return HD_REFUSED;
+            if (!(disk->q[d] >= reach && disk->q[d] <= tr->motion.cells.box[d] - reach))
+                return HD_REFUSED;
+        }
+        hd_cells_add(&tr->motion.cells, tr->motion.disk, i);
+    }
+    if (hd_trajectory_overlap(tr) > HD_OVERLAP_MAX) return HD_OVERLAP;
+    for (int32_t i = 0; i < tr->motion.count; i++) hd_prediction_renew(&tr->motion, i);
+    return HD_OK;
+}
+
+/** Momenta: uniform, without a mean along periodic directions, scaled to K = N. */
+static void momenta_fill(double *p, const hd_scene_def *def)
+{
+    hd_random random = hd_random_seeded(def->seed, 0);
+    const int n = def->disks;
+    double mean[2] = {0, 0}, square = 0;
+    for (int k = 0; k < 2 * n; k++) mean[k % 2] += p[k] = hd_random_symmetric(&random);
+    for (int k = 0; k < 2 * n; k++) {
+        if (def->boundary[k % 2] == HD_PERIODIC) p[k] -= mean[k % 2] / n;
+        square += p[k] * p[k];
+    }
+    const double scale = sqrt(2.0 * n / square);
+    for (int k = 0; k < 2 * n; k++) p[k] *= scale;
+}
+
+hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def, const double *q,
+                                    const double *p)
+{
+    *out = NULL;
+    HD_TRY(hd_scene_check_box(def, NULL, 0));
+    hd_trajectory *tr = hd_memory_alloc(1, sizeof *tr);
+    if (!tr) return HD_NO_MEMORY;
+    hd_status status = trajectory_prepare(tr, def);
+    if (status == HD_OK) status = trajectory_start(tr, q, p);
+    if (status == HD_OK)
+        *out = tr;
+    else
+        hd_trajectory_free(tr);
+    return status;
+}
+
+hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def)
+{
+    *out = NULL;
+    if (hd_scene_check(def, NULL, 0) != HD_OK) return HD_REFUSED;
+    double box[2];
+    hd_scene_box(def, box);
+    const hd_lattice lattice = hd_lattice_best(def->disks, box, def->boundary);
+    double *q = hd_memory_alloc(2 * (size_t)def->disks, sizeof *q);
+    double *p = hd_memory_alloc(2 * (size_t)def->disks, sizeof *p);
+    hd_status status = HD_NO_MEMORY;
+    if (q && p) {
+        hd_lattice_fill(&lattice, q, def->disks, box, def->boundary);
+        momenta_fill(p, def);
+        status = hd_trajectory_create_from(out, def, q, p);
+    }
+    hd_memory_free(q);
+    hd_memory_free(p);
+    return status;
+}
+
+void hd_trajectory_free(hd_trajectory *tr)
+{
+    if (!tr) return;
+    hd_cells_clear(&tr->motion.cells);
+    hd_queue_clear(&tr->motion.queue);
+    hd_memory_free(tr->motion.disk);
+    hd_memory_free(tr->motion.predicted);
+    hd_memory_free(tr);
+}
+
+/* ---- what can be read ---------------------------------------------------------------------- */
+
+double hd_trajectory_time(const hd_trajectory *tr) { return tr->now; }
+int hd_trajectory_disks(const hd_trajectory *tr) { return tr->motion.count; }
+uint64_t hd_trajectory_collisions(const hd_trajectory *tr) { return tr->collisions; }
+uint64_t hd_trajectory_wall_events(const hd_trajectory *tr) { return tr->wall_events; }
+double hd_trajectory_collision_rate(const hd_trajectory *tr) { return tr->rate; }
+
+void hd_trajectory_box(const hd_trajectory *tr, double box[2])
+{
+    box[0] = tr->motion.cells.box[0];
+    box[1] = tr->motion.cells.box[1];
+}
+
+void hd_trajectory_state(const hd_trajectory *tr, double *q, double *p)
+{
+    for (int32_t i = 0; i < tr->motion.count; i++) {
+        hd_disk disk = tr->motion.disk[i];
+        move_to(&disk, tr->now - tr->epoch_start);
+        fold(tr, &disk);
+        for (int d = 0; d < 2; d++) {
+            if (q) q[2 * i + d] = disk.q[d];
+            if (p) p[2 * i + d] = disk.p[d];
+        }
+    }
+}
+
+double hd_trajectory_kinetic_energy(const hd_trajectory *tr)
+{
+    double twice = 0;
+    for (int32_t i = 0; i < tr->motion.count; i++)
+        twice += tr->motion.disk[i].p[0] * tr->motion.disk[i].p[0] +
+                 tr->motion.disk[i].p[1] * tr->motion.disk[i].p[1];
+    return 0.5 * twice;
+}
+
+double hd_trajectory_energy_rounding(const hd_trajectory *tr)
+{
+    const double events = (double)(tr->collisions + tr->wall_events);
+    return DBL_EPSILON * (64.0 + 16.0 * sqrt(events));
+}
+
+/** Distance squared from disk i to disk j, `edges` of the box further, now; to itself infinite. */
+static double distance_squared(const hd_trajectory *tr, int32_t i, int32_t j,
+                               const int32_t edges[2])
+{
+    const hd_disk *a = &tr->motion.disk[i], *b = &tr->motion.disk[j];
+    const hd_pair shift = {(edges[0] + a->wrap[0] - b->wrap[0]) * tr->motion.cells.box[0],
+                           (edges[1] + a->wrap[1] - b->wrap[1]) * tr->motion.cells.box[1]};
+    const hd_pair r = hd_contact_separation(a, b, shift, tr->now - tr->epoch_start);
+    return i == j ? INFINITY : hd_contact_dot(r, r);
+}
+
+/** Least distance squared from disk i to the disks of one neighbouring cell, now. */
+static double nearest_in_cell(const hd_trajectory *tr, int32_t i, int32_t x, int32_t y)
+{
+    const hd_disk *disk = &tr->motion.disk[i];
+    const hd_cell_line *lx = &tr->motion.cells.line[0][disk->cell[0]];
+    const hd_cell_line *ly = &tr->motion.cells.line[1][disk->cell[1]];
+    const hd_cell *cell = hd_cells_at(&tr->motion.cells, lx->near[x], ly->near[y]);
+    const int32_t edges[2] = {lx->shift[x], ly->shift[y]};
+    double least = INFINITY;
+    for (int k = 0; k < cell->count; k++)
+        least = fmin(least, distance_squared(tr, i, cell->disk[k], edges));
+    if (!cell->crowded) return least;
+    int32_t j = cell->disk[HD_CELL_DISKS - 1];
+    while ((j = hd_cells_next(&tr->motion.cells, j)) >= 0)
+        least = fmin(least, distance_squared(tr, i, j, edges));
+    return least;
+}
+
+double hd_trajectory_overlap(const hd_trajectory *tr)
+{
+    double least = INFINITY;
+    for (int32_t i = 0; i < tr->motion.count; i++)
+        for (int32_t k = 0; k < 9; k++) least = fmin(least, nearest_in_cell(tr, i, k % 3, k / 3));
+    return least < 1.0 ? 1.0 - sqrt(least) : 0.0;
+}

@@ -1,0 +1,83 @@
+/** The disks <-> file. Cells, queue and predictions follow from the disks: see trajectory.c. */
+#include <math.h>
+#include <stdbool.h>
+
+#include "events/archived.h"
+#include "events/trajectory_state.h"
+
+/** Turns around the box within one epoch: more than any speed allows. */
+enum { WRAP_MAX = 1 << 24 };
+/** Rounding of a position; and of the energy, which walks by 1e-16 of itself in a collision. */
+static const double PLACE_CLOSE = 1e-6, ENERGY_CLOSE = 1e-6;
+
+static void disks_archive(hd_trajectory *tr, hd_archive *archive)
+{
+    const size_t n = (size_t)tr->motion.count;
+    hd_archive_of_doubles(archive, "trajectory q p t", 5 * n);
+    for (size_t i = 0; i < n; i++) {
+        hd_archive_next_doubles(archive, tr->motion.disk[i].q, 2);
+        hd_archive_next_doubles(archive, tr->motion.disk[i].p, 2);
+        hd_archive_next_doubles(archive, &tr->motion.disk[i].t, 1);
+    }
+    hd_archive_of_ints(archive, "trajectory wrap cell", 4 * n);
+    for (size_t i = 0; i < n; i++)
+        for (int d = 0; d < 2; d++) {
+            hd_archive_next_int(archive, &tr->motion.disk[i].wrap[d], -WRAP_MAX, WRAP_MAX);
+            hd_archive_next_int(archive, &tr->motion.disk[i].cell[d], 0,
+                                tr->motion.cells.size[d] - 1);
+        }
+}
+
+static bool in_its_cell(const hd_trajectory *tr, const hd_disk *disk)
+{
+    for (int d = 0; d < 2; d++) {
+        const double *bound = tr->motion.cells.line[d][disk->cell[d]].bound;
+        const double flight = disk->p[d] * (tr->now - tr->epoch_start - disk->t);
+        const double place = disk->q[d] + flight - disk->wrap[d] * tr->motion.cells.box[d];
+        if (!(place >= bound[0] - PLACE_CLOSE && place <= bound[1] + PLACE_CLOSE)) return false;
+    }
+    return true;
+}
+
+/** What the disks' numbers are not, or NULL. Of a scene: its energy is N. */
+static const char *inconsistency(const hd_trajectory *tr)
+{
+    const double since = tr->now - tr->epoch_start;
+    if (!(tr->epoch_start >= 0 && since >= 0 && since <= tr->epoch_length))
+        return "the time is outside its epoch";
+    for (int32_t i = 0; i < tr->motion.count; i++) {
+        const hd_disk *disk = &tr->motion.disk[i];
+        if (!(disk->t >= 0 && disk->t <= since)) return "a disk is ahead of its time";
+        if (!in_its_cell(tr, disk)) return "a disk is not in its cell";
+    }
+    const double excess = hd_trajectory_kinetic_energy(tr) - tr->motion.count;
+    if (!(fabs(excess) <= ENERGY_CLOSE * tr->motion.count)) return "the energy is wrong";
+    return hd_trajectory_overlap(tr) > HD_OVERLAP_MAX ? "disks overlap" : NULL;
+}
+
+static void book(hd_trajectory *tr)
+{
+    hd_cells_empty(&tr->motion.cells);
+    for (int32_t i = 0; i < tr->motion.count; i++)
+        hd_cells_book(&tr->motion.cells, tr->motion.disk, i);
+}
+
+static void predict(hd_trajectory *tr)
+{
+    hd_queue_restart(&tr->motion.queue);
+    for (int32_t i = 0; i < tr->motion.count; i++) hd_prediction_renew(&tr->motion, i);
+}
+
+void hd_trajectory_archive(hd_trajectory *tr, hd_archive *archive)
+{
+    hd_archive_double(archive, "trajectory epoch start", &tr->epoch_start);
+    hd_archive_double(archive, "trajectory time", &tr->now);
+    hd_archive_bits(archive, "trajectory collisions", &tr->collisions);
+    hd_archive_bits(archive, "trajectory wall events", &tr->wall_events);
+    disks_archive(tr, archive);
+    if (archive->writing || !hd_archive_good(archive)) return;
+    book(tr);
+    const char *fault = inconsistency(tr);
+    if (fault) hd_archive_refuse(archive, "trajectory", fault);
+    if (hd_archive_good(archive)) predict(tr);
+}

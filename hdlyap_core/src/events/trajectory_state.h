@@ -1,0 +1,21 @@
+/** What a trajectory holds, for the files that make it up: trajectory.c and trajectory_archive.c.
+ */
+#ifndef HD_TRAJECTORY_STATE_H
+#define HD_TRAJECTORY_STATE_H
+
+#include "events/prediction.h"
+#include "hdlyap/trajectory.h"
+
+/** Deeper than this [sigma], an overlap is a fault and not rounding. */
+#define HD_OVERLAP_MAX 1e-9
+
+struct hd_trajectory {
+    hd_motion motion;
+    double rate; /**< expected pair events per time unit */
+    double epoch_length;
+    double epoch_start; /**< simulated time, a multiple of epoch_length */
+    double now;         /**< simulated time */
+    uint64_t collisions, wall_events;
+};
+
+#endif

@@ -1,0 +1,202 @@
+/** Positions and momenta -> sampled fields [T10].
+ *
+ * Row-major, rows 2j, 2j+1 = x, y of disk j: the right-hand factor of a dgemm against the rows of
+ * the frame. The functions of one coordinate are tabulated per disk, each field is a product of
+ * two. */
+#include "hdlyap/fields.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/check.h"
+#include "base/memory.h"
+
+/** cos(k u), sin(k u) and their derivatives, for nodes 0 .. nodes along one direction. */
+typedef struct table {
+    double offset; /**< of the coordinate: 1/2 behind a wall */
+    int nodes;
+    double k;           /**< of one node */
+    double *value;      /**< [2 (nodes + 1)]: cosine, sine of each node */
+    double *derivative; /**< same */
+} table;
+
+struct hd_fields {
+    int disks, columns, stride, subspaces;
+    table along[2];
+    bool periodic[2];
+    hd_subspace *subspace; /**< [subspaces] */
+    double *data;          /**< [2 disks * stride] */
+    double *norm;          /**< [stride], of the columns as sampled */
+};
+
+/* ---- creation ------------------------------------------------------------------------------ */
+
+static void subspace_add(hd_fields *fields, hd_mode_kind kind, const hd_wave *wave,
+                         hd_modulations modulations)
+{
+    const int dimension = modulations.count * (kind == HD_MODE_LP ? 2 : 1);
+    if (dimension == 0) return;
+    fields->subspace[fields->subspaces++] = (hd_subspace){kind, *wave, modulations, fields->columns,
+                                                          dimension};
+    fields->columns += dimension;
+    for (int d = 0; d < 2; d++)
+        if (wave->n[d] > fields->along[d].nodes) fields->along[d].nodes = wave->n[d];
+}
+
+static hd_status subspaces_create(hd_fields *fields, const hd_scene_def *def)
+{
+    const int waves = hd_waves(def, NULL, 0);
+    hd_wave *wave = hd_memory_alloc((size_t)waves + 1, sizeof *wave);
+    fields->subspace = hd_memory_alloc(2 * (size_t)waves + 1, sizeof *fields->subspace);
+    if (!wave || !fields->subspace) {
+        hd_memory_free(wave);
+        return HD_NO_MEMORY;
+    }
+    (void)hd_waves(def, wave, waves);
+    for (int w = 0; w < waves; w++) {
+        subspace_add(fields, HD_MODE_T, &wave[w], hd_wave_transverse(&wave[w], def->boundary));
+        subspace_add(fields, HD_MODE_LP, &wave[w], hd_wave_pairs(&wave[w], def->boundary));
+    }
+    hd_memory_free(wave);
+    return HD_OK;
+}
+
+static hd_status tables_create(hd_fields *fields, const hd_scene_def *def)
+{
+    for (int d = 0; d < 2; d++) {
+        table *t = &fields->along[d];
+        t->offset = def->boundary[d] == HD_REFLECTING ? 0.5 : 0.0;
+        t->k = hd_wave_component(def, d, 1);
+        t->value = hd_memory_alloc(2 * ((size_t)t->nodes + 1), sizeof(double));
+        t->derivative = hd_memory_alloc(2 * ((size_t)t->nodes + 1), sizeof(double));
+        if (!t->value || !t->derivative) return HD_NO_MEMORY;
+    }
+    return HD_OK;
+}
+
+static hd_status fields_prepare(hd_fields *fields, const hd_scene_def *def)
+{
+    HD_TRY(subspaces_create(fields, def));
+    HD_TRY(tables_create(fields, def));
+    for (int d = 0; d < 2; d++) fields->periodic[d] = def->boundary[d] == HD_PERIODIC;
+    fields->columns += HD_NULLS;
+    fields->stride = (fields->columns + 7) / 8 * 8;
+    fields->data = hd_memory_alloc(2 * (size_t)fields->disks * (size_t)fields->stride,
+                                   sizeof(double));
+    fields->norm = hd_memory_alloc((size_t)fields->stride, sizeof(double));
+    return fields->data && fields->norm ? HD_OK : HD_NO_MEMORY;
+}
+
+hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def)
+{
+    hd_fields *fields = hd_memory_alloc(1, sizeof *fields);
+    *out = NULL;
+    if (!fields) return HD_NO_MEMORY;
+    fields->disks = def->disks;
+    const hd_status status = fields_prepare(fields, def);
+    if (status == HD_OK)
+        *out = fields;
+    else
+        hd_fields_free(fields);
+    return status;
+}
+
+void hd_fields_free(hd_fields *fields)
+{
+    if (!fields) return;
+    for (int d = 0; d < 2; d++) {
+        hd_memory_free(fields->along[d].value);
+        hd_memory_free(fields->along[d].derivative);
+    }
+    hd_memory_free(fields->subspace);
+    hd_memory_free(fields->data);
+    hd_memory_free(fields->norm);
+    hd_memory_free(fields);
+}
+
+/* ---- sampling ------------------------------------------------------------------------------ */
+
+static void table_fill(table *t, double coordinate)
+{
+    for (int n = 0; n <= t->nodes; n++) {
+        const double k = t->k * n, angle = k * (coordinate - t->offset);
+        t->value[2 * n] = cos(angle);
+        t->value[2 * n + 1] = sin(angle);
+        t->derivative[2 * n] = -k * t->value[2 * n + 1];
+        t->derivative[2 * n + 1] = k * t->value[2 * n];
+    }
+}
+
+/** Fields of one modulation A = f(x) g(y) at one disk: T = curl A; L = grad A and P = p A. */
+static void sample_modulation(const hd_fields *fields, const hd_subspace *s, int c, const double *p,
+                              double *x, double *y)
+{
+    const unsigned bits = s->modulations.bits[c];
+    const int at_x = 2 * s->wave.n[0] + (int)(bits & HD_SIN_X);
+    const int at_y = 2 * s->wave.n[1] + (int)(bits >> 1);
+    const double f = fields->along[0].value[at_x], df = fields->along[0].derivative[at_x];
+    const double g = fields->along[1].value[at_y], dg = fields->along[1].derivative[at_y];
+    const int column = s->column + c, pair = column + s->modulations.count;
+    if (s->kind == HD_MODE_T) {
+        x[column] = f * dg, y[column] = -df * g;
+        return;
+    }
+    x[column] = df * g, y[column] = f * dg;
+    x[pair] = p[0] * f * g, y[pair] = p[1] * f * g;
+}
+
+static void sample_disk(hd_fields *fields, const double *q, const double *p, double *x, double *y)
+{
+    const int null = fields->columns - HD_NULLS;
+    for (int d = 0; d < 2; d++) table_fill(&fields->along[d], q[d]);
+    for (int s = 0; s < fields->subspaces; s++)
+        for (int c = 0; c < fields->subspace[s].modulations.count; c++)
+            sample_modulation(fields, &fields->subspace[s], c, p, x, y);
+    x[null + HD_NULL_X] = fields->periodic[0];
+    y[null + HD_NULL_Y] = fields->periodic[1];
+    x[null + HD_NULL_P] = p[0], y[null + HD_NULL_P] = p[1];
+}
+
+/** A column that vanishes at every disk stays zero. */
+static void normalise(hd_fields *fields)
+{
+    const size_t rows = 2 * (size_t)fields->disks, stride = (size_t)fields->stride;
+    for (int c = 0; c < fields->columns; c++) fields->norm[c] = 0.0;
+    for (size_t row = 0; row < rows; row++)
+        for (int c = 0; c < fields->columns; c++) {
+            const double value = fields->data[row * stride + (size_t)c];
+            fields->norm[c] += value * value;
+        }
+    for (int c = 0; c < fields->columns; c++) fields->norm[c] = sqrt(fields->norm[c]);
+    for (size_t row = 0; row < rows; row++)
+        for (int c = 0; c < fields->columns; c++)
+            fields->data[row * stride + (size_t)c] /= fmax(fields->norm[c], DBL_MIN);
+}
+
+void hd_fields_sample(hd_fields *fields, const double *q, const double *p)
+{
+    const size_t stride = (size_t)fields->stride;
+    for (int j = 0; j < fields->disks; j++) {
+        double *x = fields->data + 2 * stride * (size_t)j;
+        sample_disk(fields, q + 2 * j, p + 2 * j, x, x + stride);
+    }
+    normalise(fields);
+}
+
+int hd_fields_columns(const hd_fields *fields) { return fields->columns; }
+int hd_fields_stride(const hd_fields *fields) { return fields->stride; }
+const double *hd_fields_data(const hd_fields *fields) { return fields->data; }
+
+double hd_fields_norm(const hd_fields *fields, int column)
+{
+    HD_ASSERT(column >= 0 && column < fields->columns);
+    return fields->norm[column];
+}
+
+int hd_fields_subspaces(const hd_fields *fields) { return fields->subspaces; }
+
+const hd_subspace *hd_fields_subspace(const hd_fields *fields, int s)
+{
+    HD_ASSERT(s >= 0 && s < fields->subspaces);
+    return &fields->subspace[s];
+}

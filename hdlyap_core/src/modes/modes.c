@@ -1,0 +1,321 @@
+/** Frame -> weights of every vector in every subspace [T11].
+ *
+ * With B (2N x D, row-major) the sampled fields of all subspaces and U (2N x n) the dq halves, the
+ * overlaps B^T U are two dgemms, over the x and the y rows of the frame where they lie. Least
+ * squares on one subspace: its Gram matrix G = E L E^T (dgesvd), coefficients c = G^+ B^T u, weight
+ * = |L^(-1/2) E^T B^T u|^2; directions that the disks do not sample (L below RANK) are left out.
+ * The vectors stay in columns throughout. */
+#include "hdlyap/modes.h"
+
+#include <cblas.h>
+#include <lapacke.h>
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/check.h"
+#include "base/memory.h"
+#include "modes/archived.h"
+
+/** Eigenvalues of a Gram matrix of unit fields below this are unsampled directions, not small ones.
+ */
+static const double RANK = 1e-6;
+
+enum { DIMENSION_MAX = 2 * HD_MODULATIONS_MAX, BLOCK = 128 };
+
+struct hd_modes {
+    hd_fields *fields;
+    int disks, vectors, threads;
+    size_t stride;       /**< of every array over the vectors */
+    double *gram;        /**< [columns * columns] */
+    double *coefficient; /**< [columns][stride]: overlaps, then coefficients */
+    double *work;        /**< [DIMENSION_MAX][stride] */
+    double *dq_norm;     /**< [stride] */
+    double *null_dp;     /**< [HD_NULLS][stride]: overlaps of the dp halves with the null fields */
+    double *snapshot;    /**< [subspaces * HD_WEIGHTS + HD_NULLS][stride] */
+    double *average;     /**< same, over samples */
+    long samples;
+};
+
+/* ---- creation ------------------------------------------------------------------------------ */
+
+static size_t weight_rows(const hd_modes *modes)
+{
+    return (size_t)hd_fields_subspaces(modes->fields) * HD_WEIGHTS + HD_NULLS;
+}
+
+static hd_status modes_allocate(hd_modes *modes, const hd_scene_def *def)
+{
+    HD_TRY(hd_fields_create(&modes->fields, def));
+    const size_t columns = (size_t)hd_fields_columns(modes->fields), rows = weight_rows(modes);
+    const size_t n = modes->stride;
+    struct {
+        double **array;
+        size_t size;
+    } wanted[] = {{&modes->gram, columns * columns}, {&modes->coefficient, columns * n},
+                  {&modes->work, DIMENSION_MAX * n}, {&modes->dq_norm, n},
+                  {&modes->null_dp, HD_NULLS * n},   {&modes->snapshot, rows * n},
+                  {&modes->average, rows * n}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
+        if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
+            return HD_NO_MEMORY;
+    return HD_OK;
+}
+
+hd_status hd_modes_create(hd_modes **out, const hd_scene_def *def, int vectors, int threads)
+{
+    HD_ASSERT(vectors >= 1 && threads >= 1);
+    hd_modes *modes = hd_memory_alloc(1, sizeof *modes);
+    *out = NULL;
+    if (!modes) return HD_NO_MEMORY;
+    modes->disks = def->disks;
+    modes->vectors = vectors;
+    modes->threads = threads;
+    modes->stride = (size_t)(vectors + 7) / 8 * 8;
+    const hd_status status = modes_allocate(modes, def);
+    if (status == HD_OK)
+        *out = modes;
+    else
+        hd_modes_free(modes);
+    return status;
+}
+
+void hd_modes_free(hd_modes *modes)
+{
+    if (!modes) return;
+    hd_fields_free(modes->fields);
+    hd_memory_free(modes->gram);
+    hd_memory_free(modes->coefficient);
+    hd_memory_free(modes->work);
+    hd_memory_free(modes->dq_norm);
+    hd_memory_free(modes->null_dp);
+    hd_memory_free(modes->snapshot);
+    hd_memory_free(modes->average);
+    hd_memory_free(modes);
+}
+
+/* ---- one snapshot -------------------------------------------------------------------------- */
+
+/** out[count][stride] = (fields from `column` on)^T times the dq (half 0) or dp (half 2) rows. */
+static void overlaps(const hd_modes *modes, hd_columns v, int half, int column, int count,
+                     double *out)
+{
+    const int fields = hd_fields_stride(modes->fields);
+    for (int d = 0; d < 2; d++)
+        cblas_dgemm(CblasRowMajor, CblasTrans, CblasNoTrans, count, v.count, modes->disks, 1.0,
+                    hd_fields_data(modes->fields) + (size_t)d * (size_t)fields + column, 2 * fields,
+                    v.data + (size_t)(half + d) * (size_t)v.stride, 4 * v.stride, d, out + v.first,
+                    (int)modes->stride);
+}
+
+static void gram_fill(hd_modes *modes)
+{
+    const int columns = hd_fields_columns(modes->fields);
+    cblas_dsyrk(CblasRowMajor, CblasUpper, CblasTrans, columns, 2 * modes->disks, 1.0,
+                hd_fields_data(modes->fields), hd_fields_stride(modes->fields), 0.0, modes->gram,
+                columns);
+}
+
+static void dq_norms(hd_modes *modes, hd_columns v)
+{
+    const int n = v.count, rows = 4 * modes->disks;
+#pragma omp parallel for schedule(static) num_threads(modes->threads) if (modes->threads > 1)
+    for (int col = 0; col < n; col += BLOCK) {
+        const int end = col + BLOCK < n ? col + BLOCK : n;
+        double *sum = modes->dq_norm + v.first;
+        for (int l = col; l < end; l++) sum[l] = 0.0;
+        for (int row = 0; row < rows; row += row % 4 == 0 ? 1 : 3)
+            for (int l = col; l < end; l++) {
+                const double dq = v.data[(size_t)row * (size_t)v.stride + (size_t)l];
+                sum[l] += dq * dq;
+            }
+        for (int l = col; l < end; l++) sum[l] = sqrt(sum[l]);
+    }
+}
+
+static double *row_of(double *rows, size_t row, const hd_modes *modes)
+{
+    return rows + row * modes->stride;
+}
+
+static void add_squares(double *sum, const double *row, int n)
+{
+    for (int l = 0; l < n; l++) sum[l] += row[l] * row[l];
+}
+
+/** Whole vectors are orthonormal, and so are the null fields: plain overlaps. */
+static void measure_null(hd_modes *modes, hd_columns v)
+{
+    const size_t from = (size_t)(hd_fields_columns(modes->fields) - HD_NULLS);
+    for (size_t k = 0; k < HD_NULLS; k++) {
+        double *out = row_of(modes->snapshot, weight_rows(modes) - HD_NULLS + k, modes) + v.first;
+        memset(out, 0, (size_t)v.count * sizeof *out);
+        add_squares(out, row_of(modes->coefficient, from + k, modes) + v.first, v.count);
+        add_squares(out, row_of(modes->null_dp, k, modes) + v.first, v.count);
+    }
+}
+
+/** whiten[d * d] = E L^(-1/2), d x d row-major, zero columns for unsampled directions. The singular
+ * values of G are its eigenvalues; dsyev would ask all of OpenBLAS's threads for every product with
+ * a vector of 8. */
+static void whitening(const hd_modes *modes, const hd_subspace *s, double *whiten)
+{
+    const int d = s->dimension, columns = hd_fields_columns(modes->fields);
+    double gram[DIMENSION_MAX * DIMENSION_MAX], vectors[DIMENSION_MAX * DIMENSION_MAX];
+    double value[DIMENSION_MAX], work[64 * DIMENSION_MAX], none;
+    for (int a = 0; a < d; a++)
+        for (int b = a; b < d; b++)
+            gram[a * d + b] = gram[b * d + a] =
+                modes->gram[(s->column + a) * columns + s->column + b];
+    const int failed = LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'A', 'N', d, d, gram, d, value,
+                                           vectors, d, &none, 1, work,
+                                           (int)(sizeof work / sizeof *work));
+    HD_ASSERT(failed == 0);
+    for (int e = 0; e < d; e++) {
+        const double scale = value[e] > RANK ? 1.0 / sqrt(value[e]) : 0.0;
+        for (int a = 0; a < d; a++) whiten[a * d + e] = vectors[e * d + a] * scale;
+    }
+}
+
+/** Squared norm of the part of the projection that columns [from, to) of s make up. */
+static void part_weight(const hd_modes *modes, const hd_subspace *s, int from, int to, hd_columns v,
+                        double *out)
+{
+    const int columns = hd_fields_columns(modes->fields);
+    memset(out, 0, (size_t)v.count * sizeof *out);
+    for (int a = from; a < to; a++)
+        for (int b = a; b < to; b++) {
+            const double g = modes->gram[(s->column + a) * columns + s->column + b] *
+                             (a == b ? 1.0 : 2.0);
+            const double *x = hd_modes_coefficients(modes, s->column + a) + v.first;
+            const double *y = hd_modes_coefficients(modes, s->column + b) + v.first;
+            for (int l = 0; l < v.count; l++) out[l] += g * x[l] * y[l];
+        }
+}
+
+static void measure_subspace(hd_modes *modes, int index, hd_columns v)
+{
+    const hd_subspace *s = hd_fields_subspace(modes->fields, index);
+    const int d = s->dimension, n = v.count, stride = (int)modes->stride;
+    double whiten[DIMENSION_MAX * DIMENSION_MAX];
+    double *overlap = row_of(modes->coefficient, (size_t)s->column, modes) + v.first;
+    double *out = row_of(modes->snapshot, (size_t)index * HD_WEIGHTS, modes) + v.first;
+    whitening(modes, s, whiten);
+    cblas_dgemm(CblasRowMajor, CblasTrans, CblasNoTrans, d, n, d, 1.0, whiten, d, overlap, stride,
+                0.0, modes->work, stride);
+    memset(out, 0, (size_t)n * sizeof *out);
+    for (int e = 0; e < d; e++) add_squares(out, row_of(modes->work, (size_t)e, modes), n);
+    cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, d, n, d, 1.0, whiten, d, modes->work,
+                stride, 0.0, overlap, stride);
+    if (s->kind != HD_MODE_LP) return;
+    part_weight(modes, s, 0, d / 2, v, out + HD_WEIGHT_L * modes->stride);
+    part_weight(modes, s, d / 2, d, v, out + HD_WEIGHT_P * modes->stride);
+}
+
+/** Overlaps with the fields of all subspaces, of normalised dq halves. A vector without a dq half
+ * has no weights. */
+static void normalise(hd_modes *modes, hd_columns v)
+{
+    const size_t columns = (size_t)(hd_fields_columns(modes->fields) - HD_NULLS);
+    for (size_t c = 0; c < columns; c++) {
+        double *row = row_of(modes->coefficient, c, modes);
+        for (int l = v.first; l < v.first + v.count; l++)
+            row[l] = modes->dq_norm[l] > HD_MODES_DQ_MIN ? row[l] / modes->dq_norm[l] : 0.0;
+    }
+}
+
+static bool all_finite(const double *x, size_t count)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < count; k++) sum += x[k];
+    return isfinite(sum);
+}
+
+hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const double *p)
+{
+    HD_ASSERT(v.first >= 0 && v.first + v.count <= modes->vectors);
+    const int columns = hd_fields_columns(modes->fields);
+    hd_fields_sample(modes->fields, q, p);
+    gram_fill(modes);
+    if (!all_finite(modes->gram, (size_t)columns * (size_t)columns)) return HD_NOT_FINITE;
+    dq_norms(modes, v);
+    overlaps(modes, v, 0, 0, columns, modes->coefficient);
+    overlaps(modes, v, 2, columns - HD_NULLS, HD_NULLS, modes->null_dp);
+    measure_null(modes, v);
+    normalise(modes, v);
+    for (int s = 0; s < hd_fields_subspaces(modes->fields); s++) measure_subspace(modes, s, v);
+    return all_finite(modes->snapshot, weight_rows(modes) * modes->stride) ? HD_OK : HD_NOT_FINITE;
+}
+
+/* ---- averages ------------------------------------------------------------------------------ */
+
+void hd_modes_add(hd_modes *modes)
+{
+    const size_t size = weight_rows(modes) * modes->stride;
+    modes->samples++;
+    for (size_t k = 0; k < size; k++)
+        modes->average[k] += (modes->snapshot[k] - modes->average[k]) / (double)modes->samples;
+}
+
+void hd_modes_clear(hd_modes *modes)
+{
+    modes->samples = 0;
+    memset(modes->average, 0, weight_rows(modes) * modes->stride * sizeof *modes->average);
+}
+
+/* ---- what can be read ---------------------------------------------------------------------- */
+
+static const double *weight_of(const hd_modes *modes, const double *rows, int s, hd_weight which)
+{
+    HD_ASSERT(s >= 0 && s < hd_fields_subspaces(modes->fields) && which < HD_WEIGHTS);
+    return rows + ((size_t)s * HD_WEIGHTS + (size_t)which) * modes->stride;
+}
+
+static const double *null_of(const hd_modes *modes, const double *rows, int null)
+{
+    HD_ASSERT(null >= 0 && null < HD_NULLS);
+    return rows + (weight_rows(modes) - HD_NULLS + (size_t)null) * modes->stride;
+}
+
+long hd_modes_samples(const hd_modes *modes) { return modes->samples; }
+int hd_modes_vectors(const hd_modes *modes) { return modes->vectors; }
+const hd_fields *hd_modes_fields(const hd_modes *modes) { return modes->fields; }
+const double *hd_modes_dq_norm(const hd_modes *modes) { return modes->dq_norm; }
+
+const double *hd_modes_snapshot(const hd_modes *modes, int s, hd_weight which)
+{
+    return weight_of(modes, modes->snapshot, s, which);
+}
+
+const double *hd_modes_average(const hd_modes *modes, int s, hd_weight which)
+{
+    return weight_of(modes, modes->average, s, which);
+}
+
+const double *hd_modes_null_snapshot(const hd_modes *modes, int null)
+{
+    return null_of(modes, modes->snapshot, null);
+}
+
+const double *hd_modes_null_average(const hd_modes *modes, int null)
+{
+    return null_of(modes, modes->average, null);
+}
+
+const double *hd_modes_coefficients(const hd_modes *modes, int column)
+{
+    HD_ASSERT(column >= 0 && column < hd_fields_columns(modes->fields));
+    return modes->coefficient + (size_t)column * modes->stride;
+}
+
+/** With the snapshot: reports go on to state it until the next one. */
+void hd_modes_archive(hd_modes *modes, hd_archive *archive)
+{
+    const size_t n = modes->stride, rows = weight_rows(modes) * n;
+    hd_archive_long(archive, "modes samples", &modes->samples, 0, LONG_MAX / 2);
+    hd_archive_doubles(archive, "modes average", modes->average, rows);
+    hd_archive_doubles(archive, "modes snapshot", modes->snapshot, rows);
+    hd_archive_doubles(archive, "modes coefficient", modes->coefficient,
+                       (size_t)hd_fields_columns(modes->fields) * n);
+    hd_archive_doubles(archive, "modes dq norm", modes->dq_norm, n);
+}

@@ -1,0 +1,509 @@
+/** Coefficients of the LP steps' vectors -> phases and angular velocities [T13].
+ *
+ * With z = a + i b of one pair, the vectors of a step all turn at the same rate: z -> z exp(i
+ * omega t). A rotor follows one step: its slots are vectors, which may change their columns; each
+ * slot and pair is a track with a phase of its own. The sum over all tracks of conj(z) z' between
+ * two samples turns by omega dt too, weighs each track with its strength and does not mind which
+ * vector is which: it predicts the tracks' next phases. The velocity is the mean rate of the
+ * tracks. */
+#include "hdlyap/phases.h"
+
+#include <complex.h>
+#include <limits.h>
+#include <math.h>
+
+#include "averages/block_average.h"
+#include "base/check.h"
+#include "base/memory.h"
+#include "modes/archived.h"
+#include "modes/sets.h"
+
+static const double PI = 3.14159265358979323846;
+/** a^2 + b^2 below this has no phase: noise of a few percent would turn it. */
+static const double WEAK = 0.05;
+/** |omega| / lambda is at most about this: v / c_L is 1.14 at density 0.8, near 1 below 0.6. */
+static const double RATE_PER_EXPONENT = 1.25;
+/** Sampling is refined when a step may turn by more than this part of pi. */
+static const double SAFE = 0.75;
+/** Weak for more samples than this: the phase is begun anew. */
+static const double GAP_MAX = 16.0;
+
+enum { PAIRS_MAX = HD_MODULATIONS_MAX, SLOTS_MAX = 2 * PAIRS_MAX, LEARN = 4 };
+
+/** One slot and one pair. Slope by regression: running means and centred sums of time and phase. */
+typedef struct track {
+    hd_lp_phase out;
+    double last;  /**< time of the last phase */
+    double begin; /**< of the tracking */
+    long count;
+    double mean_t, mean_phase, square_t, product;
+    double rate_now;       /**< last increment of the phase per time */
+    hd_block_average rate; /**< one series: all of them */
+} track;
+
+/** One LP step. */
+typedef struct rotor {
+    int step, column, pairs, slots; /**< column: of the first L field */
+    double wave_number;
+    track *track;   /**< [slots][pairs] */
+    int col, count; /**< the set followed; col -1: none */
+    long samples;   /**< since the set was taken up */
+    int slot_col[SLOTS_MAX];
+    double sign[SLOTS_MAX]; /**< of the vector in a slot against the one it began with */
+    double complex z[SLOTS_MAX][PAIRS_MAX]; /**< at the last sample, times sign */
+    double time, dt;
+    double omega; /**< mean turn of the whole step per time: what phases are unwrapped by */
+    hd_block_average rate; /**< one series: of these turns */
+    hd_block_average
+        velocity; /**< one series: mean rate of the tracks, which adds up to their phases */
+} rotor;
+
+struct hd_phases {
+    int rotors, tracks, vectors;
+    rotor *rotor;
+    track *track;
+};
+
+/* ---- creation ------------------------------------------------------------------------------ */
+
+static hd_status rotor_create(rotor *r, track *tracks, const hd_step *step, int index, int column)
+{
+    *r = (rotor){.step = index,
+                 .column = column,
+                 .pairs = step->expected / 2,
+                 .slots = step->expected,
+                 .wave_number = step->wave.number,
+                 .track = tracks,
+                 .col = -1};
+    for (int t = 0; t < r->slots * r->pairs; t++)
+        HD_TRY(hd_block_average_create(&tracks[t].rate, 1));
+    HD_TRY(hd_block_average_create(&r->velocity, 1));
+    return hd_block_average_create(&r->rate, 1);
+}
+
+static hd_status rotors_create(hd_phases *phases, const hd_steps *steps)
+{
+    const hd_fields *fields = hd_modes_fields(hd_steps_modes(steps));
+    int t = 0;
+    for (int k = 0; k < hd_steps_count(steps); k++) {
+        const hd_step *step = hd_steps_step(steps, k);
+        if (step->kind != HD_MODE_LP) continue;
+        const hd_subspace *s = hd_fields_subspace(fields, step->subspace);
+        rotor *r = &phases->rotor[phases->rotors++];
+        HD_TRY(rotor_create(r, phases->track + t, step, k, s->column));
+        for (int v = 0; v < r->slots; v++)
+            for (int c = 0; c < r->pairs; c++)
+                phases->track[t++].out = (hd_lp_phase){.step = k,
+                                                       .modulation = s->modulations.bits[c],
+                                                       .col = -1,
+                                                       .omega_error = -1.0};
+    }
+    return HD_OK;
+}
+
+hd_status hd_phases_create(hd_phases **out, const hd_steps *steps)
+{
+    hd_phases *phases = hd_memory_alloc(1, sizeof *phases);
+    *out = NULL;
+    if (!phases) return HD_NO_MEMORY;
+    phases->vectors = hd_modes_vectors(hd_steps_modes(steps));
+    int rotors = 0;
+    for (int k = 0; k < hd_steps_count(steps); k++) {
+        const hd_step *step = hd_steps_step(steps, k);
+        if (step->kind != HD_MODE_LP) continue;
+        rotors++;
+        phases->tracks += step->expected * step->expected / 2;
+    }
+    phases->rotor = hd_memory_alloc((size_t)rotors + 1, sizeof *phases->rotor);
+    phases->track = hd_memory_alloc((size_t)phases->tracks + 1, sizeof *phases->track);
+    const hd_status status = phases->rotor && phases->track ? rotors_create(phases, steps)
+                                                            : HD_NO_MEMORY;
+    if (status == HD_OK)
+        *out = phases;
+    else
+        hd_phases_free(phases);
+    return status;
+}
+
+void hd_phases_free(hd_phases *phases)
+{
+    if (!phases) return;
+    for (int t = 0; phases->track && t < phases->tracks; t++)
+        hd_block_average_clear(&phases->track[t].rate);
+    for (int k = 0; phases->rotor && k < phases->rotors; k++) {
+        hd_block_average_clear(&phases->rotor[k].rate);
+        hd_block_average_clear(&phases->rotor[k].velocity);
+    }
+    hd_memory_free(phases->rotor);
+    hd_memory_free(phases->track);
+    hd_memory_free(phases);
+}
+
+/* ---- one track ----------------------------------------------------------------------------- */
+
+static void track_restart(track *t, hd_lp_state state)
+{
+    const hd_lp_phase out = t->out;
+    t->out = (hd_lp_phase){.step = out.step,
+                           .modulation = out.modulation,
+                           .col = -1,
+                           .state = state,
+                           .omega_error = -1.0};
+    t->count = 0;
+    hd_block_average_restart(&t->rate);
+}
+
+static void track_begin(track *t, double time, double phase)
+{
+    t->begin = t->last = t->mean_t = time;
+    t->out.phase = t->mean_phase = phase;
+    t->square_t = t->product = 0.0;
+    t->count = 1;
+    hd_block_average_restart(&t->rate);
+}
+
+/** Phase nearest to the prediction that differs from `phase` by turns. */
+static double unwrapped(double phase, double predicted)
+{
+    return phase + 2.0 * PI * round((predicted - phase) / (2.0 * PI));
+}
+
+static void track_regress(track *t, double time, double phase)
+{
+    const double off_t = time - t->mean_t, off = phase - t->mean_phase;
+    t->count++;
+    t->mean_t += off_t / (double)t->count;
+    t->mean_phase += off / (double)t->count;
+    t->square_t += off_t * (time - t->mean_t);
+    t->product += off_t * (phase - t->mean_phase);
+    t->out.omega = t->product / t->square_t;
+}
+
+/** Longest blocks see a phase that diffuses as well as one that only trembles; the slope of a
+ * diffusing phase has 6/5 of the variance of its mean rate. */
+static double slope_error(const track *t)
+{
+    const double error = hd_block_average_long_error(&t->rate, 0);
+    return error < 0 ? -1.0 : sqrt(1.2) * error;
+}
+
+/** z: with sign; r->omega predicts. True if the phase has gone on. */
+static bool track_add(track *t, const rotor *r, double complex z, double time)
+{
+    const double strength = creal(z) * creal(z) + cimag(z) * cimag(z);
+    if (t->count > 0 && time - t->last > GAP_MAX * r->dt) track_restart(t, HD_LP_WEAK);
+    t->out.state = strength < WEAK ? HD_LP_WEAK : HD_LP_TRACKED;
+    if (strength < WEAK) return false;
+    if (t->count == 0) {
+        track_begin(t, time, carg(z));
+        return false;
+    }
+    const double dt = time - t->last;
+    const double phase = unwrapped(carg(z), t->out.phase + r->omega * dt);
+    double rate = t->rate_now = (phase - t->out.phase) / dt;
+    hd_block_average_add(&t->rate, &rate);
+    track_regress(t, time, phase);
+    t->out.phase = phase;
+    t->last = time;
+    t->out.time = time - t->begin;
+    t->out.omega_error = slope_error(t);
+    return true;
+}
+
+/* ---- one rotor ----------------------------------------------------------------------------- */
+
+static void rotor_restart(rotor *r, hd_lp_state state)
+{
+    r->col = -1;
+    r->samples = 0;
+    hd_block_average_restart(&r->rate);
+    hd_block_average_restart(&r->velocity);
+    for (int t = 0; t < r->slots * r->pairs; t++) track_restart(&r->track[t], state);
+}
+
+static double complex coefficient(const rotor *r, const hd_modes *modes, int col, int c)
+{
+    return hd_modes_coefficients(modes, r->column + c)[col] +
+           I * hd_modes_coefficients(modes, r->column + r->pairs + c)[col];
+}
+
+/** a^2 + b^2 of a vector over all pairs. */
+static double strength_of(const rotor *r, const hd_modes *modes, int col)
+{
+    double sum = 0.0;
+    for (int c = 0; c < r->pairs; c++) {
+        const double complex z = coefficient(r, modes, col, c);
+        sum += creal(z * conj(z));
+    }
+    return sum;
+}
+
+/** Each slot takes a vector of the set; of a set shared with other steps the ones most of this one.
+ */
+static void slots_fill(rotor *r, const hd_step *step, const hd_modes *modes)
+{
+    const double *weight = hd_modes_average(modes, step->subspace, HD_WEIGHT);
+    bool taken[HD_SET_VECTORS_MAX] = {false};
+    for (int v = 0; v < r->slots; v++) {
+        int best = -1;
+        for (int m = 0; m < step->count; m++) {
+            const bool better = best < 0 || weight[step->col + m] > weight[step->col + best];
+            if (!taken[m] && (step->count == r->slots ? best < 0 : better)) best = m;
+        }
+        taken[best] = true;
+        r->slot_col[v] = step->col + best;
+        r->sign[v] = 1.0;
+    }
+}
+
+/** How well column col continues slot v: 1 for exactly, -1 for exactly with the other sign. */
+static double continuation(const rotor *r, const hd_modes *modes, int v, int col, double dt)
+{
+    const double complex turn = cexp(-I * r->omega * dt);
+    double product = 0.0, before = 0.0, now = 0.0;
+    for (int c = 0; c < r->pairs; c++) {
+        const double complex z = coefficient(r, modes, col, c);
+        product += creal(conj(r->z[v][c]) * z * turn);
+        before += creal(r->z[v][c] * conj(r->z[v][c]));
+        now += creal(z * conj(z));
+    }
+    return product / fmax(sqrt(before * now), 1e-300);
+}
+
+/** Vectors of a degenerate step can change places: best continuations first; a vector that goes on
+ * by itself is not asked. */
+static void slots_match(rotor *r, const hd_step *step, const hd_modes *modes, double dt)
+{
+    const double GOES_ON = 0.7, PREFERENCE = 0.3; /* for staying */
+    bool taken[HD_SET_VECTORS_MAX] = {false}, done[SLOTS_MAX] = {false};
+    int left = r->slots;
+    for (int v = 0; v < r->slots; v++) {
+        const double s = continuation(r, modes, v, r->slot_col[v], dt);
+        if (r->sign[v] * s < GOES_ON) continue;
+        taken[r->slot_col[v] - step->col] = done[v] = true;
+        left--;
+    }
+    while (left-- > 0) {
+        double best = -1.0, sign = 1.0;
+        int slot = -1, column = -1;
+        for (int v = 0; v < r->slots; v++)
+            for (int m = 0; m < step->count && !done[v]; m++) {
+                if (taken[m]) continue;
+                const double s = continuation(r, modes, v, step->col + m, dt);
+                const bool stays = step->col + m == r->slot_col[v] && r->sign[v] * s > 0;
+                const double score = fabs(s) + (stays ? PREFERENCE : 0.0);
+                if (score > best) best = score, sign = s, slot = v, column = m;
+            }
+        taken[column] = done[slot] = true;
+        r->slot_col[slot] = step->col + column;
+        r->sign[slot] = sign < 0 ? -1.0 : 1.0;
+    }
+}
+
+/** Turn of the whole step since the last sample, and from it the mean rate; from the vectors that
+ * are there. */
+static void rotor_turn(rotor *r, const hd_modes *modes, double dt)
+{
+    double complex sum = 0.0;
+    for (int v = 0; v < r->slots; v++) {
+        if (strength_of(r, modes, r->slot_col[v]) < WEAK) continue;
+        for (int c = 0; c < r->pairs; c++)
+            sum += conj(r->z[v][c]) * r->sign[v] * coefficient(r, modes, r->slot_col[v], c);
+    }
+    if (sum == 0.0) return;
+    double rate = carg(sum) / dt;
+    if (r->samples > LEARN) rate = unwrapped(carg(sum), r->omega * dt) / dt;
+    hd_block_average_add(&r->rate, &rate);
+    r->omega = hd_block_average_mean(&r->rate, 0);
+}
+
+/** Takes over the snapshot as the last sample. A vector that is something else for a while goes on
+ * as predicted: it is recognised when it comes back. The velocity is the mean rate of the tracks:
+ * unlike the turn of the whole, where longer vectors weigh more, it has no bias if |z| depends on
+ * the phase. */
+static void rotor_store(rotor *r, const hd_modes *modes, double time)
+{
+    const double complex turn = cexp(I * r->omega * (time - r->time));
+    double sum = 0.0, count = 0.0;
+    for (int v = 0; v < r->slots; v++) {
+        const int col = r->slot_col[v];
+        const bool away = r->samples > 0 && strength_of(r, modes, col) < WEAK;
+        for (int c = 0; c < r->pairs; c++) {
+            track *t = &r->track[v * r->pairs + c];
+            const double complex z = coefficient(r, modes, col, c);
+            r->z[v][c] = away ? r->z[v][c] * turn : r->sign[v] * z;
+            if (track_add(t, r, r->sign[v] * z, time)) sum += t->rate_now, count++;
+            t->out.col = col;
+            t->out.a = creal(z);
+            t->out.b = cimag(z);
+        }
+    }
+    if (count > 0) hd_block_average_add(&r->velocity, &(double){sum / count});
+    r->time = time;
+    r->samples++;
+}
+
+static double safe_sampling(const hd_step *step)
+{
+    return SAFE * PI / (RATE_PER_EXPONENT * fabs(step->exponent));
+}
+
+/** Follows the vectors of the step from here on. */
+static void rotor_take_up(rotor *r, const hd_step *step, const hd_modes *modes)
+{
+    rotor_restart(r, HD_LP_WEAK);
+    r->col = step->col;
+    r->count = step->count;
+    slots_fill(r, step, modes);
+}
+
+static void rotor_add(rotor *r, const hd_step *step, const hd_modes *modes, double time)
+{
+    const double dt = time - r->time;
+    if (!step->resolved) {
+        if (r->col >= 0) rotor_restart(r, HD_LP_UNRESOLVED);
+        return;
+    }
+    const bool same = r->col == step->col && r->count == step->count;
+    if (same && r->samples > 1 && dt < 0.5 * r->dt)
+        return; /* the end of the averaging cuts a piece short */
+    const bool paused = r->samples > 1 && dt > 1.5 * r->dt;
+    const bool coarse = same && !paused && dt * SAFE > safe_sampling(step);
+    if (!same || paused || coarse) {
+        rotor_take_up(r, step, modes);
+    } else {
+        if (r->samples > LEARN) slots_match(r, step, modes, dt);
+        rotor_turn(r, modes, dt);
+        r->dt = dt;
+    }
+    rotor_store(r, modes, time);
+    for (int t = 0; coarse && t < r->slots * r->pairs; t++) r->track[t].out.state = HD_LP_COARSE;
+}
+
+void hd_phases_add(hd_phases *phases, const hd_steps *steps, double time)
+{
+    const hd_modes *modes = hd_steps_modes(steps);
+    for (int k = 0; k < phases->rotors; k++) {
+        rotor *r = &phases->rotor[k];
+        rotor_add(r, hd_steps_step(steps, r->step), modes, time);
+    }
+}
+
+void hd_phases_clear(hd_phases *phases)
+{
+    for (int k = 0; k < phases->rotors; k++) rotor_restart(&phases->rotor[k], HD_LP_UNRESOLVED);
+}
+
+/* ---- what can be read ---------------------------------------------------------------------- */
+
+int hd_phases_count(const hd_phases *phases) { return phases->tracks; }
+
+const hd_lp_phase *hd_phases_phase(const hd_phases *phases, int index)
+{
+    HD_ASSERT(index >= 0 && index < phases->tracks);
+    return &phases->track[index].out;
+}
+
+static int tracked(const rotor *r)
+{
+    int count = 0;
+    for (int t = 0; t < r->slots * r->pairs; t++) count += r->track[t].out.state == HD_LP_TRACKED;
+    return count;
+}
+
+/** Weighted mean over the steps; where they scatter more than their errors allow, the error grows.
+ */
+hd_velocity hd_phases_velocity(const hd_phases *phases)
+{
+    hd_velocity out = {.v_error = -1.0};
+    double weights = 0.0, sum = 0.0, squares = 0.0;
+    int steps = 0;
+    for (int k = 0; k < phases->rotors; k++) {
+        const rotor *r = &phases->rotor[k];
+        const double error = hd_block_average_long_error(&r->velocity, 0) / r->wave_number;
+        if (!(error > 0)) continue;
+        const double v = fabs(hd_block_average_mean(&r->velocity, 0)) / r->wave_number,
+                     w = 1.0 / (error * error);
+        out.phases += tracked(r);
+        steps++;
+        weights += w;
+        sum += w * v;
+        squares += w * v * v;
+    }
+    if (steps == 0) return out;
+    out.v = sum / weights;
+    const double chi2 = fmax(squares - sum * out.v, 0.0);
+    out.v_error = sqrt(fmax(1.0, steps > 1 ? chi2 / (steps - 1) : 1.0) / weights);
+    return out;
+}
+
+int hd_phases_vectors(const hd_steps *steps)
+{
+    const int vectors = hd_modes_vectors(hd_steps_modes(steps));
+    int first = vectors;
+    for (int k = 0; k < hd_steps_count(steps); k++) {
+        const hd_step *step = hd_steps_step(steps, k);
+        if (step->kind == HD_MODE_LP && step->resolved && step->col < first) first = step->col;
+    }
+    return vectors - first;
+}
+
+double hd_phases_sampling(const hd_steps *steps)
+{
+    double sampling = INFINITY;
+    for (int k = 0; k < hd_steps_count(steps); k++) {
+        const hd_step *step = hd_steps_step(steps, k);
+        if (step->kind == HD_MODE_LP && step->resolved)
+            sampling = fmin(sampling, safe_sampling(step));
+    }
+    return sampling;
+}
+
+/* ---- file ---------------------------------------------------------------------------------- */
+
+static void track_archive(track *t, hd_archive *archive, int vectors)
+{
+    int state = (int)t->out.state;
+    hd_archive_int(archive, "phase col", &t->out.col, -1, vectors - 1);
+    hd_archive_int(archive, "phase state", &state, HD_LP_UNRESOLVED, HD_LP_TRACKED);
+    t->out.state = (hd_lp_state)state;
+    double *const of_out[] = {&t->out.a,     &t->out.b,           &t->out.phase,
+                              &t->out.omega, &t->out.omega_error, &t->out.time};
+    double *const sums[] = {&t->last,       &t->begin,    &t->mean_t,
+                            &t->mean_phase, &t->square_t, &t->product};
+    hd_archive_of_doubles(archive, "phase a b phase omega error time", 6);
+    for (int k = 0; k < 6; k++) hd_archive_next_doubles(archive, of_out[k], 1);
+    hd_archive_of_doubles(archive, "phase sums", 6);
+    for (int k = 0; k < 6; k++) hd_archive_next_doubles(archive, sums[k], 1);
+    hd_archive_long(archive, "phase count", &t->count, 0, LONG_MAX / 2);
+    hd_block_average_archive(&t->rate, archive);
+}
+
+/** The vectors in the slots are those of the set. */
+static void rotor_archive(rotor *r, hd_archive *archive, int vectors)
+{
+    hd_archive_int(archive, "rotor col", &r->col, -1, vectors - 1);
+    hd_archive_int(archive, "rotor count", &r->count, 0, HD_SET_VECTORS_MAX);
+    hd_archive_long(archive, "rotor samples", &r->samples, 0, LONG_MAX / 2);
+    const int first = r->col < 0 ? 0 : r->col,
+              last = r->col < 0 ? vectors - 1 : r->col + r->count - 1;
+    hd_archive_expect(archive, first <= last && last < vectors, "rotor", "its vectors are none");
+    hd_archive_of_ints(archive, "rotor slots", (size_t)r->slots);
+    for (int v = 0; v < r->slots; v++) hd_archive_next_int(archive, &r->slot_col[v], first, last);
+    hd_archive_doubles(archive, "rotor sign", r->sign, (size_t)r->slots);
+    for (int v = 0; v < r->slots; v++)
+        hd_archive_doubles(archive, "rotor z", (double *)r->z[v], 2 * (size_t)r->pairs);
+    hd_archive_double(archive, "rotor time", &r->time);
+    hd_archive_double(archive, "rotor dt", &r->dt);
+    hd_archive_double(archive, "rotor omega", &r->omega);
+    hd_block_average_archive(&r->rate, archive);
+    hd_block_average_archive(&r->velocity, archive);
+}
+
+void hd_phases_archive(hd_phases *phases, hd_archive *archive)
+{
+    for (int k = 0; k < phases->rotors; k++)
+        rotor_archive(&phases->rotor[k], archive, phases->vectors);
+    for (int t = 0; t < phases->tracks; t++)
+        track_archive(&phases->track[t], archive, phases->vectors);
+}

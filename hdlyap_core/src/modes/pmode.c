@@ -1,0 +1,172 @@
+/** Vectors of an LP step -> its L and P modes [T14].
+ *
+ * With B (2N x 2d) the normalised fields and psi (2N x 2d) the normalised dq halves, Q solves
+ * psi Q = B by least squares; the modes are psi Q. In the terms of what is measured already,
+ * psi^T B = overlaps, so Q = (psi^T psi)^-1 psi^T B (dposv on 2d x 2d; psi is nearly orthonormal).
+ */
+#include "hdlyap/pmode.h"
+
+#include <lapacke.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/check.h"
+#include "base/memory.h"
+
+enum { DIMENSION_MAX = 2 * HD_MODULATIONS_MAX };
+
+struct hd_pmode {
+    int disks, dimension; /**< 2d */
+    double *psi;          /**< [DIMENSION_MAX][2N] */
+    double *field;        /**< [DIMENSION_MAX][2N] */
+    double q[DIMENSION_MAX * DIMENSION_MAX];
+    double residual[DIMENSION_MAX];
+    double norm[DIMENSION_MAX]; /**< of the fields as sampled */
+    double distance;
+};
+
+hd_status hd_pmode_create(hd_pmode **out, int disks)
+{
+    const size_t size = (size_t)DIMENSION_MAX * 2 * (size_t)disks;
+    hd_pmode *pmode = hd_memory_alloc(1, sizeof *pmode);
+    *out = NULL;
+    if (!pmode) return HD_NO_MEMORY;
+    pmode->disks = disks;
+    pmode->psi = hd_memory_alloc(size, sizeof(double));
+    pmode->field = hd_memory_alloc(size, sizeof(double));
+    if (!pmode->psi || !pmode->field) {
+        hd_pmode_free(pmode);
+        return HD_NO_MEMORY;
+    }
+    *out = pmode;
+    return HD_OK;
+}
+
+void hd_pmode_free(hd_pmode *pmode)
+{
+    if (!pmode) return;
+    hd_memory_free(pmode->psi);
+    hd_memory_free(pmode->field);
+    hd_memory_free(pmode);
+}
+
+static double *row_of(double *rows, int row, const hd_pmode *pmode)
+{
+    return rows + 2 * (size_t)row * (size_t)pmode->disks;
+}
+
+static double dot(const double *a, const double *b, int n)
+{
+    double sum = 0.0;
+    for (int k = 0; k < n; k++) sum += a[k] * b[k];
+    return sum;
+}
+
+/** psi: the dq halves of columns [col, col + dimension), with norm 1. */
+static void psi_load(hd_pmode *pmode, const hd_frame *frame, int col)
+{
+    const size_t stride = (size_t)hd_frame_stride(frame);
+    for (int m = 0; m < pmode->dimension; m++) {
+        double *psi = row_of(pmode->psi, m, pmode);
+        const double *v = hd_frame_read(frame) + col + m;
+        for (int j = 0; j < pmode->disks; j++)
+            for (int d = 0; d < 2; d++) psi[2 * j + d] = v[(size_t)(4 * j + d) * stride];
+        const double norm = sqrt(dot(psi, psi, 2 * pmode->disks));
+        const double scale = norm > HD_MODES_DQ_MIN ? 1.0 / norm
+                                                    : 0.0; /* then dependent: refused */
+        for (int k = 0; k < 2 * pmode->disks; k++) psi[k] *= scale;
+    }
+}
+
+static void field_column(double *out, const hd_fields *fields, int column, int disks)
+{
+    const size_t stride = (size_t)hd_fields_stride(fields);
+    for (int row = 0; row < 2 * disks; row++)
+        out[row] = hd_fields_data(fields)[(size_t)row * stride + (size_t)column];
+}
+
+/** q <- (psi^T psi)^-1 psi^T B, with B in field. False if the vectors are dependent. */
+static bool solve(hd_pmode *pmode)
+{
+    const int n = pmode->dimension, rows = 2 * pmode->disks;
+    double gram[DIMENSION_MAX * DIMENSION_MAX];
+    for (int m = 0; m < n; m++)
+        for (int c = 0; c < n; c++) {
+            const double *psi = row_of(pmode->psi, m, pmode);
+            gram[m * n + c] = dot(psi, row_of(pmode->psi, c, pmode), rows);
+            pmode->q[c * n + m] = dot(psi, row_of(pmode->field, c, pmode), rows);
+        } /* q column-major: column c of right-hand sides */
+    return LAPACKE_dposv_work(LAPACK_COL_MAJOR, 'U', n, n, gram, n, pmode->q, n) == 0;
+}
+
+/** field c: psi Q e_c in the place of B e_c, whose distance is the residual. */
+static void combine(hd_pmode *pmode, int c)
+{
+    const int n = pmode->dimension, rows = 2 * pmode->disks;
+    double *field = row_of(pmode->field, c, pmode), distance2 = 0.0;
+    for (int k = 0; k < rows; k++) {
+        double sum = 0.0;
+        for (int m = 0; m < n; m++) sum += pmode->q[c * n + m] * row_of(pmode->psi, m, pmode)[k];
+        distance2 += (field[k] - sum) * (field[k] - sum);
+        field[k] = sum;
+    }
+    pmode->residual[c] = sqrt(distance2);
+}
+
+/** Q becomes row-major; its singular values against 1. */
+static void finish(hd_pmode *pmode)
+{
+    const int n = pmode->dimension;
+    double copy[DIMENSION_MAX * DIMENSION_MAX], s[DIMENSION_MAX], work[64 * DIMENSION_MAX], none;
+    memcpy(copy, pmode->q, sizeof copy);
+    for (int m = 0; m < n; m++)
+        for (int c = 0; c < n; c++) pmode->q[m * n + c] = copy[c * n + m];
+    const int failed = LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'N', 'N', n, n, copy, n, s, &none, 1,
+                                           &none, 1, work, (int)(sizeof work / sizeof *work));
+    HD_ASSERT(failed == 0);
+    pmode->distance = 0.0;
+    for (int k = 0; k < n; k++) pmode->distance = fmax(pmode->distance, fabs(s[k] - 1.0));
+}
+
+bool hd_pmode_reconstruct(hd_pmode *pmode, const hd_step *step, const hd_modes *modes,
+                          const hd_frame *frame)
+{
+    if (step->kind != HD_MODE_LP || !step->resolved || step->members != 1) return false;
+    const hd_fields *fields = hd_modes_fields(modes);
+    const int column = hd_fields_subspace(fields, step->subspace)->column;
+    pmode->dimension = step->expected;
+    psi_load(pmode, frame, step->col);
+    for (int c = 0; c < pmode->dimension; c++) {
+        field_column(row_of(pmode->field, c, pmode), fields, column + c, pmode->disks);
+        pmode->norm[c] = hd_fields_norm(fields, column + c);
+    }
+    if (!solve(pmode)) return false;
+    for (int c = 0; c < pmode->dimension; c++) combine(pmode, c);
+    finish(pmode);
+    return true;
+}
+
+int hd_pmode_pairs(const hd_pmode *pmode) { return pmode->dimension / 2; }
+
+const double *hd_pmode_field(const hd_pmode *pmode, int c)
+{
+    HD_ASSERT(c >= 0 && c < pmode->dimension);
+    return pmode->field + 2 * (size_t)c * (size_t)pmode->disks;
+}
+
+double hd_pmode_residual(const hd_pmode *pmode, int c)
+{
+    HD_ASSERT(c >= 0 && c < pmode->dimension);
+    return pmode->residual[c];
+}
+
+const double *hd_pmode_rotation(const hd_pmode *pmode) { return pmode->q; }
+double hd_pmode_rotation_distance(const hd_pmode *pmode) { return pmode->distance; }
+
+void hd_pmode_divide(const hd_pmode *pmode, double *out, int c, const double *p)
+{
+    const int rows = 2 * pmode->disks;
+    const double *field = hd_pmode_field(pmode, c);
+    const double eps = HD_PMODE_EPSILON * dot(p, p, rows) / rows;
+    for (int k = 0; k < rows; k++) out[k] = pmode->norm[c] * field[k] * p[k] / (p[k] * p[k] + eps);
+}

@@ -1,0 +1,360 @@
+/** Resolved sets -> steps: exponents with errors, labels of the vectors, zero modes [T12]. */
+#include "hdlyap/steps.h"
+
+#include <float.h>
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+#include "averages/block_average.h"
+#include "base/check.h"
+#include "base/memory.h"
+#include "modes/archived.h"
+#include "modes/sets.h"
+
+/** What the error of one step's mean is known from. */
+typedef struct record {
+    hd_block_average blocks; /**< one series: the mean, sample by sample */
+    double time;             /**< that they cover */
+    uint64_t identity;       /**< of which vectors and members the set consisted */
+} record;
+
+struct hd_steps {
+    const hd_modes *modes;
+    hd_half positive, negative;
+    hd_sets sets;
+    int zero_first, zero_end; /**< columns of the zero modes carried */
+    int subspaces, count, vectors;
+    int rows;       /**< 4N */
+    hd_step *step;  /**< [count] */
+    int *of_vector; /**< [vectors] */
+    double *share;  /**< [count][HD_SET_VECTORS_MAX]: of each vector of the set in this step */
+    record *record; /**< [count] */
+    long changes;
+};
+
+/* ---- creation ------------------------------------------------------------------------------ */
+
+static void step_define(hd_step *step, const hd_fields *fields, int s, bool conjugate)
+{
+    const hd_subspace *subspace = hd_fields_subspace(fields, s);
+    *step = (hd_step){.kind = subspace->kind,
+                      .wave = subspace->wave,
+                      .subspace = s,
+                      .expected = subspace->dimension,
+                      .conjugate = conjugate};
+}
+
+static hd_status steps_allocate(hd_steps *steps)
+{
+    const size_t count = (size_t)steps->count, n = (size_t)steps->vectors;
+    steps->step = hd_memory_alloc(count, sizeof *steps->step);
+    steps->of_vector = hd_memory_alloc(n, sizeof *steps->of_vector);
+    steps->share = hd_memory_alloc(count * HD_SET_VECTORS_MAX, sizeof *steps->share);
+    steps->record = hd_memory_alloc(count, sizeof *steps->record);
+    if (!steps->step || !steps->of_vector || !steps->share || !steps->record) return HD_NO_MEMORY;
+    for (size_t k = 0; k < count; k++) HD_TRY(hd_block_average_create(&steps->record[k].blocks, 1));
+    return hd_sets_create(&steps->sets, steps->modes, steps->rows);
+}
+
+static int smaller(int a, int b) { return a < b ? a : b; }
+
+/** Where the halves and the zero modes lie; a frame need not reach so far. */
+static void place(hd_steps *steps, const hd_scene_def *def)
+{
+    const int n = steps->vectors, all = 4 * def->disks;
+    const int positive = (all - hd_scene_zero_exponents(def)) / 2;
+    steps->positive = (hd_half){0, smaller(n, positive)};
+    steps->zero_first = smaller(n, positive);
+    steps->zero_end = smaller(n, all - positive);
+    steps->negative = (hd_half){all - positive, all};
+}
+
+hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def, const hd_modes *modes)
+{
+    hd_steps *steps = hd_memory_alloc(1, sizeof *steps);
+    *out = NULL;
+    if (!steps) return HD_NO_MEMORY;
+    const hd_fields *fields = hd_modes_fields(modes);
+    steps->modes = modes;
+    steps->vectors = hd_modes_vectors(modes);
+    steps->rows = 4 * def->disks;
+    steps->subspaces = hd_fields_subspaces(fields);
+    const bool all = steps->vectors == 4 * def->disks;
+    steps->count = steps->subspaces * (all ? 2 : 1) + 1;
+    place(steps, def);
+    const hd_status status = steps_allocate(steps);
+    if (status != HD_OK) {
+        hd_steps_free(steps);
+        return status;
+    }
+    for (int s = 0; s < steps->subspaces; s++) {
+        step_define(&steps->step[s], fields, s, false);
+        if (all) step_define(&steps->step[steps->subspaces + 1 + s], fields, s, true);
+    }
+    steps->step[steps->subspaces] = (hd_step){
+        .kind = HD_MODE_ZERO, .subspace = -1, .expected = hd_scene_zero_exponents(def)};
+    hd_steps_clear(steps);
+    *out = steps;
+    return HD_OK;
+}
+
+void hd_steps_free(hd_steps *steps)
+{
+    if (!steps) return;
+    hd_memory_free(steps->step);
+    hd_sets_clear(&steps->sets);
+    for (int k = 0; steps->record && k < steps->count; k++)
+        hd_block_average_clear(&steps->record[k].blocks);
+    hd_memory_free(steps->record);
+    hd_memory_free(steps->of_vector);
+    hd_memory_free(steps->share);
+    hd_memory_free(steps);
+}
+
+static void step_forget(hd_step *step)
+{
+    step->resolved = false;
+    step->col = step->set = -1;
+    step->count = step->members = 0;
+    step->multiplicity = step->exponent = 0.0;
+    step->std_error = -1.0;
+}
+
+static void steps_forget(hd_steps *steps)
+{
+    for (int k = 0; k < steps->count; k++) step_forget(&steps->step[k]);
+    for (int col = 0; col < steps->vectors; col++) steps->of_vector[col] = -1;
+}
+
+static void record_restart(record *r)
+{
+    hd_block_average_restart(&r->blocks);
+    r->time = 0.0;
+}
+
+void hd_steps_clear(hd_steps *steps)
+{
+    steps_forget(steps);
+    for (int k = 0; k < steps->count; k++) record_restart(&steps->record[k]);
+    steps->changes++;
+}
+
+/* ---- steps --------------------------------------------------------------------------------- */
+
+/** Mean of values over the set of a step, each vector by its share. */
+static double shared_mean(const hd_steps *steps, int k, double (*value)(const hd_spectrum *, int),
+                          const hd_spectrum *spectrum)
+{
+    const double *share = steps->share + (size_t)k * HD_SET_VECTORS_MAX;
+    double sum = 0.0, weight = 0.0;
+    for (int v = 0; v < steps->step[k].count; v++) {
+        sum += share[v] * value(spectrum, steps->step[k].col + v);
+        weight += share[v];
+    }
+    return sum / weight;
+}
+
+/** Error of the running mean: from blocks of the step's own mean, which know how its vectors
+ * fluctuate together, scaled to the whole time if the set is younger; until then as if all went
+ * together. */
+static double step_error(const hd_steps *steps, int k, const hd_spectrum *spectrum)
+{
+    const double error = hd_block_average_std_error(&steps->record[k].blocks, 0);
+    if (error >= 0) return error * sqrt(steps->record[k].time / hd_spectrum_time(spectrum));
+    for (int v = 0; v < steps->step[k].count; v++)
+        if (hd_spectrum_std_error(spectrum, steps->step[k].col + v) < 0) return -1.0;
+    return shared_mean(steps, k, hd_spectrum_std_error, spectrum);
+}
+
+/** A vector takes the label of the member that it is most of. */
+static void label(hd_steps *steps, int col, int k, const double *weight)
+{
+    const int now = steps->of_vector[col];
+    if (now >= 0) {
+        const double *before = hd_modes_average(steps->modes, steps->step[now].subspace, HD_WEIGHT);
+        if (before[col] >= weight[col]) return;
+    }
+    steps->of_vector[col] = k;
+}
+
+/** Fills step k, of subspace s in a resolved set, which is weighed. */
+static void step_fill(hd_steps *steps, int k, int s, int set)
+{
+    const hd_set *w = &steps->sets.set[set];
+    const double *weight = hd_modes_average(steps->modes, s, HD_WEIGHT);
+    const double least = hd_sets_threshold(steps->rows, w->count);
+    hd_step *step = &steps->step[k];
+    step->resolved = true;
+    step->col = w->col;
+    step->count = w->count;
+    for (int other = 0; other < steps->subspaces; other++)
+        step->members += steps->sets.of[other] == set;
+    step->multiplicity = hd_sets_trace(&steps->sets, s, w);
+    for (int v = 0; v < w->count; v++) {
+        const double whole = steps->sets.weight[w->col + v];
+        steps->share[(size_t)k * HD_SET_VECTORS_MAX + (size_t)v] = weight[w->col + v] /
+                                                                   fmax(whole, DBL_MIN);
+        if (whole >= least) label(steps, w->col + v, k, weight);
+    }
+}
+
+/** offset: of the half's steps among all. */
+static void half_find(hd_steps *steps, const hd_spectrum *spectrum, hd_half half, int offset,
+                      int *number)
+{
+    hd_sets *sets = &steps->sets;
+    hd_sets_find(sets, spectrum, half);
+    for (int set = 0; set < steps->subspaces; set++) {
+        if (sets->set[set].count == 0) continue;
+        hd_sets_weigh(sets, set, half);
+        for (int s = 0; s < steps->subspaces; s++) {
+            if (sets->of[s] != set) continue;
+            step_fill(steps, offset + s, s, set);
+            steps->step[offset + s].set = *number;
+        }
+        ++*number;
+    }
+}
+
+static double null_weight(const hd_steps *steps, int col)
+{
+    double sum = 0.0;
+    for (int k = 0; k < HD_NULLS; k++) sum += hd_modes_null_average(steps->modes, k)[col];
+    return sum;
+}
+
+/** The zero modes lie where the spectrum is symmetric, as far as the frame reaches. */
+static void zero_find(hd_steps *steps, int *sets)
+{
+    const int k = steps->subspaces, count = steps->zero_end - steps->zero_first;
+    hd_step *step = &steps->step[k];
+    double trace = 0.0;
+    for (int col = steps->zero_first; col < steps->zero_end; col++)
+        trace += null_weight(steps, col);
+    const double chance = (double)step->expected / steps->rows;
+    const double least = chance + HD_SET_THRESHOLD * (1.0 - chance);
+    if (count == 0 || !(trace >= least * count)) return;
+    step->resolved = true;
+    step->col = steps->zero_first;
+    step->count = count;
+    step->members = 1;
+    step->set = (*sets)++;
+    step->multiplicity = trace;
+    for (int v = 0; v < count; v++) {
+        steps->share[(size_t)k * HD_SET_VECTORS_MAX + (size_t)v] = 1.0;
+        if (null_weight(steps, step->col + v) >= least) steps->of_vector[step->col + v] = k;
+    }
+}
+
+/** Of which vectors a step consists, and with which others it shares them. */
+static uint64_t identity_of(const hd_steps *steps, const hd_step *step)
+{
+    uint64_t identity = (uint64_t)(step->col * 1000L + step->count);
+    for (int k = 0; k < steps->count; k++)
+        if (step->set >= 0 && steps->step[k].set == step->set)
+            identity = 31 * identity + (uint64_t)k;
+    return identity;
+}
+
+/** Begins the records anew of those steps that are not what they were the last time. */
+static bool records_follow(hd_steps *steps)
+{
+    bool changed = false;
+    for (int k = 0; k < steps->count; k++) {
+        record *r = &steps->record[k];
+        const uint64_t identity = identity_of(steps, &steps->step[k]);
+        if (identity == r->identity) continue;
+        r->identity = identity;
+        record_restart(r);
+        changed = true;
+    }
+    return changed;
+}
+
+void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum)
+{
+    int sets = 0;
+    steps_forget(steps);
+    if (hd_modes_samples(steps->modes) == 0) return;
+    half_find(steps, spectrum, steps->positive, 0, &sets);
+    zero_find(steps, &sets);
+    if (steps->count > steps->subspaces + 1)
+        half_find(steps, spectrum, steps->negative, steps->subspaces + 1, &sets);
+    steps->changes += records_follow(steps);
+    for (int k = 0; k < steps->count; k++) {
+        hd_step *step = &steps->step[k];
+        if (!step->resolved) continue;
+        step->exponent = shared_mean(steps, k, hd_spectrum_exponent, spectrum);
+        step->std_error = step_error(steps, k, spectrum);
+    }
+}
+
+void hd_steps_sample(hd_steps *steps, const hd_spectrum *spectrum, double length)
+{
+    for (int k = 0; k < steps->count; k++) {
+        if (!steps->step[k].resolved) continue;
+        double mean = shared_mean(steps, k, hd_spectrum_local, spectrum);
+        hd_block_average_add(&steps->record[k].blocks, &mean);
+        steps->record[k].time += length;
+    }
+}
+
+double hd_steps_threshold(void) { return HD_SET_THRESHOLD; }
+int hd_steps_count(const hd_steps *steps) { return steps->count; }
+const hd_modes *hd_steps_modes(const hd_steps *steps) { return steps->modes; }
+long hd_steps_changes(const hd_steps *steps) { return steps->changes; }
+
+const hd_step *hd_steps_step(const hd_steps *steps, int index)
+{
+    HD_ASSERT(index >= 0 && index < steps->count);
+    return &steps->step[index];
+}
+
+int hd_steps_of_vector(const hd_steps *steps, int col)
+{
+    HD_ASSERT(col >= 0 && col < steps->vectors);
+    return steps->of_vector[col];
+}
+
+/* ---- file ---------------------------------------------------------------------------------- */
+
+/** The rest of a step is the same in every run of its scene. */
+static void step_archive(hd_steps *steps, hd_step *step, hd_archive *archive)
+{
+    int resolved = step->resolved;
+    hd_archive_int(archive, "step resolved", &resolved, 0, 1);
+    step->resolved = resolved;
+    hd_archive_int(archive, "step col", &step->col, -1, steps->vectors - 1);
+    hd_archive_int(archive, "step count", &step->count, 0, HD_SET_VECTORS_MAX);
+    hd_archive_int(archive, "step set", &step->set, -1, steps->count - 1);
+    hd_archive_int(archive, "step members", &step->members, 0, steps->count);
+    hd_archive_double(archive, "step multiplicity", &step->multiplicity);
+    hd_archive_double(archive, "step exponent", &step->exponent);
+    hd_archive_double(archive, "step error", &step->std_error);
+    const int least = step->kind == HD_MODE_ZERO ? 1 : step->expected;
+    const bool whole = step->col >= 0 && step->count >= least && step->set >= 0 &&
+                       step->col + step->count <= steps->vectors;
+    hd_archive_expect(archive, whole || !step->resolved, "step",
+                      "it has not the vectors that it needs");
+}
+
+static void record_archive(record *r, hd_archive *archive)
+{
+    hd_archive_double(archive, "step record time", &r->time);
+    hd_archive_bits(archive, "step record identity", &r->identity);
+    hd_block_average_archive(&r->blocks, archive);
+}
+
+/** Sets are found anew from the averages whenever they are needed. */
+void hd_steps_archive(hd_steps *steps, hd_archive *archive)
+{
+    const size_t count = (size_t)steps->count;
+    hd_archive_long(archive, "steps changes", &steps->changes, 0, LONG_MAX / 2);
+    for (size_t k = 0; k < count; k++) step_archive(steps, &steps->step[k], archive);
+    for (size_t k = 0; k < count; k++) record_archive(&steps->record[k], archive);
+    hd_archive_doubles(archive, "steps share", steps->share, count * HD_SET_VECTORS_MAX);
+    hd_archive_of_ints(archive, "steps of vector", (size_t)steps->vectors);
+    for (int col = 0; col < steps->vectors; col++)
+        hd_archive_next_int(archive, &steps->of_vector[col], -1, steps->count - 1);
+}

@@ -1,0 +1,91 @@
+/** Trajectory -> event log, one advance at a time. */
+#include "run/advance.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/check.h"
+
+static const double EVENTS_MAX = 200000.0; /* bounds memory, and the wait for an answer */
+/** None is planned shorter: simulated time must move. */
+static const double SHORTEST = 1e-12;
+
+/** Pair and wall events of one disk per time unit, roughly: momenta across a box are about 1. */
+static double events_per_disk(const hd_advance *advance, const hd_scene_def *scene)
+{
+    double box[2], rate = 2.0 * hd_trajectory_collision_rate(advance->trajectory) / scene->disks;
+    hd_scene_box(scene, box);
+    for (int d = 0; d < 2; d++)
+        if (scene->boundary[d] == HD_REFLECTING) rate += 1.0 / (box[d] - 1.0);
+    return rate;
+}
+
+hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene)
+{
+    HD_TRY(hd_trajectory_create(&advance->trajectory, scene));
+    advance->longest = 1e-3 / events_per_disk(advance, scene);
+    return HD_OK;
+}
+
+void hd_advance_clear(hd_advance *advance) { hd_trajectory_free(advance->trajectory); }
+
+double hd_advance_now(const hd_advance *advance) { return hd_trajectory_time(advance->trajectory); }
+
+static uint64_t events_so_far(const hd_advance *advance)
+{
+    return hd_trajectory_collisions(advance->trajectory) +
+           hd_trajectory_wall_events(advance->trajectory);
+}
+
+double hd_advance_shortest(const hd_advance *advance)
+{
+    return SHORTEST + 4.0 * DBL_EPSILON * hd_advance_now(advance);
+}
+
+double hd_advance_longest(const hd_advance *advance)
+{
+    return fmax(advance->longest, hd_advance_shortest(advance));
+}
+
+double hd_advance_bound(const hd_advance *advance, const hd_scene_def *scene)
+{
+    return 8.0 * EVENTS_MAX / (scene->disks * events_per_disk(advance, scene));
+}
+
+/** Equal shares of what is left until `stop`, none longer than `most`. */
+static double share(double now, double stop, double most)
+{
+    const double left = stop - now;
+    return left <= most ? stop : now + left / ceil(left / most);
+}
+
+void hd_advance_make_plan(hd_advance *advance, double stop)
+{
+    const double now = hd_advance_now(advance);
+    const double end = share(now, stop, hd_advance_longest(advance));
+    advance->plan = (hd_advance_plan){.begin = now, .end = end, .events = events_so_far(advance)};
+}
+
+bool hd_advance_is_done(const hd_advance *advance)
+{
+    return hd_advance_now(advance) >= advance->plan.end;
+}
+
+/** A channel of hardly more than a disk's width can have 1e9 wall events in a time unit. */
+static void learn(hd_advance *advance)
+{
+    const double length = advance->plan.end - advance->plan.begin;
+    const double events = fmax(1.0, (double)(events_so_far(advance) - advance->plan.events));
+    if (length > 0)
+        advance->longest = fmin(4.0 * fmax(length, advance->longest / 4.0),
+                                length * EVENTS_MAX / events);
+}
+
+hd_status hd_advance_on(hd_advance *advance, hd_event_log *log, double most)
+{
+    const double end = share(hd_advance_now(advance), advance->plan.end,
+                             fmax(most, hd_advance_shortest(advance)));
+    HD_TRY(hd_trajectory_extend(advance->trajectory, log, end));
+    if (hd_advance_is_done(advance)) learn(advance);
+    return HD_OK;
+}

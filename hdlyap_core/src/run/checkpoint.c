@@ -1,0 +1,335 @@
+/** A run <-> its checkpoint. Each part of the run knows its own arrays (archive.h); here is what
+ * binds them together, and whether they fit the scene that is asked for. */
+#include "hdlyap/checkpoint.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "averages/archived.h"
+#include "base/check.h"
+#include "base/clock.h"
+#include "covariant/archived.h"
+#include "events/archived.h"
+#include "hdlyap/blas.h"
+#include "modes/archived.h"
+#include "run/checkpoint.h"
+#include "run/checkpoint_file.h"
+#include "run/run_state.h"
+#include "scene/archived.h"
+#include "tangent/archived.h"
+
+/* ---- a run's own numbers ------------------------------------------------------------------- */
+
+static void head_archive(hd_checkpoint *head, hd_archive *archive)
+{
+    hd_archive_text(archive, "label", head->label, sizeof head->label);
+    hd_scene_archive(&head->scene, archive);
+    hd_archive_double(archive, "time", &head->time);
+}
+
+static void cost_archive(hd_run *run, hd_archive *archive)
+{
+    hd_cost *c = &run->cost;
+    double *const numbers[] = {&c->events,    &c->replay, &c->ortho,
+                               &c->spectrum,  &c->modes,  &c->interval,
+                               &c->condition, &c->defect, &run->windows.seconds};
+    long *const counts[] = {&c->orthonormalisations, &c->second_passes, &c->looks, &c->repairs};
+    int limit = (int)c->limit;
+    hd_archive_of_doubles(archive, "cost", sizeof numbers / sizeof *numbers);
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        hd_archive_next_doubles(archive, numbers[k], 1);
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++)
+        hd_archive_long(archive, "cost count", counts[k], 0, LONG_MAX / 2);
+    hd_archive_int(archive, "cost limit", &limit, HD_LIMIT_SCHEDULE, HD_LIMIT_REPAIR);
+    c->limit = (hd_limit)limit;
+}
+
+/** Clocks are kept as the seconds that they have run. */
+static void clocks_archive(hd_run *run, hd_archive *archive)
+{
+    const double now = hd_clock_now();
+    double wall = now - run->clocks.created,
+           carried = run->clocks.frame_started != 0 ? now - run->clocks.frame_started : -1.0;
+    hd_archive_double(archive, "run wall", &wall);
+    hd_archive_double(archive, "run wall carried", &carried);
+    if (archive->writing) return;
+    run->clocks.created = now - wall;
+    run->clocks.frame_started = carried >= 0 ? now - carried : 0.0;
+}
+
+/** A watcher can stop a run in the middle of an advance that is planned. */
+static void plan_archive(hd_advance_plan *plan, hd_archive *archive)
+{
+    hd_archive_double(archive, "run advance begin", &plan->begin);
+    hd_archive_double(archive, "run advance end", &plan->end);
+    hd_archive_bits(archive, "run advance events", &plan->events);
+}
+
+static void numbers_archive(hd_run *run, hd_archive *archive)
+{
+    int observe = (int)run->observe;
+    hd_archive_int(archive, "run observe", &observe, 0, (int)run->scene.observe);
+    run->observe = (unsigned)observe & run->scene.observe;
+    hd_archive_double(archive, "run interval end", &run->interval_end);
+    hd_archive_double(archive, "run advance longest", &run->advance.longest);
+    plan_archive(&run->advance.plan, archive);
+    hd_archive_double(archive, "run frame start", &run->clocks.frame_start_time);
+    hd_archive_double(archive, "run condition max", &run->rounding.condition_max);
+    hd_archive_double(archive, "run rounding", &run->rounding.sum);
+    clocks_archive(run, archive);
+    cost_archive(run, archive);
+}
+
+static void parts_archive(hd_run *run, hd_archive *archive)
+{
+    hd_trajectory_archive(run->advance.trajectory, archive);
+    hd_schedule_archive(&run->schedule, archive);
+    hd_interval_archive(&run->interval, archive);
+    if (!run->frame || !hd_archive_good(archive)) return;
+    hd_event_log_archive(run->log, archive, run->scene.disks);
+    hd_frame_archive(run->frame, archive);
+    hd_spectrum_archive(run->spectrum, archive);
+    if (run->observer.modes) hd_modes_archive(run->observer.modes, archive);
+    if (run->observer.steps) hd_steps_archive(run->observer.steps, archive);
+    if (run->observer.phases) hd_phases_archive(run->observer.phases, archive);
+    if (run->windows.covariant) hd_covariant_archive(run->windows.covariant, archive);
+}
+
+static void plan_expect(const hd_run *run, hd_archive *archive)
+{
+    const hd_advance_plan *plan = &run->advance.plan;
+    const double cut = run->schedule.stage == HD_FINISHED ? hd_run_time(run)
+                                                          : hd_schedule_cut(&run->schedule);
+    const bool pending = run->log && run->log->duration > 0;
+    const double end = fmax(hd_run_time(run), pending ? fmin(cut, run->interval_end) : cut);
+    const uint64_t events = hd_trajectory_collisions(run->advance.trajectory) +
+                            hd_trajectory_wall_events(run->advance.trajectory);
+    hd_archive_expect(archive, plan->begin <= hd_run_time(run) && plan->end <= end,
+                      "run advance end", "it does not fit the time");
+    hd_archive_expect(archive, plan->events <= events, "run advance events",
+                      "there were not so many");
+}
+
+/** Times fit each other: the run can go on from here. */
+static void times_expect(const hd_run *run, hd_archive *archive)
+{
+    const hd_schedule *s = &run->schedule;
+    const double now = hd_run_time(run), cut = hd_schedule_cut(s);
+    const bool no_more = cut >= now && hd_schedule_stage_end(s) <= now; /* a stage without length */
+    const bool ahead = s->stage == HD_FINISHED || cut > now || no_more;
+    hd_archive_expect(archive, s->start >= 0 && s->start <= now && ahead, "schedule",
+                      "it does not go on from this time");
+    const bool pending = run->log && run->log->duration > 0;
+    const double end = fmax(now, s->stage == HD_FINISHED ? now : hd_schedule_sample_end(s));
+    hd_archive_expect(archive, run->interval_end <= end && (!pending || run->interval_end >= now),
+                      "run interval end", "it does not fit the time");
+    hd_archive_expect(archive, !run->log || (run->log->duration >= 0 && run->log->duration <= now),
+                      "log duration", "it does not fit the time");
+    hd_archive_expect(archive, run->advance.longest > 0, "run advance longest",
+                      "it is not positive");
+}
+
+/* ---- writing ------------------------------------------------------------------------------- */
+
+void hd_run_write(hd_run *run, hd_archive *archive, const char *label)
+{
+    hd_checkpoint head = {.scene = run->scene, .time = hd_run_time(run)};
+    int threads = run->threads;
+    snprintf(head.label, sizeof head.label, "%s", label);
+    head_archive(&head, archive);
+    hd_archive_int(archive, "run threads", &threads, 1, INT_MAX);
+    numbers_archive(run, archive);
+    parts_archive(run, archive);
+}
+
+hd_status hd_run_save(hd_run *run, const char *path, const char *label, char *message, size_t size)
+{
+    hd_checkpoint_file file;
+    const hd_status settled = hd_run_settle(run);
+    if (settled != HD_OK) {
+        (void)hd_refuse(message, size, "%s", hd_status_text(settled));
+        return settled;
+    }
+    HD_TRY(hd_checkpoint_file_begin(&file, path, message, size));
+    hd_archive archive = hd_archive_writer(file.file);
+    hd_run_write(run, &archive, label);
+    return hd_checkpoint_file_end(&file, &archive, message, size);
+}
+
+hd_status hd_checkpoint_writable(const char *path, char *message, size_t size)
+{
+    hd_checkpoint_file file;
+    HD_TRY(hd_checkpoint_file_begin(&file, path, message, size));
+    hd_checkpoint_file_drop(&file);
+    return HD_OK;
+}
+
+/* ---- reading ------------------------------------------------------------------------------- */
+
+/** What cannot change within a run. */
+static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept, char *message,
+                            size_t size)
+{
+    const struct {
+        const char *name;
+        double asked, kept;
+    } table[] = {
+#define SAME(field) {#field, asked->field, kept->field}
+        SAME(disks),
+        SAME(density),
+        SAME(aspect),
+        SAME(exponents),
+        SAME(equilibration),
+        SAME(warmup),
+        SAME(interval),
+        SAME(accuracy),
+        SAME(report_interval),
+        SAME(max_wave_number),
+        SAME(max_mode_number),
+        SAME(covariant_window),
+        SAME(covariant_transient),
+        SAME(covariant_sampling),
+#undef SAME
+        {"boundary_x", asked->boundary[0], kept->boundary[0]},
+        {"boundary_y", asked->boundary[1], kept->boundary[1]},
+        {"observables (as a set of HD_OBSERVE_*)", asked->observe, kept->observe},
+    };
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++)
+        if (!(table[k].asked == table[k].kept))
+            return hd_refuse(message, size, "%s = %.15g: must be %.15g, as in the checkpoint",
+                             table[k].name, table[k].asked, table[k].kept);
+    if (asked->seed != kept->seed)
+        return hd_refuse(message, size, "seed = %llu: must be %llu, as in the checkpoint",
+                         (unsigned long long)asked->seed, (unsigned long long)kept->seed);
+    return HD_OK;
+}
+
+static hd_status inconsistent(const hd_archive *archive, char *message, size_t size)
+{
+    if (archive->status == HD_FILE_FAULT)
+        (void)hd_refuse(message, size, "is inconsistent: %s: %s", archive->name, archive->fault);
+    else
+        (void)hd_refuse(message, size, "%s", hd_status_text(archive->status));
+    return archive->status;
+}
+
+/** Contents of a whole file can be nonsense all the same. */
+static hd_status read_head(hd_checkpoint *out, hd_archive *archive, char *message, size_t size)
+{
+    *out = (hd_checkpoint){.time = 0.0};
+    head_archive(out, archive);
+    if (!hd_archive_good(archive)) return inconsistent(archive, message, size);
+    return hd_scene_check(&out->scene, message, size) == HD_OK ? HD_OK : HD_FILE_FAULT;
+}
+
+/** As many threads as before, unless others are asked for or there are not so many. */
+static int threads_of(int asked, int before)
+{
+    if (asked > 0) return asked;
+    return before <= hd_blas_query().cores ? before : 0;
+}
+
+/** A run that had finished goes on if it has become longer. */
+static hd_status reopen(hd_run *run, char *message, size_t size)
+{
+    const double averaged = hd_run_time(run) - run->schedule.start,
+                 target = run->scene.target_std_error;
+    const bool finished = run->schedule.stage == HD_FINISHED && run->spectrum;
+    if (finished && target > 0 && hd_run_smallest_error(run) <= target) return HD_OK;
+    if (run->schedule.stage < HD_AVERAGING || hd_schedule_reopen(&run->schedule, hd_run_time(run)))
+        return HD_OK;
+    return hd_refuse(message, size,
+                     "duration = %.15g: must be at least %.15g, averaged before the checkpoint",
+                     run->scene.duration, averaged);
+}
+
+static hd_status restore(hd_run *run, hd_archive *archive, double time, char *message, size_t size)
+{
+    numbers_archive(run, archive);
+    parts_archive(run, archive);
+    hd_archive_expect(archive, hd_run_time(run) == time, "time", "it is not that of the disks");
+    if (hd_archive_end(archive) != HD_OK) return inconsistent(archive, message, size);
+    HD_TRY(reopen(run, message, size));
+    const double last = fmax(hd_run_time(run), hd_schedule_stage_end(&run->schedule));
+    run->interval_end = fmin(run->interval_end, last); /* of a duration that has become shorter */
+    run->advance.plan.end = fmin(run->advance.plan.end, last);
+    times_expect(run, archive);
+    plan_expect(run, archive);
+    /* else a file can ask for an advance without end */
+    const double bound = hd_advance_bound(&run->advance, &run->scene);
+    run->advance.longest = fmin(run->advance.longest, bound);
+    run->advance.plan.end = fmin(run->advance.plan.end, hd_run_time(run) + bound);
+    return hd_archive_good(archive) ? HD_OK : inconsistent(archive, message, size);
+}
+
+/** No room is asked for that the file could not fill. */
+static bool holds(hd_archive *archive, const hd_scene_def *scene)
+{
+    const double least = 8.0 * scene->disks * (9.0 + 4.0 * hd_scene_vectors(scene));
+    hd_archive_expect(archive, least <= (double)archive->bytes, "scene",
+                      "the rest is too short for it");
+    return hd_archive_good(archive);
+}
+
+hd_status hd_run_read(hd_run **out, hd_archive *archive, const hd_scene_def *scene, char *message,
+                      size_t size)
+{
+    hd_checkpoint head;
+    int threads = 1;
+    *out = NULL;
+    HD_TRY(read_head(&head, archive, message, size));
+    const hd_scene_def asked = scene ? *scene : head.scene;
+    hd_archive_int(archive, "run threads", &threads, 1, INT_MAX);
+    HD_TRY(check_same(&asked, &head.scene, message, size));
+    if (!holds(archive, &head.scene)) return inconsistent(archive, message, size);
+    hd_scene_def def = asked;
+    def.threads = threads_of(asked.threads, threads);
+    hd_run *run = NULL;
+    HD_TRY(hd_run_create(&run, &def, message, size));
+    const hd_status status = restore(run, archive, head.time, message, size);
+    run->scene.threads = asked.threads;
+    if (status == HD_OK)
+        *out = run;
+    else
+        hd_run_free(run);
+    return status;
+}
+
+/** Puts the file's name before a line about its contents. */
+static hd_status named(hd_status status, const char *path, const char *line, char *message,
+                       size_t size)
+{
+    if (status == HD_FILE_FAULT)
+        hd_checkpoint_file_line(message, size, path, line);
+    else if (status != HD_OK)
+        (void)hd_refuse(message, size, "%s", line);
+    return status;
+}
+
+hd_status hd_checkpoint_read(hd_checkpoint *out, const char *path, char *message, size_t size)
+{
+    FILE *file;
+    uint64_t bytes;
+    char line[512] = "";
+    HD_TRY(hd_checkpoint_file_open(&file, &bytes, path, message, size));
+    hd_archive archive = hd_archive_reader(file, bytes);
+    const hd_status status = read_head(out, &archive, line, sizeof line);
+    (void)fclose(file);
+    return named(status, path, line, message, size);
+}
+
+hd_status hd_run_resume(hd_run **out, const char *path, const hd_scene_def *scene, char *message,
+                        size_t size)
+{
+    FILE *file;
+    uint64_t bytes;
+    char line[512] = "";
+    *out = NULL;
+    HD_TRY(hd_checkpoint_file_open(&file, &bytes, path, message, size));
+    hd_archive archive = hd_archive_reader(file, bytes);
+    const hd_status status = hd_run_read(out, &archive, scene, line, sizeof line);
+    (void)fclose(file);
+    return named(status, path, line, message, size);
+}

@@ -1,0 +1,384 @@
+/** Scene -> spectrum, one interval at a time.
+ *
+ * The schedule says where samples and reports end. The frame goes from one orthonormalisation to
+ * the next, as far apart as the conditioning allows; the log of the events since the last one waits
+ * until then. A report in between states exponents and modes as of the last one, unless somebody
+ * looks at the vectors: then the frame is orthonormalised for it. */
+#include "hdlyap/run.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/check.h"
+#include "base/clock.h"
+#include "base/memory.h"
+#include "hdlyap/blas.h"
+#include "run/factorise.h"
+#include "run/run_state.h"
+#include "tangent/threads.h"
+#include "tangent/verify.h"
+
+/** Single precision leaves a tenth of the slow vectors astray there, and a thousandth of their
+ * phases. */
+static const double CONDITION_SLOW = 1e4;
+/** Collisions of each disk between two orthonormalisations that no accuracy and no density exceed.
+ */
+static const double COLLISIONS_MOST = 60.0;
+
+/* ---- creation ------------------------------------------------------------------------------ */
+
+/** A random frame, orthonormal. Random vectors are hardly ever dependent: then reflections. */
+static hd_status create_frame(hd_run *run)
+{
+    const hd_scene_def *scene = &run->scene;
+    const hd_ortho_limits twice = {1e7, DBL_EPSILON};
+    HD_TRY(hd_frame_create(&run->frame, scene->disks, run->vectors, scene->seed, run->threads));
+    if (hd_ortho_step(run->ortho, run->frame, twice) == HD_OK) return HD_OK;
+    hd_frame_free(run->frame);
+    run->frame = NULL;
+    HD_TRY(hd_frame_create(&run->frame, scene->disks, run->vectors, scene->seed, run->threads));
+    return hd_ortho_step_stable(run->ortho, run->frame, 1.0 / DBL_EPSILON);
+}
+
+static hd_status prepare_frame(hd_run *run)
+{
+    const int rows = 4 * run->scene.disks, n = run->vectors;
+    run->threads = hd_threads_most(run->scene.threads, rows, n);
+    if (run->threads > 1)
+        HD_TRY(hd_blas_room(run->threads)); /* one has its buffer since the start */
+    hd_blas_use_threads(run->threads);
+    HD_TRY(hd_event_log_create(&run->log));
+    HD_TRY(hd_ortho_create(&run->ortho, rows, n));
+    HD_TRY(hd_spectrum_create(&run->spectrum, rows, n));
+    HD_TRY(create_frame(run));
+    return hd_threads_choose(&run->threads, run->ortho, run->frame, run->scene.threads);
+}
+
+static hd_status prepare_windows(hd_run *run, char *message, size_t size)
+{
+    const double longest = fmin(COLLISIONS_MOST * run->sample_max / HD_COLLISIONS_PER_SAMPLE,
+                                run->interval.limit);
+    if (!(run->scene.observe & HD_OBSERVE_COVARIANT)) return HD_OK;
+    return hd_windows_create(&run->windows, &run->scene, run->ortho, longest, run->threads, message,
+                             size);
+}
+
+static hd_status prepare(hd_run *run, char *message, size_t size)
+{
+    const hd_scene_def *scene = &run->scene;
+    HD_TRY(hd_advance_create(&run->advance, scene));
+    run->vectors = hd_scene_vectors(scene);
+    run->threads = 1;
+    const double per_disk = 2.0 * hd_trajectory_collision_rate(run->advance.trajectory) /
+                            scene->disks;
+    const double limit = scene->interval > 0 ? scene->interval : INFINITY;
+    run->sample_max = HD_COLLISIONS_PER_SAMPLE / per_disk;
+    run->watch = (hd_watch){.interval = INFINITY, .first = run->vectors};
+    run->interval = hd_interval_first(2.0 / per_disk, limit, scene->accuracy);
+    run->schedule = hd_schedule_of(scene);
+    if (run->vectors == 0) return HD_OK;
+    HD_TRY(prepare_frame(run));
+    HD_TRY(prepare_windows(run, message, size));
+    run->observe = scene->observe;
+    if (!(scene->observe & HD_OBSERVE_OF_MODES)) return HD_OK;
+    return hd_observer_create(&run->observer, scene, run->vectors, run->threads);
+}
+
+static void averages_clear(hd_run *run)
+{
+    hd_spectrum_clear(run->spectrum);
+    hd_observer_clear(&run->observer);
+    if (run->windows.covariant) hd_windows_clear(&run->windows);
+}
+
+/** Intervals shorter than a collision of each disk, because the warm-up was, have taught nothing
+ * yet. */
+static bool interval_is_learnt(const hd_run *run)
+{
+    const double collision = run->sample_max / HD_COLLISIONS_PER_SAMPLE;
+    return run->cost.orthonormalisations > 0 &&
+           run->interval.last >= fmin(collision, run->interval.limit);
+}
+
+/** Longest sample that one orthonormalisation at its end can serve. */
+static double sample_longest(const hd_run *run)
+{
+    if (!run->frame || !interval_is_learnt(run)) return run->sample_max;
+    return fmin(run->sample_max, hd_interval_longest(&run->interval).length);
+}
+
+static void enter_stage(hd_run *run, hd_stage stage)
+{
+    run->due.stage_end = false;
+    hd_schedule_enter(&run->schedule, stage, hd_run_time(run), sample_longest(run));
+    run->advance.plan.end = hd_run_time(run);
+    stage = run->schedule.stage;
+    if (run->spectrum && stage == HD_AVERAGING) averages_clear(run);
+    if (stage == HD_AVERAGING) run->rounding.sum = HD_ROUNDING * run->rounding.condition_max;
+    if (stage == HD_EQUILIBRATING || run->clocks.frame_started != 0) return;
+    run->clocks.frame_started = hd_clock_now();
+    run->clocks.frame_start_time = hd_run_time(run);
+}
+
+hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, size_t size)
+{
+    *out = NULL;
+    HD_TRY(hd_scene_check(def, message, size));
+    hd_run *run = hd_memory_alloc(1, sizeof *run);
+    if (!run) return HD_NO_MEMORY;
+    run->scene = *def;
+    run->clocks.created = hd_clock_now();
+    const hd_status status = prepare(run, message, size);
+    if (status != HD_OK) {
+        hd_run_free(run);
+        return status;
+    }
+    enter_stage(run, HD_EQUILIBRATING);
+    *out = run;
+    return HD_OK;
+}
+
+void hd_run_free(hd_run *run)
+{
+    if (!run) return;
+    hd_advance_clear(&run->advance);
+    hd_observer_free(&run->observer);
+    hd_windows_free(&run->windows);
+    hd_event_log_free(run->log);
+    hd_frame_free(run->frame);
+    hd_ortho_free(run->ortho);
+    hd_spectrum_free(run->spectrum);
+    hd_memory_free(run);
+}
+
+/** True if the exponents nearest to zero are known as well as the scene asks. */
+static bool target_reached(const hd_run *run)
+{
+    return run->scene.target_std_error > 0 && run->spectrum &&
+           hd_run_smallest_error(run) <= run->scene.target_std_error;
+}
+
+/** Longest time between two looks at the phases; INFINITY if nobody looks. */
+static double phases_due(const hd_run *run)
+{
+    return run->observe & HD_OBSERVE_PHASES ? hd_phases_sampling(run->observer.steps) : INFINITY;
+}
+
+/** The modes of an orthonormal frame. */
+static hd_status measure(hd_run *run)
+{
+    const double start = hd_clock_now();
+    HD_TRY(hd_observer_measure(&run->observer, run->frame, run->advance.trajectory));
+    run->cost.modes += hd_clock_now() - start;
+    return HD_OK;
+}
+
+static void follow_phases(hd_run *run)
+{
+    hd_phases_add(run->observer.phases, run->observer.steps, hd_run_time(run));
+}
+
+/** Modes, steps and phases of a measured state; what is asked for is enough for each. */
+static hd_status observe(hd_run *run, bool report)
+{
+    HD_TRY(measure(run));
+    const double start = hd_clock_now();
+    if (report) {
+        hd_modes_add(run->observer.modes);
+        hd_steps_find(run->observer.steps, run->spectrum);
+    }
+    if (run->observe & HD_OBSERVE_PHASES) follow_phases(run);
+    run->cost.modes += hd_clock_now() - start;
+    return HD_OK;
+}
+
+static void sample_spectrum(hd_run *run)
+{
+    hd_spectrum_sample(run->spectrum);
+    if (run->observe & HD_OBSERVE_OF_MODES)
+        hd_steps_sample(run->observer.steps, run->spectrum, run->schedule.sample_length);
+}
+
+/** True where somebody wants all of the vectors of this very time. */
+static bool vectors_wanted(const hd_run *run)
+{
+    const unsigned due = HD_OBSERVE_HYDRO | (run->due.fields ? HD_OBSERVE_FIELDS : 0u);
+    return hd_run_is_observing(run) && (run->observe & due);
+}
+
+/** True if a look will do for `count` vectors at this time. */
+static bool look_suffices(const hd_run *run, int count)
+{
+    return hd_observer_reaches(&run->observer, count) &&
+           hd_interval_condition(&run->interval, run->log->duration) <= CONDITION_SLOW;
+}
+
+/** Finds the slowest vectors in the middle of an interval; the frame stays as it was at its start.
+ */
+static hd_status look(hd_run *run, int count)
+{
+    const double start = hd_clock_now();
+    HD_TRY(hd_run_replay(run, 0.0, run->log->duration));
+    const double replayed = hd_clock_now();
+    const hd_status status = hd_observer_look(&run->observer, run->frame, run->advance.trajectory,
+                                              count);
+    run->cost.replay += replayed - start;
+    run->cost.modes += hd_clock_now() - replayed;
+    run->cost.looks += status == HD_OK;
+    return status;
+}
+
+static hd_status end_early(hd_run *run)
+{
+    run->cost.limit = HD_LIMIT_LOOK;
+    return hd_run_factorise(run);
+}
+
+/** The slowest vectors, by a look or else by an early end of the interval. */
+static hd_status find_slowest(hd_run *run, int count)
+{
+    const hd_status status = look_suffices(run, count) ? look(run, count) : HD_ILL_CONDITIONED;
+    return status == HD_ILL_CONDITIONED ? end_early(run) : status;
+}
+
+/** Number of slowest vectors that a watcher wants now. */
+static int watched(const hd_run *run)
+{
+    return hd_run_is_observing(run) && run->watch.first < run->vectors
+               ? run->vectors - run->watch.first
+               : 0;
+}
+
+/** In the middle of an interval: what is wanted there. What a look cannot give, an early end does;
+ * the first report has something to say that way. */
+static hd_status look_or_end(hd_run *run)
+{
+    const bool averaging = run->schedule.stage == HD_AVERAGING;
+    if (vectors_wanted(run) || (averaging && hd_spectrum_time(run->spectrum) == 0))
+        return end_early(run);
+    const bool follows = hd_run_is_observing(run) && (run->observe & HD_OBSERVE_PHASES);
+    const int count = follows ? hd_phases_vectors(run->observer.steps) : 0;
+    const int most = count > watched(run) ? count : watched(run);
+    if (most == 0) return HD_OK;
+    HD_TRY(find_slowest(run, most));
+    if (count > 0 && hd_run_time(run) < run->interval_end) follow_phases(run);
+    return HD_OK;
+}
+
+/** Between two cuts: what a watcher wants. */
+static hd_status show(hd_run *run)
+{
+    if (watched(run) == 0) return HD_OK;
+    if (hd_run_time(run) < run->interval_end) HD_TRY(find_slowest(run, watched(run)));
+    return hd_run_time(run) == run->interval_end ? measure(run) : HD_OK;
+}
+
+/** True while there is a way back to go. */
+static bool is_going_back(const hd_run *run)
+{
+    return hd_run_is_windowing(run) && hd_windows_is_going(&run->windows);
+}
+
+/** Once covariant vectors have gone their way back, if a stage is to end. The last one may end
+ * early. */
+static void leave_stage(hd_run *run)
+{
+    if (!run->due.stage_end || is_going_back(run)) return;
+    enter_stage(run, run->schedule.stage + 1);
+}
+
+static hd_status go_back(hd_run *run, bool to_its_end)
+{
+    if (is_going_back(run)) HD_TRY(hd_windows_go(&run->windows, to_its_end));
+    leave_stage(run);
+    return HD_OK;
+}
+
+hd_status hd_run_settle(hd_run *run) { return go_back(run, true); }
+
+/** At the end of a piece: what is measured there, and what ends. */
+static hd_status take_cut(hd_run *run)
+{
+    const bool averaging = run->schedule.stage == HD_AVERAGING,
+               measuring = hd_run_is_observing(run);
+    run->due.fields = averaging &&
+                      hd_schedule_reaches_multiple(&run->schedule, run->field_interval);
+    if (run->frame && hd_run_time(run) < run->interval_end) HD_TRY(look_or_end(run));
+    const bool factored = run->frame && hd_run_time(run) == run->interval_end;
+    const unsigned ends = hd_schedule_pass(&run->schedule, phases_due(run));
+    run->due.report = ends & HD_ENDS_REPORT;
+    if (averaging && run->spectrum && (ends & HD_ENDS_WHOLE_SAMPLE)) sample_spectrum(run);
+    if (measuring && factored) HD_TRY(observe(run, run->due.report));
+    const bool reached = averaging && run->due.report && factored && target_reached(run);
+    run->due.fields |= reached;
+    run->due.stage_end = ends & HD_ENDS_STAGE || reached;
+    leave_stage(run);
+    return HD_OK;
+}
+
+/** Where the next orthonormalisation falls. */
+static void plan_interval(hd_run *run)
+{
+    const double end = hd_schedule_sample_end(&run->schedule), left = end - hd_run_time(run);
+    const double most = hd_advance_longest(&run->advance);
+    hd_interval_length next = hd_interval_next(&run->interval, left);
+    if (next.length > most) next = (hd_interval_length){left / ceil(left / most), HD_LIMIT_EVENTS};
+    next.length = fmax(next.length, hd_advance_shortest(&run->advance));
+    run->interval_end = next.length >= left ? end : hd_run_time(run) + next.length;
+    run->cost.limit = next.limit;
+}
+
+/** Moves the disks on, as far as a watcher lets them. */
+static hd_status advance(hd_run *run, hd_event_log *log)
+{
+    const double start = hd_clock_now();
+    HD_TRY(hd_advance_on(&run->advance, log, run->watch.interval));
+    run->cost.events += hd_clock_now() - start;
+    if (HD_VERIFIES) hd_verify_disks(run->advance.trajectory, &run->scene);
+    if (HD_VERIFIES && log) hd_verify_log(log, run->scene.disks);
+    return HD_OK;
+}
+
+hd_status hd_run_advance(hd_run *run)
+{
+    run->due.report = run->due.fields = false;
+    run->observer.known.count = 0;
+    if (run->schedule.stage == HD_FINISHED) return HD_OK;
+    const bool with_frame = run->frame && run->schedule.stage != HD_EQUILIBRATING;
+    if (with_frame) hd_blas_use_threads(run->threads); /* with OpenMP: of the calling thread */
+    if (is_going_back(run) || run->due.stage_end) return go_back(run, false);
+    const double cut = hd_schedule_cut(&run->schedule);
+    if (with_frame && hd_run_time(run) >= run->interval_end) plan_interval(run);
+    if (hd_advance_is_done(&run->advance))
+        hd_advance_make_plan(&run->advance, with_frame ? fmin(cut, run->interval_end) : cut);
+    HD_TRY(advance(run, with_frame ? run->log : NULL));
+    if (with_frame && hd_run_time(run) >= run->interval_end) HD_TRY(hd_run_factorise(run));
+    return hd_run_time(run) >= cut ? take_cut(run) : show(run);
+}
+
+void hd_run_observe(hd_run *run, unsigned stages)
+{
+    const unsigned now = stages & run->scene.observe, begun = now & ~run->observe;
+    if (begun & HD_OBSERVE_PHASES)
+        hd_phases_clear(run->observer.phases);                 /* not followed in between */
+    if (begun & HD_OBSERVE_COVARIANT) run->windows.due = true; /* nor this */
+    run->observe = now;
+}
+
+void hd_run_fields_every(hd_run *run, double interval) { run->field_interval = interval; }
+
+hd_status hd_run_reset_average(hd_run *run)
+{
+    if (run->schedule.stage != HD_AVERAGING) return HD_OK;
+    if (run->frame) hd_blas_use_threads(run->threads);
+    if (run->frame && hd_run_time(run) < run->interval_end) HD_TRY(hd_run_factorise(run));
+    enter_stage(run, HD_AVERAGING);
+    return HD_OK;
+}
+
+void hd_run_watch(hd_run *run, double interval, int first)
+{
+    HD_ASSERT(interval > 0.0 && first >= 0);
+    run->watch.interval = interval;
+    run->watch.first = first;
+}

@@ -1,0 +1,73 @@
+/** What a run holds, for the files that make it up: run.c goes on, query.c tells, checkpoint.c
+ * keeps.
+ */
+#ifndef HD_RUN_STATE_H
+#define HD_RUN_STATE_H
+
+#include "hdlyap/run.h"
+#include "run/advance.h"
+#include "run/observer.h"
+#include "run/schedule.h"
+#include "run/windows.h"
+#include "tangent/interval.h"
+
+/** What somebody watches between orthonormalisations, see hd_run_watch. */
+typedef struct hd_watch {
+    double interval; /**< INFINITY: nobody does */
+    int first;       /**< column from which vectors are wanted */
+} hd_watch;
+
+/** What falls due with the step under way. */
+typedef struct hd_due {
+    bool report, fields;
+    bool stage_end; /**< once the covariant vectors have gone their way back */
+} hd_due;
+
+/** What rounding may have done. */
+typedef struct hd_rounding {
+    double condition_max; /**< so far: how well the start of the averaging is known */
+    double sum;           /**< HD_ROUNDING times that and the conditions since, summed */
+} hd_rounding;
+
+/** For estimates of the time left. */
+typedef struct hd_clocks {
+    double created, frame_started; /**< wall clock [s]; 0 before the frame starts */
+    double frame_start_time;       /**< simulated time */
+} hd_clocks;
+
+struct hd_run {
+    hd_scene_def scene;
+    int vectors, threads;
+    hd_advance advance;
+    hd_event_log
+        *log; /**< since the last orthonormalisation; NULL without exponents, as the next */
+    hd_frame *frame;
+    hd_ortho *ortho;
+    hd_spectrum *spectrum;
+    hd_observer observer;
+    hd_windows windows;
+    hd_schedule schedule;
+    hd_interval interval;
+    double interval_end; /**< simulated time at which the frame is orthonormalised next */
+    double sample_max;   /**< simulated time of COLLISIONS_PER_SAMPLE */
+    unsigned observe;    /**< set of HD_OBSERVE_* that is needed now */
+    hd_watch watch;
+    hd_due due;
+    double field_interval;
+    hd_clocks clocks;
+    hd_rounding rounding;
+    hd_cost cost;
+};
+
+enum { SMALLEST_EXPONENTS = 8 };
+
+/** Of one disk, at most. */
+#define HD_COLLISIONS_PER_SAMPLE 64.0
+
+/** Ends what a step has begun, so that the run can be kept: half of a way back is none. */
+HD_MUST_CHECK hd_status hd_run_settle(hd_run *run);
+
+/** Largest standard error of the exponents nearest to zero; INFINITY while one is unknown. */
+double hd_run_smallest_error(const hd_run *run);
+
+#endif

@@ -1,0 +1,153 @@
+/** Scene -> ends of stages, samples, pieces and reports.
+ *
+ * Stages follow each other at fixed times: equilibration (trajectory alone), warm-up of the frame,
+ * averaging. A stage is cut into samples of equal length: before the averaging, where nothing is
+ * measured, one for all of it; then as long as the interval between orthonormalisations may be, so
+ * that reports in between need none of their own. A sample is cut into pieces, at whose ends a
+ * report can be due. */
+#include "run/schedule.h"
+
+#include <limits.h>
+#include <math.h>
+
+/** Of samples, for standard errors: fewer in an averaging of this many would make them late and
+ * rough. */
+static const double SAMPLES_MIN = 32.0;
+/** Ends that are this close, as a part of a sample, are one. */
+static const double CLOSE = 1e-6;
+static const double COUNT_MAX = 1e9;
+
+hd_schedule hd_schedule_of(const hd_scene_def *scene)
+{
+    return (hd_schedule){
+        .length = {scene->equilibration, scene->warmup,
+                   scene->duration > 0 ? scene->duration : INFINITY},
+        .report_interval = scene->report_interval,
+    };
+}
+
+/** Without a duration the errors can wait. */
+static double sample_longest(const hd_schedule *s, double sample_max)
+{
+    return fmin(sample_max, s->length[HD_AVERAGING] / SAMPLES_MIN);
+}
+
+static void sample_measure(hd_schedule *s)
+{
+    s->sample_length = s->report_interval * s->reports_per_sample / s->samples_per_report;
+}
+
+static void samples_lay_out(hd_schedule *s, double sample_max)
+{
+    const double r = s->report_interval;
+    double reports = 1.0, samples = 1.0;
+    if (s->stage != HD_AVERAGING)
+        reports = ceil(s->length[s->stage] / r * (1.0 - CLOSE));
+    else if (sample_max >= r)
+        reports = floor(fmax(1.0, sample_longest(s, sample_max) / r * (1.0 + CLOSE)));
+    else
+        samples = ceil(r / sample_max * (1.0 - CLOSE));
+    s->reports_per_sample = (int)fmin(fmax(reports, 1.0), COUNT_MAX);
+    s->samples_per_report = (int)fmin(samples, COUNT_MAX);
+    sample_measure(s);
+    s->pieces = s->reports_per_sample;
+}
+
+void hd_schedule_enter(hd_schedule *s, hd_stage stage, double now, double sample_max)
+{
+    while (stage < HD_AVERAGING && s->length[stage] == 0) stage++;
+    s->stage = stage;
+    if (stage == HD_FINISHED) return;
+    s->start = now;
+    s->samples = 0;
+    s->piece = 0;
+    samples_lay_out(s, sample_max);
+}
+
+double hd_schedule_stage_end(const hd_schedule *s)
+{
+    return s->start + s->length[s->stage == HD_FINISHED ? HD_AVERAGING : s->stage];
+}
+
+/** Products, not sums: rounding does not add up. */
+static double end_after(const hd_schedule *s, double samples)
+{
+    const double end = s->start + samples * s->sample_length, last = hd_schedule_stage_end(s);
+    return end < last - CLOSE * s->sample_length ? end : last;
+}
+
+double hd_schedule_sample_end(const hd_schedule *s) { return end_after(s, (double)s->samples + 1); }
+
+static double samples_at_cut(const hd_schedule *s)
+{
+    return (double)s->samples + (double)(s->piece + 1) / s->pieces;
+}
+
+double hd_schedule_cut(const hd_schedule *s) { return end_after(s, samples_at_cut(s)); }
+
+int hd_schedule_cuts_per_report(const hd_schedule *s)
+{
+    return s->pieces / s->reports_per_sample * s->samples_per_report;
+}
+
+/** A piece that the end of the stage cuts short is not passed: it would go on if the stage were
+ * made longer. */
+unsigned hd_schedule_pass(hd_schedule *s, double piece_max)
+{
+    const double last = hd_schedule_stage_end(s), close = CLOSE * s->sample_length;
+    const double whole = s->start + samples_at_cut(s) * s->sample_length;
+    const int per_report = s->pieces / s->reports_per_sample;
+    const unsigned stage_ends = HD_ENDS_STAGE | HD_ENDS_REPORT | HD_ENDS_SAMPLE;
+    unsigned ends = hd_schedule_cut(s) >= last ? stage_ends : 0;
+    if (whole > last + close) return ends;
+    s->piece++;
+    if (s->piece < s->pieces) return s->piece % per_report == 0 ? ends | HD_ENDS_REPORT : ends;
+    s->samples++;
+    s->piece = 0;
+    s->pieces = s->reports_per_sample *
+                (int)fmax(1.0, ceil(s->sample_length / s->reports_per_sample / piece_max));
+    ends |= HD_ENDS_SAMPLE | HD_ENDS_WHOLE_SAMPLE;
+    return s->samples % s->samples_per_report == 0 ? ends | HD_ENDS_REPORT : ends;
+}
+
+/** Of the stage, by the end of so many pieces of the present sample. */
+static long reports_after(const hd_schedule *s, int pieces)
+{
+    const int per_report = s->pieces / s->reports_per_sample;
+    return (s->samples * s->reports_per_sample + pieces / per_report) / s->samples_per_report;
+}
+
+bool hd_schedule_reaches_multiple(const hd_schedule *s, double interval)
+{
+    const long before = reports_after(s, s->piece), after = reports_after(s, s->piece + 1);
+    const double multiples = s->report_interval / interval; /* in a report */
+    if (hd_schedule_cut(s) >= hd_schedule_stage_end(s)) return true;
+    if (after == before || before == 0 || interval <= s->report_interval) return after > before;
+    return floor((double)after * multiples + CLOSE) > floor((double)before * multiples + CLOSE);
+}
+
+bool hd_schedule_reopen(hd_schedule *s, double now)
+{
+    const double last = hd_schedule_stage_end(s), close = CLOSE * s->sample_length;
+    if (s->stage == HD_FINISHED && now < last - close) s->stage = HD_AVERAGING;
+    if (s->stage == HD_AVERAGING && now >= last) s->stage = HD_FINISHED;
+    return now <= last + close;
+}
+
+/** What the scene does not say of it. */
+void hd_schedule_archive(hd_schedule *s, hd_archive *archive)
+{
+    int stage = (int)s->stage;
+    hd_archive_int(archive, "schedule stage", &stage, HD_EQUILIBRATING, HD_FINISHED);
+    s->stage = (hd_stage)stage;
+    hd_archive_double(archive, "schedule start", &s->start);
+    hd_archive_int(archive, "schedule reports", &s->reports_per_sample, 1, (int)COUNT_MAX);
+    hd_archive_int(archive, "schedule samples per report", &s->samples_per_report, 1,
+                   (int)COUNT_MAX);
+    hd_archive_int(archive, "schedule pieces", &s->pieces, 1, INT_MAX);
+    hd_archive_int(archive, "schedule piece", &s->piece, 0, INT_MAX - 1);
+    hd_archive_long(archive, "schedule samples", &s->samples, 0, LONG_MAX / 2);
+    sample_measure(s);
+    hd_archive_expect(archive, s->piece < s->pieces && s->pieces % s->reports_per_sample == 0,
+                      "schedule pieces", "they do not make up a sample");
+}

@@ -1,0 +1,69 @@
+/** Orthonormalisations of a run -> covariant vectors of its windows. */
+#include "run/windows.h"
+
+#include "base/check.h"
+#include "base/clock.h"
+
+static const double GO_SECONDS = 0.1;
+
+hd_status hd_windows_create(hd_windows *windows, const hd_scene_def *scene, hd_ortho *ortho,
+                            double longest, int threads, char *message, size_t size)
+{
+    HD_TRY(hd_covariant_check_room(scene, longest, message, size));
+    HD_TRY(hd_ortho_keep_factor(ortho));
+    windows->due = true;
+    return hd_covariant_create(&windows->covariant, scene, threads);
+}
+
+void hd_windows_free(hd_windows *windows) { hd_covariant_free(windows->covariant); }
+
+void hd_windows_clear(hd_windows *windows)
+{
+    hd_covariant_clear(windows->covariant);
+    windows->due = true;
+}
+
+/** Adds the seconds since then to the cost. */
+static hd_status timed(hd_windows *windows, double start, hd_status status)
+{
+    windows->seconds += hd_clock_now() - start;
+    return status;
+}
+
+hd_status hd_windows_start(hd_windows *windows, hd_columns frame, double begin, double expected)
+{
+    const double start = hd_clock_now();
+    if (!windows->due) return HD_OK;
+    windows->due = false;
+    return timed(windows, start, hd_covariant_begin(windows->covariant, frame, begin, expected));
+}
+
+hd_status hd_windows_add(hd_windows *windows, const hd_ortho *ortho, hd_columns frame,
+                         const hd_event_log *log, double t_begin, double t_end)
+{
+    const double start = hd_clock_now();
+    return timed(windows, start,
+                 hd_covariant_add(windows->covariant, ortho, frame, log, t_begin, t_end));
+}
+
+hd_status hd_windows_end(hd_windows *windows, hd_columns frame, const hd_trajectory *trajectory)
+{
+    const double start = hd_clock_now();
+    if (!hd_covariant_wants_state(windows->covariant)) return HD_OK;
+    return timed(windows, start, hd_covariant_state(windows->covariant, frame, trajectory));
+}
+
+bool hd_windows_is_going(const hd_windows *windows)
+{
+    return !windows->due && hd_covariant_is_going_back(windows->covariant);
+}
+
+hd_status hd_windows_go(hd_windows *windows, bool to_its_end)
+{
+    const double start = hd_clock_now();
+    hd_status status = HD_OK;
+    while (status == HD_OK && hd_windows_is_going(windows) &&
+           (to_its_end || hd_clock_now() - start < GO_SECONDS))
+        status = hd_covariant_step(windows->covariant);
+    return timed(windows, start, status);
+}

@@ -1,0 +1,104 @@
+/** Scene -> start positions. All kinds of rows are tried; arithmetic is + - * / sqrt only. */
+#include "scene/lattice.h"
+
+#include <math.h>
+#include <stdint.h>
+
+/** Sites of `rows` rows. */
+static int64_t site_count(int64_t rows, int64_t columns, int odd_short)
+{
+    return rows * columns - (odd_short ? rows / 2 : 0);
+}
+
+/** Distance of neighbouring sites in a line of `count` that must fit into `length`; `half` = 1
+ * leaves room for a shift by half a spacing. One site alone has no neighbour: spacing = length. */
+static double spacing(double length, int64_t count, int half, hd_boundary boundary)
+{
+    if (boundary == HD_PERIODIC) return length / (double)count;
+    const double gaps = (double)(count - 1) + 0.5 * half;
+    return gaps > 0 ? (length - 1.0) / gaps : length;
+}
+
+static double smallest_distance(const hd_lattice *l, hd_boundary across)
+{
+    double d = l->columns > 1 ? l->column : INFINITY;
+    if (l->rows == 1) return d;
+    const double shift = l->staggered ? 0.5 * l->column : 0.0;
+    d = fmin(d, sqrt(shift * shift + l->row * l->row));
+    if (l->rows > 2) d = fmin(d, 2.0 * l->row);
+    if (across == HD_PERIODIC && l->rows % 2 == 1)
+        d = fmin(d, l->row); /* last row meets the first */
+    return d;
+}
+
+static void try_rows(hd_lattice *best, int disks, int rows, int along, int kind,
+                     const double box[2], const hd_boundary boundary[2])
+{
+    const hd_boundary in_row = boundary[along], across = boundary[1 - along];
+    hd_lattice l = {.along = along, .rows = rows, .staggered = kind > 0, .odd_short = kind == 2};
+    int64_t columns = (disks + rows - 1) / rows;
+    if (site_count(rows, columns, l.odd_short) < disks) columns++;
+    if (l.odd_short && (in_row == HD_PERIODIC || columns < 2)) return;
+    l.columns = (int)columns;
+    l.column = spacing(box[along], columns, l.staggered && !l.odd_short && rows > 1, in_row);
+    l.row = spacing(box[1 - along], rows, 0, across);
+    l.distance = smallest_distance(&l, across);
+    if (l.distance > best->distance) *best = l;
+}
+
+hd_lattice hd_lattice_best(int disks, const double box[2], const hd_boundary boundary[2])
+{
+    enum { ROW_KINDS = 3 }; /* in line, staggered, staggered with short odd rows */
+    hd_lattice best = {.distance = -1.0};
+    for (int along = 0; along < 2; along++)
+        for (int rows = 1; rows <= disks; rows++)
+            for (int kind = 0; kind < ROW_KINDS; kind++)
+                try_rows(&best, disks, rows, along, kind, box, boundary);
+    return best;
+}
+
+static void place(const hd_lattice *l, double q[2], int row, int column, const double box[2],
+                  const hd_boundary boundary[2])
+{
+    const int along = l->along, across = 1 - along;
+    const double shift = l->staggered && row % 2 ? 0.5 : 0.0;
+    const double in_row = ((double)column + shift) * l->column;
+    const double off_row = (double)row * l->row;
+    q[along] = boundary[along] == HD_PERIODIC ? in_row + 0.25 * l->column : 0.5 + in_row;
+    q[across] = boundary[across] == HD_PERIODIC ? off_row + 0.5 * l->row : 0.5 + off_row;
+    for (int d = 0; d < 2; d++)
+        if (boundary[d] == HD_REFLECTING)
+            q[d] = fmin(q[d], box[d] - 0.5); /* rounding of the last */
+}
+
+void hd_lattice_fill(const hd_lattice *lattice, double *q, int disks, const double box[2],
+                     const hd_boundary boundary[2])
+{
+    const int64_t sites = site_count(lattice->rows, lattice->columns, lattice->odd_short);
+    int64_t site = 0;
+    int disk = 0;
+    for (int row = 0; row < lattice->rows; row++) {
+        const int columns = lattice->columns - (lattice->odd_short && row % 2);
+        for (int column = 0; column < columns; column++, site++) {
+            if ((site + 1) * disks / sites == site * disks / sites) continue; /* left empty */
+            place(lattice, q + 2 * disk++, row, column, box, boundary);
+        }
+    }
+}
+
+double hd_lattice_density_max(const hd_scene_def *def)
+{
+    enum { BISECTIONS = 30 };
+    hd_scene_def trial = *def;
+    double low = 0.0, high = 2.0 / sqrt(3.0) * (1.0 + 1e-9);
+    for (int k = 0; k < BISECTIONS; k++) {
+        double box[2];
+        trial.density = 0.5 * (low + high);
+        hd_scene_box(&trial, box);
+        const int fits = box[0] > 1.0 && box[1] > 1.0 &&
+                         hd_lattice_best(trial.disks, box, trial.boundary).distance >=
+                             HD_LATTICE_DISTANCE_MIN;
+        *(fits ? &low : &high) = trial.density;
+    }
+    return low;
+}

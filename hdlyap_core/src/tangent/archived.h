@@ -1,0 +1,12 @@
+/** What a checkpoint holds of the frame and its intervals. */
+#ifndef HD_TANGENT_ARCHIVED_H
+#define HD_TANGENT_ARCHIVED_H
+
+#include "base/archive.h"
+#include "hdlyap/frame.h"
+#include "tangent/interval.h"
+
+void hd_frame_archive(hd_frame *frame, hd_archive *archive);
+void hd_interval_archive(hd_interval *interval, hd_archive *archive);
+
+#endif

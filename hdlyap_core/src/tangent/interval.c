@@ -1,0 +1,105 @@
+/** Conditioning of past intervals -> length of the next one. */
+#include "tangent/interval.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+
+#include "tangent/archived.h"
+
+/** Beyond, block Gram-Schmidt may meet panels that Cholesky cannot factor. */
+static const double CONDITION_MAX = 1e12;
+/** A few collisions alone can make as much: shorter intervals would not lower it, only add up more
+ * of it. */
+static const double CONDITION_MIN = 1e3;
+/** Standard deviations of ln(condition) kept free below the maximum: few intervals are then
+ * repaired, which costs less than shorter intervals would. At least a factor of 2. */
+static const double MARGIN = 2.0, HEADROOM_MIN = 0.7;
+/** A column may grow to e^150 before its square comes near overflow. */
+static const double STRETCH_MAX = 150.0;
+/** A remainder that is longer by this factor is taken at once: a repair now and then costs less
+ * than halves would. */
+static const double STRAIN = 1.06;
+static const double GROW_MAX = 2.0, FORGET = 0.1, VARIANCE_FIRST = 0.5;
+
+hd_interval hd_interval_first(double first, double limit, double accuracy)
+{
+    return (hd_interval){.limit = limit,
+                         .accuracy = accuracy,
+                         .last = fmin(first, limit),
+                         .variance = VARIANCE_FIRST};
+}
+
+double hd_interval_condition_max(const hd_interval *interval, double length)
+{
+    return fmax(CONDITION_MIN, fmin(CONDITION_MAX, interval->accuracy *
+                                                       fmax(length, interval->last) / HD_ROUNDING));
+}
+
+double hd_interval_piece_max(const hd_interval *interval, double length, double whole)
+{
+    const double most = hd_interval_condition_max(interval, length);
+    return length < whole ? fmax(CONDITION_MIN, most / HD_ENLARGED) : most;
+}
+
+static double follow(double old, double seen) { return fmax(seen, old + FORGET * (seen - old)); }
+
+/** The condition grows exponentially but for a factor that grazing collisions make: that scatters
+ * alike at all lengths, so it is kept apart. The first interval, and a much longer one, start the
+ * mean anew. */
+void hd_interval_learn(hd_interval *interval, double length, double condition, double stretch)
+{
+    const double seen = log(condition), slope = seen / length;
+    const bool afresh = interval->slope == 0 || length > 1.5 * interval->last;
+    const double off = afresh ? 0.0 : seen - interval->slope * length;
+    interval->slope = afresh ? slope : interval->slope + FORGET * off / length;
+    interval->variance += FORGET * (off * off - interval->variance);
+    interval->stretch = follow(interval->stretch, stretch / length);
+    interval->last = length;
+}
+
+/** As if it had been seen at the maximum. */
+void hd_interval_failed(hd_interval *interval, double length)
+{
+    const double off = log(hd_interval_condition_max(interval, length)) - interval->slope * length;
+    if (off > 0) interval->slope += FORGET * off / length;
+}
+
+double hd_interval_condition(const hd_interval *interval, double length)
+{
+    return exp(interval->slope * length);
+}
+
+static void shorten(hd_interval_length *chosen, double length, hd_limit limit)
+{
+    if (length < chosen->length) *chosen = (hd_interval_length){length, limit};
+}
+
+hd_interval_length hd_interval_longest(const hd_interval *interval)
+{
+    const double most = log(hd_interval_condition_max(interval, interval->last));
+    const double aim = fmax(most - fmax(MARGIN * sqrt(interval->variance), HEADROOM_MIN), 0.3);
+    hd_interval_length chosen = {GROW_MAX * interval->last, HD_LIMIT_GROWTH};
+    shorten(&chosen, interval->limit, HD_LIMIT_SCENE);
+    if (interval->slope > 0) shorten(&chosen, aim / interval->slope, HD_LIMIT_CONDITION);
+    if (interval->stretch > 0) shorten(&chosen, STRETCH_MAX / interval->stretch, HD_LIMIT_OVERFLOW);
+    return chosen;
+}
+
+hd_interval_length hd_interval_next(const hd_interval *interval, double remaining)
+{
+    const hd_interval_length longest = hd_interval_longest(interval);
+    const double strained = fmin(STRAIN * longest.length, interval->limit);
+    if (strained >= remaining) return (hd_interval_length){remaining, HD_LIMIT_SCHEDULE};
+    return (hd_interval_length){remaining / ceil(remaining / longest.length), longest.limit};
+}
+
+void hd_interval_archive(hd_interval *interval, hd_archive *archive)
+{
+    hd_archive_double(archive, "interval slope", &interval->slope);
+    hd_archive_double(archive, "interval variance", &interval->variance);
+    hd_archive_double(archive, "interval stretch", &interval->stretch);
+    hd_archive_double(archive, "interval last", &interval->last);
+    const bool learnt = interval->slope >= 0 && interval->variance >= 0 && interval->stretch >= 0;
+    hd_archive_expect(archive, learnt && interval->last > 0, "interval", "it is negative");
+}

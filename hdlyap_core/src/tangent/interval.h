@@ -1,0 +1,62 @@
+/** The time between orthonormalisations: as long as the measured conditioning allows, never longer.
+ */
+#ifndef HD_INTERVAL_H
+#define HD_INTERVAL_H
+
+#include <float.h>
+
+#include "hdlyap/interval.h"
+
+/** The rounding of V enters the sum of one interval's logarithms as at most this times its
+ * condition; seen: up to 1.4 eps [T6]. */
+#define HD_ROUNDING (2.0 * DBL_EPSILON)
+
+/** Neighbouring vectors that change places enlarge that: seen up to 18 times [T6]. */
+#define HD_ENLARGED 20.0
+
+/** Most that reflections are asked to factor: they stay right to eps * condition, 1e-3 of one
+ * interval, once. */
+#define HD_CONDITION_STABLE 1e13
+
+/** Adapts to ln(condition) per time unit as it is measured [T6]. */
+typedef struct hd_interval {
+    double limit;    /**< never longer [time units] */
+    double accuracy; /**< of an exponent that rounding may spoil [1/time unit] */
+    double slope;    /**< ln(condition) per time unit, mean of the last ones */
+    double variance; /**< of ln(condition) about slope * length, likewise */
+    double stretch;  /**< largest |ln R_ll| per time unit: rises at once, falls slowly */
+    double last;     /**< last interval measured, or the first guess */
+} hd_interval;
+
+hd_interval hd_interval_first(double first, double limit, double accuracy);
+
+/** Largest condition that leaves the exponents as accurate as asked after an interval this long (or
+ * one as long as usual, if that is longer: a rare short one with a grazing collision may use its
+ * share). */
+double hd_interval_condition_max(const hd_interval *interval, double length);
+
+/** The same for a piece of an interval of `whole`: those that were not taken back mostly stay far
+ * below what they are allowed, pieces of the others just below. */
+double hd_interval_piece_max(const hd_interval *interval, double length, double whole);
+
+/** What an interval of `length` showed. */
+void hd_interval_learn(hd_interval *interval, double length, double condition, double stretch);
+
+/** An interval of `length` turned out too long: its condition was not even measured. */
+void hd_interval_failed(hd_interval *interval, double length);
+
+/** Condition to be expected after `length`. */
+double hd_interval_condition(const hd_interval *interval, double length);
+
+typedef struct hd_interval_length {
+    double length;
+    hd_limit limit; /**< why not longer */
+} hd_interval_length;
+
+/** What the conditioning allows the next interval to be. */
+hd_interval_length hd_interval_longest(const hd_interval *interval);
+
+/** The next interval: an equal share of `remaining`, as few shares as the conditioning allows. */
+hd_interval_length hd_interval_next(const hd_interval *interval, double remaining);
+
+#endif

@@ -1,0 +1,471 @@
+/** Tangent frame -> (Q, ln diag R), by block Gram-Schmidt.
+ *
+ * V (rows m, vectors n, row-major) is for BLAS the column-major n x m matrix A = V^T. The vectors
+ * are taken in panels: a panel is orthonormalised by Cholesky of its Gram matrix, G = A_p A_p^T = L
+ * L^T, A_p <- L^-1 A_p (dsyrk, dpotrf, dtrtri, dtrmm), and then taken out of all later ones: S =
+ * A_rest A_p^T, A_rest -= S A_p (dgemm). That is 2 m n^2 flops nearly all in dgemm, and, as in the
+ * modified Gram-Schmidt process, each panel meets vectors that the earlier ones have cleaned: it
+ * loses orthogonality in proportion to the condition, where one Cholesky factorisation of all loses
+ * its square. diag(L) > 0, so Q and R = L^T are unique; R is used up on the way unless somebody
+ * keeps it. The stable step factors A = L Q by reflections instead (dgelqf, dorglq). Equations
+ * [T5]-[T7]. */
+#include "hdlyap/ortho.h"
+
+#include <cblas.h>
+#include <float.h>
+#include <lapacke.h>
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include "base/check.h"
+#include "base/memory.h"
+
+/** |Q^T Q - 1| after one pass is at most the square of this, or of the worst panel's own condition
+ * if that is larger, times eps condition; see [T7]. */
+static const double PANEL_CONDITION_LEAST = 8.0;
+/** A panel that is worse conditioned by itself gets a second Cholesky pass: its loss of
+ * orthogonality, eps condition^2, multiplies what the later panels are cleaned of. */
+static const double PANEL_CONDITION_GOOD = 30.0;
+/** Cholesky of a Gram matrix breaks down near 1 / sqrt(16 eps) = 2e7. */
+static const double PANEL_CONDITION_MAX = 1e7;
+
+/** PANELS of them if there are that many vectors: the last half of the flops then falls into wide
+ * products. */
+enum { PANELS = 8, PANEL_MIN = 8, PANEL_MAX = 160, LATER_MAX = 640, PROBES = 8 };
+
+struct hd_ortho {
+    int rows, vectors;
+    int width;          /**< of a panel */
+    double *gram;       /**< [width * width], column-major, lower triangle */
+    double *projection; /**< [later * width], column-major: S; LAPACK's workspace */
+    /** [vectors], |V e_k|^2, of a panel complete when its turn comes */
+    double *norm2;
+    double *scale;       /**< [width], diagonal of gram before it is factored */
+    double *probe;       /**< [PROBES][vectors]: R^-T D x, see condition_of */
+    double *log_stretch; /**< [vectors] */
+    double *reflector;   /**< [vectors], of the stable step */
+    /** [vectors * vectors], column-major: L of each pass; NULL unless kept */
+    double *factor[2];
+    int lwork; /**< of projection */
+    double condition, defect;
+    /** Largest of the panels as they were accepted, at least PANEL_CONDITION_LEAST */
+    double panel_condition;
+    int passes;
+};
+
+/** Entries of workspace that LAPACK wants for the stable step. */
+static int stable_workspace(int rows, int vectors)
+{
+    double lq = 0.0, q = 0.0, unused = 0.0;
+    (void)LAPACKE_dgelqf_work(LAPACK_COL_MAJOR, vectors, rows, &unused, vectors, &unused, &lq, -1);
+    (void)LAPACKE_dorglq_work(LAPACK_COL_MAJOR, vectors, rows, vectors, &unused, vectors, &unused,
+                              &q, -1);
+    return (int)fmax(fmax(lq, q), vectors);
+}
+
+static hd_status ortho_allocate(hd_ortho *ortho)
+{
+    const size_t n = (size_t)ortho->vectors, width = (size_t)ortho->width;
+    const int wanted_by_lapack = stable_workspace(ortho->rows, ortho->vectors);
+    ortho->lwork = (ortho->vectors < LATER_MAX ? ortho->vectors : LATER_MAX) * ortho->width;
+    if (ortho->lwork < wanted_by_lapack) ortho->lwork = wanted_by_lapack;
+    const struct {
+        double **array;
+        size_t size;
+    } wanted[] = {{&ortho->gram, width * width},
+                  {&ortho->projection, (size_t)ortho->lwork},
+                  {&ortho->norm2, n},
+                  {&ortho->scale, width},
+                  {&ortho->probe, n * PROBES},
+                  {&ortho->log_stretch, n},
+                  {&ortho->reflector, n}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
+        if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
+            return HD_NO_MEMORY;
+    return HD_OK;
+}
+
+static int panel_width(int vectors)
+{
+    const int even = (vectors / PANELS + 7) / 8 * 8;
+    const int width = even < PANEL_MIN ? PANEL_MIN : even > PANEL_MAX ? PANEL_MAX : even;
+    return width < vectors ? width : vectors;
+}
+
+hd_status hd_ortho_create(hd_ortho **out, int rows, int vectors)
+{
+    HD_ASSERT(vectors >= 1 && vectors <= rows);
+    hd_ortho *ortho = hd_memory_alloc(1, sizeof *ortho);
+    *out = NULL;
+    if (!ortho) return HD_NO_MEMORY;
+    ortho->rows = rows;
+    ortho->vectors = vectors;
+    ortho->width = panel_width(vectors);
+    const hd_status status = ortho_allocate(ortho);
+    if (status == HD_OK)
+        *out = ortho;
+    else
+        hd_ortho_free(ortho);
+    return status;
+}
+
+void hd_ortho_free(hd_ortho *ortho)
+{
+    if (!ortho) return;
+    hd_memory_free(ortho->gram);
+    hd_memory_free(ortho->projection);
+    hd_memory_free(ortho->norm2);
+    hd_memory_free(ortho->scale);
+    hd_memory_free(ortho->probe);
+    hd_memory_free(ortho->log_stretch);
+    hd_memory_free(ortho->reflector);
+    hd_memory_free(ortho->factor[0]);
+    hd_memory_free(ortho->factor[1]);
+    hd_memory_free(ortho);
+}
+
+/* ---- the condition ------------------------------------------------------------------------- */
+
+/** Entry of a fixed matrix of random signs (a bit of the row's hash). */
+static double sign_of(int row, int probe)
+{
+    uint32_t hash = (uint32_t)row * 2654435761u;
+    hash = (hash ^ hash >> 15) * 2246822519u;
+    hash = (hash ^ hash >> 13) * 3266489917u;
+    return hash >> (16 + probe) & 1 ? 1.0 : -1.0;
+}
+
+/** True if a sum of squares is known to rounding: neither zero, as BLAS libraries differ in what
+ * they make of that, nor near the smallest numbers, nor overflown. */
+static bool is_square(double sum) { return sum > DBL_MIN / DBL_EPSILON && sum < INFINITY; }
+
+/** See hd_ortho_condition: with D = diag |V e_k| and random signs x the entries of y = R^-T D x
+ * have the mean squares kappa_l^2. INFINITY where one is not finite, or a vector too short to be
+ * measured. */
+static double condition_of(const hd_ortho *ortho)
+{
+    double worst = 1.0;
+    for (int col = 0; col < ortho->vectors; col++) {
+        if (!is_square(ortho->norm2[col])) return INFINITY;
+        double sum = 0.0;
+        for (int p = 0; p < PROBES; p++) {
+            const double y = ortho->probe[p * ortho->vectors + col];
+            sum += y * y / PROBES;
+        }
+        if (!(sum < INFINITY)) return INFINITY;
+        worst = fmax(worst, sum);
+    }
+    return sqrt(worst);
+}
+
+/* ---- a panel ------------------------------------------------------------------------------- */
+
+typedef struct panel {
+    double *a; /**< its rows of A */
+    int lda, first, width;
+} panel;
+
+/** Entry of L of the present pass at a row and the panel's first column. */
+static double *factor_at(const hd_ortho *ortho, panel x, int row)
+{
+    return ortho->factor[ortho->passes] + (size_t)x.first * (size_t)ortho->vectors + row;
+}
+
+/** The panel's own triangle in gram, of its first or second Cholesky pass: L = L_1 L_2. */
+static void keep_panel(const hd_ortho *ortho, panel x, bool again)
+{
+    if (!ortho->factor[0]) return;
+    double *own = factor_at(ortho, x, x.first);
+    const int n = ortho->vectors, w = x.width;
+    if (again)
+        cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, w, w, 1.0,
+                    ortho->gram, w, own, n);
+    else
+        for (int col = 0; col < w; col++) {
+            memset(own + (size_t)col * (size_t)n, 0, (size_t)col * sizeof *own);
+            memcpy(own + (size_t)col * (size_t)n + col, ortho->gram + (size_t)col * (size_t)w + col,
+                   (size_t)(w - col) * sizeof *own);
+        }
+}
+
+/** S, `count` rows of L from row `next` on. */
+static void keep_projection(const hd_ortho *ortho, panel x, int next, int count)
+{
+    if (!ortho->factor[0]) return;
+    for (int col = 0; col < x.width; col++)
+        memcpy(factor_at(ortho, x, next) + (size_t)col * (size_t)ortho->vectors,
+               ortho->projection + (size_t)col * (size_t)count, (size_t)count * sizeof(double));
+}
+
+/** gram <- A_p A_p^T. */
+static hd_status panel_gram(hd_ortho *ortho, panel x)
+{
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, x.width, ortho->rows, 1.0, x.a, x.lda, 0.0,
+                ortho->gram, x.width);
+    for (int k = 0; k < x.width; k++) {
+        ortho->scale[k] = ortho->gram[k * (x.width + 1)];
+        if (!is_square(ortho->scale[k])) return HD_ILL_CONDITIONED; /* keeps NaN out of LAPACK */
+    }
+    return HD_OK;
+}
+
+/** Condition of the panel by itself; gram holds L^-1. INFINITY if not finite. */
+static double panel_condition(const hd_ortho *ortho, int width)
+{
+    double worst = 0.0;
+    for (int row = 0; row < width; row++) {
+        double sum = 0.0;
+        for (int col = 0; col <= row; col++) {
+            const double entry = ortho->gram[col * width + row];
+            sum += entry * entry * ortho->scale[col];
+        }
+        if (!(sum < INFINITY)) return INFINITY;
+        worst = fmax(worst, sum);
+    }
+    return sqrt(worst);
+}
+
+/** gram <- L^-1; adds ln L_kk. */
+static hd_status panel_factor(hd_ortho *ortho, panel x, bool again)
+{
+    const int w = x.width;
+    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', w, ortho->gram, w) != 0)
+        return HD_ILL_CONDITIONED;
+    for (int k = 0; k < w; k++) ortho->log_stretch[x.first + k] += log(ortho->gram[k * (w + 1)]);
+    keep_panel(ortho, x, again);
+    return LAPACKE_dtrtri_work(LAPACK_COL_MAJOR, 'L', 'N', w, ortho->gram, w) == 0
+               ? HD_OK
+               : HD_ILL_CONDITIONED;
+}
+
+/** x <- L^-1 x for a column-major x with `columns` columns. */
+static void panel_solve(const hd_ortho *ortho, panel x, double *right, int ld, int columns)
+{
+    cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, x.width, columns,
+                1.0, ortho->gram, x.width, right, ld);
+}
+
+/** The probes' rows of this panel are complete but for D x itself. */
+static void probe_panel(hd_ortho *ortho, panel x)
+{
+    for (int k = 0; k < x.width; k++) ortho->norm2[x.first + k] += ortho->scale[k];
+    for (int p = 0; p < PROBES; p++)
+        for (int k = x.first; k < x.first + x.width; k++)
+            ortho->probe[p * ortho->vectors + k] += sign_of(k, p) * sqrt(ortho->norm2[k]);
+}
+
+static hd_status panel_orthonormalise(hd_ortho *ortho, panel x)
+{
+    bool good = false;
+    for (int pass = 0; pass < 2 && !good; pass++) {
+        HD_TRY(panel_gram(ortho, x));
+        if (pass == 0) probe_panel(ortho, x);
+        HD_TRY(panel_factor(ortho, x, pass > 0));
+        const double condition = panel_condition(ortho, x.width);
+        if (!(condition <= PANEL_CONDITION_MAX)) return HD_ILL_CONDITIONED;
+        panel_solve(ortho, x, ortho->probe + x.first, ortho->vectors, PROBES);
+        panel_solve(ortho, x, x.a, x.lda, ortho->rows);
+        good = condition <= PANEL_CONDITION_GOOD;
+        if (good) ortho->panel_condition = fmax(ortho->panel_condition, condition);
+    }
+    return HD_OK;
+}
+
+/** Takes the panel out of `count` later vectors from `next` on, and out of their probes. */
+static void panel_project(hd_ortho *ortho, panel x, int next, int count)
+{
+    double *later = x.a + (next - x.first), *s = ortho->projection;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, count, x.width, ortho->rows, 1.0, later,
+                x.lda, x.a, x.lda, 0.0, s, count);
+    keep_projection(ortho, x, next, count);
+    for (int col = 0; col < x.width; col++)
+        for (int row = 0; row < count; row++) {
+            const double entry = s[(size_t)col * (size_t)count + (size_t)row];
+            ortho->norm2[next + row] += entry * entry;
+        }
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, PROBES, x.width, -1.0, s, count,
+                ortho->probe + x.first, ortho->vectors, 1.0, ortho->probe + next, ortho->vectors);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, ortho->rows, x.width, -1.0, s,
+                count, x.a, x.lda, 1.0, later, x.lda);
+}
+
+static void panel_project_out(hd_ortho *ortho, panel x)
+{
+    for (int next = x.first + x.width; next < ortho->vectors; next += LATER_MAX) {
+        const int left = ortho->vectors - next;
+        panel_project(ortho, x, next, left < LATER_MAX ? left : LATER_MAX);
+    }
+}
+
+/* ---- a step -------------------------------------------------------------------------------- */
+
+static void probes_clear(hd_ortho *ortho)
+{
+    memset(ortho->norm2, 0, (size_t)ortho->vectors * sizeof *ortho->norm2);
+    memset(ortho->probe, 0, (size_t)ortho->vectors * PROBES * sizeof *ortho->probe);
+}
+
+static hd_status pass(hd_ortho *ortho, hd_frame *frame, double condition_max)
+{
+    probes_clear(ortho);
+    ortho->panel_condition = PANEL_CONDITION_LEAST;
+    for (int first = 0; first < ortho->vectors; first += ortho->width) {
+        const int left = ortho->vectors - first;
+        const panel x = {hd_frame_data(frame) + first, hd_frame_stride(frame), first,
+                         left < ortho->width ? left : ortho->width};
+        HD_TRY(panel_orthonormalise(ortho, x));
+        panel_project_out(ortho, x);
+    }
+    ortho->condition = condition_of(ortho);
+    ortho->passes++;
+    return ortho->condition <= condition_max ? HD_OK : HD_ILL_CONDITIONED;
+}
+
+static void step_start(hd_ortho *ortho, const hd_frame *frame)
+{
+    HD_ASSERT(hd_frame_rows(frame) == ortho->rows && hd_frame_vectors(frame) == ortho->vectors);
+    for (int col = 0; col < ortho->vectors; col++) ortho->log_stretch[col] = 0.0;
+    ortho->passes = 0;
+}
+
+/** V = Q (L_1 L_2)^T. */
+static void factors_multiply(const hd_ortho *ortho)
+{
+    const int n = ortho->vectors;
+    if (!ortho->factor[0]) return;
+    for (int col = 1; col < n; col++)
+        memset(ortho->factor[0] + (size_t)col * (size_t)n, 0, (size_t)col * sizeof(double));
+    cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, n, n, 1.0,
+                ortho->factor[1], n, ortho->factor[0], n);
+}
+
+static double defect_foreseen(const hd_ortho *ortho)
+{
+    return DBL_EPSILON * ortho->condition * ortho->panel_condition * ortho->panel_condition;
+}
+
+hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits)
+{
+    step_start(ortho, frame);
+    HD_TRY(pass(ortho, frame, limits.condition));
+    const double condition = ortho->condition;
+    ortho->defect = defect_foreseen(ortho);
+    if (ortho->defect > limits.defect) {
+        HD_TRY(pass(ortho, frame, limits.condition));
+        ortho->defect = defect_foreseen(ortho);
+        ortho->condition = condition;
+        factors_multiply(ortho);
+    }
+    return HD_OK;
+}
+
+/* ---- by reflections ------------------------------------------------------------------------ */
+
+/** With L in a: norm2 <- |V e_k|^2, log_stretch <- ln |L_kk|, and the condition. */
+static void examine_lq(hd_ortho *ortho, const double *a, int stride)
+{
+    const int n = ortho->vectors;
+    probes_clear(ortho);
+    for (int col = 0; col < n; col++)
+        for (int row = col; row < n; row++) {
+            const double entry = a[(size_t)col * (size_t)stride + (size_t)row];
+            ortho->norm2[row] += entry * entry;
+        }
+    ortho->condition = INFINITY;
+    for (int k = 0; k < n; k++) {
+        const double diagonal = fabs(a[(size_t)k * (size_t)(stride + 1)]);
+        if (!is_square(ortho->norm2[k]) || !(diagonal > 0.0)) return;
+        ortho->log_stretch[k] = log(diagonal);
+        for (int p = 0; p < PROBES; p++)
+            ortho->probe[p * n + k] = sign_of(k, p) * sqrt(ortho->norm2[k]);
+    }
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, PROBES, 1.0, a,
+                stride, ortho->probe, n);
+    ortho->condition = condition_of(ortho);
+}
+
+/** Column k of L takes the sign of L_kk. */
+static void keep_lq(const hd_ortho *ortho, const double *a, int stride, const double *sign)
+{
+    if (!ortho->factor[0]) return;
+    for (int col = 0; col < ortho->vectors; col++)
+        for (int row = col; row < ortho->vectors; row++)
+            ortho->factor[0][(size_t)col * (size_t)ortho->vectors + (size_t)row] =
+                a[(size_t)col * (size_t)stride + (size_t)row] * sign[col];
+}
+
+/** Row l of Q^T (column l of the row-major frame) takes the sign of L_ll. */
+static void apply_signs(const hd_ortho *ortho, double *a, int stride, const double *sign)
+{
+    for (int row = 0; row < ortho->rows; row++)
+        for (int col = 0; col < ortho->vectors; col++)
+            a[(size_t)row * (size_t)stride + (size_t)col] *= sign[col];
+}
+
+hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame, double condition_max)
+{
+    const int n = ortho->vectors, stride = hd_frame_stride(frame);
+    double *a = hd_frame_data(frame), *sign = ortho->norm2;
+    step_start(ortho, frame);
+    if (LAPACKE_dgelqf_work(LAPACK_COL_MAJOR, n, ortho->rows, a, stride, ortho->reflector,
+                            ortho->projection, ortho->lwork) != 0)
+        return HD_ILL_CONDITIONED;
+    examine_lq(ortho, a, stride);
+    if (!(ortho->condition <= condition_max)) return HD_ILL_CONDITIONED;
+    for (int col = 0; col < n; col++)
+        sign[col] = a[(size_t)col * (size_t)(stride + 1)] < 0 ? -1.0 : 1.0;
+    keep_lq(ortho, a, stride, sign);
+    if (LAPACKE_dorglq_work(LAPACK_COL_MAJOR, n, ortho->rows, n, a, stride, ortho->reflector,
+                            ortho->projection, ortho->lwork) != 0)
+        return HD_ILL_CONDITIONED;
+    apply_signs(ortho, a, stride, sign);
+    ortho->passes = 1;
+    ortho->defect = DBL_EPSILON * PANEL_CONDITION_LEAST * PANEL_CONDITION_LEAST;
+    return HD_OK;
+}
+
+hd_status hd_ortho_keep_factor(hd_ortho *ortho)
+{
+    const size_t n = (size_t)ortho->vectors;
+    for (int pass = 0; pass < 2; pass++)
+        if (!ortho->factor[pass] && !(ortho->factor[pass] = hd_memory_alloc(n * n, sizeof(double))))
+            return HD_NO_MEMORY;
+    return HD_OK;
+}
+
+const double *hd_ortho_factor(const hd_ortho *ortho) { return ortho->factor[0]; }
+const double *hd_ortho_log_stretch(const hd_ortho *ortho) { return ortho->log_stretch; }
+double hd_ortho_condition(const hd_ortho *ortho) { return ortho->condition; }
+double hd_ortho_defect(const hd_ortho *ortho) { return ortho->defect; }
+int hd_ortho_passes(const hd_ortho *ortho) { return ortho->passes; }
+
+/** max(worst, |x^T y - diagonal|) over all pairs of columns x of the panel and y from `next` on;
+ * NaN stays. */
+static double panel_defect(hd_ortho *ortho, panel x, int next, int count, double worst)
+{
+    double *s = ortho->projection;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, count, x.width, ortho->rows, 1.0,
+                x.a + (next - x.first), x.lda, x.a, x.lda, 0.0, s, count);
+    for (int col = 0; col < x.width; col++)
+        for (int row = 0; row < count; row++) {
+            const bool same = x.first + col == next + row;
+            const double off = fabs(s[(size_t)col * (size_t)count + (size_t)row] - same);
+            if (isnan(worst)) return worst;
+            if (!(off <= worst)) worst = off;
+        }
+    return worst;
+}
+
+double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame)
+{
+    double worst = 0.0;
+    for (int first = 0; first < ortho->vectors; first += ortho->width)
+        for (int next = first; next < ortho->vectors; next += LATER_MAX) {
+            const int rest = ortho->vectors - first, left = ortho->vectors - next;
+            const panel x = {hd_frame_data(frame) + first, hd_frame_stride(frame), first,
+                             rest < ortho->width ? rest : ortho->width};
+            worst = panel_defect(ortho, x, next, left < LATER_MAX ? left : LATER_MAX, worst);
+        }
+    return worst;
+}

@@ -1,0 +1,56 @@
+/** Frame -> number of threads. More of them must never cost: each pass over a small frame is
+ * shorter than a thread takes to wake up, and on a machine that is busy otherwise this holds for
+ * larger ones too. */
+#include "tangent/threads.h"
+
+#include <math.h>
+
+#include "base/check.h"
+#include "base/clock.h"
+#include "hdlyap/blas.h"
+
+/** Entries of a frame below which one thread, and above which all of them, are used unseen. */
+static const double ENTRIES_FEW = 1e5, ENTRIES_MANY = 2e6;
+/** More threads than one must be faster by this factor. */
+static const double WORTH = 1.05;
+enum { TRIALS = 3 };
+
+int hd_threads_most(int wanted, int rows, int vectors)
+{
+    if (wanted > 0) return wanted;
+    return (double)rows * vectors < ENTRIES_FEW ? 1 : hd_blas_query().cores;
+}
+
+static void use(hd_frame *frame, int threads)
+{
+    hd_blas_use_threads(threads);
+    hd_frame_use_threads(frame, threads);
+}
+
+/** Shortest of some orthonormalisations. */
+static hd_status seconds_of(double *seconds, hd_ortho *ortho, hd_frame *frame, int threads)
+{
+    const hd_ortho_limits limits = {1e7, 1.0};
+    *seconds = INFINITY;
+    use(frame, threads);
+    for (int trial = 0; trial < TRIALS; trial++) {
+        const double start = hd_clock_now();
+        HD_TRY(hd_ortho_step(ortho, frame, limits));
+        *seconds = fmin(*seconds, hd_clock_now() - start);
+    }
+    return HD_OK;
+}
+
+hd_status hd_threads_choose(int *threads, hd_ortho *ortho, hd_frame *frame, int wanted)
+{
+    const int most = hd_frame_threads(frame);
+    const double entries = (double)hd_frame_rows(frame) * hd_frame_vectors(frame);
+    double one, all;
+    *threads = most;
+    if (wanted > 0 || most == 1 || entries > ENTRIES_MANY) return HD_OK;
+    HD_TRY(seconds_of(&all, ortho, frame, most));
+    HD_TRY(seconds_of(&one, ortho, frame, 1));
+    *threads = one < WORTH * all ? 1 : most;
+    use(frame, *threads);
+    return HD_OK;
+}

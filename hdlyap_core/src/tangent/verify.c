@@ -1,0 +1,110 @@
+/** A run's parts -> nothing, or an assertion. */
+#include "tangent/verify.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "base/check.h"
+#include "events/event_log.h"
+#include "events/trajectory_state.h"
+#include "tangent/interval.h"
+
+/** `value` is at most `limit`, and a number. */
+static void expect_at_most(double value, double limit, const char *what)
+{
+    const bool holds = value <= limit;
+    if (!holds) fprintf(stderr, "hdlyap: verify: %s: %.3g above %.3g\n", what, value, limit);
+    HD_ASSERT(holds);
+}
+
+/* ---- disks --------------------------------------------------------------------------------- */
+
+static void expect_momentum(const hd_trajectory *tr, const hd_scene_def *scene)
+{
+    const int n = hd_trajectory_disks(tr);
+    double sum[2] = {0.0, 0.0};
+    for (int i = 0; i < n; i++)
+        for (int d = 0; d < 2; d++) sum[d] += tr->motion.disk[i].p[d];
+    for (int d = 0; d < 2; d++)
+        if (scene->boundary[d] == HD_PERIODIC)
+            expect_at_most(fabs(sum[d]), n * hd_trajectory_energy_rounding(tr), "momentum");
+}
+
+void hd_verify_disks(const hd_trajectory *tr, const hd_scene_def *scene)
+{
+    const double n = hd_trajectory_disks(tr);
+    expect_at_most(hd_trajectory_overlap(tr), HD_OVERLAP_MAX, "overlap");
+    expect_at_most(fabs(hd_trajectory_kinetic_energy(tr) - n),
+                   n * hd_trajectory_energy_rounding(tr), "energy");
+    expect_momentum(tr, scene);
+}
+
+void hd_verify_log(const hd_event_log *log, int disks)
+{
+    const char *fault = hd_event_log_fault(log, disks);
+    if (fault) fprintf(stderr, "hdlyap: verify: event log: %s\n", fault);
+    HD_ASSERT(!fault);
+}
+
+/* ---- frame --------------------------------------------------------------------------------- */
+
+/** First vector of pair k: spread over the frame; the second is the last vector. */
+static int first_of(const hd_frame *frame, int k)
+{
+    return (int)((long)hd_frame_vectors(frame) * k / HD_VERIFY_PAIRS);
+}
+
+/** Rows are dq_x, dq_y, dp_x, dp_y of each disk. */
+static void pair_products(const hd_frame *frame, int a, int b, double *product, double *scale)
+{
+    const double *data = hd_frame_read(frame);
+    double sum = 0.0, aa = 0.0, bb = 0.0;
+    for (int row = 0; row < hd_frame_rows(frame); row++) {
+        const int other = row % 4 < 2 ? row + 2 : row - 2;
+        const double x = data[(size_t)row * (size_t)hd_frame_stride(frame) + (size_t)a];
+        const double y = data[(size_t)row * (size_t)hd_frame_stride(frame) + (size_t)b];
+        sum += (row % 4 < 2 ? x : -x) *
+               data[(size_t)other * (size_t)hd_frame_stride(frame) + (size_t)b];
+        aa += x * x;
+        bb += y * y;
+    }
+    *product = sum;
+    *scale = sqrt(aa * bb);
+}
+
+hd_symplectic hd_verify_sample(const hd_frame *frame)
+{
+    hd_symplectic s;
+    for (int k = 0; k < HD_VERIFY_PAIRS; k++)
+        pair_products(frame, first_of(frame, k), hd_frame_vectors(frame) - 1, &s.product[k],
+                      &s.scale[k]);
+    return s;
+}
+
+/** Every event rounds what it changes, at most all of a vector, as often as a disk takes part;
+ * vectors grow. */
+void hd_verify_symplectic(const hd_frame *frame, const hd_symplectic *before, double events)
+{
+    const hd_symplectic after = hd_verify_sample(frame);
+    const double per_disk = 8.0 * events / hd_frame_rows(frame);
+    for (int k = 0; k < HD_VERIFY_PAIRS; k++)
+        expect_at_most(fabs(after.product[k] - before->product[k]),
+                       16.0 * DBL_EPSILON * (4.0 + per_disk) *
+                           fmax(before->scale[k], after.scale[k]),
+                       "symplectic product");
+}
+
+/** A defect enters the volume with its square, for each pair of vectors [T5]. */
+void hd_verify_ortho(hd_ortho *ortho, hd_frame *frame)
+{
+    const double n = hd_frame_vectors(frame), defect = hd_ortho_defect(ortho);
+    const double least = 64.0 * DBL_EPSILON;
+    expect_at_most(hd_ortho_defect_measured(ortho, frame), fmax(defect, least), "orthogonality");
+    if (hd_frame_vectors(frame) < hd_frame_rows(frame)) return;
+    double sum = 0.0;
+    for (int col = 0; col < hd_frame_vectors(frame); col++) sum += hd_ortho_log_stretch(ortho)[col];
+    expect_at_most(fabs(sum),
+                   n * HD_ROUNDING * hd_ortho_condition(ortho) + n * n * 1e-8 + n * least,
+                   "volume");
+}

@@ -1,0 +1,39 @@
+"""The screen of a running node, redrawn until the user has seen enough."""
+
+import sys
+
+import rospy
+
+from hdlyap.plots import glyphs
+
+from . import layout
+from .screen import Screen
+from .watch import Watch
+
+PERIOD = 0.25  # seconds between two looks
+INTERRUPTED = 130
+WENT_AWAY = 3
+
+
+def follow(node, plain=False):
+    """Returns the exit status: 0 the user has quit, 3 the node had gone before its end by then,
+    130 interrupted."""
+    watch, drawn = Watch(node), glyphs.chosen(sys.stdout, plain)
+    screen = Screen(plain)
+    with screen:
+        status = _redraw(watch, screen, drawn)
+    last = layout.lines(watch.view(), screen.size, drawn)
+    screen.leave_behind([line for line in last[:-1] if line])  # without the keys
+    return status
+
+
+def _redraw(watch, screen, drawn):
+    while not rospy.is_shutdown():
+        view, size = watch.view(), screen.size
+        screen.show(layout.lines(view, size, drawn), size)
+        key = screen.key(PERIOD)
+        if key == 'q':
+            return WENT_AWAY if view.is_gone and not view.is_finished else 0
+        if key == 'm':
+            watch.toggle_computed()
+    return INTERRUPTED

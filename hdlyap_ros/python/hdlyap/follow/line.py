@@ -1,0 +1,105 @@
+"""Progress in one line, until the run has ended: for pipes, logs and scripts."""
+
+import os
+import sys
+import threading
+import time
+
+import rospy
+
+from hdlyap.msg import Cost, Spectrum
+from hdlyap.plots.numbers import clock
+from hdlyap.plots.stages import LIMITS, PHASES
+
+from .nodes import is_alive
+
+LINE_PERIOD = 10.0  # seconds between lines where there is no terminal
+SILENCE = 2.0  # seconds without a message after which the node is asked
+LAST_SPECTRUM = 0.3  # seconds that it may be behind the last word about the cost
+
+
+class Progress:
+    """What the node said last; the callbacks of two topics write it, the main loop reads."""
+
+    def __init__(self, node):
+        self.cost = None
+        self.spectrum = None
+        self.news = threading.Event()
+        self.last_heard = time.monotonic()
+        rospy.Subscriber(node + '/cost', Cost, self._hear_cost, queue_size=1)
+        rospy.Subscriber(node + '/spectrum', Spectrum, self._hear_spectrum, queue_size=1)
+
+    def _hear_cost(self, msg):
+        self.cost = msg
+        self.last_heard = time.monotonic()
+        self.news.set()
+
+    def _hear_spectrum(self, msg):
+        self.spectrum = msg
+
+    @property
+    def finished(self):
+        return self.cost is not None and self.cost.phase == Cost.FINISHED
+
+    def line(self):
+        cost = self.cost
+        parts = [PHASES.get(cost.phase, '?'), f't = {cost.sim_time:.1f}']
+        if cost.progress > 0:
+            parts.insert(1, f'{100 * cost.progress:.1f} %')
+        if cost.remaining_seconds >= 0 and not self.finished:
+            parts.append(f'{clock(cost.remaining_seconds)} left')
+        if self.spectrum is not None and self.spectrum.averaged_time > 0:
+            parts.append(f'lambda_max {self.spectrum.lambda_max:.4f}' + self._error())
+        if cost.orthonormalisations:
+            parts.append(
+                f'interval {cost.interval:.3g} ({LIMITS.get(cost.interval_limit, "?")}), '
+                f'repairs {cost.repairs}'
+            )
+        if cost.modes_seconds > 0:
+            share = 100 * cost.modes_seconds / cost.wall_seconds
+            parts.append(f'classification {share:.0f} % of the time')
+        return '  '.join(parts)
+
+    def _error(self):
+        errors = self.spectrum.std_errors
+        return f' +- {errors[0]:.4f}' if errors and errors[0] >= 0 else ''
+
+
+class Display:
+    """A line that is overwritten on a terminal; elsewhere one now and then."""
+
+    def __init__(self):
+        self._terminal = sys.stdout.isatty()
+        self._next = 0.0
+
+    def show(self, line, last=False):
+        if self._terminal:
+            width = os.get_terminal_size(sys.stdout.fileno()).columns
+            print('\r' + line[: max(0, width - 1)] + '\033[K', end='', flush=True)
+        elif last or time.monotonic() >= self._next:
+            print(line, flush=True)
+            self._next = time.monotonic() + LINE_PERIOD
+
+    def close(self):
+        if self._terminal:
+            print(flush=True)
+
+
+def follow(node):
+    """Shows the progress until the node has finished, has gone, or the user has had enough;
+    returns the exit status."""
+    progress, display = Progress(node), Display()
+    try:
+        while not rospy.is_shutdown():
+            if progress.news.wait(timeout=0.5):
+                progress.news.clear()
+                display.show(progress.line())
+            if progress.finished:
+                time.sleep(LAST_SPECTRUM)
+                display.show(progress.line(), last=True)
+                return 0
+            if time.monotonic() - progress.last_heard > SILENCE and not is_alive(node):
+                return 3
+        return 130
+    finally:
+        display.close()

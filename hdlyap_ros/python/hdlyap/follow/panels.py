@@ -1,0 +1,256 @@
+"""View -> panels: each a list of lines, a line a list of (text, style)."""
+
+from math import atan2, hypot, isfinite, pi
+
+from hdlyap.msg import LpPhase
+from hdlyap.plots import paper, steps, step_table, waves
+from hdlyap.plots.numbers import clock, with_error
+from hdlyap.plots.phases import apart
+from hdlyap.plots.report import system
+from hdlyap.plots.stages import LIMITS, PHASES, seconds
+
+LEVELS = {0: ('OK', 'ok'), 1: ('WARN', 'warn'), 2: ('ERROR', 'error'), 3: ('STALE', 'warn')}
+KIND_STYLES = {steps.T: 'T', steps.LP: 'LP'}
+PAPER_WIDTH = 88  # of a table of steps with the paper's values
+STAGE_BAR = 6  # columns
+GAP = '   '
+STATES = {LpPhase.WEAK: 'too weak now', LpPhase.COARSE: 'turns too fast'}
+PHASE_ROW = '  {:<9} {:<17} {:>6} {:>7}  {} {:<6}{:<14} {}'
+PHASE_HEAD = PHASE_ROW.format('LP phases', 'A', 'index', '|(a,b)|', ' ', '/2 pi', 'omega', 'v')
+
+
+def head(view):
+    """What runs."""
+    info = view.info
+    if info is None:
+        return [[(view.node, 'strong')]]
+    return [
+        [(f'{view.node}  {info.scene}', 'strong'), (f'  seed {info.seed}  run {info.run_id}', '')],
+        [(system(info), '')],
+    ]
+
+
+def progress(view, width, glyphs):
+    cost = view.cost
+    if cost is None:
+        return [[(_phase(view), 'strong')]]
+    text = _phase(view)
+    right = f' {100 * cost.progress:5.1f} %' if cost.progress > 0 else ''
+    if cost.remaining_seconds >= 0 and not view.is_finished:
+        right += f'  {clock(cost.remaining_seconds)} left'
+    room = width - len(text) - len(right) - 2
+    line = [(text, 'strong'), ('  ', '')]
+    if right and room >= 10:
+        line.append((glyphs.bar(cost.progress, room, rest=True), 'T'))
+    return [line + [(right, '')], *flow(_times(view), width)]
+
+
+def _phase(view):
+    """The node's own word knows more than the phase: paused, waiting for subscribers."""
+    if view.is_finished or view.diagnosis is None:
+        return PHASES.get(view.cost.phase, '?') if view.cost else 'waiting for its first word'
+    said = {pair.key: pair.value for pair in view.diagnosis.values}
+    return said.get('phase', '?')
+
+
+def _times(view):
+    cost, info = view.cost, view.info
+    yield f'simulated {cost.sim_time:.1f}'
+    if view.is_averaged:
+        whole = f' of {info.duration:g}' if info and info.duration > 0 else ''
+        yield f'averaged {view.spectrum.averaged_time:.1f}{whole}'
+    if info and info.target_std_error > 0:
+        yield f'std error {_number(cost.std_error)} of {info.target_std_error:g}'
+    yield f'wall time {clock(cost.wall_seconds)}'
+    if view.speed is not None:
+        yield f'{view.speed:.3g} time units/s'
+
+
+def numbers(view, width):
+    """Exponents and fits."""
+    cells = [f'{name} {value}' for name, value in _numbers(view)]
+    return flow(cells, width) if cells else []
+
+
+def _numbers(view):
+    spectrum, message = view.spectrum, view.steps
+    if view.is_averaged and len(spectrum.exponents):
+        yield 'lambda_max', _measured(spectrum.lambda_max, spectrum.std_errors[0])
+        if len(spectrum.exponents) > 1 and view.info:
+            yield view.sum_name, _at_most(spectrum.ks_entropy, view.sum_error)
+        if spectrum.pairing_error >= 0:
+            yield 'pairing error', f'{spectrum.pairing_error:.1e}'
+    if message is None or message.averaged_time <= 0:
+        return
+    for name, value, points in (
+        ('c_T', 'c_t', 't_points'),
+        ('c_L', 'c_l', 'l_points'),
+        ('v', 'v', 'v_phases'),
+    ):
+        if getattr(message, points):
+            yield name, _measured(getattr(message, value), getattr(message, value + '_error'))
+    looked_for = [step for step in message.steps if step.kind != steps.ZERO]
+    found = sum(step.resolved for step in looked_for)
+    yield 'steps resolved', f'{found} of {len(looked_for)}'
+
+
+def table(view, width):
+    """Steps: the heading, then a row each; or why there are none."""
+    message = view.steps
+    if message is None or message.averaged_time <= 0:
+        return _without(view, 'steps')
+    fitted = (
+        {step.name: step.fitted for step in paper.steps(view.info)}
+        if view.info and width >= PAPER_WIDTH
+        else {}
+    )
+    found = list(step_table.block_rows(message, fitted))
+    if view.info and view.is_averaged and view.last_index > view.positive_end:
+        found.insert(0, (step_table.zero_cells(view), None))
+    if not found:
+        return _note('steps', 'none resolved yet')
+    first, *rest = step_table.layout([row for row, _ in found], bool(fitted))
+    return [[(first, 'faint')]] + [
+        [(text, KIND_STYLES.get(kind, ''))] for text, (_, kind) in zip(rest, found)
+    ]
+
+
+def phases(view, glyphs):
+    """LP phases: the heading, then a row each, of every step the one that was tracked longest,
+    then of every step the next."""
+    if view.phases is None:
+        return _without(view, 'lp_phases')
+    found = ranked(view.phases.phases)
+    if not found:
+        return _note('LP phases', 'no LP step resolved yet')
+    return [[(PHASE_HEAD, 'faint')]] + [[(_phase_row(phase, glyphs), 'LP')] for phase in found]
+
+
+def ranked(found):
+    """Phases of resolved steps: round after round one of every step, and of one step first those
+    that have neither vector nor pair in common."""
+    by_step = {}
+    for number, phase in enumerate(found):
+        if phase.state != LpPhase.UNRESOLVED:
+            by_step.setdefault(phase.step, []).append(number)
+    rounds = []
+    for numbers_of_step in by_step.values():
+        numbers_of_step.sort(key=lambda number: (-found[number].tracked_time, number))
+        first = apart(found, numbers_of_step)
+        order = first + [number for number in numbers_of_step if number not in first]
+        rounds += [(turn, number) for turn, number in enumerate(order)]
+    return [found[number] for _, number in sorted(rounds, key=lambda pair: pair[0])]
+
+
+def _phase_row(phase, glyphs):
+    a, b = phase.a, phase.b
+    turn = atan2(b, a) / (2 * pi) % 1 if isfinite(a) and isfinite(b) else 0.0
+    omega, v = STATES.get(phase.state, ''), ''
+    if phase.state == LpPhase.TRACKED:
+        omega = _measured(phase.omega, phase.omega_error)
+        error = phase.velocity * phase.omega_error / abs(phase.omega) if phase.omega else -1.0
+        v = _measured(phase.velocity, error)
+    return PHASE_ROW.format(
+        steps.wave_name('LP', phase),
+        waves.plain_formula(phase.nx, phase.ny, phase.modulation),
+        phase.index,
+        f'{hypot(a, b):.2f}',
+        glyphs.dial(turn),
+        f'{turn:.2f}',
+        omega,
+        v,
+    )
+
+
+def cost(view, width, glyphs):
+    """Shares of the wall time, and what the interval between orthonormalisations is due to."""
+    if view.cost is None or view.cost.wall_seconds <= 0:
+        return []
+    shares = {stage: spent / view.cost.wall_seconds for stage, spent in seconds(view.cost).items()}
+    return flow(
+        [
+            f'{stage:<9} {glyphs.bar(share, STAGE_BAR)} {100 * share:3.0f} %'
+            for stage, share in shares.items()
+        ],
+        width,
+        '  ',
+    ) + flow(_interval(view), width)
+
+
+def _interval(view):
+    cost_now = view.cost
+    if cost_now.orthonormalisations:
+        yield f'interval {cost_now.interval:.3g} ({LIMITS.get(cost_now.interval_limit, "?")})'
+        yield f'repairs {cost_now.repairs}'
+        yield f'condition {cost_now.condition:.1e}'
+        yield f'error bound {cost_now.error_bound:.1e}'
+    yield f'{cost_now.events_per_second:.2g} events/s'
+
+
+def diagnosis(view):
+    """What the node thinks of itself, and whether it is still there."""
+    lines = []
+    if view.diagnosis is not None and not view.is_gone:
+        name, style = LEVELS.get(view.diagnosis.level, ('?', 'error'))
+        lines.append([(name, style), (f'  {view.diagnosis.message}', '')])
+    if view.is_finished:
+        return lines + [[('the run has finished', 'strong')]]
+    if view.is_gone:
+        lines.append(
+            [
+                ('GONE', 'error'),
+                (f'  {view.node} does not answer; waiting for it to come ' 'back', ''),
+            ]
+        )
+    elif view.silence > 5:
+        lines.append([(f'no message for {clock(view.silence)}', 'warn')])
+    if view.is_master_gone:
+        lines.append([('no master', 'error'), ('  what connected before goes on', '')])
+    return lines
+
+
+def keys(view):
+    asked = 'no more steps and phases' if view.wanted else 'compute steps and phases'
+    return [[('q quit', 'faint')] + ([(f'{GAP}m {asked}', 'faint')] if _may_ask(view) else [])]
+
+
+def _may_ask(view):
+    known = view.info.observables if view.info else ()
+    topics = [topic for topic in ('steps', 'lp_phases') if topic in known]
+    return bool(topics) and not set(topics) <= set(view.others)
+
+
+def flow(cells, width, gap=GAP):
+    """Lines of as many cells as fit side by side."""
+    lines = []
+    for cell in cells:
+        if lines and len(lines[-1]) + len(gap) + len(cell) <= width:
+            lines[-1] += gap + cell
+        else:
+            lines.append(cell)
+    return [[(line, '')] for line in lines]
+
+
+def _without(view, topic):
+    name = 'steps' if topic == 'steps' else 'LP phases'
+    if view.info is not None and topic not in view.info.observables:
+        return []
+    if topic in view.others or view.wanted:
+        return _note(name, 'none yet')
+    return _note(name, 'computed only if somebody listens; m: have them computed')
+
+
+def _note(name, text):
+    return [[(f'  {name}: {text}', 'faint')]]
+
+
+def _measured(value, error):
+    return with_error(value, error) if isfinite(value) else '-'
+
+
+def _at_most(value, error):
+    return f'{value:.2f}' + (f', error < {error:.2g}' if error >= 0 else '')
+
+
+def _number(value):
+    return f'{value:.2g}' if isfinite(value) and value >= 0 else '?'

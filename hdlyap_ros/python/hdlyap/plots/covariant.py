@@ -1,0 +1,168 @@
+"""Covariant vectors of a run beside its Gram-Schmidt vectors: exponents, weights, angles, order."""
+
+from math import pi
+
+import numpy as np
+
+from hdlyap.msg import CovariantAngle
+
+from . import steps
+from .numbers import known
+
+SPACES = {
+    CovariantAngle.UNSTABLE_STABLE: 'unstable-stable',
+    CovariantAngle.UNSTABLE_CENTRE: 'unstable-centre',
+    CovariantAngle.CENTRE_STABLE: 'centre-stable',
+}
+RIGHT_ANGLE = pi / 2
+
+
+def indices(message):
+    """Lyapunov indices of the elements of its arrays."""
+    return np.arange(message.first_index, message.first_index + len(message.exponents))
+
+
+def between(message):
+    """Places of what is said of an index and the next one."""
+    return indices(message)[:-1] + 0.5
+
+
+class Compared:
+    """Exponents of both passes at the covariant vectors' indices; unknown ones and errors are
+    NaN."""
+
+    def __init__(self, run):
+        message = run.covariant
+        self.indices = indices(message)
+        self.backward = np.array(message.exponents, dtype=float)
+        self.backward_error = known(message.std_errors)
+        self.forward, self.forward_error = self._forward(run.spectrum)
+        # as of independent means: both come from one trajectory, so it is small rather than near 1
+        self.combined = np.hypot(self.forward_error, self.backward_error)
+        self.deviation = _ratio(self.backward - self.forward, self.combined)
+        zeros = np.arange(run.positive_end + 1, run.positive_end + 1 + run.info.zero_exponents)
+        self.is_zero = np.isin(self.indices, zeros)
+
+    def _forward(self, spectrum):
+        found = np.full((2, len(self.indices)), np.nan)
+        if spectrum is not None:
+            places = self.indices - spectrum.first_index
+            there = (places >= 0) & (places < len(spectrum.exponents))
+            found[0, there] = np.array(spectrum.exponents)[places[there]]
+            found[1, there] = known(spectrum.std_errors)[places[there]]
+        return found
+
+    def over(self, block):
+        """(forward, its error, backward, its error, deviation in combined errors), means over a
+        block; None unless all of its vectors are carried."""
+        inside = within(self.indices, block)
+        if inside is None:
+            return None
+        # members of a step fluctuate together, so their errors do not average out
+        forward, forward_error, backward, backward_error = (
+            float(values[inside].mean())
+            for values in (self.forward, self.forward_error, self.backward, self.backward_error)
+        )
+        combined = np.hypot(forward_error, backward_error)
+        return (
+            forward,
+            forward_error,
+            backward,
+            backward_error,
+            float(_ratio(np.array(backward - forward), np.array(combined))),
+        )
+
+
+def _ratio(difference, error):
+    """NaN where the error is unknown or none."""
+    usable = np.isfinite(error) & (error > 0)
+    return np.where(usable, difference / np.where(usable, error, 1.0), np.nan)
+
+
+def within(numbers, block):
+    """Which of the indices belong to the block; None unless all of its are among them."""
+    inside = (numbers >= block.first) & (numbers <= block.last)
+    return inside if inside.sum() == block.last - block.first + 1 else None
+
+
+def blocks(run):
+    """Zero modes, then the steps of both halves, smallest |exponent| first: (name, block)."""
+    message = run.steps
+    zero = message and steps.zero_modes(message)
+    if zero is not None and zero.resolved:
+        yield 'zero modes', steps.Block([zero])
+    halves = [('', block) for block in steps.blocks(message)]
+    halves += [('conj. ', block) for block in steps.blocks(message, conjugate=True)]
+    # each step before its conjugate: they have the same exponents but for the sign and an error
+    order = {block.name: place for place, (half, block) in enumerate(halves) if not half}
+    for half, block in sorted(halves, key=lambda one: (order.get(one[1].name, len(order)), one[0])):
+        yield half + block.name, block
+
+
+# ---- weights ----------------------------------------------------------------------------------
+
+
+def weight_name(weight):
+    return steps.name(weight)
+
+
+def chance(run, weight):
+    """Weight that a vector without any preference has."""
+    return weight.dimension / (2.0 * run.info.disks)
+
+
+def weights_over(run, block):
+    """(step, weights) of a block whose vectors are carried: means over them of the Gram-Schmidt dq,
+    of the covariant dq and dp halves, and what chance would give."""
+    inside = within(indices(run.covariant), block)
+    for step in block.steps if inside is not None else ():
+        found = next(
+            (weight for weight in run.covariant.weights if weight_name(weight) == steps.name(step)),
+            None,
+        )
+        if found is None:
+            continue
+        yield step, (*_means(found, inside), chance(run, found))
+
+
+def unresolved_weights(run):
+    """(weight, indices, weights) of waves without a step among the positive exponents: of as many
+    vectors as their space has dimensions, those with the largest dq weights; lowest waves first."""
+    numbers = indices(run.covariant)
+    carried = int((numbers <= run.positive_end).sum())
+    resolved = steps.resolved(run.steps)
+    for weight in run.covariant.weights:
+        if weight_name(weight) in resolved or weight.dimension > carried:
+            continue
+        best = np.sort(np.argsort(weight.dq[:carried], kind='stable')[carried - weight.dimension :])
+        yield weight, numbers[best], (*_means(weight, best), chance(run, weight))
+
+
+def _means(weight, chosen):
+    return tuple(
+        np.array(values)[chosen].mean() for values in (weight.gram_schmidt, weight.dq, weight.dp)
+    )
+
+
+# ---- angles, order ----------------------------------------------------------------------------
+
+
+def edges(counts):
+    return np.linspace(0, RIGHT_ANGLE, len(counts) + 1)
+
+
+def density(counts):
+    """Probability per radian; zeros of an empty histogram."""
+    counts = np.array(counts, dtype=float)
+    return counts / max(counts.sum(), 1.0) * len(counts) / RIGHT_ANGLE
+
+
+def only_bin(counts):
+    """(from, to) of the bin that holds everything [rad]; None if there are several or none."""
+    filled = np.flatnonzero(counts)
+    return tuple(edges(counts)[filled[0] : filled[0] + 2]) if len(filled) == 1 else None
+
+
+def isolated(message):
+    """Indices behind which the splitting is dominated: no later vector ever grew more."""
+    return indices(message)[:-1][np.array(message.entangled) == 0]

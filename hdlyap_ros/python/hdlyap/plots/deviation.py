@@ -1,0 +1,56 @@
+"""Two measurements of the same -> how far apart they are, and how likely that is by chance."""
+
+import numpy as np
+from scipy.special import stdtr
+
+from .numbers import known
+
+FREEDOM = 7  # of an error: the node asks blocks for it only while there are at least 8
+
+
+class Deviation:
+    """A quantity of the runs a and b. Its z is the difference in standard errors; NaN while one of
+    the errors is not known. What is not judged is only shown; what the two values come from is in
+    `origins`."""
+
+    def __init__(self, name, values, errors, judged=True, origins=()):
+        self.name, self.values = name, values
+        self.judged, self.origins = judged, origins
+        self.errors = known(errors)
+        self.difference = values[1] - values[0]
+        self.error = float(np.hypot(*self.errors))
+        self.z = self._in_errors()
+
+    @property
+    def is_known(self):
+        return self.error >= 0
+
+    @property
+    def chance(self):
+        """Probability of a difference as large between means over few blocks (Welch)."""
+        a, b = self.errors**2
+        spread = a * a + b * b
+        freedom = FREEDOM * (a + b) ** 2 / spread if spread > 0 else FREEDOM
+        return 2 * float(stdtr(freedom, -abs(self.z)))  # both tails of Student's t
+
+    def _in_errors(self):
+        if not self.is_known:
+            return np.nan
+        if self.difference == 0:
+            return 0.0
+        z = self.difference / self.error if self.error > 0 else np.inf
+        return np.inf if np.isnan(z) else z  # what is no number does not agree
+
+
+def unlikeliest(deviations, count=1):
+    """Those that are judged and least likely by chance, the least first."""
+    judged = [one for one in deviations if one.judged and one.is_known]
+    return sorted(judged, key=lambda one: (one.chance, -abs(one.z)))[:count]
+
+
+def chance_of_largest(deviations):
+    """(bound, number judged). The probability that chance alone makes one of them as unlikely as
+    the least likely is: at most their number times its own, however they fluctuate together
+    (Bonferroni)."""
+    judged = sum(one.judged and one.is_known for one in deviations)
+    return min(1.0, judged * unlikeliest(deviations)[0].chance), judged

@@ -1,0 +1,41 @@
+"""Which finite-time exponents keep their order, of neighbours and of everything before and behind
+an index."""
+
+import numpy as np
+
+from .. import covariant
+from .over_index import Panels
+from .style import BLUE, GREEN, INK
+
+
+def draw(run):
+    message = run.covariant
+    if message is None or len(message.exponents) < 2:
+        return None
+    places, entangled = covariant.between(message), np.array(message.entangled, dtype=float)
+    panels = Panels(run, 2, 4.8)
+    panels.plot(
+        0, places, message.violations, '.', color=BLUE, markersize=3, label='next one grew more'
+    )
+    panels.plot(1, places, entangled, '.', color=INK, markersize=3, label='of all times')
+    isolated = entangled == 0
+    panels.plot(
+        1,
+        places[isolated],
+        entangled[isolated],
+        'v',
+        color=GREEN,
+        markersize=4.5,
+        label=f'never ({isolated.sum()} dominated splittings)',
+    )
+    for axes, highest in zip(panels.grid, (1.04, 1.3)):
+        for panel in axes:
+            panel.set_ylim(-0.04, highest)
+            panel.set_yticks(np.linspace(0, 1, 6))
+    panels.grid[1, 0].legend(
+        loc='upper left', ncol=2, handletextpad=0.2, columnspacing=1, fontsize=7
+    )
+    return panels.finish(
+        'the next vector grew more\n[fraction of times]',
+        'any later one more than\nany up to it  [fraction]',
+    )

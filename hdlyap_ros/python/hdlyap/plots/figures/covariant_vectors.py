@@ -1,0 +1,58 @@
+"""Every covariant vector: how localised, how its halves lie, angle to the next one, how well it is
+known."""
+
+import numpy as np
+
+from .. import covariant
+from .over_index import Panels
+from .style import BLUE, INK, SKY, VERMILION
+
+ROUNDING = 1e-16  # what is less is no more known
+
+
+def draw(run):
+    message = run.covariant
+    if message is None:
+        return None
+    indices, places = covariant.indices(message), covariant.between(message)
+    panels = Panels(run, 4, 7.4)
+    panels.plot(0, indices, message.widths, '.', color=INK, markersize=3, label='width')
+    panels.plot(1, indices, message.cos_theta, '.', color=BLUE, markersize=3, label='cosine')
+    panels.plot(
+        2, places, message.neighbour_angles, '.', color=VERMILION, markersize=3, label='mean'
+    )
+    panels.plot(
+        2,
+        places,
+        message.least_neighbour_angles,
+        '.',
+        color=SKY,
+        markersize=3,
+        label='smallest so far',
+    )
+    apart = np.array(message.apart, dtype=float)
+    panels.plot(
+        3,
+        indices,
+        np.where(apart > 0, np.maximum(apart, ROUNDING), np.nan),
+        '.',
+        color=INK,
+        markersize=3,
+        label='apart',
+    )
+    for axes in panels.grid[0]:
+        axes.set_ylim(0, 1.04)
+    for axes in panels.grid[1]:
+        axes.set_ylim(0, 1.04)
+    for axes in panels.grid[2]:
+        axes.set_ylim(0, 1.3 * covariant.RIGHT_ANGLE)  # room for the legend
+    if (apart > 0).any():
+        for axes in panels.grid[3]:
+            axes.set_yscale('log')
+    panels.grid[2, 0].legend(loc='upper left', ncol=2, handletextpad=0.2, fontsize=7)
+    return panels.finish(
+        'localisation width\n$e^S/N$',
+        r'$|\cos\Theta|$ of $\delta q$, $\delta p$',
+        'angle to the next\n[rad]',
+        'two starts apart\n[sine]',
+    )

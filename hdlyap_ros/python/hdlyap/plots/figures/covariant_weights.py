@@ -1,0 +1,82 @@
+"""Weights of the lowest waves' fields in the vectors round the zero modes: Gram-Schmidt beside
+covariant ones."""
+
+from .. import covariant, steps
+from .over_index import level, near_zero, shade
+from .style import GREY, INK, KIND_COLOURS, plt, scene
+
+PANELS = 4
+
+
+def draw(run):
+    message = run.covariant
+    if message is None or not message.weights:
+        return None
+    shown = message.weights[:PANELS]
+    indices = covariant.indices(message)
+    first, last = near_zero(run, indices)
+    columns = min(2, len(shown))
+    rows = -(-len(shown) // columns)
+    figure, grid = plt.subplots(
+        rows,
+        columns,
+        sharex=True,
+        sharey=True,
+        squeeze=False,
+        figsize=(3.8 * columns, 2.6 * rows + 0.6),
+        constrained_layout=True,
+    )
+    for axes, weight in zip(grid.flat, shown):
+        _panel(axes, run, weight, indices)
+        shade([axes], run, first, last)
+        axes.set_xlim(first - 0.8, last + 0.8)
+    for axes in list(grid.flat)[len(shown) :]:
+        axes.set_axis_off()
+    for axes in grid[:, 0]:
+        axes.set_ylabel('weight')
+    for axes in grid[-1]:
+        axes.set_xlabel(r'index $\ell$')
+    # far from its step the weights are small
+    grid[0, 0].legend(loc='upper left', bbox_to_anchor=(0, 0.92), fontsize=6.5, handletextpad=0.2)
+    figure.suptitle(f'{scene(run.info)}, covariant vectors of {message.looks} looks', fontsize=9)
+    return figure
+
+
+def _panel(axes, run, weight, indices):
+    axes.plot(
+        indices,
+        weight.dq,
+        'o',
+        color=KIND_COLOURS[steps.NAMES[weight.kind]],
+        markersize=3,
+        label=r'covariant, $\delta q$',
+    )
+    axes.plot(
+        indices,
+        weight.dp,
+        'x',
+        color=GREY,
+        markersize=3.5,
+        markeredgewidth=0.8,
+        label=r'covariant, $\delta p$',
+    )
+    axes.plot(
+        indices,
+        weight.gram_schmidt,
+        'o',
+        color=INK,
+        markerfacecolor='none',
+        markersize=5,
+        markeredgewidth=0.7,
+        label=r'Gram-Schmidt, $\delta q$',
+    )
+    level(axes, covariant.chance(run, weight), 'by chance')
+    axes.set_ylim(-0.03, 1.03)
+    axes.annotate(
+        covariant.weight_name(weight),
+        (0.03, 0.95),
+        xycoords='axes fraction',
+        va='top',
+        weight='bold',
+        fontsize=8,
+    )

@@ -1,0 +1,95 @@
+"""Panels over the Lyapunov index: of all vectors, and magnified round the zero modes, with the
+steps."""
+
+import numpy as np
+from matplotlib import ticker
+
+from .. import covariant, steps
+from .style import GREY, ZERO, kind_colour, plt, scene
+
+LEAST, MOST = 16, 40  # vectors of the positive half in the magnified panels
+
+
+class Panels:
+    """rows of panels; a second column if there are many vectors."""
+
+    def __init__(self, run, rows, height):
+        message = run.covariant
+        self._run, self._indices = run, covariant.indices(message)
+        whole, near = (self._indices[0], self._indices[-1]), near_zero(run, self._indices)
+        self.ranges = [whole] if whole == near else [whole, near]
+        self.figure, self.grid = plt.subplots(
+            rows,
+            len(self.ranges),
+            sharex='col',
+            squeeze=False,
+            figsize=(4.6 if len(self.ranges) == 1 else 7.6, height),
+            constrained_layout=True,
+        )
+        self.figure.suptitle(
+            f'{scene(run.info)}, covariant vectors of {message.windows} '
+            f'window{"s" if message.windows != 1 else ""}',
+            fontsize=9,
+        )
+
+    def plot(self, row, places, values, form, error=None, **style):
+        """In every column what lies in its range."""
+        places, values = np.asarray(places), np.asarray(values, dtype=float)
+        for axes, (first, last) in zip(self.grid[row], self.ranges):
+            inside = (places >= first - 0.5) & (places <= last + 0.5) & np.isfinite(values)
+            bars = None if error is None or not np.isfinite(error[inside]).any() else error[inside]
+            axes.errorbar(places[inside], values[inside], bars, fmt=form, elinewidth=0.7, **style)
+
+    def finish(self, *labels):
+        """Names of the rows; the steps of what is magnified, or of the only column."""
+        for axes, label in zip(self.grid[:, 0], labels):
+            axes.set_ylabel(label)
+        for axes, (first, last) in zip(self.grid[-1], self.ranges):
+            axes.set_xlabel(r'index $\ell$')
+            axes.set_xlim(first - 0.8, last + 0.8)
+            axes.xaxis.set_major_locator(
+                ticker.MaxNLocator(nbins=6, integer=True, steps=[1, 2, 5, 10])
+            )
+        shade(self.grid[:, -1], self._run, *self.ranges[-1])
+        return self.figure
+
+
+def near_zero(run, indices):
+    """First and last index of what is magnified: the lowest steps of both halves, as far as they
+    are carried."""
+    end = min(run.positive_end, indices[-1])
+    lowest = min((block.first for block in steps.blocks(run.steps)), default=end)
+    first = max(indices[0], end + 1 - min(max(LEAST, end + 4 - lowest), MOST))
+    return first, min(indices[-1], 4 * run.info.disks + 1 - first)
+
+
+def shade(column, run, first, last):
+    """Bands behind the vectors of each step, named above the uppermost panel."""
+    for name, block in covariant.blocks(run):
+        if block.first < first or block.last > last:
+            continue
+        colour = ZERO if block.kind == steps.ZERO else kind_colour(block.kind)
+        for axes in column:
+            axes.axvspan(
+                block.first - 0.5, block.last + 0.5, color=colour, alpha=0.13, linewidth=0, zorder=0
+            )
+        # the conjugate half has the colours of its steps in reverse
+        if not name.startswith('conj.'):
+            column[0].annotate(
+                name.replace('+', '\n+'),
+                (0.5 * (block.first + block.last), 1),
+                xycoords=('data', 'axes fraction'),
+                xytext=(0, 3),
+                textcoords='offset points',
+                fontsize=6,
+                rotation=90,
+                ha='center',
+                va='bottom',
+                color=colour,
+            )
+
+
+def level(axes, value, label=None):
+    axes.axhline(
+        value, color=GREY, linewidth=0.6, linestyle=':' if label else '-', label=label, zorder=0
+    )

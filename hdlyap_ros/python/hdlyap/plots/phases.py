@@ -1,0 +1,83 @@
+"""LpPhases messages -> the course of every phase, as curves without gaps."""
+
+import numpy as np
+
+from .course import Course
+from .numbers import known
+
+SHORTEST = 3  # points of a curve
+
+
+def goes_on(time, tracked_time):
+    """From each report to the next, whether the tracking is the same: one that began anew knows a
+    shorter time than has gone by. tracked_time: of one phase, or columns of several."""
+    return (np.diff(tracked_time, axis=0).T > 0.5 * np.diff(time)).T
+
+
+class PhaseCourse:
+    """What the last message says, and phase and tracked time of every phase at every report."""
+
+    def __init__(self):
+        self.last = None
+        self._course = Course()
+
+    def add(self, msg):
+        self.last = msg
+        tracked = [phase.state == phase.TRACKED for phase in msg.phases]
+        self._course.add(
+            (
+                msg.sim_time,
+                *(phase.phase if on else np.nan for phase, on in zip(msg.phases, tracked)),
+                *(phase.tracked_time for phase in msg.phases),
+            )
+        )
+
+    def of_step(self, step):
+        """Numbers of the phases of an element of Steps.steps."""
+        return [number for number, phase in enumerate(self.last.phases) if phase.step == step]
+
+    def curves(self, number):
+        """(times, phases) of each stretch that was tracked without a break."""
+        table = self._course.table()
+        time, phase = table[:, 0], table[:, 1 + number]
+        tracked = table[:, 1 + len(self.last.phases) + number]
+        on = np.isfinite(phase)
+        unbroken = on[1:] & on[:-1] & goes_on(time, tracked)
+        for piece in np.split(np.arange(len(time)), 1 + np.flatnonzero(~unbroken)):
+            if len(piece) >= SHORTEST and on[piece[0]]:
+                yield time[piece], phase[piece]
+
+
+def regression(time, phase):
+    """Values of the straight line through the phases."""
+    slope, start = np.polyfit(time - time[0], phase, 1)
+    return start + slope * (time - time[0])
+
+
+def mean_omega(phases):
+    """(|omega|, its error, number) over the tracked phases of one step, weighted with their
+    errors. The vectors of a step move together, so their errors do not average out."""
+    omega = np.array(
+        [[abs(phase.omega), phase.omega_error] for phase in phases if phase.state == phase.TRACKED]
+    ).reshape(-1, 2)
+    if not len(omega):
+        return np.nan, np.nan, 0
+    errors = known(omega[:, 1])
+    if not (errors > 0).any():
+        return omega[:, 0].mean(), np.nan, len(omega)
+    trusted = errors > 0
+    mean, total = np.average(omega[trusted, 0], weights=errors[trusted] ** -2, returned=True)
+    return mean, np.sqrt(trusted.sum() / total), len(omega)
+
+
+def apart(phases, ranked):
+    """Of the numbers in ranked, the first ones that have neither vector nor pair in common."""
+    found = []
+    for number in ranked:
+        if all(
+            phases[number].index != phases[other].index
+            and phases[number].modulation != phases[other].modulation
+            for other in found
+        ):
+            found.append(number)
+    return found

@@ -1,0 +1,95 @@
+"""bag file -> run_info -> the scene file (YAML, as launch/scenes/*.yaml) that repeats the run."""
+
+import re
+
+import yaml
+
+from . import recording
+
+# of run_info, what is no parameter: what follows from them, and what the run ran on
+RESULTS = (
+    'header',
+    'run_id',
+    'version',
+    'box_x',
+    'box_y',
+    'vectors',
+    'zero_exponents',
+    'wave_nx',
+    'wave_ny',
+    'resumed_time',
+    'blas_threads',
+    'blas_library',
+    'blas_kernel',
+    'blas_threading',
+    'marker_modes',  # of bags of before: parameters of the viewer now
+    'marker_rate',
+)
+# a word, or a list of numbers as text
+LISTS = ('field_indices',)
+# bags of before these parameters
+OLDER = dict(field_interval=0.0, wait_for_subscribers=[])
+
+
+def chosen(path, node=None, number=None):
+    """run_info of one of the bag's runs; number: from 1."""
+    infos = recording.run_infos(path, node)
+    if number is None and len(infos) == 1:
+        return infos[0]
+    if number is not None and 1 <= number <= len(infos):
+        return infos[number - 1]
+    names = ', '.join(f'{k} ({info.run_id})' for k, info in enumerate(infos, start=1))
+    what = 'several runs' if number is None else f'no run {number} in it'
+    raise recording.RecordingError(f'{path}: {what}, choose with --run: {names}')
+
+
+def scene_file(info):
+    return ''.join(f'# {_one_line(line)}\n' for line in _remarks(info)) + yaml.safe_dump(
+        parameters(info), sort_keys=False, default_flow_style=None, allow_unicode=True
+    )
+
+
+def parameters(info):
+    """By name. The run begins anew, and leaves the first one's checkpoint alone; what it was
+    resumed from makes no difference to its numbers."""
+    names = [name for name in info.__slots__ if name not in RESULTS]
+    asked = {name: getattr(info, name) for name in names}
+    asked.update(
+        {name: _list_of(asked[name]) for name in LISTS if name in asked},
+        interval=info.interval or 'auto',
+        checkpoint='',
+        resume='',
+    )
+    return {**asked, **{name: value for name, value in OLDER.items() if name not in asked}}
+
+
+def _list_of(text):
+    if not text.startswith('['):
+        return text
+    return [
+        int(item) if item.isdigit() else item for item in re.findall(r'\w+(?:\([^)]*\))?', text)
+    ]
+
+
+def _remarks(info):
+    yield f'Repeats the run {info.run_id}.'
+    yield (
+        f'The same numbers bit for bit with the same version ({info.version}), linear algebra '
+        f'({info.blas_library}), kernels (OPENBLAS_CORETYPE={info.blas_kernel}) and threads, '
+        'and the same topics listened to.'
+    )
+    if info.wait_for_subscribers:
+        yield (
+            'Waits for subscribers, as that run did: '
+            'roslaunch hdlyap run.launch scene:=FILE.yaml record:=true'
+        )
+    if info.resume:
+        yield (
+            f'That run went on from {info.resume} at simulated time {info.resumed_time:g}; '
+            'this one begins anew.'
+        )
+
+
+def _one_line(text):
+    """Texts in a bag are anybody's."""
+    return ' '.join(text.split())

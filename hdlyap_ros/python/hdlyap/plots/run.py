@@ -1,0 +1,35 @@
+"""What is known of one run, whether it was recorded or still goes on."""
+
+import numpy as np
+
+from .numbers import known
+
+
+class Run:
+    """Its run_info, its last spectrum (None without exponents), its last steps and covariant
+    vectors (None if nobody listened)."""
+
+    info = spectrum = steps = covariant = None
+
+    @property
+    def positive_end(self):
+        """Lyapunov index of the last positive exponent."""
+        return (4 * self.info.disks - self.info.zero_exponents) // 2
+
+    @property
+    def last_index(self):
+        """Lyapunov index of the last exponent carried."""
+        return self.spectrum.first_index + len(self.spectrum.exponents) - 1
+
+    @property
+    def sum_name(self):
+        """Of the sum of the positive exponents carried."""
+        return 'h_KS' if self.last_index >= self.positive_end else 'sum of exponents'
+
+    @property
+    def sum_error(self):
+        """Of that sum, at most; -1 while not yet known. The exponents fluctuate together in a way
+        that is not recorded: the error of the sum is at most the sum of the errors."""
+        positive = np.asarray(self.spectrum.exponents) > 0
+        error = known(self.spectrum.std_errors)[positive].sum()
+        return float(error) if np.isfinite(error) else -1.0

@@ -1,0 +1,30 @@
+"""Mean of what was seen at many times, with its standard error."""
+
+import numpy as np
+
+BLOCKS = 10  # longer than what fluctuates, and still enough of them for an error
+LEAST = 4
+
+
+def of_snapshots(values):
+    """(mean, standard error) of values so far apart in time that they do not know of each other; 0:
+    not known."""
+    values = np.asarray(values, dtype=float)
+    if len(values) < 2:
+        return values.mean(axis=0), np.zeros_like(values[0])
+    return values.mean(axis=0), values.std(axis=0, ddof=1) / np.sqrt(len(values))
+
+
+def of_series(values):
+    """The same of a series in which neighbours resemble each other: from the means of blocks."""
+    values = np.asarray(values, dtype=float)
+    count = min(BLOCKS, len(values) // 2)
+    if count < LEAST:
+        return values.mean(axis=0), np.zeros_like(values[0])
+    length = len(values) // count
+    blocks = (
+        values[len(values) - count * length :]
+        .reshape(count, length, *values.shape[1:])
+        .mean(axis=1)
+    )
+    return values.mean(axis=0), of_snapshots(blocks)[1]

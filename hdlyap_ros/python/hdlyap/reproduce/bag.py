@@ -1,0 +1,66 @@
+"""The bag of one run, read as often as the parts of the paper need and no more."""
+
+from hdlyap.plots import recording, repetition
+
+# parameters that make no difference to what is measured, or that run_info has as they were resolved
+HERE = ('threads', 'wait_for_subscribers', 'checkpoint', 'resume')
+FINISHED = 3  # phase of the last message of Cost of a run that was not stopped
+
+
+class Bag:
+    """Also of a run that is not there: then it is not complete."""
+
+    def __init__(self, path):
+        self.path = path
+        self._recording = None
+
+    @property
+    def recording(self):
+        """All of it, thinned."""
+        if self._recording is None:
+            self._recording = recording.read(self.path)
+        return self._recording
+
+    @property
+    def info(self):
+        """Its run_info, without reading the rest."""
+        return recording.run_infos(self.path)[-1]
+
+    def messages(self, kind):
+        """Every message of a type, 'hdlyap/LpPhases' say, of the last run in its order."""
+        yield from recording.messages(self.path, kind)
+
+    @property
+    def cost(self):
+        """The last message about it; None if there is none."""
+        last = None
+        try:
+            for last in self.messages(recording.COST):
+                pass
+        except recording.RecordingError:
+            return None
+        return last
+
+    def is_complete(self):
+        """Whether the run went to its end."""
+        last = self.cost
+        return last is not None and last.phase == FINISHED and last.progress >= 1
+
+    def was_run_with(self, parameters):
+        """Whether its run had these parameters of the node."""
+        asked = repetition.parameters(self.info)
+        return all(
+            _same(asked[name], value)
+            for name, value in parameters.items()
+            if name not in HERE and name in asked
+        )
+
+
+def _same(one, other):
+    """400 and 400.0 are, as 5 and '5'; lists in their order."""
+    if str(one) == str(other):
+        return True
+    try:
+        return float(one) == float(other)
+    except (TypeError, ValueError):
+        return False

@@ -1,0 +1,64 @@
+"""What is under way, in a line: how many runs are done, how much of all, about how long the rest
+takes."""
+
+import os
+import sys
+import time
+
+from hdlyap.follow.line import Display as Line
+from hdlyap.plots.numbers import clock
+
+PLANNED = 60.0  # seconds of work that the plan's own estimate counts for, beside what has been seen
+
+
+class Display:
+    """For work.work: shows progress through `count` runs; `before`: those that were there
+    before."""
+
+    def __init__(self, count, before=0):
+        self._count, self._before, self._line = count + before, before, Line()
+        self._began = time.monotonic()
+        self._seen, self._failed, self._ended = set(), 0, 0
+
+    def __call__(self, under_way, done, total):
+        names = {job.run.name for job in under_way}
+        self._seen |= names
+        self._ended = len(self._seen - names)
+        shares = [f'{job.run.name} {100 * job.share:.0f} %' for job in under_way]
+        rest = f'all {100 * done / total:.0f} %, about {clock(self._left(done, total))} left'
+        self._line.show(_fitting(self._count_of_runs(), shares, rest))
+
+    def _left(self, done, total):
+        """Seconds, by the plan's and those that have passed for what is done of it."""
+        return (total - done) * (time.monotonic() - self._began + PLANNED) / (done + PLANNED)
+
+    def _count_of_runs(self):
+        failed = f', {self._failed} failed' if self._failed else ''
+        done = self._before + max(0, self._ended - self._failed)
+        return f'{done} of {self._count} runs done{failed}'
+
+    def say(self, line):
+        """That a run has failed."""
+        self._failed += 1
+        self._line.close()
+        print(f'reproduce: {line}', file=sys.stderr, flush=True)
+
+    def end(self):
+        """The total."""
+        self._line.show(
+            f'{self._count_of_runs()} in {clock(time.monotonic() - self._began)}', last=True
+        )
+        self._line.close()
+
+
+def _fitting(count, shares, rest):
+    """As many of the runs as a terminal has room for; the rest is what one wants to know."""
+    width = (
+        os.get_terminal_size(sys.stdout.fileno()).columns - 1 if sys.stdout.isatty() else 10**6
+    )
+    for shown in range(len(shares), -1, -1):
+        others = [f'{len(shares) - shown} more'] if shown < len(shares) else []
+        line = '  '.join([count, *shares[:shown], *others, rest])
+        if len(line) <= width:
+            break
+    return line

@@ -1,0 +1,59 @@
+"""The ROS master in use; one of our own if there is none."""
+
+import time
+
+import rosgraph
+
+from hdlyap.follow import nodes
+
+from .tree import Tree, end
+
+POLL = 0.2
+COMING = 15.0  # seconds for a master to come up
+ASK = 5.0  # seconds between two questions whether it is there
+SILENCE = 15.0  # of it, after which it has gone
+PATIENCE = 5.0  # with our own, to end
+
+
+class MasterError(Exception):
+    """One line for the user."""
+
+
+class Master:
+    def __init__(self):
+        self.uri = rosgraph.get_master_uri()
+        self._own, self._due, self._heard = None, 0.0, time.monotonic()
+        if not rosgraph.is_master_online():
+            self._start()
+
+    def _start(self):
+        port = self.uri.rstrip('/').rpartition(':')[2]
+        self._own = Tree(['roscore', '-p', port])
+        deadline = time.monotonic() + COMING
+        while not rosgraph.is_master_online():
+            if time.monotonic() > deadline or self._own.has_ended():
+                self.stop()
+                raise MasterError(f'no ROS master comes up at {self.uri}')
+            time.sleep(POLL)
+
+    def check(self):
+        """MasterError if it has gone. To be called often."""
+        now = time.monotonic()
+        if now >= self._due:
+            self._due = now + ASK
+            if self._answers():
+                self._heard = time.monotonic()
+        if (self._own and self._own.has_ended()) or now - self._heard > SILENCE:
+            raise MasterError(f'the ROS master at {self.uri} has gone')
+
+    @staticmethod
+    def _answers():
+        try:
+            nodes.ask_master('getUri')
+            return True
+        except nodes.UNANSWERED:
+            return False
+
+    def stop(self):
+        if self._own:
+            end([self._own], PATIENCE)

@@ -1,0 +1,344 @@
+"""Part 8: slopes of the branches and velocity of the LP dynamics against the density."""
+
+from math import hypot, isfinite
+
+import numpy as np
+
+from hdlyap.plots import paper, steps
+from hdlyap.plots.figures.style import GREEN, GREY, KIND_COLOURS, plt
+from hdlyap.plots.numbers import with_error
+
+from .. import crossing, slopes
+from ..row import SIGMAS, Row
+
+TITLE = 'Slopes c_T, c_L and velocity v against the density, 780 disks, periodic'
+RUNS = tuple(f'density_{tenths:02d}' for tenths in range(1, 9))
+CLOSE_BELOW = 0.6  # density: v is close to c_L before it, above c_L behind it
+DEMANDED = 0.2  # by this project, of the scatter of the fits: largest error
+UNIT = 'sigma/time unit'
+FITS = {'T': paper.slope_t, 'LP': paper.slope_l}
+SYMBOLS = {'T': 'c_T', 'LP': 'c_L'}
+BESIDE = 0.005  # density: so that error bars can be seen beside each other
+EDGE = 1e-6  # relative: densities that are one
+
+
+def runs(plan):
+    return RUNS
+
+
+class Measured:
+    """One density: the steps T(1,0) and LP(1,0), None if not found, and the phases."""
+
+    def __init__(self, recording):
+        self.density = recording.info.density
+        self.branch = {'T': _step(recording, steps.T), 'LP': _step(recording, steps.LP)}
+        self.v, self.v_error, self.phases = slopes.velocity(recording, 1, 0)
+        message = recording.steps
+        self.v_all = (
+            (message.v, message.v_error, message.v_phases) if message else (np.nan, np.nan, 0)
+        )
+
+    @property
+    def ratio(self):
+        """(v / c_L, its error); NaN if one of them is unknown."""
+        lp = self.branch['LP']
+        if lp is None or lp.error < 0 or not isfinite(self.v_error):
+            return np.nan, np.nan
+        return self.v / lp.slope, self.v / lp.slope * hypot(
+            self.v_error / self.v, lp.error / lp.exponent
+        )
+
+
+def _step(recording, kind):
+    return slopes.find(recording, kind, 1, 0) or slopes.by_index(recording, kind, 1, 0)
+
+
+def _all(bags):
+    return [Measured(bags[name].recording) for name in RUNS]
+
+
+# ---- rows ----------------------------------------------------------------------------------------
+
+
+def rows(bags):
+    found = _all(bags)
+    for kind in FITS:
+        for one in found:
+            yield _slope_row(kind, one)
+    for one in found:
+        yield _velocity_row(one)
+    for one in found:
+        yield _ratio_row(one)
+    for kind, symbol in SYMBOLS.items():
+        yield _error_row(
+            symbol,
+            [
+                (one.branch[kind].slope, one.branch[kind].slope_error, one.density)
+                for one in found
+                if one.branch[kind]
+            ],
+        )
+    yield _error_row('v', [(one.v, one.v_error, one.density) for one in found if one.phases])
+    yield _crossing_row(found)
+
+
+def _slope_row(kind, one):
+    point, fitted = one.branch[kind], FITS[kind](one.density)
+    quantity = f'{SYMBOLS[kind]} at density {one.density:.1f}'
+    if point is None:
+        return Row(quantity, fitted, None, 0.0, paper.FIT_ACCURACY * fitted, UNIT)
+    return Row(
+        quantity,
+        fitted,
+        point.slope,
+        point.slope_error,
+        paper.FIT_ACCURACY * fitted,
+        UNIT,
+        '; '.join(
+            filter(None, (f'{100 * (point.slope / fitted - 1):+.1f} % of the fit', point.remark))
+        ),
+    )
+
+
+def _velocity_row(one):
+    v, error, count = one.v_all
+    remark = f'{one.phases} phases of LP(1,0)' + (
+        f'; all {count} phases: {with_error(v, error)}' if count else ''
+    )
+    return Row(
+        f'v at density {one.density:.1f}',
+        None,
+        one.v if one.phases else None,
+        one.v_error,
+        unit=UNIT,
+        remark=remark if one.phases else '',
+    )
+
+
+def _ratio_row(one):
+    """'Close' is taken as the scatter of the fits; at 0.6 itself the paper says neither."""
+    ratio, error = one.ratio
+    quantity, measured = f'v / c_L at density {one.density:.1f}', ratio if isfinite(ratio) else None
+    if one.density < CLOSE_BELOW * (1 - EDGE):
+        return Row(quantity, 1.0, measured, error, paper.FIT_ACCURACY, remark='close to c_L')
+    if one.density <= CLOSE_BELOW * (1 + EDGE):
+        return Row(quantity, None, measured, error)
+    return Row(
+        quantity,
+        'above 1',
+        measured and _word(ratio, SIGMAS * error),
+        remark=with_error(ratio, error) if measured else '',
+    )
+
+
+def _word(ratio, uncertain):
+    """None where v is known less well than the slopes of the fits, and so not told from c_L."""
+    if ratio > 1 + uncertain:
+        return 'above 1'
+    return 'not above 1' if uncertain <= paper.FIT_ACCURACY else None
+
+
+def _error_row(symbol, values):
+    """Nothing that the paper says."""
+    demanded = 100 * DEMANDED * paper.FIT_ACCURACY
+    known = [(100 * error / value, density) for value, error, density in values if error > 0]
+    quantity, remark, short = (
+        f'largest error of {symbol}',
+        f'demanded: {demanded:g} %',
+        len(RUNS) - len(known),
+    )
+    if short:
+        return Row(quantity, unit='%', remark=f'{remark}; not known at {short} densities')
+    worst, density = max(known)
+    kept = 'kept' if worst <= demanded else 'not kept'
+    return Row(
+        quantity, None, worst, unit='%', remark=f'{remark}, {kept}; at density {density:.1f}'
+    )
+
+
+def _crossing_row(found):
+    place, (low, high) = crossing.of_fits(), crossing.of_fits_between()
+    both = [one for one in found if all(point and point.error > 0 for point in one.branch.values())]
+    measured, error = (
+        crossing.measured(*zip(*[_apart(one) for one in both])) if len(both) > 1 else (None, 0.0)
+    )
+    remark = (
+        f'the paper\'s fits +-{100 * paper.FIT_ACCURACY:g} % cross anywhere '
+        f'from {low:.2f} to {high:.2f}'
+    )
+    shared = slopes.noted([point for one in both for point in one.branch.values()])
+    return Row(
+        'c_T = c_L at density',
+        place,
+        measured,
+        error,
+        max(place - low, high - place),
+        '1/sigma^2',
+        '; '.join(filter(None, (remark, shared and f'{2 * len(both)} slopes, {shared}'))),
+    )
+
+
+def _apart(one):
+    """(density, c_L - c_T, its error)"""
+    t, lp = one.branch['T'], one.branch['LP']
+    return one.density, lp.slope - t.slope, hypot(lp.slope_error, t.slope_error)
+
+
+# ---- figure and table ----------------------------------------------------------------------------
+
+
+def figures(bags):
+    found = _all(bags)
+    if any(one.branch['T'] or one.branch['LP'] for one in found):
+        yield 'densities', _figure(found)
+
+
+def _figure(found):
+    figure = plt.figure(figsize=(7.6, 4.4), constrained_layout=True)
+    grid = figure.add_gridspec(2, 2, height_ratios=[3, 1.1], width_ratios=[1.1, 1])
+    slope = figure.add_subplot(grid[0, 0])
+    deviation = figure.add_subplot(grid[1, 0], sharex=slope)
+    _against_density(slope, found)
+    _deviations(deviation, found)
+    _against_c_l(figure.add_subplot(grid[:, 1]), found)
+    figure.suptitle(f'$N={paper.DISKS}$, $L_y/L_x={paper.ASPECT}$, periodic', fontsize=9)
+    return figure
+
+
+def _against_density(axes, found):
+    density = np.linspace(0, 0.85, 200)
+    for kind, fit in FITS.items():
+        colour = KIND_COLOURS[kind]
+        published = fit(density)
+        axes.fill_between(
+            density,
+            (1 - paper.FIT_ACCURACY) * published,
+            (1 + paper.FIT_ACCURACY) * published,
+            color=colour,
+            alpha=0.2,
+            linewidth=0,
+            label=f'${SYMBOLS[kind]}$, fit of Eckmann et al. $\\pm3$ %',
+        )
+        values = [
+            (one.density, one.branch[kind].slope, one.branch[kind].slope_error)
+            for one in found
+            if one.branch[kind]
+        ]
+        _points(axes, values, 'o' if kind == 'T' else 's', colour, f'${SYMBOLS[kind]}$')
+    _points(
+        axes,
+        [(one.density, one.v, one.v_error) for one in found if one.phases],
+        '^',
+        GREEN,
+        '$v$',
+        face='none',
+        markersize=6,
+    )
+    axes.set_xlim(0, 0.85)
+    axes.set_ylim(bottom=0)
+    axes.tick_params(labelbottom=False)
+    axes.set_ylabel(r'$c_T$, $c_L$, $v$  [$\sigma$/time unit]')
+    axes.legend(loc='upper left')
+    axes.set_title('(a)', loc='left')
+
+
+def _points(axes, values, marker, colour, label, face=None, markersize=4):
+    if values:
+        x, y, error = zip(*values)
+        axes.errorbar(
+            x,
+            y,
+            _shown(error),
+            fmt=marker,
+            color=colour,
+            markerfacecolor=face or colour,
+            elinewidth=0.9,
+            markersize=markersize,
+            capsize=2,
+            label=label,
+        )
+
+
+def _shown(errors):
+    """Lengths of bars: none where the error is not known."""
+    return np.maximum(0, np.nan_to_num(errors))
+
+
+def _deviations(axes, found):
+    bound = 100 * paper.FIT_ACCURACY
+    axes.axhspan(-bound, bound, color=GREY, alpha=0.2, linewidth=0)
+    axes.axhline(0, color=GREY, linewidth=0.6)
+    for (kind, fit), side in zip(FITS.items(), (-BESIDE, BESIDE)):
+        values = [
+            (
+                one.density + side,
+                100 * (one.branch[kind].slope / fit(one.density) - 1),
+                100 * one.branch[kind].slope_error / fit(one.density),
+            )
+            for one in found
+            if one.branch[kind]
+        ]
+        _points(axes, values, 'o' if kind == 'T' else 's', KIND_COLOURS[kind], '_')
+    axes.set_xlabel(r'density $\rho$  [1/$\sigma^2$]')
+    axes.set_ylabel('deviation from\nthe fit  [%]')
+
+
+def _against_c_l(axes, found):
+    found = [one for one in found if one.branch['LP']]
+    largest = 1.08 * max(
+        [one.branch['LP'].slope for one in found] + [one.v for one in found if one.phases],
+        default=1.0,
+    )
+    axes.plot([0, largest], [0, largest], color=GREY, linewidth=0.8, label='diagonal')
+    _points(
+        axes,
+        [
+            (one.branch['LP'].slope, one.branch['T'].slope, one.branch['T'].slope_error)
+            for one in found
+            if one.branch['T']
+        ],
+        'o',
+        KIND_COLOURS['T'],
+        '$c_T$',
+    )
+    _points(
+        axes,
+        [(one.branch['LP'].slope, one.v, one.v_error) for one in found if one.phases],
+        '^',
+        GREEN,
+        '$v$',
+    )
+    axes.set_xlim(0, largest)
+    axes.set_ylim(0, largest)
+    axes.set_xlabel(r'$c_L$  [$\sigma$/time unit]')
+    axes.set_ylabel(r'$c_T$, $v$  [$\sigma$/time unit]')
+    axes.legend(loc='upper left')
+    axes.set_title('(b)', loc='left')
+
+
+def tables(bags):
+    header = (
+        'density',
+        'c_t',
+        'c_t_error',
+        'c_t_fit',
+        'c_l',
+        'c_l_error',
+        'c_l_fit',
+        'v',
+        'v_error',
+        'v_all',
+        'v_all_error',
+    )
+    yield 'densities', header, [_line(one) for one in _all(bags)]
+
+
+def _line(one):
+    line = [f'{one.density:g}']
+    for kind, fit in FITS.items():
+        point = one.branch[kind]
+        line += [f'{point.slope:.6g}', f'{point.slope_error:.2g}'] if point else ['', '']
+        line.append(f'{fit(one.density):.6g}')
+    line += [f'{one.v:.6g}', f'{one.v_error:.2g}'] if one.phases else ['', '']
+    v, error, count = one.v_all
+    return line + ([f'{v:.6g}', f'{error:.2g}'] if count else ['', ''])

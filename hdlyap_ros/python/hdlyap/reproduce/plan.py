@@ -1,0 +1,139 @@
+"""launch/reproduce.yaml -> the runs that the parts of the paper need, as scene files."""
+
+import json
+from math import isfinite
+import os
+import re
+
+import yaml
+
+from . import files
+
+# of an entry, what is no parameter of the node
+OWN = ('base', 'quick', 'full', 'seconds')
+
+
+class PlanError(Exception):
+    """One line for the user."""
+
+
+class Run:
+    """One run: its name, the parameters of its node, and about how many seconds it takes:
+    on all of two cores if it is wide, else on one."""
+
+    def __init__(self, name, entry, scenes, quick):
+        which = 'quick' if quick else 'full'
+        self.name = name
+        self.seconds = entry['seconds'][0 if quick else 1]
+        base = _load(os.path.join(scenes, entry['base'] + '.yaml'))
+        asked = {key: value for key, value in entry.items() if key not in OWN}
+        self.parameters = {**base, 'threads': 1, **asked, **entry.get(which, {}), 'scene': name}
+        if (
+            not all(is_number(seconds) and seconds > 0 for seconds in entry['seconds'])
+            or len(entry['seconds']) != 2
+        ):
+            raise ValueError(f'seconds is {entry["seconds"]}, must be two positive numbers')
+        for name in ('equilibration', 'warmup', 'duration'):
+            if not is_number(self.parameters[name]):
+                raise ValueError(f'{name} is {self.parameters[name]}, must be a number')
+        if not self.parameters['duration'] > 0:
+            raise ValueError('duration is 0: it would never end')
+
+    @property
+    def is_wide(self):
+        """Has all cores for itself."""
+        return self.parameters['threads'] == 0
+
+    def share_of(self, jobs):
+        """Seconds of wall time that it adds to the work of so many jobs at a time."""
+        return self.seconds / (1 if self.is_wide else jobs)
+
+    @property
+    def node(self):
+        return f'/{self.name}/hdlyap'
+
+    def scene_file(self, folder):
+        return os.path.join(folder, self.name + '.yaml')
+
+    def bag(self, folder):
+        return os.path.join(folder, self.name + '.bag')
+
+    def record(self, folder):
+        return os.path.join(folder, self.name + '.json')
+
+    def write(self, folder):
+        """The scene file, if it is not there with these very parameters."""
+        text = (
+            '# A run of the reproduction of the paper: launch/reproduce.yaml.\n'
+            + yaml.safe_dump(self.parameters, sort_keys=False, default_flow_style=None)
+        )
+        if files.read(self.scene_file(folder)) != text:
+            files.write(self.scene_file(folder), text)
+
+    def noted(self, folder):
+        """What was noted when it was last done with these parameters, of this bag or another; {} if
+        it was not."""
+        try:
+            noted = json.loads(files.read(self.record(folder)) or '{}')
+        except ValueError:
+            return {}
+        return (
+            noted if isinstance(noted, dict) and noted.get('parameters') == self.parameters else {}
+        )
+
+    def done(self, folder):
+        """What was noted of it when it ended; None if it has not been done with these parameters,
+        or if something has been written to its bag since."""
+        noted = self.noted(folder)
+        try:
+            is_older = os.path.getmtime(self.bag(folder)) <= os.path.getmtime(self.record(folder))
+        except OSError:
+            return None
+        return noted if noted and is_older else None
+
+    def note(self, folder, **facts):
+        """To be called when the bag is whole; facts: seconds, run_id, commit, and whether it was
+        made elsewhere."""
+        files.write(
+            self.record(folder),
+            json.dumps({**facts, 'parameters': self.parameters}, indent=1) + '\n',
+        )
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and isfinite(value)
+
+
+def runs(package, quick, path=None):
+    """{name: Run} of all, in their order; package: folder of the package hdlyap; path: another plan
+    than its own."""
+    launch = os.path.join(package, 'launch')
+    path = path or os.path.join(launch, 'reproduce.yaml')
+    entries = _load(path)
+    if not isinstance(entries, dict):
+        raise PlanError(f'{path}: no runs in it')
+    return {
+        name: _run(path, name, entry, os.path.join(launch, 'scenes'), quick)
+        for name, entry in entries.items()
+    }
+
+
+def _run(path, name, entry, scenes, quick):
+    try:
+        if not re.fullmatch('[A-Za-z][A-Za-z0-9_]*', name):  # of a namespace of ROS
+            raise ValueError('a name consists of letters, digits and underscores')
+        return Run(name, entry, scenes, quick)
+    except KeyError as error:
+        raise PlanError(f'{path}: {name}: {error} is missing')
+    except (TypeError, ValueError, AttributeError, IndexError) as error:
+        raise PlanError(f'{path}: {name}: {error}')
+
+
+def _load(path):
+    try:
+        with open(path) as file:
+            return yaml.safe_load(file)
+    except OSError as error:
+        raise PlanError(f'{path}: {error.strerror}')
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise PlanError(f'{path}: {" ".join(str(error).split())}')

@@ -1,0 +1,207 @@
+"""Runs that are missing -> their bags: one roslaunch each, wide ones alone, the others side by
+side."""
+
+import contextlib
+import os
+import re
+import shutil
+import time
+
+import rospy
+
+from hdlyap.msg import Cost
+
+from . import signals
+from .bag import Bag
+from .master import Master, MasterError
+from .tree import Tree, end
+
+POLL = 0.2  # seconds between two looks
+PATIENCE = 20.0  # with roslaunch, which gives its nodes 17 s
+SILENCE = 180.0  # seconds to the first word of a node; it waits for its recorder
+UNDER_WAY = 'under_way'  # folder of bags that are being recorded
+SAID = re.compile('FATAL|ERROR')
+DIED = re.compile(r'process has died \[[^\]]*?(?=, cmd|\])')
+COLOUR = re.compile('\033' + r'\[[0-9;]*m')
+
+
+class WorkError(Exception):
+    """One line for each run that failed."""
+
+
+class Job:
+    """One run under way; records in a folder of its own, since what is not whole shall replace
+    nothing."""
+
+    def __init__(self, run, folder, log):
+        self.run, self.log = run, log
+        self._folder, self._new = folder, os.path.join(
+            folder, UNDER_WAY, f'{run.name}.{os.getpid()}'
+        )
+        self.cost = None  # its last message
+        self._began = time.monotonic()
+        os.makedirs(self._new, exist_ok=True)
+        run.write(folder)
+        run.write(self._new)
+        self._subscriber = rospy.Subscriber(run.node + '/cost', Cost, self._hear, queue_size=10)
+        with open(log, 'w') as file:
+            self.tree = Tree(
+                [
+                    'roslaunch',
+                    'hdlyap',
+                    'reproduce.launch',
+                    f'runs:={run.name}',
+                    f'folder:={self._new}',
+                ],
+                file,
+            )
+
+    def _hear(self, message):
+        self.cost = message
+
+    @property
+    def seconds(self):
+        return time.monotonic() - self._began
+
+    @property
+    def share(self):
+        """Of the whole run, 0 .. 1, in simulated time with tangent vectors: without them it goes
+        fast."""
+        wanted = self.run.parameters
+        spent = self.cost.sim_time - wanted['equilibration'] if self.cost else 0.0
+        return min(1.0, max(0.0, spent / (wanted['warmup'] + wanted['duration'])))
+
+    def has_ended(self):
+        return self.tree.has_ended()
+
+    def is_silent(self):
+        return self.cost is None and self.seconds > SILENCE
+
+    def close(self, commit):
+        """After its end: notes it. WorkError if the run did not go to its end."""
+        made = Bag(self.run.bag(self._new))
+        if not (made.is_complete() and made.was_run_with(self.run.parameters)):
+            why = 'the run has not come to its end'
+            if self.is_silent():
+                why = f'no word of its node within {SILENCE:.0f} s'
+            raise WorkError(
+                f'{self.run.name}: {why}; {last_words(self.log)}all that it said is in {self.log}'
+            )
+        os.replace(made.path, self.run.bag(self._folder))
+        self.run.note(
+            self._folder,
+            seconds=round(self.seconds, 1),
+            commit=commit,
+            run_id=Bag(self.run.bag(self._folder)).info.run_id,
+        )
+
+    def leave(self):
+        """No trace but the log, and the bag if it is whole."""
+        shutil.rmtree(self._new, ignore_errors=True)
+        with contextlib.suppress(OSError):
+            os.rmdir(os.path.dirname(self._new))  # the last one
+        self._subscriber.unregister()
+
+
+def last_words(log):
+    """Of a run that failed: the last line of level ERROR or FATAL, else the death of a process."""
+    with open(log, errors='replace') as file:
+        lines = [COLOUR.sub('', line).strip() for line in file]
+    errors = [line for line in lines if SAID.search(line)]
+    deaths = [match.group() + ']' for match in map(DIED.search, lines) if match]
+    last = (errors or deaths)[-1:]
+    return ''.join(line + '; ' for line in last)
+
+
+class Work:
+    """The runs, as many at a time as there is room for."""
+
+    def __init__(self, runs, folder, logs, jobs, commit):
+        self.waiting, self.under_way, self.failed = list(runs), [], []
+        self._folder, self._logs, self._jobs, self._commit = folder, logs, jobs, commit
+        self._total, self._done = sum(run.share_of(jobs) for run in runs), 0.0
+
+    def progress(self):
+        """Seconds of work done, of all."""
+        return (
+            self._done + sum(job.share * job.run.share_of(self._jobs) for job in self.under_way),
+            self._total,
+        )
+
+    def begin(self):
+        """What there is room for."""
+        while self.waiting and self._has_room():
+            run = self.waiting.pop(0)
+            self.under_way.append(
+                Job(run, self._folder, os.path.join(self._logs, run.name + '.log'))
+            )
+
+    def _has_room(self):
+        if not self.under_way:
+            return True
+        return (
+            not (self.waiting[0].is_wide or self.under_way[0].run.is_wide)
+            and len(self.under_way) < self._jobs
+        )
+
+    def close(self):
+        """Those that have ended; what went wrong, in a line each."""
+        said = []
+        for job in [job for job in self.under_way if job.has_ended() or job.is_silent()]:
+            self._end([job])
+            try:
+                job.close(self._commit)
+            except WorkError as error:
+                said.append(str(error))
+            self._done += job.run.share_of(self._jobs)
+            self.under_way.remove(job)
+            job.leave()
+        self.failed += said
+        return said
+
+    def stop(self, came):
+        """All that is under way; came: signals, another one of which insists."""
+        before = len(came)
+        self._end(self.under_way, lambda: len(came) > before)
+        for job in self.under_way:
+            job.leave()
+
+    @staticmethod
+    def _end(jobs, is_pressed=lambda: False):
+        end([job.tree for job in jobs], PATIENCE, is_pressed)
+
+
+def work(runs, folder, logs, jobs, commit, show):
+    """Does the runs. show(jobs under way, seconds of work done, of all) is called some times a
+    second, show.say(line) when a run has failed, which stops none of the others; WorkError at the
+    end names all that did.
+    """
+    if not runs:
+        return
+    with signals.held() as came:
+        try:
+            master = Master()
+            all_of_it = Work(runs, folder, logs, jobs, commit)
+            try:
+                rospy.init_node('reproduce', anonymous=True, disable_signals=True)
+                _go_on(all_of_it, master, came, show)
+            finally:
+                all_of_it.stop(came)
+                with contextlib.suppress(OSError):  # a terminal that is gone
+                    show.end()
+                rospy.signal_shutdown('the work is done')
+                master.stop()
+        except (MasterError, rospy.ROSException) as error:
+            raise WorkError(str(error))
+    if all_of_it.failed:
+        raise WorkError('\n'.join(all_of_it.failed))
+
+
+def _go_on(all_of_it, master, came, show):
+    while (all_of_it.waiting or all_of_it.under_way) and not came:
+        master.check()
+        all_of_it.begin()
+        time.sleep(POLL)
+        for line in all_of_it.close():
+            show.say(line)
+        show(all_of_it.under_way, *all_of_it.progress())

@@ -1,0 +1,82 @@
+/** Memory: aligned, zeroed, counted, and NULL rather than less than asked for. */
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "testing.h"
+
+enum { CACHE_LINE = 64 };
+
+static const size_t SIZES[] = {1,        7,       63,      64, 65, 4096, 100000, (1u << 20) - 1,
+                               1u << 20, 3000001, 1u << 21};
+enum { SIZE_COUNT = sizeof SIZES / sizeof *SIZES };
+
+static void blocks_are_aligned_and_zero(void **state)
+{
+    (void)state;
+    for (int round = 0; round < 3; round++)
+        for (int k = 0; k < SIZE_COUNT; k++) {
+            unsigned char *block = hd_memory_alloc(SIZES[k], 1);
+            assert_non_null(block);
+            assert_true((uintptr_t)block % CACHE_LINE == 0);
+            for (size_t b = 0; b < SIZES[k]; b++) assert_true(block[b] == 0);
+            memset(block, 0xa5, SIZES[k]); /* so that reuse without zeroing would show */
+            hd_memory_free(block);
+        }
+}
+
+static void count_times_size(void **state)
+{
+    (void)state;
+    double *block = hd_memory_alloc(1000, sizeof *block);
+    assert_non_null(block);
+    for (int k = 0; k < 1000; k++) block[k] = k; /* all of it is ours: the sanitizer watches */
+    hd_memory_free(block);
+}
+
+static void nothing_is_something(void **state)
+{
+    (void)state;
+    void *none = hd_memory_alloc(0, 8), *empty = hd_memory_alloc(8, 0);
+    assert_non_null(none);
+    assert_non_null(empty);
+    assert_ptr_not_equal(none, empty);
+    hd_memory_free(none);
+    hd_memory_free(empty);
+    hd_memory_free(NULL);
+}
+
+static void overflow_gives_null(void **state)
+{
+    (void)state;
+    const size_t most = SIZE_MAX;
+    const size_t pairs[][2] = {
+        {most, 1},         {1, most},           {most, most},   {most / 2 + 1, 2},
+        {most / 8 + 2, 8}, {most / 64 + 1, 64}, {most - 64, 1}, {(size_t)1 << 32, (size_t)1 << 32}};
+    const size_t before = hd_memory_allocations();
+    for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++)
+        assert_null(hd_memory_alloc(pairs[k][0], pairs[k][1]));
+    assert_int_equal(hd_memory_allocations(), before);
+}
+
+static void allocations_are_counted(void **state)
+{
+    (void)state;
+    const size_t before = hd_memory_allocations();
+    void *first = hd_memory_alloc(3, 3), *second = hd_memory_alloc(1, 1 << 21);
+    assert_int_equal(hd_memory_allocations(), before + 2);
+    hd_memory_free(first);
+    hd_memory_free(second);
+    assert_int_equal(hd_memory_allocations(), before + 2);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(blocks_are_aligned_and_zero), cmocka_unit_test(count_times_size),
+        cmocka_unit_test(nothing_is_something),        cmocka_unit_test(overflow_gives_null),
+        cmocka_unit_test(allocations_are_counted),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,252 @@
+/** What the forward pass leaves comes back as it was, kept and computed again. */
+#include <float.h>
+
+#include "covariant/backward.h"
+#include "forward_pass.h"
+#include "base/memory.h"
+#include "covariant/history.h"
+#include "triangles.h"
+
+enum { DISKS = 6, INTERVALS = 24, SNAPSHOTS = 8, PASTS = 2, STEPS = 150 };
+
+static hd_history_def def_of(int way, int vectors)
+{
+    return (hd_history_def){.disks = DISKS,
+                            .vectors = vectors,
+                            .threads = 1,
+                            .intervals = INTERVALS,
+                            .snapshots = SNAPSHOTS,
+                            .recompute = way == 1};
+}
+
+/** What each interval left. */
+typedef struct left {
+    double *factor, *vectors, q[2 * DISKS], p[2 * DISKS], time, length;
+} left;
+
+typedef struct forward {
+    forward_pass f;
+    hd_history *past[PASTS];
+    left left[STEPS];
+    long end;
+} forward;
+
+static double rounding_of(const forward *x) { return 64.0 * DBL_EPSILON * INTERVALS * x->f.worst; }
+
+static forward *started(int exponents)
+{
+    hd_scene_def scene = scene_of(DISKS, 0.5, 0.9, HD_PERIODIC, HD_PERIODIC, 3);
+    scene.exponents = exponents;
+    forward *x = calloc(1, sizeof *x);
+    x->f = forward_started(&scene, 1);
+    for (int warmup = 0; warmup < 20; warmup++) forward_interval(&x->f, 0.5);
+    for (int way = 0; way < PASTS; way++) {
+        const hd_history_def def = def_of(way, forward_vectors(&x->f));
+        CHECK_OK(hd_history_create(&x->past[way], &def));
+        CHECK_OK(hd_history_begin(x->past[way], hd_frame_columns(x->f.frame),
+                                  hd_trajectory_time(x->f.trajectory)));
+    }
+    return x;
+}
+
+static void forget(forward *x)
+{
+    for (long k = 0; k < x->end; k++) {
+        free(x->left[k].factor);
+        free(x->left[k].vectors);
+    }
+    x->end = 0;
+}
+
+static void freed(forward *x)
+{
+    forget(x);
+    for (int way = 0; way < PASTS; way++) hd_history_free(x->past[way]);
+    forward_free(&x->f);
+    free(x);
+}
+
+/** One interval: from t_begin to t_end of the log, which the frame is yet to be carried through. */
+static void add_piece(forward *x, double t_begin, double t_end, bool snapshot)
+{
+    const hd_event_log *log = x->f.log;
+    left *new = &x->left[x->end++];
+    CHECK_OK(hd_frame_replay(x->f.frame, log, t_begin, t_end));
+    forward_factor(&x->f);
+    new->factor = triangle_copy(hd_ortho_factor(x->f.ortho), forward_vectors(&x->f));
+    new->vectors = forward_copy(&x->f);
+    new->length = t_end - t_begin;
+    new->time = hd_trajectory_time(x->f.trajectory) - log->duration + t_end;
+    hd_trajectory_state(x->f.trajectory, new->q,
+                        new->p); /* of the log's end: whatever they are, they come back */
+    for (int way = 0; way < PASTS; way++) {
+        const hd_columns columns = hd_frame_columns(x->f.frame);
+        assert_false(hd_history_is_full(x->past[way]));
+        CHECK_OK(hd_history_add(x->past[way], hd_ortho_factor(x->f.ortho), columns, log, t_begin,
+                                t_end));
+        if (snapshot) CHECK_OK(hd_history_snapshot(x->past[way], columns, new->q, new->p));
+    }
+}
+
+/** One interval or, as a log that was too long, two; a snapshot is that of every third. */
+static void add(forward *x, double length, bool cut)
+{
+    const double end = hd_trajectory_time(x->f.trajectory) + length;
+    CHECK_OK(hd_trajectory_advance(x->f.trajectory, x->f.log, end));
+    const double duration = x->f.log->duration, first = cut ? 0.4 * duration : duration;
+    add_piece(x, 0.0, first, x->end % 3 == 0);
+    if (cut) add_piece(x, first, duration, x->end % 3 == 0);
+}
+
+static void check_snapshot(const forward *x, hd_history *past, long interval)
+{
+    const left *want = &x->left[interval];
+    const size_t size = 4 * DISKS * (size_t)forward_vectors(&x->f);
+    double *vectors = malloc(size * sizeof *vectors), q[2 * DISKS], p[2 * DISKS];
+    hd_history_vectors(past, vectors, q, p, interval);
+    assert_memory_equal(vectors, want->vectors, size * sizeof *vectors);
+    assert_memory_equal(q, want->q, sizeof q);
+    assert_memory_equal(p, want->p, sizeof p);
+    free(vectors);
+}
+
+/** Backwards; intervals first .. end - 1, a snapshot at the end of every third. */
+static void check_past(const forward *x, int way, long first)
+{
+    const int n = forward_vectors(&x->f);
+    hd_history *past = x->past[way];
+    double *found = malloc((size_t)(n * n) * sizeof *found);
+    assert_int_equal(hd_history_first(past), first);
+    assert_int_equal(hd_history_end(past), x->end);
+    for (long k = x->end - 1; k >= first; k--) {
+        CHECK_CLOSE(hd_history_time(past, k), x->left[k].time, 64 * DBL_EPSILON * x->left[k].time);
+        CHECK_CLOSE(hd_history_length(past, k), x->left[k].length, 0.0);
+        CHECK_OK(hd_history_factor(past, found, k));
+        if (way == 0) check_same_triangle(found, x->left[k].factor, n);
+        check_triangle(found, x->left[k].factor, n, rounding_of(x));
+        assert_int_equal(hd_history_has_snapshot(past, k), k % 3 == 0);
+        if (k % 3 == 0) check_snapshot(x, past, k);
+    }
+    free(found);
+}
+
+static void drop(forward *x, double time)
+{
+    for (int way = 0; way < PASTS; way++) hd_history_drop(x->past[way], time);
+}
+
+/** The rings wrap several times; what is dropped makes room, up to the interval that ends at that
+ * very time. */
+static void check_rings(int exponents)
+{
+    forward *x = started(exponents);
+    long first = 0;
+    while (x->end + 1 < STEPS) {
+        add(x, 0.3 + 0.05 * (double)(x->end % 5), x->end % 4 == 1);
+        if (x->end - first < INTERVALS - 2) continue;
+        for (int way = 0; way < PASTS; way++) check_past(x, way, first);
+        first += 7;
+        drop(x, hd_history_time(x->past[0], first - 1));
+        for (int way = 0; way < PASTS; way++) check_past(x, way, first);
+    }
+    freed(x);
+}
+
+static void what_was_left_comes_back(void **state)
+{
+    (void)state;
+    check_rings(HD_EXPONENTS_ALL);
+    check_rings(5);
+    check_rings(1);
+}
+
+static void a_past_is_full_with_so_many_intervals(void **state)
+{
+    (void)state;
+    forward *x = started(HD_EXPONENTS_ALL);
+    while (x->end < INTERVALS) add(x, 0.2, false);
+    for (int way = 0; way < PASTS; way++) {
+        assert_true(hd_history_is_full(x->past[way]));
+        check_past(x, way, 0);
+        hd_history_drop(x->past[way], 0.5 * (x->left[0].time + x->left[1].time));
+        assert_int_equal(hd_history_first(x->past[way]), 1);
+        assert_false(hd_history_is_full(x->past[way]));
+    }
+    freed(x);
+}
+
+/** Also in the middle of a stretch, and what was read before it. */
+static void a_new_beginning_forgets_everything(void **state)
+{
+    (void)state;
+    forward *x = started(HD_EXPONENTS_ALL);
+    for (int again = 0; again < 4; again++) {
+        for (int way = 0; way < PASTS; way++) {
+            CHECK_OK(hd_history_begin(x->past[way], hd_frame_columns(x->f.frame),
+                                      hd_trajectory_time(x->f.trajectory)));
+            assert_int_equal(hd_history_end(x->past[way]), 0);
+        }
+        forget(x);
+        while (x->end < 9 + 2 * again) add(x, 0.2, false);
+        for (int way = 0; way < PASTS; way++) check_past(x, way, 0);
+    }
+    freed(x);
+}
+
+/** By what is in it: triangles, and snapshots of vectors and disks. Recomputed ones need less, once
+ * there are many. */
+static void the_room_is_stated(void **state)
+{
+    (void)state;
+    const int n = 4 * DISKS;
+    hd_history_def def = def_of(0, n);
+    const double snapshots = 8.0 * SNAPSHOTS * (n * n + n);
+    CHECK_CLOSE(hd_history_bytes(&def), 8.0 * INTERVALS * n * (n + 1) / 2 + snapshots, 0.5);
+    def.intervals = 10000;
+    const double all = hd_history_bytes(&def);
+    def.recompute = true;
+    /* sqrt(2 slots rows / n) stretches of a frame and as many triangles, and little else */
+    const double numbers = 2.0 * sqrt(10000.0 * n * n * n * (n + 1) / 2.0);
+    CHECK_CLOSE(hd_history_bytes(&def), 8.0 * numbers + snapshots, 0.05 * 8.0 * numbers);
+    assert_true(hd_history_bytes(&def) < 0.05 * all);
+}
+
+/** Beyond the first round a past takes no more memory; the events of a recomputed one vary. */
+static void a_ring_takes_its_memory_once(void **state)
+{
+    (void)state;
+    forward *x = started(HD_EXPONENTS_ALL);
+    const int n = forward_vectors(&x->f);
+    double *factor = malloc((size_t)(n * n) * sizeof *factor);
+    size_t before = 0;
+    hd_history *past = x->past[0];
+    for (int k = 0; k < 6 * INTERVALS; k++) {
+        if (hd_history_is_full(past))
+            hd_history_drop(past, hd_history_time(past, hd_history_first(past) + 5));
+        forward_interval(&x->f, 0.25);
+        const hd_columns columns = hd_frame_columns(x->f.frame);
+        const double q[2 * DISKS] = {0};
+        if (k == 2 * INTERVALS) before = hd_memory_allocations();
+        const size_t outside = hd_memory_allocations();
+        CHECK_OK(hd_history_add(past, hd_ortho_factor(x->f.ortho), columns, x->f.log, 0.0,
+                                x->f.log->duration));
+        CHECK_OK(hd_history_snapshot(past, columns, q, q));
+        CHECK_OK(hd_history_factor(past, factor,
+                                   hd_history_end(past) - 2 < 0 ? 0 : hd_history_end(past) - 2));
+        if (before > 0) assert_int_equal(hd_memory_allocations(), outside);
+    }
+    free(factor);
+    freed(x);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_was_left_comes_back),
+        cmocka_unit_test(a_past_is_full_with_so_many_intervals),
+        cmocka_unit_test(a_new_beginning_forgets_everything),
+        cmocka_unit_test(the_room_is_stated),
+        cmocka_unit_test(a_ring_takes_its_memory_once),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,208 @@
+/** Angles of spaces made so that they are known, and order violations against their definition. */
+#include <float.h>
+#include <string.h>
+
+#include "testing.h"
+
+#include "averages/block_average.h"
+#include "hdlyap/splitting.h"
+#include "base/random.h"
+
+enum { N = 6, UNSTABLE = 2, CENTRE = 2 };
+
+static const double PI = 3.14159265358979323846;
+
+static hd_splitting *created(int vectors, int unstable, int centre)
+{
+    hd_splitting *s;
+    CHECK_OK(hd_splitting_create(&s, vectors, unstable, centre));
+    return s;
+}
+
+/** Unstable e_1, e_2 (oblique by delta); centre e_3, e_4; stable: one alpha from e_1, one beta from
+ * e_3. */
+static void fill(double *c, double alpha, double beta, double delta)
+{
+    memset(c, 0, N * N * sizeof *c);
+    c[0] = 1.0;
+    c[N] = -cos(delta);
+    c[N + 1] = -sin(delta);
+    c[2 * N + 2] = 1.0;
+    c[3 * N + 3] = -1.0;
+    c[4 * N] = cos(alpha);
+    c[4 * N + 4] = sin(alpha);
+    c[5 * N + 2] = cos(beta);
+    c[5 * N + 5] = sin(beta);
+}
+
+enum { SAMPLES = 40 };
+
+static double alpha_of(int k) { return 0.9 + 0.6 * sin(1.7 * k); }
+static double beta_of(int k) { return 0.2 + 0.03 * k; }
+static double delta_of(int k) { return 0.01 + 0.035 * k; }
+
+typedef struct truth {
+    double mean[3], all[3], least[3], delta,
+        delta_least; /* of unstable-stable, unstable-centre, centre-stable */
+    long smallest[3][HD_ANGLE_BINS], every[3][HD_ANGLE_BINS];
+} truth;
+
+static int bin_of(double angle)
+{
+    return angle >= PI / 2 ? HD_ANGLE_BINS - 1 : (int)(angle * 180.0 / PI);
+}
+
+static truth truth_of(void)
+{
+    truth t = {.least = {PI, PI, PI}, .delta_least = PI};
+    for (int k = 0; k < SAMPLES; k++) {
+        const double smallest[3] = {alpha_of(k), PI / 2, beta_of(k)};
+        for (int pair = 0; pair < 3; pair++) {
+            t.mean[pair] += smallest[pair] / SAMPLES;
+            t.all[pair] += 0.5 * (smallest[pair] + PI / 2) / SAMPLES;
+            t.least[pair] = fmin(t.least[pair], smallest[pair]);
+            t.smallest[pair][bin_of(smallest[pair])]++;
+            t.every[pair][bin_of(smallest[pair])]++;
+            t.every[pair][HD_ANGLE_BINS - 1]++;
+        }
+        t.delta += delta_of(k) / SAMPLES;
+        t.delta_least = fmin(t.delta_least, delta_of(k));
+    }
+    return t;
+}
+
+/** Each angle is known to rounding: some eps, over the sine of the columns' own obliqueness. */
+static const double ROUNDING = 1e-13;
+
+static void check_pair(const hd_splitting *s, const truth *t, int pair, double last)
+{
+    const hd_angle_of_spaces *a = hd_splitting_angle(s, (hd_pair_of_spaces)pair);
+    CHECK_CLOSE(a->last, last, ROUNDING);
+    CHECK_CLOSE(a->mean, t->mean[pair], ROUNDING);
+    CHECK_CLOSE(a->mean_of_all, t->all[pair], ROUNDING);
+    CHECK_CLOSE(a->least, t->least[pair], ROUNDING);
+    assert_memory_equal(a->smallest, t->smallest[pair], sizeof a->smallest);
+    assert_memory_equal(a->all, t->every[pair], sizeof a->all);
+}
+
+static void check_errors(const hd_splitting *s)
+{
+    hd_block_average blocks;
+    CHECK_OK(hd_block_average_create(&blocks, 2));
+    for (int k = 0; k < SAMPLES; k++) {
+        double sample[2] = {alpha_of(k), beta_of(k)};
+        hd_block_average_add(&blocks, sample);
+    }
+    const int pair[] = {HD_UNSTABLE_STABLE, HD_CENTRE_STABLE};
+    for (int k = 0; k < 2; k++)
+        CHECK_CLOSE(hd_splitting_angle(s, (hd_pair_of_spaces)pair[k])->std_error,
+                    hd_block_average_std_error(&blocks, k), ROUNDING);
+    hd_block_average_clear(&blocks);
+}
+
+static void add_all(hd_splitting *s)
+{
+    double c[N * N];
+    for (int k = 0; k < SAMPLES; k++) {
+        fill(c, alpha_of(k), beta_of(k), delta_of(k));
+        CHECK_OK(hd_splitting_add(s, c));
+        if (k < 15) assert_true(hd_splitting_angle(s, HD_UNSTABLE_STABLE)->std_error < 0);
+    }
+}
+
+static void known_angles_are_found(void **state)
+{
+    (void)state;
+    const truth t = truth_of();
+    hd_splitting *s = created(N, UNSTABLE, CENTRE);
+    const double last[3] = {alpha_of(SAMPLES - 1), PI / 2, beta_of(SAMPLES - 1)};
+    assert_true(hd_splitting_has_spaces(s));
+    for (int again = 0; again < 2; again++) { /* as if it were new */
+        add_all(s);
+        assert_int_equal(hd_splitting_samples(s), SAMPLES);
+        for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) check_pair(s, &t, pair, last[pair]);
+        check_errors(s);
+        for (int col = 1; col + 1 < N; col++)
+            CHECK_CLOSE(hd_splitting_neighbours(s)[col], PI / 2, ROUNDING);
+        CHECK_CLOSE(hd_splitting_neighbours(s)[0], t.delta, ROUNDING);
+        CHECK_CLOSE(hd_splitting_neighbours_least(s)[0], t.delta_least, ROUNDING);
+        hd_splitting_clear(s);
+        assert_int_equal(hd_splitting_samples(s), 0);
+    }
+    hd_splitting_free(s);
+}
+
+/** Neighbours of length 1 a tiny angle apart: their cosine would not know it. */
+static void small_angles_keep_their_digits(void **state)
+{
+    (void)state;
+    double c[4] = {1.0, 0.0, cos(1e-9), sin(1e-9)};
+    hd_splitting *s = created(2, 2, 0);
+    CHECK_OK(hd_splitting_add(s, c));
+    CHECK_CLOSE(hd_splitting_neighbours(s)[0], 1e-9, 1e-15);
+    assert_false(hd_splitting_has_spaces(s));
+    hd_splitting_free(s);
+}
+
+static void dependent_vectors_are_refused(void **state)
+{
+    (void)state;
+    double c[N * N];
+    hd_splitting *s = created(N, UNSTABLE, CENTRE);
+    fill(c, 1.0, 1.0, 0.0);
+    assert_int_equal(hd_splitting_add(s, c), HD_ILL_CONDITIONED);
+    hd_splitting_free(s);
+}
+
+enum { MANY = 9, TIMES = 50 };
+
+static void check_order(const hd_splitting *s, double growth[TIMES][MANY], int times)
+{
+    for (int col = 0; col + 1 < MANY; col++) {
+        int violated = 0, entangled = 0;
+        for (int k = 0; k < times; k++) {
+            int crossed = 0;
+            for (int before = 0; before <= col; before++)
+                for (int later = col + 1; later < MANY; later++)
+                    crossed |= growth[k][before] < growth[k][later];
+            violated += growth[k][col] < growth[k][col + 1];
+            entangled += crossed;
+        }
+        CHECK_CLOSE(hd_splitting_violations(s)[col], (double)violated / times, 1e-14);
+        CHECK_CLOSE(hd_splitting_entangled(s)[col], (double)entangled / times, 1e-14);
+    }
+}
+
+static void order_violations_are_counted(void **state)
+{
+    (void)state;
+    double growth[TIMES][MANY];
+    hd_random random = hd_random_seeded(8, 0);
+    hd_splitting *s = created(MANY, MANY, 0);
+    for (int k = 0; k < TIMES; k++) {
+        for (int col = 0; col < MANY; col++)
+            growth[k][col] = -0.3 * col + 1.2 * hd_random_symmetric(&random);
+        hd_splitting_grow(s, growth[k]);
+        check_order(s, growth, k + 1);
+    }
+    int open = 0; /* the case tells: neither all nor none */
+    for (int col = 0; col + 1 < MANY; col++)
+        open += hd_splitting_violations(s)[col] < hd_splitting_entangled(s)[col] &&
+                hd_splitting_entangled(s)[col] < 1;
+    assert_true(open > 3);
+    hd_splitting_clear(s);
+    hd_splitting_grow(s, growth[0]);
+    check_order(s, growth, 1);
+    hd_splitting_free(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(known_angles_are_found),
+        cmocka_unit_test(small_angles_keep_their_digits),
+        cmocka_unit_test(dependent_vectors_are_refused),
+        cmocka_unit_test(order_violations_are_counted),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

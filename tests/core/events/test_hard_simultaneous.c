@@ -1,0 +1,282 @@
+/** Many events at one instant, beyond test_trajectory_ties.c: the triangular lattice, clusters that
+ * touch, contacts at the very end of an interval or of an epoch and while a cell's edge is crossed.
+ * None is lost, none is repeated for ever, and the log is the same however it is cut. */
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "prepared.h"
+#include "base/random.h"
+#include "twin.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* ---- however it is cut --------------------------------------------------------------------- */
+
+static void check_same_events(const hd_event_log *got, const hd_event_log *want)
+{
+    assert_int_equal(got->count, want->count);
+    for (size_t k = 0; k < got->count; k++) {
+        const hd_event *a = &got->event[k], *b = &want->event[k];
+        assert_true(a->i == b->i && a->j == b->j);
+        assert_memory_equal(a->n, b->n, sizeof a->n);
+        assert_memory_equal(a->p, b->p, sizeof a->p);
+        CHECK_CLOSE(a->t, b->t, 2.0 * DBL_EPSILON * want->duration);
+    }
+}
+
+/** Just before, at and just after each of the instants in the log. */
+static void check_cut_at_events(const hd_scene_def *def, const double *q, const double *p,
+                                const hd_event_log *whole)
+{
+    hd_trajectory *tr = started(def, q, p);
+    hd_event_log *log = new_log();
+    for (size_t k = 0; k < whole->count; k++) {
+        const double t = whole->event[k].t;
+        if (k > 0 && t == whole->event[k - 1].t) continue;
+        const double cut[] = {nextafter(t, 0.0), t, nextafter(t, INFINITY)};
+        for (int c = 0; c < 3; c++)
+            if (cut[c] >= hd_trajectory_time(tr)) CHECK_OK(hd_trajectory_extend(tr, log, cut[c]));
+    }
+    CHECK_OK(hd_trajectory_extend(tr, log, whole->duration));
+    check_same_events(log, whole);
+    hd_event_log_free(log);
+    hd_trajectory_free(tr);
+}
+
+/** Largest number of events of one instant; times of one instant are the same bits. */
+static long most_at_once(const hd_event_log *log)
+{
+    long most = 0, now = 0;
+    for (size_t k = 0; k < log->count; k++) {
+        now = k > 0 && log->event[k].t == log->event[k - 1].t ? now + 1 : 1;
+        if (now > most) most = now;
+    }
+    return most;
+}
+
+/** Ends, keeps energy, repeats, and is the twin's; returns most_at_once. A collision's rounding is
+ * a few eps of the momenta. */
+static long check_all(const hd_scene_def *def, const double *q, const double *p, double t_end)
+{
+    hd_trajectory *tr = started(def, q, p);
+    const double energy = hd_trajectory_kinetic_energy(tr);
+    CHECK_OK(
+        hd_trajectory_advance(tr, NULL, t_end)); /* without a log: for ever would fill memory */
+    const double events = (double)(hd_trajectory_collisions(tr) + hd_trajectory_wall_events(tr));
+    CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), energy, 8.0 * DBL_EPSILON * energy * events);
+    hd_event_log *log = log_of(def, q, p, t_end), *again = log_of(def, q, p, t_end);
+    assert_true((double)log->count == events && log->count == again->count);
+    assert_memory_equal(log->event, again->event, log->count * sizeof *log->event);
+    check_cut_at_events(def, q, p, log);
+    twin_compare(started(def, q, p), def, log->count / 2);
+    const long most = most_at_once(log);
+    hd_trajectory_free(tr);
+    hd_event_log_free(log);
+    hd_event_log_free(again);
+    return most;
+}
+
+/* ---- the triangular lattice ---------------------------------------------------------------- */
+
+enum { SIDE = 6, DISKS = SIDE * SIDE };
+
+static void alternate_rows(double p[2], int x, int y)
+{
+    (void)x;
+    p[0] = y % 2 ? -1.0 : 1.0;
+    p[1] = y % 2 ? -0.5 : 0.5;
+}
+
+static void three_directions(double p[2], int x, int y)
+{
+    const double angle = 2.0 * PI / 3.0 * ((x + y) % 3);
+    p[0] = cos(angle);
+    p[1] = sin(angle);
+}
+
+static void one_against_all(double p[2], int x, int y)
+{
+    p[0] = x == 0 && y == 0 ? 4.0 : 0.0;
+    p[1] = 0.0;
+}
+
+/** `margin` is what the box has to spare: without, disks that all touch could never move. */
+static void check_triangular(double spacing, double margin, hd_boundary boundary,
+                             void (*momentum)(double p[2], int x, int y))
+{
+    const double row = sqrt(0.75) * spacing;
+    const double lx = boundary == HD_PERIODIC ? SIDE * spacing : (SIDE - 0.5) * spacing + 1.0;
+    const double ly = boundary == HD_PERIODIC ? SIDE * row : (SIDE - 1) * row + 1.0;
+    const hd_scene_def def = scene_in_box(DISKS, lx + margin, ly + margin, boundary, boundary, 1);
+    double q[2 * DISKS], p[2 * DISKS];
+    for (int k = 0; k < DISKS; k++) {
+        const int x = k % SIDE, y = k / SIDE;
+        q[2 * k] = 0.5 + spacing * (x + 0.5 * (y % 2)) + 0.25 * margin;
+        q[2 * k + 1] = 0.5 + row * y + 0.25 * margin;
+        momentum(&p[2 * k], x, y);
+    }
+    const long most = check_all(&def, q, p, fmin(2.0, 20.0 * (spacing - 1.0 + margin)));
+    print_message("spacing 1 + %.0e, boundary %d: at most %ld at once\n", spacing - 1.0,
+                  (int)boundary, most);
+    assert_true(most <= DISKS * DISKS);
+}
+
+static void triangular_lattices(void **state)
+{
+    (void)state;
+    const struct {
+        double spacing, margin;
+    } tight[] = {{1.25, 1e-12}, {1.0 + 1e-6, 1e-12}, {1.0 + 1e-10, 1e-12}, {1.0, 1.0}};
+    for (int k = 0; k < 4; k++)
+        for (int b = HD_PERIODIC; b <= HD_REFLECTING; b++) {
+            const hd_boundary boundary = (hd_boundary)b;
+            check_triangular(tight[k].spacing, tight[k].margin, boundary, alternate_rows);
+            check_triangular(tight[k].spacing, tight[k].margin, boundary, three_directions);
+            check_triangular(tight[k].spacing, tight[k].margin, boundary, one_against_all);
+        }
+}
+
+/* ---- clusters that touch ------------------------------------------------------------------- */
+
+/** A disk and its six neighbours, all touching, turned; momenta all inwards, or on a coarse grid:
+ * many vanish, many are equal. */
+static void cluster(double turn, int inwards, hd_random *random, double q[14], double p[14])
+{
+    q[0] = q[1] = 4.0;
+    p[0] = p[1] = 0.0;
+    for (int k = 1; k < 7; k++) {
+        const double angle = turn + PI / 3.0 * k, u[2] = {cos(angle), sin(angle)};
+        for (int d = 0; d < 2; d++) {
+            q[2 * k + d] = q[d] + u[d];
+            p[2 * k + d] = inwards ? -u[d] : rint(2.0 * hd_random_symmetric(random));
+        }
+    }
+}
+
+static void touching_clusters_come_apart(void **state)
+{
+    (void)state;
+    enum { ROUNDS = HD_SANITIZED ? 200 : 4000 };
+    hd_random random = hd_random_seeded(11, 0);
+    long most = 0;
+    for (int round = 0; round < ROUNDS; round++) {
+        const hd_boundary boundary = round % 2 ? HD_REFLECTING : HD_PERIODIC;
+        const hd_scene_def def = scene_in_box(7, 8.0, 8.0, boundary, boundary, 1);
+        double q[14], p[14];
+        cluster(round % 8 ? hd_random_symmetric(&random) : 0.0, round % 4 < 2, &random, q, p);
+        const long now = check_all(&def, q, p, 6.0);
+        if (now > most) most = now;
+    }
+    print_message("%d clusters, at most %ld events at one instant\n", ROUNDS, most);
+    assert_true(most >= 6 && most <= 7 * 7);
+}
+
+/** A wedge: a disk that touches two others, which touch two walls and their corner. */
+static void a_wedge_in_a_corner_comes_apart(void **state)
+{
+    (void)state;
+    const hd_scene_def def = scene_in_box(4, 8.0, 8.0, HD_REFLECTING, HD_REFLECTING, 1);
+    const double q[] = {0.5, 0.5, 1.5, 0.5, 0.5, 1.5, 1.5, 1.5};
+    const double p[][8] = {{0, 0, 0, 0, 0, 0, -1, -1},      {-1, -1, -1, -1, -1, -1, -1, -1},
+                           {-1, 0, -1, 0, -1, 0, -1, 0},    {0, 0, -1, 0, 0, -1, -1, -1},
+                           {1, 1, -1, 0, 0, -1, -1, -1},    {-3, 1, -1, 1, 1, -1, -1, -0.5},
+                           {0, 0, 0, -1, -1, 0, -1, -1e-9}, {0, 0, 1e-12, -1, -1, 1e-12, -1, -1}};
+    for (size_t k = 0; k < sizeof p / sizeof *p; k++) {
+        const long most = check_all(&def, q, p[k], 20.0);
+        assert_true(most <= 4 * 6);
+    }
+}
+
+/* ---- ends of epochs and edges of cells ----------------------------------------------------- */
+
+static double epoch_of(const hd_scene_def *def, const double *q, const double *p)
+{
+    hd_trajectory *tr = started(def, q, p);
+    const double length = tr->epoch_length;
+    hd_trajectory_free(tr);
+    return length;
+}
+
+/** Each in just one of the two intervals, whichever the cut: that which begins there. */
+static void check_at(const hd_scene_def *def, const double *q, const double *p, double t,
+                     size_t events)
+{
+    for (int side = -1; side <= 1; side++) {
+        const double cut = side < 0 ? nextafter(t, 0.0) : side > 0 ? nextafter(t, INFINITY) : t;
+        hd_trajectory *tr = started(def, q, p);
+        hd_event_log *log = new_log();
+        CHECK_OK(hd_trajectory_advance(tr, log, cut));
+        assert_int_equal(log->count, side > 0 ? events : 0);
+        CHECK_OK(hd_trajectory_advance(tr, log, t + 0.25));
+        assert_int_equal(log->count, side > 0 ? 0 : events);
+        for (size_t k = 0; k < log->count; k++) assert_true(log->event[k].t == t - cut);
+        hd_event_log_free(log);
+        hd_trajectory_free(tr);
+    }
+    check_all(def, q, p, 4.0 * t);
+}
+
+/** A contact, two walls and a corner, all at the middle of the first epoch, and at the very end of
+ * the first, the second and the fourth. */
+static void events_at_the_end_of_an_epoch(void **state)
+{
+    (void)state;
+    const hd_scene_def def = scene_in_box(4, 8.0, 8.0, HD_REFLECTING, HD_REFLECTING, 1);
+    const double q[] = {3.0, 4.0, 5.0, 4.0, 1.0, 1.0, 1.0, 7.0}, rest[8] = {0};
+    const double epoch = epoch_of(&def, q, rest);
+    for (double t = 0.5 * epoch; t <= 4.0 * epoch; t *= 2.0) {
+        const double v = 0.5 / t; /* half a diameter until then; powers of two: exact */
+        const double p[] = {v, 0, -v, 0, -v, -v, -v, 0};
+        check_at(&def, q, p, t, 4);
+    }
+}
+
+/** Two disks cross an edge of cells, or the point where four meet, from both sides at the moment at
+ * which they touch; ten others wait above and below, two of them on an edge. */
+static void start_at(const double at[2], const double way[2], double side, double q[24],
+                     double p[24])
+{
+    const double length = hypot(way[0], way[1]);
+    for (int k = 2; k < 12; k++) {
+        q[2 * k] = k == 2 ? 6.0 : 1.2 + 2.4 * (k % 5);
+        q[2 * k + 1] = k < 7 ? 0.75 : 11.25;
+        p[2 * k] = 0.0;
+        p[2 * k + 1] = k == 2 ? 1.0 : 0.0;
+    }
+    for (int d = 0; d < 2; d++) { /* the first one's centre is on the edge at t = 1 */
+        q[d] = at[d] - way[d] * side;
+        q[2 + d] = at[d] + way[d] * side * (1.0 + 1.0 / length);
+        p[d] = way[d] * side;
+        p[2 + d] = -way[d] * side;
+    }
+}
+
+static void contacts_on_cell_edges(void **state)
+{
+    (void)state;
+    const hd_scene_def def = scene_in_box(12, 12.0, 12.0, HD_PERIODIC, HD_PERIODIC, 1);
+    const double way[][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}, {0.5, 1}};
+    hd_cells cells;
+    CHECK_OK(hd_cells_create(&cells, &def));
+    assert_true(cells.size[0] >= 4 && cells.size[1] >= 4);
+    const double at[] = {cells.line[0][2].bound[0], cells.line[1][2].bound[0]};
+    hd_cells_clear(&cells);
+    for (int k = 0; k < 5 * 2; k++) {
+        double q[24], p[24];
+        start_at(at, way[k / 2], k % 2 ? 1.0 : -1.0, q, p);
+        check_all(&def, q, p, 40.0);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(triangular_lattices),
+        cmocka_unit_test(touching_clusters_come_apart),
+        cmocka_unit_test(a_wedge_in_a_corner_comes_apart),
+        cmocka_unit_test(events_at_the_end_of_an_epoch),
+        cmocka_unit_test(contacts_on_cell_edges),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,434 @@
+/** Trajectory: creation, refusal, cutting into intervals, bookkeeping. */
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "scenes.h"
+#include "testing.h"
+
+/** Log times are sums of two rounded times of at most T. */
+static const double TIME_ROUNDING = 2.0 * DBL_EPSILON;
+
+enum { SCENES = 5 };
+static hd_scene_def scene_number(int k)
+{
+    const hd_scene_def scene[SCENES] = {
+        scene_of(2, 0.3, 1.0, HD_PERIODIC, HD_PERIODIC, 1),
+        scene_of(7, 0.5, 0.7, HD_REFLECTING, HD_REFLECTING, 2),
+        scene_of(30, 0.8, 0.867, HD_PERIODIC, HD_REFLECTING, 3),
+        scene_in_box(6, 9.0, 1.3, HD_PERIODIC, HD_PERIODIC, 4),
+        scene_of(100, 0.05, 0.1, HD_REFLECTING, HD_PERIODIC, 5),
+    };
+    return scene[k];
+}
+
+static hd_trajectory *created(const hd_scene_def *def)
+{
+    hd_trajectory *tr;
+    CHECK_OK(hd_trajectory_create(&tr, def));
+    return tr;
+}
+
+static hd_event_log *new_log(void)
+{
+    hd_event_log *log;
+    CHECK_OK(hd_event_log_create(&log));
+    return log;
+}
+
+/* ---- cutting into intervals ---------------------------------------------------------------- */
+
+typedef struct whole {
+    hd_scene_def def;
+    double t_end;
+    hd_event_log *log;
+    double *state; /**< q[2N], p[2N] at t_end */
+} whole;
+
+static double *state_of(const hd_trajectory *tr)
+{
+    const size_t n = (size_t)hd_trajectory_disks(tr);
+    double *state = calloc(4 * n, sizeof *state);
+    assert_non_null(state);
+    hd_trajectory_state(tr, state, state + 2 * n);
+    return state;
+}
+
+static whole whole_run(int scene, double events)
+{
+    whole w = {.def = scene_number(scene), .log = new_log()};
+    hd_trajectory *tr = created(&w.def);
+    w.t_end = events / hd_trajectory_collision_rate(tr);
+    CHECK_OK(hd_trajectory_advance(tr, w.log, w.t_end));
+    assert_true(w.log->count > 100);
+    w.state = state_of(tr);
+    hd_trajectory_free(tr);
+    return w;
+}
+
+static void whole_free(whole *w)
+{
+    hd_event_log_free(w->log);
+    free(w->state);
+}
+
+static void check_same_event(const hd_event *got, const hd_event *want, double t_begin)
+{
+    assert_int_equal(got->i, want->i);
+    assert_int_equal(got->j, want->j);
+    assert_memory_equal(got->n, want->n, sizeof got->n);
+    assert_memory_equal(got->p, want->p, sizeof got->p);
+    CHECK_CLOSE(t_begin + got->t, want->t, TIME_ROUNDING * want->t);
+}
+
+/** Runs w again, cut at cut[count] and its end, and expects the same events, times and state. */
+static void check_cut(const whole *w, const double *cut, size_t count)
+{
+    hd_trajectory *tr = created(&w->def);
+    hd_event_log *log = new_log();
+    size_t number = 0;
+    double t = 0;
+    for (size_t k = 0; k <= count; k++) {
+        const double t_next = k < count ? cut[k] : w->t_end;
+        CHECK_OK(hd_trajectory_advance(tr, log, t_next));
+        assert_true(hd_trajectory_time(tr) == t_next && log->duration == t_next - t);
+        for (size_t e = 0; e < log->count; e++) {
+            assert_true(number < w->log->count);
+            assert_true(log->event[e].t >= 0 && log->event[e].t <= log->duration);
+            check_same_event(&log->event[e], &w->log->event[number++], t);
+        }
+        t = t_next;
+    }
+    assert_int_equal(number, w->log->count);
+    double *state = state_of(tr);
+    assert_memory_equal(state, w->state, 4 * (size_t)w->def.disks * sizeof *state);
+    free(state);
+    hd_event_log_free(log);
+    hd_trajectory_free(tr);
+}
+
+static void check_equal_pieces(const whole *w, size_t pieces)
+{
+    double *cut = calloc(pieces, sizeof *cut);
+    assert_non_null(cut);
+    for (size_t k = 1; k < pieces; k++) cut[k - 1] = w->t_end * (double)k / (double)pieces;
+    check_cut(w, cut, pieces - 1);
+    free(cut);
+}
+
+static void intervals_of_equal_length(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SCENES; k++) {
+        whole w = whole_run(k, 3000.0);
+        check_equal_pieces(&w, 1);
+        check_equal_pieces(&w, 7);
+        check_equal_pieces(&w, 5000);
+        whole_free(&w);
+    }
+}
+
+/** None is lost or doubled. */
+static void intervals_cut_at_events(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SCENES; k++) {
+        whole w = whole_run(k, 2000.0);
+        double *cut = calloc(3 * w.log->count, sizeof *cut);
+        size_t count = 0;
+        assert_non_null(cut);
+        for (size_t e = 0; e < w.log->count; e += 3) {
+            const double t = w.log->event[e].t;
+            if (count && t < cut[count - 1]) continue; /* same instant as the event before */
+            cut[count++] = t;
+            if (e % 2) cut[count++] = t; /* an empty interval */
+            if (e % 4 == 0 && nextafter(t, 1e300) < w.t_end) cut[count++] = nextafter(t, 1e300);
+        }
+        check_cut(&w, cut, count);
+        free(cut);
+        whole_free(&w);
+    }
+}
+
+static void event_at_the_end_belongs_to_the_next_interval(void **state)
+{
+    (void)state;
+    const hd_scene_def def = scene_in_box(2, 8.0, 8.0, HD_PERIODIC, HD_PERIODIC, 1);
+    const double q[] = {2.0, 2.0, 5.0, 2.0}, p[] = {1, 0, -1, 0};
+    hd_trajectory *tr;
+    hd_event_log *log = new_log();
+    CHECK_OK(hd_trajectory_create_from(&tr, &def, q, p));
+    CHECK_OK(hd_trajectory_advance(tr, log, 1.0));
+    assert_int_equal(log->count, 0);
+    CHECK_OK(hd_trajectory_advance(tr, log, 1.0));
+    assert_true(log->count == 0 && log->duration == 0);
+    CHECK_OK(hd_trajectory_advance(tr, log, 1.5));
+    assert_true(log->count == 1 && log->event[0].t == 0);
+    hd_event_log_free(log);
+    hd_trajectory_free(tr);
+}
+
+/** Epochs are a power of two long: cuts at all multiples of every candidate, and a bit around them.
+ */
+static void intervals_cut_at_epochs(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SCENES; k++) {
+        whole w = whole_run(k, 200.0 * scene_number(k).disks);
+        for (double epoch = ldexp(1.0, -4); epoch < w.t_end; epoch *= 2.0) {
+            const size_t count = (size_t)(w.t_end / epoch);
+            double *cut = calloc(3 * count, sizeof *cut);
+            assert_non_null(cut);
+            for (size_t c = 0; c < count; c++) {
+                const double t = epoch * (double)(c + 1);
+                cut[3 * c] = nextafter(t, 0.0);
+                cut[3 * c + 1] = t;
+                cut[3 * c + 2] = fmin(nextafter(t, 1e300), w.t_end);
+            }
+            check_cut(&w, cut, 3 * count);
+            free(cut);
+        }
+        whole_free(&w);
+    }
+}
+
+static void log_may_be_left_out(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SCENES; k++) {
+        whole w = whole_run(k, 3000.0);
+        hd_trajectory *tr = created(&w.def);
+        CHECK_OK(hd_trajectory_advance(tr, NULL, 0.3 * w.t_end));
+        CHECK_OK(hd_trajectory_advance(tr, NULL, w.t_end));
+        double *end = state_of(tr);
+        assert_memory_equal(end, w.state, 4 * (size_t)w.def.disks * sizeof *end);
+        assert_true(hd_trajectory_collisions(tr) + hd_trajectory_wall_events(tr) == w.log->count);
+        free(end);
+        hd_trajectory_free(tr);
+        whole_free(&w);
+    }
+}
+
+static void log_times_never_fall(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SCENES; k++) {
+        whole w = whole_run(k, 20000.0);
+        for (size_t e = 1; e < w.log->count; e++)
+            assert_true(w.log->event[e].t >= w.log->event[e - 1].t);
+        assert_true(w.log->event[w.log->count - 1].t < w.t_end);
+        whole_free(&w);
+    }
+}
+
+static void check_unit_vectors(const hd_event *e)
+{
+    const double unit = 4.0 * DBL_EPSILON; /* sqrt, two quotients, squares */
+    CHECK_CLOSE(e->n[0] * e->n[0] + e->n[1] * e->n[1], 1.0, unit);
+    if (e->j >= 0)
+        assert_true(e->i < e->j && e->n[0] * e->p[0] + e->n[1] * e->p[1] < 0);
+    else
+        assert_true(e->j == HD_WALL_X ? e->n[0] == 1 && e->p[0] != 0
+                                      : e->n[1] == 1 && e->p[1] != 0);
+}
+
+static void events_are_approaching_unit_contacts(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SCENES; k++) {
+        whole w = whole_run(k, 20000.0);
+        for (size_t e = 0; e < w.log->count; e++) check_unit_vectors(&w.log->event[e]);
+        whole_free(&w);
+    }
+}
+
+/** Late times: an interval far from 0 is resolved as finely as the first one. */
+static void late_intervals_lose_nothing(void **state)
+{
+    (void)state;
+    const hd_scene_def def = scene_of(2, 0.01, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
+    hd_trajectory *tr = created(&def);
+    hd_event_log *log = new_log();
+    const double late = 1e6;
+    CHECK_OK(hd_trajectory_advance(tr, NULL, late));
+    CHECK_OK(hd_trajectory_advance(tr, log, late + 4096.0));
+    int fine = 0; /* times that a sum with 1e6 could not hold */
+    for (size_t e = 0; e < log->count; e++)
+        fine += (late + log->event[e].t) - late != log->event[e].t;
+    assert_true(log->count > 50 && fine > (int)log->count / 2);
+    hd_event_log_free(log);
+    hd_trajectory_free(tr);
+}
+
+/* ---- creation ------------------------------------------------------------------------------ */
+
+static void starts_at_rest_of_the_centre(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SCENES; k++) {
+        const hd_scene_def def = scene_number(k);
+        hd_trajectory *tr = created(&def);
+        double *q = state_of(tr), *p = q + 2 * def.disks, sum[2] = {0, 0};
+        const double rounding = 4.0 * DBL_EPSILON * def.disks;
+        for (int i = 0; i < 2 * def.disks; i++) sum[i % 2] += p[i];
+        for (int d = 0; d < 2; d++)
+            if (def.boundary[d] == HD_PERIODIC) CHECK_CLOSE(sum[d], 0.0, rounding);
+        CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def.disks, rounding);
+        assert_true(hd_trajectory_time(tr) == 0 && hd_trajectory_disks(tr) == def.disks);
+        assert_true(hd_trajectory_collisions(tr) == 0 && hd_trajectory_wall_events(tr) == 0);
+        hd_trajectory_free(tr);
+        free(q);
+    }
+}
+
+static void seeds_differ_and_repeat(void **state)
+{
+    (void)state;
+    const uint64_t seed[] = {1, 1, 2};
+    double *p[3];
+    for (int k = 0; k < 3; k++) {
+        hd_scene_def def = scene_number(2);
+        def.seed = seed[k];
+        hd_trajectory *tr = created(&def);
+        p[k] = state_of(tr);
+        hd_trajectory_free(tr);
+    }
+    const size_t bytes = 4 * (size_t)scene_number(2).disks * sizeof *p[0];
+    assert_memory_equal(p[0], p[1], bytes);
+    assert_memory_not_equal(p[0], p[2], bytes);
+    for (int k = 0; k < 3; k++) free(p[k]);
+}
+
+static hd_status start(hd_boundary boundary, const double q[4], const double p[4])
+{
+    const hd_scene_def def = scene_in_box(2, 8.0, 8.0, boundary, boundary, 1);
+    hd_trajectory *tr = (hd_trajectory *)&def; /* not NULL: a refusal must clear it */
+    const hd_status status = hd_trajectory_create_from(&tr, &def, q, p);
+    if (status != HD_OK) assert_null(tr);
+    hd_trajectory_free(tr);
+    return status;
+}
+
+static void prepared_states_are_checked(void **state)
+{
+    (void)state;
+    const double bad[] = {NAN, INFINITY, -INFINITY, -0.001, 8.001, 1e300};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
+        for (int c = 0; c < 4; c++) {
+            double q[] = {2.0, 2.0, 6.0, 6.0}, p[] = {1, 0, -1, 0};
+            assert_int_equal(start(HD_PERIODIC, q, p), HD_OK);
+            q[c] = bad[k];
+            assert_int_equal(start(HD_PERIODIC, q, p), HD_REFUSED);
+            q[c] = 2.0;
+            p[c] = bad[k];
+            if (!isfinite(bad[k])) assert_int_equal(start(HD_PERIODIC, q, p), HD_REFUSED);
+        }
+    const double in_wall[] = {0.4999, 2.0, 6.0, 6.0}, at_wall[] = {0.5, 7.5, 6.0, 6.0}, p[4] = {0};
+    assert_int_equal(start(HD_REFLECTING, in_wall, p), HD_REFUSED);
+    assert_int_equal(start(HD_PERIODIC, in_wall, p), HD_OK);
+    assert_int_equal(start(HD_REFLECTING, at_wall, p), HD_OK);
+}
+
+/** Depth 1e-9 is where rounding ends and overlap begins; also through an edge, and never a wall. */
+static void overlap_is_refused(void **state)
+{
+    (void)state;
+    const double p[4] = {0}, allowed = 1e-9;
+    const double touching[] = {2.0, 2.0, 3.0, 2.0},
+                 shallow[] = {2.0, 2.0, 3.0 - 0.9 * allowed, 2.0};
+    const double deep[] = {2.0, 2.0, 3.0 - 1.1 * allowed, 2.0}, same[] = {2.0, 2.0, 2.0, 2.0};
+    const double over_edge[] = {0.25, 2.0, 7.5, 2.0}, over_corner[] = {0.25, 0.25, 7.75, 7.75};
+    assert_int_equal(start(HD_PERIODIC, touching, p), HD_OK);
+    assert_int_equal(start(HD_PERIODIC, shallow, p), HD_OK);
+    assert_int_equal(start(HD_PERIODIC, deep, p), HD_OVERLAP);
+    assert_int_equal(start(HD_PERIODIC, same, p), HD_OVERLAP);
+    assert_int_equal(start(HD_PERIODIC, over_edge, p), HD_OVERLAP);
+    assert_int_equal(start(HD_PERIODIC, over_corner, p), HD_OVERLAP);
+    const double by_the_walls[] = {0.5, 2.0, 7.5, 2.0};
+    assert_int_equal(start(HD_REFLECTING, by_the_walls, p), HD_OK);
+}
+
+static void refused_scenes_give_nothing(void **state)
+{
+    (void)state;
+    hd_scene_def def = hd_scene_def_default();
+    hd_trajectory *tr = (hd_trajectory *)&def;
+    def.density = 1.15;
+    assert_int_equal(hd_trajectory_create(&tr, &def), HD_REFUSED);
+    assert_null(tr);
+    hd_trajectory_free(NULL);
+    hd_event_log_free(NULL);
+}
+
+static void resting_disks_rest(void **state)
+{
+    (void)state;
+    const hd_scene_def def = scene_in_box(2, 8.0, 8.0, HD_REFLECTING, HD_PERIODIC, 1);
+    const double q[] = {2.0, 2.0, 3.0, 2.0}, p[4] = {0};
+    double after[4];
+    hd_trajectory *tr;
+    CHECK_OK(hd_trajectory_create_from(&tr, &def, q, p));
+    CHECK_OK(hd_trajectory_advance(tr, NULL, 1000.0));
+    hd_trajectory_state(tr, after, NULL);
+    assert_memory_equal(after, q, sizeof q);
+    assert_true(hd_trajectory_collisions(tr) + hd_trajectory_wall_events(tr) == 0);
+    hd_trajectory_free(tr);
+}
+
+/* ---- memory and size ----------------------------------------------------------------------- */
+
+static void warm_log_allocates_nothing(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SCENES; k++) {
+        const hd_scene_def def = scene_number(k);
+        hd_trajectory *tr = created(&def);
+        hd_event_log *log = new_log();
+        const double piece = 1000.0 / hd_trajectory_collision_rate(tr);
+        double t = 4.0 * piece;
+        CHECK_OK(hd_trajectory_advance(tr, log, t)); /* grows to more than it will need */
+        const size_t allocations = hd_memory_allocations();
+        for (int n = 0; n < 100; n++) CHECK_OK(hd_trajectory_advance(tr, log, t += piece));
+        assert_int_equal(hd_memory_allocations(), allocations);
+        hd_event_log_free(log);
+        hd_trajectory_free(tr);
+    }
+}
+
+static void a_million_disks(void **state)
+{
+    (void)state;
+    const hd_scene_def def = scene_of(1000000, 0.7, 0.8, HD_PERIODIC, HD_REFLECTING, 1);
+    hd_trajectory *tr = created(&def);
+    hd_event_log *log = new_log();
+    const double t = 5e5 / hd_trajectory_collision_rate(tr);
+    CHECK_OK(hd_trajectory_advance(tr, log, t));
+    assert_true(hd_trajectory_overlap(tr) < 1e-9);
+    assert_true(hd_trajectory_collisions(tr) > 50000);
+    hd_event_log_free(log);
+    hd_trajectory_free(tr);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(intervals_of_equal_length),
+        cmocka_unit_test(intervals_cut_at_events),
+        cmocka_unit_test(intervals_cut_at_epochs),
+        cmocka_unit_test(log_may_be_left_out),
+        cmocka_unit_test(log_times_never_fall),
+        cmocka_unit_test(late_intervals_lose_nothing),
+        cmocka_unit_test(event_at_the_end_belongs_to_the_next_interval),
+        cmocka_unit_test(events_are_approaching_unit_contacts),
+        cmocka_unit_test(starts_at_rest_of_the_centre),
+        cmocka_unit_test(seeds_differ_and_repeat),
+        cmocka_unit_test(prepared_states_are_checked),
+        cmocka_unit_test(overlap_is_refused),
+        cmocka_unit_test(refused_scenes_give_nothing),
+        cmocka_unit_test(resting_disks_rest),
+        cmocka_unit_test(warm_log_allocates_nothing),
+        cmocka_unit_test(a_million_disks),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,151 @@
+/** Trajectory against kinetic theory, an exact mean and independent codes. Seeds are fixed, so that
+ * a tolerance of Z standard errors passes or fails for good. */
+#include <stdlib.h>
+
+#include "scenes.h"
+#include "testing.h"
+
+static const double Z = 3.0, PI = 3.14159265358979323846;
+static const double EQUILIBRATION = 2000.0; /* collisions per disk */
+
+enum { BLOCKS = 64 };
+
+typedef struct estimate {
+    double mean, error;
+} estimate;
+
+/** Mean of blocks long against the correlation time, and its standard error. */
+static estimate estimate_of(const double block[BLOCKS])
+{
+    double sum = 0, square = 0;
+    for (int k = 0; k < BLOCKS; k++) sum += block[k];
+    const double mean = sum / BLOCKS;
+    for (int k = 0; k < BLOCKS; k++) square += (block[k] - mean) * (block[k] - mean);
+    return (estimate){mean, sqrt(square / (BLOCKS - 1) / BLOCKS)};
+}
+
+static hd_trajectory *equilibrated(const hd_scene_def *def)
+{
+    hd_trajectory *tr;
+    CHECK_OK(hd_trajectory_create(&tr, def));
+    const double per_disk = 2.0 * hd_trajectory_collision_rate(tr) / def->disks;
+    CHECK_OK(hd_trajectory_advance(tr, NULL, EQUILIBRATION / per_disk));
+    return tr;
+}
+
+/** Collisions that a disk takes part in per time unit: 2 (pair events) / (N t). */
+static estimate rate_per_disk(const hd_scene_def *def, double pair_events)
+{
+    hd_trajectory *tr = equilibrated(def);
+    const double piece = pair_events / BLOCKS / hd_trajectory_collision_rate(tr);
+    double block[BLOCKS];
+    for (int k = 0; k < BLOCKS; k++) {
+        const uint64_t before = hd_trajectory_collisions(tr);
+        CHECK_OK(hd_trajectory_advance(tr, NULL, hd_trajectory_time(tr) + piece));
+        const double events = (double)(hd_trajectory_collisions(tr) - before);
+        block[k] = 2.0 * events / (def->disks * piece);
+    }
+    hd_trajectory_free(tr);
+    return estimate_of(block);
+}
+
+/** [T2] is good to a percent below freezing; 400 disks differ from infinitely many by 1/N. */
+static void enskog_with_henderson(void **state)
+{
+    (void)state;
+    const double density[] = {0.1, 0.3, 0.5, 0.7}, allowed = 0.01;
+    for (size_t k = 0; k < 4; k++) {
+        hd_scene_def def = scene_of(400, density[k], 0.9, HD_PERIODIC, HD_PERIODIC, 21);
+        const double eta = PI * density[k] / 4.0;
+        const double contact = (1.0 - 7.0 * eta / 16.0) / ((1.0 - eta) * (1.0 - eta));
+        const double enskog = 2.0 * sqrt(PI) * density[k] * contact;
+        const estimate rate = rate_per_disk(&def, 5e5);
+        assert_true(Z * rate.error < 0.5 * allowed * enskog); /* else the test says nothing */
+        CHECK_CLOSE(rate.mean, enskog, allowed * enskog);
+    }
+}
+
+/** The collision rate that the trajectory itself reports is this estimate, in pair events. */
+static void reported_estimate(void **state)
+{
+    (void)state;
+    const hd_scene_def def = scene_of(400, 0.5, 0.9, HD_PERIODIC, HD_PERIODIC, 21);
+    hd_trajectory *tr;
+    CHECK_OK(hd_trajectory_create(&tr, &def));
+    const estimate rate = rate_per_disk(&def, 1e5);
+    CHECK_CLOSE(hd_trajectory_collision_rate(tr), 200.0 * rate.mean, 0.01 * 200.0 * rate.mean);
+    hd_trajectory_free(tr);
+}
+
+/** Published with one standard error in the last digit: "collisions per disk and time" count the
+ * participations of a disk, two for each pair event (half of them would be off by a factor of
+ * two). */
+static void independent_codes(void **state)
+{
+    (void)state;
+    const struct {
+        int disks;
+        double density, rate, error;
+    } table[] = {{9, 0.5, 3.958, 0.002}, {16, 0.7, 9.220, 0.003}};
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        const hd_scene_def def = scene_of(table[k].disks, table[k].density, 0.8660, HD_PERIODIC,
+                                          HD_PERIODIC, 22);
+        const estimate rate = rate_per_disk(&def, HD_SANITIZED ? 2e5 : 1e6);
+        const double error = sqrt(rate.error * rate.error + table[k].error * table[k].error);
+        assert_true(error < 3e-3 * table[k].rate); /* a wrong rate would be seen */
+        CHECK_CLOSE(rate.mean, table[k].rate, Z * error);
+    }
+}
+
+/** Mean of |p.n| over collisions where both directions are periodic and the total momentum is zero:
+ * momenta are uniform on the sphere of radius R in M dimensions. */
+static double exact_mean_impact(int disks)
+{
+    const double radius = sqrt(2.0 * disks), dimensions = 2.0 * disks - 2.0;
+    return sqrt(2.0) * radius * sqrt(PI) / dimensions *
+           exp(lgamma(disks - 0.5) - lgamma(disks - 1.0));
+}
+
+static estimate mean_impact(const hd_scene_def *def, double pair_events)
+{
+    hd_trajectory *tr = equilibrated(def);
+    const double piece = pair_events / BLOCKS / hd_trajectory_collision_rate(tr);
+    double block[BLOCKS];
+    hd_event_log *log;
+    CHECK_OK(hd_event_log_create(&log));
+    for (int k = 0; k < BLOCKS; k++) {
+        CHECK_OK(hd_trajectory_advance(tr, log, hd_trajectory_time(tr) + piece));
+        double sum = 0;
+        for (size_t e = 0; e < log->count; e++)
+            sum -= log->event[e].n[0] * log->event[e].p[0] +
+                   log->event[e].n[1] * log->event[e].p[1];
+        block[k] = sum / (double)log->count;
+    }
+    hd_event_log_free(log);
+    hd_trajectory_free(tr);
+    return estimate_of(block);
+}
+
+static void impact_is_exact(void **state)
+{
+    (void)state;
+    const int disks[] = {16, 100, 16, 4};
+    const double density[] = {0.7, 0.5, 0.05, 0.3};
+    for (size_t k = 0; k < 4; k++) {
+        const hd_scene_def def = scene_of(disks[k], density[k], 1.0, HD_PERIODIC, HD_PERIODIC, 23);
+        const estimate impact = mean_impact(&def, HD_SANITIZED ? 1e5 : 5e5);
+        assert_true(impact.error < 5e-3 * impact.mean);
+        CHECK_CLOSE(impact.mean, exact_mean_impact(disks[k]), Z * impact.error);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(enskog_with_henderson),
+        cmocka_unit_test(reported_estimate),
+        cmocka_unit_test(independent_codes),
+        cmocka_unit_test(impact_is_exact),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

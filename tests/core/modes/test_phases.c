@@ -1,0 +1,381 @@
+/** Rates, errors and velocity of vectors that turn at a known rate. */
+#include <float.h>
+
+#include "testing.h"
+
+#include "rotating.h"
+#include "scenes.h"
+
+static const double PI = 3.14159265358979323846;
+static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
+
+/* ---- clean rotation ------------------------------------------------------------------------ */
+
+static void check_rate(int d, double omega)
+{
+    enum { SAMPLES = 60 };
+    rotating r = pairs(d);
+    for (int k = 0; k < SAMPLES; k++) turn(&r, omega);
+    assert_true(check_tracks(&r, omega * SAMPLES, SAMPLES, SAMPLES * ROUNDING) >= 2 * d);
+    for (int v = 0; v < 2 * d; v++)
+        for (int c = 0; c < d; c++) {
+            const hd_lp_phase *phase = phase_of(&r, v, c);
+            assert_int_equal(phase->step, r.step->subspace);
+            assert_int_equal(phase->col, r.step->col + v);
+            if (phase->state != HD_LP_TRACKED) continue;
+            CHECK_CLOSE(remainder(phase->phase - atan2(phase->b, phase->a), 2.0 * PI), 0.0,
+                        SAMPLES * ROUNDING);
+            CHECK_CLOSE(phase->omega, omega, ROUNDING);
+            CHECK_CLOSE(phase->omega_error, 0.0, ROUNDING);
+        }
+    rotating_free(&r);
+}
+
+static void a_rotation_gives_its_omega_back(void **state)
+{
+    (void)state;
+    const double rates[] = {0.0, 0.003, 0.4, 0.5 * PI, 0.9 * PI};
+    for (int d = 1; d <= 4; d *= 2)
+        for (int k = 0; k < 5; k++) {
+            check_rate(d, rates[k]);
+            check_rate(d, -rates[k]);
+        }
+}
+
+/** With dt of its own and disks that move; 16 samples before an error is known. */
+static void time_is_what_it_is_told(void **state)
+{
+    (void)state;
+    rotating r = pairs(2);
+    r.dt = 0.25;
+    for (int k = 1; k <= 40; k++) {
+        world_move(&r.w, 0.1);
+        turn(&r, -1.7);
+        const hd_lp_phase *phase = phase_of(&r, 0, 0);
+        CHECK_CLOSE(phase->time, 0.25 * k, ROUNDING);
+        CHECK_CLOSE(phase->omega, -1.7, 1e3 * ROUNDING / k);
+        assert_true(k < 16 ? phase->omega_error < 0 : phase->omega_error >= 0);
+    }
+    rotating_free(&r);
+}
+
+/** Vectors outside, pairs inside, all LP steps one after the other. */
+static void phases_lie_in_order(void **state)
+{
+    (void)state;
+    hd_scene_def def = scene_of(60, 0.5, 0.8, P, R, 9);
+    def.max_mode_number = 1;
+    world w = world_create(&def, 10, 1);
+    hd_phases *phases;
+    CHECK_OK(hd_phases_create(&phases, w.steps));
+    int index = 0;
+    for (int k = 0; k < hd_steps_count(w.steps); k++) {
+        const hd_step *step = hd_steps_step(w.steps, k);
+        if (step->kind != HD_MODE_LP) continue;
+        const hd_modulations m = hd_fields_subspace(w.fields, step->subspace)->modulations;
+        for (int v = 0; v < step->expected; v++)
+            for (int c = 0; c < m.count; c++) {
+                const hd_lp_phase *phase = hd_phases_phase(phases, index++);
+                assert_int_equal(phase->step, k);
+                assert_int_equal(phase->modulation, m.bits[c]);
+                assert_int_equal(phase->state, HD_LP_UNRESOLVED);
+                assert_int_equal(phase->col, -1);
+                assert_true(phase->omega_error < 0);
+            }
+    }
+    assert_int_equal(hd_phases_count(phases), index);
+    assert_int_equal(hd_phases_velocity(phases).phases, 0);
+    assert_true(hd_phases_velocity(phases).v_error < 0);
+    hd_phases_free(phases);
+    world_free(&w);
+}
+
+/* ---- noise --------------------------------------------------------------------------------- */
+
+typedef struct honesty {
+    double omega, velocity; /**< rms deviation over mean stated error */
+} honesty;
+
+/** Phases with white noise, or that diffuse by this much a sample; one for each vector. */
+static honesty honesty_of(double white, double diffusing, int samples)
+{
+    enum { REPEATS = 100 };
+    const double omega = 1.1;
+    rotating r = pairs(1);
+    double off[2] = {0.0}, stated[2] = {0.0}, before[VECTORS_MAX];
+    const double k = r.step->wave.number;
+    for (int repeat = 0; repeat < REPEATS; repeat++) {
+        begin(&r);
+        for (int m = 0; m < 2; m++) before[m] = 0.0;
+        for (int t = 0; t < samples; t++) {
+            for (int m = 0; m < 2; m++) {
+                const double now = white * random_normal(&r.w.random);
+                r.angle[m][0] += now - before[m] + diffusing * random_normal(&r.w.random);
+                before[m] = now;
+            }
+            turn(&r, omega);
+        }
+        const hd_lp_phase *phase = phase_of(&r, 0, 0);
+        const hd_velocity v = hd_phases_velocity(r.phases);
+        assert_int_equal(phase->state, HD_LP_TRACKED);
+        assert_int_equal(v.phases, 2);
+        off[0] += pow(phase->omega - omega, 2.0) / REPEATS;
+        off[1] += pow(v.v - omega / k, 2.0) / REPEATS;
+        stated[0] += phase->omega_error / REPEATS;
+        stated[1] += v.v_error / REPEATS;
+    }
+    rotating_free(&r);
+    return (honesty){sqrt(off[0]) / stated[0], sqrt(off[1]) / stated[1]};
+}
+
+/** Regression and error are made for it: 100 repetitions know the ratio to 7 %, 16 to 31 blocks
+ * their mean error to 3 % below; the samples beyond the last whole block to 10 %. */
+static void errors_of_diffusing_phases_are_honest(void **state)
+{
+    (void)state;
+    const int samples[] = {60, 400};
+    for (int k = 0; k < 2; k++) {
+        const honesty h = honesty_of(0.0, 0.2, samples[k]);
+        print_message("diffusing, %d samples: omega %.2f, v %.2f stated errors\n", samples[k],
+                      h.omega, h.velocity);
+        CHECK_CLOSE(h.omega, 1.0, 0.25);
+        CHECK_CLOSE(h.velocity, 1.0, 0.25);
+    }
+}
+
+/** Both at once, as LP modes do. */
+static void errors_of_trembling_phases_are_never_too_small(void **state)
+{
+    (void)state;
+    const honesty white = honesty_of(0.1, 0.0, 400), both = honesty_of(0.1, 0.1, 400);
+    print_message("white noise: omega %.3f, v %.3f stated errors; diffusing too: %.2f, %.2f\n",
+                  white.omega, white.velocity, both.omega, both.velocity);
+    /* regression over n samples: sqrt(12 / n); stated sqrt(1.2) sqrt(2 blocks) of 24 blocks. v: 1 /
+     * sqrt(24) */
+    CHECK_CLOSE(white.omega, 0.023, 0.25 * 0.023);
+    CHECK_CLOSE(white.velocity, 0.2, 0.4 * 0.2);
+    CHECK_CLOSE(both.omega, 0.9, 0.3);
+    CHECK_CLOSE(both.velocity, 0.9, 0.3);
+}
+
+/** Turns by 0.9 pi, and noise that would cross over without a prediction. */
+static void predictions_unwrap_far_turns(void **state)
+{
+    (void)state;
+    enum { SAMPLES = 400 };
+    const double omega = 0.9 * PI, noise = 0.15;
+    rotating r = pairs(2);
+    double before = 0.0;
+    for (int t = 0; t < SAMPLES; t++) {
+        const double now = t < 5 ? 0.0 : noise * random_normal(&r.w.random);
+        for (int m = 0; m < 4; m++)
+            for (int c = 0; c < 2; c++) r.angle[m][c] += now - before;
+        before = now;
+        turn(&r, omega);
+    }
+    assert_true(check_tracks(&r, omega * SAMPLES, SAMPLES, 5.0 * noise) >= 4);
+    CHECK_CLOSE(hd_phases_velocity(r.phases).v * r.step->wave.number, omega, 5.0 * noise / SAMPLES);
+    rotating_free(&r);
+}
+
+/* ---- velocity ------------------------------------------------------------------------------ */
+
+/** Vectors that turn the slower the more of them lies in the fields, as at low density: what their
+ * whole turns on average is less than their phases show. */
+static void strength_that_goes_with_the_rate_is_no_bias(void **state)
+{
+    (void)state;
+    enum { SAMPLES = 400 };
+    const double omega = 0.7, unevenness = 0.4;
+    rotating r = pairs(1);
+    for (int t = 0; t < SAMPLES; t++) {
+        for (int m = 0; m < 2; m++) {
+            const double phase = atan2(r.im[m][0], r.re[m][0]) + r.angle[m][0];
+            r.angle[m][0] += omega * unevenness * cos(2.0 * phase);
+            r.strength[m] = 0.75 - 0.2 * cos(2.0 * phase);
+        }
+        turn(&r, omega);
+    }
+    /* only the ends count, which what is no field turns by less than this */
+    const double end = 0.5, mean = 0.5 * (r.angle[0][0] + r.angle[1][0]) / SAMPLES;
+    CHECK_CLOSE(hd_phases_velocity(r.phases).v * r.step->wave.number, mean, 2.0 * end / SAMPLES);
+    rotating_free(&r);
+}
+
+/** LP(1,0) and LP(2,0) of a channel, at rates of their own. */
+typedef struct channel {
+    world w;
+    hd_phases *phases;
+    double k[2], phase[2][2], before[2];
+} channel;
+
+static channel channel_create(void)
+{
+    hd_scene_def def = scene_in_box(40, 50.0, 1.5, R, R, 9);
+    def.max_mode_number = 2;
+    channel ch = {.w = world_create(&def, 4, 1)};
+    const double exponents[4] = {1.6, 1.6, 0.8, 0.8};
+    CHECK_OK(hd_phases_create(&ch.phases, ch.w.steps));
+    for (int n = 0; n < 2; n++) {
+        const int s = world_subspace(&ch.w, HD_MODE_LP, n + 1, 0);
+        ch.k[n] = hd_fields_subspace(ch.w.fields, s)->wave.number;
+        world_span(&ch.w, 2 - 2 * n, &s, 1, 0.0);
+    }
+    world_look(&ch.w);
+    world_stretch(&ch.w, exponents);
+    hd_steps_find(ch.w.steps, ch.w.spectrum);
+    for (int n = 0; n < 2; n++) assert_true(world_step(&ch.w, HD_MODE_LP, n + 1, 0)->resolved);
+    return ch;
+}
+
+static void channel_free(channel *ch)
+{
+    hd_phases_free(ch->phases);
+    world_free(&ch->w);
+}
+
+static void channel_show(channel *ch, double time)
+{
+    for (int n = 0; n < 2; n++)
+        for (int m = 0; m < 2; m++) {
+            const int s = world_subspace(&ch->w, HD_MODE_LP, n + 1, 0);
+            const int column = hd_fields_subspace(ch->w.fields, s)->column;
+            double dq[ROWS_MAX] = {0.0};
+            world_add_field(&ch->w, dq, column, cos(ch->phase[n][m]));
+            world_add_field(&ch->w, dq, column + 1, sin(ch->phase[n][m]));
+            world_write_mode(&ch->w, 2 - 2 * n + m, dq, 1.0);
+        }
+    CHECK_OK(hd_modes_measure(ch->w.modes, hd_frame_columns(ch->w.frame), ch->w.q, ch->w.p));
+    hd_phases_add(ch->phases, ch->w.steps, time);
+}
+
+/** omega[n] of both vectors, diffusing together. */
+static hd_velocity velocity_of(channel *ch, const double omega[2], const double noise[2])
+{
+    hd_phases_clear(ch->phases);
+    for (int n = 0; n < 2; n++) ch->phase[n][0] = 0.0, ch->phase[n][1] = 0.5 * PI;
+    for (int t = 0; t < 200; t++) {
+        channel_show(ch, t);
+        for (int n = 0; n < 2; n++) {
+            const double step = omega[n] + noise[n] * random_normal(&ch->w.random);
+            for (int m = 0; m < 2; m++) ch->phase[n][m] += step;
+        }
+    }
+    return hd_phases_velocity(ch->phases);
+}
+
+/** Weighted: one step is known ten times as well as the other, so the mean is as good as that one.
+ */
+static void velocity_is_the_weighted_mean_of_the_steps(void **state)
+{
+    (void)state;
+    enum { REPEATS = 100 };
+    channel ch = channel_create();
+    const double v = 3.0, noise[2] = {0.015, 0.15};
+    double square = 0.0, stated = 0.0;
+    for (int repeat = 0; repeat < REPEATS; repeat++) {
+        const double sense = repeat % 2 ? -1.0 : 1.0; /* |omega| counts */
+        const double omega[2] = {sense * v * ch.k[0], v * ch.k[1]};
+        const hd_velocity got = velocity_of(&ch, omega, noise);
+        assert_int_equal(got.phases, 4);
+        square += pow(got.v - v, 2.0) / REPEATS;
+        stated += got.v_error / REPEATS;
+    }
+    const double best = noise[0] / sqrt(200.0) / ch.k[0];
+    print_message("rms deviation of v %.2f stated errors, %.2f of the better step's\n",
+                  sqrt(square) / stated, sqrt(square) / best);
+    /* 7 % from 100 repetitions, scatter between the two raises the error in a third of them */
+    CHECK_CLOSE(sqrt(square) / stated, 0.9, 0.25);
+    CHECK_CLOSE(sqrt(square) / best, 1.0, 0.25);
+    channel_free(&ch);
+}
+
+/** Steps that contradict each other: half of their distance. */
+static void contradictions_raise_the_error_of_the_velocity(void **state)
+{
+    (void)state;
+    channel ch = channel_create();
+    const double noise[2] = {0.001 * ch.k[0], 0.001 * ch.k[1]};
+    const double omega[2] = {3.0 * ch.k[0], 3.5 * ch.k[1]};
+    const hd_velocity v = velocity_of(&ch, omega, noise);
+    assert_true(v.v > 3.0 && v.v < 3.5);
+    /* weights w, 1 - w: error sqrt(w (1 - w)) * 0.5, w within a factor 2 or so of 1/2 */
+    assert_true(v.v_error > 0.4 * 0.5 && v.v_error < 0.51 * 0.5);
+    channel_free(&ch);
+}
+
+static void sampling_follows_the_largest_exponent(void **state)
+{
+    (void)state;
+    channel ch = channel_create();
+    CHECK_CLOSE(hd_phases_sampling(ch.w.steps), 0.75 * PI / (1.25 * 1.6), ROUNDING);
+    hd_spectrum_clear(ch.w.spectrum);
+    world_stretch(&ch.w, (const double[]){1.6, 1.6, 2.0, 2.0});
+    hd_steps_find(ch.w.steps, ch.w.spectrum);
+    CHECK_CLOSE(hd_phases_sampling(ch.w.steps), 0.75 * PI / (1.25 * 2.0), ROUNDING);
+    hd_steps_clear(ch.w.steps);
+    assert_true(isinf(hd_phases_sampling(ch.w.steps)));
+    channel_free(&ch);
+}
+
+/** LP(1,0) and LP(0,1) of a square box share their set and turn alike: each still has a rate. */
+static void shared_sets_turn_too(void **state)
+{
+    (void)state;
+    hd_scene_def def = scene_of(60, 0.5, 1.0, R, R, 9);
+    def.max_wave_number = hd_wave_component(&def, 0, 1);
+    world w = world_create(&def, 4, 1);
+    hd_phases *phases;
+    CHECK_OK(hd_phases_create(&phases, w.steps));
+    const int both[] = {world_subspace(&w, HD_MODE_LP, 1, 0), world_subspace(&w, HD_MODE_LP, 0, 1)};
+    double rotation[16], exponents[4] = {0.8, 0.8, 0.8, 0.8};
+    world_span(&w, 0, both, 2, 0.0);
+    world_look(&w);
+    world_stretch(&w, exponents);
+    hd_steps_find(w.steps, w.spectrum);
+    assert_int_equal(hd_steps_step(w.steps, both[0])->members, 2);
+    random_rotation(&w.random, rotation, 4);
+    for (int t = 0; t <= 50; t++) {
+        for (int m = 0; m < 4; m++) {
+            double dq[ROWS_MAX] = {0.0};
+            for (int s = 0; s < 2; s++) {
+                const int column = hd_fields_subspace(w.fields, both[s])->column;
+                const double *z = rotation + 4 * m + 2 * s, c = cos(0.6 * t), i = sin(0.6 * t);
+                world_add_field(&w, dq, column, c * z[0] - i * z[1]);
+                world_add_field(&w, dq, column + 1, i * z[0] + c * z[1]);
+            }
+            world_write_mode(&w, m, dq, 1.0);
+        }
+        CHECK_OK(hd_modes_measure(w.modes, hd_frame_columns(w.frame), w.q, w.p));
+        hd_phases_add(phases, w.steps, t);
+    }
+    /* other subspaces of the set overlap by N^(-1/2): coefficients are off by as much, at a fixed
+     * phase */
+    for (int k = 0; k < hd_phases_count(phases); k++) {
+        const hd_lp_phase *phase = hd_phases_phase(phases, k);
+        if (phase->state != HD_LP_TRACKED || phase->time < 50.0) continue;
+        CHECK_CLOSE(phase->omega, 0.6, 0.02);
+    }
+    CHECK_CLOSE(hd_phases_velocity(phases).v, 0.6 / hd_wave_component(&def, 0, 1), 0.1);
+    assert_true(hd_phases_velocity(phases).phases >= 2);
+    hd_phases_free(phases);
+    world_free(&w);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_rotation_gives_its_omega_back),
+        cmocka_unit_test(time_is_what_it_is_told),
+        cmocka_unit_test(phases_lie_in_order),
+        cmocka_unit_test(errors_of_diffusing_phases_are_honest),
+        cmocka_unit_test(errors_of_trembling_phases_are_never_too_small),
+        cmocka_unit_test(predictions_unwrap_far_turns),
+        cmocka_unit_test(strength_that_goes_with_the_rate_is_no_bias),
+        cmocka_unit_test(velocity_is_the_weighted_mean_of_the_steps),
+        cmocka_unit_test(contradictions_raise_the_error_of_the_velocity),
+        cmocka_unit_test(sampling_follows_the_largest_exponent),
+        cmocka_unit_test(shared_sets_turn_too),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

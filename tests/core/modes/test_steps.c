@@ -1,0 +1,334 @@
+/** Zero modes, conjugate steps, errors and changes of steps whose truth is known. */
+#include <float.h>
+
+#include "testing.h"
+
+#include "places.h"
+#include "scenes.h"
+
+static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
+
+enum { ALL_MAX = 4 * DISKS };
+
+/* ---- zero modes and the negative half ------------------------------------------------------ */
+
+static void write_zero(world *w, int col, int null, bool of_dp)
+{
+    double half[2][2 * DISKS] = {{0.0}};
+    world_add_field(w, half[of_dp], hd_fields_columns(w->fields) - HD_NULLS + null, 1.0);
+    world_write(w, col, half[0], half[1]);
+}
+
+/** Zeros begin at (4N - Z) / 2; the frame ends `carried` columns later. */
+static void check_partial_zeros(hd_boundary x, hd_boundary y, int zeros, int carried)
+{
+    hd_scene_def def = scene_of(20, 0.5, 0.8, x, y, 4);
+    def.max_mode_number = 1;
+    const int first = (4 * 20 - zeros) / 2;
+    static double exponents[ALL_MAX];
+    world w = world_create(&def, first + carried, 1);
+    exponents_falling(&w, exponents);
+    for (int k = 0; k < carried; k++) write_zero(&w, first + k, HD_NULL_P, k % 2);
+    world_find(&w, exponents);
+    const hd_step *step = hd_steps_step(w.steps, hd_fields_subspaces(w.fields));
+    assert_int_equal(step->kind, HD_MODE_ZERO);
+    assert_int_equal(step->expected, zeros);
+    if (carried == 0) {
+        check_unresolved(step);
+    } else {
+        assert_true(step->resolved);
+        assert_int_equal(step->col, first);
+        assert_int_equal(step->count, carried < zeros ? carried : zeros);
+        CHECK_CLOSE(step->multiplicity, step->count, ROUNDING);
+        assert_int_equal(hd_steps_of_vector(w.steps, first), hd_fields_subspaces(w.fields));
+    }
+    world_free(&w);
+}
+
+static void zero_modes_stand_in_the_middle(void **state)
+{
+    (void)state;
+    for (int carried = 0; carried < 3; carried++) {
+        check_partial_zeros(P, P, 6, carried);
+        check_partial_zeros(P, R, 4, carried);
+        check_partial_zeros(R, R, 2, carried);
+    }
+    check_partial_zeros(R, R, 2, 5);
+}
+
+static void noise_in_the_middle_is_no_zero_mode(void **state)
+{
+    (void)state;
+    hd_scene_def def = scene_of(20, 0.5, 0.8, P, P, 4);
+    def.max_mode_number = 1;
+    static double exponents[ALL_MAX];
+    world w = world_create(&def, 40, 1);
+    exponents_falling(&w, exponents);
+    world_find(&w, exponents);
+    check_unresolved(hd_steps_step(w.steps, hd_fields_subspaces(w.fields)));
+    write_zero(&w, 37, HD_NULL_X, true); /* one and a part of three */
+    write_zero(&w, 38, HD_NULL_Y, true);
+    hd_modes_clear(w.modes);
+    world_find(&w, exponents);
+    const hd_step *step = hd_steps_step(w.steps, hd_fields_subspaces(w.fields));
+    assert_true(step->resolved);
+    assert_int_equal(hd_steps_of_vector(w.steps, 38), hd_fields_subspaces(w.fields));
+    assert_int_equal(hd_steps_of_vector(w.steps, 39), -1);
+    world_free(&w);
+}
+
+/** Column that mirrors another. */
+static int mirror(int col, int count) { return 4 * DISKS - col - count; }
+
+static void all_vectors_have_conjugate_steps(void **state)
+{
+    (void)state;
+    const hd_scene_def def = scene_of_places(0.8);
+    static double exponents[ALL_MAX];
+    world w = world_create(&def, 4 * DISKS, 1);
+    for (int col = 0; col < 4 * DISKS; col++) exponents[col] = 3.0 - 6.0 * col / (4 * DISKS);
+    for (int k = 0; k < PLACES; k++) {
+        const int s = subspace_of(&w, k), count = places[k].count;
+        const int col = 137 + places[k].col; /* up to the zeros at 197 */
+        world_span(&w, col, &s, 1, 0.1);
+        world_span(&w, mirror(col, count), &s, 1, 0.1);
+        exponents_flat(exponents, col, count, places[k].exponent);
+        exponents_flat(exponents, mirror(col, count), count, -places[k].exponent);
+    }
+    for (int k = 0; k < 6; k++) write_zero(&w, 197 + k, k / 2, k % 2);
+    exponents_flat(exponents, 197, 6, 0.0);
+    world_find(&w, exponents);
+    assert_int_equal(hd_steps_count(w.steps), 2 * PLACES + 1);
+    for (int k = 0; k < PLACES; k++) {
+        const hd_step *step = step_of(&w, k);
+        const hd_step *conjugate = hd_steps_step(w.steps, subspace_of(&w, k) + PLACES + 1);
+        check_step(step, 137 + places[k].col, places[k].count, 1, places[k].exponent);
+        check_step(conjugate, mirror(step->col, step->count), step->count, 1, -places[k].exponent);
+        assert_true(conjugate->conjugate && !step->conjugate);
+        assert_int_equal(conjugate->subspace, step->subspace);
+        assert_int_equal(hd_steps_of_vector(w.steps, conjugate->col),
+                         subspace_of(&w, k) + PLACES + 1);
+    }
+    check_step(hd_steps_step(w.steps, PLACES), 197, 6, 1, 0.0);
+    CHECK_CLOSE(hd_steps_step(w.steps, PLACES)->multiplicity, 6.0, ROUNDING);
+    world_free(&w);
+}
+
+/* ---- errors -------------------------------------------------------------------------------- */
+
+enum { SAMPLES = 256, REPEATS = 10 };
+
+/** Relative size of the fluctuations of one sample. */
+static const double SIZE = 0.05;
+/** Errors of white noise come from 256 / 8 blocks, each known to 1 / sqrt(62); 6 steps, REPEATS
+ * times; 3 sigma. */
+static const double KNOWN_TO = 3.0 * 0.127 / 7.7;
+
+/** How the vectors of a step move: as one, each by itself, or every second against the others. */
+typedef enum motion { TOGETHER, ALONE, OPPOSITE } motion;
+
+static void add_samples(world *w, const double *exponents, motion how, int samples)
+{
+    double sample[VECTORS];
+    for (int t = 0; t < samples; t++) {
+        double move = 0.0;
+        for (int col = VECTORS - 1; col >= 0; col--) { /* all steps begin at an even column */
+            if (how == ALONE || col % 4 == 3) move = random_normal(&w->random);
+            const double sign = how == OPPOSITE && col % 2 ? -1.0 : 1.0;
+            sample[col] = exponents[col] * (1.0 + SIZE * sign * move);
+        }
+        world_stretch(w, sample);
+        hd_steps_sample(w->steps, w->spectrum, 1.0);
+    }
+    hd_steps_find(w->steps, w->spectrum);
+}
+
+/** Root mean square of (stated error) / (exponent SIZE / sqrt(samples)), over the steps and
+ * REPEATS. */
+static double error_of(motion how)
+{
+    double exponents[VECTORS], square = 0.0;
+    world w = steps_in_place(exponents, 0.0);
+    for (int repeat = 0; repeat < REPEATS; repeat++) {
+        hd_spectrum_clear(w.spectrum);
+        hd_steps_clear(w.steps);
+        world_find(&w, exponents);
+        hd_spectrum_clear(w.spectrum);
+        add_samples(&w, exponents, how, SAMPLES);
+        for (int k = 0; k < PLACES; k++) {
+            assert_true(step_of(&w, k)->resolved);
+            square += pow(step_of(&w, k)->std_error * sqrt(SAMPLES) / places[k].exponent, 2.0);
+        }
+    }
+    world_free(&w);
+    return sqrt(square / REPEATS / PLACES) / SIZE;
+}
+
+/** The error of a mean is known exactly; steps of 2, 4 and 8 vectors, which move in fours. */
+static void errors_know_what_moves_together(void **state)
+{
+    (void)state;
+    const double d[] = {2, 4, 2, 4, 4, 8};
+    double alone = 0.0, fours = 0.0;
+    for (int k = 0; k < PLACES; k++) {
+        alone += 1.0 / d[k] / PLACES;
+        fours += fmin(4.0 / d[k], 1.0) / PLACES;
+    }
+    const double got[] = {error_of(TOGETHER), error_of(ALONE), error_of(OPPOSITE)};
+    print_message("together %.3f of %.3f, alone %.3f of %.3f, opposite %.1e\n", got[0], sqrt(fours),
+                  got[1], sqrt(alone), got[2]);
+    CHECK_CLOSE(got[0], sqrt(fours), KNOWN_TO * sqrt(fours));
+    CHECK_CLOSE(got[1], sqrt(alone), KNOWN_TO * sqrt(alone));
+    CHECK_CLOSE(got[2], 0.0, ROUNDING);
+}
+
+static void few_samples_give_no_error(void **state)
+{
+    (void)state;
+    double exponents[VECTORS];
+    world w = steps_in_place(exponents, 0.0);
+    world_find(&w, exponents);
+    add_samples(&w, exponents, ALONE, 14); /* and the one of find */
+    assert_true(step_of(&w, 0)->std_error < 0);
+    add_samples(&w, exponents, ALONE, 1);
+    assert_true(step_of(&w, 0)->std_error > 0);
+    world_free(&w);
+}
+
+/** The mean over all times: blocks of its last quarter, scaled. The set is there all the time, only
+ * its blocks begin anew. */
+static void younger_sets_scale_their_errors(void **state)
+{
+    (void)state;
+    double exponents[VECTORS], square = 0.0;
+    world w = steps_in_place(exponents, 0.0);
+    for (int repeat = 0; repeat < REPEATS; repeat++) {
+        hd_spectrum_clear(w.spectrum);
+        for (int t = 0; t < 3 * SAMPLES; t++) world_stretch(&w, exponents);
+        hd_steps_clear(w.steps);
+        world_find(&w, exponents);
+        add_samples(&w, exponents, ALONE, SAMPLES);
+        for (int k = 0; k < PLACES; k++)
+            square += pow(step_of(&w, k)->std_error / places[k].exponent, 2.0) * places[k].count;
+    }
+    const double got = sqrt(square / REPEATS / PLACES);
+    const double want = SIZE / sqrt(SAMPLES) / 2.0; /* whole time 4 SAMPLES: as if all were alike */
+    CHECK_CLOSE(got, want, KNOWN_TO * want);
+    world_free(&w);
+}
+
+/** Until the blocks of the step know more: the mean error of its vectors. */
+static void new_sets_take_the_errors_of_their_vectors(void **state)
+{
+    (void)state;
+    double exponents[VECTORS], sample[VECTORS], sum = 0.0;
+    world w = steps_in_place(exponents, 0.0);
+    world_look(&w);
+    for (int t = 0; t < SAMPLES; t++) {
+        for (int col = 0; col < VECTORS; col++)
+            sample[col] = exponents[col] + 0.01 * (1 + col % 4) * random_normal(&w.random);
+        world_stretch(&w, sample);
+    }
+    hd_steps_find(w.steps, w.spectrum);
+    for (int col = 52; col < 56; col++) sum += hd_spectrum_std_error(w.spectrum, col) / 4.0;
+    CHECK_CLOSE(step_of(&w, 1)->std_error, sum, ROUNDING);
+    world_free(&w);
+}
+
+/* ---- changes ------------------------------------------------------------------------------- */
+
+static void changes_are_counted(void **state)
+{
+    (void)state;
+    double exponents[VECTORS];
+    world w = steps_in_place(exponents, 0.0);
+    const long begin = hd_steps_changes(w.steps);
+    hd_steps_find(w.steps, w.spectrum); /* nothing is known yet */
+    check_unresolved(step_of(&w, 0));
+    assert_int_equal(hd_steps_changes(w.steps), begin);
+    world_find(&w, exponents);
+    assert_int_equal(hd_steps_changes(w.steps), begin + 1);
+    world_find(&w, exponents);
+    assert_int_equal(hd_steps_changes(w.steps), begin + 1);
+    for (int col = 0; col < VECTORS; col++) exponents[col] *= 1.01; /* the same sets */
+    world_find(&w, exponents);
+    assert_int_equal(hd_steps_changes(w.steps), begin + 1);
+    exponents[52] *= 100.0; /* LP(1,0) is flat no more */
+    world_find(&w, exponents);
+    check_unresolved(step_of(&w, 1));
+    assert_int_equal(hd_steps_changes(w.steps), begin + 2);
+    world_free(&w);
+}
+
+/** Mean of the vectors' own errors: what is taken until the blocks of a step know. */
+static double error_of_vectors(const world *w, const hd_step *step)
+{
+    double sum = 0.0;
+    for (int v = 0; v < step->count; v++) sum += hd_spectrum_std_error(w->spectrum, step->col + v);
+    return sum / step->count;
+}
+
+/** Five of LP(1,1)'s eight vectors leave it and come back: its errors begin anew, those of the
+ * others do not. */
+static void changes_begin_the_errors_anew(void **state)
+{
+    (void)state;
+    double exponents[VECTORS];
+    world w = steps_in_place(exponents, 0.0);
+    world_find(&w, exponents);
+    add_samples(&w, exponents, ALONE, SAMPLES);
+    const double vectors = 0.2 * SIZE / sqrt(SAMPLES), before = step_of(&w, 0)->std_error;
+    assert_true(before < 1.2 * sqrt(0.5) * vectors); /* of the mean of two */
+    assert_true(step_of(&w, 5)->std_error < 0.5 * error_of_vectors(&w, step_of(&w, 5)));
+    for (int back = 0; back < 2; back++) {
+        for (int v = 0; v < 5; v++) world_turn(&w, 36 + v, 7 * v, back ? -1.3 : 1.3);
+        hd_modes_clear(w.modes);
+        world_look(&w);
+        hd_steps_find(w.steps, w.spectrum);
+        assert_int_equal(step_of(&w, 5)->resolved, back);
+    }
+    CHECK_CLOSE(step_of(&w, 0)->std_error, before, 0.01 * vectors); /* shares are 1 but for 1 % */
+    CHECK_CLOSE(step_of(&w, 5)->std_error, error_of_vectors(&w, step_of(&w, 5)), 0.01 * vectors);
+    world_free(&w);
+}
+
+static void clear_forgets_everything(void **state)
+{
+    (void)state;
+    double exponents[VECTORS];
+    world w = steps_in_place(exponents, 0.0);
+    world_find(&w, exponents);
+    for (int t = 0; t < 20; t++) {
+        world_stretch(&w, exponents);
+        hd_steps_sample(w.steps, w.spectrum, 1.0);
+    }
+    hd_steps_find(w.steps, w.spectrum);
+    assert_true(step_of(&w, 0)->std_error >= 0);
+    const long changes = hd_steps_changes(w.steps);
+    hd_steps_clear(w.steps);
+    assert_true(hd_steps_changes(w.steps) > changes);
+    for (int k = 0; k < hd_steps_count(w.steps); k++) check_unresolved(hd_steps_step(w.steps, k));
+    for (int col = 0; col < VECTORS; col++) assert_int_equal(hd_steps_of_vector(w.steps, col), -1);
+    hd_spectrum_clear(w.spectrum);
+    world_find(&w, exponents);
+    check_step(step_of(&w, 0), 58, 2, 1, 0.2);
+    assert_true(step_of(&w, 0)->std_error < 0);
+    world_free(&w);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(zero_modes_stand_in_the_middle),
+        cmocka_unit_test(noise_in_the_middle_is_no_zero_mode),
+        cmocka_unit_test(all_vectors_have_conjugate_steps),
+        cmocka_unit_test(errors_know_what_moves_together),
+        cmocka_unit_test(few_samples_give_no_error),
+        cmocka_unit_test(younger_sets_scale_their_errors),
+        cmocka_unit_test(new_sets_take_the_errors_of_their_vectors),
+        cmocka_unit_test(changes_are_counted),
+        cmocka_unit_test(changes_begin_the_errors_anew),
+        cmocka_unit_test(clear_forgets_everything),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,446 @@
+/** A run that is taken up again is the run that was not interrupted. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "testing.h"
+
+#include "kept.h"
+#include "run/run_state.h"
+
+static const char PATH[] = "checkpoint.test";
+
+/** What the wall clock says differs between two runs. */
+static bool of_the_clock(const char *name)
+{
+    return strncmp(name, "run wall", 8) == 0 || strcmp(name, "cost") == 0;
+}
+
+/** All arrays of both, but those. */
+static void expect_same_bytes(const bytes *a, const bytes *b)
+{
+    assert_int_equal(a->size, b->size);
+    for (size_t at = 0; at < a->size;) {
+        const char *name = a->data + at;
+        const size_t size = kept_array_size(name);
+        if (!of_the_clock(name) && memcmp(name, b->data + at, size) != 0)
+            fail_msg("%s differs", name);
+        at += size;
+    }
+}
+
+static void expect_same_phases(const hd_phases *a, const hd_phases *b)
+{
+    for (int k = 0; k < hd_phases_count(a); k++) {
+        const hd_lp_phase *x = hd_phases_phase(a, k), *y = hd_phases_phase(b, k);
+        assert_int_equal(x->state, y->state);
+        assert_int_equal(x->col, y->col);
+        CHECK_CLOSE(x->a, y->a, 0.0);
+        CHECK_CLOSE(x->b, y->b, 0.0);
+        CHECK_CLOSE(x->phase, y->phase, 0.0);
+        CHECK_CLOSE(x->omega, y->omega, 0.0);
+        CHECK_CLOSE(x->omega_error, y->omega_error, 0.0);
+        CHECK_CLOSE(x->time, y->time, 0.0);
+    }
+    CHECK_CLOSE(hd_phases_velocity(a).v, hd_phases_velocity(b).v, 0.0);
+}
+
+static void expect_same_doubles(const double *a, const double *b, int count)
+{
+    for (int k = 0; k < count; k++) CHECK_CLOSE(a[k], b[k], 0.0);
+}
+
+static void expect_same_modes(const hd_modes *a, const hd_modes *b)
+{
+    const int n = hd_modes_vectors(a);
+    for (int s = 0; s < hd_fields_subspaces(hd_modes_fields(a)); s++)
+        for (hd_weight w = HD_WEIGHT; w < HD_WEIGHTS; w++)
+            expect_same_doubles(hd_modes_snapshot(a, s, w), hd_modes_snapshot(b, s, w), n);
+    for (int c = 0; c < hd_fields_columns(hd_modes_fields(a)); c++)
+        expect_same_doubles(hd_modes_coefficients(a, c), hd_modes_coefficients(b, c), n);
+    expect_same_doubles(hd_modes_dq_norm(a), hd_modes_dq_norm(b), n);
+}
+
+static void expect_same_spectrum(const hd_spectrum *a, const hd_spectrum *b)
+{
+    for (int col = 0; col < hd_spectrum_vectors(a); col++) {
+        CHECK_CLOSE(hd_spectrum_local(a, col), hd_spectrum_local(b, col), 0.0);
+        CHECK_CLOSE(hd_spectrum_std_error(a, col), hd_spectrum_std_error(b, col), 0.0);
+    }
+}
+
+static void expect_same_steps(const hd_steps *a, const hd_steps *b)
+{
+    assert_int_equal(hd_steps_changes(a), hd_steps_changes(b));
+    for (int k = 0; k < hd_steps_count(a); k++) {
+        const hd_step *x = hd_steps_step(a, k), *y = hd_steps_step(b, k);
+        assert_int_equal(x->resolved, y->resolved);
+        assert_int_equal(x->col, y->col);
+        assert_int_equal(x->count, y->count);
+        assert_int_equal(x->set, y->set);
+        assert_int_equal(x->members, y->members);
+        CHECK_CLOSE(x->multiplicity, y->multiplicity, 0.0);
+        CHECK_CLOSE(x->exponent, y->exponent, 0.0);
+        CHECK_CLOSE(x->std_error, y->std_error, 0.0);
+    }
+}
+
+/** What is kept; and, of what nothing else depends on, what is read. */
+static void expect_same_state(hd_run *a, hd_run *b)
+{
+    if (hd_run_spectrum(a)) expect_same_spectrum(hd_run_spectrum(a), hd_run_spectrum(b));
+    if (hd_run_steps(a)) expect_same_steps(hd_run_steps(a), hd_run_steps(b));
+    assert_int_equal(hd_trajectory_wall_events(hd_run_trajectory(a)),
+                     hd_trajectory_wall_events(hd_run_trajectory(b)));
+    if (hd_run_modes(a)) expect_same_modes(hd_run_modes(a), hd_run_modes(b));
+    if (hd_run_phases(a)) expect_same_phases(hd_run_phases(a), hd_run_phases(b));
+    const bytes of_a = kept_bytes(a), of_b = kept_bytes(b);
+    expect_same_bytes(&of_a, &of_b);
+    free(of_a.data);
+    free(of_b.data);
+}
+
+/* ---- the run goes on ----------------------------------------------------------------------- */
+
+/** Stopped and taken up again every few steps, beside one that is left alone; both with steps no
+ * longer than `view`. */
+static void expect_uninterrupted_view(const hd_scene_def *def, int every, int least, double view)
+{
+    hd_run *alone = kept_run(def), *other = kept_run(def);
+    int times = 0, taken = 0;
+    hd_run_watch(alone, view, hd_run_vectors(alone));
+    do {
+        hd_run_watch(other, view, hd_run_vectors(other));
+        kept_steps(alone, every);
+        taken = kept_steps(other, every);
+        hd_run *resumed = kept_and_resumed(other, PATH, def);
+        hd_run_free(other);
+        other = resumed;
+        expect_same_state(alone, other);
+        times++;
+    } while (taken == every);
+    assert_int_equal(hd_run_stage(other), HD_FINISHED);
+    assert_true(times >= least);
+    hd_run_free(alone);
+    hd_run_free(other);
+}
+
+static void expect_uninterrupted(const hd_scene_def *def, int every, int least)
+{
+    expect_uninterrupted_view(def, every, least, INFINITY);
+}
+
+static void a_resumed_run_is_the_uninterrupted_one(void **state)
+{
+    (void)state;
+    hd_scene_def walls = kept_scene(24, 0.6, 0.5, HD_EXPONENTS_ALL, KEPT_ALL);
+    walls.boundary[0] = walls.boundary[1] = HD_REFLECTING;
+    hd_scene_def crowded = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE,
+                                      KEPT_ALL | HD_OBSERVE_FIELDS);
+    crowded.report_interval = 0.25;
+    crowded.threads = 2;
+    hd_scene_def looks = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL);
+    looks.report_interval = 0.1;
+    hd_scene_def rare = kept_scene(20, 0.05, 1.0, 3, 0);
+    rare.report_interval = 7.0;
+    const hd_scene_def few = kept_scene(2, 0.3, 1.0, HD_EXPONENTS_ALL, KEPT_ALL);
+    const hd_scene_def none = kept_scene(50, 0.7, 1.0, HD_EXPONENTS_NONE, 0);
+    expect_uninterrupted(&walls, 5, 8);
+    expect_uninterrupted(&crowded, 37, 4);
+    expect_uninterrupted(&looks, 7, 30);
+    expect_uninterrupted(&rare, 1, 5);
+    expect_uninterrupted(&few, 3, 10);
+    expect_uninterrupted(&none, 2, 10);
+}
+
+/** Also where a view has stopped it in the middle of a step that is planned. */
+static void a_run_that_is_looked_at_keeps_its_plan(void **state)
+{
+    (void)state;
+    const hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
+    const hd_scene_def none = kept_scene(50, 0.7, 1.0, HD_EXPONENTS_NONE, 0);
+    expect_uninterrupted_view(&def, 37, 100, 0.01);
+    expect_uninterrupted_view(&none, 37, 100, 0.01);
+}
+
+/** The states that the run above went through are not all the same kind: looks, tracked phases,
+ * found steps. */
+static void what_was_compared_was_there(void **state)
+{
+    (void)state;
+    hd_scene_def def = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL);
+    def.report_interval = 0.1;
+    hd_run *run = kept_run(&def);
+    kept_steps(run, 1000000);
+    int tracked = 0, resolved = 0;
+    const hd_phases *phases = hd_run_phases(run);
+    for (int k = 0; k < hd_phases_count(phases); k++)
+        tracked += hd_phases_phase(phases, k)->state == HD_LP_TRACKED;
+    for (int k = 0; k < hd_steps_count(hd_run_steps(run)); k++)
+        resolved += hd_steps_step(hd_run_steps(run), k)->resolved;
+    assert_true(hd_run_cost(run).looks > 0);
+    assert_true(tracked > 0);
+    assert_true(resolved > 0);
+    hd_run_free(run);
+}
+
+/** The log that waits for the next orthonormalisation is in the file. */
+static void pending_events_are_kept(void **state)
+{
+    (void)state;
+    hd_scene_def def = kept_scene(100, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
+    def.report_interval = 0.125;
+    hd_run *run = kept_run(&def);
+    while (hd_run_stage(run) != HD_FINISHED && run->log->count < 100) kept_steps(run, 1);
+    hd_run *resumed = kept_and_resumed(run, PATH, NULL);
+    assert_true(run->log->count >= 100);
+    assert_int_equal(resumed->log->count, run->log->count);
+    for (size_t k = 0; k < run->log->count; k++)
+        assert_memory_equal(&resumed->log->event[k], &run->log->event[k], sizeof(hd_event));
+    hd_run_free(run);
+    hd_run_free(resumed);
+}
+
+static void clocks_and_costs_go_on(void **state)
+{
+    (void)state;
+    const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL);
+    hd_run *run = kept_run(&def);
+    while (hd_run_stage(run) != HD_AVERAGING || hd_run_cost(run).error_bound == 0)
+        kept_steps(run, 1);
+    hd_run_observe(run, HD_OBSERVE_MODES);
+    run->cost.limit = HD_LIMIT_REPAIR;
+    const hd_cost before = hd_run_cost(run);
+    hd_run *resumed = kept_and_resumed(run, PATH, NULL);
+    const hd_cost after = hd_run_cost(resumed);
+    assert_true(before.orthonormalisations > 0);
+    assert_int_equal(after.orthonormalisations, before.orthonormalisations);
+    assert_int_equal(after.limit, before.limit);
+    CHECK_CLOSE(after.ortho, before.ortho, 0.0);
+    CHECK_CLOSE(after.progress, before.progress, 0.0);
+    CHECK_CLOSE(after.error_bound, before.error_bound, 0.0);
+    assert_true(after.wall >= before.wall);
+    /* seconds left over simulated time left, as over what was carried: wall time runs on */
+    assert_true(after.remaining >= before.remaining);
+    CHECK_CLOSE(resumed->clocks.frame_start_time, run->clocks.frame_start_time, 0.0);
+    assert_int_equal(resumed->observe, HD_OBSERVE_MODES);
+    hd_run_free(run);
+    hd_run_free(resumed);
+}
+
+/** The clock may have begun anew, less ago than the run has been going on. */
+static void the_time_left_is_known_after_a_restart(void **state)
+{
+    (void)state;
+    const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
+    hd_run *run = kept_run(&def);
+    while (hd_run_stage(run) != HD_AVERAGING) kept_steps(run, 1);
+    run->clocks.frame_started = -1000.0;
+    assert_true(hd_run_cost(run).remaining > 0.0);
+    hd_run *resumed = kept_and_resumed(run, PATH, NULL);
+    assert_true(hd_run_cost(resumed).remaining > 0.0);
+    kept_steps(resumed, 1000);
+    CHECK_CLOSE(resumed->clocks.frame_start_time, run->clocks.frame_start_time, 0.0);
+    hd_run_free(run);
+    hd_run_free(resumed);
+}
+
+/* ---- another duration ---------------------------------------------------------------------- */
+
+/** Rounding of two ways to cut the same time into intervals [T6]: the accuracy that the scene asks
+ * for. */
+static void a_finished_run_can_be_made_longer(void **state)
+{
+    (void)state;
+    hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL);
+    def.duration = 33.3;
+    hd_run *run = kept_run(&def);
+    kept_steps(run, 1000000);
+    hd_scene_def longer = def;
+    longer.duration = 80.0;
+    hd_run *resumed = kept_and_resumed(run, PATH, &longer), *once = kept_run(&longer);
+    assert_int_equal(hd_run_stage(resumed), HD_AVERAGING);
+    kept_steps(resumed, 1000000);
+    kept_steps(once, 1000000);
+    const hd_spectrum *a = hd_run_spectrum(resumed), *b = hd_run_spectrum(once);
+    CHECK_CLOSE(hd_spectrum_time(a), 80.0, 1e-9);
+    CHECK_CLOSE(hd_run_time(resumed), hd_run_time(once), 0.0);
+    for (int col = 0; col < hd_spectrum_vectors(a); col++)
+        CHECK_CLOSE(hd_spectrum_exponent(a, col), hd_spectrum_exponent(b, col), def.accuracy);
+    assert_int_equal(hd_trajectory_collisions(hd_run_trajectory(resumed)),
+                     hd_trajectory_collisions(hd_run_trajectory(once)));
+    hd_run_free(run);
+    hd_run_free(resumed);
+    hd_run_free(once);
+}
+
+/** At every moment of the averaging: what has been averaged, and hardly more, is a duration; what
+ * comes of it is a file that can be gone on from. */
+static void the_duration_can_end_at_once(void **state)
+{
+    (void)state;
+    static const double more[] = {0.0, 0.01, 0.1, 0.35, -1e-9};
+    const hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL);
+    hd_run *run = kept_run(&def);
+    for (int k = 0; kept_steps(run, 1) == 1; k++) {
+        if (hd_run_stage(run) != HD_AVERAGING || hd_run_time(run) == run->schedule.start) continue;
+        hd_scene_def shorter = def;
+        shorter.duration = hd_run_time(run) - run->schedule.start + more[k % 5];
+        hd_run *ended = kept_and_resumed(run, PATH, &shorter);
+        kept_steps(ended, 1000);
+        assert_int_equal(hd_run_stage(ended), HD_FINISHED);
+        hd_run_free(kept_and_resumed(ended, PATH, &def));
+        hd_run_free(ended);
+    }
+    hd_run_free(run);
+}
+
+/** A step of no length teaches nothing. */
+static void phases_too_short_for_the_time_to_move_are_kept(void **state)
+{
+    (void)state;
+    hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
+    def.equilibration = 100.0;
+    def.warmup = 1e-15;
+    def.duration = 2.0;
+    hd_run *run = kept_run(&def);
+    for (int taken = 1; taken == 1; taken = kept_steps(run, 1))
+        hd_run_free(kept_and_resumed(run, PATH, &def));
+    hd_run_free(run);
+}
+
+static void what_the_target_has_ended_stays_ended(void **state)
+{
+    (void)state;
+    hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
+    def.duration = 0.0;
+    def.target_std_error = 0.05;
+    hd_run *run = kept_run(&def);
+    kept_steps(run, 100000);
+    assert_int_equal(hd_run_stage(run), HD_FINISHED);
+    hd_run *again = kept_and_resumed(run, PATH, &def);
+    assert_int_equal(hd_run_stage(again), HD_FINISHED);
+    hd_run_free(again);
+    def.target_std_error = 0.04;
+    again = kept_and_resumed(run, PATH, &def);
+    assert_int_equal(hd_run_stage(again), HD_AVERAGING);
+    hd_run_free(again);
+    hd_run_free(run);
+}
+
+/** Turns of a thousandth of a sample say nothing about a velocity, and end no tracking. */
+static void an_end_that_cuts_a_sample_short_keeps_the_phases(void **state)
+{
+    (void)state;
+    hd_scene_def def = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL);
+    def.duration = 40.0;
+    hd_scene_def odd = def, longer = def;
+    odd.duration = 40.001;
+    longer.duration = 60.0;
+    hd_run *even = kept_run(&def), *cut = kept_run(&odd);
+    kept_steps(even, 100000);
+    kept_steps(cut, 100000);
+    const hd_velocity v = hd_phases_velocity(hd_run_phases(even));
+    assert_true(v.phases > 0);
+    CHECK_CLOSE(hd_phases_velocity(hd_run_phases(cut)).v, v.v, 0.1 * v.v_error);
+    hd_run *resumed = kept_and_resumed(cut, PATH, &longer);
+    kept_steps(resumed, 100000);
+    double longest = 0.0;
+    for (int k = 0; k < hd_phases_count(hd_run_phases(resumed)); k++)
+        longest = fmax(longest, hd_phases_phase(hd_run_phases(resumed), k)->time);
+    assert_true(longest > 30.0); /* it was not begun anew at 40 */
+    hd_run_free(even);
+    hd_run_free(cut);
+    hd_run_free(resumed);
+}
+
+static void expect_refused(const hd_scene_def *asked, hd_status expected, const char *word)
+{
+    hd_run *run;
+    char message[512] = "";
+    assert_int_equal(hd_run_resume(&run, PATH, asked, message, sizeof message), expected);
+    assert_null(run);
+    if (!strstr(message, word)) fail_msg("\"%s\" does not say \"%s\"", message, word);
+    assert_null(strchr(message, '\n'));
+}
+
+static void what_cannot_change_is_refused_by_name(void **state)
+{
+    (void)state;
+    const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL);
+    hd_run *run = kept_run(&def);
+    while (hd_run_stage(run) != HD_AVERAGING || hd_run_time(run) < 25.0) kept_steps(run, 1);
+    hd_run_free(kept_and_resumed(run, PATH, &def));
+#define EXPECT_REFUSED(field, value, word)                                                         \
+    do {                                                                                           \
+        hd_scene_def asked = def;                                                                  \
+        asked.field = (value);                                                                     \
+        expect_refused(&asked, HD_REFUSED, word);                                                  \
+    } while (0)
+    EXPECT_REFUSED(disks, 31, "disks");
+    EXPECT_REFUSED(density, 0.71, "density");
+    EXPECT_REFUSED(aspect, 0.9, "aspect");
+    EXPECT_REFUSED(boundary[0], HD_REFLECTING, "boundary_x");
+    EXPECT_REFUSED(boundary[1], HD_REFLECTING, "boundary_y");
+    EXPECT_REFUSED(seed, 8, "seed");
+    EXPECT_REFUSED(exponents, 5, "exponents");
+    EXPECT_REFUSED(equilibration, 4.0, "equilibration");
+    EXPECT_REFUSED(warmup, 4.0, "warmup");
+    EXPECT_REFUSED(interval, 0.5, "interval");
+    EXPECT_REFUSED(accuracy, 1e-7, "accuracy");
+    EXPECT_REFUSED(report_interval, 2.0, "report_interval");
+    EXPECT_REFUSED(max_wave_number, 1.5, "max_wave_number");
+    EXPECT_REFUSED(max_mode_number, 1, "max_mode_number");
+    EXPECT_REFUSED(observe, HD_OBSERVE_MODES, "observables");
+    EXPECT_REFUSED(duration, 0.5, "duration");
+#undef EXPECT_REFUSED
+    hd_scene_def free_to_change = def;
+    free_to_change.duration = 0.0;
+    free_to_change.target_std_error = 0.01;
+    free_to_change.threads = 2;
+    hd_run_free(kept_and_resumed(run, PATH, &free_to_change));
+    hd_run_free(run);
+}
+
+static void it_says_whose_it_is(void **state)
+{
+    (void)state;
+    hd_scene_def def = kept_scene(30, 0.7, 1.0, 4, KEPT_ALL);
+    def.max_mode_number = 1;
+    hd_run *run = kept_run(&def);
+    hd_checkpoint found;
+    char long_label[200] = "", message[512] = "";
+    kept_steps(run, 12);
+    memset(long_label, 'x', sizeof long_label - 1);
+    CHECK_OK(hd_run_save(run, PATH, long_label, message, sizeof message));
+    CHECK_OK(hd_checkpoint_read(&found, PATH, message, sizeof message));
+    assert_int_equal(strlen(found.label), HD_CHECKPOINT_LABEL - 1);
+    CHECK_OK(hd_run_save(run, PATH, KEPT_LABEL, message, sizeof message));
+    CHECK_OK(hd_checkpoint_read(&found, PATH, message, sizeof message));
+    assert_string_equal(found.label, KEPT_LABEL);
+    assert_int_equal(found.scene.disks, def.disks);
+    assert_int_equal(found.scene.exponents, def.exponents);
+    assert_int_equal(found.scene.max_mode_number, def.max_mode_number);
+    CHECK_CLOSE(found.scene.warmup, def.warmup, 0.0);
+    CHECK_CLOSE(found.time, hd_run_time(run), 0.0);
+    hd_run_free(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_resumed_run_is_the_uninterrupted_one),
+        cmocka_unit_test(a_run_that_is_looked_at_keeps_its_plan),
+        cmocka_unit_test(what_was_compared_was_there),
+        cmocka_unit_test(pending_events_are_kept),
+        cmocka_unit_test(clocks_and_costs_go_on),
+        cmocka_unit_test(the_time_left_is_known_after_a_restart),
+        cmocka_unit_test(a_finished_run_can_be_made_longer),
+        cmocka_unit_test(the_duration_can_end_at_once),
+        cmocka_unit_test(phases_too_short_for_the_time_to_move_are_kept),
+        cmocka_unit_test(what_the_target_has_ended_stays_ended),
+        cmocka_unit_test(an_end_that_cuts_a_sample_short_keeps_the_phases),
+        cmocka_unit_test(what_cannot_change_is_refused_by_name),
+        cmocka_unit_test(it_says_whose_it_is),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,191 @@
+/** Contents of a checkpoint that no run has, with a checksum that is right: refused, or survived.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "testing.h"
+
+#include "kept.h"
+#include "run/run_state.h"
+
+static hd_status status_of(const bytes *b, hd_run **run, char *message, size_t size)
+{
+    FILE *file = fmemopen(b->data, b->size, "rb");
+    hd_archive archive = hd_archive_reader(file, b->size);
+    const hd_status status = hd_run_read(run, &archive, NULL, message, size);
+    fclose(file);
+    return status;
+}
+
+/** Where an element of the first array of that name lies. */
+static char *element(const bytes *b, const char *name, size_t index)
+{
+    for (size_t at = 0; at < b->size; at += kept_array_size(b->data + at))
+        if (strcmp(b->data + at, name) == 0)
+            return b->data + at + KEPT_HEAD +
+                   index * kept_element_size(b->data + at + HD_ARCHIVE_NAME);
+    fail_msg("there is no %s", name);
+    return NULL;
+}
+
+typedef struct nonsense_case {
+    const char *array;
+    size_t index;
+    double real;  /**< to be put there, unless it is an integer */
+    long integer; /**< likewise */
+    const char *word;
+} nonsense_case;
+
+static void expect_nonsense_refused(const bytes *b, const nonsense_case *c)
+{
+    char message[512] = "", before[8], *at = element(b, c->array, c->index);
+    hd_run *run = NULL;
+    const int64_t integer = c->integer;
+    memcpy(before, at, sizeof before);
+    memcpy(at, c->real != 0 ? (const void *)&c->real : (const void *)&integer, sizeof before);
+    const hd_status status = status_of(b, &run, message, sizeof message);
+    if (status != HD_FILE_FAULT || run || !strstr(message, c->word))
+        fail_msg("%s[%zu]: %d, \"%s\" without \"%s\"", c->array, c->index, status, message,
+                 c->word);
+    memcpy(at, before, sizeof before);
+}
+
+/** Each of the conditions that is asked for, broken by itself. */
+static void contents_that_no_run_has_are_refused(void **state)
+{
+    (void)state;
+    hd_scene_def def = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL);
+    def.report_interval = 0.1;
+    hd_run *run = kept_run(&def), *again = NULL;
+    char message[512] = "";
+    while (hd_run_time(run) < 35.0 || run->log->count < 10) kept_steps(run, 1);
+    const bytes b = kept_bytes(run);
+    static const nonsense_case cases[] = {
+        {"scene disks", 0, 0, 61, "another array"},
+        {"scene disks", 0, 0, 1000000, "too short"},
+        {"scene disks", 0, 0, 1, "out of its range"},
+        {"scene density", 0, NAN, 0, "not finite"},
+        {"scene density", 0, 5.0, 0, "density"},
+        {"scene observe", 0, 0, 64, "out of its range"},
+        {"scene threads", 0, 0, 5000, "out of its range"},
+        {"run threads", 0, 0, 0, "out of its range"},
+        {"time", 0, 1.0, 0, "that of the disks"},
+        {"run observe", 0, 0, 9, "out of its range"},
+        {"run interval end", 0, 1e300, 0, "interval end"},
+        {"run interval end", 0, 1.0, 0, "interval end"},
+        {"run advance longest", 0, -1.0, 0, "advance longest"},
+        {"run advance begin", 0, 1e9, 0, "advance end"},
+        {"run advance end", 0, 1e9, 0, "advance end"},
+        {"run advance events", 0, 0, -1, "advance events"},
+        {"cost limit", 0, 0, 99, "cost limit"},
+        {"trajectory epoch start", 0, 1e9, 0, "epoch"},
+        {"trajectory q p t", 0, 1e3, 0, "cell"},
+        {"trajectory q p t", 2, 1.5, 0, "energy"},
+        {"trajectory q p t", 4, 1e9, 0, "ahead"},
+        {"trajectory wrap cell", 0, 0, 1000, "cell"},
+        {"trajectory wrap cell", 1, 0, 1000, "out of its range"},
+        {"schedule stage", 0, 0, 4, "out of its range"},
+        {"schedule start", 0, 1e9, 0, "schedule"},
+        {"schedule samples", 0, 0, 0, "schedule"},
+        {"schedule piece", 0, 0, 1000000, "make up a sample"},
+        {"interval last", 0, -1.0, 0, "interval"},
+        {"interval slope", 0, -1.0, 0, "interval"},
+        {"log duration", 0, 1e9, 0, "log duration"},
+        {"log count", 0, 0, 1000000000, "out of its range"},
+        {"log t n p", 0, 1e3, 0, "log"},
+        {"log i j", 0, 0, 60, "out of its range"},
+        {"log i j", 1, 0, 0, "no such disk"},
+        {"frame vectors", 5, INFINITY, 0, "not finite"},
+        {"spectrum time", 0, -1.0, 0, "spectrum time"},
+        {"blocks levels", 0, 0, 33, "out of its range"},
+        {"blocks count", 0, 0, 0, "out of its range"},
+        {"modes samples", 0, 0, -1, "out of its range"},
+        {"step col", 0, 0, 116, "vectors that it needs"},
+        {"step count", 0, 0, 1, "vectors that it needs"},
+        {"steps of vector", 0, 0, 1000, "out of its range"},
+        {"rotor count", 0, 0, 64, "rotor"},
+        {"rotor slots", 0, 0, 0, "out of its range"},
+        {"phase state", 0, 0, 4, "out of its range"},
+        {"phase col", 0, 0, 117, "out of its range"},
+    };
+    CHECK_OK(status_of(&b, &again, message, sizeof message));
+    hd_run_free(again);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        expect_nonsense_refused(&b, &cases[k]);
+    free(b.data);
+    hd_run_free(run);
+}
+
+/** At the end of a sample, where nothing is pending: found by tests/fuzz. */
+static void ends_of_samples_are_not_passed_twice(void **state)
+{
+    (void)state;
+    const hd_scene_def def = kept_scene(4, 0.3, 0.3, HD_EXPONENTS_ALL, 0);
+    hd_run *run = kept_run(&def), *again = NULL;
+    char message[512] = "";
+    while (hd_run_stage(run) < HD_AVERAGING || run->schedule.samples == 0 || run->log->duration > 0)
+        kept_steps(run, 1);
+    const bytes b = kept_bytes(run);
+    const nonsense_case backwards = {"log duration", 0, -1.0, 0, "log duration"};
+    const nonsense_case twice = {"schedule samples", 0, 0, run->schedule.samples - 1, "schedule"};
+    expect_nonsense_refused(&b, &backwards);
+    expect_nonsense_refused(&b, &twice);
+    const double endless = 1e300;
+    memcpy(element(&b, "run advance longest", 0), &endless, sizeof endless);
+    CHECK_OK(status_of(&b, &again, message, sizeof message));
+    assert_true(again->advance.longest <= hd_advance_bound(&again->advance, &again->scene));
+    free(b.data);
+    hd_run_free(again);
+    hd_run_free(run);
+}
+
+/** Each number of a file replaced by another one, with a checksum that is right: the run is
+ * refused, or goes on. */
+static void nonsense_is_survived(void **state)
+{
+    (void)state;
+    static const uint64_t nonsense[] = {0,
+                                        1,
+                                        5,
+                                        UINT64_MAX,
+                                        0x7ff8000000000000,
+                                        0x7ff0000000000000,
+                                        0x3ff0000000000000,
+                                        0x7fefffffffffffff,
+                                        0xc08f400000000000,
+                                        1 << 20};
+    const hd_scene_def def = kept_scene(4, 0.3, 0.3, HD_EXPONENTS_ALL, KEPT_ALL);
+    hd_run *run = kept_run(&def);
+    kept_steps(run, 60);
+    const bytes whole = kept_bytes(run);
+    hd_run_free(run);
+    long refused = 0, accepted = 0;
+    for (size_t at = 0; at + 8 <= whole.size; at += HD_SANITIZED ? 56 : 8)
+        for (size_t k = 0; k < sizeof nonsense / sizeof *nonsense; k++) {
+            char before[8], message[512] = "";
+            memcpy(before, whole.data + at, sizeof before);
+            memcpy(whole.data + at, &nonsense[k], sizeof before);
+            const hd_status status = status_of(&whole, &run, message, sizeof message);
+            assert_true(status == HD_OK || (!run && *message));
+            for (int step = 0; run && step < 20; step++)
+                if (hd_run_advance(run) != HD_OK) break;
+            accepted += status == HD_OK;
+            refused += status != HD_OK;
+            hd_run_free(run);
+            memcpy(whole.data + at, before, sizeof before);
+        }
+    assert_true(refused > accepted / 10 && accepted > refused / 10);
+    free(whole.data);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(contents_that_no_run_has_are_refused),
+        cmocka_unit_test(ends_of_samples_are_not_passed_twice),
+        cmocka_unit_test(nonsense_is_survived),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

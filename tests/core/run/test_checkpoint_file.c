@@ -1,0 +1,244 @@
+/** A checkpoint's file: whole, or refused with a line that says how it is not; written, or left as
+ * it was. */
+#define _POSIX_C_SOURCE 200809L
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "testing.h"
+
+#include "run/checkpoint_file.h"
+#include "kept.h"
+#include "run/run_state.h"
+
+static const char PATH[] = "checkpoint_file.test", PART[] = "checkpoint_file.test.part";
+
+/* ---- files that are not whole -------------------------------------------------------------- */
+
+static void expect_refused(const char *word)
+{
+    hd_run *run;
+    char message[512] = "";
+    assert_int_equal(hd_run_resume(&run, PATH, NULL, message, sizeof message), HD_FILE_FAULT);
+    assert_null(run);
+    if (!strstr(message, word)) fail_msg("\"%s\" does not say \"%s\"", message, word);
+    assert_null(strchr(message, '\n'));
+}
+
+static void file_write(const char *path, const char *data, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(data, 1, size, file), size);
+    fclose(file);
+}
+
+/** A small one: of two disks. */
+static bytes checkpoint_bytes(void)
+{
+    const hd_scene_def def = kept_scene(2, 0.3, 1.0, 1, 0);
+    hd_run *run = kept_run(&def);
+    char message[512] = "";
+    kept_steps(run, 15);
+    CHECK_OK(hd_run_save(run, PATH, KEPT_LABEL, message, sizeof message));
+    hd_run_free(run);
+    return kept_file(PATH);
+}
+
+static void a_truncated_file_is_refused(void **state)
+{
+    (void)state;
+    const bytes whole = checkpoint_bytes();
+    for (size_t size = whole.size; size-- > 0;) {
+        assert_int_equal(truncate(PATH, (off_t)size), 0);
+        expect_refused(size < 24 ? "no checkpoint" : "cut short");
+    }
+    free(whole.data);
+}
+
+/** The first 24 bytes say what the file is. */
+static void a_flipped_bit_is_noticed(void **state)
+{
+    (void)state;
+    const bytes whole = checkpoint_bytes();
+    const int fd = open(PATH, O_WRONLY);
+    for (size_t bit = 0; bit < 8 * whole.size; bit++) {
+        const size_t byte = bit / 8;
+        const char flipped = (char)(whole.data[byte] ^ 1 << bit % 8);
+        assert_int_equal(pwrite(fd, &flipped, 1, (off_t)byte), 1);
+        expect_refused(byte < 24 ? "no checkpoint" : "damaged");
+        assert_int_equal(pwrite(fd, &whole.data[byte], 1, (off_t)byte), 1);
+    }
+    close(fd);
+    free(whole.data);
+}
+
+static void what_is_no_checkpoint_is_refused(void **state)
+{
+    (void)state;
+    const bytes whole = checkpoint_bytes();
+    const char text[] = "disks: 780\ndensity: 0.8\naspect: 0.867\nboundary_x: periodic\nseed: 1\n";
+    file_write(PATH, text, sizeof text);
+    expect_refused("no checkpoint");
+    char *longer = malloc(whole.size + 1);
+    memcpy(longer, whole.data, whole.size);
+    longer[whole.size] = 0;
+    file_write(PATH, longer, whole.size + 1);
+    expect_refused("damaged");
+    free(longer);
+    free(whole.data);
+    remove(PATH);
+    expect_refused("No such file");
+    assert_int_equal(mkdir(PATH, 0755), 0);
+    expect_refused("no regular file");
+    rmdir(PATH);
+    assert_int_equal(mkfifo(PATH, 0644), 0);
+    expect_refused("no regular file");
+    remove(PATH);
+}
+
+/** As another hdlyap writes it: another format, and a head that is right. */
+static void expect_format_refused(uint32_t format, const char *word)
+{
+    const bytes whole = checkpoint_bytes();
+    memcpy(whole.data + 24, &format, sizeof format);
+    const uint32_t crc = hd_checkpoint_head_crc(whole.data);
+    memcpy(whole.data + 44, &crc, sizeof crc);
+    file_write(PATH, whole.data, whole.size);
+    expect_refused(word);
+    free(whole.data);
+}
+
+static void another_format_is_refused_as_such(void **state)
+{
+    (void)state;
+    expect_format_refused(HD_CHECKPOINT_FORMAT + 1, "a newer hdlyap");
+    expect_format_refused(HD_CHECKPOINT_FORMAT - 1, "an older hdlyap");
+}
+
+/* ---- files that cannot be written ---------------------------------------------------------- */
+
+static void expect_unwritable(hd_run *run, const char *path, const char *word)
+{
+    char message[512] = "";
+    assert_int_equal(hd_checkpoint_writable(path, message, sizeof message), HD_FILE_FAULT);
+    if (!strstr(message, word)) fail_msg("\"%s\" does not say \"%s\"", message, word);
+    assert_int_equal(hd_run_save(run, path, KEPT_LABEL, message, sizeof message), HD_FILE_FAULT);
+}
+
+static void what_cannot_be_written_is_named(void **state)
+{
+    (void)state;
+    const hd_scene_def def = kept_scene(4, 0.3, 1.0, 1, 0);
+    hd_run *run = kept_run(&def);
+    char message[512] = "", too_long[5000];
+    memset(too_long, 'a', sizeof too_long);
+    too_long[sizeof too_long - 1] = 0;
+    expect_unwritable(run, "", "No such file");
+    expect_unwritable(run, too_long, "too long");
+    expect_unwritable(run, "no/such/folder/file", "No such file");
+    expect_unwritable(run, ".", "no regular file");
+    expect_unwritable(run, "/dev/full", "no regular file");
+    assert_int_equal(symlink("somewhere", "checkpoint_file.link"), 0);
+    expect_unwritable(run, "checkpoint_file.link", "no regular file");
+    remove("checkpoint_file.link");
+    assert_int_equal(mkfifo(PART, 0644), 0);
+    expect_unwritable(run, PATH, "No such device");
+    remove(PART);
+    CHECK_OK(hd_checkpoint_writable(PATH, message, sizeof message));
+    assert_int_not_equal(access(PART, F_OK), 0);
+    hd_run_free(run);
+}
+
+/** A file may not become larger than a part of it: what is there stays, what was begun goes. */
+static void a_write_that_fails_leaves_the_file(void **state)
+{
+    (void)state;
+    const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
+    hd_run *run = kept_run(&def);
+    hd_run_free(kept_and_resumed(run, PATH, NULL));
+    const bytes before = kept_file(PATH);
+    struct rlimit limit, few;
+    char message[512] = "";
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
+    signal(SIGXFSZ, SIG_IGN);
+    kept_steps(run, 30);
+    for (size_t size = 0; size < before.size; size += 1 + before.size / 50) {
+        few = (struct rlimit){size, limit.rlim_max};
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &few), 0);
+        const hd_status status = hd_run_save(run, PATH, KEPT_LABEL, message, sizeof message);
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+        assert_int_equal(status, HD_FILE_FAULT);
+        assert_non_null(strstr(message, "File too large"));
+        assert_int_not_equal(access(PART, F_OK), 0);
+        const bytes after = kept_file(PATH);
+        assert_int_equal(after.size, before.size);
+        assert_memory_equal(after.data, before.data, before.size);
+        free(after.data);
+    }
+    free(before.data);
+    hd_run_free(run);
+}
+
+static void a_run_that_is_no_number_is_not_written(void **state)
+{
+    (void)state;
+    const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
+    hd_run *run = kept_run(&def);
+    hd_run_free(kept_and_resumed(run, PATH, NULL));
+    const bytes before = kept_file(PATH);
+    char message[512] = "";
+    hd_frame_data(run->frame)[17] = NAN;
+    assert_int_equal(hd_run_save(run, PATH, KEPT_LABEL, message, sizeof message), HD_NOT_FINITE);
+    assert_non_null(strstr(message, "frame vectors: a number is not finite"));
+    const bytes after = kept_file(PATH);
+    assert_int_equal(after.size, before.size);
+    assert_memory_equal(after.data, before.data, before.size);
+    free(before.data);
+    free(after.data);
+    hd_run_free(run);
+}
+
+/** While another process holds the part. */
+static void nobody_writes_into_anothers_part(void **state)
+{
+    (void)state;
+    int ready[2], done[2];
+    char byte = 0, message[512] = "";
+    hd_checkpoint_file file;
+    assert_int_equal(pipe(ready) | pipe(done), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        byte = hd_checkpoint_file_begin(&file, PATH, message, sizeof message) == HD_OK;
+        if (write(ready[1], &byte, 1) != 1 || read(done[0], &byte, 1) != 1) _exit(1);
+        _exit(0);
+    }
+    assert_int_equal(read(ready[0], &byte, 1), 1);
+    assert_int_equal(byte, 1);
+    assert_int_equal(hd_checkpoint_writable(PATH, message, sizeof message), HD_FILE_FAULT);
+    assert_non_null(strstr(message, "another process"));
+    assert_int_equal(write(done[1], &byte, 1), 1);
+    assert_int_equal(waitpid(child, NULL, 0), child);
+    CHECK_OK(hd_checkpoint_writable(PATH, message, sizeof message));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_truncated_file_is_refused),
+        cmocka_unit_test(a_flipped_bit_is_noticed),
+        cmocka_unit_test(what_is_no_checkpoint_is_refused),
+        cmocka_unit_test(another_format_is_refused_as_such),
+        cmocka_unit_test(what_cannot_be_written_is_named),
+        cmocka_unit_test(a_write_that_fails_leaves_the_file),
+        cmocka_unit_test(a_run_that_is_no_number_is_not_written),
+        cmocka_unit_test(nobody_writes_into_anothers_part),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,159 @@
+/** Only what a scene asks for has memory, and the loop asks for none: blocks and bytes, exactly. */
+#include "ledger.h"
+#include "scenes.h"
+#include "testing.h"
+
+#include "hdlyap/hdlyap.h"
+#include "runs.h"
+
+enum { DISKS = 100, HALF = 2 * DISKS - 3, EVERYTHING = 31 };
+
+static hd_scene_def small(int exponents, unsigned observe)
+{
+    hd_scene_def scene = scene_of(DISKS, 0.7, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
+    scene.exponents = exponents;
+    scene.observe = observe;
+    scene.equilibration = 5.0;
+    scene.warmup = 5.0;
+    scene.duration = 100.0;
+    scene.threads = 1;
+    return scene;
+}
+
+static void until(hd_run *run, double time)
+{
+    while (hd_run_time(run) < time && hd_run_stage(run) != HD_FINISHED)
+        CHECK_OK(hd_run_advance(run));
+}
+
+/** Blocks and bytes that a run holds when it is `time` old. */
+static ledger held(const hd_scene_def *scene, double time)
+{
+    const ledger before = ledger_now();
+    hd_run *run = created(scene);
+    until(run, time);
+    const ledger now = ledger_now();
+    hd_run_free(run);
+    assert_int_equal(ledger_now().live, before.live); /* all of it is given back */
+    return (ledger){.allocations = now.allocations - before.allocations,
+                    .live = now.live - before.live};
+}
+
+/** Bytes that a run begins with, more than the trajectory alone. */
+static double bytes_for(int exponents, unsigned observe)
+{
+    const hd_scene_def alone = small(HD_EXPONENTS_NONE, 0), with = small(exponents, observe);
+    return (double)held(&with, 0.0).live - (double)held(&alone, 0.0).live;
+}
+
+/** Disks, predictions, cells, queue and the run itself; and it never keeps a log. What is asked of
+ * a frame that is not there costs nothing either. */
+static void the_trajectory_alone_is_all_there_is(void **state)
+{
+    (void)state;
+    const size_t run_itself = 1000;
+    const hd_scene_def scene = small(HD_EXPONENTS_NONE, 0);
+    const ledger before = ledger_now();
+    hd_trajectory *trajectory;
+    CHECK_OK(hd_trajectory_create(&trajectory, &scene));
+    const size_t bytes = ledger_now().live - before.live;
+    const size_t blocks = ledger_now().allocations - before.allocations;
+    hd_trajectory_free(trajectory);
+    for (double time = 0.0; time <= 100.0; time += 50.0) {
+        const ledger run = held(&scene, time);
+        assert_int_equal(run.allocations, blocks + 1);
+        assert_in_range(run.live, bytes, bytes + run_itself);
+    }
+}
+
+/** A frame of n vectors: some copies of V, the Gram matrix, and what does not grow with n. */
+static void bytes_are_those_of_the_vectors_asked_for(void **state)
+{
+    (void)state;
+    const double copies = 4.0, rest = 20000.0, m = 4.0 * DISKS;
+    const double half = bytes_for(HD_EXPONENTS_POSITIVE, 0);
+    static const int wanted[] = {1, 2, 8, 10, 32, HALF};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++) {
+        const double bytes = bytes_for(wanted[k], 0);
+        const double n = 16.0 * ceil(wanted[k] / 16.0); /* whole blocks of columns */
+        print_message("%d vectors: %.0f bytes, %.4f of the half\n", wanted[k], bytes, bytes / half);
+        assert_true(bytes > 8.0 * m * wanted[k]);
+        assert_true(bytes <= copies * 8.0 * m * n + 8.0 * n * n + rest);
+    }
+    assert_true(bytes_for(1, 0) < 0.02 * half);
+    assert_true(bytes_for(10, 0) < 0.12 * half);
+}
+
+/** Each stage has memory of its own, and only if it is asked for. */
+static void stages_have_memory_when_asked_for(void **state)
+{
+    (void)state;
+    static const unsigned stages[] = {0, HD_OBSERVE_STEPS, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES};
+    double before = 0.0;
+    for (size_t k = 0; k < sizeof stages / sizeof *stages; k++) {
+        const double bytes = bytes_for(HD_EXPONENTS_POSITIVE, stages[k]);
+        print_message("stages %u: %.0f bytes\n", stages[k], bytes);
+        assert_true(bytes > before + 1000.0);
+        before = bytes;
+    }
+    CHECK_CLOSE(bytes_for(HD_EXPONENTS_POSITIVE, HD_OBSERVE_MODES),
+                bytes_for(HD_EXPONENTS_POSITIVE, HD_OBSERVE_STEPS), 0.0);
+    CHECK_CLOSE(bytes_for(HD_EXPONENTS_POSITIVE, EVERYTHING), before,
+                0.0); /* the rest is the caller's */
+}
+
+static void what_is_not_asked_for_is_not_there(void **state)
+{
+    (void)state;
+    for (int exponents = HD_EXPONENTS_POSITIVE; exponents <= 1; exponents++) {
+        const hd_scene_def scene = small(exponents, 0);
+        hd_run *run = created(&scene);
+        assert_int_equal(hd_run_frame(run) != NULL, exponents != HD_EXPONENTS_NONE);
+        assert_int_equal(hd_run_spectrum(run) != NULL, exponents != HD_EXPONENTS_NONE);
+        assert_null(hd_run_modes(run));
+        assert_null(hd_run_steps(run));
+        assert_null(hd_run_phases(run));
+        hd_run_free(run);
+    }
+}
+
+/** In each mode, once the log and its maps have grown to their size. */
+static void a_long_run_allocates_nothing(void **state)
+{
+    (void)state;
+    static const struct {
+        int exponents;
+        unsigned observe;
+    } modes[] = {{HD_EXPONENTS_NONE, 0},
+                 {1, 0},
+                 {10, 0},
+                 {HD_EXPONENTS_POSITIVE, 0},
+                 {HD_EXPONENTS_ALL, 0},
+                 {HD_EXPONENTS_POSITIVE, HD_OBSERVE_STEPS},
+                 {10, EVERYTHING},
+                 {HD_EXPONENTS_POSITIVE, EVERYTHING},
+                 {HD_EXPONENTS_ALL, EVERYTHING}};
+    for (size_t k = 0; k < 2 * (sizeof modes / sizeof *modes); k++) {
+        hd_scene_def scene = small(modes[k / 2].exponents, modes[k / 2].observe);
+        scene.boundary[0] = scene.boundary[1] = k % 2 ? HD_REFLECTING : HD_PERIODIC;
+        scene.disks = 40;
+        hd_run *run = created(&scene);
+        until(run, 30.0);
+        const size_t before = ledger_now().allocations;
+        until(run, HUGE_VAL);
+        assert_int_equal(ledger_now().allocations, before);
+        hd_run_free(run);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_trajectory_alone_is_all_there_is),
+        cmocka_unit_test(bytes_are_those_of_the_vectors_asked_for),
+        cmocka_unit_test(stages_have_memory_when_asked_for),
+        cmocka_unit_test(what_is_not_asked_for_is_not_there),
+        cmocka_unit_test(a_long_run_allocates_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,252 @@
+/** Few disks, square boxes, branches that cross, zeros in the middle: everything runs, nothing
+ * jumps. */
+#include "testing.h"
+
+#include "hdlyap/hdlyap.h"
+#include "published.h"
+#include "scenes.h"
+
+static const double PI = 3.14159265358979323846;
+static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
+
+static const unsigned EVERYTHING = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES |
+                                   HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO;
+
+/* ---- few disks ----------------------------------------------------------------------------- */
+
+typedef struct tally {
+    long runs, refused, numbers;
+} tally;
+
+/** Runs a scene with everything asked for, or sees it refused with a reason. */
+static void run_everything(const hd_scene_def *scene, tally *sum)
+{
+    char message[256] = "";
+    hd_run *run;
+    const hd_status status = hd_run_create(&run, scene, message, sizeof message);
+    if (status == HD_REFUSED) {
+        assert_true(message[0] != '\0');
+        sum->refused++;
+        return;
+    }
+    CHECK_OK(status);
+    while (hd_run_stage(run) != HD_FINISHED) {
+        CHECK_OK(hd_run_advance(run));
+        if (hd_run_report_due(run)) sum->numbers += check_published(run);
+    }
+    CHECK_CLOSE(hd_spectrum_time(hd_run_spectrum(run)), scene->duration, 1e-9 * scene->duration);
+    sum->runs++;
+    hd_run_free(run);
+}
+
+/** Every number of exponents, positive and all. */
+static void run_all_numbers(hd_scene_def scene, tally *sum)
+{
+    for (int exponents = HD_EXPONENTS_ALL; exponents <= 4 * scene.disks; exponents++) {
+        if (exponents == HD_EXPONENTS_NONE) continue;
+        scene.exponents = exponents;
+        run_everything(&scene, sum);
+    }
+}
+
+/** 2, 3 and 4 disks in a square box, in a channel and in between, behind all walls: none is
+ * refused. */
+static void few_disks_run_with_everything(void **state)
+{
+    (void)state;
+    static const double aspects[] = {1.0, 0.6, 0.15};
+    tally sum = {0};
+    for (int disks = 2; disks <= 4; disks++)
+        for (int boundary = 0; boundary < 4; boundary++)
+            for (int a = 0; a < 3; a++) {
+                hd_scene_def scene = scene_of(disks, 0.2, aspects[a], boundary & 1 ? R : P,
+                                              boundary & 2 ? R : P, 5);
+                scene.equilibration = 2.0;
+                scene.warmup = 3.0;
+                scene.duration = HD_SANITIZED ? 4.0 : 20.0;
+                scene.observe = EVERYTHING;
+                scene.threads = 1;
+                run_all_numbers(scene, &sum);
+            }
+    print_message("%ld runs published %ld numbers, %ld refused\n", sum.runs, sum.numbers,
+                  sum.refused);
+    assert_int_equal(sum.runs, 504);
+}
+
+/* ---- what does not jump -------------------------------------------------------------------- */
+
+/** One step as it was found first, and what became of it. */
+typedef struct history {
+    bool resolved;
+    int col, count, members;
+    long moves;         /**< reports at which it lay elsewhere, or was lost or found */
+    double least, most; /**< measured multiplicity over the expected one */
+} history;
+
+enum { STEPS_MAX = 64, TRACKS_MAX = 2048 };
+
+typedef struct watch {
+    history step[STEPS_MAX];
+    int resolved;
+    double time[TRACKS_MAX], phase[TRACKS_MAX];
+    double largest; /**< turn of any phase between two reports [rad] */
+    long turns;
+} watch;
+
+static void watch_begin(watch *w, const hd_steps *steps)
+{
+    *w = (watch){0};
+    assert_true(hd_steps_count(steps) <= STEPS_MAX);
+    for (int k = 0; k < hd_steps_count(steps); k++) {
+        const hd_step *step = hd_steps_step(steps, k);
+        w->step[k] = (history){step->resolved, step->col, step->count, step->members, 0, 1e9, 0.0};
+        w->resolved += step->resolved;
+    }
+    for (int t = 0; t < TRACKS_MAX; t++) w->time[t] = -1.0;
+}
+
+static void watch_steps(watch *w, const hd_steps *steps)
+{
+    for (int k = 0; k < hd_steps_count(steps); k++) {
+        const hd_step *step = hd_steps_step(steps, k);
+        history *h = &w->step[k];
+        const double part = step->multiplicity / step->expected;
+        h->moves += step->resolved != h->resolved || step->col != h->col || step->count != h->count;
+        h->resolved = step->resolved, h->col = step->col, h->count = step->count;
+        if (!step->resolved) continue;
+        h->least = fmin(h->least, part);
+        h->most = fmax(h->most, part);
+    }
+}
+
+/** Tracks that went on since the last look, by one sample. */
+static void watch_phases(watch *w, const hd_phases *phases)
+{
+    assert_true(hd_phases_count(phases) <= TRACKS_MAX);
+    for (int t = 0; t < hd_phases_count(phases); t++) {
+        const hd_lp_phase *phase = hd_phases_phase(phases, t);
+        const bool known = phase->state == HD_LP_TRACKED;
+        if (known && w->time[t] >= 0 && phase->time > w->time[t]) {
+            w->largest = fmax(w->largest, fabs(phase->phase - w->phase[t]));
+            w->turns++;
+        }
+        w->time[t] = known ? phase->time : -1.0;
+        w->phase[t] = phase->phase;
+    }
+}
+
+/** Averages for `settling`, then watches to the end. */
+static void watch_run(watch *w, const hd_scene_def *scene, double settling)
+{
+    hd_run *run = NULL;
+    bool begun = false;
+    CHECK_OK(hd_run_create(&run, scene, NULL, 0));
+    while (hd_run_stage(run) != HD_FINISHED) {
+        CHECK_OK(hd_run_advance(run));
+        if (!hd_run_report_due(run) || hd_spectrum_time(hd_run_spectrum(run)) < settling) continue;
+        if (!begun) watch_begin(w, hd_run_steps(run));
+        begun = true;
+        watch_steps(w, hd_run_steps(run));
+        watch_phases(w, hd_run_phases(run));
+    }
+    check_published(run);
+    hd_run_free(run);
+}
+
+/** Steps lie elsewhere, or are lost or found, at no more than `moves` reports. Where sets are
+ * shared fields overlap by N^(-1/2): multiplicities stay within a quarter above what is expected,
+ * and above the threshold of a half. */
+static void check_watch(const watch *w, const char *name, int resolved, long moves)
+{
+    long moved = 0;
+    double least = 1e9, most = 0.0;
+    for (int k = 0; k < STEPS_MAX; k++) {
+        moved += w->step[k].moves;
+        if (w->step[k].most == 0) continue;
+        least = fmin(least, w->step[k].least);
+        most = fmax(most, w->step[k].most);
+    }
+    print_message(
+        "%s: %d steps resolved, %ld moves, multiplicity %.2f to %.2f of what is expected, %ld "
+        "turns of up to %.2f rad\n",
+        name, w->resolved, moved, least, most, w->turns, w->largest);
+    assert_true(w->resolved >= resolved);
+    assert_true(moved <= moves);
+    assert_true(least >= 0.5 && most <= 1.25);
+    assert_true(w->turns > 100);
+    assert_true(w->largest < PI);
+}
+
+static hd_scene_def watched(int disks, double density, double aspect, hd_boundary x, hd_boundary y)
+{
+    hd_scene_def scene = scene_of(disks, density, aspect, x, y, 1);
+    scene.equilibration = 50.0;
+    scene.warmup = 200.0;
+    scene.duration = HD_SANITIZED ? 200.0 : 300.0;
+    scene.report_interval = 0.25; /* one sample of the phases per report */
+    scene.observe = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
+    scene.max_mode_number = 1;
+    scene.threads = 1;
+    return scene;
+}
+
+/** A step is lost and found, or moves, at two of 800 looks at most. */
+static const long MOVES = 2;
+
+static void watch_scene(const hd_scene_def *scene, const char *name, int resolved, watch *w)
+{
+    watch_run(w, scene, 100.0);
+    check_watch(w, name, resolved, MOVES);
+}
+
+/** T and LP coincide, as LP(1,0) and LP(0,1) do: five vectors of three steps. */
+static void a_square_box_keeps_its_steps(void **state)
+{
+    (void)state;
+    static watch w;
+    const hd_scene_def apart = watched(100, 0.7, 1.0, R, R),
+                       crossing = watched(100, 0.8, 1.0, R, R);
+    watch_scene(&apart, "square box", 3, &w);
+    assert_int_equal(w.step[1].members, 2);
+    assert_int_equal(w.step[1].count, 4);
+    watch_scene(&crossing, "square box, T(1,1) with LP(1,0) and LP(0,1)", 3, &w);
+    assert_int_equal(w.step[2].members, 3);
+    assert_int_equal(w.step[2].count, 5);
+}
+
+/** T(1,1) and LP(0,1) alone, at c_T |k| = c_L |k| by accident. */
+static void an_accidental_crossing_keeps_its_steps(void **state)
+{
+    (void)state;
+    static watch w;
+    const hd_scene_def scene = watched(100, 0.8, 0.9, R, R);
+    watch_scene(&scene, "crossing", 3, &w);
+    assert_int_equal(w.step[1].members, 2);
+    assert_int_equal(w.step[1].count, 3);
+}
+
+/** Six zeros between the halves, which separate like ln(t) / t: they stay where they are. */
+static void zeros_in_the_middle_stay_there(void **state)
+{
+    (void)state;
+    static watch w;
+    hd_scene_def scene = watched(36, 0.5, 0.03125, P, P);
+    scene.exponents = HD_EXPONENTS_ALL;
+    watch_scene(&scene, "all vectors", 4, &w);
+    assert_int_equal(w.step[2].col, 4 * 36 / 2 - 3);
+    assert_int_equal(w.step[2].count, 6);
+    assert_int_equal(w.step[2].moves, 0);
+    CHECK_CLOSE(w.step[2].least, 1.0, 1e-6); /* orthogonality of a measured state */
+    CHECK_CLOSE(w.step[2].most, 1.0, 1e-6);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(few_disks_run_with_everything),
+        cmocka_unit_test(a_square_box_keeps_its_steps),
+        cmocka_unit_test(an_accidental_crossing_keeps_its_steps),
+        cmocka_unit_test(zeros_in_the_middle_stay_there),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

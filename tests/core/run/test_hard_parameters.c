@@ -1,0 +1,366 @@
+/** Ten thousand random scenes, possible and impossible: each runs, or is refused by the name of a
+ * parameter. */
+#include <float.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "hdlyap/run.h"
+#include "base/random.h"
+#include "scenes.h"
+#include "testing.h"
+
+enum { SETS = HD_SANITIZED ? 2000 : 10000, LINE = 256 };
+
+/** A run is followed for so long: the first steps are short, each at most four times the one
+ * before. */
+enum { STEPS_MAX = 60, EVENTS_ENOUGH = 3000 };
+/** Of one step: run.c aims at 2e5, from what the step before it met. */
+static const double EVENTS_OF_A_STEP_MAX = 1e6;
+/** Of more disks it is only asked whether they are refused: a frame would take gigabytes. */
+enum { DISKS_RUN = 200 };
+
+/** Relative error of N additions of products and of so many collisions, which conserve it to
+ * rounding each. */
+static const double ENERGY_ERROR = 1e4 * DBL_EPSILON;
+/** As stated by hd_trajectory_advance. */
+static const double OVERLAP_MAX = 1e-9;
+
+/* ---- random scenes ------------------------------------------------------------------------- */
+
+static double uniform(hd_random *random) { return 0.5 * (hd_random_symmetric(random) + 1.0); }
+
+static bool chance(hd_random *random, double probability) { return uniform(random) < probability; }
+
+static int one_of(hd_random *random, int count) { return (int)(uniform(random) * count); }
+
+static uint64_t bits(hd_random *random)
+{
+    const double two_32 = 4294967296.0;
+    const uint64_t high = (uint64_t)(uniform(random) * two_32);
+    return high << 32 | (uint64_t)(uniform(random) * two_32);
+}
+
+static double log_uniform(hd_random *random, double least, double most)
+{
+    const double x = exp(log(least) + uniform(random) * log(most / least));
+    return fmin(fmax(x, least), most);
+}
+
+typedef struct parameter {
+    const char *name;
+    size_t offset;
+    bool whole;
+    double least, most; /**< allowed if nothing else is wrong */
+    double low, high;   /**< usual */
+} parameter;
+
+#define OFFSET(member) offsetof(hd_scene_def, member)
+static const parameter PARAMETERS[] = {
+    {"disks", OFFSET(disks), true, 2, 1000000, 2, 30},
+    {"density", OFFSET(density), false, 1e-6, 1.1547, 0.01, 0.8},
+    {"aspect", OFFSET(aspect), false, 1e-6, 1e6, 0.1, 10},
+    {"boundary_x", OFFSET(boundary[0]), true, 0, 1, 0, 1},
+    {"boundary_y", OFFSET(boundary[1]), true, 0, 1, 0, 1},
+    {"exponents", OFFSET(exponents), true, -2, 4000000, -2, 8},
+    {"equilibration", OFFSET(equilibration), false, 0, 1e12, 1e-3, 1},
+    {"warmup", OFFSET(warmup), false, 0, 1e12, 1e-3, 1},
+    {"duration", OFFSET(duration), false, 0, 1e12, 0.1, 100},
+    {"target_std_error", OFFSET(target_std_error), false, 0, 1e12, 1e-3, 1},
+    {"interval", OFFSET(interval), false, 0, 1e12, 0.01, 10},
+    {"accuracy", OFFSET(accuracy), false, 1e-12, 1e-2, 1e-12, 1e-2},
+    {"report_interval", OFFSET(report_interval), false, 1e-6, 1e12, 0.1, 10},
+    {"max_wave_number", OFFSET(max_wave_number), false, 0, 1e12, 0.3, 3},
+    {"max_mode_number", OFFSET(max_mode_number), true, 0, 1000000, 0, 3},
+    {"observe", OFFSET(observe), true, 0, 31, 0, 31},
+    {"threads", OFFSET(threads), true, 0, 1024, 0, 2},
+};
+enum { PARAMETER_COUNT = sizeof PARAMETERS / sizeof *PARAMETERS };
+
+static void put(hd_scene_def *def, const parameter *p, double real, int whole)
+{
+    char *field = (char *)def + p->offset;
+    if (p->whole)
+        memcpy(field, &whole, sizeof whole);
+    else
+        memcpy(field, &real, sizeof real);
+}
+
+/** Within a range, its ends included; down to denormals where the range begins at 0. */
+static void put_within(hd_random *random, hd_scene_def *def, const parameter *p, double least,
+                       double most)
+{
+    const double floor_of = p->whole ? 1.0 : DBL_TRUE_MIN;
+    double x = log_uniform(random, fmax(least, floor_of), fmax(most, floor_of));
+    if (chance(random, 0.1)) x = least;
+    if (chance(random, 0.1)) x = most;
+    if (p->whole && least < 1 && chance(random, 0.5)) x = least + one_of(random, 1 - (int)least);
+    put(def, p, x, (int)x);
+}
+
+/** What no user means: not numbers, the ends of the types, just outside the range, any bits. */
+static void put_wild(hd_random *random, hd_scene_def *def, const parameter *p)
+{
+    const double reals[] = {NAN,
+                            INFINITY,
+                            -INFINITY,
+                            -1.0,
+                            -0.0,
+                            DBL_TRUE_MIN,
+                            DBL_MAX,
+                            -DBL_TRUE_MIN,
+                            DBL_MIN,
+                            p->least * (1.0 - 1e-9),
+                            p->most * (1.0 + 1e-9),
+                            -DBL_MAX,
+                            0.0};
+    const int wholes[] = {INT_MIN, INT_MAX, -1, -3, 0, 1, (int)p->most + 1, (int)p->least - 1};
+    const uint64_t any = bits(random);
+    double real;
+    memcpy(&real, &any, sizeof real);
+    if (chance(random, 0.7)) real = reals[one_of(random, sizeof reals / sizeof *reals)];
+    int whole = (int)(any & INT_MAX);
+    if (chance(random, 0.7)) whole = wholes[one_of(random, sizeof wholes / sizeof *wholes)];
+    put(def, p, real, whole);
+}
+
+/** Threads are a machine's, and large boxes take long: seldom. */
+static bool is_costly(const parameter *p)
+{
+    return p->offset == OFFSET(disks) || p->offset == OFFSET(threads);
+}
+
+/** A channel hardly wider than a disk, down to the last bit. */
+static void make_narrow(hd_random *random, hd_scene_def *def)
+{
+    const double width = 1.0 + log_uniform(random, DBL_EPSILON, 1.0);
+    def->aspect = width * width * def->density / def->disks;
+    if (chance(random, 0.5)) def->aspect = 1.0 / def->aspect;
+}
+
+/** Half of the scenes have wild values; the others are possible one by one, if not together. */
+static hd_scene_def drawn(hd_random *random)
+{
+    hd_scene_def def = hd_scene_def_default();
+    const bool wild = chance(random, 0.5);
+    for (int k = 0; k < PARAMETER_COUNT; k++) {
+        const parameter *p = &PARAMETERS[k];
+        if (p->offset == OFFSET(max_mode_number) && chance(random, 0.5)) continue;
+        if (p->offset == OFFSET(max_wave_number) && chance(random, 0.8)) continue;
+        put_within(random, &def, p, p->low, p->high);
+        if (chance(random, is_costly(p) ? 0.005 : 0.1))
+            put_within(random, &def, p, p->least, p->most);
+        if (wild && chance(random, 0.1)) put_wild(random, &def, p);
+    }
+    if (chance(random, 0.05)) make_narrow(random, &def);
+    def.seed = bits(random);
+    return def;
+}
+
+static void print_scene(int number, const hd_scene_def *def)
+{
+    print_error(
+        "set %d: disks %d density %a aspect %a boundaries %d %d seed %llu exponents %d\n"
+        "  equilibration %a warmup %a duration %a target %a interval %a accuracy %a\n"
+        "  report_interval %a observe %x max_wave_number %a max_mode_number %d threads %d\n",
+        number, def->disks, def->density, def->aspect, (int)def->boundary[0], (int)def->boundary[1],
+        (unsigned long long)def->seed, def->exponents, def->equilibration, def->warmup,
+        def->duration, def->target_std_error, def->interval, def->accuracy, def->report_interval,
+        def->observe, def->max_wave_number, def->max_mode_number, def->threads);
+}
+
+/* ---- what becomes of them ------------------------------------------------------------------ */
+
+/** Parameter that the line begins with; -1 if it is no line, or names none. */
+static int named(const char *line)
+{
+    if (strchr(line, '\n')) return -1;
+    for (int k = 0; k < PARAMETER_COUNT; k++) {
+        const size_t length = strlen(PARAMETERS[k].name);
+        if (strncmp(line, PARAMETERS[k].name, length) == 0 &&
+            strncmp(line + length, " = ", 3) == 0 && strstr(line, ": "))
+            return k;
+    }
+    return -1;
+}
+
+/** A shorter room holds the beginning of the same line, and nothing is written behind it. */
+static bool same_in_short_room(const hd_scene_def *def, const char *line, size_t size)
+{
+    char room[LINE];
+    memset(room, '#', sizeof room);
+    if (hd_scene_check(def, room, size) != HD_REFUSED) return false;
+    for (size_t k = size; k < sizeof room; k++)
+        if (room[k] != '#') return false;
+    if (size == 0) return true;
+    const size_t shown = strlen(line) < size ? strlen(line) : size - 1;
+    return memcmp(room, line, shown) == 0 && room[shown] == '\0';
+}
+
+static double events_of(const hd_run *run)
+{
+    const hd_trajectory *trajectory = hd_run_trajectory(run);
+    return (double)(hd_trajectory_collisions(trajectory) + hd_trajectory_wall_events(trajectory));
+}
+
+/** NULL if all went well, otherwise what did not. */
+static const char *step_once(hd_run *run)
+{
+    const double before = hd_run_time(run), events = events_of(run);
+    const hd_stage phase = hd_run_stage(run);
+    const hd_status status = hd_run_advance(run);
+    if (status != HD_OK) return hd_status_text(status);
+    if (!(hd_run_time(run) > before) && hd_run_stage(run) == phase) return "a step goes nowhere";
+    if (!(events_of(run) - events <= EVENTS_OF_A_STEP_MAX)) return "a step without end";
+    return NULL;
+}
+
+static const char *state_fault(const hd_run *run)
+{
+    const hd_trajectory *trajectory = hd_run_trajectory(run);
+    const double disks = hd_run_scene(run)->disks;
+    if (!(fabs(hd_trajectory_kinetic_energy(trajectory) - disks) <= ENERGY_ERROR * disks))
+        return "the energy is not conserved";
+    if (!(hd_trajectory_overlap(trajectory) <= OVERLAP_MAX)) return "disks overlap";
+    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    for (int col = 0; spectrum && col < hd_run_vectors(run); col++)
+        if (hd_spectrum_time(spectrum) > 0 && !isfinite(hd_spectrum_exponent(spectrum, col)))
+            return "an exponent is not finite";
+    return NULL;
+}
+
+static const char *run_fault(hd_run *run)
+{
+    const char *fault = NULL;
+    for (int step = 0; !fault && step < STEPS_MAX && events_of(run) < EVENTS_ENOUGH &&
+                       hd_run_stage(run) != HD_FINISHED;
+         step++)
+        fault = step_once(run);
+    return fault ? fault : state_fault(run);
+}
+
+/** How often a scene was what. */
+typedef struct tally {
+    int run, refused, large, averaged;
+    int refused_by[PARAMETER_COUNT];
+} tally;
+
+static const char *refusal_fault(hd_random *random, const hd_scene_def *def, const char *line,
+                                 tally *seen)
+{
+    const int k = named(line);
+    if (k < 0) return "the line names no parameter";
+    seen->refused++;
+    seen->refused_by[k]++;
+    return same_in_short_room(def, line, (size_t)one_of(random, LINE)) ? NULL
+                                                                       : "a short room overflows";
+}
+
+static const char *scene_fault(hd_random *random, const hd_scene_def *def, tally *seen)
+{
+    char line[LINE] = "";
+    hd_run *run = NULL;
+    hd_status status = hd_scene_check(def, line, sizeof line);
+    if (status == HD_OK && def->disks > DISKS_RUN) return seen->large++, NULL;
+    if (status == HD_OK) status = hd_run_create(&run, def, line, sizeof line);
+    if (status == HD_REFUSED) return refusal_fault(random, def, line, seen);
+    if (status != HD_OK) return hd_status_text(status);
+    const char *fault = *line ? line : run_fault(run);
+    seen->run++;
+    seen->averaged += hd_run_stage(run) >= HD_AVERAGING;
+    hd_run_free(run);
+    return fault;
+}
+
+static void report(const tally *seen)
+{
+    print_message(
+        "of %d scenes %d ran (%d of them as far as averages), %d were refused, %d were too "
+        "large to be run here\n  refused by",
+        SETS, seen->run, seen->averaged, seen->refused, seen->large);
+    for (int k = 0; k < PARAMETER_COUNT; k++)
+        print_message(" %s %d", PARAMETERS[k].name, seen->refused_by[k]);
+    print_message("\n");
+}
+
+static void each_runs_or_is_refused_by_name(void **state)
+{
+    (void)state;
+    hd_random random = hd_random_seeded(20260801, 0);
+    tally seen = {0};
+    int faults = 0;
+    for (int number = 0; number < SETS; number++) {
+        const hd_scene_def def = drawn(&random);
+        const char *fault = scene_fault(&random, &def, &seen);
+        if (!fault) continue;
+        print_scene(number, &def);
+        print_error("  %s\n", fault);
+        faults++;
+    }
+    report(&seen);
+    assert_int_equal(faults, 0);
+    assert_true(seen.run >= SETS / 10 && seen.refused >= SETS / 10);
+    assert_true(seen.averaged >= SETS / 20);
+}
+
+/** Steps until the run ends; fails if one goes nowhere, or takes more events than it should. */
+static int steps_to_the_end(const hd_scene_def *def)
+{
+    hd_run *run = NULL;
+    int steps = 0;
+    CHECK_OK(hd_run_create(&run, def, NULL, 0));
+    for (; hd_run_stage(run) != HD_FINISHED; steps++) {
+        const char *fault = step_once(run);
+        if (!fault) continue;
+        print_scene(steps, def);
+        fail_msg("%s", fault);
+    }
+    assert_null(state_fault(run));
+    hd_run_free(run);
+    return steps;
+}
+
+/** Phases so short that the time does not move in them: what comes after is not held up. From 1e-12
+ * steps grow by 4 each, which is 25 of them to 1e3; a sample here and there ends one early. */
+static void phases_without_length_pass(void **state)
+{
+    (void)state;
+    const double lengths[] = {DBL_TRUE_MIN, DBL_MIN, 1e-300, 1e-30, 1e-17, 1e-15, 1e-12};
+    for (size_t k = 0; k < 3 * 7; k++) {
+        hd_scene_def def = scene_of(5, 0.5, 1.0, (hd_boundary)(k % 2), HD_PERIODIC, k);
+        def.equilibration = k / 7 == 0 ? lengths[k % 7] : 1.0;
+        def.warmup = k / 7 == 1 ? lengths[k % 7] : 1.0;
+        def.duration = k / 7 == 2 ? lengths[k % 7] : 1.0;
+        def.observe = HD_OBSERVE_STEPS;
+        assert_true(steps_to_the_end(&def) < 200);
+    }
+}
+
+/** Between walls 1e-9 further apart than a disk there are 1e9 events of each disk in a time unit:
+ * the first step must not be one of a thousandth of a collision, and those after it not too long.
+ */
+static void narrow_channels_keep_steps_short(void **state)
+{
+    (void)state;
+    enum {
+        STEPS = 18
+    }; /* 1e-12 time units at first, each four times the one before, up to 2e5 events */
+    hd_scene_def def = scene_in_box(4, 40.0, 1.0 + 1e-9, HD_PERIODIC, HD_REFLECTING, 1);
+    hd_run *run = NULL;
+    def.equilibration = 1.0;
+    CHECK_OK(hd_run_create(&run, &def, NULL, 0));
+    for (int step = 0; step < STEPS; step++) assert_null(step_once(run));
+    assert_true(events_of(run) > 2e5);
+    assert_null(state_fault(run));
+    hd_run_free(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_runs_or_is_refused_by_name),
+        cmocka_unit_test(phases_without_length_pass),
+        cmocka_unit_test(narrow_channels_keep_steps_short),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

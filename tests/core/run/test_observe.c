@@ -1,0 +1,407 @@
+/** Whole runs that look at their modes: narrow boxes, in which a few disks show clean steps. */
+#include "testing.h"
+
+#include "hdlyap/hdlyap.h"
+#include "base/memory.h"
+#include "runs.h"
+
+enum { DISKS = 50 };
+static const double PI = 3.14159265358979323846;
+
+static const unsigned EVERYTHING = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
+
+/** A channel, Lx = 66.7, Ly = 1.5, in which disks cannot pass each other. */
+static hd_scene_def channel(hd_boundary x, hd_boundary y)
+{
+    hd_scene_def scene = hd_scene_def_default();
+    scene.disks = DISKS;
+    scene.density = 0.5;
+    scene.aspect = 0.0225;
+    scene.boundary[0] = x;
+    scene.boundary[1] = y;
+    scene.equilibration = 100.0;
+    scene.warmup = 400.0;
+    scene.duration = 600.0;
+    scene.observe = EVERYTHING;
+    return scene;
+}
+
+static hd_run *finished(const hd_scene_def *scene)
+{
+    hd_run *run = created(scene);
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+    return run;
+}
+
+static const hd_step *step_of(const hd_run *run, hd_mode_kind kind, int nx, int ny, bool conjugate)
+{
+    const hd_steps *steps = hd_run_steps(run);
+    for (int k = 0; k < hd_steps_count(steps); k++) {
+        const hd_step *step = hd_steps_step(steps, k);
+        if (step->kind == kind && step->wave.n[0] == nx && step->wave.n[1] == ny &&
+            step->conjugate == conjugate)
+            return step;
+    }
+    return NULL;
+}
+
+/** A resolved step that ends `before` vectors before the end of the positive half. */
+static const hd_step *expect_step(const hd_run *run, hd_mode_kind kind, int nx, int before,
+                                  int count)
+{
+    const hd_step *step = step_of(run, kind, nx, 0, false);
+    const int half = (4 * DISKS - hd_scene_zero_exponents(hd_run_scene(run))) / 2;
+    assert_non_null(step);
+    assert_true(step->resolved);
+    assert_int_equal(step->expected, count);
+    assert_int_equal(step->count, count);
+    assert_int_equal(step->members, 1);
+    assert_int_equal(step->col + step->count, half - before);
+    return step;
+}
+
+static void the_boundary_says_which_modes_there_are(void **state)
+{
+    (void)state;
+    const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
+    const struct {
+        hd_boundary x, y;
+        int transverse, pairs;
+    } cases[] = {{P, P, 2, 4}, {P, R, 0, 4}, {R, P, 1, 2}, {R, R, 0, 2}};
+    for (int k = 0; k < 4; k++) {
+        const hd_scene_def scene = channel(cases[k].x, cases[k].y);
+        hd_run *run = finished(&scene);
+        const hd_steps *steps = hd_run_steps(run);
+        for (int s = 0; s < hd_steps_count(steps); s++) /* narrow: waves along x alone */
+            assert_int_equal(hd_steps_step(steps, s)->wave.n[1], 0);
+        if (cases[k].transverse > 0)
+            expect_step(run, HD_MODE_T, 1, 0, cases[k].transverse);
+        else
+            assert_null(step_of(run, HD_MODE_T, 1, 0, false));
+        expect_step(run, HD_MODE_LP, 1, cases[k].transverse, cases[k].pairs);
+        hd_run_free(run);
+    }
+}
+
+/** LP(1,0) of the periodic channel by two ways of looking. Within 4 standard errors of the two. */
+static void coarse_reports_see_the_same_rotation(void **state)
+{
+    (void)state;
+    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
+    hd_run *fine = finished(&scene);
+    scene.report_interval = 20.0; /* turns by more than pi */
+    hd_run *coarse = created(&scene);
+    int often = 0;
+    while (hd_run_stage(coarse) != HD_FINISHED) {
+        CHECK_OK(hd_run_advance(coarse));
+        if (hd_run_samples_per_report(coarse) > often) often = hd_run_samples_per_report(coarse);
+    }
+    const hd_velocity a = hd_phases_velocity(hd_run_phases(fine));
+    const hd_velocity b = hd_phases_velocity(hd_run_phases(coarse));
+    const double k = 2.0 * PI / sqrt(DISKS / (0.5 * 0.0225));
+    print_message(
+        "v = %.3f(%.3f) every 1, %.3f(%.3f) every 20 time units, in %d samples per report\n", a.v,
+        a.v_error, b.v, b.v_error, often);
+    assert_true(a.v * k * 20.0 > PI);
+    assert_true(often >= 2);
+    assert_true(a.v_error > 0 && b.v_error > 0 && b.v_error < 0.1 * b.v);
+    CHECK_CLOSE(a.v, b.v, 4.0 * hypot(a.v_error, b.v_error));
+    hd_run_free(fine);
+    hd_run_free(coarse);
+}
+
+/** Within so many of the bounds that the two runs state for themselves. */
+static void check_same_exponents(hd_scene_def scene, unsigned observe, double bounds)
+{
+    scene.observe = observe;
+    hd_run *looked = finished(&scene);
+    scene.observe = 0;
+    hd_run *blind = finished(&scene);
+    assert_null(hd_run_modes(blind));
+    assert_null(hd_run_steps(blind));
+    assert_null(hd_run_phases(blind));
+    assert_true(hd_trajectory_collisions(hd_run_trajectory(looked)) ==
+                hd_trajectory_collisions(hd_run_trajectory(blind)));
+    const double tolerance = bounds *
+                             (hd_run_cost(looked).error_bound + hd_run_cost(blind).error_bound);
+    for (int col = 0; col < hd_run_vectors(blind); col++)
+        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(looked), col),
+                    hd_spectrum_exponent(hd_run_spectrum(blind), col), tolerance);
+    hd_run_free(looked);
+    hd_run_free(blind);
+}
+
+/** What is looked at does not change what happens: modes and steps not a bit; phases, where a look
+ * does not do, and fields but for where the frame is orthonormalised: rounding. */
+static void looking_changes_nothing(void **state)
+{
+    (void)state;
+    hd_scene_def scene = channel(HD_PERIODIC, HD_REFLECTING);
+    scene.duration = 100.0;
+    check_same_exponents(scene, HD_OBSERVE_MODES | HD_OBSERVE_STEPS, 0.0);
+    check_same_exponents(scene, EVERYTHING, 1.0);
+    check_same_exponents(scene, EVERYTHING | HD_OBSERVE_FIELDS, 1.0);
+}
+
+/** Largest difference between the coefficients of two runs' phases, where they follow the same
+ * vectors. */
+static double phases_apart(const hd_run *a, const hd_run *b, int *compared)
+{
+    double worst = 0.0;
+    for (int k = 0; k < hd_phases_count(hd_run_phases(a)); k++) {
+        const hd_lp_phase *x = hd_phases_phase(hd_run_phases(a), k);
+        const hd_lp_phase *y = hd_phases_phase(hd_run_phases(b), k);
+        if (x->state == HD_LP_UNRESOLVED || x->col != y->col) continue;
+        const double off = hypot(x->a - y->a, x->b - y->b);
+        assert_true(isfinite(off));
+        worst = fmax(worst, off);
+        (*compared)++;
+    }
+    return worst;
+}
+
+/** Phases between two orthonormalisations, from the slowest vectors alone, beside those of a run
+ * that orthonormalises for every report: fields are looked at. Off by what single precision leaves
+ * astray. */
+static void a_look_sees_what_a_measured_state_shows(void **state)
+{
+    (void)state;
+    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
+    scene.duration = 200.0;
+    hd_run *looking = created(&scene);
+    scene.observe |= HD_OBSERVE_FIELDS;
+    hd_run *measuring = created(&scene);
+    double worst = 0.0;
+    int compared = 0;
+    while (hd_run_stage(looking) != HD_FINISHED) {
+        do CHECK_OK(hd_run_advance(looking));
+        while (!hd_run_report_due(looking));
+        do CHECK_OK(hd_run_advance(measuring));
+        while (!hd_run_report_due(measuring));
+        CHECK_CLOSE(hd_run_time(looking), hd_run_time(measuring), 0.0);
+        worst = fmax(worst, phases_apart(looking, measuring, &compared));
+    }
+    print_message("%d coefficients of %ld looks and %ld states: apart by up to %.1e\n", compared,
+                  hd_run_cost(looking).looks, hd_run_cost(measuring).orthonormalisations, worst);
+    assert_true(hd_run_cost(looking).looks > 50);
+    assert_int_equal(hd_run_cost(measuring).looks, 0);
+    assert_true(compared > 500);
+    assert_true(worst < 5e-3);
+    hd_run_free(looking);
+    hd_run_free(measuring);
+}
+
+static void only_what_is_needed_is_measured(void **state)
+{
+    (void)state;
+    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
+    scene.observe = HD_OBSERVE_STEPS;
+    scene.warmup = 10.0;
+    scene.duration = 40.0;
+    hd_run *run = created(&scene);
+    assert_non_null(hd_run_steps(run));
+    assert_null(hd_run_phases(run));
+    hd_run_observe(run, 0);
+    while (hd_spectrum_time(hd_run_spectrum(run)) < 19.5 || !hd_run_report_due(run))
+        CHECK_OK(hd_run_advance(run));
+    assert_int_equal(hd_modes_samples(hd_run_modes(run)), 0);
+    CHECK_CLOSE(hd_run_cost(run).modes, 0.0, 0.0);
+    hd_run_observe(run, EVERYTHING);
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+    assert_int_equal(hd_modes_samples(hd_run_modes(run)), 20);
+    assert_true(hd_run_cost(run).modes > 0);
+    hd_run_free(run);
+}
+
+/** Fields every 10 time units: vectors of these reports are orthonormal then and there, and only
+ * for these the intervals end early; all else is as without fields. */
+static void fields_are_due_now_and_then(void **state)
+{
+    (void)state;
+    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
+    scene.warmup = 50.0;
+    scene.duration = 95.0;
+    hd_run *without = finished(&scene);
+    scene.observe |= HD_OBSERVE_FIELDS;
+    hd_run *always = finished(&scene), *run = created(&scene);
+    hd_run_fields_every(run, 10.0);
+    int due = 0;
+    while (hd_run_stage(run) != HD_FINISHED) {
+        CHECK_OK(hd_run_advance(run));
+        if (!hd_run_fields_due(run)) continue;
+        const double averaged = hd_spectrum_time(hd_run_spectrum(run));
+        assert_true(hd_run_report_due(run));
+        CHECK_CLOSE(averaged, due == 0 ? 1.0 : fmin(10.0 * due, 95.0), 1e-9);
+        CHECK_CLOSE(hd_run_time(run), 150.0 + averaged, 1e-9);
+        due++;
+    }
+    const long ends[] = {hd_run_cost(without).orthonormalisations,
+                         hd_run_cost(run).orthonormalisations,
+                         hd_run_cost(always).orthonormalisations};
+    print_message("orthonormalisations: %ld without fields, %ld every 10, %ld at each report\n",
+                  ends[0], ends[1], ends[2]);
+    assert_int_equal(due, 11);
+    assert_true(ends[1] <= ends[0] + due);
+    assert_true(ends[2] > ends[0] + 20);
+    hd_run_free(without);
+    hd_run_free(always);
+    hd_run_free(run);
+}
+
+static void check_none_coarse(const hd_run *run)
+{
+    for (int k = 0; k < hd_phases_count(hd_run_phases(run)); k++)
+        assert_int_not_equal(hd_phases_phase(hd_run_phases(run), k)->state, HD_LP_COARSE);
+}
+
+/** Phases that nobody looked at for a while begin anew, and are not taken for coarse. */
+static void a_look_away_begins_the_phases_anew(void **state)
+{
+    (void)state;
+    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
+    hd_run *run = created(&scene);
+    int tracked = 0;
+    for (int away = 0; away < 3; away++) {
+        const double until = 50.0 * (away + 1);
+        hd_run_observe(run, away == 1 ? 0 : EVERYTHING);
+        while (hd_spectrum_time(hd_run_spectrum(run)) < until) {
+            CHECK_OK(hd_run_advance(run));
+            check_none_coarse(run);
+        }
+    }
+    for (int k = 0; k < hd_phases_count(hd_run_phases(run)); k++) {
+        const hd_lp_phase *phase = hd_phases_phase(hd_run_phases(run), k);
+        assert_true(phase->time < 50.5);
+        tracked += phase->state == HD_LP_TRACKED && phase->time > 20.0;
+    }
+    assert_true(tracked >= 4);
+    hd_run_free(run);
+}
+
+static void nothing_is_allocated_while_looking(void **state)
+{
+    (void)state;
+    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
+    hd_run *run = created(&scene);
+    while (hd_spectrum_time(hd_run_spectrum(run)) < 50.0) CHECK_OK(hd_run_advance(run));
+    const size_t before = hd_memory_allocations();
+    for (int k = 0; k < 200; k++) CHECK_OK(hd_run_advance(run));
+    assert_true(hd_memory_allocations() - before <= 2); /* growth of the log and of its maps */
+    hd_run_free(run);
+}
+
+static void a_reset_forgets_modes_steps_and_phases(void **state)
+{
+    (void)state;
+    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
+    hd_run *run = created(&scene);
+    while (hd_spectrum_time(hd_run_spectrum(run)) < 100.0) CHECK_OK(hd_run_advance(run));
+    assert_true(step_of(run, HD_MODE_LP, 1, 0, false)->resolved);
+    CHECK_OK(hd_run_reset_average(run));
+    assert_int_equal(hd_modes_samples(hd_run_modes(run)), 0);
+    assert_false(step_of(run, HD_MODE_LP, 1, 0, false)->resolved);
+    assert_int_equal(hd_phases_velocity(hd_run_phases(run)).phases, 0);
+    hd_run_free(run);
+}
+
+/* ---- the negative half --------------------------------------------------------------------- */
+
+/** Part of J (dq, dp) = (dp, -dq) of column `from` that lies in columns [col, col + count). */
+static double conjugate_part(const hd_frame *frame, int from, int col, int count)
+{
+    const double *v = hd_frame_read(frame);
+    const size_t stride = (size_t)hd_frame_stride(frame);
+    double part = 0.0;
+    for (int c = col; c < col + count; c++) {
+        double dot = 0.0;
+        for (int j = 0; j < DISKS; j++)
+            for (int d = 0; d < 2; d++) {
+                const double *q = v + (size_t)(4 * j + d) * stride, *p = q + 2 * stride;
+                dot += p[from] * q[c] - q[from] * p[c];
+            }
+        part += dot * dot;
+    }
+    return part;
+}
+
+/** Sum over a step of |dq|^2 (or of |dp|^2 = 1 - |dq|^2): does not depend on how its vectors mix.
+ */
+static double half_of_step(const double *ratio, const hd_step *step, bool dp)
+{
+    double sum = 0.0;
+    for (int col = step->col; col < step->col + step->count; col++) {
+        const double dq2 = 1.0 / (1.0 + ratio[col] * ratio[col]);
+        sum += dp ? 1.0 - dq2 : dq2;
+    }
+    return sum;
+}
+
+static void check_mirror(const hd_run *run, const hd_step *step, const double *cosine,
+                         const double *ratio)
+{
+    /* spans forget their start like exp(-gap t), gap 0.03 to the next step, t = 1000; what is left
+       is the orthogonality of a measured state, 1e-6 */
+    const double MIRROR = 1e-4;
+    const hd_step *mirror = step_of(run, step->kind, step->wave.n[0], step->wave.n[1], true);
+    assert_true(step->resolved && mirror->resolved);
+    assert_int_equal(mirror->col, 4 * DISKS - step->col - step->count);
+    CHECK_CLOSE(mirror->exponent, -step->exponent, 1e-3);
+    CHECK_CLOSE(half_of_step(ratio, step, false), half_of_step(ratio, mirror, true), MIRROR);
+    for (int v = 0; v < step->count; v++) {
+        const int here = step->col + v;
+        assert_true(cosine[here] > 0.9 && cosine[mirror->col + v] < -0.9);
+        CHECK_CLOSE(conjugate_part(hd_run_frame(run), here, mirror->col, mirror->count), 1.0,
+                    MIRROR);
+    }
+}
+
+/** Also rotates with it: the same z at all times. */
+static void check_rotation(const hd_run *run)
+{
+    const hd_phases *phases = hd_run_phases(run);
+    int tracked[2] = {0, 0};
+    for (int k = 0; k < hd_phases_count(phases); k++) {
+        const hd_lp_phase *phase = hd_phases_phase(phases, k);
+        if (phase->state != HD_LP_TRACKED || phase->time < 300.0) continue;
+        assert_true(phase->omega > 0);
+        assert_true(phase->omega_error > 0 && phase->omega_error < 0.1 * phase->omega);
+        tracked[hd_steps_step(hd_run_steps(run), phase->step)->conjugate]++;
+    }
+    assert_true(tracked[0] >= 4 && tracked[1] >= 4);
+}
+
+/** J maps each mode onto its conjugate: dp = C dq becomes dq = -C' dp with C' = C. */
+static void the_negative_half_mirrors_the_positive_one(void **state)
+{
+    (void)state;
+    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
+    scene.exponents = HD_EXPONENTS_ALL;
+    hd_run *run = finished(&scene);
+    static double cosine[4 * DISKS], ratio[4 * DISKS];
+    hd_frame_halves(hd_run_frame(run), cosine, ratio);
+    const hd_step *zero = step_of(run, HD_MODE_ZERO, 0, 0, false);
+    assert_true(zero->resolved);
+    assert_int_equal(zero->count, 6);
+    CHECK_CLOSE(zero->multiplicity, 6.0, 1e-6);
+    check_mirror(run, step_of(run, HD_MODE_T, 1, 0, false), cosine, ratio);
+    check_mirror(run, step_of(run, HD_MODE_LP, 1, 0, false), cosine, ratio);
+    check_rotation(run);
+    hd_run_free(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_boundary_says_which_modes_there_are),
+        cmocka_unit_test(coarse_reports_see_the_same_rotation),
+        cmocka_unit_test(looking_changes_nothing),
+        cmocka_unit_test(a_look_sees_what_a_measured_state_shows),
+        cmocka_unit_test(only_what_is_needed_is_measured),
+        cmocka_unit_test(fields_are_due_now_and_then),
+        cmocka_unit_test(a_look_away_begins_the_phases_anew),
+        cmocka_unit_test(nothing_is_allocated_while_looking),
+        cmocka_unit_test(a_reset_forgets_modes_steps_and_phases),
+        cmocka_unit_test(the_negative_half_mirrors_the_positive_one),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

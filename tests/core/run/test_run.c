@@ -1,0 +1,290 @@
+/** Whole runs: the schedule, intervals that were too long, restarts of the average, what is
+ * allocated. Their interval is set by hand: no caller can make it too long. */
+#include "base/memory.h"
+#include "run/run_state.h"
+
+#include "testing.h"
+#include "runs.h"
+
+static hd_scene_def scene_of(int disks, int exponents)
+{
+    hd_scene_def scene = hd_scene_def_default();
+    scene.disks = disks;
+    scene.density = 0.7;
+    scene.aspect = 1.0;
+    scene.exponents = exponents;
+    scene.equilibration = 10.0;
+    scene.warmup = 10.0;
+    scene.duration = 20.0;
+    return scene;
+}
+
+static hd_run *until(hd_run *run, hd_stage phase)
+{
+    while (hd_run_stage(run) < phase) CHECK_OK(hd_run_advance(run));
+    return run;
+}
+
+/** Largest difference between the exponents of two runs. */
+static double deviation(const hd_run *a, const hd_run *b)
+{
+    double worst = 0.0;
+    assert_int_equal(a->vectors, b->vectors);
+    for (int col = 0; col < a->vectors; col++) {
+        const double off = fabs(hd_spectrum_exponent(a->spectrum, col) -
+                                hd_spectrum_exponent(b->spectrum, col));
+        assert_true(isfinite(off));
+        worst = fmax(worst, off);
+    }
+    return worst;
+}
+
+static void reports_come_on_time(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_of(12, 3);
+    scene.report_interval = 0.7; /* does not divide the phases */
+    hd_run *run = created(&scene);
+    static const double phase_start[] = {0.0, 10.0, 20.0};
+    int reports[4] = {0};
+    while (hd_run_stage(run) != HD_FINISHED) {
+        const hd_stage phase = hd_run_stage(run);
+        CHECK_OK(hd_run_advance(run));
+        if (!hd_run_report_due(run)) continue;
+        reports[phase]++;
+        const double end = phase_start[phase] + (phase == HD_AVERAGING ? 20.0 : 10.0);
+        const double want = fmin(phase_start[phase] + 0.7 * reports[phase], end);
+        CHECK_CLOSE(hd_run_time(run), want, 1e-12);
+        CHECK_CLOSE(hd_trajectory_time(hd_run_trajectory(run)), hd_run_time(run), 0.0);
+    }
+    assert_int_equal(reports[HD_EQUILIBRATING], 15);
+    assert_int_equal(reports[HD_WARMING_UP], 15);
+    assert_int_equal(reports[HD_AVERAGING], 29);
+    CHECK_CLOSE(hd_run_time(run), 40.0, 0.0);
+    CHECK_CLOSE(hd_spectrum_time(hd_run_spectrum(run)), 20.0, 1e-11);
+    CHECK_OK(hd_run_advance(run)); /* nothing more */
+    CHECK_CLOSE(hd_run_time(run), 40.0, 0.0);
+    hd_run_free(run);
+}
+
+static void without_exponents_there_is_no_frame(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_of(200, HD_EXPONENTS_NONE);
+    hd_run *run = created(&scene);
+    assert_null(hd_run_frame(run));
+    assert_null(hd_run_spectrum(run));
+    assert_null(run->log);
+    until(run, HD_FINISHED);
+    assert_true(hd_trajectory_collisions(hd_run_trajectory(run)) > 1000);
+    CHECK_CLOSE(run->cost.replay + run->cost.ortho, 0.0, 0.0);
+    hd_run_free(run);
+}
+
+/** To which the twin with an interval of 0.05 is known itself. */
+static const double EXACT = 1e-13;
+
+/** Whatever interval is asked for: the exponents of the exact factorisation, to the accuracy asked.
+ */
+static void any_interval_gives_the_same_spectrum(void **state)
+{
+    (void)state;
+    static const double intervals[] = {0.0, 0.01, 0.3, 1.0, 8.0, 50.0};
+    static const double accuracies[] = {1e-4, 1e-8, 1e-10};
+    for (int all = 0; all < 2; all++) {
+        hd_scene_def scene = scene_of(24, all ? HD_EXPONENTS_ALL : HD_EXPONENTS_POSITIVE);
+        scene.interval = 0.05;
+        scene.accuracy = 1e-12;
+        hd_run *exact = until(created(&scene), HD_FINISHED);
+        for (size_t k = 0; k < 6 * 3; k++) {
+            scene.interval = intervals[k % 6];
+            scene.accuracy = accuracies[k / 6];
+            scene.report_interval = k % 2 ? 1.0 : 10.0;
+            hd_run *run = until(created(&scene), HD_FINISHED);
+            const double off = deviation(run, exact);
+            if (k % 6 == 4)
+                print_message("interval 8, accuracy %.0e: %.3f used, deviation %.1e, bound %.1e\n",
+                              scene.accuracy, run->cost.interval, off,
+                              hd_run_cost(run).error_bound);
+            assert_true(off <= scene.accuracy);
+            assert_true(off <= hd_run_cost(run).error_bound + EXACT);
+            hd_run_free(run);
+        }
+        hd_run_free(exact);
+    }
+}
+
+/** Forced behind the controller's back: noticed, taken back, replayed in pieces. */
+static void an_interval_too_long_is_repaired(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_of(40, HD_EXPONENTS_POSITIVE);
+    scene.report_interval = 10.0;
+    hd_run *exact = until(created(&scene), HD_FINISHED);
+    for (double forced = 4.0; forced <= 64.0; forced *= 2.0) {
+        scene.report_interval = 20.0;
+        hd_run *run = until(created(&scene), HD_AVERAGING);
+        run->interval.slope = run->interval.stretch = 0.0;
+        run->interval.last = forced;
+        run->schedule.reports_per_sample = run->schedule.samples_per_report = 1;
+        run->schedule.sample_length = 20.0;
+        until(run, HD_FINISHED);
+        print_message("forced %.0f: %ld repaired, deviation %.1e\n", forced, run->cost.repairs,
+                      deviation(run, exact));
+        assert_true(run->cost.repairs > 0);
+        assert_true(deviation(run, exact) <= scene.accuracy);
+        hd_run_free(run);
+    }
+    hd_run_free(exact);
+}
+
+static void threads_do_not_change_the_physics(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_of(60, HD_EXPONENTS_POSITIVE);
+    hd_run *run[3];
+    for (int k = 0; k < 3; k++) {
+        scene.threads = k == 1 ? 2 : 1;
+        run[k] = until(created(&scene), HD_FINISHED);
+    }
+    assert_true(deviation(run[0], run[1]) < scene.accuracy);
+    CHECK_CLOSE(deviation(run[0], run[2]), 0.0, 0.0); /* the same number: the same bits */
+    assert_int_equal(hd_trajectory_collisions(run[0]->advance.trajectory),
+                     hd_trajectory_collisions(run[1]->advance.trajectory));
+    for (int k = 0; k < 3; k++) hd_run_free(run[k]);
+}
+
+static void the_loop_allocates_nothing(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_of(40, HD_EXPONENTS_POSITIVE);
+    scene.duration = 300.0;
+    hd_run *run = until(created(&scene), HD_AVERAGING);
+    while (hd_run_time(run) < 120.0)
+        CHECK_OK(hd_run_advance(run)); /* the log has grown to its size */
+    const size_t before = hd_memory_allocations();
+    until(run, HD_FINISHED);
+    assert_true(hd_memory_allocations() - before <=
+                2); /* a still longer log: itself and its maps */
+    hd_run_free(run);
+}
+
+static void the_average_can_start_afresh(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_of(12, 4);
+    hd_run *run = until(created(&scene), HD_AVERAGING);
+    CHECK_OK(hd_run_reset_average(run)); /* at its very start: nothing changes */
+    while (hd_run_time(run) < 25.0 || !hd_run_report_due(run)) CHECK_OK(hd_run_advance(run));
+    const double at = hd_run_time(run);
+    CHECK_OK(hd_run_reset_average(run));
+    CHECK_CLOSE(hd_spectrum_time(hd_run_spectrum(run)), 0.0, 0.0);
+    until(run, HD_FINISHED);
+    CHECK_CLOSE(hd_run_time(run), at + scene.duration, 1e-12);
+    CHECK_CLOSE(hd_spectrum_time(hd_run_spectrum(run)), scene.duration, 1e-11);
+    hd_run_free(run);
+}
+
+static void the_target_error_ends_the_run(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_of(12, HD_EXPONENTS_POSITIVE);
+    scene.duration = 0.0; /* endless otherwise */
+    scene.target_std_error = 0.02;
+    hd_run *run = until(created(&scene), HD_FINISHED);
+    for (int col = run->vectors - SMALLEST_EXPONENTS; col < run->vectors; col++) {
+        const double error = hd_spectrum_std_error(run->spectrum, col);
+        assert_true(error > 0 && error <= 0.02);
+    }
+    hd_run_free(run);
+}
+
+/** What was predicted after a tenth of the averaged time, over what it took. */
+static double predicted_over_taken(uint64_t seed)
+{
+    static double averaged[20000], total[20000];
+    hd_scene_def scene = scene_of(16, HD_EXPONENTS_POSITIVE);
+    scene.warmup = 50.0;
+    scene.duration = 0.0;
+    scene.target_std_error = 0.005;
+    scene.seed = seed;
+    hd_run *run = until(created(&scene), HD_AVERAGING);
+    int count = 0, tenth = 0;
+    while (hd_run_stage(run) != HD_FINISHED) {
+        CHECK_OK(hd_run_advance(run));
+        if (!hd_run_report_due(run) || count == 20000) continue;
+        averaged[count] = hd_spectrum_time(run->spectrum);
+        const double progress = hd_run_cost(run).progress;
+        total[count++] = progress > 0 ? hd_run_time(run) / progress : 0.0; /* 0: not yet known */
+    }
+    const double taken = hd_run_time(run);
+    while (averaged[tenth] < 0.1 * averaged[count - 1]) tenth++;
+    hd_run_free(run);
+    return total[tenth] / taken;
+}
+
+/** Errors are known to some ten percent after a tenth of the time, so the time to some twenty:
+ * three of four runs end within 30 % of what was said. */
+static void the_time_to_the_target_is_predicted(void **state)
+{
+    (void)state;
+    int right = 0;
+    for (uint64_t seed = 1; seed <= 4; seed++) {
+        const double ratio = predicted_over_taken(seed);
+        print_message("predicted after a tenth: %.2f of what it took\n", ratio);
+        right += fabs(ratio - 1.0) <= 0.3;
+    }
+    assert_true(right >= 3);
+}
+
+static void progress_and_cost_add_up(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_of(40, HD_EXPONENTS_POSITIVE);
+    hd_run *run = created(&scene);
+    double progress = 0.0;
+    assert_true(hd_run_cost(run).remaining < 0); /* not known before the frame has been carried */
+    while (hd_run_stage(run) != HD_FINISHED) {
+        CHECK_OK(hd_run_advance(run));
+        const hd_cost cost = hd_run_cost(run);
+        assert_true(cost.progress >= progress && cost.progress <= 1.0);
+        progress = cost.progress;
+        if (hd_run_stage(run) == HD_AVERAGING) assert_true(cost.remaining >= 0);
+    }
+    const hd_cost cost = hd_run_cost(run);
+    CHECK_CLOSE(cost.progress, 1.0, 0.0);
+    CHECK_CLOSE(cost.remaining, 0.0, 0.0);
+    assert_true(cost.events + cost.replay + cost.ortho + cost.spectrum <= cost.wall);
+    assert_true(cost.orthonormalisations > 0 && cost.events_per_second > 0);
+    hd_run_free(run);
+}
+
+static void what_is_impossible_is_refused_by_name(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_of(12, 49);
+    hd_run *run;
+    char message[256] = "";
+    assert_int_equal(hd_run_create(&run, &scene, message, sizeof message), HD_REFUSED);
+    assert_null(run);
+    assert_string_equal(message,
+                        "exponents = 49: must be positive, all, none or from 1 to 4 disks = 48");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reports_come_on_time),
+        cmocka_unit_test(without_exponents_there_is_no_frame),
+        cmocka_unit_test(any_interval_gives_the_same_spectrum),
+        cmocka_unit_test(an_interval_too_long_is_repaired),
+        cmocka_unit_test(threads_do_not_change_the_physics),
+        cmocka_unit_test(the_loop_allocates_nothing),
+        cmocka_unit_test(the_average_can_start_afresh),
+        cmocka_unit_test(the_target_error_ends_the_run),
+        cmocka_unit_test(the_time_to_the_target_is_predicted),
+        cmocka_unit_test(progress_and_cost_add_up),
+        cmocka_unit_test(what_is_impossible_is_refused_by_name),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,64 @@
+/** All that is computed in parallel, with two threads: what one gives. Small enough for the thread
+ * sanitizer, which has to see every parallel loop. */
+#include <float.h>
+
+#include "hdlyap/run.h"
+#include "scenes.h"
+#include "testing.h"
+
+/** More vectors than one block of any parallel loop holds: 128 of the modes, 64 of the frame. */
+enum { DISKS = 70, VECTORS = 2 * DISKS - 3 };
+
+/** A box so long that LP pairs are found, and reports so close that phases are looked at between
+ * orthonormalisations. */
+static hd_run *run_with(int threads)
+{
+    hd_run *run = NULL;
+    hd_scene_def def = scene_of(DISKS, 0.8, 0.06, HD_PERIODIC, HD_PERIODIC, 1);
+    def.equilibration = 5.0;
+    def.warmup = 15.0;
+    def.duration = 8.0;
+    def.report_interval = 0.1;
+    def.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
+    def.threads = threads;
+    CHECK_OK(hd_run_create(&run, &def, NULL, 0));
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+    assert_int_equal(hd_run_vectors(run), VECTORS);
+    return run;
+}
+
+/** As accurate as asked; of vectors that belong to one step the differences add up, in less than
+ * 100 orthonormalisations, each by eps times the condition, which the accuracy bounds. */
+static const double ACCURACY = 1e-8, SAME = 100 * 1e-8;
+
+static void two_threads_give_what_one_gives(void **state)
+{
+    (void)state;
+    hd_run *run[2] = {run_with(1), run_with(2)};
+    double theta[2][VECTORS], ratio[2][VECTORS];
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(hd_run_threads(run[k]), k + 1);
+        assert_true(hd_run_cost(run[k]).looks > 0);
+        assert_true(hd_run_cost(run[k]).orthonormalisations < 100);
+        hd_frame_halves(hd_run_frame(run[k]), theta[k], ratio[k]);
+    }
+    double most = 0.0;
+    for (int col = 0; col < VECTORS; col++) {
+        most = fmax(most, fabs(theta[1][col] - theta[0][col]));
+        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(run[1]), col),
+                    hd_spectrum_exponent(hd_run_spectrum(run[0]), col), ACCURACY);
+        CHECK_CLOSE(theta[1][col], theta[0][col], SAME);
+        CHECK_CLOSE(ratio[1][col], ratio[0][col], SAME * ratio[0][col]);
+    }
+    assert_int_equal(hd_trajectory_collisions(hd_run_trajectory(run[0])),
+                     hd_trajectory_collisions(hd_run_trajectory(run[1])));
+    print_message("%ld looks, %ld orthonormalisations, cosines differ by %.1e at most\n",
+                  hd_run_cost(run[1]).looks, hd_run_cost(run[1]).orthonormalisations, most);
+    for (int k = 0; k < 2; k++) hd_run_free(run[k]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(two_threads_give_what_one_gives)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,181 @@
+/** Runs that are looked at between orthonormalisations, for pictures. */
+#include <float.h>
+
+#include "testing.h"
+
+#include "hdlyap/hdlyap.h"
+#include "scenes.h"
+#include "runs.h"
+
+static const unsigned EVERYTHING = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
+enum { WANTED = 12 };
+
+/** A long box whose steps are found within seconds. */
+static hd_scene_def long_box(double duration)
+{
+    hd_scene_def scene = scene_of(100, 0.8, 0.2, HD_PERIODIC, HD_PERIODIC, 3);
+    scene.equilibration = 5.0;
+    scene.warmup = 40.0;
+    scene.duration = duration;
+    scene.observe = EVERYTHING;
+    scene.threads = 1;
+    return scene;
+}
+
+/** Steps to the end, and returns their number. */
+static int finish(hd_run *run)
+{
+    int steps = 0;
+    for (; hd_run_stage(run) != HD_FINISHED; steps++) CHECK_OK(hd_run_advance(run));
+    return steps;
+}
+
+static void check_same_phases(const hd_run *a, const hd_run *b)
+{
+    int tracked = 0;
+    for (int k = 0; k < hd_phases_count(hd_run_phases(a)); k++) {
+        const hd_lp_phase *x = hd_phases_phase(hd_run_phases(a), k);
+        const hd_lp_phase *y = hd_phases_phase(hd_run_phases(b), k);
+        tracked += x->state == HD_LP_TRACKED;
+        assert_int_equal(x->state, y->state);
+        assert_true(x->phase == y->phase && x->omega == y->omega && x->time == y->time);
+    }
+    assert_true(tracked > 0);
+}
+
+/** Whoever only looks at the disks changes no bit, however short the steps become. */
+static void a_view_of_the_disks_changes_nothing(void **state)
+{
+    (void)state;
+    const hd_scene_def scene = long_box(60.0);
+    hd_run *plain = created(&scene), *viewed = created(&scene);
+    hd_run_watch(viewed, 0.037, hd_run_vectors(viewed));
+    const int few = finish(plain), many = finish(viewed);
+    assert_true(many > 105.0 / 0.037);
+    assert_true(few < many / 10);
+    for (int col = 0; col < hd_run_vectors(plain); col++)
+        assert_true(hd_spectrum_exponent(hd_run_spectrum(plain), col) ==
+                    hd_spectrum_exponent(hd_run_spectrum(viewed), col));
+    check_same_phases(plain, viewed);
+    hd_run_free(plain);
+    hd_run_free(viewed);
+}
+
+static double dot(hd_columns v, int a, hd_columns w, int b, int rows)
+{
+    double sum = 0.0;
+    for (int row = 0; row < rows; row++)
+        sum += v.data[row * v.stride + a - v.first] * w.data[row * w.stride + b - w.first];
+    return sum;
+}
+
+static void check_orthonormal(hd_columns v, int rows)
+{
+    for (int a = v.first; a < v.first + v.count; a++)
+        for (int b = v.first; b <= a; b++)
+            CHECK_CLOSE(dot(v, a, v, b, rows), a == b, 2e-6); /* DEFECT_MEASURED of run.c, twice */
+}
+
+/** Until the averaging has steps. */
+static void begin_to_look(hd_run *run)
+{
+    while (hd_run_stage(run) != HD_AVERAGING || hd_modes_samples(hd_run_modes(run)) < 3)
+        CHECK_OK(hd_run_advance(run));
+}
+
+/** Brings a run that reports often and is orthonormalised for each report to the time of another.
+ */
+static void catch_up(hd_run *run, double time)
+{
+    while (hd_run_time(run) < time - 1e-6) CHECK_OK(hd_run_advance(run));
+    CHECK_CLOSE(hd_run_time(run), time, 1e-9);
+}
+
+/** Of the slowest vectors as a set, against those of a twin that is orthonormalised at this time: a
+ * tenth of the looks may be a thousandth off the set (test_tail). */
+static void each_step_ends_with_the_vectors_wanted(void **state)
+{
+    (void)state;
+    hd_scene_def scene = long_box(30.0);
+    hd_run *run = created(&scene);
+    scene.report_interval = 0.25;
+    scene.observe |= HD_OBSERVE_FIELDS;
+    hd_run *twin = created(&scene);
+    const int n = hd_run_vectors(run), rows = 4 * scene.disks;
+    int looked = 0, factored = 0;
+    begin_to_look(run);
+    while (hd_run_stage(run) != HD_FINISHED) {
+        hd_run_watch(run, 0.25, n - WANTED);
+        CHECK_OK(hd_run_advance(run));
+        const hd_columns v = hd_run_columns(run);
+        assert_true(v.count >= WANTED && v.first <= n - WANTED && v.first + v.count == n);
+        looked += v.count < n;
+        factored += v.count == n;
+        check_orthonormal(v, rows);
+        catch_up(twin, hd_run_time(run));
+        const hd_columns exact = hd_frame_columns(hd_run_frame(twin));
+        for (int col = n - WANTED; col < n; col++) {
+            double part = 0.0;
+            for (int other = n - WANTED; other < n; other++) {
+                const double d = dot(v, col, exact, other, rows);
+                part += d * d;
+            }
+            assert_true(part > 0.999);
+        }
+    }
+    assert_true(looked > 20 && factored > 10);
+    hd_run_free(run);
+    hd_run_free(twin);
+}
+
+/** The exponents of a run that is looked at are those of one that is not, within what both may be
+ * off. */
+static void looking_spoils_no_exponent(void **state)
+{
+    (void)state;
+    const hd_scene_def scene = long_box(40.0);
+    hd_run *plain = created(&scene), *viewed = created(&scene);
+    hd_run_watch(viewed, 0.3, hd_run_vectors(viewed) - WANTED);
+    finish(plain);
+    finish(viewed);
+    const double bound = hd_run_cost(plain).error_bound + hd_run_cost(viewed).error_bound;
+    assert_true(bound > 0.0 && bound < 4e-8); /* accuracy 1e-8, stated with room [T6] */
+    for (int col = 0; col < hd_run_vectors(plain); col++)
+        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(viewed), col),
+                    hd_spectrum_exponent(hd_run_spectrum(plain), col), bound);
+    hd_run_free(plain);
+    hd_run_free(viewed);
+}
+
+/** In the middle of an interval nothing is known unless somebody wants it, and modes are wanted at
+ * all. */
+static void nobody_looks_nothing_is_known(void **state)
+{
+    (void)state;
+    const hd_scene_def scene = long_box(20.0);
+    hd_run *run = created(&scene);
+    int known = 0, unknown = 0;
+    assert_int_equal(hd_run_columns(run).count, 0);
+    begin_to_look(run);
+    hd_run_observe(run, 0);
+    hd_run_watch(run, 0.1, 0);
+    while (hd_run_stage(run) != HD_FINISHED) {
+        CHECK_OK(hd_run_advance(run));
+        known += hd_run_columns(run).count > 0;
+        unknown += hd_run_columns(run).count == 0;
+    }
+    assert_int_equal(known, 0);
+    assert_true(unknown > 100);
+    hd_run_free(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_view_of_the_disks_changes_nothing),
+        cmocka_unit_test(each_step_ends_with_the_vectors_wanted),
+        cmocka_unit_test(looking_spoils_no_exponent),
+        cmocka_unit_test(nobody_looks_nothing_is_known),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

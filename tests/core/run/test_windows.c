@@ -1,0 +1,314 @@
+/** Covariant vectors of whole runs: when windows begin, what gives them up, and what a run refuses
+ * for them. */
+#include <errno.h>
+#include <float.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "runs.h"
+
+enum { VECTORS = 32 };
+
+static hd_scene_def small(void)
+{
+    hd_scene_def scene = hd_scene_def_default();
+    scene.disks = VECTORS / 4;
+    scene.density = 0.5;
+    scene.exponents = HD_EXPONENTS_ALL;
+    scene.equilibration = 10.0;
+    scene.warmup = 100.0;
+    scene.duration = 300.0;
+    scene.report_interval = 1.0;
+    scene.interval = 0.25; /* looks fall on multiples of it */
+    scene.observe = HD_OBSERVE_COVARIANT;
+    scene.covariant_window = 20.0;
+    scene.covariant_transient = 60.0;
+    scene.covariant_sampling = 2.0;
+    scene.threads = 1;
+    return scene;
+}
+
+static void finish(hd_run *run)
+{
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+}
+
+static double averaging_start(const hd_run *run)
+{
+    return hd_run_scene(run)->equilibration + hd_run_scene(run)->warmup;
+}
+
+static void step_to(hd_run *run, double averaged)
+{
+    while (hd_run_time(run) < averaging_start(run) + averaged - 1e-9) CHECK_OK(hd_run_advance(run));
+}
+
+static void step_to_the_way_back(hd_run *run)
+{
+    while (!hd_covariant_is_going_back(hd_run_covariant(run))) CHECK_OK(hd_run_advance(run));
+}
+
+/** Some of the way, behind the run's back: it would go all of it in one step. */
+static void go_back(const hd_run *run, int intervals)
+{
+    hd_covariant *c = (hd_covariant *)hd_run_covariant(run);
+    for (int k = 0; k < intervals; k++) CHECK_OK(hd_covariant_step(c));
+    assert_true(hd_covariant_is_going_back(c));
+}
+
+/** All that is known comes from so many windows since that time. */
+static void check_windows(const hd_run *run, long windows, double start)
+{
+    const hd_covariant *c = hd_run_covariant(run);
+    assert_int_equal(hd_covariant_windows(c), windows);
+    CHECK_CLOSE(hd_covariant_window_end(c), start + 20.0 * (double)windows, 1e-6);
+    CHECK_CLOSE(hd_spectrum_time(hd_covariant_spectrum(c)), 20.0 * (double)windows, 1e-6);
+    assert_int_equal(hd_splitting_samples(hd_covariant_splitting(c)), 10 * windows);
+    assert_int_equal(hd_modes_samples(hd_covariant_half(c, 0)), 10 * windows);
+    assert_int_equal(hd_modes_samples(hd_covariant_half(c, 1)), 10 * windows);
+    assert_int_equal(hd_modes_samples(hd_covariant_of_frame(c)), 10 * windows);
+}
+
+/** As many as fit with the last one's transient; all are done before the run is finished. */
+static void windows_are_counted(void **state)
+{
+    (void)state;
+    const double duration[] = {80.0, 99.0, 139.0, 140.0, 300.0};
+    for (size_t k = 0; k < sizeof duration / sizeof *duration; k++) {
+        hd_scene_def scene = small();
+        scene.duration = duration[k];
+        hd_run *run = created(&scene);
+        finish(run);
+        check_windows(run, (long)floor((duration[k] - 60.0) / 20.0), averaging_start(run));
+        assert_int_equal(hd_covariant_lost(hd_run_covariant(run)), 0);
+        assert_true(hd_run_cost(run).covariant > 0 &&
+                    hd_run_cost(run).covariant < hd_run_cost(run).wall);
+        hd_run_free(run);
+    }
+}
+
+/** On the way back simulated time stands still; the forward pass takes nothing of it up. */
+static void the_forward_pass_stays_as_it_is(void **state)
+{
+    (void)state;
+    hd_scene_def scene = small();
+    hd_run *run = created(&scene);
+    step_to_the_way_back(run);
+    const double time = hd_run_time(run);
+    CHECK_OK(hd_run_advance(run));
+    assert_true(hd_run_time(run) == time);
+    finish(run);
+    scene.observe = 0;
+    hd_run *other = created(&scene);
+    finish(other);
+    assert_null(hd_run_covariant(other));
+    assert_true(hd_run_cost(other).covariant == 0.0);
+    for (int col = 0; col < VECTORS; col++)
+        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(run), col),
+                    hd_spectrum_exponent(hd_run_spectrum(other), col), 0.0);
+    hd_run_free(run);
+    hd_run_free(other);
+}
+
+/** In the middle of the way back, too. */
+static void a_reset_begins_anew(void **state)
+{
+    (void)state;
+    const int gone[] = {0, 100, 250,
+                        300}; /* of 240 intervals of the transient and 80 of the window */
+    for (size_t k = 0; k < sizeof gone / sizeof *gone; k++) {
+        const hd_scene_def scene = small();
+        hd_run *run = created(&scene);
+        step_to(run, 90.0);
+        step_to_the_way_back(run);
+        assert_true(hd_run_time(run) > averaging_start(run) + 90.0);
+        go_back(run, gone[k]);
+        const double now = hd_run_time(run);
+        CHECK_OK(hd_run_reset_average(run));
+        check_windows(run, 0, hd_covariant_window_end(hd_run_covariant(run)));
+        assert_true(hd_covariant_null_most(hd_run_covariant(run)) < 0);
+        finish(run);
+        CHECK_CLOSE(hd_run_time(run), now + scene.duration, 1e-6);
+        check_windows(run, 12, now);
+        hd_run_free(run);
+    }
+}
+
+/** What nobody looked at is no part of a window. */
+static void a_window_begins_when_somebody_looks_again(void **state)
+{
+    (void)state;
+    for (int back = 0; back < 2; back++) {
+        const hd_scene_def scene = small();
+        hd_run *run = created(&scene);
+        step_to(run, 65.0);
+        if (back) step_to_the_way_back(run);
+        if (back)
+            go_back(run, 50); /* still in the transient: nothing of the window is in the averages */
+        hd_run_observe(run, 0);
+        step_to(run, 90.0);
+        hd_run_observe(run, HD_OBSERVE_COVARIANT);
+        const double now = hd_run_time(run);
+        finish(run);
+        const double left = averaging_start(run) + scene.duration - now;
+        check_windows(run, (long)floor((left - 60.0) / 20.0), now);
+        hd_run_free(run);
+    }
+}
+
+/** Off and on again between two steps in the middle of the way back. */
+static void a_blink_gives_up_the_window(void **state)
+{
+    (void)state;
+    const hd_scene_def scene = small();
+    hd_run *run = created(&scene);
+    step_to_the_way_back(run);
+    go_back(run, 50);
+    const double now = hd_run_time(run);
+    hd_run_observe(run, 0);
+    hd_run_observe(run, HD_OBSERVE_COVARIANT);
+    finish(run);
+    check_windows(run, 8, now); /* of 300 - 80 time units */
+    hd_run_free(run);
+}
+
+/** Within their errors, and the two sums to what a window's ends make of them. */
+static void exponents_agree_with_the_forward_ones(void **state)
+{
+    (void)state;
+    const hd_scene_def scene = small();
+    hd_run *run = created(&scene);
+    finish(run);
+    const hd_spectrum *forward = hd_run_spectrum(run),
+                      *back = hd_covariant_spectrum(hd_run_covariant(run));
+    const int positive = (VECTORS - 6) / 2;
+    for (int col = 0; col < VECTORS; col++) {
+        const double error = hypot(hd_spectrum_std_error(forward, col),
+                                   hd_spectrum_std_error(back, col));
+        if (col >= positive && col < positive + 6) continue; /* see test_covariant_windows */
+        assert_true(error > 0 && error < 0.1);
+        CHECK_CLOSE(hd_spectrum_exponent(back, col), hd_spectrum_exponent(forward, col),
+                    4.0 * error);
+    }
+    hd_run_free(run);
+}
+
+/** Everything at once: the centre is still the null space. Somebody who looks in between makes
+ * intervals shorter than could be foreseen: that costs a window. */
+static void other_stages_do_not_disturb(void **state)
+{
+    (void)state;
+    for (int viewed = 0; viewed < 2; viewed++) {
+        hd_scene_def scene = small();
+        scene.interval = 0.0;
+        scene.report_interval = 0.25;
+        scene.observe |= HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_HYDRO;
+        hd_run *run = created(&scene);
+        if (viewed) hd_run_watch(run, 0.1, 8);
+        finish(run);
+        const hd_covariant *c = hd_run_covariant(run);
+        assert_in_range(hd_covariant_windows(c), viewed ? 8 : 11, 12);
+        assert_int_equal(hd_covariant_lost(c), viewed);
+        /* rounding turns the space by eps times the worst condition that is let pass */
+        const double condition = scene.accuracy / (2.0 * DBL_EPSILON);
+        CHECK_CLOSE(hd_covariant_null_most(c), 0.0, 16.0 * DBL_EPSILON * condition);
+        hd_run_free(run);
+    }
+}
+
+static void the_positive_half_has_no_spaces(void **state)
+{
+    (void)state;
+    hd_scene_def scene = small();
+    scene.exponents = HD_EXPONENTS_POSITIVE;
+    hd_run *run = created(&scene);
+    finish(run);
+    check_windows(run, 12, averaging_start(run));
+    const hd_covariant *c = hd_run_covariant(run);
+    assert_int_equal(hd_covariant_vectors(c), (VECTORS - 6) / 2);
+    assert_false(hd_splitting_has_spaces(hd_covariant_splitting(c)));
+    assert_true(hd_covariant_null(c) < 0 && hd_covariant_met(c).centre < 0 &&
+                hd_covariant_met(c).stable < 0);
+    assert_true(hd_covariant_met(c).most >= 0);
+    for (int col = 0; col < hd_covariant_vectors(c); col++)
+        assert_true(hd_covariant_widths(c)[col] >= 4.0 / VECTORS &&
+                    hd_covariant_widths(c)[col] <= 1.0);
+    hd_run_free(run);
+}
+
+/* ---- room ---------------------------------------------------------------------------------- */
+
+static void too_long_a_window_is_refused(void **state)
+{
+    (void)state;
+    char message[400] = "";
+    hd_scene_def scene = small();
+    hd_run *run = NULL;
+    scene.covariant_memory = 2.5e6; /* 512 triangles of 4224 bytes and 46 frames of 8448 */
+    assert_int_equal(hd_run_create(&run, &scene, message, sizeof message), HD_REFUSED);
+    assert_null(run);
+    const char *numbers[] = {
+        "covariant_window = 20 ",  "covariant_transient = 60:", "512 triangles",
+        "46 frames of 32 vectors", "need 0.00255 GB",           "covariant_memory = 0.0025 GB"};
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        if (!strstr(message, numbers[k])) fail_msg("%s: not in: %s", numbers[k], message);
+    assert_int_equal(hd_run_create(&run, &scene, NULL, 0), HD_REFUSED);
+    scene.observe = 0;
+    hd_run_free(created(&scene));
+    scene = small();
+    scene.covariant_memory = 2.6e6;
+    hd_run_free(created(&scene));
+}
+
+static hd_status run_to_a_fault(const hd_scene_def *scene)
+{
+    hd_run *run = created(scene);
+    hd_status status = HD_OK;
+    while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) status = hd_run_advance(run);
+    const int fault = errno;
+    hd_run_free(run);
+    errno = fault;
+    return status;
+}
+
+/** Intervals that are as long as they choose are known when averaging begins. */
+static void too_little_room_is_found_when_windows_begin(void **state)
+{
+    (void)state;
+    hd_scene_def scene = small();
+    scene.interval = 0.0;
+    scene.accuracy = 1e-12; /* intervals as short as they get */
+    scene.covariant_memory = 1e6;
+    assert_int_equal(run_to_a_fault(&scene), HD_NO_ROOM);
+}
+
+/** Once its ring has gone round, a run with windows takes no more memory. */
+static void later_windows_take_no_memory(void **state)
+{
+    (void)state;
+    const hd_scene_def scene = small();
+    hd_run *run = created(&scene);
+    step_to(run, 150.0); /* 512 intervals of 0.25 */
+    const size_t before = hd_memory_allocations();
+    finish(run);
+    assert_int_equal(hd_memory_allocations(), before);
+    hd_run_free(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(windows_are_counted),
+        cmocka_unit_test(the_forward_pass_stays_as_it_is),
+        cmocka_unit_test(a_reset_begins_anew),
+        cmocka_unit_test(a_window_begins_when_somebody_looks_again),
+        cmocka_unit_test(a_blink_gives_up_the_window),
+        cmocka_unit_test(exponents_agree_with_the_forward_ones),
+        cmocka_unit_test(other_stages_do_not_disturb),
+        cmocka_unit_test(the_positive_half_has_no_spaces),
+        cmocka_unit_test(too_long_a_window_is_refused),
+        cmocka_unit_test(too_little_room_is_found_when_windows_begin),
+        cmocka_unit_test(later_windows_take_no_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,240 @@
+/** Scene: what is refused and in which words; numbers derived from a definition. */
+#include <float.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scene/lattice.h"
+#include "scenes.h"
+#include "testing.h"
+
+static void check_accepted(const hd_scene_def *def)
+{
+    char message[256] = "untouched";
+    if (hd_scene_check(def, message, sizeof message) != HD_OK) fail_msg("refused: %s", message);
+    assert_string_equal(message, "untouched");
+}
+
+/** The message names the parameter, shows its value and says what is allowed, on one line. */
+static void check_refused(const hd_scene_def *def, const char *name, const char *value,
+                          const char *allowed)
+{
+    char message[256] = "";
+    const hd_status status = hd_scene_check(def, message, sizeof message);
+    if (status != HD_REFUSED) fail_msg("%s = %s was accepted", name, value);
+    if (strncmp(message, name, strlen(name)) != 0 || !strstr(message, value) ||
+        !strstr(message, allowed) || strchr(message, '\n'))
+        fail_msg("%s = %s: \"%s\" lacks \"%s\"", name, value, message, allowed);
+    assert_int_equal(hd_scene_check(def, NULL, 0), HD_REFUSED);
+}
+
+static void default_is_the_papers(void **state)
+{
+    (void)state;
+    const hd_scene_def def = hd_scene_def_default();
+    double box[2];
+    check_accepted(&def);
+    hd_scene_box(&def, box);
+    CHECK_CLOSE(box[0], 33.535, 5e-4); /* as printed in the paper */
+    CHECK_CLOSE(box[1], 29.074, 7e-4);
+    assert_int_equal(hd_scene_vectors(&def), 1557);
+}
+
+typedef struct field {
+    const char *name, *allowed;
+    size_t offset;
+    double least, most;  /**< accepted */
+    double below, above; /**< refused */
+} field;
+
+#define OFFSET(member) offsetof(hd_scene_def, member)
+static const field FIELDS[] = {
+    {"density", "from 1e-6", OFFSET(density), 1e-6, 1.1, 0.99e-6, 1.1548},
+    {"aspect", "from 1e-6 to 1e6", OFFSET(aspect), 0.01, 100.0, 0.99e-6, 1.01e6},
+    {"equilibration", "from 0 to 1e12", OFFSET(equilibration), 0.0, 1e12, -1e-9, 1.1e12},
+    {"warmup", "from 0 to 1e12", OFFSET(warmup), 0.0, 1e12, -1e-9, 1.1e12},
+    {"duration", "from 0", OFFSET(duration), 0.0, 1e12, -1e-9, 1.1e12},
+    {"target_std_error", "from 0", OFFSET(target_std_error), 0.0, 1.0, -1e-9, 1.1e12},
+    {"interval", "auto", OFFSET(interval), 0.0, 1e12, -1e-9, 1.1e12},
+    {"interval", "from 1e-6 to 1e12", OFFSET(interval), 1e-6, 1e12, 0.9e-6, 1.1e12},
+    {"accuracy", "from 1e-12 to 1e-2", OFFSET(accuracy), 1e-12, 1e-2, 0.9e-12, 1.1e-2},
+    {"report_interval", "from 1e-6 to 1e12", OFFSET(report_interval), 1e-6, 1e12, 0.9e-6, 1.1e12},
+};
+enum { FIELD_COUNT = sizeof FIELDS / sizeof *FIELDS };
+
+static hd_scene_def with(const field *f, double value)
+{
+    hd_scene_def def = hd_scene_def_default();
+    memcpy((char *)&def + f->offset, &value, sizeof value);
+    return def;
+}
+
+static void real_fields_out_of_range(void **state)
+{
+    (void)state;
+    for (int k = 0; k < FIELD_COUNT; k++) {
+        const field *f = &FIELDS[k];
+        const double refused[] = {f->below,  f->above, NAN,      -NAN,   INFINITY,
+                                  -INFINITY, -1.0,     -DBL_MAX, DBL_MAX};
+        for (size_t v = 0; v < sizeof refused / sizeof *refused; v++) {
+            char value[64];
+            const hd_scene_def def = with(f, refused[v]);
+            snprintf(value, sizeof value, "= %.15g", refused[v]);
+            check_refused(&def, f->name, value, f->allowed);
+        }
+        const hd_scene_def least = with(f, f->least), most = with(f, f->most);
+        check_accepted(&least);
+        check_accepted(&most);
+    }
+}
+
+static void whole_fields_out_of_range(void **state)
+{
+    (void)state;
+    const int disks[] = {1, 0, -1, -780, 1000001, INT32_MAX, INT32_MIN}, threads[] = {-1, 1025};
+    for (size_t k = 0; k < sizeof disks / sizeof *disks; k++) {
+        char value[32];
+        hd_scene_def def = hd_scene_def_default();
+        def.disks = disks[k];
+        snprintf(value, sizeof value, "= %d", disks[k]);
+        check_refused(&def, "disks", value, "an integer from 2 to 1000000");
+    }
+    for (size_t k = 0; k < 2; k++) {
+        char value[32];
+        hd_scene_def def = hd_scene_def_default();
+        def.threads = threads[k];
+        snprintf(value, sizeof value, "= %d", threads[k]);
+        check_refused(&def, "threads", value, "from 0 (all cores) to 1024");
+    }
+    for (int d = 0; d < 2; d++) {
+        hd_scene_def def = hd_scene_def_default();
+        def.boundary[d] = (hd_boundary)2;
+        check_refused(&def, d ? "boundary_y" : "boundary_x", "= 2", "periodic or reflecting");
+    }
+}
+
+static void exponents_out_of_range(void **state)
+{
+    (void)state;
+    const int refused[] = {-3, 3121, INT32_MAX, INT32_MIN}, accepted[] = {-2, -1, 0, 1, 3120};
+    for (size_t k = 0; k < sizeof refused / sizeof *refused; k++) {
+        char value[32];
+        hd_scene_def def = hd_scene_def_default();
+        def.exponents = refused[k];
+        snprintf(value, sizeof value, "= %d", refused[k]);
+        check_refused(&def, "exponents", value, "4 disks = 3120");
+    }
+    for (size_t k = 0; k < sizeof accepted / sizeof *accepted; k++) {
+        hd_scene_def def = hd_scene_def_default();
+        def.exponents = accepted[k];
+        check_accepted(&def);
+    }
+}
+
+static void narrower_than_a_disk(void **state)
+{
+    (void)state;
+    const hd_scene_def flat = scene_in_box(5, 20.0, 0.999, HD_PERIODIC, HD_PERIODIC, 1);
+    const hd_scene_def tall = scene_in_box(5, 0.999, 20.0, HD_REFLECTING, HD_PERIODIC, 1);
+    const hd_scene_def square = scene_in_box(2, 1.5, 1.5, HD_PERIODIC, HD_PERIODIC, 1);
+    check_refused(&flat, "density", "Ly = 0.999", "above the disk diameter 1");
+    check_refused(&tall, "density", "Lx = 0.999", "above the disk diameter 1");
+    check_accepted(&square);
+    for (int b = 0; b < 4; b++) { /* a last bit above a diameter is enough for a chain */
+        hd_scene_def chain = scene_in_box(5, 20.0, 1.0 + 1e-9, (hd_boundary)(b & 1),
+                                          (hd_boundary)(b >> 1), 1);
+        check_accepted(&chain);
+    }
+}
+
+/** Just below the reported maximum a scene is accepted, just above it is refused and told so. */
+static void too_dense_for_the_lattice(void **state)
+{
+    (void)state;
+    const int disks[] = {2, 3, 5, 12, 49, 64, 780};
+    for (size_t k = 0; k < sizeof disks / sizeof *disks; k++)
+        for (int b = 0; b < 4; b++) {
+            hd_scene_def def = scene_of(disks[k], 0.5, 0.9, (hd_boundary)(b & 1),
+                                        (hd_boundary)(b >> 1), 1);
+            char most[32];
+            const double densest = hd_lattice_density_max(&def);
+            def.density = densest;
+            check_accepted(&def);
+            def.density = densest * (1.0 + 1e-8);
+            snprintf(most, sizeof most, "at most %.6g", densest);
+            if (def.density <= 2.0 / sqrt(3.0)) check_refused(&def, "density", "= ", most);
+        }
+}
+
+static void message_may_be_short(void **state)
+{
+    (void)state;
+    char message[] = "..........";
+    hd_scene_def def = hd_scene_def_default();
+    def.density = -1.0;
+    assert_int_equal(hd_scene_check(&def, message, 5), HD_REFUSED);
+    assert_memory_equal(message, "dens\0.....", sizeof message);
+    assert_int_equal(hd_scene_check(&def, message, 0), HD_REFUSED);
+    assert_memory_equal(message, "dens\0.....", sizeof message);
+}
+
+static void box_has_area_and_aspect(void **state)
+{
+    (void)state;
+    const double density[] = {1e-6, 0.3, 1.1}, aspect[] = {1e-3, 0.867, 1.0, 77.0};
+    for (int k = 0; k < 12; k++) {
+        const hd_scene_def def = scene_of(50 * (k + 1), density[k % 3], aspect[k % 4], HD_PERIODIC,
+                                          HD_PERIODIC, 1);
+        const double area = def.disks / def.density, rounding = 4.0 * DBL_EPSILON;
+        double box[2];
+        hd_scene_box(&def, box);
+        CHECK_CLOSE(box[0] * box[1], area, rounding * area);
+        CHECK_CLOSE(box[1] / box[0], def.aspect, rounding * def.aspect);
+    }
+}
+
+static void numbers_of_vectors(void **state)
+{
+    (void)state;
+    const int zeros[] = {6, 4, 4, 2};
+    for (int b = 0; b < 4; b++)
+        for (int n = 2; n <= 1000000; n = n * 3 + 1) {
+            hd_scene_def def = scene_of(n, 0.5, 1.0, (hd_boundary)(b & 1), (hd_boundary)(b >> 1),
+                                        1);
+            assert_int_equal(hd_scene_zero_exponents(&def), zeros[b]);
+            def.exponents = HD_EXPONENTS_ALL;
+            assert_int_equal(hd_scene_vectors(&def), 4 * n);
+            def.exponents = HD_EXPONENTS_POSITIVE;
+            assert_int_equal(hd_scene_vectors(&def), 2 * n - zeros[b] / 2);
+            def.exponents = HD_EXPONENTS_NONE;
+            assert_int_equal(hd_scene_vectors(&def), 0);
+            def.exponents = 7;
+            assert_int_equal(hd_scene_vectors(&def), 7);
+        }
+}
+
+/** The extremes of the table together: accepted or refused with a message, never a crash. */
+static void corners_of_the_table(void **state)
+{
+    (void)state;
+    const int disks[] = {2, 3, 1000000};
+    const double density[] = {1e-9, 1e-3, 1.0, 1.1547}, aspect[] = {1e-6, 1.0, 1e6};
+    for (int k = 0; k < 3 * 4 * 3; k++) {
+        char message[256] = "";
+        const hd_scene_def def = scene_of(disks[k / 12], density[k % 4], aspect[k / 4 % 3],
+                                          HD_PERIODIC, HD_REFLECTING, 1);
+        const hd_status status = hd_scene_check(&def, message, sizeof message);
+        assert_true((status == HD_OK) == (message[0] == '\0'));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(default_is_the_papers),     cmocka_unit_test(real_fields_out_of_range),
+        cmocka_unit_test(whole_fields_out_of_range), cmocka_unit_test(exponents_out_of_range),
+        cmocka_unit_test(narrower_than_a_disk),      cmocka_unit_test(too_dense_for_the_lattice),
+        cmocka_unit_test(message_may_be_short),      cmocka_unit_test(box_has_area_and_aspect),
+        cmocka_unit_test(numbers_of_vectors),        cmocka_unit_test(corners_of_the_table),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

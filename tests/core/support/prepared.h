@@ -1,0 +1,50 @@
+/** Trajectories that start from states written by hand. */
+#ifndef HD_PREPARED_H
+#define HD_PREPARED_H
+
+#include "events/trajectory_state.h"
+#include "scenes.h"
+#include "testing.h"
+
+static inline hd_trajectory *started(const hd_scene_def *def, const double *q, const double *p)
+{
+    hd_trajectory *tr = NULL;
+    CHECK_OK(hd_trajectory_create_from(&tr, def, q, p));
+    return tr;
+}
+
+static inline hd_event_log *new_log(void)
+{
+    hd_event_log *log;
+    CHECK_OK(hd_event_log_create(&log));
+    return log;
+}
+
+/** All events before t_end. */
+static inline hd_event_log *log_of(const hd_scene_def *def, const double *q, const double *p,
+                                   double t_end)
+{
+    hd_event_log *log = new_log();
+    hd_trajectory *tr = started(def, q, p);
+    CHECK_OK(hd_trajectory_advance(tr, log, t_end));
+    hd_trajectory_free(tr);
+    return log;
+}
+
+/** Contacts so far that were predicted, and found to graze within rounding: they are not logged.
+ * Within the first epoch: at its end every disk counts once more. */
+static inline long void_contacts(const hd_trajectory *tr)
+{
+    uint64_t sum = 0;
+    for (int32_t i = 0; i < tr->motion.count; i++) sum += tr->motion.disk[i].collisions;
+    return (long)((sum - tr->wall_events) / 2 - tr->collisions);
+}
+
+/** When the next event is due, pair or not; disks that meet then touch. */
+static inline double next_event_time(hd_trajectory *tr)
+{
+    const int32_t i = hd_queue_next(&tr->motion.queue);
+    return i < 0 ? hd_trajectory_time(tr) : tr->epoch_start + tr->motion.queue.entry[i].key.t;
+}
+
+#endif

@@ -1,0 +1,65 @@
+/** One thread or all of them: never the slower by much, and what the user asks for in any case. */
+#include "testing.h"
+
+#include "hdlyap/blas.h"
+#include "tangent/threads.h"
+
+static int chosen(int disks, int vectors, int wanted, int *most)
+{
+    hd_frame *frame;
+    hd_ortho *ortho;
+    int threads = 0;
+    *most = hd_threads_most(wanted, 4 * disks, vectors);
+    CHECK_OK(hd_frame_create(&frame, disks, vectors, 1, *most));
+    CHECK_OK(hd_ortho_create(&ortho, 4 * disks, vectors));
+    CHECK_OK(hd_ortho_step(ortho, frame, (hd_ortho_limits){1e7, 1e-12}));
+    CHECK_OK(hd_threads_choose(&threads, ortho, frame, wanted));
+    assert_int_equal(hd_frame_threads(frame), threads);
+    assert_true(hd_ortho_defect_measured(ortho, frame) < 1e-12); /* the trials did no harm */
+    hd_ortho_free(ortho);
+    hd_frame_free(frame);
+    return threads;
+}
+
+static void small_frames_have_one_thread(void **state)
+{
+    (void)state;
+    int most;
+    assert_int_equal(chosen(10, 17, 0, &most), 1);
+    assert_int_equal(most, 1);
+    assert_int_equal(chosen(64, 125, 0, &most), 1);
+}
+
+static void in_between_it_is_tried(void **state)
+{
+    (void)state;
+    int most;
+    const int cores = hd_blas_query().cores, threads = chosen(160, 317, 0, &most);
+    assert_int_equal(most, cores);
+    assert_true(threads == 1 || threads == cores);
+}
+
+static void large_frames_have_all_threads(void **state)
+{
+    (void)state;
+    assert_int_equal(hd_threads_most(0, 3120, 1557), hd_blas_query().cores);
+}
+
+static void what_is_asked_for_is_not_doubted(void **state)
+{
+    (void)state;
+    int most;
+    assert_int_equal(chosen(10, 17, 2, &most), 2);
+    assert_int_equal(chosen(160, 317, 1, &most), 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(small_frames_have_one_thread),
+        cmocka_unit_test(in_between_it_is_tried),
+        cmocka_unit_test(large_frames_have_all_threads),
+        cmocka_unit_test(what_is_asked_for_is_not_doubted),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

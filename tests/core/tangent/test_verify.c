@@ -1,0 +1,155 @@
+/** The verify build's checks: silent about what is right, each of them heard when its invariant is
+ * broken. */
+#include <setjmp.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include "testing.h"
+
+#include "hdlyap/run.h"
+#include "run/run_state.h"
+#include "events/trajectory_state.h"
+#include "scenes.h"
+#include "tangent/verify.h"
+
+#ifdef HD_VERIFY_BUILD
+static const bool VERIFIES = true;
+#else
+static const bool VERIFIES = false;
+#endif
+
+static jmp_buf caught;
+
+static void catch (const char *condition, const char *file, int line)
+{
+    (void)condition;
+    (void)line;
+    longjmp(caught, strstr(file, "verify.c") ? 1 : 2);
+}
+
+/** Whether the call broke a contract of verify.c is in `broken`. */
+static volatile bool broken;
+#define EXPECT_BROKEN(expected, call)                                                              \
+    do {                                                                                           \
+        broken = true;                                                                             \
+        hd_assert_handler_replace(catch);                                                          \
+        if (setjmp(caught) == 0) {                                                                 \
+            (call);                                                                                \
+            broken = false;                                                                        \
+        }                                                                                          \
+        hd_assert_handler_replace(NULL);                                                           \
+        if (broken != (expected)) fail_msg("%s: " #call, broken ? "broken" : "not broken");        \
+    } while (0)
+
+static hd_run *run_of(int exponents)
+{
+    hd_scene_def def = scene_of(16, 0.7, 1.0, HD_PERIODIC, HD_PERIODIC, 3);
+    def.exponents = exponents;
+    def.equilibration = 2.0;
+    def.warmup = 10.0;
+    def.duration = 10.0;
+    hd_run *run;
+    CHECK_OK(hd_run_create(&run, &def, NULL, 0));
+    for (int k = 0; k < 20; k++) CHECK_OK(hd_run_advance(run));
+    return run;
+}
+
+static void disks_are_checked(void **state)
+{
+    (void)state;
+    hd_run *run = run_of(HD_EXPONENTS_POSITIVE);
+    const hd_trajectory *tr = run->advance.trajectory;
+    hd_disk *disk = run->advance.trajectory->motion.disk;
+    const hd_disk right = disk[0];
+    EXPECT_BROKEN(false, hd_verify_disks(tr, &run->scene));
+    disk[0].p[0] *= 1.0 + 1e-9;
+    EXPECT_BROKEN(true, hd_verify_disks(tr, &run->scene));
+    disk[0] = right;
+    for (int d = 0; d < 2;
+         d++) { /* turned back where it is: the same energy, but not the same momentum */
+        disk[0].q[d] += 2.0 * disk[0].p[d] * (tr->now - tr->epoch_start - disk[0].t);
+        disk[0].p[d] = -disk[0].p[d];
+    }
+    EXPECT_BROKEN(true, hd_verify_disks(tr, &run->scene));
+    disk[0] = right;
+    disk[0].q[0] += 0.6; /* density .7: there is no room */
+    EXPECT_BROKEN(true, hd_verify_disks(tr, &run->scene));
+    disk[0] = right;
+    disk[0].p[1] = NAN;
+    EXPECT_BROKEN(true, hd_verify_disks(tr, &run->scene));
+    disk[0] = right;
+    hd_run_free(run);
+}
+
+static void the_log_is_checked(void **state)
+{
+    (void)state;
+    const hd_event right[2] = {{0.5, 0, 1, {1, 0}, {-1, 0}}, {0.7, 2, HD_WALL_Y, {0, 1}, {1, 2}}};
+    const struct {
+        int event;
+        hd_event wrong;
+    } cases[] = {
+        {1, {0.4, 0, 1, {1, 0}, {-1, 0}}}, /* before the other */
+        {1, {1.1, 0, 1, {1, 0}, {-1, 0}}}, /* after the end */
+        {0, {NAN, 0, 1, {1, 0}, {-1, 0}}}, /* never */
+        {0, {0.5, 1, 0, {1, 0}, {-1, 0}}}, /* not in their order */
+        {0, {0.5, 0, 3, {1, 0}, {-1, 0}}}, /* no such disk */
+        {0, {0.5, -1, 1, {1, 0}, {-1, 0}}},   {0, {0.5, 0, -3, {1, 0}, {-1, 0}}}, /* no such wall */
+        {0, {0.5, 0, 1, {1, 1e-7}, {-1, 0}}}, /* not a unit vector */
+        {0, {0.5, 0, 1, {NAN, 0}, {-1, 0}}},  {0, {0.5, 0, 1, {1, 0}, {1e-9, 0}}}, /* parting */
+        {0, {0.5, 0, 1, {1, 0}, {NAN, 0}}},
+    };
+    hd_event event[2];
+    const hd_event_log log = {event, 2, 2, 1.0};
+    memcpy(event, right, sizeof event);
+    EXPECT_BROKEN(false, hd_verify_log(&log, 3));
+    for (volatile size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        memcpy(event, right, sizeof event);
+        event[cases[k].event] = cases[k].wrong;
+        EXPECT_BROKEN(true, hd_verify_log(&log, 3));
+    }
+}
+
+static void the_frame_is_checked(void **state)
+{
+    (void)state;
+    hd_run *run = run_of(HD_EXPONENTS_ALL);
+    const hd_symplectic before = hd_verify_sample(run->frame);
+    double *entry = hd_frame_data(run->frame);
+    const double right = entry[0];
+    EXPECT_BROKEN(false, hd_verify_symplectic(run->frame, &before, 0.0));
+    EXPECT_BROKEN(false, hd_verify_ortho(run->ortho, run->frame));
+    entry[0] += 1e-5;
+    EXPECT_BROKEN(true, hd_verify_symplectic(run->frame, &before, 0.0));
+    EXPECT_BROKEN(true, hd_verify_ortho(run->ortho, run->frame));
+    entry[0] = NAN;
+    EXPECT_BROKEN(true, hd_verify_symplectic(run->frame, &before, 0.0));
+    EXPECT_BROKEN(true, hd_verify_ortho(run->ortho, run->frame));
+    entry[0] = right;
+    double *stretch = (double *)hd_ortho_log_stretch(run->ortho);
+    stretch[3] += 0.1;
+    EXPECT_BROKEN(true, hd_verify_ortho(run->ortho, run->frame));
+    hd_run_free(run);
+}
+
+/** The step of a run asks, where the build verifies, and only there. */
+static void a_step_asks_where_the_build_verifies(void **state)
+{
+    (void)state;
+    hd_run *run = run_of(HD_EXPONENTS_POSITIVE);
+    hd_disk *disk = run->advance.trajectory->motion.disk;
+    for (int i = 0; i < 16; i++) disk[i].p[0] *= 1.0 + 1e-9;
+    EXPECT_BROKEN(VERIFIES, (void)!hd_run_advance(run));
+    hd_run_free(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(disks_are_checked),
+        cmocka_unit_test(the_log_is_checked),
+        cmocka_unit_test(the_frame_is_checked),
+        cmocka_unit_test(a_step_asks_where_the_build_verifies),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
