@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hdlyap_ros/stage.h"
+
 _Static_assert((int)PICTURE_PAIRS_MAX == (int)HEARD_PAIRS_MAX, "pairs as they are heard");
 
 bool mode_name_parse(mode_name *out, const char *text)
@@ -23,8 +25,8 @@ static bool is_shown(const hdr_step *step) { return step->resolved && !step->con
 static const hdr_step *step_of(const heard *h, uint8_t kind, const mode_name *name)
 {
     const hdr_step *found = NULL;
-    for (uint32_t k = 0; k < h->steps.count; k++) {
-        const hdr_step *step = &h->steps.steps[k];
+    for (uint32_t k = 0; k < h->steps.steps.count; k++) {
+        const hdr_step *step = &h->steps.steps.data[k];
         if (step->kind != kind || !is_shown(step)) continue;
         if (name && (step->nx != name->nx || step->ny != name->ny)) continue;
         if (!found || step->exponent < found->exponent) found = step;
@@ -66,8 +68,8 @@ static void fill_pairs(picture_mode *mode, const heard *h, const heard_vector *v
     memcpy(mode->a, v->a, sizeof mode->a);
     memcpy(mode->b, v->b, sizeof mode->b);
     if (v->pairs > 0 || h->phases.sim_time != h->time) return;
-    for (uint32_t k = 0; k < h->phases.count && mode->pairs < PICTURE_PAIRS_MAX; k++) {
-        const hdr_lp_phase *phase = &h->phases.phases[k];
+    for (uint32_t k = 0; k < h->phases.phases.count && mode->pairs < PICTURE_PAIRS_MAX; k++) {
+        const hdr_lp_phase *phase = &h->phases.phases.data[k];
         if (phase->index != v->index || phase->nx != v->nx || phase->ny != v->ny) continue;
         mode->a[mode->pairs] = phase->a;
         mode->b[mode->pairs++] = phase->b;

@@ -10,8 +10,8 @@ void heard_clear(heard *h)
     for (int k = 0; k < HEARD_VECTORS_MAX; k++) free(h->vector[k].dx);
     free(h->x);
     free(h->exponents);
-    free((void *)h->steps.steps);
-    free((void *)h->phases.phases);
+    free((void *)h->steps.steps.data);
+    free((void *)h->phases.phases.data);
     *h = (heard){.time = -1.0};
 }
 
@@ -152,8 +152,8 @@ static bool is_wanted(const heard *h, const heard_vector *v)
     for (int k = 0; k < h->vectors && is_new; k++)
         is_new = h->vector[k].kind != v->kind || h->vector[k].nx != v->nx ||
                  h->vector[k].ny != v->ny;
-    for (uint32_t k = 0; k < h->steps.count && !is_new; k++)
-        is_new = h->steps.steps[k].resolved && h->steps.steps[k].first_index == v->index;
+    for (uint32_t k = 0; k < h->steps.steps.count && !is_new; k++)
+        is_new = h->steps.steps.data[k].resolved && h->steps.steps.data[k].first_index == v->index;
     return is_new;
 }
 
@@ -212,19 +212,21 @@ void heard_spectrum(heard *h, const hdr_spectrum *spectrum)
 void heard_steps(heard *h, const hdr_steps *steps)
 {
     if (!is_ours(h, steps->run_id)) return;
-    hdr_step *own = replaced(h->steps.steps, steps->steps, steps->count * sizeof *own);
+    hdr_step *own = replaced(h->steps.steps.data, steps->steps.data,
+                             steps->steps.count * sizeof *own);
     if (!own) return;
     h->steps = *steps;
-    h->steps.steps = own;
+    h->steps.steps.data = own;
 }
 
 void heard_phases(heard *h, const hdr_lp_phases *phases)
 {
     if (!is_ours(h, phases->run_id)) return;
-    hdr_lp_phase *own = replaced(h->phases.phases, phases->phases, phases->count * sizeof *own);
+    hdr_lp_phase *own = replaced(h->phases.phases.data, phases->phases.data,
+                                 phases->phases.count * sizeof *own);
     if (!own) return;
     h->phases = *phases;
-    h->phases.phases = own;
+    h->phases.phases.data = own;
     h->changed |= phases->sim_time == h->time;
 }
 
