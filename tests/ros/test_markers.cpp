@@ -489,7 +489,7 @@ struct hearing {
         step.assign({{HDR_MODE_T, 1, 0, 0.6, false, resolved, 2, 7, 8, 2, 0, 1, 1.5, -1},
                      {HDR_MODE_LP, 0, 1, 0.6, false, resolved, 2, 5, 6, 2, 1, 1, 1.8, -1}});
         hdr_steps message = {};
-        message.run_id = "run", message.steps = step.data(), message.count = 2;
+        message.run_id = "run", message.steps = {step.data(), 2};
         heard_steps(&h, &message);
     }
 
@@ -555,7 +555,7 @@ TEST(heard, fields_of_a_bag)
     EXPECT_EQ(0u, p.mode[1].pairs);
     hdr_lp_phase phase = {1, 0, 1, 0, 5, HDR_LP_TRACKED, 0.5, -0.25, 0, 0, 0, 0, 0};
     hdr_lp_phases phases = {};
-    phases.run_id = "run", phases.phases = &phase, phases.count = 1, phases.sim_time = 10.0;
+    phases.run_id = "run", phases.phases = {&phase, 1}, phases.sim_time = 10.0;
     heard_phases(&on.h, &phases);
     p = on.drawn();
     ASSERT_EQ(1u, p.mode[1].pairs);

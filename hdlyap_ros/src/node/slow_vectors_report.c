@@ -68,7 +68,8 @@ hdr_status slow_vectors_report_create(slow_vectors_report **out, hdr_node *ros, 
     r->end = positive_exponents(run);
     r->last = -HUGE_VAL;
     hdr_status status = arrays_create(r) ? HDR_OK : HDR_NO_MEMORY;
-    if (status == HDR_OK) status = hdr_slow_vectors_advertise_latched(&r->publisher, ros, "~slow_vectors", 1);
+    if (status == HDR_OK)
+        status = hdr_slow_vectors_advertise_latched(&r->publisher, ros, "~slow_vectors", 1);
     if (status == HDR_OK) return HDR_OK;
     slow_vectors_report_free(r);
     *out = NULL;
