@@ -553,7 +553,7 @@ TEST(heard, fields_of_a_bag)
     EXPECT_TRUE(p.mode[0].known && p.mode[1].known);
     EXPECT_EQ(0.07, p.mode[0].dx.data[0]);
     EXPECT_EQ(0u, p.mode[1].pairs);
-    hdr_lp_phase phase = {1, 0, 1, 0, 5, HDR_LP_TRACKED, 0.5, -0.25, 0, 0, 0, 0, 0};
+    hdr_lp_phase phase = {1, 0, 1, 0, 5, HDR_LP_PHASE_TRACKED, 0.5, -0.25, 0, 0, 0, 0, 0};
     hdr_lp_phases phases = {};
     phases.run_id = "run", phases.phases = {&phase, 1}, phases.sim_time = 10.0;
     heard_phases(&on.h, &phases);
