@@ -1,8 +1,6 @@
 """Covariant vectors in plot_bag, from messages that are made here: what it prints, and what it draws."""
 
 import os
-import subprocess
-import sys
 import tempfile
 import unittest
 
@@ -11,7 +9,7 @@ import numpy as np
 from hdlyap.msg import Cost, Spectrum, Steps
 
 import made
-from made import LP, SCRIPTS, T
+from made import LP, T
 from hdlyap.plots import covariant, recording, report
 from hdlyap.plots.figures import (
     covariant_angles,
@@ -21,6 +19,7 @@ from hdlyap.plots.figures import (
     covariant_weights,
     plt,
 )
+from plotted import plot_bag
 
 FIGURES = (
     covariant_exponents,
@@ -465,12 +464,7 @@ class Partly(Bags):
 
 class Command(Bags):
     def plot(self):
-        return subprocess.run(
-            [sys.executable, os.path.join(SCRIPTS, 'plot_bag'), self.path, '--out', self.out],
-            universal_newlines=True,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-        )
+        return plot_bag(self.path, '--out', self.out)
 
     def test_plot_bag(self):
         made.write(self.path, everything())
