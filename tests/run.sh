@@ -113,13 +113,33 @@ lint() {
     catkin_lint --offline --strict -W2 --ignore package_path_name "$ROOT" "$ROOT/tests/downstream"
 }
 
-warnings() {
-    ! grep -n ': warning:' "$LOGS"/*_build.log
+# sources FIND_EXPRESSION...: files of the repository, without what is built.
+sources() { find . \( -name build -o -name .git \) -prune -o -type f \( "$@" \) -print; }
+
+# As the formatters of Debian 12 have it, whose versions differ in details.
+format() {
+    local -a in_c in_python
+    cd "$ROOT"
+    mapfile -t in_c < <(sources -name '*.[ch]' -o -name '*.[ch]pp')
+    mapfile -t in_python < <(sources -name '*.py' && sources ! -name '*.*' -exec grep -qE '^#!/usr/bin/(env )?python3' {} \;)
+    clang-format --dry-run -Werror "${in_c[@]}" && black --check "${in_python[@]}" && flake8 "${in_python[@]}"
 }
 
-demo_and_reproduce() { # one after the other: both use the folder build of the clone
-    stage demo checks "$ROOT/tests/demo.sh" "$WORK/demo"
-    stage reproduce checks "$ROOT/tests/reproduce.sh" "$WORK/reproduce"
+# The public headers, as they are installed: of parameters and names that do not exist.
+public_headers() {
+    mkdir -p "$WORK/doxygen"
+    cd "$WORK/ros/.install/include"
+    {
+        cat "$ROOT/tests/doxygen/Doxyfile"
+        echo "INPUT = hdlyap hdlyap_ros"
+        echo "OUTPUT_DIRECTORY = $WORK/doxygen"
+    } | doxygen - >"$WORK/doxygen/said" 2>&1
+    cat "$WORK/doxygen/said"
+    [[ ! -s $WORK/doxygen/said ]] && python3 "$ROOT/tests/doxygen/names.py" "$WORK/doxygen/xml"
+}
+
+warnings() {
+    ! grep -n ': warning:' "$LOGS"/*_build.log
 }
 
 # Nothing may be left of the suite: no process, no file among the temporary ones, no lock of a screen.
@@ -226,19 +246,22 @@ ros_lane() {
     either_lane
 }
 
-# What needs both builds, the longest first.
+# What needs both builds, the longest first. Demo and reproduce use one folder: one after the other.
 either_lane() {
-    take checked && stage checked checks "$ROOT/tests/checked.sh" "$WORK/checked" "$WORK/core" "$WORK/ros"
-    take readme && stage readme checks "$ROOT/tests/readme.sh" "$WORK/readme" "$WORK/ros/.install/setup.bash"
-    take demo && demo_and_reproduce
-    take downstream && stage downstream checks downstream
-    take plot_tests && stage plot_tests unittest plot_tests
-    take lint && stage lint one lint
-    return 0
+    first checked checks "$ROOT/tests/checked.sh" "$WORK/checked" "$WORK/core" "$WORK/ros"
+    first readme checks "$ROOT/tests/readme.sh" "$WORK/readme" "$WORK/ros/.install/setup.bash"
+    first demo checks "$ROOT/tests/demo.sh" "$WORK/demo"
+    first downstream checks downstream
+    first plot_tests unittest plot_tests
+    until has_reported demo; do sleep 1; done
+    first reproduce checks "$ROOT/tests/reproduce.sh" "$WORK/reproduce"
+    first lint one lint
+    [[ $(clang-format --version) != *' 14.'* ]] || first format one format
+    first doxygen one public_headers
 }
 
-# take NAME: true in the lane that comes first.
-take() { mkdir "$TAKEN/$1" 2>/dev/null; }
+# first NAME COUNTER COMMAND...: the stage, in the lane that comes first.
+first() { ! mkdir "$TAKEN/$1" 2>/dev/null || stage "$@"; }
 
 INSTALL=yes
 case ${1:-} in

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Recording, replaying and repeating runs by the launch files: nothing is lost, nothing is changed, and a bag says all of its run."""
+"""Recording, replaying and repeating runs by the launch files: nothing is lost, nothing is changed,
+and a bag says all of its run."""
 
 import glob
 import io
@@ -192,7 +193,8 @@ class Recorded(unittest.TestCase):
             )
 
     def test_bytes_are_those_of_the_topic(self):
-        """Another subscriber, who came a little later, got the same; read and written again they still are the same."""
+        """Another subscriber, who came a little later, got the same; read and written again they
+        still are the same."""
         for topic, heard in self.heard.messages.items():
             with self.subTest(topic=topic):
                 bytes_in_bag = [data for _, data, _, _ in self.messages[topic]]
@@ -248,7 +250,8 @@ class Recorded(unittest.TestCase):
         self.assertLess(report * 3600 / float(seconds), 1e9 * float(most))
 
     def test_replay(self):
-        """Waits for those who listen, then tells them what the bag holds, byte for byte; and run_info to who comes late."""
+        """Waits for those who listen, then tells them what the bag holds, byte for byte; and
+        run_info to who comes late."""
         raw, clock = Raw(self.messages), Raw(['/clock'])
         self.addCleanup(clock.close)
         self.addCleanup(raw.close)
@@ -302,7 +305,8 @@ class Recorded(unittest.TestCase):
 
 
 def expected_sizes(disks, vectors, steps, phases):
-    """Bytes of a message without frame_id and run_id, of fields without pairs: what README says, and single numbers."""
+    """Bytes of a message without frame_id and run_id, of fields without pairs: what README says,
+    and single numbers."""
     begin = 4 + 8 + 8  # seq, stamp, sim_time
     return dict(
         spectrum=begin + 8 + 8 + 3 * 8 + 4 + 5 * 4 + 40 * vectors,
@@ -334,8 +338,8 @@ class Stopped(unittest.TestCase):
         return sorted(glob.glob(os.path.join(self.folder, pattern)))
 
     def test_in_the_middle(self):
-        """A recorder that is asked to end has closed its files; one that comes late is told run_info; when its node is
-        killed, its bag can still be drawn."""
+        """A recorder that is asked to end has closed its files; one that comes late is told
+        run_info; when its node is killed, its bag can still be drawn."""
         first = self.record('bag:=first.bag', 'split_size:=1')
         node = self.process(harness.start(BULKY))
         self.assertTrue(harness.wait_until(lambda: len(self.files('first_*')) > 2))

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""README's tables of topics, services, parameters and launch arguments against the sources. Needs no ROS master."""
+"""README's tables of topics, services, parameters and launch arguments against the sources. Needs
+no ROS master."""
 
 import os
 import re
@@ -32,7 +33,8 @@ def listed(*path):
 
 
 def table(title):
-    """Rows of README's table whose first column has that title: name without backquotes -> the other cells."""
+    """Rows of README's table whose first column has that title: name without backquotes -> the
+    other cells."""
     lines = text_of('README.md').splitlines()
     first = next(k for k, line in enumerate(lines) if line.startswith('| %s |' % title)) + 2
     rows = {}
@@ -217,7 +219,8 @@ class Tables(unittest.TestCase):
             )
 
     def test_ranges_and_units(self):
-        """No other numbers than those of the reference, and its unit; one comment may be that of two parameters."""
+        """No other numbers than those of the reference, and its unit; one comment may be that of
+        two parameters."""
         units = {}
         for name, (allowed, _, _) in table('parameter').items():
             comment = references()[name].split('Default:')[0]
