@@ -20,6 +20,7 @@ from hdlyap.plots.figures import (
     covariant_weights,
     plt,
 )
+from hdlyap.plots.figures.style import save
 from plotted import plot_bag
 
 FIGURES = (
@@ -467,12 +468,9 @@ class Partly(Bags):
 
 
 class Command(Bags):
-    def plot(self):
-        return plot_bag(self.path, '--out', self.out)
-
     def test_plot_bag(self):
         made.write(self.path, everything())
-        done = self.plot()
+        done = plot_bag(self.path, '--out', self.out)
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         self.assertIn('covariant vectors: 200 time units in 4 windows', done.stdout)
         names = [
@@ -484,9 +482,15 @@ class Command(Bags):
             self.assertIn(name, os.listdir(self.out))
             self.assertIn(name, done.stdout)
 
+    def test_files(self):
+        run = self.read()
+        for kind in FIGURES:
+            for path in save(kind.draw(run), os.path.dirname(self.path), 'figure'):
+                self.assertGreater(os.path.getsize(path), 5000, kind.__name__)
+
     def test_nothing_without_the_topic(self):
         made.write(self.path, everything()[:-1])
-        done = self.plot()
+        done = plot_bag(self.path, '--out', self.out)
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         self.assertNotIn('covariant', done.stdout)
 
