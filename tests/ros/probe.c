@@ -33,7 +33,7 @@ static double number(const char *variable)
 }
 
 /** PROBE_STEP_SECONDS: a step takes so much longer. PROBE_FAULT_AFTER: steps before one fails. */
-hd_status hd_run_step(hd_run *run)
+hd_status hd_run_advance(hd_run *run)
 {
     hd_status (*real)(hd_run *);
     const double seconds = number("PROBE_STEP_SECONDS"), fault_after = number("PROBE_FAULT_AFTER");
@@ -41,7 +41,7 @@ hd_status hd_run_step(hd_run *run)
     while (nanosleep(&left, &left)) continue;
     if ((double)atomic_fetch_add(&steps, 1) >= fault_after && fault_after > 0.0)
         return HD_ILL_CONDITIONED;
-    next(&real, "hd_run_step");
+    next(&real, "hd_run_advance");
     return real(run);
 }
 

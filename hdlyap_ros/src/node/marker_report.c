@@ -151,7 +151,7 @@ void marker_report_demand(marker_report *r, hd_run *run)
     const bool paced = r->set->pace > 0.0 && hd_run_stage(run) == HD_AVERAGING;
     const double between = paced ? fmax(r->set->pace / r->set->markers.rate, DBL_MIN) : INFINITY;
     r->due = watched && clock_seconds() >= r->next;
-    hd_run_view(run, watched ? between : INFINITY, r->due ? first_wanted(r, run) : r->vectors);
+    hd_run_watch(run, watched ? between : INFINITY, r->due ? first_wanted(r, run) : r->vectors);
 }
 
 /* ---- the picture --------------------------------------------------------------------------- */

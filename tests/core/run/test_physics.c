@@ -23,7 +23,7 @@ static hd_run *finished_run(const hd_scene_def *scene)
 {
     hd_run *run = NULL;
     CHECK_OK(hd_run_create(&run, scene, NULL, 0));
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_step(run));
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
     return run;
 }
 
