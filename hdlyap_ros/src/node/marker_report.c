@@ -9,6 +9,7 @@
 #include "../view/view.h"
 #include "clock.h"
 #include "field_report.h"
+#include "hdlyap_ros/stage.h"
 
 _Static_assert((int)PICTURE_PAIRS_MAX == (int)HD_MODULATIONS_MAX, "pairs as in the core");
 _Static_assert((int)PICTURE_MODES_MAX == (int)MARKER_MODES_MAX, "modes as in the settings");
