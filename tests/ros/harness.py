@@ -1,5 +1,6 @@
 """Starts hdlyap_node as a process of its own, as a user would, and sees what it does."""
 
+import functools
 import os
 import signal
 import socket
@@ -48,6 +49,7 @@ OBSERVABLES = [topic for topic in TYPES if topic not in ('run_info', 'cost')]
 PATIENCE = 60.0  # seconds, for what has no bound of its own
 
 
+@functools.lru_cache(maxsize=None)
 def executable():
     return roslib.packages.find_node('hdlyap', 'hdlyap_node')[0]
 
