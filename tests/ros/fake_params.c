@@ -93,6 +93,8 @@ static const struct known {
     {"threads", INTEGER, "2"},
     {"wait_for_subscribers", STRINGS, "run_info"},
     {"pace", REAL, "1"},
+    {"slow_vectors_rate", REAL, "10"},
+    {"slow_vectors_count", INTEGER, "0"},
     {"checkpoint", STRING, "kept"},
     {"checkpoint_interval", REAL, "60"},
     {"resume", STRING, ""},

@@ -23,6 +23,7 @@ from hdlyap.msg import (
     ModeField,
     Modes,
     RunInfo,
+    SlowVectors,
     Spectrum,
     State,
     Steps,
@@ -50,8 +51,12 @@ PATIENCE = 60.0  # seconds, for what has no bound of its own
 
 
 @functools.lru_cache(maxsize=None)
+def program(name):
+    return roslib.packages.find_node('hdlyap', name)[0]
+
+
 def executable():
-    return roslib.packages.find_node('hdlyap', 'hdlyap_node')[0]
+    return program('hdlyap_node')
 
 
 def probe_library():
@@ -129,6 +134,11 @@ def start(params, name=NODE, probe=None, args=(), command=None, **env):
     return Process([*(command or [executable()]), '__name:=' + name, *args], **env)
 
 
+def start_viewer(params=(), **how):
+    """With exactly these private parameters, as the node /viewer."""
+    return start(dict(params), name='viewer', command=[program('viewer')], **how)
+
+
 def counts(test, params):
     """What probe.c has counted of a run that ends by itself, by name without hd_."""
     with tempfile.TemporaryDirectory() as folder:
@@ -162,7 +172,7 @@ class Listener:
         self.messages = []
         self.delay = delay
         self.arrived = threading.Condition()
-        kind = dict(TYPES, covariant=Covariant)[topic]
+        kind = dict(TYPES, covariant=Covariant, slow_vectors=SlowVectors)[topic]
         self.subscriber = rospy.Subscriber(
             '/%s/%s' % (NODE, topic), kind, self.keep, queue_size=None
         )

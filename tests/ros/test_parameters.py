@@ -53,6 +53,8 @@ BAD = dict(
     threads=[-1, 1025, 1.0, '2'],
     wait_for_subscribers=[['nothing'], ['spectrum', ''], 'spectrum', 5, [1]],
     pace=[-1, 2e12, 'x', NAN, INFINITY],
+    slow_vectors_rate=[0, 101, 'x', NAN],
+    slow_vectors_count=['x', 1.5],
     max_wave_number=[-1, 1.1, 2.7, 2e12, 'x', '', [1], NAN, INFINITY, True],
     max_mode_number=[-1, 3, 1000001, 1.0, '2', '', [2], False],
     field_indices=[
@@ -115,10 +117,11 @@ BAD_TOGETHER = [
     ('warmup', dict(WINDOW, covariant_transient=1.5)),
     ('duration', dict(WINDOW, covariant_window=1.5)),
     ('field_indices', dict(WINDOW, field_indices=[1])),
-    ('marker_modes', dict(WINDOW, marker_modes=['T(1,0)'])),
     ('field_indices', dict(field_indices=[1], observables=['modes', 'steps'])),
     ('field_indices', dict(field_indices=[1], exponents='none')),
     ('field_indices', dict(field_indices=[3], exponents=2)),
+    ('slow_vectors_count', dict(slow_vectors_count=3, exponents=2)),
+    ('slow_vectors_count', dict(slow_vectors_count=-1)),
     ('wait_for_subscribers', dict(observables=['state'], wait_for_subscribers=['spectrum'])),
     ('wait_for_subscribers', dict(exponents='none', wait_for_subscribers=['spectrum'])),
 ]

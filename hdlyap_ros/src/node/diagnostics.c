@@ -6,6 +6,7 @@
 
 #include "clock.h"
 #include "conditions.h"
+#include "hdlyap_ros/stage.h"
 
 static const double period = 1.0;
 /** How long a repair is worth a warning [s]. */
@@ -126,16 +127,15 @@ bool diagnostics_publish(diagnostics *d, const worker_state *state)
     if (hdr_publisher_subscribers(d->publisher) == 0) return false;
     fill_keys(d, &list, state, now);
     fill_watched(&list, state, &slowest);
-    const hdr_diagnostic view = {
+    const hdr_diagnostic message = {
         .header = {.stamp = hdr_time_now(), .frame_id = ""},
         .level = all.level,
         .name = d->node_name,
         .message = *all.message ? all.message : phase_name(state),
         .hardware_id = report_run_id(d->rep),
-        .values = list.value,
-        .count = list.count,
+        .values = {list.value, list.count},
     };
-    if (hdr_diagnostic_publish(d->publisher, &view) != HDR_OK)
+    if (hdr_diagnostic_publish(d->publisher, &message) != HDR_OK)
         hdr_log(HDR_ERROR, "diagnostics not sent: %s", hdr_error_text());
     return true;
 }

@@ -90,13 +90,13 @@ static void fill_machine(hdr_run_info *info, const hd_run *run)
     info->blas_threading = blas.threading;
 }
 
-hdr_status run_info_publish(const outlets *out, const settings *set, const hd_run *run)
+hdr_status run_info_publish(const publishers *out, const settings *set, const hd_run *run)
 {
     const char *names[TOPICS], *awaited[TOPICS];
     wave_list waves;
     hdr_status status = waves_create(&waves, &set->def) ? HDR_OK : HDR_NO_MEMORY;
     hdr_run_info info = {
-        .header = outlets_header(),
+        .header = message_header(),
         .run_id = out->run_id,
         .observables = {.data = names, .count = names_of(names, set->observables)},
         .wave_nx = {.data = waves.nx, .count = waves.count},
@@ -105,8 +105,8 @@ hdr_status run_info_publish(const outlets *out, const settings *set, const hd_ru
         .field_interval = set->field_interval,
         .wait_for_subscribers = {.data = awaited, .count = names_of(awaited, set->awaited)},
         .pace = set->pace,
-        .marker_modes = set->markers.text,
-        .marker_rate = set->markers.rate,
+        .slow_vectors_rate = set->slow_vectors_rate,
+        .slow_vectors_count = (uint32_t)set->slow_vectors_count,
         .checkpoint = set->checkpoint,
         .checkpoint_interval = set->checkpoint_interval,
         .resume = set->resume,

@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hdlyap/fields.h"
 #include "reader.h"
 #include "topic.h"
 
@@ -141,39 +140,6 @@ static bool read_field_indices(const reader *r, void *field)
            reader_refuse(r, "steps or a list of integers from 1");
 }
 
-#define MARKER_MODES_TEXT "lowest or a list of 1 to 8 modes such as T(1,0) or LP(1,1)"
-
-/** T(nx,ny) or LP(nx,ny), and nothing else. */
-static bool parse_mode(marker_mode *out, const char *text)
-{
-    const bool is_lp = strncmp(text, "LP", 2) == 0;
-    int end = -1;
-    if (!is_lp && *text != 'T') return false;
-    out->kind = is_lp ? HD_MODE_LP : HD_MODE_T;
-    text += is_lp ? 2 : 1;
-    return sscanf(text, "(%4d,%4d)%n", &out->n[0], &out->n[1], &end) == 2 && end > 0 && !text[end];
-}
-
-/** Which wave vectors there are is known only with the scene. */
-static bool read_marker_modes(const reader *r, void *field)
-{
-    marker_choice *choice = field;
-    const char *text = NULL;
-    const char *const *names = NULL;
-    int count = 0;
-    if (hdr_param_string(r->params, r->name, &text) == HDR_OK && strcmp(text, "lowest") == 0)
-        return true;
-    const hdr_status status = hdr_param_string_list(r->params, r->name, &names, &count);
-    if (status == HDR_MISSING) return true;
-    if (status != HDR_OK || count < 1 || count > MARKER_MODES_MAX)
-        return reader_refuse(r, MARKER_MODES_TEXT);
-    for (int k = 0; k < count; k++)
-        if (!parse_mode(&choice->mode[k], names[k])) return reader_refuse(r, MARKER_MODES_TEXT);
-    choice->text = hdr_param_text(r->params, r->name);
-    choice->count = count;
-    return true;
-}
-
 /** Of a file; "" for none. */
 static bool read_path(const reader *r, void *field)
 {
@@ -238,8 +204,8 @@ static const struct parameter {
     {"covariant_memory", read_gigabytes, offsetof(settings, def.covariant_memory)},
     {"covariant_storage", read_storage, offsetof(settings, def.covariant_storage)},
     {"field_indices", read_field_indices, offsetof(settings, fields)},
-    {"marker_modes", read_marker_modes, offsetof(settings, markers)},
-    {"marker_rate", read_double, offsetof(settings, markers.rate)},
+    {"slow_vectors_rate", read_double, offsetof(settings, slow_vectors_rate)},
+    {"slow_vectors_count", read_int, offsetof(settings, slow_vectors_count)},
     {"field_interval", read_double, offsetof(settings, field_interval)},
     {"observables", read_observables, offsetof(settings, observables)},
     {"threads", read_int, offsetof(settings, def.threads)},
@@ -259,12 +225,20 @@ static bool is_known(const char *name)
     return false;
 }
 
+/** Where what was a parameter once is now. */
+static const char *place_now(const char *name)
+{
+    if (strcmp(name, "marker_rate") == 0) return "removed: it is slow_vectors_rate now";
+    if (strcmp(name, "marker_modes") == 0)
+        return "removed: it is modes of the viewer now (rviz.launch modes:=..)";
+    return "removed: there is no parameter of this name";
+}
+
 static bool check_names(reader *r)
 {
     for (int k = 0; k < hdr_params_count(r->params); k++) {
         r->name = hdr_params_name(r->params, k);
-        if (!is_known(r->name))
-            return reader_refuse(r, "removed: there is no parameter of this name");
+        if (!is_known(r->name)) return reader_refuse(r, place_now(r->name));
     }
     return true;
 }
@@ -289,8 +263,8 @@ static bool check_times(const settings *set, reader *r)
     r->name = "pace";
     if (!(set->pace >= 0.0 && set->pace <= most))
         return reader_refuse(r, "from 0 (as fast as it goes) to 1e12");
-    r->name = "marker_rate";
-    if (!(set->markers.rate >= 0.01 && set->markers.rate <= 100.0))
+    r->name = "slow_vectors_rate";
+    if (!(set->slow_vectors_rate >= 0.01 && set->slow_vectors_rate <= 100.0))
         return reader_refuse(r, "from 0.01 to 100");
     r->name = "checkpoint_interval";
     return (set->checkpoint_interval >= 0.0 && set->checkpoint_interval <= most) ||
@@ -374,28 +348,16 @@ static bool check_field_indices(const settings *set, reader *r)
     return true;
 }
 
-static bool is_looked_for(const settings *set, const marker_mode *mode)
-{
-    const int count = set->observables & TOPICS_OF_MODES ? hd_waves(&set->def, NULL, 0) : 0;
-    hd_wave *waves = malloc(((size_t)count + 1) * sizeof *waves);
-    bool found = !waves; /* the run will say so */
-    if (waves && count > 0) hd_waves(&set->def, waves, count);
-    for (int k = 0; waves && k < count && !found; k++)
-        found = waves[k].n[0] == mode->n[0] && waves[k].n[1] == mode->n[1];
-    free(waves);
-    return found;
-}
-
 /** Of a scene that is right. */
-static bool check_marker_modes(const settings *set, reader *r)
+static bool check_slow_vectors(const settings *set, reader *r)
 {
-    r->name = "marker_modes";
-    for (int k = 0; k < set->markers.count; k++)
-        if (!is_looked_for(set, &set->markers.mode[k]))
-            return reader_refuse(
-                r, MARKER_MODES_TEXT
-                ", of wave vectors that are looked for (max_mode_number, max_wave_number)");
-    return true;
+    const int vectors = hd_scene_vectors(&set->def);
+    char allowed[80];
+    r->name = "slow_vectors_count";
+    snprintf(allowed, sizeof allowed,
+             "from 0 (the lowest T and LP steps) to %d, the vectors carried", vectors);
+    return (set->slow_vectors_count >= 0 && set->slow_vectors_count <= vectors) ||
+           reader_refuse(r, allowed);
 }
 
 static void write_texts(settings *out)
@@ -431,7 +393,7 @@ static settings defaults(const hd_checkpoint *kept)
         .scene = "paper_periodic",
         .observables = TOPICS_OBSERVABLE & ~topic_bit(TOPIC_HYDRO) & ~topic_bit(TOPIC_COVARIANT),
         .fields = {.text = "steps"},
-        .markers = {.text = "lowest", .rate = 10.0},
+        .slow_vectors_rate = 10.0,
         .field_interval = 10.0,
         .checkpoint = "",
         .checkpoint_interval = 600.0,
@@ -455,5 +417,5 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
     if (!check_modes(out, &r) || !check_covariant(out, &r)) return false;
     write_texts(out);
     return hd_scene_check(&out->def, message, size) == HD_OK && check_field_indices(out, &r) &&
-           check_marker_modes(out, &r);
+           check_slow_vectors(out, &r);
 }

@@ -27,7 +27,7 @@ struct worker {
     pthread_t thread;
     double due;        /**< wall time before which pace allows no further step; the thread's own */
     double examinable; /**< the same of the next examination; the thread's own */
-    keeper keep;       /**< the thread's own */
+    checkpoint_writer keep; /**< the thread's own */
 
     pthread_mutex_t lock;
     pthread_cond_t changed;
@@ -82,21 +82,21 @@ static bool too_early(const worker *w) { return w->due > 0.0 && clock_seconds() 
 static void save(worker *w)
 {
     pthread_mutex_unlock(&w->lock);
-    keeper_save(&w->keep, w->run);
+    checkpoint_writer_save(&w->keep, w->run);
     pthread_mutex_lock(&w->lock);
     w->save = false;
     w->state.checkpoint = w->keep.state;
     pthread_cond_broadcast(&w->changed);
 }
 
-/** Before a pause, for who looks on. Lock held, but not while it is drawn. A picture that fails is
+/** Before a pause, for who looks on. Lock held, but not while it is published. What fails here is
  * no fault of the run. */
-static void draw_at_rest(worker *w)
+static void publish_at_rest(worker *w)
 {
     pthread_mutex_unlock(&w->lock);
     pthread_mutex_lock(&w->publishing);
-    if (!w->closed && report_picture(w->rep, w->run, true) != HD_OK)
-        hdr_log(HDR_WARN, "no picture of the pause");
+    if (!w->closed && report_slow(w->rep, w->run, true) != HD_OK)
+        hdr_log(HDR_WARN, "no slow_vectors of the pause");
     pthread_mutex_unlock(&w->publishing);
     pthread_mutex_lock(&w->lock);
 }
@@ -106,10 +106,10 @@ static void draw_at_rest(worker *w)
 static bool obey(worker *w)
 {
     pthread_mutex_lock(&w->lock);
-    if (keeper_due(&w->keep)) save(w);
-    if (w->pause && !w->stop) draw_at_rest(w);
+    if (checkpoint_writer_due(&w->keep)) save(w);
+    if (w->pause && !w->stop) publish_at_rest(w);
     while (!w->stop && (w->save || w->pause || too_early(w))) {
-        if (w->save || keeper_due(&w->keep)) {
+        if (w->save || checkpoint_writer_due(&w->keep)) {
             save(w);
             continue;
         }
@@ -155,7 +155,7 @@ static hd_status publish(worker *w)
     pthread_mutex_lock(&w->publishing);
     if (!w->closed && hd_run_report_due(w->run)) status = report_publish(w->rep, w->run);
     if (!w->closed && status == HD_OK) status = report_window(w->rep, w->run);
-    if (!w->closed && status == HD_OK) status = report_picture(w->rep, w->run, false);
+    if (!w->closed && status == HD_OK) status = report_slow(w->rep, w->run, false);
     pthread_mutex_unlock(&w->publishing);
     return status;
 }
@@ -175,15 +175,15 @@ static hd_status step(worker *w)
 {
     examine_if_asked(w);
     hd_run_observe(w->run, report_demand(w->rep));
-    report_demand_picture(w->rep, w->run);
+    report_demand_slow(w->rep, w->run);
     hd_status status = reset_if_asked(w);
-    keeper_touch(&w->keep);
+    checkpoint_writer_touch(&w->keep);
     if (status == HD_OK) status = w->set->pace > 0.0 ? paced_step(w) : hd_run_advance(w->run);
     if (status != HD_OK) return status;
     status = publish(w);
     pthread_mutex_lock(&w->lock);
     w->state.last = progress_of(w->run);
-    error_course_add(&w->state.errors, w->state.last.averaged, w->state.last.cost.std_error);
+    error_trend_add(&w->state.errors, w->state.last.averaged, w->state.last.cost.std_error);
     pthread_mutex_unlock(&w->lock);
     return status;
 }
@@ -248,7 +248,8 @@ static void locks_free(worker *w)
     pthread_mutex_destroy(&w->publishing);
 }
 
-bool worker_create(worker **out, hd_run *run, report *rep, const settings *set, const keeper *keep)
+bool worker_create(worker **out, hd_run *run, report *rep, const settings *set,
+                   const checkpoint_writer *keep)
 {
     worker *w = *out = calloc(1, sizeof *w);
     if (!w) return false;

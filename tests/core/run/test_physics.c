@@ -40,7 +40,7 @@ static void check_published(const hd_spectrum *spectrum, int col, double value, 
     CHECK_CLOSE(hd_spectrum_exponent(spectrum, col), value, Z * hypot(error, value_error));
 }
 
-/** physics.md section 6: independent codes, one standard error. */
+/** Against independent codes; their standard errors are given beside their numbers. */
 static void nine_disks_have_the_published_exponents(void **state)
 {
     (void)state;

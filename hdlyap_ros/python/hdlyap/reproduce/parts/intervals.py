@@ -15,7 +15,7 @@ TAKEN_BACK = 0.9  # of what was asked: the conditioning did not allow more
 AT_LONG = (
     'with intervals of 8 Householder factorisations read 2.36 instead of 0.61 '
     'for lambda_1557 of 780 disks, without any error; '
-    'here the conditioning shortens them (hdlyap_core/bench/precision.c, README)'
+    'here the conditioning shortens them (doc/performance.md)'
 )
 UNIT = '1/time unit'
 
