@@ -2,6 +2,7 @@
 
 import functools
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -9,6 +10,7 @@ import tempfile
 import threading
 import time
 import unittest
+import weakref
 
 import roslib.packages
 import rosgraph
@@ -85,8 +87,13 @@ class Process:
 
     def __init__(self, command, **env):
         self.output = tempfile.TemporaryFile('w+')
+        folder = tempfile.mkdtemp()  # what it leaves there when it is killed goes with this object
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         self.process = subprocess.Popen(
-            command, stdout=self.output, stderr=subprocess.STDOUT, env=dict(os.environ, **env)
+            command,
+            stdout=self.output,
+            stderr=subprocess.STDOUT,
+            env=dict(os.environ, TMPDIR=folder, **env),
         )
 
     def send(self, number):
