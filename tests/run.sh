@@ -24,7 +24,7 @@ without_ros() {
 }
 
 core_build() {
-    without_ros cmake -S "$ROOT" -B "$WORK/core" -DHDLYAP_ROS=OFF \
+    without_ros cmake -S "$ROOT" -B "$WORK/core" -G Ninja -DHDLYAP_ROS=OFF \
         -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_INSTALL_PREFIX="$WORK/prefix" "$@"
     without_ros cmake --build "$WORK/core" -- -j "$(nproc)"
 }
@@ -35,7 +35,8 @@ core_install() {
 }
 
 sanitizers_build() {
-    without_ros cmake -S "$ROOT/hdlyap_core" -B "$WORK/sanitizers" -DHDLYAP_SANITIZE=ON -DHDLYAP_VERIFY=ON
+    without_ros cmake -S "$ROOT/hdlyap_core" -B "$WORK/sanitizers" -G Ninja -DCMAKE_BUILD_TYPE=Debug \
+        -DCMAKE_C_FLAGS=-O1 -DHDLYAP_SANITIZE=ON -DHDLYAP_VERIFY=ON
     without_ros cmake --build "$WORK/sanitizers" -- -j "$(nproc)"
 }
 
