@@ -123,7 +123,8 @@ format() {
     cd "$ROOT"
     mapfile -t in_c < <(sources -name '*.[ch]' -o -name '*.[ch]pp')
     mapfile -t in_python < <(sources -name '*.py' && sources ! -name '*.*' -exec grep -qE '^#!/usr/bin/(env )?python3' {} \;)
-    clang-format --dry-run -Werror "${in_c[@]}" && black --check "${in_python[@]}" && flake8 "${in_python[@]}"
+    clang-format --dry-run -Werror "${in_c[@]}" && BLACK_CACHE_DIR=$WORK/black black --check "${in_python[@]}" &&
+        flake8 "${in_python[@]}"
 }
 
 # The public headers, as they are installed: of parameters and names that do not exist.

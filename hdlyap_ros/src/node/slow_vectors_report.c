@@ -58,8 +58,8 @@ static int positive_exponents(const hd_run *run)
     return vectors < positive ? vectors : positive;
 }
 
-hdr_status slow_vectors_report_create(slow_vectors_report **out, hdr_node *ros, const publishers *to,
-                                      const settings *set, const hd_run *run)
+hdr_status slow_vectors_report_create(slow_vectors_report **out, hdr_node *ros,
+                                      const publishers *to, const settings *set, const hd_run *run)
 {
     slow_vectors_report *r = *out = calloc(1, sizeof *r);
     if (!r) return HDR_NO_MEMORY;
