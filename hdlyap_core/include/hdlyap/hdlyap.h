@@ -5,6 +5,7 @@
 #include "hdlyap/blas.h"
 #include "hdlyap/checkpoint.h"
 #include "hdlyap/hydro.h"
+#include "hdlyap/parameters.h"
 #include "hdlyap/pmode.h"
 #include "hdlyap/run.h"
 
