@@ -109,6 +109,31 @@ lint() {
     catkin_lint --offline --strict -W2 --ignore package_path_name "$ROOT" "$ROOT/tests/downstream"
 }
 
+# sources FIND_EXPRESSION...: files of the repository, without what is built.
+sources() { find . \( -name build -o -name .git \) -prune -o -type f \( "$@" \) -print; }
+
+# As the formatters of Debian 12 have it, whose versions differ in details.
+format() {
+    local -a in_c in_python
+    cd "$ROOT"
+    mapfile -t in_c < <(sources -name '*.[ch]' -o -name '*.[ch]pp')
+    mapfile -t in_python < <(sources -name '*.py' && sources ! -name '*.*' -exec grep -qE '^#!/usr/bin/(env )?python3' {} \;)
+    clang-format --dry-run -Werror "${in_c[@]}" && black --check "${in_python[@]}" && flake8 "${in_python[@]}"
+}
+
+# The public headers, as they are installed: of parameters and names that do not exist.
+public_headers() {
+    mkdir -p "$WORK/doxygen"
+    cd "$WORK/ros/.install/include"
+    {
+        cat "$ROOT/tests/doxygen/Doxyfile"
+        echo "INPUT = hdlyap hdlyap_ros"
+        echo "OUTPUT_DIRECTORY = $WORK/doxygen"
+    } | doxygen - >"$WORK/doxygen/said" 2>&1
+    cat "$WORK/doxygen/said"
+    [[ ! -s $WORK/doxygen/said ]] && python3 "$ROOT/tests/doxygen/names.py" "$WORK/doxygen/xml"
+}
+
 warnings() {
     ! grep -n ': warning:' "$LOGS"/*_build.log
 }
@@ -200,6 +225,8 @@ ros_lane() {
     stage ros_tests catkin ros_tests
     stage plot_tests unittest plot_tests
     stage lint one lint
+    [[ $(clang-format --version) != *' 14.'* ]] || stage format one format
+    stage doxygen one public_headers
     stage downstream checks downstream
     stage demo checks "$ROOT/tests/demo.sh" "$WORK/demo"
     stage reproduce checks "$ROOT/tests/reproduce.sh" "$WORK/reproduce"

@@ -34,7 +34,7 @@ static hd_run *ours_create(int disks)
     const hd_scene_def scene = scene_of(disks);
     hd_run *run;
     require(hd_run_create(&run, &scene, NULL, 0), "scene");
-    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
+    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     return run;
 }
 
@@ -42,7 +42,7 @@ static hd_run *ours_create(int disks)
 static double ours(hd_run *run, double duration)
 {
     const double start = seconds(), begin = hd_run_time(run);
-    while (hd_run_time(run) < begin + duration - 1e-9) require(hd_run_step(run), "averaging");
+    while (hd_run_time(run) < begin + duration - 1e-9) require(hd_run_advance(run), "averaging");
     return (seconds() - start) / (hd_run_time(run) - begin);
 }
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { EXIT_REFUSED = 2, EXIT_NO_MEMORY, ABSENT = HDR_LP_TRACKED + 1 };
+enum { EXIT_REFUSED = 2, EXIT_NO_MEMORY, ABSENT = HDR_LP_PHASE_TRACKED + 1 };
 
 static const char *const states[] = {"its step is not resolved", "too weak to have a phase",
                                      "turns too far between samples", "followed", "there is none"};
@@ -43,8 +43,8 @@ static double line_add(line *l, double time, double phase)
 static const hdr_lp_phase *find(const watch *w, const hdr_lp_phases *all)
 {
     int number = 0;
-    for (uint32_t k = 0; k < all->count; k++) {
-        const hdr_lp_phase *phase = &all->phases[k];
+    for (uint32_t k = 0; k < all->phases.count; k++) {
+        const hdr_lp_phase *phase = &all->phases.data[k];
         const bool ours = phase->nx == (uint32_t)w->nx && phase->ny == (uint32_t)w->ny;
         if (ours && ++number == w->number) return phase;
     }
@@ -58,10 +58,10 @@ static void on_phases(void *context, const hdr_lp_phases *all)
     const hdr_lp_phase *phase = find(w, all);
     const int state = phase && phase->state < ABSENT ? phase->state : ABSENT;
     if (state != w->state)
-        hdr_log(state == HDR_LP_TRACKED ? HDR_INFO : HDR_WARN, "t = %g: phase %d of LP(%d,%d): %s",
+        hdr_log(state == HDR_LP_PHASE_TRACKED ? HDR_INFO : HDR_WARN, "t = %g: phase %d of LP(%d,%d): %s",
                 all->sim_time, w->number, w->nx, w->ny, states[state]);
     w->state = state;
-    if (state != HDR_LP_TRACKED) return;
+    if (state != HDR_LP_PHASE_TRACKED) return;
 
     /* lost and found again, or in another run: since when is less than what has gone by */
     const double gone = all->sim_time - w->time, grown = phase->tracked_time - w->tracked;

@@ -96,7 +96,7 @@ static int show(unsigned observe, int threads, double more)
     const hd_scene_def scene = channel(observe, threads);
     hd_run *run;
     hd_status status = hd_run_create(&run, &scene, NULL, 0);
-    while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) status = hd_run_step(run);
+    while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) status = hd_run_advance(run);
     if (status != HD_OK) {
         fprintf(stderr, "%s\n", hd_status_text(status));
         return 1;

@@ -19,7 +19,7 @@ int main(void)
         fprintf(stderr, "%s\n", message);
     }
     while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) {
-        status = hd_run_step(run);
+        status = hd_run_advance(run);
     }
     if (status != HD_OK) {
         fprintf(stderr, "%s\n", hd_status_text(status));

@@ -93,7 +93,8 @@ class Process:
         return self.process.poll() is None
 
     def text(self):
-        # opened again: a process shares its place in the file, and would write over what is read from the start
+        # opened again: a process shares its place in the file, and would write over what is read
+        # from the start
         with open('/proc/self/fd/%d' % self.output.fileno(), errors='replace') as file:
             return file.read()
 
@@ -117,8 +118,8 @@ class Master(Process):
 
 
 def start(params, name=NODE, probe=None, args=(), command=None, **env):
-    """hdlyap_node with exactly these private parameters; probe: what probe.c is asked for; command: another build of it, and
-    what that is run by."""
+    """hdlyap_node with exactly these private parameters; probe: what probe.c is asked for; command:
+    another build of it, and what that is run by."""
     master = rosgraph.Master('/harness', env.get('ROS_MASTER_URI'))
     if master.hasParam('/' + name):
         master.deleteParam('/' + name)
@@ -146,7 +147,8 @@ def calls(test, params):
 
 
 def examples(steps):
-    """Numbers of those of which a field is published: found, in the positive half, the first of its set."""
+    """Numbers of those of which a field is published: found, in the positive half, the first of its
+    set."""
     first = {}
     for number, step in enumerate(steps):
         if step.resolved and not step.conjugate and step.kind != Mode.ZERO:

@@ -33,7 +33,7 @@ static double number(const char *variable)
 }
 
 /** PROBE_STEP_SECONDS: a step takes so much longer. PROBE_FAULT_AFTER: steps before one fails. */
-hd_status hd_run_step(hd_run *run)
+hd_status hd_run_advance(hd_run *run)
 {
     hd_status (*real)(hd_run *);
     const double seconds = number("PROBE_STEP_SECONDS"), fault_after = number("PROBE_FAULT_AFTER");
@@ -41,7 +41,7 @@ hd_status hd_run_step(hd_run *run)
     while (nanosleep(&left, &left)) continue;
     if ((double)atomic_fetch_add(&steps, 1) >= fault_after && fault_after > 0.0)
         return HD_ILL_CONDITIONED;
-    next(&real, "hd_run_step");
+    next(&real, "hd_run_advance");
     return real(run);
 }
 
@@ -146,25 +146,19 @@ void hd_hydro_measure(hd_hydro *hydro, const hd_steps *found, const hd_frame *fr
     real(hydro, found, frame, q, p);
 }
 
-/* Messages made, of each topic. */
-/* clang-format off */
-#define TOPICS(DO)                                                                                 \
-    DO(run_info) DO(spectrum)                                                                      \
-    DO(modes) DO(steps) DO(lp_phases) DO(mode_field)                                               \
-    DO(hydro) DO(covariant) DO(state) DO(cost) DO(diagnostic) DO(markers)
-#define COUNT_MESSAGES(topic)                                                                      \
-    static atomic_long messages_##topic;                                                           \
-    hdr_status hdr_##topic##_publish(hdr_publisher *publisher, const hdr_##topic *view)            \
+/* Messages made, of each type. */
+#define COUNT_MESSAGES(type)                                                                       \
+    static atomic_long of_##type;                                                                  \
+    hdr_status type##_publish(hdr_publisher *publisher, const type *message)                       \
     {                                                                                              \
-        hdr_status (*real)(hdr_publisher *, const hdr_##topic *);                                  \
-        next(&real, "hdr_" #topic "_publish");                                                     \
-        atomic_fetch_add(&messages_##topic, 1);                                                    \
-        return real(publisher, view);                                                              \
+        hdr_status (*real)(hdr_publisher *, const type *);                                         \
+        next(&real, #type "_publish");                                                             \
+        atomic_fetch_add(&of_##type, 1);                                                           \
+        return real(publisher, message);                                                           \
     }
-#define WRITE_MESSAGES(topic)                                                                      \
-    fprintf(file, #topic "_publish %ld\n", atomic_load(&messages_##topic));
-TOPICS(COUNT_MESSAGES)
-/* clang-format on */
+#define WRITE_MESSAGES(type) fprintf(file, "%s_publish %ld\n", &#type[4], atomic_load(&of_##type));
+#define TYPES(DO) HDR_MESSAGES(DO) DO(hdr_diagnostic) DO(hdr_markers)
+TYPES(COUNT_MESSAGES)
 
 /** PROBE_COUNTS: file for the numbers of calls, one to a line with its name. */
 __attribute__((destructor)) static void write_counts(void)
@@ -183,6 +177,6 @@ __attribute__((destructor)) static void write_counts(void)
     if (!file) return;
     for (size_t k = 0; k < sizeof counts / sizeof *counts; k++)
         fprintf(file, "%s %ld\n", counts[k].name, counts[k].calls);
-    TOPICS(WRITE_MESSAGES)
+    TYPES(WRITE_MESSAGES)
     fclose(file);
 }

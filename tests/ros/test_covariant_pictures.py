@@ -1,4 +1,5 @@
-"""Covariant vectors in plot_bag, from messages that are made here: what it prints, and what it draws."""
+"""Covariant vectors in plot_bag, from messages that are made here: what it prints, and what it
+draws."""
 
 import os
 import subprocess
@@ -44,7 +45,8 @@ def found_steps(info):
 
 
 def angles():
-    """Smallest ones: 30 in [0.1745, 0.1920) and 10 in the next bin; the centre is at right angles."""
+    """Smallest ones: 30 in [0.1745, 0.1920) and 10 in the next bin; the centre is at right
+    angles."""
     last = {made.BINS - 1: 40}
     return [
         made.covariant_angle(UNSTABLE_STABLE, {10: 30, 11: 10}, {20: 3000, 80: 1000}),
@@ -58,7 +60,8 @@ def angles():
 
 
 def backward():
-    """The forward exponents and 0.03 more: 3 / sqrt(2) combined errors; one exponent 0.06 more, zero modes 0.1 less."""
+    """The forward exponents and 0.03 more: 3 / sqrt(2) combined errors; one exponent 0.06 more,
+    zero modes 0.1 less."""
     exponents = FORWARD + 0.03
     exponents[4] += 0.03
     exponents[POSITIVE : POSITIVE + 6] -= 0.13
@@ -126,7 +129,8 @@ class Bags(unittest.TestCase):
         return kind.draw(self.read() if run is None else run).axes
 
     def names_drawn(self, run, on_paper):
-        """Of the figures that there are; on paper: they can also be drawn to the end, which takes a while."""
+        """Of the figures that there are; on paper: they can also be drawn to the end, which takes a
+        while."""
         for kind in FIGURES:
             figure = kind.draw(run)
             if figure is None:
@@ -270,8 +274,8 @@ class Table(Bags):
         """made.cost: 0.2 and 0.55 of the time are replay and orthonormalisation."""
         _, text = self.lines(self.read())
         self.assertIn(
-            'covariant vectors took 12.5 s, the tangent frame forwards (replay and orthonormalisation) '
-            '375.0 s, the run 500.0 s',
+            'covariant vectors took 12.5 s, '
+            'the tangent frame forwards (replay and orthonormalisation) 375.0 s, the run 500.0 s',
             text,
         )
         _, text = self.lines(self.without(Cost))

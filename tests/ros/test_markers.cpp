@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "views.hpp"
+#include "standard_messages.hpp"
 
 extern "C" {
 #include "view.h"
@@ -21,9 +21,10 @@ using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
 /** As rviz gets it. */
-MarkerArray received(const hdr_markers &view)
+MarkerArray received(const hdr_markers &markers)
 {
-    const ros::SerializedMessage bytes = ros::serialization::serializeMessage(view);
+    const hdlyap_ros::sent<hdr_markers> out = {markers};
+    const ros::SerializedMessage bytes = ros::serialization::serializeMessage(out);
     MarkerArray message;
     ros::serialization::deserializeMessage(bytes, message);
     return message;
@@ -81,10 +82,9 @@ struct scene {
         step.push_back({HDR_MODE_T, 1, 0, 0.2, false, true, 2, n - 1, n, 1.9, 0, 1, 1.05, 0.01});
         step.push_back({HDR_MODE_LP, 1, 0, 0.2, false, true, 4, n - 5, n - 2, 3.5, 1, 1, 1.1, -1});
         step.push_back({HDR_MODE_LP, 0, 1, 0.3, false, false, 4, 0, 0, 0, -1, 0, 0, 0});
-        steps.steps = step.data();
-        steps.count = static_cast<uint32_t>(step.size());
-        steps.t = {2, 3.2, 0.1, 0.2, -1};
-        steps.l = {1, 4.2, -1, 0, -1};
+        steps.steps = {step.data(), static_cast<uint32_t>(step.size())};
+        steps.t_points = 2, steps.c_t = 3.2, steps.c_t_error = 0.1, steps.c_t2 = 0.2;
+        steps.l_points = 1, steps.c_l = 4.2, steps.c_l_error = -1;
         p.steps = &steps;
     }
 
@@ -94,8 +94,7 @@ struct scene {
         for (uint32_t k = 0; k < count; k++)
             step.push_back({HDR_MODE_T, 2, k, 0.3, false, true, 1, 90 - k, 90 - k, 1, int(k), 1,
                             1.2 + 0.05 * k, 0.01});
-        steps.steps = step.data();
-        steps.count = static_cast<uint32_t>(step.size());
+        steps.steps = {step.data(), static_cast<uint32_t>(step.size())};
     }
 };
 
@@ -205,11 +204,12 @@ TEST(markers, bytes)
     text.ns = "b", text.type = Marker::TEXT_VIEW_FACING, text.action = Marker::DELETE,
     text.text = "some text";
     text.color = line.colors[1];
-    const ros::SerializedMessage got = ros::serialization::serializeMessage(markers);
+    const hdlyap_ros::sent<hdr_markers> out = {markers};
+    const ros::SerializedMessage got = ros::serialization::serializeMessage(out);
     const ros::SerializedMessage want = ros::serialization::serializeMessage(message);
     ASSERT_EQ(want.num_bytes, got.num_bytes);
     EXPECT_EQ(0, std::memcmp(want.buf.get(), got.buf.get(), want.num_bytes));
-    EXPECT_STREQ(ros::message_traits::md5sum<MarkerArray>(), ros::message_traits::md5sum(markers));
+    EXPECT_STREQ(ros::message_traits::md5sum<MarkerArray>(), ros::message_traits::md5sum(out));
 }
 
 /** Boxes of all shapes, hardly any disks, many modes and steps: rviz takes what is drawn, and

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""~markers: what the node draws is what it publishes as numbers, only while somebody looks, as often as asked."""
+"""~markers: what the node draws is what it publishes as numbers, only while somebody looks, as
+often as asked."""
 
 import glob
 import re
@@ -211,10 +212,14 @@ class Markers(unittest.TestCase):
         self.assertEqual(node.wait(), 2)
 
     def test_as_often_as_asked(self):
-        """Pictures of the averaging, beside the wall time that they took; before it steps are as long as they like."""
+        """Pictures of the averaging, beside the wall time that they took; before it steps are as
+        long as they like."""
         pictures = self.look()
         self.start(dict(ENDLESS, pace=2.0, marker_rate=10.0))
-        averaging = lambda: [p for p in pictures.all if 'averaging' in text(p)]
+
+        def averaging():
+            return [p for p in pictures.all if 'averaging' in text(p)]
+
         self.assertTrue(harness.wait_until(lambda: len(averaging()) >= 5))
         begin, count = time.monotonic(), len(averaging())
         self.assertTrue(harness.wait_until(lambda: len(averaging()) >= count + 20))
@@ -299,8 +304,8 @@ class Markers(unittest.TestCase):
         self.assertEqual(pictures.all, [])
 
     def test_at_the_slowest_pace(self):
-        """So slow that a picture's time is no number, and the next step's no wall time. What comes before the averaging
-        is as fast as ever."""
+        """So slow that a picture's time is no number, and the next step's no wall time. What comes
+        before the averaging is as fast as ever."""
 
         def sleeps(thread):
             with open(thread) as file:

@@ -1,8 +1,9 @@
-/** Messages as they arrive, whole and damaged: what the views of them hold, what is refused. */
+/** Messages as they arrive, whole and damaged: what C has of them, what is refused. */
 #include <gtest/gtest.h>
 
 #include <cstdint>
 
+#include "message_fields.hpp"
 #include "received.hpp"
 
 namespace
@@ -15,15 +16,15 @@ template <class Message> bytes bytes_of(const Message &message)
     return bytes(whole.message_start, whole.buf.get() + whole.num_bytes);
 }
 
-template <class View> void read(hdlyap_ros::received<View> &out, bytes message)
+template <class Message> void read(hdlyap_ros::received<Message> &out, bytes all)
 {
-    ros::serialization::IStream stream(message.data(), static_cast<uint32_t>(message.size()));
+    ros::serialization::IStream stream(all.data(), static_cast<uint32_t>(all.size()));
     ros::serialization::deserialize(stream, out);
-} /* the bytes are gone: views point into what was kept */
+} /* the bytes are gone: they point into what was kept */
 
-template <class View> void expect_refused(const bytes &message)
+template <class Message> void expect_refused(const bytes &message)
 {
-    hdlyap_ros::received<View> out;
+    hdlyap_ros::received<Message> out;
     EXPECT_THROW(read(out, message), std::exception);
 }
 
@@ -57,19 +58,19 @@ TEST(received, numbers_are_aligned_and_the_receivers_own)
 {
     hdlyap_ros::received<hdr_mode_field> out;
     read(out, bytes_of(some_field()));
-    const hdr_mode_field &view = out.views.at(0);
-    EXPECT_EQ(5u, view.header.seq);
-    EXPECT_STREQ("box", view.header.frame_id);
-    EXPECT_STREQ("odd", view.run_id);
-    ASSERT_EQ(3u, view.x.count);
-    EXPECT_EQ(1u, view.x.stride);
-    EXPECT_EQ(0u, reinterpret_cast<uintptr_t>(view.x.data) % alignof(double));
-    EXPECT_EQ(3.5, view.x.data[2]);
-    ASSERT_EQ(2u, view.modulation.count);
-    EXPECT_EQ(3, view.modulation.data[1]);
-    EXPECT_EQ(0u, view.l_x.count);
-    ASSERT_EQ(1u, view.p_over_py.count);
-    EXPECT_EQ(-4.5, view.p_over_py.data[0]);
+    const hdr_mode_field &got = out.messages.at(0);
+    EXPECT_EQ(5u, got.header.seq);
+    EXPECT_STREQ("box", got.header.frame_id);
+    EXPECT_STREQ("odd", got.run_id);
+    ASSERT_EQ(3u, got.x.count);
+    EXPECT_EQ(1u, got.x.stride);
+    EXPECT_EQ(0u, reinterpret_cast<uintptr_t>(got.x.data) % alignof(double));
+    EXPECT_EQ(3.5, got.x.data[2]);
+    ASSERT_EQ(2u, got.modulation.count);
+    EXPECT_EQ(3, got.modulation.data[1]);
+    EXPECT_EQ(0u, got.l_x.count);
+    ASSERT_EQ(1u, got.p_over_py.count);
+    EXPECT_EQ(-4.5, got.p_over_py.data[0]);
 }
 
 TEST(received, lists)
@@ -79,26 +80,26 @@ TEST(received, lists)
     message.wave_nx = {1, 4294967295};
     hdlyap_ros::received<hdr_run_info> out;
     read(out, bytes_of(message));
-    const hdr_run_info &view = out.views.at(0);
-    ASSERT_EQ(3u, view.observables.count);
-    EXPECT_STREQ("spectrum", view.observables.data[0]);
-    EXPECT_STREQ("", view.observables.data[1]);
-    EXPECT_STREQ("state", view.observables.data[2]);
-    ASSERT_EQ(2u, view.wave_nx.count);
-    EXPECT_EQ(4294967295u, view.wave_nx.data[1]);
+    const hdr_run_info &got = out.messages.at(0);
+    ASSERT_EQ(3u, got.observables.count);
+    EXPECT_STREQ("spectrum", got.observables.data[0]);
+    EXPECT_STREQ("", got.observables.data[1]);
+    EXPECT_STREQ("state", got.observables.data[2]);
+    ASSERT_EQ(2u, got.wave_nx.count);
+    EXPECT_EQ(4294967295u, got.wave_nx.data[1]);
 }
 
-/** Of the array of many nodes each status is a view with the array's header. */
+/** Of the array of many nodes each status is a message with the array's header. */
 TEST(received, every_status_of_an_array)
 {
     for (const size_t statuses : {0, 1, 3}) {
         hdlyap_ros::received<hdr_diagnostic> out;
         read(out, bytes_of(diagnostics(statuses)));
-        ASSERT_EQ(statuses, out.views.size());
+        ASSERT_EQ(statuses, out.messages.size());
         for (size_t k = 0; k < statuses; k++) {
-            EXPECT_STREQ("of all", out.views[k].header.frame_id);
-            EXPECT_STREQ(std::to_string(k).c_str(), out.views[k].name);
-            EXPECT_EQ(k, out.views[k].count);
+            EXPECT_STREQ("of all", out.messages[k].header.frame_id);
+            EXPECT_STREQ(std::to_string(k).c_str(), out.messages[k].name);
+            EXPECT_EQ(k, out.messages[k].values.count);
         }
     }
 }
@@ -110,8 +111,8 @@ TEST(received, true_is_one_and_any_other)
     message.steps[0].resolved = 2;
     hdlyap_ros::received<hdr_steps> out;
     read(out, bytes_of(message));
-    EXPECT_FALSE(out.views.at(0).steps[0].conjugate);
-    EXPECT_TRUE(out.views.at(0).steps[0].resolved);
+    EXPECT_FALSE(out.messages.at(0).steps.data[0].conjugate);
+    EXPECT_TRUE(out.messages.at(0).steps.data[0].resolved);
 }
 
 TEST(received, of_any_other_length_is_refused)

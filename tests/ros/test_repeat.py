@@ -68,7 +68,8 @@ class Repeat(unittest.TestCase):
         )
 
     def test_every_scene(self):
-        """What comes out is what went in, every parameter of it, and of the types that the node wants."""
+        """What comes out is what went in, every parameter of it, and of the types that the node
+        wants."""
         for name in sorted(os.listdir(SCENES)):
             with self.subTest(scene=name):
                 with open(os.path.join(SCENES, name)) as file:

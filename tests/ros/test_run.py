@@ -44,7 +44,7 @@ class Run(unittest.TestCase):
         spectrum = listeners['spectrum'].messages[-1]
         state = listeners['state'].messages[-1]
         cost = listeners['cost'].messages[-1]
-        self.assertEqual([len(l.messages) for l in listeners.values()], [1, 2, 4, 4])
+        self.assertEqual([len(one.messages) for one in listeners.values()], [1, 2, 4, 4])
         self.assertRegex(info.run_id, r'^\d{8}T\d{6}\.\d{6}Z-%d-1$' % node.process.pid)
         for message in (spectrum, state, cost):
             self.assertEqual(message.run_id, info.run_id)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The real rviz, on a screen of its own without a monitor: it shows what ~markers says, where it says so, live, to who comes
-late, and from a bag."""
+"""The real rviz, on a screen of its own without a monitor: it shows what ~markers says, where it
+says so, live, to who comes late, and from a bag."""
 
 import os
 import signal

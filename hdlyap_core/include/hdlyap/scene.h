@@ -56,7 +56,7 @@ typedef struct hd_scene_def {
 /** The paper's periodic scene: 780 disks, density 0.8, aspect 0.867. */
 hd_scene_def hd_scene_def_default(void);
 
-/** HD_OK, or HD_REFUSED with one line in message: the parameter, its value, what is allowed. */
+/** HD_OK, or HD_REFUSED with one line in `message`: the parameter, its value, what is allowed. */
 HD_MUST_CHECK hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size);
 
 /** Box edges [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx. */

@@ -40,8 +40,7 @@ void hd_event_log_clear(hd_event_log *log);
 typedef struct hd_trajectory hd_trajectory;
 
 /** Lattice start, seeded momenta (zero total along periodic directions, kinetic energy N), time 0.
- * Fails with HD_REFUSED (message filled as by hd_scene_check) and HD_NO_MEMORY. Cost O(N log N).
- */
+ * Fails with HD_REFUSED, of what hd_scene_check says why, and HD_NO_MEMORY. Cost O(N log N). */
 HD_MUST_CHECK hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def);
 
 /** A prepared state: q[2N] inside the box (x0 y0 x1 y1 ..), p[2N]; nothing is rescaled.

@@ -56,7 +56,7 @@ typedef struct hdr_markers {
 /** Latched, with a queue of one: who is behind gets the newest picture only. */
 HDR_MUST_CHECK hdr_status hdr_markers_advertise(hdr_publisher **out, hdr_node *node,
                                                 const char *topic);
-HDR_MUST_CHECK hdr_status hdr_markers_publish(hdr_publisher *publisher, const hdr_markers *view);
+HDR_MUST_CHECK hdr_status hdr_markers_publish(hdr_publisher *publisher, const hdr_markers *message);
 
 /** Says on /tf_static that the frames are one and the same, as long as the node lives. */
 HDR_MUST_CHECK hdr_status hdr_frame_publish(hdr_node *node, const char *parent, const char *child);

@@ -1,8 +1,9 @@
-/** Topics out: one typed advertise and one typed publish function per message. */
+/** Topics out: typed functions that advertise and publish, for each message. */
 #ifndef HDLYAP_ROS_PUBLISHER_H
 #define HDLYAP_ROS_PUBLISHER_H
 
 #include "hdlyap_ros/messages.h"
+#include "hdlyap_ros/standard_messages.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -11,37 +12,30 @@ extern "C" {
 /** A topic of one type. Used by one thread at a time. */
 typedef struct hdr_publisher hdr_publisher;
 
-/* Topic names: "~x" is private to the node. queue >= 1 is the number of messages kept for each
- * subscriber that is behind; the oldest are dropped first. The publishers belong to the node and
- * live as long as it does. Fail with HDR_FAULT or HDR_NO_MEMORY. */
-
-/** Latched: who comes late gets the last message. */
-HDR_MUST_CHECK hdr_status hdr_run_info_advertise(hdr_publisher **out, hdr_node *node,
-                                                 const char *topic);
-HDR_MUST_CHECK hdr_status hdr_spectrum_advertise(hdr_publisher **out, hdr_node *node,
-                                                 const char *topic, int queue);
-HDR_MUST_CHECK hdr_status hdr_modes_advertise(hdr_publisher **out, hdr_node *node,
-                                              const char *topic, int queue);
-HDR_MUST_CHECK hdr_status hdr_steps_advertise(hdr_publisher **out, hdr_node *node,
-                                              const char *topic, int queue);
-HDR_MUST_CHECK hdr_status hdr_lp_phases_advertise(hdr_publisher **out, hdr_node *node,
-                                                  const char *topic, int queue);
-HDR_MUST_CHECK hdr_status hdr_mode_field_advertise(hdr_publisher **out, hdr_node *node,
-                                                   const char *topic, int queue);
-HDR_MUST_CHECK hdr_status hdr_hydro_advertise(hdr_publisher **out, hdr_node *node,
-                                              const char *topic, int queue);
-HDR_MUST_CHECK hdr_status hdr_covariant_advertise(hdr_publisher **out, hdr_node *node,
-                                                  const char *topic, int queue);
-HDR_MUST_CHECK hdr_status hdr_state_advertise(hdr_publisher **out, hdr_node *node,
-                                              const char *topic, int queue);
-HDR_MUST_CHECK hdr_status hdr_cost_advertise(hdr_publisher **out, hdr_node *node, const char *topic,
-                                             int queue);
-HDR_MUST_CHECK hdr_status hdr_diagnostic_advertise(hdr_publisher **out, hdr_node *node,
-                                                   const char *topic, int queue);
-HDR_MUST_CHECK hdr_status hdr_float64_advertise(hdr_publisher **out, hdr_node *node,
-                                                const char *topic, int queue);
-HDR_MUST_CHECK hdr_status hdr_string_advertise(hdr_publisher **out, hdr_node *node,
-                                               const char *topic, int queue);
+/** For each message, for type = hdr_steps:
+ *
+ *      hdr_status hdr_steps_advertise(hdr_publisher **out, hdr_node *node, const char *topic,
+ *                                     int queue);
+ *      hdr_status hdr_steps_advertise_latched(the same);
+ *      hdr_status hdr_steps_publish(hdr_publisher *publisher, const hdr_steps *message);
+ *
+ * Topic names: "~x" is private to the node. queue >= 1 is the number of messages kept for each
+ * subscriber that is behind; the oldest are dropped first. Latched: who comes late gets the last
+ * message. The publishers belong to the node and live as long as it does. Advertising fails with
+ * HDR_FAULT or HDR_NO_MEMORY.
+ *
+ * The message is serialised before _publish returns and never waited for. Without a subscriber and
+ * without latching it does nothing. HDR_FAULT if the publisher is of another type; HDR_NO_MEMORY.
+ */
+#define HDR_PUBLISHER(type)                                                                        \
+    HDR_MUST_CHECK hdr_status type##_advertise(hdr_publisher **out, hdr_node *node,                \
+                                               const char *topic, int queue);                      \
+    HDR_MUST_CHECK hdr_status type##_advertise_latched(hdr_publisher **out, hdr_node *node,        \
+                                                       const char *topic, int queue);              \
+    HDR_MUST_CHECK hdr_status type##_publish(hdr_publisher *publisher, const type *message);
+HDR_MESSAGES(HDR_PUBLISHER)
+HDR_STANDARD_MESSAGES(HDR_PUBLISHER)
+#undef HDR_PUBLISHER
 
 /** Number of subscribers connected now. */
 int hdr_publisher_subscribers(const hdr_publisher *publisher);
@@ -65,27 +59,6 @@ typedef struct hdr_lag {
 /** May be called by any thread, the more often the more exactly; does not wait. 0 for latched
  * topics. */
 hdr_lag hdr_publisher_lag(hdr_publisher *publisher);
-
-/* The view is serialised before these return and never waited for. Without a subscriber and without
- * latching they do nothing. HDR_FAULT if the publisher is of another type; HDR_NO_MEMORY. */
-
-HDR_MUST_CHECK hdr_status hdr_run_info_publish(hdr_publisher *publisher, const hdr_run_info *view);
-HDR_MUST_CHECK hdr_status hdr_spectrum_publish(hdr_publisher *publisher, const hdr_spectrum *view);
-HDR_MUST_CHECK hdr_status hdr_modes_publish(hdr_publisher *publisher, const hdr_modes *view);
-HDR_MUST_CHECK hdr_status hdr_steps_publish(hdr_publisher *publisher, const hdr_steps *view);
-HDR_MUST_CHECK hdr_status hdr_lp_phases_publish(hdr_publisher *publisher,
-                                                const hdr_lp_phases *view);
-HDR_MUST_CHECK hdr_status hdr_mode_field_publish(hdr_publisher *publisher,
-                                                 const hdr_mode_field *view);
-HDR_MUST_CHECK hdr_status hdr_hydro_publish(hdr_publisher *publisher, const hdr_hydro *view);
-HDR_MUST_CHECK hdr_status hdr_covariant_publish(hdr_publisher *publisher,
-                                                const hdr_covariant *view);
-HDR_MUST_CHECK hdr_status hdr_state_publish(hdr_publisher *publisher, const hdr_state *view);
-HDR_MUST_CHECK hdr_status hdr_cost_publish(hdr_publisher *publisher, const hdr_cost *view);
-HDR_MUST_CHECK hdr_status hdr_diagnostic_publish(hdr_publisher *publisher,
-                                                 const hdr_diagnostic *view);
-HDR_MUST_CHECK hdr_status hdr_float64_publish(hdr_publisher *publisher, const hdr_float64 *view);
-HDR_MUST_CHECK hdr_status hdr_string_publish(hdr_publisher *publisher, const hdr_string *view);
 
 #ifdef __cplusplus
 }

@@ -4,7 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-_Static_assert((int)HD_CENTRE_STABLE == (int)HDR_CENTRE_STABLE, "pairs of spaces as in the core");
+_Static_assert((int)HD_CENTRE_STABLE == (int)HDR_COVARIANT_ANGLE_CENTRE_STABLE,
+               "pairs of spaces as in the core");
 
 /** Of one angle, as the message has them. */
 typedef struct histograms {
@@ -155,10 +156,8 @@ static hdr_covariant view_of(covariant_report *r, const hd_run *run)
         .stable_apart = known(apart.stable),
         .null_angle = known(hd_covariant_null(covariant)),
         .largest_null_angle = known(hd_covariant_null_most(covariant)),
-        .angles = r->angle,
-        .angle_count = r->angles,
-        .weights = r->weight,
-        .weight_count = r->weights,
+        .angles = {r->angle, r->angles},
+        .weights = {r->weight, r->weights},
     };
 }
 
@@ -180,13 +179,13 @@ static bool view_finite(const hdr_covariant *v)
     bool finite = outlets_finite(scalars, sizeof scalars / sizeof *scalars);
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
         finite = finite && outlets_finite(arrays[a].data, arrays[a].count);
-    for (uint32_t k = 0; k < v->angle_count; k++) {
-        const hdr_covariant_angle *angle = &v->angles[k];
+    for (uint32_t k = 0; k < v->angles.count; k++) {
+        const hdr_covariant_angle *angle = &v->angles.data[k];
         finite = finite && isfinite(angle->last + angle->mean + angle->std_error + angle->least +
                                     angle->mean_of_all);
     }
-    for (uint32_t k = 0; k < v->weight_count; k++) {
-        const hdr_covariant_weight *weight = &v->weights[k];
+    for (uint32_t k = 0; k < v->weights.count; k++) {
+        const hdr_covariant_weight *weight = &v->weights.data[k];
         finite = finite && outlets_finite(weight->dq.data, weight->dq.count) &&
                  outlets_finite(weight->dp.data, weight->dp.count) &&
                  outlets_finite(weight->gram_schmidt.data, weight->gram_schmidt.count);

@@ -6,6 +6,7 @@
 
 #include "clock.h"
 #include "conditions.h"
+#include "hdlyap_ros/stage.h"
 
 static const double period = 1.0;
 /** How long a repair is worth a warning [s]. */
@@ -132,8 +133,7 @@ bool diagnostics_publish(diagnostics *d, const worker_state *state)
         .name = d->node_name,
         .message = *all.message ? all.message : phase_name(state),
         .hardware_id = report_run_id(d->rep),
-        .values = list.value,
-        .count = list.count,
+        .values = {list.value, list.count},
     };
     if (hdr_diagnostic_publish(d->publisher, &view) != HDR_OK)
         hdr_log(HDR_ERROR, "diagnostics not sent: %s", hdr_error_text());

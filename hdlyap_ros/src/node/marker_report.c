@@ -9,6 +9,7 @@
 #include "../view/view.h"
 #include "clock.h"
 #include "field_report.h"
+#include "hdlyap_ros/stage.h"
 
 _Static_assert((int)PICTURE_PAIRS_MAX == (int)HD_MODULATIONS_MAX, "pairs as in the core");
 _Static_assert((int)PICTURE_MODES_MAX == (int)MARKER_MODES_MAX, "modes as in the settings");
@@ -151,7 +152,7 @@ void marker_report_demand(marker_report *r, hd_run *run)
     const bool paced = r->set->pace > 0.0 && hd_run_stage(run) == HD_AVERAGING;
     const double between = paced ? fmax(r->set->pace / r->set->markers.rate, DBL_MIN) : INFINITY;
     r->due = watched && clock_seconds() >= r->next;
-    hd_run_view(run, watched ? between : INFINITY, r->due ? first_wanted(r, run) : r->vectors);
+    hd_run_watch(run, watched ? between : INFINITY, r->due ? first_wanted(r, run) : r->vectors);
 }
 
 /* ---- the picture --------------------------------------------------------------------------- */

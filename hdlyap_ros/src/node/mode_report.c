@@ -7,7 +7,7 @@
 #include "hdlyap/hydro.h"
 
 _Static_assert((int)HD_MODE_LP == (int)HDR_MODE_LP, "kinds as in the core");
-_Static_assert((int)HD_LP_TRACKED == (int)HDR_LP_TRACKED, "states as in the core");
+_Static_assert((int)HD_LP_TRACKED == (int)HDR_LP_PHASE_TRACKED, "states as in the core");
 
 struct mode_report {
     const outlets *to;
@@ -180,16 +180,9 @@ static bool fill_response(hdr_hydro_mode *out, const hd_hydro_response *response
     return isfinite(out->density + out->along + out->across + out->energy);
 }
 
-static bool fill_fit(hdr_fit *out, hd_dispersion fit)
+static bool is_finite(const hd_dispersion *fit)
 {
-    *out = (hdr_fit){
-        .points = (uint32_t)fit.points,
-        .c = fit.c,
-        .c_error = error_of(fit.c_error),
-        .c2 = fit.c2,
-        .c2_error = error_of(fit.c2_error),
-    };
-    return isfinite(fit.c + fit.c_error + fit.c2 + fit.c2_error);
+    return isfinite(fit->c + fit->c_error + fit->c2 + fit->c2_error);
 }
 
 static hd_status publish_modes(mode_report *m, const snapshot *now)
@@ -201,8 +194,7 @@ static hd_status publish_modes(mode_report *m, const snapshot *now)
         .sim_time = hd_run_time(run),
         .averaged_time = hd_spectrum_time(hd_run_spectrum(run)),
         .samples = (uint32_t)hd_modes_samples(hd_run_modes(run)),
-        .modes = m->mode,
-        .count = m->vectors,
+        .modes = {m->mode, m->vectors},
     };
     for (uint32_t k = 0; k < m->vectors; k++)
         if (!fill_mode(&m->mode[k], run, (int)k)) return HD_NOT_FINITE;
@@ -214,21 +206,30 @@ bool mode_report_steps(mode_report *m, hdr_steps *view, const hd_run *run)
     const hd_steps *steps = hd_run_steps(run);
     const hd_phases *phases = hd_run_phases(run);
     const hd_velocity none = {.v_error = -1.0}, v = phases ? hd_phases_velocity(phases) : none;
+    const hd_dispersion t = hd_steps_dispersion(steps, HD_MODE_T);
+    const hd_dispersion l = hd_steps_dispersion(steps, HD_MODE_LP);
     *view = (hdr_steps){
         .header = outlets_header(),
         .run_id = m->to->run_id,
         .sim_time = hd_run_time(run),
         .averaged_time = hd_spectrum_time(hd_run_spectrum(run)),
         .threshold = hd_steps_threshold(),
-        .steps = m->step,
-        .count = m->steps,
+        .steps = {m->step, m->steps},
+        .t_points = (uint32_t)t.points,
+        .c_t = t.c,
+        .c_t_error = error_of(t.c_error),
+        .c_t2 = t.c2,
+        .c_t2_error = error_of(t.c2_error),
+        .l_points = (uint32_t)l.points,
+        .c_l = l.c,
+        .c_l_error = error_of(l.c_error),
+        .c_l2 = l.c2,
+        .c_l2_error = error_of(l.c2_error),
         .v_phases = (uint32_t)v.phases,
         .v = v.v,
         .v_error = error_of(v.v_error),
     };
-    bool finite = isfinite(v.v + v.v_error) &&
-                  fill_fit(&view->t, hd_steps_dispersion(steps, HD_MODE_T)) &&
-                  fill_fit(&view->l, hd_steps_dispersion(steps, HD_MODE_LP));
+    bool finite = isfinite(v.v + v.v_error) && is_finite(&t) && is_finite(&l);
     for (uint32_t k = 0; k < m->steps && finite; k++)
         finite = fill_step(&m->step[k], hd_steps_step(steps, (int)k));
     return finite;
@@ -249,8 +250,7 @@ static hd_status publish_phases(mode_report *m, const snapshot *now)
         .run_id = m->to->run_id,
         .sim_time = hd_run_time(run),
         .samples_per_report = (uint32_t)hd_run_samples_per_report(run),
-        .phases = m->phase,
-        .count = m->phases,
+        .phases = {m->phase, m->phases},
     };
     for (uint32_t k = 0; k < m->phases; k++) {
         const hd_lp_phase *phase = hd_phases_phase(hd_run_phases(run), (int)k);
@@ -267,8 +267,7 @@ static hd_status publish_hydro(mode_report *m, const snapshot *now)
         .header = outlets_header(),
         .run_id = m->to->run_id,
         .sim_time = hd_run_time(now->run),
-        .responses = m->response,
-        .count = m->responses,
+        .responses = {m->response, m->responses},
     };
     hd_hydro_measure(m->hydro, steps, hd_run_frame(now->run), now->q, now->p);
     for (uint32_t k = 0; k < m->responses; k++)

@@ -12,20 +12,17 @@ static const double queue_bytes = 128e6;
 
 typedef hdr_status (*advertise_function)(hdr_publisher **, hdr_node *, const char *, int);
 
-/** run_info is latched: it needs no queue. */
-static hdr_status run_info_advertise(hdr_publisher **out, hdr_node *ros, const char *name,
-                                     int queue)
-{
-    (void)queue;
-    return hdr_run_info_advertise(out, ros, name);
-}
-
 static const advertise_function advertise[TOPICS] = {
-    [TOPIC_RUN_INFO] = run_info_advertise,       [TOPIC_SPECTRUM] = hdr_spectrum_advertise,
-    [TOPIC_MODES] = hdr_modes_advertise,         [TOPIC_STEPS] = hdr_steps_advertise,
-    [TOPIC_LP_PHASES] = hdr_lp_phases_advertise, [TOPIC_FIELDS] = hdr_mode_field_advertise,
-    [TOPIC_HYDRO] = hdr_hydro_advertise,         [TOPIC_COVARIANT] = hdr_covariant_advertise,
-    [TOPIC_STATE] = hdr_state_advertise,         [TOPIC_COST] = hdr_cost_advertise,
+    [TOPIC_RUN_INFO] = hdr_run_info_advertise_latched,
+    [TOPIC_SPECTRUM] = hdr_spectrum_advertise,
+    [TOPIC_MODES] = hdr_modes_advertise,
+    [TOPIC_STEPS] = hdr_steps_advertise,
+    [TOPIC_LP_PHASES] = hdr_lp_phases_advertise,
+    [TOPIC_FIELDS] = hdr_mode_field_advertise,
+    [TOPIC_HYDRO] = hdr_hydro_advertise,
+    [TOPIC_COVARIANT] = hdr_covariant_advertise,
+    [TOPIC_STATE] = hdr_state_advertise,
+    [TOPIC_COST] = hdr_cost_advertise,
 };
 
 /** Start, process, seed: no two runs share all three. */

@@ -13,7 +13,7 @@
 #include "outlets.h"
 #include "run_info.h"
 
-_Static_assert((int)HD_LIMIT_REPAIR == (int)HDR_LIMIT_REPAIR, "limits as in the core");
+_Static_assert((int)HD_LIMIT_REPAIR == (int)HDR_COST_LIMIT_REPAIR, "limits as in the core");
 
 /** Topics whose messages are made of positions and momenta. */
 static const unsigned of_state = 1u << TOPIC_STATE | 1u << TOPIC_FIELDS | 1u << TOPIC_HYDRO;

@@ -166,7 +166,7 @@ static hd_status paced_step(worker *w)
 {
     const double begin = clock_seconds(), from = hd_run_time(w->run);
     const bool paced = hd_run_stage(w->run) == HD_AVERAGING;
-    const hd_status status = hd_run_step(w->run);
+    const hd_status status = hd_run_advance(w->run);
     if (paced) w->due = fmax(w->due, begin) + (hd_run_time(w->run) - from) / w->set->pace;
     return status;
 }
@@ -178,7 +178,7 @@ static hd_status step(worker *w)
     report_demand_picture(w->rep, w->run);
     hd_status status = reset_if_asked(w);
     keeper_touch(&w->keep);
-    if (status == HD_OK) status = w->set->pace > 0.0 ? paced_step(w) : hd_run_step(w->run);
+    if (status == HD_OK) status = w->set->pace > 0.0 ? paced_step(w) : hd_run_advance(w->run);
     if (status != HD_OK) return status;
     status = publish(w);
     pthread_mutex_lock(&w->lock);

@@ -16,8 +16,8 @@ void heard_clear(heard *h)
     fields_clear(h);
     free(h->x);
     free(h->exponents);
-    free((void *)h->steps.steps);
-    free((void *)h->phases.phases);
+    free((void *)h->steps.steps.data);
+    free((void *)h->phases.phases.data);
     *h = (heard){.time = -1.0};
 }
 
@@ -92,19 +92,21 @@ void heard_spectrum(heard *h, const hdr_spectrum *spectrum)
 void heard_steps(heard *h, const hdr_steps *steps)
 {
     if (!is_ours(h, steps->run_id)) return;
-    hdr_step *own = replaced(h->steps.steps, steps->steps, steps->count * sizeof *own);
+    hdr_step *own = replaced(h->steps.steps.data, steps->steps.data,
+                             steps->steps.count * sizeof *own);
     if (!own) return;
     h->steps = *steps;
-    h->steps.steps = own;
+    h->steps.steps.data = own;
 }
 
 void heard_phases(heard *h, const hdr_lp_phases *phases)
 {
     if (!is_ours(h, phases->run_id)) return;
-    hdr_lp_phase *own = replaced(h->phases.phases, phases->phases, phases->count * sizeof *own);
+    hdr_lp_phase *own = replaced(h->phases.phases.data, phases->phases.data,
+                                 phases->phases.count * sizeof *own);
     if (!own) return;
     h->phases = *phases;
-    h->phases.phases = own;
+    h->phases.phases.data = own;
 }
 
 /** Where the field of a kind and wave vector is kept; NULL without room. */

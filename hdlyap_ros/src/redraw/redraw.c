@@ -74,9 +74,9 @@ static hdr_doubles array_of(const double *data, uint32_t count)
 /** Coefficients of the vector that the field shows, if they are of the same time. */
 static void fill_pairs(picture_mode *mode, const heard *h, const heard_field *f)
 {
-    if (h->phases.count == 0 || h->phases.sim_time != f->time) return;
-    for (uint32_t k = 0; k < h->phases.count && mode->pairs < PICTURE_PAIRS_MAX; k++) {
-        const hdr_lp_phase *phase = &h->phases.phases[k];
+    if (h->phases.phases.count == 0 || h->phases.sim_time != f->time) return;
+    for (uint32_t k = 0; k < h->phases.phases.count && mode->pairs < PICTURE_PAIRS_MAX; k++) {
+        const hdr_lp_phase *phase = &h->phases.phases.data[k];
         if (phase->index != f->index || phase->nx != f->nx || phase->ny != f->ny) continue;
         mode->a[mode->pairs] = phase->a;
         mode->b[mode->pairs++] = phase->b;

@@ -52,8 +52,8 @@ static void whole(canvas *on, const layout *l, const picture *p)
 static uint32_t first_magnified(const picture *p, uint32_t last)
 {
     uint32_t count = LOWEST_MIN;
-    for (uint32_t k = 0; p->steps && k < p->steps->count; k++) {
-        const hdr_step *step = &p->steps->steps[k];
+    for (uint32_t k = 0; p->steps && k < p->steps->steps.count; k++) {
+        const hdr_step *step = &p->steps->steps.data[k];
         if (is_shown(step) && last - step->first_index + 4 > count)
             count = last - step->first_index + 4;
     }
@@ -63,8 +63,8 @@ static uint32_t first_magnified(const picture *p, uint32_t last)
 
 static const hdr_step *step_of(const picture *p, uint32_t index)
 {
-    for (uint32_t k = 0; p->steps && k < p->steps->count; k++) {
-        const hdr_step *step = &p->steps->steps[k];
+    for (uint32_t k = 0; p->steps && k < p->steps->steps.count; k++) {
+        const hdr_step *step = &p->steps->steps.data[k];
         if (is_shown(step) && index >= step->first_index && index <= step->last_index) return step;
     }
     return NULL;
@@ -118,8 +118,8 @@ void curves_spectrum(canvas *on, const layout *l, const picture *p)
 static void dispersion_range(plot *axes, const picture *p)
 {
     double most[2] = {0.0, 0.0};
-    for (uint32_t k = 0; p->steps && k < p->steps->count; k++) {
-        const hdr_step *step = &p->steps->steps[k];
+    for (uint32_t k = 0; p->steps && k < p->steps->steps.count; k++) {
+        const hdr_step *step = &p->steps->steps.data[k];
         if (!is_shown(step)) continue;
         most[0] = fmax(most[0], step->wave_number);
         most[1] = fmax(most[1], step->exponent + fmax(step->std_error, 0.0));
@@ -127,15 +127,15 @@ static void dispersion_range(plot *axes, const picture *p)
     for (int d = 0; d < 2; d++) axes->max[d] = plot_round_up(1.05 * most[d]);
 }
 
-static void fit_curve(const plot *axes, const hdr_fit *fit, int kind)
+/** lambda = c k + c2 k^2 */
+static void fit_curve(const plot *axes, double c, double c2, int kind)
 {
     enum { PIECES = 40 };
-    if (fit->points == 0) return;
     canvas_layer(axes->on, axes->ns, HDR_MARKER_LINE_LIST, palette_kind(kind),
                  FIT_LINE * axes->unit);
     for (int piece = 0; piece < PIECES; piece++) {
         const double k0 = axes->max[0] * piece / PIECES, k1 = axes->max[0] * (piece + 1) / PIECES;
-        const double y0 = fit->c * k0 + fit->c2 * k0 * k0, y1 = fit->c * k1 + fit->c2 * k1 * k1;
+        const double y0 = c * k0 + c2 * k0 * k0, y1 = c * k1 + c2 * k1 * k1;
         if (plot_contains(axes, k0, y0) && plot_contains(axes, k1, y1))
             canvas_line(axes->on, plot_x(axes, k0), plot_y(axes, y0), plot_x(axes, k1),
                         plot_y(axes, y1));
@@ -145,8 +145,8 @@ static void fit_curve(const plot *axes, const hdr_fit *fit, int kind)
 static void error_bars(const plot *axes, const hdr_steps *steps)
 {
     canvas_layer(axes->on, axes->ns, HDR_MARKER_LINE_LIST, PALETTE_INK, FIT_LINE * axes->unit);
-    for (uint32_t k = 0; k < steps->count; k++) {
-        const hdr_step *step = &steps->steps[k];
+    for (uint32_t k = 0; k < steps->steps.count; k++) {
+        const hdr_step *step = &steps->steps.data[k];
         const double error = fmin(fmax(step->std_error, 0.0), step->exponent);
         if (is_shown(step) && error > 0.0)
             canvas_line(axes->on, plot_x(axes, step->wave_number),
@@ -158,8 +158,8 @@ static void error_bars(const plot *axes, const hdr_steps *steps)
 static void step_points(const plot *axes, const hdr_steps *steps)
 {
     canvas_layer(axes->on, axes->ns, HDR_MARKER_POINTS, PALETTE_INK, DOT * axes->unit);
-    for (uint32_t k = 0; k < steps->count; k++) {
-        const hdr_step *step = &steps->steps[k];
+    for (uint32_t k = 0; k < steps->steps.count; k++) {
+        const hdr_step *step = &steps->steps.data[k];
         if (is_shown(step))
             canvas_coloured(axes->on, plot_x(axes, step->wave_number), plot_y(axes, step->exponent),
                             0.0, palette_kind(step->kind));
@@ -172,8 +172,8 @@ void curves_dispersion(canvas *on, const layout *l, const picture *p)
     dispersion_range(&axes, p);
     plot_axes(&axes, "dispersion: T blue, LP orange", "k [1/sigma]", "lambda");
     if (!p->steps) return;
-    fit_curve(&axes, &p->steps->t, HDR_MODE_T);
-    fit_curve(&axes, &p->steps->l, HDR_MODE_LP);
+    if (p->steps->t_points > 0) fit_curve(&axes, p->steps->c_t, p->steps->c_t2, HDR_MODE_T);
+    if (p->steps->l_points > 0) fit_curve(&axes, p->steps->c_l, p->steps->c_l2, HDR_MODE_LP);
     error_bars(&axes, p->steps);
     step_points(&axes, p->steps);
 }
@@ -195,8 +195,8 @@ static void write_fit(char *text, size_t size, const char *name, bool known, dou
 static void write_fits(char *text, size_t size, const hdr_steps *s)
 {
     char c_t[48], c_l[48], v[48];
-    write_fit(c_t, sizeof c_t, "c_T", s->t.points > 0, s->t.c, s->t.c_error);
-    write_fit(c_l, sizeof c_l, "c_L", s->l.points > 0, s->l.c, s->l.c_error);
+    write_fit(c_t, sizeof c_t, "c_T", s->t_points > 0, s->c_t, s->c_t_error);
+    write_fit(c_l, sizeof c_l, "c_L", s->l_points > 0, s->c_l, s->c_l_error);
     write_fit(v, sizeof v, "v", s->v_phases > 0, s->v, s->v_error);
     snprintf(text, size, "%s    %s    %s", c_t, c_l, v);
 }

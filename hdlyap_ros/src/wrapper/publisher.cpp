@@ -1,4 +1,4 @@
-/** Topics out: each C view is serialised once and handed to roscpp's queues. */
+/** Topics out: each message is serialised once and handed to roscpp's queues. */
 #include "hdlyap_ros/publisher.h"
 
 #include <chrono>
@@ -8,22 +8,23 @@
 
 #include "guard.hpp"
 #include "node.hpp"
-#include "views.hpp"
+#include "message_fields.hpp"
+#include "standard_messages.hpp"
 
 namespace
 {
-template <class View>
+template <class Message>
 hdr_status advertise(hdr_publisher **out, hdr_node *node, const char *topic, int queue, bool latch)
 {
-    using message = typename hdlyap_ros::message_of<View>::type;
+    using type = typename hdlyap_ros::message_of<Message>::type;
     *out = nullptr;
     return hdr_guard([&] {
         std::unique_ptr<hdr_publisher> made(new hdr_publisher);
         made->topic = ros::names::resolve(topic);
-        made->datatype = ros::message_traits::datatype<message>();
+        made->datatype = ros::message_traits::datatype<type>();
         made->queue = queue;
-        made->publisher = node->handle.advertise<message>(made->topic,
-                                                          queue_length(made->topic, queue), latch);
+        made->publisher = node->handle.advertise<type>(made->topic,
+                                                       queue_length(made->topic, queue), latch);
         if (!made->publisher) throw_of_another_type(made->topic, made->datatype);
         node->publishers.push_back(std::move(made));
         *out = node->publishers.back().get();
@@ -31,9 +32,9 @@ hdr_status advertise(hdr_publisher **out, hdr_node *node, const char *topic, int
 }
 
 /** roscpp does not compare the types and would send the wrong bytes. */
-template <class View> void type_check(const hdr_publisher &publisher)
+template <class Message> void type_check(const hdr_publisher &publisher)
 {
-    const char *datatype = ros::message_traits::datatype<View>();
+    const char *datatype = ros::message_traits::datatype<hdlyap_ros::sent<Message>>();
     if (publisher.datatype != datatype)
         throw std::invalid_argument(publisher.topic + " carries " + publisher.datatype + ", not " +
                                     datatype);
@@ -47,64 +48,54 @@ double seconds_now()
 
 /** Past ros::Publisher, which keeps what it has serialised to itself, but for latched topics, whose
  * last message only it can keep. */
-template <class View> void send(hdr_publisher &publisher, const View &view)
+template <class Message> void send(hdr_publisher &publisher, const Message &message)
 {
+    const hdlyap_ros::sent<Message> out = {message};
     if (publisher.publisher.isLatched()) {
-        publisher.publisher.publish(view);
+        publisher.publisher.publish(out);
         return;
     }
-    ros::SerializedMessage message;
-    const auto serialise = [&view] { return ros::serialization::serializeMessage(view); };
-    ros::TopicManager::instance()->publish(publisher.topic, serialise, message);
-    publisher.backlog.add(message.buf, seconds_now());
+    ros::SerializedMessage bytes;
+    const auto serialise = [&out] { return ros::serialization::serializeMessage(out); };
+    ros::TopicManager::instance()->publish(publisher.topic, serialise, bytes);
+    publisher.backlog.add(bytes.buf, seconds_now());
 }
 
-template <class View> hdr_status publish(hdr_publisher *publisher, const View *view)
+template <class Message> hdr_status publish(hdr_publisher *publisher, const Message *message)
 {
     return hdr_guard([&] {
-        type_check<View>(*publisher);
-        send(*publisher, *view);
+        type_check<Message>(*publisher);
+        send(*publisher, *message);
     });
 }
 } // namespace
-
-hdr_status hdr_run_info_advertise(hdr_publisher **out, hdr_node *node, const char *topic)
-{
-    return advertise<hdr_run_info>(out, node, topic, 1, true);
-}
 
 hdr_status hdr_markers_advertise(hdr_publisher **out, hdr_node *node, const char *topic)
 {
     return advertise<hdr_markers>(out, node, topic, 1, true);
 }
 
-/* One function per message, so that C checks the type of the view. */
-#define HDR_PUBLISH(view)                                                                          \
-    hdr_status view##_publish(hdr_publisher *publisher, const view *message)                       \
+/* One function each, so that C checks the type of the message. */
+#define HDR_PUBLISH(type)                                                                          \
+    hdr_status type##_publish(hdr_publisher *publisher, const type *message)                       \
     {                                                                                              \
         return publish(publisher, message);                                                        \
     }
-#define HDR_TOPIC(view)                                                                            \
-    hdr_status view##_advertise(hdr_publisher **out, hdr_node *node, const char *topic, int queue) \
+#define HDR_PUBLISHER(type)                                                                        \
+    hdr_status type##_advertise(hdr_publisher **out, hdr_node *node, const char *topic, int queue) \
     {                                                                                              \
-        return advertise<view>(out, node, topic, queue, false);                                    \
+        return advertise<type>(out, node, topic, queue, false);                                    \
     }                                                                                              \
-    HDR_PUBLISH(view)
-HDR_PUBLISH(hdr_run_info)
+    hdr_status type##_advertise_latched(hdr_publisher **out, hdr_node *node, const char *topic,    \
+                                        int queue)                                                 \
+    {                                                                                              \
+        return advertise<type>(out, node, topic, queue, true);                                     \
+    }                                                                                              \
+    HDR_PUBLISH(type)
+HDR_MESSAGES(HDR_PUBLISHER)
+HDR_STANDARD_MESSAGES(HDR_PUBLISHER)
 HDR_PUBLISH(hdr_markers)
-HDR_TOPIC(hdr_spectrum)
-HDR_TOPIC(hdr_modes)
-HDR_TOPIC(hdr_steps)
-HDR_TOPIC(hdr_lp_phases)
-HDR_TOPIC(hdr_mode_field)
-HDR_TOPIC(hdr_hydro)
-HDR_TOPIC(hdr_covariant)
-HDR_TOPIC(hdr_state)
-HDR_TOPIC(hdr_cost)
-HDR_TOPIC(hdr_diagnostic)
-HDR_TOPIC(hdr_float64)
-HDR_TOPIC(hdr_string)
-#undef HDR_TOPIC
+#undef HDR_PUBLISHER
 #undef HDR_PUBLISH
 
 int hdr_publisher_subscribers(const hdr_publisher *publisher)

@@ -1,4 +1,4 @@
-/** Bytes on the wire -> C views, through roscpp's traits and by the lists of fields of views.hpp.
+/** Bytes on the wire -> C structs, through roscpp's traits and by the same lists of fields as out.
  * The bytes are copied once, since on the wire numbers lie at any address and strings end nowhere.
  */
 #pragma once
@@ -7,16 +7,18 @@
 #include <stdexcept>
 #include <vector>
 
-#include "views.hpp"
+#include "serialise.hpp"
+#include "standard_messages.hpp"
 
 namespace hdlyap_ros
 {
 
-/** A message as its callback sees it: one view, or of an array of diagnostics one for each status.
+/** A message as its callback sees it: one struct, or of an array of diagnostics one for each
+ * status.
  */
-template <class View> struct received {
-    std::vector<View> views;
-    std::vector<std::shared_ptr<const void>> kept; /**< what the views point into */
+template <class Message> struct received {
+    std::vector<Message> messages;
+    std::vector<std::shared_ptr<const void>> kept; /**< what they point into */
 };
 
 /** A message on its way in. */
@@ -78,44 +80,48 @@ inline void take(reader &in, hdr_strings &list)
     list.data = keep(in, std::move(strings));
 }
 
-inline void take(reader &in, double &value) { in.bytes.next(value); }
-inline void take(reader &in, uint8_t &value) { in.bytes.next(value); }
-inline void take(reader &in, int32_t &value) { in.bytes.next(value); }
-inline void take(reader &in, uint32_t &value) { in.bytes.next(value); }
-inline void take(reader &in, uint64_t &value) { in.bytes.next(value); }
-inline void take(reader &in, bool &value) { value = numbers<uint8_t>(in, 1)[0] != 0; }
-inline void take(reader &in, hdr_header &header) { message_of<hdr_header>::fields(in, header); }
-inline void take(reader &in, hdr_fit &fit) { message_of<hdr_fit>::fields(in, fit); }
-
-template <class Pointer, class Count> void take(reader &in, items<Pointer, Count> &list)
+template <class Number, class = if_number<Number>> void take(reader &in, Number &value)
 {
-    using item = std::remove_const_t<std::remove_pointer_t<Pointer>>;
-    std::vector<item> parts;
+    in.bytes.next(value);
+}
+
+inline void take(reader &in, bool &value) { value = numbers<uint8_t>(in, 1)[0] != 0; }
+
+template <class Message, class = typename message_of<Message>::type, int = 0>
+void take(reader &in, Message &message)
+{
+    message_of<Message>::fields(in, message);
+}
+
+template <class List, class Item = typename item_of<List>::type, char = 0>
+void take(reader &in, List &list)
+{
+    std::vector<Item> items;
     in.bytes.next(list.count);
     for (uint32_t k = 0; k < list.count; k++) {
-        parts.emplace_back();
-        message_of<item>::fields(in, parts.back());
+        items.emplace_back();
+        message_of<Item>::fields(in, items.back());
     }
-    list.data = keep(in, std::move(parts));
+    list.data = keep(in, std::move(items));
 }
 
-/** Chosen before the pass of views.hpp, which takes its field for a constant. */
+/** Chosen before the pass of serialise.hpp, which takes its field for a constant. */
 template <class Field> void pass(reader &in, Field &field) { take(in, field); }
 
-template <class View> void read(reader &in, std::vector<View> &views)
+template <class Message> void read(reader &in, std::vector<Message> &messages)
 {
-    views.emplace_back();
-    message_of<View>::fields(in, views.back());
+    messages.emplace_back();
+    message_of<Message>::fields(in, messages.back());
 }
 
-inline void read(reader &in, std::vector<hdr_diagnostic> &views)
+inline void read(reader &in, std::vector<hdr_diagnostic> &messages)
 {
     uint32_t statuses = 0;
     hdr_diagnostic each = {};
     pass(in, each.header, statuses);
     for (uint32_t k = 0; k < statuses; k++) {
         message_of<hdr_diagnostic>::status(in, each);
-        views.push_back(each);
+        messages.push_back(each);
     }
 }
 
@@ -126,27 +132,27 @@ namespace ros
 namespace message_traits
 {
 #define HDR_RECEIVED_TRAIT(trait)                                                                  \
-    template <class View> struct trait<hdlyap_ros::received<View>> {                               \
-        using message = typename hdlyap_ros::message_of<View>::type;                               \
+    template <class Message> struct trait<hdlyap_ros::received<Message>> {                         \
+        using message = typename hdlyap_ros::message_of<Message>::type;                            \
         static const char *value() { return trait<message>::value(); }                             \
-        static const char *value(const hdlyap_ros::received<View> &) { return value(); }           \
+        static const char *value(const hdlyap_ros::received<Message> &) { return value(); }        \
     };
 HDR_RECEIVED_TRAIT(MD5Sum)
 HDR_RECEIVED_TRAIT(DataType)
 #undef HDR_RECEIVED_TRAIT
-template <class View> struct HasHeader<hdlyap_ros::received<View>>
-    : HasHeader<typename hdlyap_ros::message_of<View>::type> {
+template <class Message> struct HasHeader<hdlyap_ros::received<Message>>
+    : HasHeader<typename hdlyap_ros::message_of<Message>::type> {
 };
 } // namespace message_traits
 
 namespace serialization
 {
-template <class View> struct Serializer<hdlyap_ros::received<View>> {
+template <class Message> struct Serializer<hdlyap_ros::received<Message>> {
     /** roscpp logs what is thrown here and drops the message. */
-    template <class Stream> static void read(Stream &stream, hdlyap_ros::received<View> &message)
+    template <class Stream> static void read(Stream &stream, hdlyap_ros::received<Message> &whole)
     {
-        hdlyap_ros::reader in = {{stream.getData(), stream.getLength()}, message.kept};
-        hdlyap_ros::read(in, message.views);
+        hdlyap_ros::reader in = {{stream.getData(), stream.getLength()}, whole.kept};
+        hdlyap_ros::read(in, whole.messages);
         if (in.bytes.getLength() > 0)
             throw std::length_error(std::to_string(in.bytes.getLength()) + " bytes too many");
     }

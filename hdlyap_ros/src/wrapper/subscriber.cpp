@@ -5,31 +5,32 @@
 
 #include "guard.hpp"
 #include "node.hpp"
+#include "message_fields.hpp"
 #include "received.hpp"
 #include "unheard.hpp"
 
 namespace
 {
-template <class View> using callback_of = void (*)(void *context, const View *view);
+template <class Message> using callback_of = void (*)(void *context, const Message *message);
 
-/** Of a message with several views the callback may free its subscriber at the first. */
-template <class View>
-boost::function<void(const boost::shared_ptr<const hdlyap_ros::received<View>> &)>
-caller(const hdr_subscriber &subscriber, callback_of<View> callback, void *context)
+/** Of an array of several messages the callback may free its subscriber at the first. */
+template <class Message>
+boost::function<void(const boost::shared_ptr<const hdlyap_ros::received<Message>> &)>
+caller(const hdr_subscriber &subscriber, callback_of<Message> callback, void *context)
 {
     return [wanted = subscriber.wanted, callback,
-            context](const boost::shared_ptr<const hdlyap_ros::received<View>> &message) {
-        for (const View &view : message->views)
-            if (wanted->load()) callback(context, &view);
+            context](const boost::shared_ptr<const hdlyap_ros::received<Message>> &all) {
+        for (const Message &message : all->messages)
+            if (wanted->load()) callback(context, &message);
     };
 }
 
 /** Unlike roscpp's its faults name the topic. */
-template <class View>
-void connect(hdr_subscriber &subscriber, int queue, callback_of<View> callback, void *context)
+template <class Message>
+void connect(hdr_subscriber &subscriber, int queue, callback_of<Message> callback, void *context)
 {
     try {
-        subscriber.subscriber = subscriber.node->handle.subscribe<hdlyap_ros::received<View>>(
+        subscriber.subscriber = subscriber.node->handle.subscribe<hdlyap_ros::received<Message>>(
             subscriber.topic, queue_length(subscriber.topic, queue),
             caller(subscriber, callback, context));
     } catch (const ros::ConflictingSubscriptionException &) {
@@ -37,15 +38,16 @@ void connect(hdr_subscriber &subscriber, int queue, callback_of<View> callback, 
     if (!subscriber.subscriber) throw_of_another_type(subscriber.topic, subscriber.datatype);
 }
 
-template <class View> hdr_status subscribe(hdr_subscriber **out, hdr_node *node, const char *topic,
-                                           int queue, callback_of<View> callback, void *context)
+template <class Message> hdr_status subscribe(hdr_subscriber **out, hdr_node *node,
+                                              const char *topic, int queue,
+                                              callback_of<Message> callback, void *context)
 {
     *out = nullptr;
     return hdr_guard([&] {
         std::unique_ptr<hdr_subscriber> made(new hdr_subscriber);
         made->node = node;
         made->topic = ros::names::resolve(topic);
-        made->datatype = ros::message_traits::datatype<hdlyap_ros::received<View>>();
+        made->datatype = ros::message_traits::datatype<hdlyap_ros::received<Message>>();
         connect(*made, queue, callback, context);
         unheard_look_out(node);
         const std::lock_guard<std::mutex> lock(node->mutex);
@@ -68,27 +70,16 @@ std::unique_ptr<hdr_subscriber> taken_from_its_node(const hdr_subscriber *subscr
 }
 } // namespace
 
-/* One function per message, so that C checks the type of the callback. */
-#define HDR_SUBSCRIBE(view)                                                                        \
-    hdr_status view##_subscribe(hdr_subscriber **out, hdr_node *node, const char *topic,           \
-                                int queue, view##_callback callback, void *context)                \
+/* One function each, so that C checks the type of the callback. */
+#define HDR_SUBSCRIBER(type)                                                                       \
+    hdr_status type##_subscribe(hdr_subscriber **out, hdr_node *node, const char *topic,           \
+                                int queue, type##_callback callback, void *context)                \
     {                                                                                              \
-        return subscribe<view>(out, node, topic, queue, callback, context);                        \
+        return subscribe<type>(out, node, topic, queue, callback, context);                        \
     }
-HDR_SUBSCRIBE(hdr_run_info)
-HDR_SUBSCRIBE(hdr_spectrum)
-HDR_SUBSCRIBE(hdr_modes)
-HDR_SUBSCRIBE(hdr_steps)
-HDR_SUBSCRIBE(hdr_lp_phases)
-HDR_SUBSCRIBE(hdr_mode_field)
-HDR_SUBSCRIBE(hdr_hydro)
-HDR_SUBSCRIBE(hdr_covariant)
-HDR_SUBSCRIBE(hdr_state)
-HDR_SUBSCRIBE(hdr_cost)
-HDR_SUBSCRIBE(hdr_diagnostic)
-HDR_SUBSCRIBE(hdr_float64)
-HDR_SUBSCRIBE(hdr_string)
-#undef HDR_SUBSCRIBE
+HDR_MESSAGES(HDR_SUBSCRIBER)
+HDR_STANDARD_MESSAGES(HDR_SUBSCRIBER)
+#undef HDR_SUBSCRIBER
 
 /** roscpp waits for a callback that another thread is in; the node's lock must not be held then,
  * since the callback may want it. */

@@ -98,7 +98,7 @@ static void independent_codes(void **state)
 }
 
 /** Mean of |p.n| over collisions where both directions are periodic and the total momentum is zero:
- * momenta are uniform on the sphere of radius R in M dimensions, physics.md 6. */
+ * momenta are uniform on the sphere of radius R in M dimensions. */
 static double exact_mean_impact(int disks)
 {
     const double radius = sqrt(2.0 * disks), dimensions = 2.0 * disks - 2.0;

@@ -108,9 +108,9 @@ static void expect_uninterrupted_view(const hd_scene_def *def, int every, int le
 {
     hd_run *alone = kept_run(def), *other = kept_run(def);
     int times = 0, taken = 0;
-    hd_run_view(alone, view, hd_run_vectors(alone));
+    hd_run_watch(alone, view, hd_run_vectors(alone));
     do {
-        hd_run_view(other, view, hd_run_vectors(other));
+        hd_run_watch(other, view, hd_run_vectors(other));
         kept_steps(alone, every);
         taken = kept_steps(other, every);
         hd_run *resumed = kept_and_resumed(other, PATH, def);
@@ -222,7 +222,7 @@ static void clocks_and_costs_go_on(void **state)
     assert_true(after.wall >= before.wall);
     /* seconds left over simulated time left, as over what was carried: wall time runs on */
     assert_true(after.remaining >= before.remaining);
-    CHECK_CLOSE(resumed->frame_start_time, run->frame_start_time, 0.0);
+    CHECK_CLOSE(resumed->clocks.frame_start_time, run->clocks.frame_start_time, 0.0);
     assert_int_equal(resumed->observe, HD_OBSERVE_MODES);
     hd_run_free(run);
     hd_run_free(resumed);
@@ -235,12 +235,12 @@ static void the_time_left_is_known_after_a_restart(void **state)
     const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
     hd_run *run = kept_run(&def);
     while (hd_run_stage(run) != HD_AVERAGING) kept_steps(run, 1);
-    run->frame_started = -1000.0;
+    run->clocks.frame_started = -1000.0;
     assert_true(hd_run_cost(run).remaining > 0.0);
     hd_run *resumed = kept_and_resumed(run, PATH, NULL);
     assert_true(hd_run_cost(resumed).remaining > 0.0);
     kept_steps(resumed, 1000);
-    CHECK_CLOSE(resumed->frame_start_time, run->frame_start_time, 0.0);
+    CHECK_CLOSE(resumed->clocks.frame_start_time, run->clocks.frame_start_time, 0.0);
     hd_run_free(run);
     hd_run_free(resumed);
 }

@@ -140,7 +140,7 @@ static hd_run *finished(hd_scene_def scene, double time)
     scene.accuracy = fmin(1e-2, 1e-8 / time * 1e3);
     scene.threads = 1;
     if (hd_run_create(&run, &scene, message, sizeof message) != HD_OK) fail_msg("%s", message);
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_step(run));
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
     return run;
 }
 

@@ -72,7 +72,7 @@ static hd_scene_def averaged_at_once(hd_boundary boundary, double duration)
 
 static hd_status finish(hd_run *run)
 {
-    while (hd_run_stage(run) != HD_FINISHED) HD_TRY(hd_run_step(run));
+    while (hd_run_stage(run) != HD_FINISHED) HD_TRY(hd_run_advance(run));
     return HD_OK;
 }
 
@@ -152,8 +152,8 @@ static outcome outcome_of(double impact, int exponents)
     hd_scene_def scene = averaged_at_once(HD_PERIODIC, 20.0);
     scene.exponents = exponents;
     hd_run *run = created(&scene);
-    hd_trajectory_free(run->trajectory);
-    run->trajectory = prepared(&scene, impact);
+    hd_trajectory_free(run->advance.trajectory);
+    run->advance.trajectory = prepared(&scene, impact);
     const reference r = reference_of(prepared(&scene, impact), run->frame, scene.duration);
     assert_true(r.least < 1.1 * impact / 1.6 + 4.0 * DBL_EPSILON);
     outcome o = {.status = finish(run), .impact = 2.0 * DBL_EPSILON / r.least / scene.duration};

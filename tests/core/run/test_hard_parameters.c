@@ -215,7 +215,7 @@ static const char *step_once(hd_run *run)
 {
     const double before = hd_run_time(run), events = events_of(run);
     const hd_stage phase = hd_run_stage(run);
-    const hd_status status = hd_run_step(run);
+    const hd_status status = hd_run_advance(run);
     if (status != HD_OK) return hd_status_text(status);
     if (!(hd_run_time(run) > before) && hd_run_stage(run) == phase) return "a step goes nowhere";
     if (!(events_of(run) - events <= EVENTS_OF_A_STEP_MAX)) return "a step without end";

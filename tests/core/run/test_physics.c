@@ -23,7 +23,7 @@ static hd_run *finished_run(const hd_scene_def *scene)
 {
     hd_run *run = NULL;
     CHECK_OK(hd_run_create(&run, scene, NULL, 0));
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_step(run));
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
     return run;
 }
 
@@ -37,7 +37,7 @@ static void check_published(const hd_spectrum *spectrum, int col, double value, 
     CHECK_CLOSE(hd_spectrum_exponent(spectrum, col), value, Z * hypot(error, value_error));
 }
 
-/** physics.md section 6: independent codes, one standard error. */
+/** Against independent codes; their standard errors are given beside their numbers. */
 static void nine_disks_have_the_published_exponents(void **state)
 {
     (void)state;

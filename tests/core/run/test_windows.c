@@ -30,7 +30,7 @@ static hd_scene_def small(void)
 
 static void finish(hd_run *run)
 {
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_step(run));
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
 }
 
 static double averaging_start(const hd_run *run)
@@ -40,12 +40,12 @@ static double averaging_start(const hd_run *run)
 
 static void step_to(hd_run *run, double averaged)
 {
-    while (hd_run_time(run) < averaging_start(run) + averaged - 1e-9) CHECK_OK(hd_run_step(run));
+    while (hd_run_time(run) < averaging_start(run) + averaged - 1e-9) CHECK_OK(hd_run_advance(run));
 }
 
 static void step_to_the_way_back(hd_run *run)
 {
-    while (!hd_covariant_is_going_back(hd_run_covariant(run))) CHECK_OK(hd_run_step(run));
+    while (!hd_covariant_is_going_back(hd_run_covariant(run))) CHECK_OK(hd_run_advance(run));
 }
 
 /** Some of the way, behind the run's back: it would go all of it in one step. */
@@ -95,7 +95,7 @@ static void the_forward_pass_stays_as_it_is(void **state)
     hd_run *run = created(&scene);
     step_to_the_way_back(run);
     const double time = hd_run_time(run);
-    CHECK_OK(hd_run_step(run));
+    CHECK_OK(hd_run_advance(run));
     assert_true(hd_run_time(run) == time);
     finish(run);
     scene.observe = 0;
@@ -204,7 +204,7 @@ static void other_stages_do_not_disturb(void **state)
         scene.report_interval = 0.25;
         scene.observe |= HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_HYDRO;
         hd_run *run = created(&scene);
-        if (viewed) hd_run_view(run, 0.1, 8);
+        if (viewed) hd_run_watch(run, 0.1, 8);
         finish(run);
         const hd_covariant *c = hd_run_covariant(run);
         assert_in_range(hd_covariant_windows(c), viewed ? 8 : 11, 12);
@@ -264,7 +264,7 @@ static hd_status run_to_a_fault(const hd_scene_def *scene)
 {
     hd_run *run = created(scene);
     hd_status status = HD_OK;
-    while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) status = hd_run_step(run);
+    while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) status = hd_run_advance(run);
     const int fault = errno;
     hd_run_free(run);
     errno = fault;

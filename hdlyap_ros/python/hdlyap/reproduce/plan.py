@@ -71,7 +71,8 @@ class Run:
             files.write(self.scene_file(folder), text)
 
     def noted(self, folder):
-        """What was noted when it was last done with these parameters, of this bag or another; {} if it was not."""
+        """What was noted when it was last done with these parameters, of this bag or another; {} if
+        it was not."""
         try:
             noted = json.loads(files.read(self.record(folder)) or '{}')
         except ValueError:
@@ -81,8 +82,8 @@ class Run:
         )
 
     def done(self, folder):
-        """What was noted of it when it ended; None if it has not been done with these parameters, or if something has
-        been written to its bag since."""
+        """What was noted of it when it ended; None if it has not been done with these parameters,
+        or if something has been written to its bag since."""
         noted = self.noted(folder)
         try:
             is_older = os.path.getmtime(self.bag(folder)) <= os.path.getmtime(self.record(folder))
@@ -91,7 +92,8 @@ class Run:
         return noted if noted and is_older else None
 
     def note(self, folder, **facts):
-        """To be called when the bag is whole; facts: seconds, run_id, commit, and whether it was made elsewhere."""
+        """To be called when the bag is whole; facts: seconds, run_id, commit, and whether it was
+        made elsewhere."""
         files.write(
             self.record(folder),
             json.dumps({**facts, 'parameters': self.parameters}, indent=1) + '\n',
@@ -103,7 +105,8 @@ def is_number(value):
 
 
 def runs(package, quick, path=None):
-    """{name: Run} of all, in their order; package: folder of the package hdlyap; path: another plan than its own."""
+    """{name: Run} of all, in their order; package: folder of the package hdlyap; path: another plan
+    than its own."""
     launch = os.path.join(package, 'launch')
     path = path or os.path.join(launch, 'reproduce.yaml')
     entries = _load(path)

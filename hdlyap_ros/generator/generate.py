@@ -1,0 +1,222 @@
+#!/usr/bin/env python3
+"""msg/*.msg -> the messages for C: a header of structs, and for the wrapper lists of their fields.
+
+generate.py PACKAGE HEADER FIELDS MESSAGE_FILE...
+"""
+
+import os
+import re
+import sys
+
+import genmsg
+
+NUMBERS = {
+    'bool': 'bool',
+    'float32': 'float',
+    'float64': 'double',
+    'int8': 'int8_t',
+    'int16': 'int16_t',
+    'int32': 'int32_t',
+    'int64': 'int64_t',
+    'uint8': 'uint8_t',
+    'uint16': 'uint16_t',
+    'uint32': 'uint32_t',
+    'uint64': 'uint64_t',
+}
+OTHERS = {'string': 'const char *', 'std_msgs/Header': 'hdr_header'}
+ARRAYS = {
+    'float64': 'hdr_doubles',
+    'string': 'hdr_strings',
+    'uint8': 'hdr_bytes',
+    'uint32': 'hdr_uints',
+    'uint64': 'hdr_counts',
+}
+
+HEADER = '''\
+/** The messages of %(package)s as C has them, one struct each; made from msg/ at build time.
+ * Pointers are into the publisher's own buffers, or into what was received. Strings are never NULL.
+ */
+#ifndef HDLYAP_ROS_MESSAGES_H
+#define HDLYAP_ROS_MESSAGES_H
+
+#include "hdlyap_ros/fields.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+%(structs)s
+/** DO(struct) for each message that has a header, and so may have a topic of its own. */
+#define HDR_MESSAGES(DO) \\
+%(topics)s
+
+#ifdef __cplusplus
+}
+#endif
+#endif
+'''
+CONSTANTS = '''
+/** Of %(type)s. */
+enum {
+%(rows)s
+};
+'''
+STRUCT = '''
+/** %(type)s%(comment)s */
+typedef struct %(name)s {
+%(rows)s} %(name)s;
+'''
+LIST = '''
+/** %(type)s[] */
+typedef struct %(name)s_list {
+    const %(name)s *data;
+    uint32_t count;
+} %(name)s_list;
+'''
+
+FIELDS = '''\
+/** What the structs of hdlyap_ros/messages.h stand for, and their fields in the order of the
+ * message; made from msg/ at build time. */
+#pragma once
+
+%(includes)s
+
+#include "hdlyap_ros/messages.h"
+#include "serialise.hpp"
+
+namespace hdlyap_ros
+{
+%(messages)s
+} // namespace hdlyap_ros
+'''
+MESSAGE = '''
+template <> struct message_of<%(name)s> {
+    using type = %(cpp)s;
+    template <class Stream, class Message> static void fields(Stream &s, Message &m)
+    {
+        pass(s, %(fields)s);
+    }
+};
+'''
+ITEM = '''
+template <> struct item_of<%(name)s_list> {
+    using type = %(name)s;
+};
+'''
+
+
+def snake(name):
+    return re.sub(r'(?<=[a-z0-9])(?=[A-Z])', '_', name).lower()
+
+
+class Message:
+    """One .msg file."""
+
+    def __init__(self, package, path):
+        self.short_name = os.path.splitext(os.path.basename(path))[0]
+        self.type = package + '/' + self.short_name
+        self.name = 'hdr_' + snake(self.short_name)
+        self.spec = genmsg.msg_loader.load_msg_from_file(
+            genmsg.MsgContext.create_default(), path, self.type
+        )
+        self.lines = self.spec.text.splitlines()
+
+    def uses(self, other):
+        return any(field.base_type == other.type for field in self.spec.parsed_fields())
+
+    def comment(self):
+        """Of the message: the lines above its first constant or field."""
+        text = ''
+        for line in self.lines:
+            if not line.startswith('#'):
+                break
+            text += '\n * ' + line.lstrip('# ').replace('*/', '* /')
+        return ':' + text if text else ''
+
+    def comment_of(self, name):
+        for line in self.lines:
+            found = re.match(r'[\w/\[\]]+\s+%s\b[^#]*#\s*(.*)' % name, line)
+            if found:
+                return ' /**< %s */' % found.group(1).replace('*/', '* /')
+        return ''
+
+    def constants(self):
+        rows = []
+        for constant in self.spec.constants:
+            if constant.type not in NUMBERS or constant.type.startswith('float'):
+                sys.exit('%s: %s: only integers are constants in C' % (self.type, constant.name))
+            c_name = ('HDR_%s_%s' % (snake(self.short_name), constant.name)).upper()
+            rows.append('    %s = %d,%s' % (c_name, constant.val, self.comment_of(constant.name)))
+        return CONSTANTS % dict(type=self.type, rows='\n'.join(rows)) if rows else ''
+
+    def c_type(self, field, messages):
+        if field.array_len is None:
+            if field.is_array and field.base_type in ARRAYS:
+                return ARRAYS[field.base_type]
+            if not field.is_array and field.base_type in dict(NUMBERS, **OTHERS):
+                return dict(NUMBERS, **OTHERS)[field.base_type]
+            for other in messages:
+                if other.type == field.base_type:
+                    return other.name + ('_list' if field.is_array else '')
+        sys.exit('%s: %s: C has nothing for %s' % (self.type, field.name, field.type))
+
+    def struct(self, messages):
+        rows = ''
+        for field in self.spec.parsed_fields():
+            c_type = self.c_type(field, messages)
+            space = '' if c_type.endswith('*') else ' '
+            rows += '    %s%s%s;%s\n' % (c_type, space, field.name, self.comment_of(field.name))
+        return STRUCT % dict(vars(self), comment=self.comment(), rows=rows)
+
+    def is_in_arrays_of(self, messages):
+        fields = [field for message in messages for field in message.spec.parsed_fields()]
+        return any(field.is_array and field.base_type == self.type for field in fields)
+
+    def cpp_fields(self):
+        fields = (',\n' + 13 * ' ').join('m.' + name for name in self.spec.names)
+        cpp = self.type.replace('/', '::')
+        return MESSAGE % dict(name=self.name, cpp=cpp, fields=fields)
+
+
+def sorted_by_use(messages):
+    """What another one consists of comes before it."""
+    done = []
+    while len(done) < len(messages):
+        left = [message for message in messages if message not in done]
+        done.append(next(one for one in left if not any(one.uses(other) for other in left)))
+    return done
+
+
+def header(package, messages):
+    structs = ''
+    for message in messages:
+        structs += message.constants() + message.struct(messages)
+        if message.is_in_arrays_of(messages):
+            structs += LIST % vars(message)
+    topics = ['    DO(%s)' % message.name for message in messages if message.spec.has_header()]
+    return HEADER % dict(package=package, structs=structs, topics=' \\\n'.join(topics))
+
+
+def fields(messages):
+    text = ''
+    for message in messages:
+        text += message.cpp_fields()
+        if message.is_in_arrays_of(messages):
+            text += ITEM % vars(message)
+    includes = ['#include <%s.h>' % message.type for message in messages]
+    return FIELDS % dict(includes='\n'.join(sorted(includes)), messages=text)
+
+
+def write(path, text):
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, 'w') as file:
+        file.write(text)
+
+
+def main(package, header_path, fields_path, *paths):
+    messages = sorted_by_use([Message(package, path) for path in sorted(paths)])
+    write(header_path, header(package, messages))
+    write(fields_path, fields(messages))
+
+
+if __name__ == '__main__':
+    main(*sys.argv[1:])

@@ -1,0 +1,158 @@
+/** C structs of messages -> bytes on the wire, through roscpp's traits: type, md5 and definition
+ * are those of the generated messages, and the fields are written straight from the caller's
+ * buffers. received.hpp reads by the same lists of fields. */
+#pragma once
+
+#include <cstring>
+#include <string>
+#include <type_traits>
+
+#include <ros/serialization.h>
+#include <std_msgs/Header.h>
+
+#include "hdlyap_ros/fields.h"
+
+namespace hdlyap_ros
+{
+
+/** Of the struct of a message: `type`, roscpp's, and `fields`, in the order of the message, each
+ * passed to the stream or filled from it. */
+template <class Message> struct message_of;
+
+/** Of an array of messages {data, count}: `type`, the struct of an element. */
+template <class List> struct item_of;
+
+template <class Number> using if_number = std::enable_if_t<std::is_arithmetic<Number>::value>;
+
+template <class Stream, class Number, class = if_number<Number>>
+void put(Stream &stream, Number value)
+{
+    stream.next(value);
+}
+
+template <class Stream> void put(Stream &stream, bool value) { stream.next(uint8_t(value)); }
+
+template <class Stream> void put(Stream &stream, const char *text)
+{
+    stream.next(std::string(text));
+}
+
+template <class Stream> void put(Stream &stream, const hdr_strings &list)
+{
+    stream.next(list.count);
+    for (uint32_t k = 0; k < list.count; k++) put(stream, list.data[k]);
+}
+
+inline void put(ros::serialization::LStream &stream, const hdr_doubles &array)
+{
+    stream.next(array.count);
+    stream.advance(array.count * static_cast<uint32_t>(sizeof(double)));
+}
+
+inline void put(ros::serialization::OStream &stream, const hdr_doubles &array)
+{
+    stream.next(array.count);
+    uint8_t *out = stream.advance(array.count * static_cast<uint32_t>(sizeof(double)));
+    if (array.stride == 1 && array.count > 0)
+        std::memcpy(out, array.data, array.count * sizeof(double));
+    for (uint32_t k = 0; array.stride != 1 && k < array.count; k++)
+        std::memcpy(out + k * sizeof(double), array.data + size_t(k) * array.stride,
+                    sizeof(double));
+}
+
+template <class Stream, class Number>
+void put_numbers(Stream &stream, const Number *data, uint32_t count)
+{
+    stream.next(count);
+    for (uint32_t k = 0; k < count; k++) stream.next(data[k]);
+}
+
+template <class Stream> void put(Stream &stream, const hdr_uints &list)
+{
+    put_numbers(stream, list.data, list.count);
+}
+
+template <class Stream> void put(Stream &stream, const hdr_counts &list)
+{
+    put_numbers(stream, list.data, list.count);
+}
+
+template <class Stream> void put(Stream &stream, const hdr_bytes &list)
+{
+    put_numbers(stream, list.data, list.count);
+}
+
+/** A message within another one. */
+template <class Stream, class Message, class = typename message_of<Message>::type>
+void put(Stream &stream, const Message &message)
+{
+    message_of<Message>::fields(stream, message);
+}
+
+template <class Stream, class List, class Item = typename item_of<List>::type, int = 0>
+void put(Stream &stream, const List &list)
+{
+    stream.next(list.count);
+    for (uint32_t k = 0; k < list.count; k++) message_of<Item>::fields(stream, list.data[k]);
+}
+
+/** A field on its way out; on its way in it is taken, see received.hpp. */
+template <class Stream, class Field> void pass(Stream &stream, const Field &field)
+{
+    put(stream, field);
+}
+
+template <class Stream, class First, class Second, class... Rest>
+void pass(Stream &stream, First &&first, Second &&second, Rest &&...rest)
+{
+    pass(stream, first);
+    pass(stream, second, rest...);
+}
+
+template <> struct message_of<hdr_header> {
+    using type = std_msgs::Header;
+    template <class Stream, class Message> static void fields(Stream &s, Message &m)
+    {
+        pass(s, m.seq, m.stamp.sec, m.stamp.nsec, m.frame_id);
+    }
+};
+
+/** A message as it is handed to roscpp. */
+template <class Message> struct sent {
+    const Message &message;
+};
+
+} // namespace hdlyap_ros
+
+namespace ros
+{
+namespace message_traits
+{
+#define HDR_SENT_TRAIT(trait)                                                                      \
+    template <class Message> struct trait<hdlyap_ros::sent<Message>> {                             \
+        using message = typename hdlyap_ros::message_of<Message>::type;                            \
+        static const char *value() { return trait<message>::value(); }                             \
+        static const char *value(const hdlyap_ros::sent<Message> &) { return value(); }            \
+    };
+HDR_SENT_TRAIT(MD5Sum)
+HDR_SENT_TRAIT(DataType)
+HDR_SENT_TRAIT(Definition)
+#undef HDR_SENT_TRAIT
+} // namespace message_traits
+
+namespace serialization
+{
+template <class Message> struct Serializer<hdlyap_ros::sent<Message>> {
+    template <class Stream> static void write(Stream &stream, const hdlyap_ros::sent<Message> &out)
+    {
+        hdlyap_ros::message_of<Message>::fields(stream, out.message);
+    }
+    static uint32_t serializedLength(const hdlyap_ros::sent<Message> &out)
+    {
+        LStream stream;
+        write(stream, out);
+        return stream.getLength();
+    }
+};
+} // namespace serialization
+} // namespace ros

@@ -1,0 +1,147 @@
+/** C structs against roscpp's messages: the same bytes, the same type; out and in. */
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "message_fields.hpp"
+#include "received.hpp"
+
+namespace
+{
+using hdlyap_ros::message_of;
+using hdlyap_ros::received;
+using hdlyap_ros::sent;
+namespace traits = ros::message_traits;
+
+/** A stream that roscpp's messages read from: numbers that are all distinct, arrays and strings of
+ * distinct lengths. */
+class distinct
+{
+  public:
+    void next(ros::Time &time)
+    {
+        next(time.sec);
+        next(time.nsec);
+    }
+    void next(std::string &text) { text = "text " + std::to_string(++last); }
+    void next(double &number) { number = ++last + 0.25; }
+    template <class Number> std::enable_if_t<std::is_integral<Number>::value> next(Number &number)
+    {
+        number = static_cast<Number>(++last);
+    }
+    template <class Item, class Allocator> void next(std::vector<Item, Allocator> &array)
+    {
+        array.resize(2 + ++length % 3);
+        for (Item &item : array) next(item);
+    }
+    template <class Message> std::enable_if_t<traits::IsMessage<Message>::value> next(Message &part)
+    {
+        ros::serialization::Serializer<Message>::template allInOne<distinct &, Message &>(*this,
+                                                                                          part);
+    }
+
+  private:
+    int last = 0, length = 0;
+};
+
+/** Whatever is not 0 is true, and comes out as 1. */
+void make_bools(hdlyap::Steps &message)
+{
+    for (hdlyap::Step &step : message.steps) step.conjugate = !(step.resolved = step.nx % 2);
+}
+template <class Other> void make_bools(Other &) {}
+
+template <class Message> typename message_of<Message>::type filled()
+{
+    typename message_of<Message>::type message;
+    distinct().next(message);
+    make_bools(message);
+    return message;
+}
+
+template <class Message, class Ros> void expect_same(const Message &message, const Ros &wanted)
+{
+    const sent<Message> out = {message};
+    const ros::SerializedMessage got = ros::serialization::serializeMessage(out);
+    const ros::SerializedMessage want = ros::serialization::serializeMessage(wanted);
+    ASSERT_EQ(want.num_bytes, got.num_bytes);
+    EXPECT_EQ(0, std::memcmp(want.buf.get(), got.buf.get(), want.num_bytes));
+    EXPECT_STREQ(traits::md5sum<Ros>(), traits::md5sum(out));
+    EXPECT_STREQ(traits::datatype<Ros>(), traits::datatype(out));
+    EXPECT_STREQ(traits::definition<Ros>(), traits::definition(out));
+}
+
+/** In, and out again. */
+template <class Message> void expect_both_ways(const typename message_of<Message>::type &wanted)
+{
+    using type = typename message_of<Message>::type;
+    received<Message> in;
+    ros::serialization::deserializeMessage(ros::serialization::serializeMessage(wanted), in);
+    ASSERT_EQ(1u, in.messages.size());
+    expect_same(in.messages[0], wanted);
+    EXPECT_STREQ(traits::md5sum<type>(), traits::md5sum<received<Message>>());
+    EXPECT_STREQ(traits::datatype<type>(), traits::datatype<received<Message>>());
+    EXPECT_EQ(traits::hasHeader<type>(), traits::hasHeader<received<Message>>());
+}
+
+const double numbers[] = {1.5, -2.25, 3e300, 4e-300, 5, 6};
+} // namespace
+
+#define TEST_BOTH_WAYS(type)                                                                       \
+    TEST(messages, type)                                                                           \
+    {                                                                                              \
+        expect_both_ways<type>(filled<type>());                                                    \
+        expect_both_ways<type>({});                                                                \
+    }
+HDR_MESSAGES(TEST_BOTH_WAYS)
+TEST_BOTH_WAYS(hdr_float64)
+TEST_BOTH_WAYS(hdr_string)
+
+TEST(messages, hdr_diagnostic)
+{
+    diagnostic_msgs::DiagnosticArray message = filled<hdr_diagnostic>();
+    message.status.resize(1);
+    expect_both_ways<hdr_diagnostic>(message);
+}
+
+/** Names, which no bytes show: in all kinds of fields. */
+TEST(messages, fields_by_name)
+{
+    const hdlyap::Steps want = filled<hdr_steps>();
+    received<hdr_steps> in;
+    ros::serialization::deserializeMessage(ros::serialization::serializeMessage(want), in);
+    const hdr_steps &got = in.messages.at(0);
+    EXPECT_EQ(want.header.stamp.nsec, got.header.stamp.nsec);
+    EXPECT_EQ(want.header.seq, got.header.seq);
+    EXPECT_EQ(want.run_id, got.run_id);
+    EXPECT_EQ(want.averaged_time, got.averaged_time);
+    EXPECT_EQ(want.c_t2, got.c_t2);
+    EXPECT_EQ(want.l_points, got.l_points);
+    ASSERT_EQ(want.steps.size(), got.steps.count);
+    EXPECT_EQ(want.steps[1].kind, got.steps.data[1].kind);
+    EXPECT_EQ(want.steps[1].set, got.steps.data[1].set);
+    EXPECT_EQ(int(hdlyap::LpPhase::SIN_SIN), int(HDR_LP_PHASE_SIN_SIN));
+    EXPECT_EQ(int(hdlyap::Mode::LP), int(HDR_MODE_LP));
+}
+
+TEST(messages, strides)
+{
+    hdr_state state = {};
+    state.header.frame_id = state.run_id = "";
+    state.x = {numbers, 3, 2};
+    state.y = {numbers + 1, 3, 2};
+    state.px = {numbers, 2, 3};
+    state.py = {numbers, 6, 1};
+    hdlyap::State message;
+    message.x = {1.5, 3e300, 5};
+    message.y = {-2.25, 4e-300, 6};
+    message.px = {1.5, 4e-300};
+    message.py.assign(numbers, numbers + 6);
+    expect_same(state, message);
+}
+
+int main(int argc, char **argv)
+{
+    testing::InitGoogleTest(&argc, argv);
+    return RUN_ALL_TESTS();
+}
