@@ -12,6 +12,7 @@ import unittest
 import roslib.packages
 import rosgraph
 import rospy
+import yaml
 
 from hdlyap.msg import (
     Cost,
@@ -50,6 +51,11 @@ PATIENCE = 60.0  # seconds, for what has no bound of its own
 
 def executable():
     return roslib.packages.find_node('hdlyap', 'hdlyap_node')[0]
+
+
+def defaults():
+    """Every parameter, as the node prints them."""
+    return yaml.safe_load(subprocess.check_output([executable(), '--parameters'], text=True))
 
 
 def probe_library():

@@ -23,6 +23,9 @@ typedef enum hd_parameter_kind {
     HD_PARAMETER_SET        /**< a set of bits; the user says it in another way */
 } hd_parameter_kind;
 
+/** Whether a resumed run may have another value than its checkpoint. */
+enum { HD_AS_BEFORE = 0, HD_MAY_DIFFER = 1 };
+
 /** A value that has a name. */
 typedef struct hd_parameter_word {
     const char *word;
@@ -39,7 +42,7 @@ typedef struct hd_parameter {
     const char *allowed; /**< in words */
     const char *unit;    /**< "" if it has none */
     bool may_differ;     /**< of a resumed run from its checkpoint */
-    unsigned needs;      /**< HD_OBSERVE_* of which one must be there for another value than usual */
+    unsigned needs; /**< HD_OBSERVE_* of which one must be there for another value than usual */
     const char *text;
     const char *record; /**< name in a checkpoint */
 } hd_parameter;

@@ -23,11 +23,11 @@ enum { HD_EXPONENTS_NONE = 0, HD_EXPONENTS_POSITIVE = -1, HD_EXPONENTS_ALL = -2 
 /** hd_scene_def.observe: what is computed beyond the exponents. Phases, fields and hydro need
  * steps, which need modes: these come with them. */
 enum {
-    HD_OBSERVE_MODES = 1,     /**< weights of every vector */
-    HD_OBSERVE_STEPS = 2,     /**< degenerate sets, dispersion */
-    HD_OBSERVE_PHASES = 4,    /**< of the LP pairs */
-    HD_OBSERVE_FIELDS = 8,    /**< reconstructed P modes */
-    HD_OBSERVE_HYDRO = 16,    /**< hydrodynamic response */
+    HD_OBSERVE_MODES = 1,      /**< weights of every vector */
+    HD_OBSERVE_STEPS = 2,      /**< degenerate sets, dispersion */
+    HD_OBSERVE_PHASES = 4,     /**< of the LP pairs */
+    HD_OBSERVE_FIELDS = 8,     /**< reconstructed P modes */
+    HD_OBSERVE_HYDRO = 16,     /**< hydrodynamic response */
     HD_OBSERVE_COVARIANT = 32, /**< covariant vectors; alone, it needs no modes */
     HD_OBSERVE_ALL = 63        /**< all of these */
 };
@@ -38,12 +38,12 @@ typedef enum hd_storage {
     HD_STORAGE_RECOMPUTE /**< they are computed again, from some frames and the events */
 } hd_storage;
 
-/** Each parameter's default, range, unit and text stands in parameters.inc, which declares those that
- * are plain numbers. */
+/** Each parameter's default, range, unit and text stands in parameters.inc, which declares those
+ * that are plain numbers. */
 typedef struct hd_scene_def {
     hd_boundary boundary[2]; /**< boundary_x, boundary_y */
     uint64_t seed;
-    int exponents; /**< number of leading ones, 1 .. 4N, or one of HD_EXPONENTS_* */
+    int exponents;    /**< number of leading ones, 1 .. 4N, or one of HD_EXPONENTS_* */
     double interval;  /**< 0 = auto [time units] */
     unsigned observe; /**< a set of HD_OBSERVE_*, 0 = none */
     hd_storage covariant_storage;

@@ -3,8 +3,6 @@
 
 #include <string.h>
 
-#include "base/check.h"
-
 static const hd_parameter_word hd_boundary_words[] = {
     {"periodic", HD_PERIODIC}, {"reflecting", HD_REFLECTING}, {NULL, 0}};
 static const hd_parameter_word hd_exponents_words[] = {{"positive", HD_EXPONENTS_POSITIVE},
@@ -16,9 +14,9 @@ static const hd_parameter_word hd_storage_words[] = {
     {"memory", HD_STORAGE_MEMORY}, {"recompute", HD_STORAGE_RECOMPUTE}, {NULL, 0}};
 
 #define ROW(name, member, kind, words, usual, least, most, allowed, unit, may_differ, needs, text) \
-    {#name,   kind, words,      offsetof(hd_scene_def, member),                                    \
-     usual,   least, most,      allowed,                                                           \
-     unit,    may_differ, needs, text,                                                             \
+    {#name,         kind,       words, offsetof(hd_scene_def, member),                             \
+     usual,         least,      most,  allowed,                                                    \
+     unit,          may_differ, needs, text,                                                       \
      "scene " #name},
 static const hd_parameter rows[] = {
 #define HD_INT(name, ...) ROW(name, name, HD_PARAMETER_INT, NULL, __VA_ARGS__)

@@ -28,9 +28,10 @@ static const parameter rows[] = {
         .usual = "spectrum, modes, steps, lp_phases, fields, state",
         .allowed = "a list out of " OBSERVABLES,
         .unit = "",
-        .text = "Topics that are computed and published, beside run_info, status, cost and "
-                "/diagnostics. A topic costs nothing while nobody subscribes to it. With exponents: "
-                "none there is only state. A resumed run may have other ones of spectrum and state.",
+        .text =
+            "Topics that are computed and published, beside run_info, status, cost and "
+            "/diagnostics. A topic costs nothing while nobody subscribes to it. With exponents: "
+            "none there is only state. A resumed run may have other ones of spectrum and state.",
     },
     {
         .name = "field_indices",
@@ -56,7 +57,7 @@ static const parameter rows[] = {
     },
     {
         .name = "marker_rate",
-        .kind = REAL,
+        .kind = REAL_NUMBER,
         .offset = offsetof(settings, markers.rate),
         .usual = "10",
         .least = 0.01,
@@ -68,16 +69,17 @@ static const parameter rows[] = {
     },
     {
         .name = "field_interval",
-        .kind = REAL,
+        .kind = REAL_NUMBER,
         .offset = offsetof(settings, field_interval),
         .usual = "10",
         .most = 1e12,
         .allowed = "from 0 (with every report) to 1e12",
         .unit = "time units",
         .may_differ = true,
-        .text = "Simulated time between fields. They come with the first report of the averaging, "
-                "with the first one at or after each multiple of this, and with the last. The vectors "
-                "are orthonormalised for each: often means slow.",
+        .text =
+            "Simulated time between fields. They come with the first report of the averaging, "
+            "with the first one at or after each multiple of this, and with the last. The vectors "
+            "are orthonormalised for each: often means slow.",
     },
     {
         .name = "wait_for_subscribers",
@@ -92,7 +94,7 @@ static const parameter rows[] = {
     },
     {
         .name = "pace",
-        .kind = REAL,
+        .kind = REAL_NUMBER,
         .offset = offsetof(settings, pace),
         .usual = "0",
         .most = 1e12,
@@ -114,7 +116,7 @@ static const parameter rows[] = {
     },
     {
         .name = "checkpoint_interval",
-        .kind = REAL,
+        .kind = REAL_NUMBER,
         .offset = offsetof(settings, checkpoint_interval),
         .usual = "600",
         .most = 1e12,

@@ -10,10 +10,10 @@
 
 /** How a value is said and read. */
 typedef enum parameter_kind {
-    OF_SCENE, /**< as the scene's row says */
-    REAL,     /**< double */
-    NAME,     /**< const char *: a line that is not empty */
-    FILE_PATH, /**< const char *: a line, "" for none */
+    OF_SCENE,        /**< as the scene's row says */
+    REAL_NUMBER,     /**< double */
+    NAME,            /**< const char *: a line that is not empty */
+    FILE_PATH,       /**< const char *: a line, "" for none */
     TOPICS_OBSERVED, /**< unsigned: a set of topics */
     TOPICS_AWAITED,  /**< the same, or all */
     FIELD_CHOICE,    /**< field_choice */

@@ -1,7 +1,6 @@
 /** See parameters_text.h. */
 #include "parameters_text.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,9 +11,11 @@ enum { LINE_WIDTH = 100 };
 
 static const char *const head =
     "Every parameter of hdlyap_node, with its default. "
-    "Reduced units throughout: disk mass 1, disk diameter sigma = 1, kinetic energy per disk 1; the "
+    "Reduced units throughout: disk mass 1, disk diameter sigma = 1, kinetic energy per disk 1; "
+    "the "
     "time unit follows from these. All parameters are private to the node and checked before it "
-    "starts: an unknown name, a wrong type, a value out of range or a combination that cannot exist "
+    "starts: an unknown name, a wrong type, a value out of range or a combination that cannot "
+    "exist "
     "ends it with one line and exit status 2. YAML reads 1e-8 as a string, which is taken too.";
 
 /** A comment of several lines. */
@@ -62,13 +63,13 @@ static void write_value(char *out, size_t size, const parameter *p)
         snprintf(out, size, "\"%s\"", usual);
     else if (p->kind == TOPICS_OBSERVED || p->kind == TOPICS_AWAITED)
         snprintf(out, size, "[%s]", usual);
-    else if (kind == HD_PARAMETER_REAL || p->kind == REAL)
+    else if (kind == HD_PARAMETER_REAL || p->kind == REAL_NUMBER)
         write_real(out, size, atof(usual));
     else
         snprintf(out, size, "%s", usual);
 }
 
-/** "From 0 to 1 [unit]." of what is allowed. */
+/** What is allowed, with its unit. */
 static void write_allowed(char *out, size_t size, const parameter *p)
 {
     const bool has_unit = *p->unit && !strchr(p->allowed, '[');
@@ -81,12 +82,12 @@ int parameters_print_scene(void)
     print_comment(head);
     for (int k = 0; k < parameters_count(); k++) {
         const parameter p = parameters_at(k);
-        char allowed[200], value[PARAMETER_TEXT + 8], text[1000];
+        char allowed[200], value[PARAMETER_TEXT + 8], text[400];
         write_allowed(allowed, sizeof allowed, &p);
         write_value(value, sizeof value, &p);
-        snprintf(text, sizeof text, "%s %c%s. Default: %s.", p.text, toupper(*allowed),
-                 allowed + 1, value);
+        snprintf(text, sizeof text, "Allowed: %s. Default: %s.", allowed, value);
         printf("\n");
+        print_comment(p.text);
         print_comment(text);
         printf("%s: %s\n", p.name, value);
     }

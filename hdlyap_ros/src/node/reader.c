@@ -118,9 +118,10 @@ static bool read_of_scene(const reader *r, const parameter *p, hd_scene_def *def
         break;
     default:
         whole = (int)real;
-        read = p->row->kind == HD_PARAMETER_WORD        ? read_word(r, p, &whole)
-               : p->row->kind == HD_PARAMETER_EXPONENTS ? read_exponents(r, p, &whole)
-               : accepts(r, hdr_param_int(r->params, r->name, &whole), "an integer");
+        read = p->row->kind == HD_PARAMETER_WORD ? read_word(r, p, &whole)
+               : p->row->kind == HD_PARAMETER_EXPONENTS
+                   ? read_exponents(r, p, &whole)
+                   : accepts(r, hdr_param_int(r->params, r->name, &whole), "an integer");
         real = whole;
     }
     hd_parameter_assign(p->row, def, real);
@@ -200,7 +201,7 @@ bool reader_read(const reader *r, const parameter *p, void *field)
 {
     switch (p->kind) {
     case OF_SCENE: return read_of_scene(r, p, field);
-    case REAL: return accepts(r, hdr_param_double(r->params, r->name, field), "a number");
+    case REAL_NUMBER: return accepts(r, hdr_param_double(r->params, r->name, field), "a number");
     case NAME:
     case FILE_PATH: return read_line(r, p, field);
     case TOPICS_OBSERVED:

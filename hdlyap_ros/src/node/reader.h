@@ -21,8 +21,8 @@ bool reader_refuse(const reader *r, const char *allowed);
 /** Without line ends and other control characters. */
 bool is_one_line(const char *text);
 
-/** Into the variable at field (for one of the scene: the whole of it), which stays as it is where the
- * parameter is missing. Ranges of numbers are not looked at. False if refused. */
+/** Into the variable at field (for one of the scene: the whole of it), which stays as it is where
+ * the parameter is missing. Ranges of numbers are not looked at. False if refused. */
 bool reader_read(const reader *r, const parameter *p, void *field);
 
 #endif

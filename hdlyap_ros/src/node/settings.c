@@ -1,5 +1,5 @@
-/** Private parameters -> settings: read by their rows, and what fits together. The ranges of the scene
- * itself are the core's. */
+/** Private parameters -> settings: read by their rows, and what fits together. The ranges of the
+ * scene itself are the core's. */
 #include "settings.h"
 
 #include <inttypes.h>
@@ -12,9 +12,7 @@
 #include "reader.h"
 #include "topic.h"
 
-enum {
-    OF_EXPONENTS = 1u << TOPIC_SPECTRUM | 1u << TOPIC_COVARIANT | TOPICS_OF_MODES
-};
+enum { OF_EXPONENTS = 1u << TOPIC_SPECTRUM | 1u << TOPIC_COVARIANT | TOPICS_OF_MODES };
 
 static bool check_names(reader *r)
 {
@@ -45,7 +43,7 @@ static bool check_ranges(settings *set, reader *r)
 {
     for (int k = 0; k < parameters_count(); k++) {
         const parameter p = parameters_at(k);
-        if (p.kind != REAL) continue;
+        if (p.kind != REAL_NUMBER) continue;
         const double value = *(double *)field_of(set, &p);
         r->name = p.name;
         if (!(value >= p.least && value <= p.most)) return reader_refuse(r, p.allowed);
@@ -135,7 +133,7 @@ static bool check_marker_modes(const settings *set, reader *r)
         if (!is_looked_for(set, &set->markers.mode[k]))
             return reader_refuse(
                 r, "lowest or a list of 1 to 8 modes such as T(1,0) or LP(1,1)"
-                ", of wave vectors that are looked for (max_mode_number, max_wave_number)");
+                   ", of wave vectors that are looked for (max_mode_number, max_wave_number)");
     return true;
 }
 
@@ -170,7 +168,7 @@ static void set_default(settings *set, const parameter *p)
     void *field = field_of(set, p);
     switch (p->kind) {
     case OF_SCENE: hd_parameter_assign(p->row, field, p->row->usual); break;
-    case REAL: *(double *)field = strtod(p->usual, NULL); break;
+    case REAL_NUMBER: *(double *)field = strtod(p->usual, NULL); break;
     case NAME:
     case FILE_PATH: *(const char **)field = p->usual; break;
     case TOPICS_OBSERVED:

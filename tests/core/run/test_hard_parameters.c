@@ -121,7 +121,10 @@ static void put_wild(hd_random *random, hd_scene_def *def, const hd_parameter *p
 static bool is_named(const hd_parameter *p, const char *name) { return strcmp(p->name, name) == 0; }
 
 /** Threads are a machine's, and large boxes take long: seldom. */
-static bool is_costly(const hd_parameter *p) { return is_named(p, "disks") || is_named(p, "threads"); }
+static bool is_costly(const hd_parameter *p)
+{
+    return is_named(p, "disks") || is_named(p, "threads");
+}
 
 static void put_usual(hd_random *random, hd_scene_def *def, const hd_parameter *p)
 {
@@ -139,8 +142,8 @@ static void make_narrow(hd_random *random, hd_scene_def *def)
     if (chance(random, 0.5)) def->aspect = 1.0 / def->aspect;
 }
 
-/** Covariant vectors are left out: on their way back steps take no simulated time. Half of the scenes
- * have wild values; the others are possible one by one, if not together. */
+/** Covariant vectors are left out: on their way back steps take no simulated time. Half of the
+ * scenes have wild values; the others are possible one by one, if not together. */
 static hd_scene_def drawn(hd_random *random)
 {
     hd_scene_def def = hd_scene_def_default();
@@ -184,8 +187,8 @@ static int named(const char *line)
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) {
         const size_t length = strlen(rows[k].name);
-        if (strncmp(line, rows[k].name, length) == 0 &&
-            strncmp(line + length, " = ", 3) == 0 && strstr(line, ": "))
+        if (strncmp(line, rows[k].name, length) == 0 && strncmp(line + length, " = ", 3) == 0 &&
+            strstr(line, ": "))
             return k;
     }
     return -1;
@@ -287,8 +290,7 @@ static void report(const tally *seen)
         SETS, seen->run, seen->averaged, seen->refused, seen->large);
     int count;
     const hd_parameter *rows = hd_scene_parameters(&count);
-    for (int k = 0; k < count; k++)
-        print_message(" %s %d", rows[k].name, seen->refused_by[k]);
+    for (int k = 0; k < count; k++) print_message(" %s %d", rows[k].name, seen->refused_by[k]);
     print_message("\n");
 }
 

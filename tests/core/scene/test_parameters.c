@@ -1,5 +1,5 @@
-/** The rows of a scene's parameters: each says the same thing once in numbers and once in words, and
- * none is missing. */
+/** The rows of a scene's parameters: each says the same thing once in numbers and once in words,
+ * and none is missing. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -40,7 +40,8 @@ static void names_and_words_are_there_once(void **state)
         assert_true(*row->name && *row->allowed && *row->text && row->unit);
         assert_true(strlen(row->record) < 40); /* room in a checkpoint */
         assert_string_equal(row->record + strlen("scene "), row->name);
-        for (int other = 0; other < k; other++) assert_string_not_equal(rows[other].name, row->name);
+        for (int other = 0; other < k; other++)
+            assert_string_not_equal(rows[other].name, row->name);
         for (const hd_parameter_word *w = row->words; w && w->word; w++) {
             int value = 12345;
             assert_non_null(strstr(row->allowed, w->word));

@@ -53,7 +53,8 @@ static hd_scene_def with(const hd_parameter *row, double value)
     if (row->needs == HD_OBSERVE_COVARIANT) {
         def.observe = HD_OBSERVE_COVARIANT;
         def.warmup = 1e12;
-        def.covariant_window = row->offset == offsetof(hd_scene_def, covariant_sampling) ? 1e12 : 1.0;
+        def.covariant_window = row->offset == offsetof(hd_scene_def, covariant_sampling) ? 1e12
+                                                                                         : 1.0;
         def.covariant_transient = 1.0;
         def.covariant_sampling = 1e-6;
     }
@@ -100,7 +101,8 @@ static void real_parameters_at_the_ends_of_their_range(void **state)
                              strcmp(rows[k].name, "aspect") == 0 ||
                              strcmp(rows[k].name, "max_wave_number") == 0;
         if (!has_range(&rows[k]) || limited) continue;
-        const hd_scene_def least = with(&rows[k], rows[k].least), most = with(&rows[k], rows[k].most);
+        const hd_scene_def least = with(&rows[k], rows[k].least),
+                           most = with(&rows[k], rows[k].most);
         check_accepted(&least);
         check_accepted(&most);
         checked++;
@@ -251,12 +253,17 @@ static void corners_of_the_table(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(default_is_the_papers),     cmocka_unit_test(real_parameters_out_of_range),
+        cmocka_unit_test(default_is_the_papers),
+        cmocka_unit_test(real_parameters_out_of_range),
         cmocka_unit_test(real_parameters_at_the_ends_of_their_range),
-        cmocka_unit_test(whole_fields_out_of_range), cmocka_unit_test(exponents_out_of_range),
-        cmocka_unit_test(narrower_than_a_disk),      cmocka_unit_test(too_dense_for_the_lattice),
-        cmocka_unit_test(message_may_be_short),      cmocka_unit_test(box_has_area_and_aspect),
-        cmocka_unit_test(numbers_of_vectors),        cmocka_unit_test(corners_of_the_table),
+        cmocka_unit_test(whole_fields_out_of_range),
+        cmocka_unit_test(exponents_out_of_range),
+        cmocka_unit_test(narrower_than_a_disk),
+        cmocka_unit_test(too_dense_for_the_lattice),
+        cmocka_unit_test(message_may_be_short),
+        cmocka_unit_test(box_has_area_and_aspect),
+        cmocka_unit_test(numbers_of_vectors),
+        cmocka_unit_test(corners_of_the_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
