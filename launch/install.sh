@@ -28,9 +28,9 @@ run_packages() {
     case $1 in
         debian)
             echo ros-std-srvs libstd-srvs-dev python3-std-srvs ros-diagnostic-msgs libdiagnostic-msgs-dev \
-                ros-visualization-msgs libvisualization-msgs-dev python3-visualization-msgs libtf2-ros-dev rviz
+                ros-visualization-msgs libvisualization-msgs-dev python3-visualization-msgs libtf2-msgs-dev python3-tf2-msgs rviz
             ;;
-        noetic) printf 'ros-noetic-%s\n' std-srvs visualization-msgs tf2-ros rviz ;;
+        noetic) printf 'ros-noetic-%s\n' std-srvs visualization-msgs tf2-msgs rviz ;;
     esac
 }
 
@@ -41,10 +41,10 @@ test_packages() {
         debian)
             echo libclang-rt-dev librostest-dev python3-rostest python3-rostopic python3-rosnode \
                 python3-rosservice python3-rosgraph python3-roslib python3-rosmaster python3-rosmsg rospack-tools \
-                python3-rosgraph-msgs python3-tf2-msgs catkin-lint
+                python3-rosgraph-msgs catkin-lint
             ;;
         noetic)
-            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice rosgraph roslib rosmaster rosmsg rospack rosgraph-msgs tf2-msgs
+            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice rosgraph roslib rosmaster rosmsg rospack rosgraph-msgs
             echo python3-catkin-lint
             ;;
     esac

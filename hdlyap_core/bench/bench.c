@@ -130,10 +130,10 @@ static void events_alone(int disks, double density, double collisions)
     hd_trajectory *trajectory;
     require(hd_trajectory_create(&trajectory, &scene), "trajectory");
     const double length = collisions / hd_trajectory_collision_rate(trajectory);
-    require(hd_trajectory_advance(trajectory, NULL, length),
+    require(hd_trajectory_extend(trajectory, NULL, length),
             "trajectory"); /* away from the lattice */
     const double first = (double)hd_trajectory_collisions(trajectory), start = seconds();
-    require(hd_trajectory_advance(trajectory, NULL, 2.0 * length), "trajectory");
+    require(hd_trajectory_extend(trajectory, NULL, 2.0 * length), "trajectory");
     const double count = (double)hd_trajectory_collisions(trajectory) - first;
     printf("%9d %9.2f %12.0f %22.2f\n", disks, density, count, count / (seconds() - start) * 1e-6);
     hd_trajectory_free(trajectory);

@@ -101,7 +101,8 @@ static double theirs(rival *r, int steps)
     const double start = seconds();
     for (int k = 0; k < steps; k++) {
         const double end = hd_trajectory_time(r->trajectory) + r->interval;
-        require(hd_trajectory_advance(r->trajectory, r->log, end), "trajectory");
+        hd_event_log_clear(r->log);
+        require(hd_trajectory_extend(r->trajectory, r->log, end), "trajectory");
         replay(&r->x, r->since, r->log);
         r->orthonormalise(&r->x);
     }
@@ -115,7 +116,7 @@ static rival rival_create(int disks, double interval, void (*orthonormalise)(col
     rival r = {.interval = interval, .orthonormalise = orthonormalise};
     require(hd_trajectory_create(&r.trajectory, &scene), "trajectory");
     require(hd_event_log_create(&r.log), "trajectory");
-    require(hd_trajectory_advance(r.trajectory, r.log, scene.equilibration), "trajectory");
+    require(hd_trajectory_extend(r.trajectory, r.log, scene.equilibration), "trajectory");
     r.x = columns_create(4 * disks, hd_scene_vectors(&scene));
     r.since = room((size_t)disks, sizeof(double));
     for (size_t k = 0; k < (size_t)r.x.n * (size_t)r.x.rows; k++)

@@ -33,8 +33,9 @@ static void record_events(window *w)
     hd_trajectory *trajectory;
     require(hd_event_log_create(&w->log), "window");
     require(hd_trajectory_create(&trajectory, &w->scene), "window");
-    require(hd_trajectory_advance(trajectory, NULL, begin), "window");
-    require(hd_trajectory_advance(trajectory, w->log, begin + w->length), "window");
+    require(hd_trajectory_extend(trajectory, NULL, begin), "window");
+    hd_event_log_clear(w->log);
+    require(hd_trajectory_extend(trajectory, w->log, begin + w->length), "window");
     hd_trajectory_free(trajectory);
 }
 

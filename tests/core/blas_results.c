@@ -49,9 +49,9 @@ static void print_spectrum(const hd_run *run)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     const double bound = hd_run_cost(run).error_bound;
-    for (int col = 0; col < hd_spectrum_vectors(spectrum); col++)
+    for (int col = 0; col < hd_run_vectors(run); col++)
         print("exponent", hd_spectrum_exponent(spectrum, col), bound);
-    print("entropy", hd_spectrum_ks_entropy(spectrum), bound * hd_spectrum_vectors(spectrum));
+    print("entropy", hd_spectrum_ks_entropy(spectrum), bound * hd_run_vectors(run));
 }
 
 static void print_steps(const hd_run *run)

@@ -27,7 +27,7 @@ int main(void)
         return 1;
     }
     const hd_spectrum *spectrum = hd_run_spectrum(run);
-    for (int col = 0; col < hd_spectrum_vectors(spectrum); col++) {
+    for (int col = 0; col < hd_run_vectors(run); col++) {
         printf("%d %.3f\n", col + 1, hd_spectrum_exponent(spectrum, col));
     }
     hd_run_free(run);

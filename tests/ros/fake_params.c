@@ -102,6 +102,7 @@ static kind kind_of(const parameter *p)
 {
     if (p->kind == TOPICS_OBSERVED || p->kind == TOPICS_AWAITED) return STRINGS;
     if (p->kind == REAL_NUMBER || (p->row && p->row->kind == HD_PARAMETER_REAL)) return REAL;
+    if (p->kind == WHOLE_NUMBER) return INTEGER;
     return p->row && p->row->kind == HD_PARAMETER_INT ? INTEGER : STRING;
 }
 

@@ -23,6 +23,7 @@ from hdlyap.msg import (
     ModeField,
     Modes,
     RunInfo,
+    SlowVectors,
     Spectrum,
     State,
     Steps,
@@ -49,8 +50,12 @@ OBSERVABLES = [topic for topic in TYPES if topic not in ('run_info', 'cost')]
 PATIENCE = 60.0  # seconds, for what has no bound of its own
 
 
+def program(name):
+    return roslib.packages.find_node('hdlyap', name)[0]
+
+
 def executable():
-    return roslib.packages.find_node('hdlyap', 'hdlyap_node')[0]
+    return program('hdlyap_node')
 
 
 def defaults():
@@ -136,6 +141,11 @@ def start(params, name=NODE, probe=None, args=(), command=None, **env):
     return Process([*(command or [executable()]), '__name:=' + name, *args], **env)
 
 
+def start_viewer(params=(), **how):
+    """With exactly these private parameters, as the node /viewer."""
+    return start(dict(params), name='viewer', command=[program('viewer')], **how)
+
+
 def counts(test, params):
     """What probe.c has counted of a run that ends by itself, by name without hd_."""
     with tempfile.TemporaryDirectory() as folder:
@@ -169,7 +179,7 @@ class Listener:
         self.messages = []
         self.delay = delay
         self.arrived = threading.Condition()
-        kind = dict(TYPES, covariant=Covariant)[topic]
+        kind = dict(TYPES, covariant=Covariant, slow_vectors=SlowVectors)[topic]
         self.subscriber = rospy.Subscriber(
             '/%s/%s' % (NODE, topic), kind, self.keep, queue_size=None
         )

@@ -157,7 +157,7 @@ void hd_hydro_measure(hd_hydro *hydro, const hd_steps *found, const hd_frame *fr
         return real(publisher, message);                                                           \
     }
 #define WRITE_MESSAGES(type) fprintf(file, "%s_publish %ld\n", &#type[4], atomic_load(&of_##type));
-#define TYPES(DO) HDR_MESSAGES(DO) DO(hdr_diagnostic) DO(hdr_markers)
+#define TYPES(DO) HDR_MESSAGES(DO) DO(hdr_diagnostic)
 TYPES(COUNT_MESSAGES)
 
 /** PROBE_COUNTS: file for the numbers of calls, one to a line with its name. */

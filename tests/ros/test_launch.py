@@ -95,6 +95,9 @@ class Launch(unittest.TestCase):
         looked_at = self.replayed('rviz:=true', 'node:=/other')
         self.assertIn('--keep-alive', looked_at['play'])
         self.assertEqual(looked_at['view'], '--node /other')
+        self.assertIn('viewer', looked_at)
+        self.assertNotIn('viewer', self.replayed('rviz:=true', 'viewer:=false'))
+        self.assertNotIn('view', self.replayed('viewer:=true'))
 
     def check_bag(self, path):
         with rosbag.Bag(path) as bag:

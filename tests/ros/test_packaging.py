@@ -41,8 +41,7 @@ OF_ROS = dict(
     rviz='rviz',
     std_msgs='libstd-msgs-dev python3-std-msgs ros-std-msgs',
     std_srvs='libstd-srvs-dev python3-std-srvs ros-std-srvs',
-    tf2_msgs='python3-tf2-msgs',
-    tf2_ros='libtf2-ros-dev',
+    tf2_msgs='libtf2-msgs-dev python3-tf2-msgs',
     visualization_msgs='libvisualization-msgs-dev python3-visualization-msgs '
     'ros-visualization-msgs',
 )

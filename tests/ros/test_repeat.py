@@ -32,7 +32,7 @@ def complete(name):
 
 def info_of(scene, **others):
     """run_info of a node that was given a scene file."""
-    texts = {name: text_of(scene[name]) for name in ('exponents', 'field_indices', 'marker_modes')}
+    texts = {name: text_of(scene[name]) for name in ('exponents', 'field_indices')}
     params = dict(
         scene,
         **texts,
@@ -100,7 +100,6 @@ class Repeat(unittest.TestCase):
             interval=1e-6,
             density=0.1 + 0.2,
             wait_for_subscribers=['cost', 'run_info'],
-            marker_modes=['T(1,0)', 'LP(1, 1)'],
         )
         made.write(self.bag, [info_of(scene)])
         self.assertEqual(self.repeated(), dict(scene, threads=2))

@@ -65,6 +65,9 @@ void hd_scene_box(const hd_scene_def *def, double box[2]);
 /** Number of vanishing exponents: 6, 4 or 2 for both, one or no direction periodic. */
 int hd_scene_zero_exponents(const hd_scene_def *def);
 
+/** Directions of the exact null space [T9]: uniform along x, along y (where periodic), momenta. */
+enum { HD_NULL_X, HD_NULL_Y, HD_NULL_P, HD_NULLS };
+
 /** Number of tangent vectors carried, 0 .. 4N (the positive half is (4N - Z) / 2). */
 int hd_scene_vectors(const hd_scene_def *def);
 

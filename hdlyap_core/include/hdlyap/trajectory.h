@@ -50,13 +50,10 @@ HD_MUST_CHECK hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_
                                                   const double *q, const double *p);
 void hd_trajectory_free(hd_trajectory *trajectory);
 
-/** Moves the disks to simulated time t_end (>= now) and replaces the log's contents by the events
- * on the way; log may be NULL. The events do not depend on where the intervals are cut. Fails with
- * HD_OVERLAP, HD_NOT_FINITE, HD_NO_MEMORY. Cost O(1) per event. */
-HD_MUST_CHECK hd_status hd_trajectory_advance(hd_trajectory *trajectory, hd_event_log *log,
-                                              double t_end);
-
-/** The same, but adds to a log that ends at the present time. */
+/** Moves the disks to simulated time t_end (>= now) and adds the events on the way to the log,
+ * which ends at the present time (hd_event_log_clear begins it anew); it may be NULL. The events do
+ * not depend on where the intervals are cut. Fails with HD_OVERLAP, HD_NOT_FINITE, HD_NO_MEMORY.
+ * Cost O(1) per event. */
 HD_MUST_CHECK hd_status hd_trajectory_extend(hd_trajectory *trajectory, hd_event_log *log,
                                              double t_end);
 

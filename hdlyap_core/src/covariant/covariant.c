@@ -19,6 +19,7 @@
 #include "covariant/backward.h"
 #include "covariant/history.h"
 #include "covariant/localization.h"
+#include "scene/null_space.h"
 #include "modes/archived.h"
 
 /** Intervals that there is room for, over those that are expected: they vary. */
@@ -299,15 +300,12 @@ static hd_columns vectors_of(const hd_covariant *c)
 /** Column-major: the null vectors [T9], `centre` of them. */
 static void fill_null(const hd_covariant *c, double *column)
 {
-    for (int d = 0; d < 3; d++) {
-        if (d < 2 && c->scene.boundary[d] == HD_REFLECTING) continue;
-        for (int half = 0; half < 2; half++, column += c->rows) {
-            memset(column, 0, (size_t)c->rows * sizeof *column);
-            for (int disk = 0; disk < c->scene.disks; disk++)
-                for (int e = 0; e < 2; e++)
-                    column[4 * disk + 2 * half + e] = d == 2 ? c->p[2 * disk + e]
-                                                             : (double)(d == e);
-        }
+    const hd_null_space null = hd_null_space_of(c->scene.boundary);
+    for (int k = 0; k < 2 * null.count; k++, column += c->rows) {
+        memset(column, 0, (size_t)c->rows * sizeof *column);
+        for (int j = 0; j < 2 * c->scene.disks; j++)
+            column[4 * (j / 2) + 2 * (k % 2) + j % 2] = hd_null_entry(null.axis[k / 2], j % 2,
+                                                                      c->p[j]);
     }
 }
 

@@ -46,26 +46,30 @@ static const parameter rows[] = {
                 "indices.",
     },
     {
-        .name = "marker_modes",
-        .kind = MARKER_MODES,
-        .offset = offsetof(settings, markers),
-        .usual = "lowest",
-        .allowed = "lowest or a list of 1 to 8 modes such as T(1,0) or LP(1,1)",
-        .unit = "",
-        .may_differ = true,
-        .text = "Modes that are drawn for rviz in ~markers.",
-    },
-    {
-        .name = "marker_rate",
+        .name = "slow_vectors_rate",
         .kind = REAL_NUMBER,
-        .offset = offsetof(settings, markers.rate),
+        .offset = offsetof(settings, slow_vectors_rate),
         .usual = "10",
         .least = 0.01,
         .most = 100,
         .allowed = "from 0.01 to 100",
         .unit = "1/s",
         .may_differ = true,
-        .text = "Pictures per wall second, at most.",
+        .text =
+            "Messages of slow_vectors per wall second, at most. With pace the steps become short "
+            "enough for it.",
+    },
+    {
+        .name = "slow_vectors_count",
+        .kind = WHOLE_NUMBER,
+        .offset = offsetof(settings, slow_vectors_count),
+        .usual = "0",
+        .allowed = "from 0 (the lowest T and LP steps) to the vectors carried",
+        .unit = "",
+        .may_differ = true,
+        .text =
+            "Slowest vectors in each message of slow_vectors; 0: as many as reach to the lowest T "
+            "and LP steps found.",
     },
     {
         .name = "field_interval",
@@ -145,6 +149,8 @@ static const struct {
     const char *name, *now;
 } gone[] = {
     {"max_node", "removed: it is max_mode_number now"},
+    {"marker_rate", "removed: it is slow_vectors_rate now"},
+    {"marker_modes", "removed: it is modes of the viewer now (rviz.launch modes:=..)"},
     {"covariant_folder", "removed: covariant_storage is memory or recompute now"},
 };
 

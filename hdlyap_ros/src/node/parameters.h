@@ -12,12 +12,12 @@
 typedef enum parameter_kind {
     OF_SCENE,        /**< as the scene's row says */
     REAL_NUMBER,     /**< double */
+    WHOLE_NUMBER,    /**< int; what is allowed depends on the scene */
     NAME,            /**< const char *: a line that is not empty */
     FILE_PATH,       /**< const char *: a line, "" for none */
     TOPICS_OBSERVED, /**< unsigned: a set of topics */
     TOPICS_AWAITED,  /**< the same, or all */
-    FIELD_CHOICE,    /**< field_choice */
-    MARKER_MODES     /**< marker_choice */
+    FIELD_CHOICE     /**< field_choice */
 } parameter_kind;
 
 typedef struct parameter {

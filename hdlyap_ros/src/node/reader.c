@@ -167,47 +167,17 @@ static bool read_fields(const reader *r, const parameter *p, field_choice *choic
     return (status == HDR_OK && choice->count > 0) || reader_refuse(r, p->allowed);
 }
 
-/** T(nx,ny) or LP(nx,ny), and nothing else. */
-static bool parse_mode(marker_mode *out, const char *text)
-{
-    const bool is_lp = strncmp(text, "LP", 2) == 0;
-    int end = -1;
-    if (!is_lp && *text != 'T') return false;
-    out->kind = is_lp ? HD_MODE_LP : HD_MODE_T;
-    text += is_lp ? 2 : 1;
-    return sscanf(text, "(%4d,%4d)%n", &out->n[0], &out->n[1], &end) == 2 && end > 0 && !text[end];
-}
-
-/** Which wave vectors there are is known only with the scene. */
-static bool read_marker_modes(const reader *r, const parameter *p, marker_choice *choice)
-{
-    const char *text = NULL;
-    const char *const *names = NULL;
-    int count = 0;
-    if (hdr_param_string(r->params, r->name, &text) == HDR_OK && strcmp(text, "lowest") == 0)
-        return true;
-    const hdr_status status = hdr_param_string_list(r->params, r->name, &names, &count);
-    if (status == HDR_MISSING) return true;
-    if (status != HDR_OK || count < 1 || count > MARKER_MODES_MAX)
-        return reader_refuse(r, p->allowed);
-    for (int k = 0; k < count; k++)
-        if (!parse_mode(&choice->mode[k], names[k])) return reader_refuse(r, p->allowed);
-    choice->text = hdr_param_text(r->params, r->name);
-    choice->count = count;
-    return true;
-}
-
 bool reader_read(const reader *r, const parameter *p, void *field)
 {
     switch (p->kind) {
     case OF_SCENE: return read_of_scene(r, p, field);
     case REAL_NUMBER: return accepts(r, hdr_param_double(r->params, r->name, field), "a number");
+    case WHOLE_NUMBER: return accepts(r, hdr_param_int(r->params, r->name, field), "an integer");
     case NAME:
     case FILE_PATH: return read_line(r, p, field);
     case TOPICS_OBSERVED:
     case TOPICS_AWAITED: return read_topics(r, p, field);
     case FIELD_CHOICE: return read_fields(r, p, field);
-    case MARKER_MODES: return read_marker_modes(r, p, field);
     }
     return false;
 }

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hdlyap/fields.h"
 #include "parameters.h"
 #include "reader.h"
 #include "topic.h"
@@ -113,28 +112,16 @@ static bool check_field_indices(const settings *set, reader *r)
     return true;
 }
 
-static bool is_looked_for(const settings *set, const marker_mode *mode)
-{
-    const int count = set->observables & TOPICS_OF_MODES ? hd_waves(&set->def, NULL, 0) : 0;
-    hd_wave *waves = malloc(((size_t)count + 1) * sizeof *waves);
-    bool found = !waves; /* the run will say so */
-    if (waves && count > 0) hd_waves(&set->def, waves, count);
-    for (int k = 0; waves && k < count && !found; k++)
-        found = waves[k].n[0] == mode->n[0] && waves[k].n[1] == mode->n[1];
-    free(waves);
-    return found;
-}
-
 /** Of a scene that is right. */
-static bool check_marker_modes(const settings *set, reader *r)
+static bool check_slow_vectors(const settings *set, reader *r)
 {
-    r->name = "marker_modes";
-    for (int k = 0; k < set->markers.count; k++)
-        if (!is_looked_for(set, &set->markers.mode[k]))
-            return reader_refuse(
-                r, "lowest or a list of 1 to 8 modes such as T(1,0) or LP(1,1)"
-                   ", of wave vectors that are looked for (max_mode_number, max_wave_number)");
-    return true;
+    const int vectors = hd_scene_vectors(&set->def);
+    char allowed[80];
+    r->name = "slow_vectors_count";
+    snprintf(allowed, sizeof allowed,
+             "from 0 (the lowest T and LP steps) to %d, the vectors carried", vectors);
+    return (set->slow_vectors_count >= 0 && set->slow_vectors_count <= vectors) ||
+           reader_refuse(r, allowed);
 }
 
 static void write_texts(settings *out)
@@ -169,12 +156,12 @@ static void set_default(settings *set, const parameter *p)
     switch (p->kind) {
     case OF_SCENE: hd_parameter_assign(p->row, field, p->row->usual); break;
     case REAL_NUMBER: *(double *)field = strtod(p->usual, NULL); break;
+    case WHOLE_NUMBER: *(int *)field = atoi(p->usual); break;
     case NAME:
     case FILE_PATH: *(const char **)field = p->usual; break;
     case TOPICS_OBSERVED:
     case TOPICS_AWAITED: *(unsigned *)field = topics_named(p->usual); break;
     case FIELD_CHOICE: *(field_choice *)field = (field_choice){.text = p->usual}; break;
-    case MARKER_MODES: *(marker_choice *)field = (marker_choice){.text = p->usual}; break;
     }
 }
 
@@ -203,5 +190,5 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
         return false;
     write_texts(out);
     return hd_scene_check(&out->def, message, size) == HD_OK && check_field_indices(out, &r) &&
-           check_marker_modes(out, &r);
+           check_slow_vectors(out, &r);
 }

@@ -58,12 +58,11 @@ static void expect_same_modes(const hd_modes *a, const hd_modes *b)
             expect_same_doubles(hd_modes_snapshot(a, s, w), hd_modes_snapshot(b, s, w), n);
     for (int c = 0; c < hd_fields_columns(hd_modes_fields(a)); c++)
         expect_same_doubles(hd_modes_coefficients(a, c), hd_modes_coefficients(b, c), n);
-    expect_same_doubles(hd_modes_dq_norm(a), hd_modes_dq_norm(b), n);
 }
 
-static void expect_same_spectrum(const hd_spectrum *a, const hd_spectrum *b)
+static void expect_same_spectrum(const hd_spectrum *a, const hd_spectrum *b, int n)
 {
-    for (int col = 0; col < hd_spectrum_vectors(a); col++) {
+    for (int col = 0; col < n; col++) {
         CHECK_CLOSE(hd_spectrum_local(a, col), hd_spectrum_local(b, col), 0.0);
         CHECK_CLOSE(hd_spectrum_std_error(a, col), hd_spectrum_std_error(b, col), 0.0);
     }
@@ -71,7 +70,6 @@ static void expect_same_spectrum(const hd_spectrum *a, const hd_spectrum *b)
 
 static void expect_same_steps(const hd_steps *a, const hd_steps *b)
 {
-    assert_int_equal(hd_steps_changes(a), hd_steps_changes(b));
     for (int k = 0; k < hd_steps_count(a); k++) {
         const hd_step *x = hd_steps_step(a, k), *y = hd_steps_step(b, k);
         assert_int_equal(x->resolved, y->resolved);
@@ -88,7 +86,8 @@ static void expect_same_steps(const hd_steps *a, const hd_steps *b)
 /** What is kept; and, of what nothing else depends on, what is read. */
 static void expect_same_state(hd_run *a, hd_run *b)
 {
-    if (hd_run_spectrum(a)) expect_same_spectrum(hd_run_spectrum(a), hd_run_spectrum(b));
+    if (hd_run_spectrum(a))
+        expect_same_spectrum(hd_run_spectrum(a), hd_run_spectrum(b), hd_run_vectors(a));
     if (hd_run_steps(a)) expect_same_steps(hd_run_steps(a), hd_run_steps(b));
     assert_int_equal(hd_trajectory_wall_events(hd_run_trajectory(a)),
                      hd_trajectory_wall_events(hd_run_trajectory(b)));
@@ -265,7 +264,7 @@ static void a_finished_run_can_be_made_longer(void **state)
     const hd_spectrum *a = hd_run_spectrum(resumed), *b = hd_run_spectrum(once);
     CHECK_CLOSE(hd_spectrum_time(a), 80.0, 1e-9);
     CHECK_CLOSE(hd_run_time(resumed), hd_run_time(once), 0.0);
-    for (int col = 0; col < hd_spectrum_vectors(a); col++)
+    for (int col = 0; col < hd_run_vectors(resumed); col++)
         CHECK_CLOSE(hd_spectrum_exponent(a, col), hd_spectrum_exponent(b, col), def.accuracy);
     assert_int_equal(hd_trajectory_collisions(hd_run_trajectory(resumed)),
                      hd_trajectory_collisions(hd_run_trajectory(once)));

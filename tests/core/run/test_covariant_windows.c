@@ -106,7 +106,7 @@ static void add_look(twin *t, const hd_scene_def *scene, const passage *x, const
     hd_trajectory *trajectory;
     hd_scene_box(scene, box);
     CHECK_OK(hd_trajectory_create(&trajectory, scene));
-    CHECK_OK(hd_trajectory_advance(trajectory, NULL, WINDOWS_INTERVAL * (WARMUP + at)));
+    CHECK_OK(hd_trajectory_extend(trajectory, NULL, WINDOWS_INTERVAL * (WARMUP + at)));
     hd_trajectory_state(trajectory, q, p);
     hd_trajectory_free(trajectory);
     add_shape(t, v);

@@ -7,6 +7,7 @@
 #include "prepared.h"
 #include "run/run_state.h"
 #include "runs.h"
+#include "interval.h"
 
 /** To which the reference is known: its own rounding, 1e-19 of a condition below 1e5, and that of
  * sums of 1e6 doubles. */
@@ -33,7 +34,7 @@ static reference reference_of(hd_trajectory *tr, const hd_frame *frame, double d
     reference r = {.x = exact_create(frame), .least = 1.0};
     hd_event_log *log = new_log();
     while (hd_trajectory_time(tr) < duration) {
-        CHECK_OK(hd_trajectory_advance(tr, log, fmin(duration, hd_trajectory_time(tr) + 8.0)));
+        CHECK_OK(trajectory_to(tr, log, fmin(duration, hd_trajectory_time(tr) + 8.0)));
         exact_replay(r.x, log);
         for (size_t k = 0; k < log->count; k++) {
             if (log->event[k].j < 0) continue;

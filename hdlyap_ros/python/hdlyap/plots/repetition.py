@@ -22,9 +22,11 @@ RESULTS = (
     'blas_library',
     'blas_kernel',
     'blas_threading',
+    'marker_modes',  # of bags of before: parameters of the viewer now
+    'marker_rate',
 )
-# a word, or a list as text: numbers, or modes such as T(1,0)
-LISTS = ('field_indices', 'marker_modes')
+# a word, or a list of numbers as text
+LISTS = ('field_indices',)
 # bags of before these parameters
 OLDER = dict(field_interval=0.0, wait_for_subscribers=[])
 
