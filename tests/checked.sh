@@ -60,7 +60,7 @@ source_setup "$ROS/devel/setup.bash"
 export HDLYAP_RESTARTED=1 GOMP_SPINCOUNT=2000
 stop_at_exit
 check address_build build_with address gcc g++ hdlyap_node
-check thread_build build_with thread clang clang++ hdlyap_node "${PARALLEL[@]/#/test_}"
+check thread_build build_with thread clang clang++ hdlyap_node "${PARALLEL[@]/#/hdlyap_test_}"
 check address_node run live address "$(node_of "$WORK/address")"
 check thread_core run under_threads parallel_tests
 check thread_node run under_threads live thread "$(node_of "$WORK/thread")"

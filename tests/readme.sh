@@ -125,7 +125,7 @@ nodes_in_c_build() {
         block xml package "$WRAPPER" >package.xml &&
         cmake -S . -B build -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_C_FLAGS='-Wall -Wextra -Wpedantic -Werror' &&
         cmake --build build &&
-        bash -ec "$(block bash cc "$WRAPPER")"
+        bash -ec "$(block bash counter.c "$WRAPPER")"
 }
 
 nodes_in_c() {

@@ -132,10 +132,7 @@ def start(params, name=NODE, probe=None, args=(), command=None, **env):
     """hdlyap_node with exactly these private parameters; probe: what probe.c is asked for; command:
     another build of it, and what that is run by."""
     master = rosgraph.Master('/harness', env.get('ROS_MASTER_URI'))
-    if master.hasParam('/' + name):
-        master.deleteParam('/' + name)
-    for key, value in params.items():
-        master.setParam('/%s/%s' % (name, key), value)
+    master.setParam('/' + name, params)
     if probe is not None:
         env.update(probe, LD_PRELOAD=probe_library())
     return Process([*(command or [executable()]), '__name:=' + name, *args], **env)

@@ -10,7 +10,7 @@ import reference
 from reference import REFERENCE, ROOT, listed, read
 
 NODE = 'hdlyap_ros/src/node'
-TABLES = {'topic': 'README.md'}  # the others are in REFERENCE
+TABLES = {'topic': 'README.md', 'header': 'doc/wrapper.md'}  # the others are in REFERENCE
 # messages of others that hdlyap publishes
 FOREIGN = {'Diagnostic': 'diagnostic_msgs/DiagnosticArray'}
 ALWAYS = {'run_info', 'status', 'cost', 'slow_vectors'}  # topics that are no observables
@@ -133,6 +133,15 @@ class Tables(unittest.TestCase):
                     ),
                     name,
                 )
+
+    def test_headers(self):
+        """Of the wrapper, with what is in them; messages.h is made at build time."""
+        folder = 'hdlyap_ros/include/hdlyap_ros'
+        rows = table('header')
+        self.assertEqual(set(rows) - {'messages.h'}, set(listed(folder, '.h')) - {'hdlyap_ros.h'})
+        for name in set(rows) - {'messages.h'}:
+            for said in re.findall(r'`(hdr_(?!x_)\w+)`', rows[name][0]):
+                self.assertRegex(read(folder, name), r'\b%s\b' % said)
 
     def test_diagnostics(self):
         keys = re.findall(r'add_(?:text|number)\(list, "([^"]+)"', sources())

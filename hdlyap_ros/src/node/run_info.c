@@ -82,13 +82,13 @@ static void fill_machine(hdr_run_info *info, const hd_run *run)
     info->blas_threading = blas.threading;
 }
 
-hdr_status run_info_publish(const outlets *out, const settings *set, const hd_run *run)
+hdr_status run_info_publish(const publishers *out, const settings *set, const hd_run *run)
 {
     const char *names[TOPICS], *awaited[TOPICS];
     wave_list waves;
     hdr_status status = waves_create(&waves, &set->def) ? HDR_OK : HDR_NO_MEMORY;
     hdr_run_info info = {
-        .header = outlets_header(),
+        .header = message_header(),
         .run_id = out->run_id,
         .observables = {.data = names, .count = names_of(names, set->observables)},
         .wave_nx = {.data = waves.nx, .count = waves.count},
