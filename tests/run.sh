@@ -121,7 +121,7 @@ sources() { find . \( -name build -o -name .git \) -prune -o -type f \( "$@" \) 
 format() {
     local -a in_c in_python
     cd "$ROOT"
-    mapfile -t in_c < <(sources -name '*.[ch]' -o -name '*.[ch]pp')
+    mapfile -t in_c < <(sources -name '*.[ch]' -o -name '*.[ch]pp' -o -name '*.inc')
     mapfile -t in_python < <(sources -name '*.py' && sources ! -name '*.*' -exec grep -qE '^#!/usr/bin/(env )?python3' {} \;)
     clang-format --dry-run -Werror "${in_c[@]}" && BLACK_CACHE_DIR=$WORK/black black --check "${in_python[@]}" &&
         flake8 "${in_python[@]}"

@@ -15,6 +15,7 @@ import weakref
 import roslib.packages
 import rosgraph
 import rospy
+import yaml
 
 from hdlyap.msg import (
     Cost,
@@ -59,6 +60,11 @@ def program(name):
 
 def executable():
     return program('hdlyap_node')
+
+
+def defaults():
+    """Every parameter, as the node prints them."""
+    return yaml.safe_load(subprocess.check_output([executable(), '--parameters'], text=True))
 
 
 def probe_library():

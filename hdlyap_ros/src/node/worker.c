@@ -212,7 +212,7 @@ static void explain(worker *w, hd_status status)
     snprintf(fault, size, "%s", hd_status_text(status));
     if (status == HD_NO_ROOM && hd_covariant_check_room(scene, interval, fault, size) == HD_OK)
         snprintf(fault, size, "%s = %.3g GB, orthonormalised more often than every %.3g time units",
-                 hd_status_text(status), scene->covariant_memory / BYTES_PER_GB, interval);
+                 hd_status_text(status), scene->covariant_memory, interval);
 }
 
 static void *work(void *context)
