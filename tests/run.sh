@@ -24,7 +24,7 @@ without_ros() {
 }
 
 core_build() {
-    without_ros cmake -S "$ROOT" -B "$WORK/core" -DHDLYAP_ROS=OFF \
+    without_ros cmake -S "$ROOT" -B "$WORK/core" -G Ninja -DHDLYAP_ROS=OFF \
         -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_INSTALL_PREFIX="$WORK/prefix" "$@"
     without_ros cmake --build "$WORK/core" -- -j "$(nproc)"
 }
@@ -35,7 +35,8 @@ core_install() {
 }
 
 sanitizers_build() {
-    without_ros cmake -S "$ROOT/hdlyap_core" -B "$WORK/sanitizers" -DHDLYAP_SANITIZE=ON -DHDLYAP_VERIFY=ON
+    without_ros cmake -S "$ROOT/hdlyap_core" -B "$WORK/sanitizers" -G Ninja -DCMAKE_BUILD_TYPE=Debug \
+        -DCMAKE_C_FLAGS=-O1 -DHDLYAP_SANITIZE=ON -DHDLYAP_VERIFY=ON
     without_ros cmake --build "$WORK/sanitizers" -- -j "$(nproc)"
 }
 
@@ -49,15 +50,15 @@ other_blas() {
 
 core_ctest() {
     local folders=("$WORK"/blas/usr/lib/*/)
-    HDLYAP_BLAS=${folders[0]} run_ctest "$WORK/core"
+    HDLYAP_BLAS=${folders[0]} run_ctest "$WORK/core" "$(nproc)"
 }
 
-# run_ctest FOLDER: what fails once more, with a log of its own.
+# run_ctest FOLDER JOBS: what fails once more, with a log of its own.
 run_ctest() {
     local log status=0
     log=$LOGS/$(basename "$1").second.log
     cd "$1"
-    ctest --output-on-failure -j "$(nproc)" && return
+    ctest --output-on-failure -j "$2" && return
     say "what failed, once more: $log"
     ctest --rerun-failed --output-on-failure -j 1 >"$log" 2>&1 || status=$?
     sed -nE 's|^ *[0-9]+/[0-9]+ Test +#[0-9]+: (.*[^ .]) \.+ +Passed .*|passed on the second try: \1|p' "$log"
@@ -76,7 +77,7 @@ ros_build() {
 # What run_tests of catkin runs, but several at a time: each has a master of its own, and mostly waits.
 ros_tests() {
     source_setup "$WORK/ros/devel/setup.bash"
-    run_ctest "$WORK/ros" || true
+    run_ctest "$WORK/ros" $(($(nproc) + 1)) || true
     catkin_test_results --verbose "$WORK/ros/test_results"
 }
 
@@ -235,7 +236,7 @@ core_lane() {
     stage core_tests ctest core_ctest
     stage core_install checks core_install
     stage sanitizers_build one sanitizers_build
-    stage sanitizers_tests ctest run_ctest "$WORK/sanitizers"
+    stage sanitizers_tests ctest run_ctest "$WORK/sanitizers" "$(nproc)"
     stage fuzz checks without_ros "$ROOT/tests/fuzz/run.sh" "$WORK/fuzz"
     until has_reported ros_build || ! is_running "$ros"; do sleep 1; done
     either_lane

@@ -1,6 +1,8 @@
 """Starts hdlyap_node as a process of its own, as a user would, and sees what it does."""
 
+import functools
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -8,6 +10,7 @@ import tempfile
 import threading
 import time
 import unittest
+import weakref
 
 import roslib.packages
 import rosgraph
@@ -50,6 +53,7 @@ OBSERVABLES = [topic for topic in TYPES if topic not in ('run_info', 'cost')]
 PATIENCE = 60.0  # seconds, for what has no bound of its own
 
 
+@functools.lru_cache(maxsize=None)
 def program(name):
     return roslib.packages.find_node('hdlyap', name)[0]
 
@@ -89,8 +93,13 @@ class Process:
 
     def __init__(self, command, **env):
         self.output = tempfile.TemporaryFile('w+')
+        folder = tempfile.mkdtemp()  # what it leaves there when it is killed goes with this object
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         self.process = subprocess.Popen(
-            command, stdout=self.output, stderr=subprocess.STDOUT, env=dict(os.environ, **env)
+            command,
+            stdout=self.output,
+            stderr=subprocess.STDOUT,
+            env=dict(os.environ, TMPDIR=folder, **env),
         )
 
     def send(self, number):
