@@ -14,7 +14,7 @@
 #include "table.h"
 #include "timing.h"
 
-static const double WINDOW = 50.0, SAMPLING = 5.0, ROOM = 16e9;
+static const double WINDOW = 50.0, SAMPLING = 5.0, ROOM = 16.0 /* GB */;
 
 typedef struct asked {
     int disks, windows;

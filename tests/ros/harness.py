@@ -1,6 +1,8 @@
 """Starts hdlyap_node as a process of its own, as a user would, and sees what it does."""
 
+import functools
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -8,10 +10,12 @@ import tempfile
 import threading
 import time
 import unittest
+import weakref
 
 import roslib.packages
 import rosgraph
 import rospy
+import yaml
 
 from hdlyap.msg import (
     Cost,
@@ -49,12 +53,18 @@ OBSERVABLES = [topic for topic in TYPES if topic not in ('run_info', 'cost')]
 PATIENCE = 60.0  # seconds, for what has no bound of its own
 
 
+@functools.lru_cache(maxsize=None)
 def program(name):
     return roslib.packages.find_node('hdlyap', name)[0]
 
 
 def executable():
     return program('hdlyap_node')
+
+
+def defaults():
+    """Every parameter, as the node prints them."""
+    return yaml.safe_load(subprocess.check_output([executable(), '--parameters'], text=True))
 
 
 def probe_library():
@@ -83,8 +93,13 @@ class Process:
 
     def __init__(self, command, **env):
         self.output = tempfile.TemporaryFile('w+')
+        folder = tempfile.mkdtemp()  # what it leaves there when it is killed goes with this object
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         self.process = subprocess.Popen(
-            command, stdout=self.output, stderr=subprocess.STDOUT, env=dict(os.environ, **env)
+            command,
+            stdout=self.output,
+            stderr=subprocess.STDOUT,
+            env=dict(os.environ, TMPDIR=folder, **env),
         )
 
     def send(self, number):
@@ -126,10 +141,7 @@ def start(params, name=NODE, probe=None, args=(), command=None, **env):
     """hdlyap_node with exactly these private parameters; probe: what probe.c is asked for; command:
     another build of it, and what that is run by."""
     master = rosgraph.Master('/harness', env.get('ROS_MASTER_URI'))
-    if master.hasParam('/' + name):
-        master.deleteParam('/' + name)
-    for key, value in params.items():
-        master.setParam('/%s/%s' % (name, key), value)
+    master.setParam('/' + name, params)
     if probe is not None:
         env.update(probe, LD_PRELOAD=probe_library())
     return Process([*(command or [executable()]), '__name:=' + name, *args], **env)

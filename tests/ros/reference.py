@@ -1,15 +1,23 @@
 #!/usr/bin/env python3
-"""What doc/reference.md repeats of the sources: launch arguments and message fields.
+"""What doc/reference.md and launch/scenes/paper_periodic.yaml repeat of the sources: parameters,
+launch arguments and message fields.
 
-reference.py --write puts them into the document; test_documents.py says when that is due."""
+reference.py --write puts them there; test_documents.py says when that is due. The parameters are
+those of the node that ROS finds."""
 
 import os
 import re
+import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
+import roslib.packages
+
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..'))
-DOCUMENT = os.path.join(ROOT, 'doc/reference.md')
+REFERENCE = 'doc/reference.md'
+SCENE = 'launch/scenes/paper_periodic.yaml'
+# parameters of that scene that are not as usual
+OWN = 'warmup', 'duration'
 
 
 def read(*path):
@@ -64,7 +72,29 @@ def message_fields():
     return '\n'.join(sections)
 
 
-SECTIONS = {'launch/*.launch': launch_arguments, 'msg/*.msg': message_fields}
+def node_says(option):
+    node = roslib.packages.find_node('hdlyap', 'hdlyap_node')[0]
+    return subprocess.run([node, option], check=True, text=True, stdout=subprocess.PIPE).stdout
+
+
+def parameter_table():
+    return node_says('--parameters=table')
+
+
+def scene_written(scene):
+    """The scene file as it follows from the parameters: but for its head and its own values."""
+    rows = node_says('--parameters').split('\n\n', 1)[1]
+    for name in OWN:
+        own = re.search(r'(?m)^%s: .*$' % name, scene).group()
+        rows = re.sub(r'(?m)^%s: .*$' % name, own, rows)
+    return scene.split('\n\n', 1)[0] + '\n\n' + rows
+
+
+SECTIONS = {
+    'hdlyap_node --parameters=table': parameter_table,
+    'launch/*.launch': launch_arguments,
+    'msg/*.msg': message_fields,
+}
 
 
 def written(document):
@@ -80,6 +110,7 @@ def written(document):
 if __name__ == '__main__':
     if sys.argv[1:] != ['--write']:
         sys.exit(__doc__)
-    text = written(read('doc/reference.md'))
-    with open(DOCUMENT, 'w') as file:
-        file.write(text)
+    for path, follows in ((REFERENCE, written), (SCENE, scene_written)):
+        text = follows(read(path))
+        with open(os.path.join(ROOT, path), 'w') as file:
+            file.write(text)

@@ -19,51 +19,50 @@ extern "C" {
 namespace
 {
 /** As it falls in a stationary run, with errors of a tenth. */
-error_course course_of(double (*error)(double))
+error_trend trend_of(double (*error)(double))
 {
     std::mt19937_64 random(1);
     std::normal_distribution<double> noise(1.0, 0.1);
-    error_course course = {};
-    for (double t = 16; t < 4000; t += 1) error_course_add(&course, t, error(t) * noise(random));
-    return course;
+    error_trend trend = {};
+    for (double t = 16; t < 4000; t += 1) error_trend_add(&trend, t, error(t) * noise(random));
+    return trend;
 }
 
 TEST(ErrorCourse, HealthyFalls)
 {
     error_at since;
-    const error_course course = course_of([](double t) { return 1 / std::sqrt(t); });
-    EXPECT_FALSE(error_course_stalled(&course, &since));
-    EXPECT_GE(course.last.time, 8 * since.time);
-    EXPECT_LT(course.last.time, 33 * since.time);
+    const error_trend trend = trend_of([](double t) { return 1 / std::sqrt(t); });
+    EXPECT_FALSE(error_trend_stalled(&trend, &since));
+    EXPECT_GE(trend.last.time, 8 * since.time);
+    EXPECT_LT(trend.last.time, 33 * since.time);
 }
 
 TEST(ErrorCourse, StallsAndFallsAgain)
 {
     error_at since;
-    const error_course course = course_of(
-        [](double t) { return t < 250 ? 1 / std::sqrt(t) : 0.3; });
-    EXPECT_TRUE(error_course_stalled(&course, &since));
-    error_course again = course;
-    for (double t = 4000; t < 1e5; t += 10) error_course_add(&again, t, 19 / std::sqrt(t));
-    EXPECT_FALSE(error_course_stalled(&again, &since));
+    const error_trend trend = trend_of([](double t) { return t < 250 ? 1 / std::sqrt(t) : 0.3; });
+    EXPECT_TRUE(error_trend_stalled(&trend, &since));
+    error_trend again = trend;
+    for (double t = 4000; t < 1e5; t += 10) error_trend_add(&again, t, 19 / std::sqrt(t));
+    EXPECT_FALSE(error_trend_stalled(&again, &since));
 }
 
 TEST(ErrorCourse, SaysNothingTooEarly)
 {
     error_at since;
-    error_course course = {};
-    EXPECT_FALSE(error_course_stalled(&course, &since));
-    for (double t = 16; t < 4 * 8 * 16; t += 1) error_course_add(&course, t, t < 64 ? 0.01 : 1.0);
-    EXPECT_FALSE(error_course_stalled(&course, &since));
-    error_course_add(&course, 4 * 8 * 16, 1.0);
-    EXPECT_TRUE(error_course_stalled(&course, &since));
+    error_trend trend = {};
+    EXPECT_FALSE(error_trend_stalled(&trend, &since));
+    for (double t = 16; t < 4 * 8 * 16; t += 1) error_trend_add(&trend, t, t < 64 ? 0.01 : 1.0);
+    EXPECT_FALSE(error_trend_stalled(&trend, &since));
+    error_trend_add(&trend, 4 * 8 * 16, 1.0);
+    EXPECT_TRUE(error_trend_stalled(&trend, &since));
     EXPECT_EQ(since.time, 64);
-    error_course_add(&course, 5 * 8 * 16, -1.0); /* not known: as before */
-    EXPECT_TRUE(error_course_stalled(&course, &since));
-    error_course_add(&course, 1.0, -1.0); /* averages reset */
-    EXPECT_FALSE(error_course_stalled(&course, &since));
-    for (double t : {1e-30, 1e-9, 1e3, 1e12, 1e300}) error_course_add(&course, t, 1.0);
-    EXPECT_TRUE(error_course_stalled(&course, &since));
+    error_trend_add(&trend, 5 * 8 * 16, -1.0); /* not known: as before */
+    EXPECT_TRUE(error_trend_stalled(&trend, &since));
+    error_trend_add(&trend, 1.0, -1.0); /* averages reset */
+    EXPECT_FALSE(error_trend_stalled(&trend, &since));
+    for (double t : {1e-30, 1e-9, 1e3, 1e12, 1e300}) error_trend_add(&trend, t, 1.0);
+    EXPECT_TRUE(error_trend_stalled(&trend, &since));
 }
 
 /** Two disks of a dense box, so far apart along x. */
@@ -206,7 +205,7 @@ TEST(Conditions, EachHasItsLevelAndMessage)
     snprintf(unkept.checkpoint.message, sizeof unkept.checkpoint.message, "disk full");
     deep.disks.overlap = 1e-12;
     warm.disks.energy_error = NAN;
-    for (double t = 1; t <= 32; t++) error_course_add(&stalled.errors, t, 0.5);
+    for (double t = 1; t <= 32; t++) error_trend_add(&stalled.errors, t, 0.5);
     const worker_state well = healthy();
     const struct {
         const worker_state *state;

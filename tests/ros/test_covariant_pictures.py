@@ -2,8 +2,6 @@
 draws."""
 
 import os
-import subprocess
-import sys
 import tempfile
 import unittest
 
@@ -12,7 +10,7 @@ import numpy as np
 from hdlyap.msg import Cost, Spectrum, Steps
 
 import made
-from made import LP, SCRIPTS, T
+from made import LP, T
 from hdlyap.plots import covariant, recording, report
 from hdlyap.plots.figures import (
     covariant_angles,
@@ -22,6 +20,8 @@ from hdlyap.plots.figures import (
     covariant_weights,
     plt,
 )
+from hdlyap.plots.figures.style import save
+from plotted import plot_bag
 
 FIGURES = (
     covariant_exponents,
@@ -468,17 +468,9 @@ class Partly(Bags):
 
 
 class Command(Bags):
-    def plot(self):
-        return subprocess.run(
-            [sys.executable, os.path.join(SCRIPTS, 'plot_bag'), self.path, '--out', self.out],
-            universal_newlines=True,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-        )
-
     def test_plot_bag(self):
         made.write(self.path, everything())
-        done = self.plot()
+        done = plot_bag(self.path, '--out', self.out)
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         self.assertIn('covariant vectors: 200 time units in 4 windows', done.stdout)
         names = [
@@ -490,9 +482,15 @@ class Command(Bags):
             self.assertIn(name, os.listdir(self.out))
             self.assertIn(name, done.stdout)
 
+    def test_files(self):
+        run = self.read()
+        for kind in FIGURES:
+            for path in save(kind.draw(run), os.path.dirname(self.path), 'figure'):
+                self.assertGreater(os.path.getsize(path), 5000, kind.__name__)
+
     def test_nothing_without_the_topic(self):
         made.write(self.path, everything()[:-1])
-        done = self.plot()
+        done = plot_bag(self.path, '--out', self.out)
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         self.assertNotIn('covariant', done.stdout)
 

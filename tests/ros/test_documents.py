@@ -6,31 +6,19 @@ import os
 import re
 import unittest
 
-import yaml
-
 import reference
-from reference import ROOT, listed, read
+from reference import REFERENCE, ROOT, listed, read
 
 NODE = 'hdlyap_ros/src/node'
-SCENE = 'launch/scenes/paper_periodic.yaml'
-TABLES = {'topic': 'README.md', 'header': 'doc/wrapper.md'}  # the others are in
-REFERENCE = 'doc/reference.md'
-# defaults whose values in C are names
-NAMED = {
-    'HD_EXPONENTS_POSITIVE': 'positive',
-    '{HD_PERIODIC, HD_PERIODIC}': 'periodic',
-    'HD_STORAGE_MEMORY': 'memory',
-}
-BYTES = {'covariant_memory': 1e9}  # of the core, in the unit of the parameter
+TABLES = {'topic': 'README.md', 'header': 'doc/wrapper.md'}  # the others are in REFERENCE
 # messages of others that hdlyap publishes
 FOREIGN = {'Diagnostic': 'diagnostic_msgs/DiagnosticArray'}
 ALWAYS = {'run_info', 'status', 'cost', 'slow_vectors'}  # topics that are no observables
+NOT_AWAITED = {'status', 'slow_vectors'}
 
 # where a path that a document names may begin; what is made, or is of others
 PLACES = '', 'doc', 'hdlyap_core', 'hdlyap_core/include', 'hdlyap_core/src', 'hdlyap_ros/include'
 MADE = 'build/', 'share/', 'results/', 'log/', 'under_way/', 'std_msgs/'
-
-UNIT = r'\[([\w/ ^]+)\]'
 
 
 def files(*patterns):
@@ -96,76 +84,8 @@ def services():
     }
 
 
-def parameters():
-    """Name -> where in settings, in the order of the node's table."""
-    return dict(
-        re.findall(
-            r'\{"(\w+)", read_\w+,\s*offsetof\(settings, ([\w.\[\]]+)\)\}', read(NODE, 'settings.c')
-        )
-    )
-
-
-def core(name):
-    """A source of the core, in whichever folder."""
-    return read(*files(r'^hdlyap_core/src/(\w+/)?%s$' % re.escape(name)))
-
-
 def body(text, name):
     return re.search(name + r'\([^)]*\)\s*\{(.*?)\n\}', text, re.DOTALL).group(1)
-
-
-def default_in_code(field):
-    """As it is initialised; None if it is left zero."""
-    in_scene = field.startswith('def.')
-    text = (
-        body(core('scene.c'), 'hd_scene_def_default')
-        if in_scene
-        else body(read(NODE, 'settings.c'), r'static settings defaults')
-    )
-    inner, last = re.fullmatch(r'(?:def\.)?(?:(\w+)\.)?(\w+)(?:\[\d\])?', field).groups()
-    if inner:
-        text = re.search(r'\.%s = \{(.*?)\}' % inner, text).group(1) + ','
-    value = re.search(r'\.%s = (\{.*?\}|[^,{}]+)(?=,)' % last, text)
-    if not value:
-        return None
-    text_of_choice = re.match(r'\{\.text = "(\w+)"', value.group(1))
-    return text_of_choice.group(1) if text_of_choice else value.group(1).strip()
-
-
-def as_written(name, value):
-    """A default of C as the reference writes it."""
-    if value is None:
-        return ('0', '[]', '""', 'false')
-    if name == 'observables':
-        missing = re.findall(r'TOPIC_([A-Z_]+)\)', value)
-        return ('all but ' + ', '.join(topic.lower() for topic in missing),)
-    if name in BYTES:
-        return (str(float(value) / BYTES[name]),)
-    if name == 'interval' and float(value) == 0.0:
-        return ('auto',)
-    return (NAMED.get(value, value), value.strip('"'), '"%s"' % value)
-
-
-def same(a, b):
-    try:
-        return float(a) == float(b)
-    except ValueError:
-        return a == b
-
-
-def comments():
-    """Name -> the comment above it in the reference scene, in one line."""
-    found, comment, fresh = {}, '', True
-    for line in read(SCENE).splitlines():
-        if line.startswith('#'):
-            comment = line[1:] if fresh else comment + ' ' + line[1:]
-            fresh = False
-        elif re.match(r'\w+:', line):
-            found[line.split(':')[0]] = re.sub(r'\s+', ' ', comment)
-            fresh = True
-        else:
-            fresh = True
-    return found
 
 
 def numbers(text):
@@ -243,51 +163,12 @@ class Tables(unittest.TestCase):
             stated = script.split('Exit status: ')[1].rstrip('.')
             self.assertEqual(numbers(said), numbers(stated), program)
 
-    def test_parameters_are_all_there(self):
-        self.assertGreater(len(parameters()), 20)
-        self.assertEqual(set(table('parameter')), set(parameters()))
-        self.assertEqual(set(comments()), set(parameters()))
-        self.assertEqual(set(yaml.safe_load(read(SCENE))), set(parameters()))
-
-    def test_defaults(self):
-        for name, field in parameters().items():
-            said = table('parameter')[name][1]
-            in_code = as_written(name, default_in_code(field))
-            with self.subTest(name=name, said=said, in_code=in_code):
-                self.assertTrue(any(same(said, value) for value in in_code))
-                self.check_comment(name, said)
-
-    def check_comment(self, name, default):
-        said = re.search(r'Default: (.*?)\.?$', comments()[name].strip()).group(1)
-        if name == 'observables':
-            observable = set(re.findall(r'\w+', said)) | set(default[len('all but ') :].split(', '))
-            topics = {topic[1:] for topic in advertised() if topic.startswith('~')}
-            self.assertEqual(observable, topics - ALWAYS)
-        else:  # one comment may be that of two parameters
-            self.assertTrue(
-                same(default, said) or all(same(default, part) for part in said.split(', ')), said
-            )
-
-    def test_ranges_and_units(self):
-        """No other numbers than those of the scene, and its unit; two may have one comment."""
-        units = {}
-        for name, (allowed, _, _) in table('parameter').items():
-            comment = comments()[name].split('Default:')[0]
-            with self.subTest(name=name, allowed=allowed, comment=comment):
-                self.assertLessEqual(numbers(allowed), numbers(comment))
-            units.setdefault(comment, set()).update(re.findall(UNIT, allowed))
-        for comment, found in units.items():
-            self.assertEqual(found, set(re.findall(UNIT, comment)), comment)
-
-    def test_resume(self):
-        """What must be as in the checkpoint."""
-        checked = body(core('checkpoint.c'), 'static hd_status check_same')
-        names = set(re.findall(r'SAME\((?!field)(\w+)\)', checked))
-        names |= set(re.findall(r'\{"(\w+)', checked)) | set(re.findall(r'asked->(seed)', checked))
-        self.assertGreater(len(names), 15)
-        section = read(REFERENCE).split('### Parameters and resume')[1]
-        stated = re.search(r'is refused:\n\n(.*?)\n\n', section, re.DOTALL).group(1)
-        self.assertEqual(set(re.findall(r'`(\w+)`', stated)) - {'spectrum', 'state'}, names)
+    def test_topics_of_parameters(self):
+        """Those that are allowed and those that there are."""
+        topics = {name[1:] for name in advertised() if name.startswith('~')}
+        for name, others in (('observables', ALWAYS), ('wait_for_subscribers', NOT_AWAITED)):
+            allowed = table('parameter')[name][0].split('out of ')[1]
+            self.assertEqual(set(allowed.split(', ')), topics - others)
 
     def test_checkpoint_format(self):
         header = read('hdlyap_core/include/hdlyap/checkpoint.h')
@@ -297,7 +178,11 @@ class Tables(unittest.TestCase):
 
     def test_what_is_generated(self):
         """reference.py --write is due otherwise."""
-        self.assertEqual(read(REFERENCE), reference.written(read(REFERENCE)))
+        for path, follows in (
+            (REFERENCE, reference.written),
+            (reference.SCENE, reference.scene_written),
+        ):
+            self.assertEqual(read(path), follows(read(path)), path)
 
 
 class Text(unittest.TestCase):

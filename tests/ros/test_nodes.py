@@ -128,7 +128,8 @@ class Nodes(unittest.TestCase):
         self.assertEqual(run.messages['spectrum'], [])
         topics = {topic for topic, _ in rospy.get_published_topics('/lab')}
         self.assertEqual(
-            topics, {'/lab/room/two/' + name for name in ('run_info', 'state', 'cost', 'slow_vectors')}
+            topics,
+            {'/lab/room/two/' + name for name in ('run_info', 'state', 'cost', 'slow_vectors')},
         )
         self.assertIn(
             '/lab/room/two', dict(rosgraph.Master('/nodes').getSystemState()[0])['/rosout']

@@ -229,15 +229,6 @@ class Markers(unittest.TestCase):
                 self.assertEqual(viewer.wait(), 2, viewer.text())
                 self.assertEqual(len(viewer.lines(name + ' = ')), 1, viewer.text())
 
-    def test_what_has_moved_is_refused(self):
-        for name, value, now in (
-            ('marker_rate', 10.0, 'slow_vectors_rate'),
-            ('marker_modes', ['T(1,0)'], 'modes of the viewer'),
-        ):
-            node = self.start(dict(MODES, **{name: value}))
-            self.assertEqual(node.wait(), 2, node.text())
-            self.assertRegex(node.lines(name + ' = ')[0], now)
-
     def test_named_modes_in_their_order(self):
         pictures = self.look('LP(1,0) T(2,0) T(1,0)')
         self.start(dict(ENDLESS, slow_vectors_count=16))

@@ -215,11 +215,7 @@ class Security(unittest.TestCase):
     def test_every_parameter(self):
         values = [FORGED] + [value for value in NASTY if value.strip()]
         self.check_all(
-            [
-                dict(SHORT, **{name: values[(number + k) % len(values)]})
-                for k, name in enumerate(PARAMETERS)
-                for number in (0, -k)
-            ],
+            [dict(SHORT, **{name: values[k % len(values)]}) for k, name in enumerate(PARAMETERS)],
             2,
             1,
         )

@@ -38,11 +38,11 @@ HD_MUST_CHECK hd_status hd_checkpoint_read(hd_checkpoint *out, const char *path,
                                            size_t size);
 
 /** The run of a checkpoint goes on. `scene` (NULL: the checkpoint's) may differ from the
- * checkpoint's in duration (not shorter than what has been averaged), target_std_error, threads and
- * how windows of covariant vectors are kept (covariant_memory, covariant_storage); anything else is
- * HD_REFUSED with its line. With 0 threads as many as before, if the machine has them. A run that
- * had finished goes on if there is more to do. A window of covariant vectors that was under way is
- * begun anew. HD_FILE_FAULT as hd_checkpoint_read, and for contents that no run has; HD_NO_MEMORY.
+ * checkpoint's in those parameters whose row (hd_scene_parameters) says so, with a duration not
+ * shorter than what has been averaged; anything else is HD_REFUSED with its line. With 0 threads as
+ * many as before, if the machine has them. A run that had finished goes on if there is more to do.
+ * A window of covariant vectors that was under way is begun anew. HD_FILE_FAULT as
+ * hd_checkpoint_read, and for contents that no run has; HD_NO_MEMORY.
  */
 HD_MUST_CHECK hd_status hd_run_resume(hd_run **out, const char *path, const hd_scene_def *scene,
                                       char *message, size_t size);

@@ -7,6 +7,7 @@
 #include "hdlyap/status.h"
 /* scene */
 #include "hdlyap/scene.h"
+#include "hdlyap/parameters.h"
 #include "hdlyap/wave.h"
 /* averages */
 #include "hdlyap/spectrum.h"

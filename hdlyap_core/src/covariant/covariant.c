@@ -80,14 +80,14 @@ hd_status hd_covariant_check_room(const hd_scene_def *def, double interval, char
                                   size_t size)
 {
     const hd_history_def past = past_of(def, interval);
-    const double bytes = hd_history_bytes(&past);
-    if (bytes <= def->covariant_memory) return HD_OK;
+    const double gigabytes = 1e-9 * hd_history_bytes(&past);
+    if (gigabytes <= def->covariant_memory) return HD_OK;
     return hd_refuse(message, size,
                      "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and "
                      "%ld frames of %d vectors need %.3g GB, must be at most covariant_memory = "
                      "%.3g GB",
                      def->covariant_window, def->covariant_transient, past.intervals,
-                     past.snapshots, past.vectors, 1e-9 * bytes, 1e-9 * def->covariant_memory);
+                     past.snapshots, past.vectors, gigabytes, def->covariant_memory);
 }
 
 static hd_status allocate_arrays(hd_covariant *c)

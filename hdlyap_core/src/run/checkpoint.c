@@ -13,6 +13,7 @@
 #include "covariant/archived.h"
 #include "events/archived.h"
 #include "hdlyap/blas.h"
+#include "hdlyap/parameters.h"
 #include "modes/archived.h"
 #include "run/checkpoint.h"
 #include "run/checkpoint_file.h"
@@ -168,41 +169,31 @@ hd_status hd_checkpoint_writable(const char *path, char *message, size_t size)
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
+static hd_status refuse_other(const hd_parameter *row, const hd_scene_def *asked,
+                              const hd_scene_def *kept, char *message, size_t size)
+{
+    if (row->kind == HD_PARAMETER_SEED)
+        return hd_refuse(message, size, "seed = %llu: must be %llu, as in the checkpoint",
+                         (unsigned long long)asked->seed, (unsigned long long)kept->seed);
+    return hd_refuse(message, size, "%s = %.15g: must be %.15g, as in the checkpoint",
+                     row->kind == HD_PARAMETER_SET ? "observables (as a set of HD_OBSERVE_*)"
+                                                   : row->name,
+                     hd_parameter_value(row, asked), hd_parameter_value(row, kept));
+}
+
 /** What cannot change within a run. */
 static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept, char *message,
                             size_t size)
 {
-    const struct {
-        const char *name;
-        double asked, kept;
-    } table[] = {
-#define SAME(field) {#field, asked->field, kept->field}
-        SAME(disks),
-        SAME(density),
-        SAME(aspect),
-        SAME(exponents),
-        SAME(equilibration),
-        SAME(warmup),
-        SAME(interval),
-        SAME(accuracy),
-        SAME(report_interval),
-        SAME(max_wave_number),
-        SAME(max_mode_number),
-        SAME(covariant_window),
-        SAME(covariant_transient),
-        SAME(covariant_sampling),
-#undef SAME
-        {"boundary_x", asked->boundary[0], kept->boundary[0]},
-        {"boundary_y", asked->boundary[1], kept->boundary[1]},
-        {"observables (as a set of HD_OBSERVE_*)", asked->observe, kept->observe},
-    };
-    for (size_t k = 0; k < sizeof table / sizeof *table; k++)
-        if (!(table[k].asked == table[k].kept))
-            return hd_refuse(message, size, "%s = %.15g: must be %.15g, as in the checkpoint",
-                             table[k].name, table[k].asked, table[k].kept);
-    if (asked->seed != kept->seed)
-        return hd_refuse(message, size, "seed = %llu: must be %llu, as in the checkpoint",
-                         (unsigned long long)asked->seed, (unsigned long long)kept->seed);
+    int count;
+    const hd_parameter *rows = hd_scene_parameters(&count);
+    for (int k = 0; k < count; k++) {
+        const hd_parameter *r = &rows[k];
+        const bool same = r->kind == HD_PARAMETER_SEED
+                              ? asked->seed == kept->seed
+                              : hd_parameter_value(r, asked) == hd_parameter_value(r, kept);
+        if (!same && !r->may_differ) return refuse_other(r, asked, kept, message, size);
+    }
     return HD_OK;
 }
 

@@ -46,7 +46,7 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
     const uint8_t level = HDR_DIAGNOSTIC_WARN;
     error_at since;
     if (repaired) add(all, level, "intervals were too long and had to be repaired");
-    if (error_course_stalled(&state->errors, &since))
+    if (error_trend_stalled(&state->errors, &since))
         add(all, level,
             "errors of the smallest exponents do not fall: %.2g after %.3g averaged, %.2g after "
             "%.3g",

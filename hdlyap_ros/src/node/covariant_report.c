@@ -16,7 +16,7 @@ typedef struct histograms {
 static const double SPACES_APART = 1e-3;
 
 struct covariant_report {
-    const outlets *to;
+    const publishers *to;
     uint32_t vectors, angles, weights; /**< lengths of the arrays below */
     /** In one block at exponents; [vectors] each */
     double *exponents, *std_errors, *local_exponents;
@@ -33,7 +33,7 @@ static uint32_t subspaces_of(const hd_covariant *covariant)
     return modes ? (uint32_t)hd_fields_subspaces(hd_modes_fields(modes)) : 0;
 }
 
-bool covariant_report_create(covariant_report **out, const outlets *to, const hd_run *run)
+bool covariant_report_create(covariant_report **out, const publishers *to, const hd_run *run)
 {
     const hd_covariant *covariant = hd_run_covariant(run);
     covariant_report *r = *out = calloc(1, sizeof *r);
@@ -116,14 +116,14 @@ static void gather_weights(covariant_report *r, const hd_covariant *covariant)
             .ny = (uint32_t)subspace->wave.n[1],
             .wave_number = subspace->wave.number,
             .dimension = (uint32_t)subspace->dimension,
-            .dq = outlets_array(hd_modes_average(dq, s, HD_WEIGHT), r->vectors, 1),
-            .dp = outlets_array(hd_modes_average(dp, s, HD_WEIGHT), r->vectors, 1),
-            .gram_schmidt = outlets_array(hd_modes_average(frame, s, HD_WEIGHT), r->vectors, 1),
+            .dq = message_array(hd_modes_average(dq, s, HD_WEIGHT), r->vectors, 1),
+            .dp = message_array(hd_modes_average(dp, s, HD_WEIGHT), r->vectors, 1),
+            .gram_schmidt = message_array(hd_modes_average(frame, s, HD_WEIGHT), r->vectors, 1),
         };
     }
 }
 
-static hdr_covariant view_of(covariant_report *r, const hd_run *run)
+static hdr_covariant message_of(covariant_report *r, const hd_run *run)
 {
     const hd_covariant *covariant = hd_run_covariant(run);
     const hd_splitting *splitting = hd_covariant_splitting(covariant);
@@ -133,7 +133,7 @@ static hdr_covariant view_of(covariant_report *r, const hd_run *run)
     gather_angles(r, splitting);
     gather_weights(r, covariant);
     return (hdr_covariant){
-        .header = outlets_header(),
+        .header = message_header(),
         .run_id = r->to->run_id,
         .sim_time = hd_covariant_window_end(covariant),
         .averaged_time = hd_spectrum_time(hd_covariant_spectrum(covariant)),
@@ -142,16 +142,16 @@ static hdr_covariant view_of(covariant_report *r, const hd_run *run)
         .looks = (uint32_t)hd_splitting_samples(splitting),
         .seconds = hd_run_cost(run).covariant,
         .first_index = 1,
-        .exponents = outlets_array(r->exponents, n, 1),
-        .std_errors = outlets_array(r->std_errors, n, 1),
-        .local_exponents = outlets_array(r->local_exponents, n, 1),
-        .apart = outlets_array(hd_covariant_met_each(covariant), n, 1),
-        .neighbour_angles = outlets_array(hd_splitting_neighbours(splitting), n - 1, 1),
-        .least_neighbour_angles = outlets_array(hd_splitting_neighbours_least(splitting), n - 1, 1),
-        .violations = outlets_array(hd_splitting_violations(splitting), n - 1, 1),
-        .entangled = outlets_array(hd_splitting_entangled(splitting), n - 1, 1),
-        .widths = outlets_array(hd_covariant_widths(covariant), n, 1),
-        .cos_theta = outlets_array(hd_covariant_cosines(covariant), n, 1),
+        .exponents = message_array(r->exponents, n, 1),
+        .std_errors = message_array(r->std_errors, n, 1),
+        .local_exponents = message_array(r->local_exponents, n, 1),
+        .apart = message_array(hd_covariant_met_each(covariant), n, 1),
+        .neighbour_angles = message_array(hd_splitting_neighbours(splitting), n - 1, 1),
+        .least_neighbour_angles = message_array(hd_splitting_neighbours_least(splitting), n - 1, 1),
+        .violations = message_array(hd_splitting_violations(splitting), n - 1, 1),
+        .entangled = message_array(hd_splitting_entangled(splitting), n - 1, 1),
+        .widths = message_array(hd_covariant_widths(covariant), n, 1),
+        .cos_theta = message_array(hd_covariant_cosines(covariant), n, 1),
         .centre_apart = known(apart.centre),
         .stable_apart = known(apart.stable),
         .null_angle = known(hd_covariant_null(covariant)),
@@ -161,7 +161,7 @@ static hdr_covariant view_of(covariant_report *r, const hd_run *run)
     };
 }
 
-static bool view_finite(const hdr_covariant *v)
+static bool is_finite(const hdr_covariant *v)
 {
     const hdr_doubles arrays[] = {v->exponents,
                                   v->std_errors,
@@ -176,9 +176,9 @@ static bool view_finite(const hdr_covariant *v)
     const double scalars[] = {v->sim_time,          v->averaged_time, v->seconds,
                               v->centre_apart,      v->stable_apart,  v->null_angle,
                               v->largest_null_angle};
-    bool finite = outlets_finite(scalars, sizeof scalars / sizeof *scalars);
+    bool finite = message_finite(scalars, sizeof scalars / sizeof *scalars);
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
-        finite = finite && outlets_finite(arrays[a].data, arrays[a].count);
+        finite = finite && message_finite(arrays[a].data, arrays[a].count);
     for (uint32_t k = 0; k < v->angles.count; k++) {
         const hdr_covariant_angle *angle = &v->angles.data[k];
         finite = finite && isfinite(angle->last + angle->mean + angle->std_error + angle->least +
@@ -186,9 +186,9 @@ static bool view_finite(const hdr_covariant *v)
     }
     for (uint32_t k = 0; k < v->weights.count; k++) {
         const hdr_covariant_weight *weight = &v->weights.data[k];
-        finite = finite && outlets_finite(weight->dq.data, weight->dq.count) &&
-                 outlets_finite(weight->dp.data, weight->dp.count) &&
-                 outlets_finite(weight->gram_schmidt.data, weight->gram_schmidt.count);
+        finite = finite && message_finite(weight->dq.data, weight->dq.count) &&
+                 message_finite(weight->dp.data, weight->dp.count) &&
+                 message_finite(weight->gram_schmidt.data, weight->gram_schmidt.count);
     }
     return finite;
 }
@@ -225,7 +225,7 @@ hd_status covariant_report_publish(covariant_report *r, const hd_run *run)
     /* a reset takes them back to none */
     if (r->windows == 0 || r->windows == before || hdr_publisher_subscribers(publisher) == 0)
         return HD_OK;
-    const hdr_covariant view = view_of(r, run);
-    if (!view_finite(&view)) return HD_NOT_FINITE;
-    return outlets_sent(hdr_covariant_publish(publisher, &view), TOPIC_COVARIANT);
+    const hdr_covariant message = message_of(r, run);
+    if (!is_finite(&message)) return HD_NOT_FINITE;
+    return publishers_sent(hdr_covariant_publish(publisher, &message), TOPIC_COVARIANT);
 }

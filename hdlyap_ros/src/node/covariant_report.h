@@ -4,13 +4,13 @@
 #define HDLYAP_COVARIANT_REPORT_H
 
 #include "hdlyap/run.h"
-#include "outlets.h"
+#include "publishers.h"
 
 typedef struct covariant_report covariant_report;
 
 /** Of a run that observes them; `to` lives longer and is read only by covariant_report_publish.
  * Windows of before, from a checkpoint, are not published again. False if out of memory. */
-bool covariant_report_create(covariant_report **out, const outlets *to, const hd_run *run);
+bool covariant_report_create(covariant_report **out, const publishers *to, const hd_run *run);
 void covariant_report_free(covariant_report *r);
 
 /** About how many numbers its message has. */

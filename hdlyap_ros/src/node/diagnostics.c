@@ -127,7 +127,7 @@ bool diagnostics_publish(diagnostics *d, const worker_state *state)
     if (hdr_publisher_subscribers(d->publisher) == 0) return false;
     fill_keys(d, &list, state, now);
     fill_watched(&list, state, &slowest);
-    const hdr_diagnostic view = {
+    const hdr_diagnostic message = {
         .header = {.stamp = hdr_time_now(), .frame_id = ""},
         .level = all.level,
         .name = d->node_name,
@@ -135,7 +135,7 @@ bool diagnostics_publish(diagnostics *d, const worker_state *state)
         .hardware_id = report_run_id(d->rep),
         .values = {list.value, list.count},
     };
-    if (hdr_diagnostic_publish(d->publisher, &view) != HDR_OK)
+    if (hdr_diagnostic_publish(d->publisher, &message) != HDR_OK)
         hdr_log(HDR_ERROR, "diagnostics not sent: %s", hdr_error_text());
     return true;
 }

@@ -19,7 +19,7 @@ typedef struct pair_fields {
 } pair_fields;
 
 struct field_report {
-    const outlets *to;
+    const publishers *to;
     const field_choice *choice;
     size_t disks;
     hd_pmode *pmode;
@@ -27,7 +27,7 @@ struct field_report {
     double *block; /**< of the arrays of pairs */
 };
 
-bool field_report_create(field_report **out, const outlets *to, const settings *set)
+bool field_report_create(field_report **out, const publishers *to, const settings *set)
 {
     field_report *r = *out = calloc(1, sizeof *r);
     if (!r) return false;
@@ -84,55 +84,55 @@ static void reconstruct(field_report *r, const hd_step *step, const snapshot *no
 static hdr_doubles column_of(const hd_frame *frame, int col, int component, size_t disks)
 {
     const size_t stride = (size_t)hd_frame_stride(frame);
-    return outlets_array(hd_frame_read(frame) + (size_t)component * stride + col, disks,
+    return message_array(hd_frame_read(frame) + (size_t)component * stride + col, disks,
                          4 * stride);
 }
 
-static void fill_vector(hdr_mode_field *view, const hd_run *run, int col, size_t disks)
+static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, size_t disks)
 {
     const hd_frame *frame = hd_run_frame(run);
-    view->index = (uint32_t)col + 1;
-    view->exponent = hd_spectrum_exponent(hd_run_spectrum(run), col);
-    view->dqx = column_of(frame, col, 0, disks);
-    view->dqy = column_of(frame, col, 1, disks);
-    view->dpx = column_of(frame, col, 2, disks);
-    view->dpy = column_of(frame, col, 3, disks);
+    message->index = (uint32_t)col + 1;
+    message->exponent = hd_spectrum_exponent(hd_run_spectrum(run), col);
+    message->dqx = column_of(frame, col, 0, disks);
+    message->dqy = column_of(frame, col, 1, disks);
+    message->dpx = column_of(frame, col, 2, disks);
+    message->dpy = column_of(frame, col, 3, disks);
 }
 
-static void fill_step(hdr_mode_field *view, const hd_step *step)
+static void fill_step(hdr_mode_field *message, const hd_step *step)
 {
     if (!step) return;
-    view->kind = (uint8_t)step->kind;
-    view->nx = (uint32_t)step->wave.n[0];
-    view->ny = (uint32_t)step->wave.n[1];
-    view->wave_number = step->wave.number;
+    message->kind = (uint8_t)step->kind;
+    message->nx = (uint32_t)step->wave.n[0];
+    message->ny = (uint32_t)step->wave.n[1];
+    message->wave_number = step->wave.number;
 }
 
-static void fill_state(hdr_mode_field *view, const snapshot *now, size_t disks)
+static void fill_state(hdr_mode_field *message, const snapshot *now, size_t disks)
 {
-    view->x = outlets_array(now->q, disks, 2);
-    view->y = outlets_array(now->q + 1, disks, 2);
-    view->px = outlets_array(now->p, disks, 2);
-    view->py = outlets_array(now->p + 1, disks, 2);
+    message->x = message_array(now->q, disks, 2);
+    message->y = message_array(now->q + 1, disks, 2);
+    message->px = message_array(now->p, disks, 2);
+    message->py = message_array(now->p + 1, disks, 2);
 }
 
-static void fill_pairs(hdr_mode_field *view, const pair_fields *pairs, size_t disks)
+static void fill_pairs(hdr_mode_field *message, const pair_fields *pairs, size_t disks)
 {
     const size_t count = pairs->count * disks;
-    view->pairs = pairs->count;
-    view->modulation = (hdr_bytes){.data = pairs->modulation, .count = pairs->count};
-    view->residual_l = outlets_array(pairs->residual_l, pairs->count, 1);
-    view->residual_p = outlets_array(pairs->residual_p, pairs->count, 1);
-    view->rotation_distance = pairs->rotation_distance;
-    view->l_x = outlets_array(pairs->l, count, 2);
-    view->l_y = outlets_array(pairs->l + 1, count, 2);
-    view->p_x = outlets_array(pairs->p, count, 2);
-    view->p_y = outlets_array(pairs->p + 1, count, 2);
-    view->p_over_px = outlets_array(pairs->ratio, count, 2);
-    view->p_over_py = outlets_array(pairs->ratio + 1, count, 2);
+    message->pairs = pairs->count;
+    message->modulation = (hdr_bytes){.data = pairs->modulation, .count = pairs->count};
+    message->residual_l = message_array(pairs->residual_l, pairs->count, 1);
+    message->residual_p = message_array(pairs->residual_p, pairs->count, 1);
+    message->rotation_distance = pairs->rotation_distance;
+    message->l_x = message_array(pairs->l, count, 2);
+    message->l_y = message_array(pairs->l + 1, count, 2);
+    message->p_x = message_array(pairs->p, count, 2);
+    message->p_y = message_array(pairs->p + 1, count, 2);
+    message->p_over_px = message_array(pairs->ratio, count, 2);
+    message->p_over_py = message_array(pairs->ratio + 1, count, 2);
 }
 
-static bool view_finite(const hdr_mode_field *v)
+static bool is_finite(const hdr_mode_field *v)
 {
     const hdr_doubles arrays[] = {v->x,   v->y,   v->px,         v->py,         v->dqx, v->dqy,
                                   v->dpx, v->dpy, v->residual_l, v->residual_p, v->l_x, v->l_y,
@@ -148,19 +148,19 @@ static hd_status publish_vector(field_report *r, const snapshot *now, int col)
     const hd_steps *steps = hd_run_steps(now->run);
     const int s = hd_steps_of_vector(steps, col);
     const hd_step *step = s < 0 ? NULL : hd_steps_step(steps, s);
-    hdr_mode_field view = {
-        .header = outlets_header(),
+    hdr_mode_field message = {
+        .header = message_header(),
         .run_id = r->to->run_id,
         .sim_time = hd_run_time(now->run),
     };
     reconstruct(r, step, now);
-    fill_vector(&view, now->run, col, r->disks);
-    fill_step(&view, step);
-    fill_state(&view, now, r->disks);
-    fill_pairs(&view, &r->pairs, r->disks);
-    if (!view_finite(&view)) return HD_NOT_FINITE;
-    return outlets_sent(hdr_mode_field_publish(r->to->publisher[TOPIC_FIELDS], &view),
-                        TOPIC_FIELDS);
+    fill_vector(&message, now->run, col, r->disks);
+    fill_step(&message, step);
+    fill_state(&message, now, r->disks);
+    fill_pairs(&message, &r->pairs, r->disks);
+    if (!is_finite(&message)) return HD_NOT_FINITE;
+    return publishers_sent(hdr_mode_field_publish(r->to->publisher[TOPIC_FIELDS], &message),
+                           TOPIC_FIELDS);
 }
 
 /** Found in the positive half; of steps that share a set the first. */

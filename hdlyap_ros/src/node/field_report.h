@@ -3,14 +3,14 @@
 #ifndef HDLYAP_FIELD_REPORT_H
 #define HDLYAP_FIELD_REPORT_H
 
-#include "outlets.h"
+#include "publishers.h"
 #include "settings.h"
 #include "snapshot.h"
 
 typedef struct field_report field_report;
 
 /** Both live longer; `to` is read only by field_report_publish. False if out of memory. */
-bool field_report_create(field_report **out, const outlets *to, const settings *set);
+bool field_report_create(field_report **out, const publishers *to, const settings *set);
 void field_report_free(field_report *r);
 
 /** Column that stands for a resolved step: the first of its set that belongs to the step itself,

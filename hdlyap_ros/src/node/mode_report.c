@@ -10,7 +10,7 @@ _Static_assert((int)HD_MODE_LP == (int)HDR_MODE_LP, "kinds as in the core");
 _Static_assert((int)HD_LP_TRACKED == (int)HDR_LP_PHASE_TRACKED, "states as in the core");
 
 struct mode_report {
-    const outlets *to;
+    const publishers *to;
     uint32_t vectors, steps, phases, responses; /**< lengths of the arrays below */
     hdr_mode *mode;
     hdr_step *step;
@@ -42,7 +42,7 @@ static bool parts_create(mode_report *m, const hd_run *run, unsigned set)
     return arrays_create(m);
 }
 
-bool mode_report_create(mode_report **out, const outlets *to, const hd_run *run, unsigned set)
+bool mode_report_create(mode_report **out, const publishers *to, const hd_run *run, unsigned set)
 {
     mode_report *m = *out = calloc(1, sizeof *m);
     if (!m) return false;
@@ -188,8 +188,8 @@ static bool is_finite(const hd_dispersion *fit)
 static hd_status publish_modes(mode_report *m, const snapshot *now)
 {
     const hd_run *run = now->run;
-    const hdr_modes view = {
-        .header = outlets_header(),
+    const hdr_modes message = {
+        .header = message_header(),
         .run_id = m->to->run_id,
         .sim_time = hd_run_time(run),
         .averaged_time = hd_spectrum_time(hd_run_spectrum(run)),
@@ -198,18 +198,18 @@ static hd_status publish_modes(mode_report *m, const snapshot *now)
     };
     for (uint32_t k = 0; k < m->vectors; k++)
         if (!fill_mode(&m->mode[k], run, (int)k)) return HD_NOT_FINITE;
-    return outlets_sent(hdr_modes_publish(m->to->publisher[TOPIC_MODES], &view), TOPIC_MODES);
+    return publishers_sent(hdr_modes_publish(m->to->publisher[TOPIC_MODES], &message), TOPIC_MODES);
 }
 
-static bool fill_steps(mode_report *m, hdr_steps *view, const hd_run *run)
+static bool fill_steps(mode_report *m, hdr_steps *message, const hd_run *run)
 {
     const hd_steps *steps = hd_run_steps(run);
     const hd_phases *phases = hd_run_phases(run);
     const hd_velocity none = {.v_error = -1.0}, v = phases ? hd_phases_velocity(phases) : none;
     const hd_dispersion t = hd_steps_dispersion(steps, HD_MODE_T);
     const hd_dispersion l = hd_steps_dispersion(steps, HD_MODE_LP);
-    *view = (hdr_steps){
-        .header = outlets_header(),
+    *message = (hdr_steps){
+        .header = message_header(),
         .run_id = m->to->run_id,
         .sim_time = hd_run_time(run),
         .averaged_time = hd_spectrum_time(hd_run_spectrum(run)),
@@ -237,16 +237,16 @@ static bool fill_steps(mode_report *m, hdr_steps *view, const hd_run *run)
 
 static hd_status publish_steps(mode_report *m, const snapshot *now)
 {
-    hdr_steps view;
-    if (!fill_steps(m, &view, now->run)) return HD_NOT_FINITE;
-    return outlets_sent(hdr_steps_publish(m->to->publisher[TOPIC_STEPS], &view), TOPIC_STEPS);
+    hdr_steps message;
+    if (!fill_steps(m, &message, now->run)) return HD_NOT_FINITE;
+    return publishers_sent(hdr_steps_publish(m->to->publisher[TOPIC_STEPS], &message), TOPIC_STEPS);
 }
 
 static hd_status publish_phases(mode_report *m, const snapshot *now)
 {
     const hd_run *run = now->run;
-    const hdr_lp_phases view = {
-        .header = outlets_header(),
+    const hdr_lp_phases message = {
+        .header = message_header(),
         .run_id = m->to->run_id,
         .sim_time = hd_run_time(run),
         .samples_per_report = (uint32_t)hd_run_samples_per_report(run),
@@ -256,15 +256,15 @@ static hd_status publish_phases(mode_report *m, const snapshot *now)
         const hd_lp_phase *phase = hd_phases_phase(hd_run_phases(run), (int)k);
         if (!fill_phase(&m->phase[k], phase, hd_run_steps(run))) return HD_NOT_FINITE;
     }
-    return outlets_sent(hdr_lp_phases_publish(m->to->publisher[TOPIC_LP_PHASES], &view),
-                        TOPIC_LP_PHASES);
+    return publishers_sent(hdr_lp_phases_publish(m->to->publisher[TOPIC_LP_PHASES], &message),
+                           TOPIC_LP_PHASES);
 }
 
 static hd_status publish_hydro(mode_report *m, const snapshot *now)
 {
     const hd_steps *steps = hd_run_steps(now->run);
-    const hdr_hydro view = {
-        .header = outlets_header(),
+    const hdr_hydro message = {
+        .header = message_header(),
         .run_id = m->to->run_id,
         .sim_time = hd_run_time(now->run),
         .responses = {m->response, m->responses},
@@ -273,7 +273,7 @@ static hd_status publish_hydro(mode_report *m, const snapshot *now)
     for (uint32_t k = 0; k < m->responses; k++)
         if (!fill_response(&m->response[k], hd_hydro_at(m->hydro, (int)k), steps))
             return HD_NOT_FINITE;
-    return outlets_sent(hdr_hydro_publish(m->to->publisher[TOPIC_HYDRO], &view), TOPIC_HYDRO);
+    return publishers_sent(hdr_hydro_publish(m->to->publisher[TOPIC_HYDRO], &message), TOPIC_HYDRO);
 }
 
 hd_status mode_report_publish(mode_report *m, const snapshot *now, unsigned set)

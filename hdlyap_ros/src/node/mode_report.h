@@ -3,14 +3,14 @@
 #ifndef HDLYAP_MODE_REPORT_H
 #define HDLYAP_MODE_REPORT_H
 
-#include "outlets.h"
+#include "publishers.h"
 #include "snapshot.h"
 
 typedef struct mode_report mode_report;
 
 /** With buffers for those of a set of topics that are its own; `to` lives longer and is read only
  * by mode_report_publish. False if out of memory. */
-bool mode_report_create(mode_report **out, const outlets *to, const hd_run *run, unsigned set);
+bool mode_report_create(mode_report **out, const publishers *to, const hd_run *run, unsigned set);
 void mode_report_free(mode_report *m);
 
 /** Writes to doubles[TOPICS] about how many numbers its messages have. */

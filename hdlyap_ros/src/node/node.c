@@ -7,6 +7,7 @@
 
 #include "diagnostics.h"
 #include "hdlyap/hdlyap.h"
+#include "parameters_text.h"
 #include "report.h"
 #include "services.h"
 #include "settings.h"
@@ -32,7 +33,7 @@ typedef struct app {
     hd_checkpoint kept; /**< what is gone on from */
     settings set;
     hd_run *run;
-    keeper keep; /**< as the run begins; then the worker's */
+    checkpoint_writer keep; /**< as the run begins; then the worker's */
     report *rep;
     worker *work;
     diagnostics diag;
@@ -95,14 +96,15 @@ static int create_run(app *a)
 {
     char message[512] = "";
     const settings *set = &a->set;
-    hd_status status = keeper_check(set, message, sizeof message);
+    hd_status status = checkpoint_writer_check(set, message, sizeof message);
     if (status == HD_OK && *set->resume)
         status = hd_run_resume(&a->run, set->resume, &set->def, message, sizeof message);
     else if (status == HD_OK)
         status = hd_run_create(&a->run, &set->def, message, sizeof message);
     if (*set->checkpoint) hdr_node_stop_within(stop_keeping_seconds);
     if (status == HD_OK) hd_run_fields_every(a->run, set->field_interval);
-    if (status == HD_OK) status = keeper_begin(&a->keep, set, a->run, message, sizeof message);
+    if (status == HD_OK)
+        status = checkpoint_writer_begin(&a->keep, set, a->run, message, sizeof message);
     return fault_logged(status, message);
 }
 
@@ -204,6 +206,8 @@ static int run(app *a)
 int main(int argc, char **argv)
 {
     app a = {.ros = NULL};
+    if (argc == 2 && strcmp(argv[1], "--parameters") == 0) return parameters_print_scene();
+    if (argc == 2 && strcmp(argv[1], "--parameters=table") == 0) return parameters_print_table();
     hd_blas_restart_if_slow(argv);
     const hdr_status created = hdr_node_create(&a.ros, &argc, argv, "hdlyap", stop_seconds,
                                                fault_status(HD_NO_MEMORY));

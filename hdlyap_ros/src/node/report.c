@@ -4,14 +4,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "attendance.h"
 #include "clock.h"
 #include "covariant_report.h"
 #include "field_report.h"
 #include "mode_report.h"
-#include "outlets.h"
+#include "publishers.h"
 #include "run_info.h"
 #include "slow_vectors_report.h"
+#include "subscriber_wait.h"
 
 _Static_assert((int)HD_LIMIT_REPAIR == (int)HDR_COST_LIMIT_REPAIR, "limits as in the core");
 
@@ -25,7 +25,7 @@ typedef struct spectrum_arrays {
 
 struct report {
     const settings *set;
-    outlets out;
+    publishers out;
     uint32_t n; /**< tangent vectors */
     uint32_t disks;
     spectrum_arrays spectrum; /**< in block; [n] each */
@@ -35,7 +35,7 @@ struct report {
     field_report *fields; /**< NULL unless asked for, as the next */
     covariant_report *covariant;
     slow_vectors_report *slow;
-    attendance awaited;
+    subscriber_wait awaited;
     unsigned demand; /**< set of topics that the step under way is made for */
     double seconds;  /**< spent here */
 };
@@ -94,8 +94,8 @@ static hdr_status advertise(report *rep, hdr_node *ros)
     if (rep->modes) mode_report_sizes(rep->modes, doubles);
     if (rep->fields) doubles[TOPIC_FIELDS] = field_report_size(rep->fields);
     if (rep->covariant) doubles[TOPIC_COVARIANT] = covariant_report_size(rep->covariant);
-    return outlets_advertise(&rep->out, ros, rep->set->observables | TOPICS_ALWAYS, doubles,
-                             rep->set->seed);
+    return publishers_advertise(&rep->out, ros, rep->set->observables | TOPICS_ALWAYS, doubles,
+                                rep->set->seed);
 }
 
 hdr_status report_create(report **out, hdr_node *ros, const settings *set, const hd_run *run)
@@ -126,11 +126,11 @@ void report_free(report *rep)
 
 const char *report_run_id(const report *rep) { return rep->out.run_id; }
 
-hdr_lag report_lag(const report *rep) { return outlets_lag(&rep->out); }
+hdr_lag report_lag(const report *rep) { return publishers_lag(&rep->out); }
 
 bool report_awaited_here(report *rep)
 {
-    return attendance_complete(&rep->awaited, &rep->out, rep->set->awaited);
+    return subscriber_wait_over(&rep->awaited, &rep->out, rep->set->awaited);
 }
 
 /** The message of steps has the velocity of the LP phases in it, and slow vectors belong to steps.
@@ -138,7 +138,7 @@ bool report_awaited_here(report *rep)
 unsigned report_demand(report *rep)
 {
     const unsigned set = rep->set->observables, phases = topic_bit(TOPIC_LP_PHASES) & set;
-    rep->demand = outlets_subscribed(&rep->out);
+    rep->demand = publishers_subscribed(&rep->out);
     unsigned stages = topic_stages(rep->demand);
     if (rep->demand & topic_bit(TOPIC_STEPS)) stages |= topic_stages(phases);
     if (rep->modes && slow_vectors_report_watched(rep->slow))
@@ -181,8 +181,8 @@ static hd_status publish_spectrum(report *rep, const hd_run *run)
     const spectrum_arrays *a = &rep->spectrum;
     const double pairing = hd_spectrum_pairing_error(spectrum);
     spectrum_gather(rep, run);
-    const hdr_spectrum view = {
-        .header = outlets_header(),
+    const hdr_spectrum message = {
+        .header = message_header(),
         .run_id = rep->out.run_id,
         .sim_time = hd_run_time(run),
         .averaged_time = hd_spectrum_time(spectrum),
@@ -191,43 +191,45 @@ static hd_status publish_spectrum(report *rep, const hd_run *run)
         .ks_entropy = hd_spectrum_ks_entropy(spectrum),
         .pairing_error = pairing < 0.0 ? -1.0 : pairing,
         .first_index = 1,
-        .exponents = outlets_array(a->exponents, rep->n, 1),
-        .std_errors = outlets_array(a->std_errors, rep->n, 1),
-        .local_exponents = outlets_array(a->local_exponents, rep->n, 1),
-        .cos_theta = outlets_array(a->cos_theta, rep->n, 1),
-        .dp_dq_ratio = outlets_array(a->dp_dq_ratio, rep->n, 1),
+        .exponents = message_array(a->exponents, rep->n, 1),
+        .std_errors = message_array(a->std_errors, rep->n, 1),
+        .local_exponents = message_array(a->local_exponents, rep->n, 1),
+        .cos_theta = message_array(a->cos_theta, rep->n, 1),
+        .dp_dq_ratio = message_array(a->dp_dq_ratio, rep->n, 1),
     };
-    const double scalars[] = {view.averaged_time, view.lambda_max, view.ks_entropy, pairing};
-    if (!outlets_finite(scalars, sizeof scalars / sizeof *scalars)) return HD_NOT_FINITE;
-    if (!outlets_finite(a->exponents, 5 * (size_t)rep->n)) return HD_NOT_FINITE;
-    return outlets_sent(hdr_spectrum_publish(rep->out.publisher[TOPIC_SPECTRUM], &view),
-                        TOPIC_SPECTRUM);
+    const double scalars[] = {message.averaged_time, message.lambda_max, message.ks_entropy,
+                              pairing};
+    if (!message_finite(scalars, sizeof scalars / sizeof *scalars)) return HD_NOT_FINITE;
+    if (!message_finite(a->exponents, 5 * (size_t)rep->n)) return HD_NOT_FINITE;
+    return publishers_sent(hdr_spectrum_publish(rep->out.publisher[TOPIC_SPECTRUM], &message),
+                           TOPIC_SPECTRUM);
 }
 
 /** Of the positions and momenta in rep. */
 static hd_status publish_state(report *rep, const hd_run *run)
 {
     const hd_trajectory *trajectory = hd_run_trajectory(run);
-    const hdr_state view = {
-        .header = outlets_header(),
+    const hdr_state message = {
+        .header = message_header(),
         .run_id = rep->out.run_id,
         .sim_time = hd_run_time(run),
         .kinetic_energy = hd_trajectory_kinetic_energy(trajectory),
-        .x = outlets_array(rep->q, rep->disks, 2),
-        .y = outlets_array(rep->q + 1, rep->disks, 2),
-        .px = outlets_array(rep->p, rep->disks, 2),
-        .py = outlets_array(rep->p + 1, rep->disks, 2),
+        .x = message_array(rep->q, rep->disks, 2),
+        .y = message_array(rep->q + 1, rep->disks, 2),
+        .px = message_array(rep->p, rep->disks, 2),
+        .py = message_array(rep->p + 1, rep->disks, 2),
     };
-    if (!outlets_finite(rep->q, 4 * (size_t)rep->disks) || !isfinite(view.kinetic_energy))
+    if (!message_finite(rep->q, 4 * (size_t)rep->disks) || !isfinite(message.kinetic_energy))
         return HD_NOT_FINITE;
-    return outlets_sent(hdr_state_publish(rep->out.publisher[TOPIC_STATE], &view), TOPIC_STATE);
+    return publishers_sent(hdr_state_publish(rep->out.publisher[TOPIC_STATE], &message),
+                           TOPIC_STATE);
 }
 
 static hd_status publish_cost(report *rep, const progress *now, hd_stage phase)
 {
     const hd_cost *cost = &now->cost;
-    const hdr_cost view = {
-        .header = outlets_header(),
+    const hdr_cost message = {
+        .header = message_header(),
         .run_id = rep->out.run_id,
         .sim_time = now->time,
         .phase = (uint8_t)phase,
@@ -261,8 +263,8 @@ static hd_status publish_cost(report *rep, const progress *now, hd_stage phase)
                               cost->remaining, cost->error_bound,
                               cost->std_error, cost->events_per_second,
                               cost->modes,     cost->covariant};
-    if (!outlets_finite(numbers, sizeof numbers / sizeof *numbers)) return HD_NOT_FINITE;
-    return outlets_sent(hdr_cost_publish(rep->out.publisher[TOPIC_COST], &view), TOPIC_COST);
+    if (!message_finite(numbers, sizeof numbers / sizeof *numbers)) return HD_NOT_FINITE;
+    return publishers_sent(hdr_cost_publish(rep->out.publisher[TOPIC_COST], &message), TOPIC_COST);
 }
 
 /** Topics that have something to say after this step and someone to listen. The modes were measured
@@ -273,7 +275,7 @@ static unsigned topics_due(const report *rep, const hd_run *run)
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     const hd_modes *modes = hd_run_modes(run);
     const unsigned of_modes = TOPICS_OF_MODES;
-    unsigned set = outlets_subscribed(&rep->out);
+    unsigned set = publishers_subscribed(&rep->out);
     if (!spectrum || !(hd_spectrum_time(spectrum) > 0.0)) set &= ~topic_bit(TOPIC_SPECTRUM);
     if (!modes || hd_modes_samples(modes) == 0) set &= ~of_modes;
     if (!hd_run_fields_due(run)) set &= ~topic_bit(TOPIC_FIELDS);
@@ -318,6 +320,6 @@ hd_status report_window(report *rep, const hd_run *run)
 
 hd_status report_finish(report *rep, const progress *last)
 {
-    const bool heard = outlets_subscribed(&rep->out) & topic_bit(TOPIC_COST);
+    const bool heard = publishers_subscribed(&rep->out) & topic_bit(TOPIC_COST);
     return heard ? publish_cost(rep, last, HD_FINISHED) : HD_OK;
 }

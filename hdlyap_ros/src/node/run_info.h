@@ -3,11 +3,11 @@
 #define HDLYAP_RUN_INFO_H
 
 #include "hdlyap/run.h"
-#include "outlets.h"
+#include "publishers.h"
 #include "settings.h"
 
 /** Allocates, as it is sent once. HDR_NO_MEMORY, or HDR_FAULT if ROS refuses. */
-HDR_MUST_CHECK hdr_status run_info_publish(const outlets *out, const settings *set,
+HDR_MUST_CHECK hdr_status run_info_publish(const publishers *out, const settings *set,
                                            const hd_run *run);
 
 #endif

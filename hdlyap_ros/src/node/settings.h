@@ -16,8 +16,6 @@ typedef struct field_choice {
     int count;        /**< 0: one of each step */
 } field_choice;
 
-enum { BYTES_PER_GB = 1000000000 };
-
 typedef struct settings {
     hd_scene_def def;
     const char *scene;    /**< name; in the params, or in the checkpoint */
@@ -34,9 +32,6 @@ typedef struct settings {
     double checkpoint_interval; /**< wall seconds; 0: only at the end and when asked */
     const char *resume;         /**< file to go on from, or "" */
 } settings;
-
-/** As the parameter names it. */
-const char *settings_storage_name(hd_storage storage);
 
 /** The file to go on from, "" if none. False if refused. */
 bool settings_resume(const char **path, const hdr_params *params, char *message, size_t size);

@@ -23,7 +23,7 @@ typedef struct vector_arrays {
 } vector_arrays;
 
 struct slow_vectors_report {
-    const outlets *to;
+    const publishers *to;
     const settings *set;
     hdr_publisher *publisher;
     int end;       /**< columns of positive exponent are before it */
@@ -58,8 +58,8 @@ static int positive_exponents(const hd_run *run)
     return vectors < positive ? vectors : positive;
 }
 
-hdr_status slow_vectors_report_create(slow_vectors_report **out, hdr_node *ros, const outlets *to,
-                                      const settings *set, const hd_run *run)
+hdr_status slow_vectors_report_create(slow_vectors_report **out, hdr_node *ros,
+                                      const publishers *to, const settings *set, const hd_run *run)
 {
     slow_vectors_report *r = *out = calloc(1, sizeof *r);
     if (!r) return HDR_NO_MEMORY;
@@ -197,14 +197,14 @@ static bool fill_vectors(hdr_slow_vectors *message, slow_vectors_report *r, cons
     if (is_here) fill_dq(of, known, first, count, disks);
     message->first_index = (uint32_t)first + 1;
     message->vectors = (uint32_t)count;
-    message->exponents = outlets_array(of->exponents, count, 1);
+    message->exponents = message_array(of->exponents, count, 1);
     message->kind = (hdr_bytes){of->kind, (uint32_t)count};
     message->nx = (hdr_uints){of->nx, (uint32_t)count};
     message->ny = (hdr_uints){of->ny, (uint32_t)count};
     message->pairs = (hdr_bytes){of->pairs, (uint32_t)count};
-    message->a = outlets_array(of->a, PAIRS_MAX * count, 1);
-    message->b = outlets_array(of->b, PAIRS_MAX * count, 1);
-    message->dqx = outlets_array(of->dq, is_here ? disks * count : 0, 1);
+    message->a = message_array(of->a, PAIRS_MAX * count, 1);
+    message->b = message_array(of->b, PAIRS_MAX * count, 1);
+    message->dqx = message_array(of->dq, is_here ? disks * count : 0, 1);
     message->dqy = message->dqx;
     if (is_here) message->dqy.data += disks * count;
     return true;
@@ -212,23 +212,23 @@ static bool fill_vectors(hdr_slow_vectors *message, slow_vectors_report *r, cons
 
 static bool is_finite(const slow_vectors_report *r, const hdr_slow_vectors *m)
 {
-    return outlets_finite(r->q, 4 * (size_t)r->set->def.disks) &&
-           outlets_finite(m->exponents.data, m->exponents.count) &&
-           outlets_finite(m->a.data, m->a.count) && outlets_finite(m->b.data, m->b.count) &&
-           outlets_finite(m->dqx.data, m->dqx.count) && outlets_finite(m->dqy.data, m->dqy.count);
+    return message_finite(r->q, 4 * (size_t)r->set->def.disks) &&
+           message_finite(m->exponents.data, m->exponents.count) &&
+           message_finite(m->a.data, m->a.count) && message_finite(m->b.data, m->b.count) &&
+           message_finite(m->dqx.data, m->dqx.count) && message_finite(m->dqy.data, m->dqy.count);
 }
 
 static hd_status publish(slow_vectors_report *r, const hd_run *run)
 {
     const size_t disks = (size_t)r->set->def.disks;
     hdr_slow_vectors message = {
-        .header = outlets_header(),
+        .header = message_header(),
         .run_id = r->to->run_id,
         .sim_time = hd_run_time(run),
-        .x = outlets_array(r->q, disks, 2),
-        .y = outlets_array(r->q + 1, disks, 2),
-        .px = outlets_array(r->p, disks, 2),
-        .py = outlets_array(r->p + 1, disks, 2),
+        .x = message_array(r->q, disks, 2),
+        .y = message_array(r->q + 1, disks, 2),
+        .px = message_array(r->p, disks, 2),
+        .py = message_array(r->p + 1, disks, 2),
     };
     hd_trajectory_state(hd_run_trajectory(run), r->q, r->p);
     if (!fill_vectors(&message, r, run)) {

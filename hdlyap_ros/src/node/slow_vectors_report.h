@@ -3,7 +3,7 @@
 #ifndef HDLYAP_SLOW_VECTORS_REPORT_H
 #define HDLYAP_SLOW_VECTORS_REPORT_H
 
-#include "outlets.h"
+#include "publishers.h"
 #include "settings.h"
 #include "snapshot.h"
 
@@ -11,7 +11,7 @@ typedef struct slow_vectors_report slow_vectors_report;
 
 /** Advertises ~slow_vectors. All live longer. HDR_NO_MEMORY, or HDR_FAULT if ROS refuses. */
 HDR_MUST_CHECK hdr_status slow_vectors_report_create(slow_vectors_report **out, hdr_node *ros,
-                                                     const outlets *to, const settings *set,
+                                                     const publishers *to, const settings *set,
                                                      const hd_run *run);
 void slow_vectors_report_free(slow_vectors_report *r);
 

@@ -27,7 +27,7 @@ struct worker {
     pthread_t thread;
     double due;        /**< wall time before which pace allows no further step; the thread's own */
     double examinable; /**< the same of the next examination; the thread's own */
-    keeper keep;       /**< the thread's own */
+    checkpoint_writer keep; /**< the thread's own */
 
     pthread_mutex_t lock;
     pthread_cond_t changed;
@@ -82,7 +82,7 @@ static bool too_early(const worker *w) { return w->due > 0.0 && clock_seconds() 
 static void save(worker *w)
 {
     pthread_mutex_unlock(&w->lock);
-    keeper_save(&w->keep, w->run);
+    checkpoint_writer_save(&w->keep, w->run);
     pthread_mutex_lock(&w->lock);
     w->save = false;
     w->state.checkpoint = w->keep.state;
@@ -106,10 +106,10 @@ static void publish_at_rest(worker *w)
 static bool obey(worker *w)
 {
     pthread_mutex_lock(&w->lock);
-    if (keeper_due(&w->keep)) save(w);
+    if (checkpoint_writer_due(&w->keep)) save(w);
     if (w->pause && !w->stop) publish_at_rest(w);
     while (!w->stop && (w->save || w->pause || too_early(w))) {
-        if (w->save || keeper_due(&w->keep)) {
+        if (w->save || checkpoint_writer_due(&w->keep)) {
             save(w);
             continue;
         }
@@ -177,13 +177,13 @@ static hd_status step(worker *w)
     hd_run_observe(w->run, report_demand(w->rep));
     report_demand_slow(w->rep, w->run);
     hd_status status = reset_if_asked(w);
-    keeper_touch(&w->keep);
+    checkpoint_writer_touch(&w->keep);
     if (status == HD_OK) status = w->set->pace > 0.0 ? paced_step(w) : hd_run_advance(w->run);
     if (status != HD_OK) return status;
     status = publish(w);
     pthread_mutex_lock(&w->lock);
     w->state.last = progress_of(w->run);
-    error_course_add(&w->state.errors, w->state.last.averaged, w->state.last.cost.std_error);
+    error_trend_add(&w->state.errors, w->state.last.averaged, w->state.last.cost.std_error);
     pthread_mutex_unlock(&w->lock);
     return status;
 }
@@ -212,7 +212,7 @@ static void explain(worker *w, hd_status status)
     snprintf(fault, size, "%s", hd_status_text(status));
     if (status == HD_NO_ROOM && hd_covariant_check_room(scene, interval, fault, size) == HD_OK)
         snprintf(fault, size, "%s = %.3g GB, orthonormalised more often than every %.3g time units",
-                 hd_status_text(status), scene->covariant_memory / BYTES_PER_GB, interval);
+                 hd_status_text(status), scene->covariant_memory, interval);
 }
 
 static void *work(void *context)
@@ -248,7 +248,8 @@ static void locks_free(worker *w)
     pthread_mutex_destroy(&w->publishing);
 }
 
-bool worker_create(worker **out, hd_run *run, report *rep, const settings *set, const keeper *keep)
+bool worker_create(worker **out, hd_run *run, report *rep, const settings *set,
+                   const checkpoint_writer *keep)
 {
     worker *w = *out = calloc(1, sizeof *w);
     if (!w) return false;

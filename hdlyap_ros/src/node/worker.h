@@ -3,9 +3,9 @@
 #ifndef HDLYAP_WORKER_H
 #define HDLYAP_WORKER_H
 
-#include "error_course.h"
+#include "checkpoint_writer.h"
+#include "error_trend.h"
 #include "examination.h"
-#include "keeper.h"
 #include "report.h"
 
 typedef enum worker_stage {
@@ -21,8 +21,8 @@ typedef struct worker_state {
     hd_status status; /**< the fault that ended it, else HD_OK */
     char fault[256];  /**< in words, with its numbers */
     progress last;
-    error_course errors; /**< of the exponents nearest to zero */
-    examination disks;   /**< as of the last worker_examine */
+    error_trend errors; /**< of the exponents nearest to zero */
+    examination disks;  /**< as of the last worker_examine */
     kept checkpoint;
 } worker_state;
 
@@ -30,7 +30,8 @@ typedef struct worker worker;
 
 /** Starts the thread, which alone uses run and rep until worker_state says WORKER_ENDED.
  * False if the system has no thread for it. */
-bool worker_create(worker **out, hd_run *run, report *rep, const settings *set, const keeper *keep);
+bool worker_create(worker **out, hd_run *run, report *rep, const settings *set,
+                   const checkpoint_writer *keep);
 /** Asks the thread to end and waits for the step that it is in. NULL is allowed. */
 void worker_end(worker *w);
 /** Only after worker_end. NULL is allowed. */

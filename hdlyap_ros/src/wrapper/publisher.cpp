@@ -7,8 +7,8 @@
 #include <ros/topic_manager.h>
 
 #include "guard.hpp"
-#include "node.hpp"
 #include "message_fields.hpp"
+#include "node.hpp"
 #include "standard_messages.hpp"
 
 namespace

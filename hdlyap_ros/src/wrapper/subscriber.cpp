@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include "connection_warnings.hpp"
 #include "guard.hpp"
-#include "node.hpp"
 #include "message_fields.hpp"
+#include "node.hpp"
 #include "received.hpp"
-#include "unheard.hpp"
 
 namespace
 {
@@ -49,7 +49,7 @@ template <class Message> hdr_status subscribe(hdr_subscriber **out, hdr_node *no
         made->topic = ros::names::resolve(topic);
         made->datatype = ros::message_traits::datatype<hdlyap_ros::received<Message>>();
         connect(*made, queue, callback, context);
-        unheard_look_out(node);
+        connection_warnings_start(node);
         const std::lock_guard<std::mutex> lock(node->mutex);
         node->subscribers.push_back(std::move(made));
         *out = node->subscribers.back().get();

@@ -244,7 +244,7 @@ static void too_long_a_window_is_refused(void **state)
     char message[400] = "";
     hd_scene_def scene = small();
     hd_run *run = NULL;
-    scene.covariant_memory = 2.5e6; /* 512 triangles of 4224 bytes and 46 frames of 8448 */
+    scene.covariant_memory = 2.5e-3; /* 512 triangles of 4224 bytes and 46 frames of 8448 */
     assert_int_equal(hd_run_create(&run, &scene, message, sizeof message), HD_REFUSED);
     assert_null(run);
     const char *numbers[] = {
@@ -256,7 +256,7 @@ static void too_long_a_window_is_refused(void **state)
     scene.observe = 0;
     hd_run_free(created(&scene));
     scene = small();
-    scene.covariant_memory = 2.6e6;
+    scene.covariant_memory = 2.6e-3;
     hd_run_free(created(&scene));
 }
 
@@ -278,7 +278,7 @@ static void too_little_room_is_found_when_windows_begin(void **state)
     hd_scene_def scene = small();
     scene.interval = 0.0;
     scene.accuracy = 1e-12; /* intervals as short as they get */
-    scene.covariant_memory = 1e6;
+    scene.covariant_memory = 1e-3;
     assert_int_equal(run_to_a_fault(&scene), HD_NO_ROOM);
 }
 

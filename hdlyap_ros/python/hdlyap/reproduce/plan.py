@@ -27,7 +27,8 @@ class Run:
         self.seconds = entry['seconds'][0 if quick else 1]
         base = _load(os.path.join(scenes, entry['base'] + '.yaml'))
         asked = {key: value for key, value in entry.items() if key not in OWN}
-        self.parameters = {**base, 'threads': 1, **asked, **entry.get(which, {}), 'scene': name}
+        self.parameters = {**usual(scenes), **base, 'threads': 1, **asked}
+        self.parameters.update(entry.get(which, {}), scene=name)
         if (
             not all(is_number(seconds) and seconds > 0 for seconds in entry['seconds'])
             or len(entry['seconds']) != 2
@@ -100,6 +101,15 @@ class Run:
         )
 
 
+def usual(scenes):
+    """The default of every parameter, as the complete one of the scenes says in its comments."""
+    path = os.path.join(scenes, 'paper_periodic.yaml')
+    text = _read(path).replace('\n# ', ' ')
+    return {
+        name: yaml.safe_load(value) for value, name in re.findall(r'Default: (.*)\.\n(\w+):', text)
+    }
+
+
 def is_number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool) and isfinite(value)
 
@@ -129,11 +139,16 @@ def _run(path, name, entry, scenes, quick):
         raise PlanError(f'{path}: {name}: {error}')
 
 
-def _load(path):
+def _read(path):
     try:
         with open(path) as file:
-            return yaml.safe_load(file)
+            return file.read()
     except OSError as error:
         raise PlanError(f'{path}: {error.strerror}')
+
+
+def _load(path):
+    try:
+        return yaml.safe_load(_read(path))
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise PlanError(f'{path}: {" ".join(str(error).split())}')

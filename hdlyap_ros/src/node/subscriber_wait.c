@@ -1,6 +1,6 @@
 /** One subscriber of each topic is not enough: of those that come at the same time, one is
  * connected first, and a recorder would miss what is published before it is. */
-#include "attendance.h"
+#include "subscriber_wait.h"
 
 #include <math.h>
 
@@ -12,12 +12,12 @@ static const double patience_seconds = 3.0;
  */
 static const double ask_seconds = 0.1;
 
-static bool is_missed(const outlets *out, topic t, const int registered[TOPICS])
+static bool is_missed(const publishers *out, topic t, const int registered[TOPICS])
 {
     return hdr_publisher_subscribers(out->publisher[t]) < registered[t];
 }
 
-static unsigned missed(const outlets *out, unsigned awaited, const int registered[TOPICS])
+static unsigned missed(const publishers *out, unsigned awaited, const int registered[TOPICS])
 {
     unsigned set = 0;
     for (topic t = 0; t < TOPICS; t++)
@@ -25,7 +25,7 @@ static unsigned missed(const outlets *out, unsigned awaited, const int registere
     return set;
 }
 
-static void warn(const outlets *out, unsigned set, const int registered[TOPICS])
+static void warn(const publishers *out, unsigned set, const int registered[TOPICS])
 {
     for (topic t = 0; t < TOPICS; t++)
         if (set & topic_bit(t))
@@ -38,7 +38,7 @@ static void warn(const outlets *out, unsigned set, const int registered[TOPICS])
 
 /** Each topic has a subscriber. Complete twice in succession: who has subscribed to one topic may
  * be about to subscribe to the next. */
-static bool all_connected(attendance *a, const outlets *out, unsigned awaited)
+static bool all_connected(subscriber_wait *a, const publishers *out, unsigned awaited)
 {
     int registered[TOPICS];
     const double left = fmax(a->until - clock_seconds(), ask_seconds);
@@ -55,12 +55,12 @@ static bool all_connected(attendance *a, const outlets *out, unsigned awaited)
     return late || (was_complete && a->complete);
 }
 
-bool attendance_complete(attendance *a, const outlets *out, unsigned awaited)
+bool subscriber_wait_over(subscriber_wait *a, const publishers *out, unsigned awaited)
 {
     const double now = clock_seconds();
     if (!awaited) return true;
-    if (awaited & ~outlets_subscribed(out)) {
-        *a = (attendance){.next = a->next};
+    if (awaited & ~publishers_subscribed(out)) {
+        *a = (subscriber_wait){.next = a->next};
         return false;
     }
     if (!(a->until > 0.0)) a->until = now + patience_seconds;

@@ -1,6 +1,6 @@
 /** Subscribers that are connected to nobody although their topic is published: roscpp keeps to
  * itself why. */
-#include "unheard.hpp"
+#include "connection_warnings.hpp"
 
 #include <algorithm>
 #include <map>
@@ -11,16 +11,16 @@ const double period_seconds = 0.5;
 /** Looks that a publisher of the right type may take to be connected. */
 const int patience = 6;
 
-bool is_unheard(const hdr_subscriber &subscriber)
+bool is_unconnected(const hdr_subscriber &subscriber)
 {
     return subscriber.subscriber.getNumPublishers() == 0;
 }
 
-bool any_is_unheard(hdr_node *node)
+bool any_is_unconnected(hdr_node *node)
 {
     const std::lock_guard<std::mutex> lock(node->mutex);
     return std::any_of(node->subscribers.begin(), node->subscribers.end(),
-                       [](const auto &subscriber) { return is_unheard(*subscriber); });
+                       [](const auto &subscriber) { return is_unconnected(*subscriber); });
 }
 
 /** Type of every published topic; none while there is no master. */
@@ -38,9 +38,9 @@ std::map<std::string, std::string> published()
 void judge(hdr_subscriber *subscriber, const std::map<std::string, std::string> &types)
 {
     const auto found = types.find(subscriber->topic);
-    const bool unheard = found != types.end() && is_unheard(*subscriber);
-    const bool other = unheard && found->second != subscriber->datatype;
-    subscriber->looks = unheard ? subscriber->looks + 1 : 0;
+    const bool unconnected = found != types.end() && is_unconnected(*subscriber);
+    const bool other = unconnected && found->second != subscriber->datatype;
+    subscriber->looks = unconnected ? subscriber->looks + 1 : 0;
     if (subscriber->looks == 1 && other)
         hdr_log(HDR_ERROR, "%s is published as %s, not as %s: not connected",
                 subscriber->topic.c_str(), found->second.c_str(), subscriber->datatype.c_str());
@@ -53,14 +53,14 @@ void judge(hdr_subscriber *subscriber, const std::map<std::string, std::string> 
 
 void look(hdr_node *node)
 {
-    if (!any_is_unheard(node)) return;
+    if (!any_is_unconnected(node)) return;
     const auto types = published();
     const std::lock_guard<std::mutex> lock(node->mutex);
     for (const auto &subscriber : node->subscribers) judge(subscriber.get(), types);
 }
 } // namespace
 
-void unheard_look_out(hdr_node *node)
+void connection_warnings_start(hdr_node *node)
 {
     const std::lock_guard<std::mutex> lock(node->mutex);
     if (!node->lookout)

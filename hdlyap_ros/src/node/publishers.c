@@ -1,5 +1,5 @@
 /** The node's topics out. */
-#include "outlets.h"
+#include "publishers.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -44,11 +44,11 @@ static int queue_length(double doubles)
     return (int)fmax(QUEUE_MIN, fmin(QUEUE_MAX, messages));
 }
 
-hdr_status outlets_advertise(outlets *out, hdr_node *ros, unsigned set,
-                             const double doubles[TOPICS], const char *seed)
+hdr_status publishers_advertise(publishers *out, hdr_node *ros, unsigned set,
+                                const double doubles[TOPICS], const char *seed)
 {
     hdr_status status = HDR_OK;
-    *out = (outlets){.publisher = {NULL}};
+    *out = (publishers){.publisher = {NULL}};
     run_id_write(out->run_id, sizeof out->run_id, seed);
     for (topic t = 0; t < TOPICS && status == HDR_OK; t++) {
         char name[32];
@@ -59,7 +59,7 @@ hdr_status outlets_advertise(outlets *out, hdr_node *ros, unsigned set,
     return status;
 }
 
-unsigned outlets_subscribed(const outlets *out)
+unsigned publishers_subscribed(const publishers *out)
 {
     unsigned set = 0;
     for (topic t = 0; t < TOPICS; t++)
@@ -73,7 +73,7 @@ static bool is_worse(hdr_lag a, hdr_lag b)
     return a.losing != b.losing ? a.losing : a.seconds > b.seconds;
 }
 
-hdr_lag outlets_lag(const outlets *out)
+hdr_lag publishers_lag(const publishers *out)
 {
     hdr_lag worst = {.topic = ""};
     for (topic t = 0; t < TOPICS; t++) {
@@ -84,20 +84,20 @@ hdr_lag outlets_lag(const outlets *out)
     return worst;
 }
 
-const char *outlets_frame(void) { return "box"; }
+const char *message_frame(void) { return "box"; }
 
-hdr_header outlets_header(void)
+hdr_header message_header(void)
 {
-    return (hdr_header){.stamp = hdr_time_now(), .frame_id = outlets_frame()};
+    return (hdr_header){.stamp = hdr_time_now(), .frame_id = message_frame()};
 }
 
-hd_status outlets_sent(hdr_status status, topic t)
+hd_status publishers_sent(hdr_status status, topic t)
 {
     if (status != HDR_OK) hdr_log(HDR_ERROR, "%s not sent: %s", topic_name(t), hdr_error_text());
     return HD_OK;
 }
 
-bool outlets_finite(const double *x, size_t count)
+bool message_finite(const double *x, size_t count)
 {
     for (size_t k = 0; k < count; k++)
         if (!isfinite(x[k])) return false;

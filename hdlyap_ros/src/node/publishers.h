@@ -1,7 +1,7 @@
 /** The node's topics out: a publisher for each that is asked for, and what messages have in common.
  */
-#ifndef HDLYAP_OUTLETS_H
-#define HDLYAP_OUTLETS_H
+#ifndef HDLYAP_PUBLISHERS_H
+#define HDLYAP_PUBLISHERS_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -10,38 +10,38 @@
 #include "hdlyap_ros/publisher.h"
 #include "topic.h"
 
-typedef struct outlets {
+typedef struct publishers {
     hdr_publisher *publisher[TOPICS]; /**< NULL if not asked for */
     char run_id[96];
-} outlets;
+} publishers;
 
 /** Advertises a set of topics; doubles[t]: about so many numbers in a message, for the length of
  * the queue. The run's id is made here. HDR_NO_MEMORY, or HDR_FAULT if ROS refuses. */
-HDR_MUST_CHECK hdr_status outlets_advertise(outlets *out, hdr_node *ros, unsigned set,
-                                            const double doubles[TOPICS], const char *seed);
+HDR_MUST_CHECK hdr_status publishers_advertise(publishers *out, hdr_node *ros, unsigned set,
+                                               const double doubles[TOPICS], const char *seed);
 
 /** Set of the topics that have a subscriber now. */
-unsigned outlets_subscribed(const outlets *out);
+unsigned publishers_subscribed(const publishers *out);
 
 /** Of the topic whose slowest subscriber is furthest behind, losing messages or else in time; topic
  * "" if nobody is. Any thread. */
-hdr_lag outlets_lag(const outlets *out);
+hdr_lag publishers_lag(const publishers *out);
 
 /** Name of the frame that positions are in. */
-const char *outlets_frame(void);
+const char *message_frame(void);
 
 /** A header of now. */
-hdr_header outlets_header(void);
+hdr_header message_header(void);
 /** Messages that ROS refuses are lost with a line in the log; they do not end the run. */
-HD_MUST_CHECK hd_status outlets_sent(hdr_status status, topic t);
+HD_MUST_CHECK hd_status publishers_sent(hdr_status status, topic t);
 
 /** float64[] of every stride-th element. */
-static inline hdr_doubles outlets_array(const double *data, size_t count, size_t stride)
+static inline hdr_doubles message_array(const double *data, size_t count, size_t stride)
 {
     return (hdr_doubles){.data = data, .count = (uint32_t)count, .stride = (uint32_t)stride};
 }
 
 /** What is not finite is never published. */
-bool outlets_finite(const double *x, size_t count);
+bool message_finite(const double *x, size_t count);
 
 #endif

@@ -1,5 +1,5 @@
 /** Settings and run -> checkpoints. */
-#include "keeper.h"
+#include "checkpoint_writer.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -98,7 +98,7 @@ static hd_status save_first(const settings *set, hd_run *run, char *message, siz
 }
 
 /** Whose the file is: a rename makes it another one. */
-static void remember(keeper *k)
+static void remember(checkpoint_writer *k)
 {
     struct stat now;
     if (stat(k->set->checkpoint, &now) != 0) return;
@@ -107,7 +107,7 @@ static void remember(keeper *k)
     k->written = now.st_mtim;
 }
 
-hd_status keeper_check(const settings *set, char *message, size_t size)
+hd_status checkpoint_writer_check(const settings *set, char *message, size_t size)
 {
     if (!*set->checkpoint) return HD_OK;
     const int lock = folder_lock(set->checkpoint);
@@ -116,9 +116,10 @@ hd_status keeper_check(const settings *set, char *message, size_t size)
     return status;
 }
 
-hd_status keeper_begin(keeper *out, const settings *set, hd_run *run, char *message, size_t size)
+hd_status checkpoint_writer_begin(checkpoint_writer *out, const settings *set, hd_run *run,
+                                  char *message, size_t size)
 {
-    *out = (keeper){.set = set, .due = INFINITY, .state = {.time = -1.0}};
+    *out = (checkpoint_writer){.set = set, .due = INFINITY, .state = {.time = -1.0}};
     if (!*set->checkpoint) return HD_OK;
     const int lock = folder_lock(set->checkpoint);
     const hd_status status = save_first(set, run, message, size);
@@ -132,15 +133,15 @@ hd_status keeper_begin(keeper *out, const settings *set, hd_run *run, char *mess
 
 /* ---- the next ones ------------------------------------------------------------------------- */
 
-void keeper_touch(keeper *k) { k->changed = true; }
+void checkpoint_writer_touch(checkpoint_writer *k) { k->changed = true; }
 
-bool keeper_due(const keeper *k)
+bool checkpoint_writer_due(const checkpoint_writer *k)
 {
     return k->changed && k->due < INFINITY && clock_seconds() >= k->due;
 }
 
 /** Two runs must not take turns with one file. */
-static bool is_mine(const keeper *k)
+static bool is_mine(const checkpoint_writer *k)
 {
     struct stat now;
     if (stat(k->set->checkpoint, &now) != 0) return true;
@@ -148,7 +149,7 @@ static bool is_mine(const keeper *k)
            now.st_mtim.tv_sec == k->written.tv_sec && now.st_mtim.tv_nsec == k->written.tv_nsec;
 }
 
-static hd_status save(keeper *k, hd_run *run)
+static hd_status save(checkpoint_writer *k, hd_run *run)
 {
     kept *state = &k->state;
     const char *path = k->set->checkpoint;
@@ -162,7 +163,7 @@ static hd_status save(keeper *k, hd_run *run)
     return status;
 }
 
-void keeper_save(keeper *k, hd_run *run)
+void checkpoint_writer_save(checkpoint_writer *k, hd_run *run)
 {
     kept *state = &k->state;
     if (!*k->set->checkpoint || !k->changed) return;

@@ -6,4 +6,4 @@
 /** From now on, on the callback thread. An ERROR line for each publisher of another type, a WARN
  * line where somebody of the right type cannot be reached; while everybody is connected nobody is
  * asked. */
-void unheard_look_out(hdr_node *node);
+void connection_warnings_start(hdr_node *node);
