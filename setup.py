@@ -1,7 +1,16 @@
 """The Python packages, for catkin_python_setup(); nothing to be run by hand."""
 
-from catkin_pkg.python_setup import generate_distutils_setup
-from setuptools import find_packages, setup
+import os
+from distutils.core import setup  # setuptools: catkin does not quote the path of its folder
 
-WHERE = 'hdlyap_ros/python'
-setup(**generate_distutils_setup(packages=find_packages(WHERE), package_dir={'': WHERE}))
+from catkin_pkg.python_setup import generate_distutils_setup
+
+PACKAGES = ['', '.follow', '.plots', '.plots.figures', '.reproduce', '.reproduce.parts']
+setup(
+    **generate_distutils_setup(
+        packages=['hdlyap' + name for name in PACKAGES],
+        package_dir={'': 'hdlyap_ros/python'},
+        # where distutils is setuptools' own, it writes there what it would write into the sources
+        options={'egg_info': {'egg_base': os.environ.get('CATKIN_BINARY_DIR')}},
+    )
+)

@@ -1,6 +1,13 @@
 # Shell functions shared by demo.sh, install.sh and tests/run.sh. Sourced, never run.
 # shellcheck shell=bash
 
+# The background job of a script is started with SIGINT and SIGQUIT ignored, which bash cannot undo and hands on to all that it
+# starts: begins afresh, by perl, which Debian always has. nohup's SIGHUP stays ignored.
+if [[ $(trap -p INT QUIT TERM) == *"''"* ]]; then
+    # shellcheck disable=SC2016
+    exec perl -e '$SIG{$_} = "DEFAULT" for qw(INT QUIT TERM); exec @ARGV' -- "$BASH" "$0" "$@"
+fi
+
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 readonly ROOT
 readonly NOETIC=/opt/ros/noetic

@@ -1,41 +1,50 @@
 #!/usr/bin/env bash
 # The one list of the system packages of hdlyap. Installs those that are missing.
-#   install.sh run|test            what building and running needs; test: what the tests need on top
+#   install.sh messages|run|test   what messages and Python tools alone need (cmake -DHDLYAP_MESSAGES_ONLY=ON);
+#                                  run: what building and running all needs; test: what the tests need on top
 #   install.sh list debian|noetic  only prints both
 set -euo pipefail
 # shellcheck source=launch/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-run_packages() {
-    echo build-essential cmake pkg-config procps libopenblas-openmp-dev liblapacke-dev zlib1g-dev \
-        python3-setuptools python3-numpy python3-scipy python3-matplotlib python3-yaml
+message_packages() {
+    echo build-essential cmake python3-setuptools python3-numpy python3-scipy python3-matplotlib python3-yaml python3-rospkg
     case $1 in
         debian)
             echo catkin ros-message-generation ros-message-runtime libroscpp-dev \
-                ros-std-msgs libstd-msgs-dev python3-std-msgs \
-                ros-std-srvs libstd-srvs-dev python3-std-srvs \
-                ros-diagnostic-msgs libdiagnostic-msgs-dev python3-diagnostic-msgs \
-                ros-visualization-msgs libvisualization-msgs-dev python3-visualization-msgs libtf2-ros-dev \
-                python3-rospy python3-rosbag python3-roslaunch python3-rospkg python3-yaml rosbash rviz
+                ros-std-msgs libstd-msgs-dev python3-std-msgs python3-diagnostic-msgs \
+                python3-rospy python3-rosbag python3-roslaunch rosbash
             ;;
         noetic)
-            printf 'ros-noetic-%s\n' catkin message-generation message-runtime roscpp \
-                std-msgs std-srvs diagnostic-msgs visualization-msgs tf2-ros rospy rosbag roslaunch rosbash rviz
-            echo python3-rospkg python3-yaml
+            printf 'ros-noetic-%s\n' catkin message-generation message-runtime roscpp std-msgs diagnostic-msgs \
+                rospy rosbag roslaunch rosbash
             ;;
     esac
 }
 
+run_packages() {
+    message_packages "$1"
+    echo pkg-config procps libopenblas-openmp-dev liblapacke-dev zlib1g-dev
+    case $1 in
+        debian)
+            echo ros-std-srvs libstd-srvs-dev python3-std-srvs ros-diagnostic-msgs libdiagnostic-msgs-dev \
+                ros-visualization-msgs libvisualization-msgs-dev python3-visualization-msgs libtf2-msgs-dev python3-tf2-msgs rviz
+            ;;
+        noetic) printf 'ros-noetic-%s\n' std-srvs visualization-msgs tf2-msgs rviz ;;
+    esac
+}
+
 test_packages() {
-    echo libcmocka-dev libgtest-dev ninja-build shellcheck strace valgrind clang libomp-dev xvfb imagemagick libgl1-mesa-dri
+    echo libcmocka-dev libgtest-dev ninja-build shellcheck strace valgrind clang libomp-dev xvfb imagemagick libgl1-mesa-dri \
+        black flake8 clang-format doxygen
     case $1 in
         debian)
             echo libclang-rt-dev librostest-dev python3-rostest python3-rostopic python3-rosnode \
                 python3-rosservice python3-rosgraph python3-roslib python3-rosmaster python3-rosmsg rospack-tools \
-                python3-rosgraph-msgs python3-tf2-msgs catkin-lint
+                python3-rosgraph-msgs catkin-lint
             ;;
         noetic)
-            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice rosgraph roslib rosmaster rosmsg rospack rosgraph-msgs tf2-msgs
+            printf 'ros-noetic-%s\n' rostest rostopic rosnode rosservice rosgraph roslib rosmaster rosmsg rospack rosgraph-msgs
             echo python3-catkin-lint
             ;;
     esac
@@ -70,10 +79,13 @@ if [[ ${1:-} == list && ${2:-} == @(debian|noetic) ]]; then
     test_packages "$2"
     exit
 fi
-[[ ${1:-} == run || ${1:-} == test ]] || die "usage: install.sh run|test|list debian|list noetic" 2
 flavour=$(ros_flavour)
-wanted=$(run_packages "$flavour")
-[[ $1 == run ]] || wanted+=" $(test_packages "$flavour")"
+case ${1:-} in
+    messages) wanted=$(message_packages "$flavour") ;;
+    run) wanted=$(run_packages "$flavour") ;;
+    test) wanted="$(run_packages "$flavour") $(test_packages "$flavour")" ;;
+    *) die "usage: install.sh messages|run|test|list debian|list noetic" 2 ;;
+esac
 missing=()
 for package in $wanted; do
     is_installed "$package" || missing+=("$package")

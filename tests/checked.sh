@@ -15,7 +15,7 @@ source "$ROOT/tests/check.sh"
 build_with() {
     local sanitizer=$1 c=$2 cxx=$3
     shift 3
-    cmake -S "$ROOT" -B "$WORK/$sanitizer" -DPYTHON_EXECUTABLE=/usr/bin/python3 \
+    cmake -S "$ROOT" -B "$WORK/$sanitizer" -G Ninja -DPYTHON_EXECUTABLE=/usr/bin/python3 \
         "-DCMAKE_C_COMPILER=$c" "-DCMAKE_CXX_COMPILER=$cxx" -DCMAKE_BUILD_TYPE=Debug \
         -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 -DHDLYAP_CORE_TESTS=ON \
         "-DHDLYAP_SANITIZE=$sanitizer"
@@ -60,7 +60,7 @@ source_setup "$ROS/devel/setup.bash"
 export HDLYAP_RESTARTED=1 GOMP_SPINCOUNT=2000
 stop_at_exit
 check address_build build_with address gcc g++ hdlyap_node
-check thread_build build_with thread clang clang++ hdlyap_node "${PARALLEL[@]/#/test_}"
+check thread_build build_with thread clang clang++ hdlyap_node "${PARALLEL[@]/#/hdlyap_test_}"
 check address_node run live address "$(node_of "$WORK/address")"
 check thread_core run under_threads parallel_tests
 check thread_node run under_threads live thread "$(node_of "$WORK/thread")"

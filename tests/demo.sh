@@ -55,10 +55,16 @@ has_step() {
     grep -qE "^ +$1 .* [0-9.]+ +[0-9]+ +[0-9.]+ +[0-9.]+\([0-9.]+\)" "$LOG"
 }
 
-# interrupted SIGNAL: the exit status of a demo that gets the signal while its node runs.
+# as_background_job COMMAND...: with the signals ignored that such a job, or worse, is started with.
+as_background_job() {
+    trap '' INT QUIT TERM
+    exec "$@"
+}
+
+# interrupted SIGNAL [PREFIX]...: the exit status of a demo that gets the signal while its node runs.
 interrupted() {
     local waited
-    start "${DEMO[@]}" --scene quick --duration 100000 --out "$WORK/interrupted" >"$LOG" 2>&1
+    start "${@:2}" "${DEMO[@]}" --scene quick --duration 100000 --out "$WORK/interrupted" >"$LOG" 2>&1
     for ((waited = 0; waited < 600; waited++)); do
         grep -qs averaging "$LOG" && break
         sleep 0.1
@@ -85,7 +91,7 @@ LOG=$WORK/refused.log
 check refuses_a_scene gives_status 2 demo --scene nowhere
 check refuses_an_option gives_status 2 demo --bogus
 LOG=$WORK/int.log
-check ends_on_int gives_status 130 interrupted INT
+check ends_on_int gives_status 130 interrupted INT as_background_job
 check leaves_nothing_after_int none_is_left
 LOG=$WORK/term.log
 check ends_on_term gives_status 143 interrupted TERM

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Runs what README.md shows: every command of its shell blocks and all of its programs. Those of launch/ are
-# tests/demo.sh's and tests/reproduce.sh's, tests/run.sh is this suite itself. Then the package that doc/wrapper.md shows.
+# Runs what the documents show: every command of the shell blocks of README and of the guides, and all of their programs.
+# Those of launch/ are tests/demo.sh's and tests/reproduce.sh's, tests/run.sh is this suite itself. Then the package that
+# doc/wrapper.md shows.
 #   readme.sh WORK_FOLDER INSTALLED_SETUP
 set -euo pipefail
 # shellcheck source=launch/common.sh
@@ -9,15 +10,23 @@ source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
 readonly WORK=$1 SETUP=$2
 FAILED=0
 
-# blocks LANGUAGE: the contents of README's fenced blocks of that language.
-blocks() { awk -v fence="\`\`\`$1" '$0 == "```" { on = 0 } on { print } $0 == fence { on = 1 }' "$ROOT/README.md"; }
+readonly WRAPPER=$ROOT/doc/wrapper.md CORE=$ROOT/doc/core.md
+readonly DOCUMENTS=("$ROOT/README.md" "$ROOT/doc/user_guide.md" "$CORE" "$ROOT/doc/performance.md")
 
-# block LANGUAGE WORD [FILE]: the first of that language, of README, in which the word occurs.
+# blocks LANGUAGE FILE...: the contents of the fenced blocks of that language.
+blocks() { awk -v fence="\`\`\`$1" '$0 == "```" { on = 0 } on { print } $0 == fence { on = 1 }' "${@:2}"; }
+
+# block LANGUAGE WORD FILE: the first of that language in which the word occurs.
 block() {
     awk -v fence="\`\`\`$1" -v word="$2" '
         $0 == "```" { if (on && index(text, word)) { printf "%s", text; exit } on = 0 }
         on { text = text $0 "\n" }
-        $0 == fence { on = 1; text = "" }' "${3:-$ROOT/README.md}"
+        $0 == fence { on = 1; text = "" }' "$3"
+}
+
+# commands: one a line, each once, without comments.
+commands() {
+    { blocks bash "${DOCUMENTS[@]}" && block bash watch_steps "$WRAPPER"; } | sed -E 's/ *#.*//; /^$/d' | awk '!seen[$0]++'
 }
 
 # check NAME COMMAND...
@@ -35,12 +44,15 @@ check() {
     fi
 }
 
-# A command of README as a user would type it, in the folder of the clone's copy.
+# Commands that other tests run: demo.sh, reproduce.sh, the suite itself, tests/ros/test_bags.py; the last one is done below,
+# for another folder.
+is_run_elsewhere() {
+    [[ $1 == @(launch/demo.sh*|launch/reproduce.sh*|tests/run.sh*|*again.bag*|*replay*|source*) ]]
+}
+
+# A command as a user would type it, in the folder of the clone's copy.
 type_in() {
     case $1 in
-        launch/demo.sh* | launch/reproduce.sh* | tests/run.sh*) return ;; # tested elsewhere
-        *again.bag* | *replay*) return ;;          # by tests/ros/test_bags.py
-        source*) return ;;                         # done below, for another folder
         'rosrun hdlyap hdlyap_node') run timeout --preserve-status -s INT 8 rosrun hdlyap hdlyap_node ;;
         *bench/run.sh*) run bash -ec "$1 --quick" ;; # fifteen minutes otherwise
         *scene:=covariant*) # a minute otherwise
@@ -48,7 +60,7 @@ type_in() {
             run bash -ec "${1/scene:=covariant/scene:=$PWD/few.yaml}"
             ;;
         *rviz:=true*) opens_rviz bash -ec "$1" ;;
-        *'hdlyap view') beside_a_node opens_rviz bash -ec "$1" ;;
+        *rviz.launch) beside_a_node opens_rviz bash -ec "$1" ;;
         *follow* | rostopic*) beside_a_node bash -ec "timeout 60 $1" ;;
         *) run bash -ec "$1" ;;
     esac
@@ -109,15 +121,14 @@ readonly STEPS_SAID=('T\(1,0\) 196-197: lambda = 0\.8[0-9]+ \+- 0\.[0-9]+' 'c_T 
 
 # The nodes of doc/wrapper.md as a package of their own, and its other way to build them.
 nodes_in_c_build() {
-    local doc=$ROOT/doc/wrapper.md
     mkdir -p "$WORK/counting" && cd "$WORK/counting" &&
-        block c '"counter"' "$doc" >counter.c &&
-        block c '"adder"' "$doc" >adder.c &&
-        block cmake project "$doc" >CMakeLists.txt &&
-        block xml package "$doc" >package.xml &&
+        block c '"counter"' "$WRAPPER" >counter.c &&
+        block c '"adder"' "$WRAPPER" >adder.c &&
+        block cmake project "$WRAPPER" >CMakeLists.txt &&
+        block xml package "$WRAPPER" >package.xml &&
         cmake -S . -B build -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_C_FLAGS='-Wall -Wextra -Wpedantic -Werror' &&
         cmake --build build &&
-        bash -ec "$(block bash cc "$doc")"
+        bash -ec "$(block bash counter.c "$WRAPPER")"
 }
 
 nodes_in_c() {
@@ -130,19 +141,19 @@ nodes_in_c() {
     return "$status"
 }
 
-# What README says that it prints, but for the last digits.
+# What the document says that it prints, but for the last digits.
 c_program_prints_the_steps() {
     ./steps >"$WORK/steps.txt"
-    diff <(blocks text | grep ' of .* +- ' | cut -d' ' -f1,3) <(cut -d' ' -f1,3 "$WORK/steps.txt")
+    diff <(blocks text "$CORE" | grep ' of .* +- ' | cut -d' ' -f1,3) <(cut -d' ' -f1,3 "$WORK/steps.txt")
 }
 
 stop_at_exit
 mkdir -p "$WORK/clone"
-cd "$WORK/clone" # a copy, so that README's build folder is not the clone's
+cd "$WORK/clone" # a copy, so that the documents' build folder is not the clone's
 cp -r "$ROOT"/{CMakeLists.txt,package.xml,hdlyap_core,msg,tests} .
-block c hdlyap/hdlyap.h >steps.c
-block c hdlyap_ros.h >watch_steps.c
-block python rospy >watch.py
+block c hdlyap/hdlyap.h "$CORE" >steps.c
+block c /hdlyap/steps "$WRAPPER" >watch_steps.c
+block python rospy "$ROOT/README.md" >watch.py
 source_setup "$SETUP"
 start roscore -p "${ROS_MASTER_URI##*:}" >"$WORK/roscore.log" 2>&1
 until rostopic list >/dev/null 2>&1; do sleep 0.2; done
@@ -150,10 +161,8 @@ PKG_CONFIG_PATH=$WORK/clone/build/local/lib/pkgconfig:$WORK/clone/build/local/li
 LD_LIBRARY_PATH=$WORK/clone/build/local/lib:$WORK/clone/build/local/lib/$(gcc -print-multiarch):${LD_LIBRARY_PATH:-}
 export PKG_CONFIG_PATH LD_LIBRARY_PATH
 while read -r line; do
-    line=${line%%#*}
-    line=${line%"${line##*[! ]}"}
-    [[ -z $line ]] || check "$line" type_in "$line"
-done < <(blocks bash)
+    is_run_elsewhere "$line" || check "$line" type_in "$line"
+done < <(commands)
 check c_program c_program_prints_the_steps
 check python_program beside_a_node says "${STEPS_SAID[@]}" -- python3 watch.py
 check c_subscriber beside_a_node says "${STEPS_SAID[@]}" -- ./watch_steps

@@ -7,7 +7,9 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
 
 readonly WORK=$ROOT/build/check # not build/tests: cmake puts the folder tests there
-readonly LOGS=$WORK/log COUNTS=$WORK/counts SECOND=$WORK/second
+readonly LOGS=$WORK/log COUNTS=$WORK/counts SECOND=$WORK/second TAKEN=$WORK/taken
+export TMPDIR=$WORK/tmp XDG_RUNTIME_DIR=$WORK/runtime
+export HDLYAP_SUITE=$$.$EPOCHREALTIME # marks its processes
 
 # ---- the stages ------------------------------------------------------------------------------
 
@@ -17,10 +19,12 @@ shell_scripts() {
 }
 
 # without_ros COMMAND...: as on a machine that has no ROS.
-without_ros() { env -i HOME="$HOME" PATH=/usr/bin:/bin LC_ALL=C.UTF-8 "$@"; }
+without_ros() {
+    env -i HOME="$HOME" PATH=/usr/bin:/bin LC_ALL=C.UTF-8 "TMPDIR=$TMPDIR" "HDLYAP_SUITE=$HDLYAP_SUITE" "$@"
+}
 
 core_build() {
-    without_ros cmake -S "$ROOT" -B "$WORK/core" -DHDLYAP_ROS=OFF \
+    without_ros cmake -S "$ROOT" -B "$WORK/core" -G Ninja -DHDLYAP_ROS=OFF \
         -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_INSTALL_PREFIX="$WORK/prefix" "$@"
     without_ros cmake --build "$WORK/core" -- -j "$(nproc)"
 }
@@ -31,7 +35,8 @@ core_install() {
 }
 
 sanitizers_build() {
-    without_ros cmake -S "$ROOT/hdlyap_core" -B "$WORK/sanitizers" -DHDLYAP_SANITIZE=ON -DHDLYAP_VERIFY=ON
+    without_ros cmake -S "$ROOT/hdlyap_core" -B "$WORK/sanitizers" -G Ninja -DCMAKE_BUILD_TYPE=Debug \
+        -DCMAKE_C_FLAGS=-O1 -DHDLYAP_SANITIZE=ON -DHDLYAP_VERIFY=ON
     without_ros cmake --build "$WORK/sanitizers" -- -j "$(nproc)"
 }
 
@@ -45,15 +50,15 @@ other_blas() {
 
 core_ctest() {
     local folders=("$WORK"/blas/usr/lib/*/)
-    HDLYAP_BLAS=${folders[0]} run_ctest "$WORK/core"
+    HDLYAP_BLAS=${folders[0]} run_ctest "$WORK/core" "$(nproc)"
 }
 
-# run_ctest FOLDER: what fails once more, with a log of its own.
+# run_ctest FOLDER JOBS: what fails once more, with a log of its own.
 run_ctest() {
     local log status=0
     log=$LOGS/$(basename "$1").second.log
     cd "$1"
-    ctest --output-on-failure -j "$(nproc)" && return
+    ctest --output-on-failure -j "$2" && return
     say "what failed, once more: $log"
     ctest --rerun-failed --output-on-failure -j 1 >"$log" 2>&1 || status=$?
     sed -nE 's|^ *[0-9]+/[0-9]+ Test +#[0-9]+: (.*[^ .]) \.+ +Passed .*|passed on the second try: \1|p' "$log"
@@ -72,7 +77,7 @@ ros_build() {
 # What run_tests of catkin runs, but several at a time: each has a master of its own, and mostly waits.
 ros_tests() {
     source_setup "$WORK/ros/devel/setup.bash"
-    run_ctest "$WORK/ros" || true
+    run_ctest "$WORK/ros" $(($(nproc) + 1)) || true
     catkin_test_results --verbose "$WORK/ros/test_results"
 }
 
@@ -109,8 +114,47 @@ lint() {
     catkin_lint --offline --strict -W2 --ignore package_path_name "$ROOT" "$ROOT/tests/downstream"
 }
 
+# sources FIND_EXPRESSION...: files of the repository, without what is built.
+sources() { find . \( -name build -o -name .git \) -prune -o -type f \( "$@" \) -print; }
+
+# As the formatters of Debian 12 have it, whose versions differ in details.
+format() {
+    local -a in_c in_python
+    cd "$ROOT"
+    mapfile -t in_c < <(sources -name '*.[ch]' -o -name '*.[ch]pp' -o -name '*.inc')
+    mapfile -t in_python < <(sources -name '*.py' && sources ! -name '*.*' -exec grep -qE '^#!/usr/bin/(env )?python3' {} \;)
+    clang-format --dry-run -Werror "${in_c[@]}" && BLACK_CACHE_DIR=$WORK/black black --check "${in_python[@]}" &&
+        flake8 "${in_python[@]}"
+}
+
+# The public headers, as they are installed: of parameters and names that do not exist.
+public_headers() {
+    mkdir -p "$WORK/doxygen"
+    cd "$WORK/ros/.install/include"
+    {
+        cat "$ROOT/tests/doxygen/Doxyfile"
+        echo "INPUT = hdlyap hdlyap_ros"
+        echo "OUTPUT_DIRECTORY = $WORK/doxygen"
+    } | doxygen - >"$WORK/doxygen/said" 2>&1
+    cat "$WORK/doxygen/said"
+    [[ ! -s $WORK/doxygen/said ]] && python3 "$ROOT/tests/doxygen/names.py" "$WORK/doxygen/xml"
+}
+
 warnings() {
     ! grep -n ': warning:' "$LOGS"/*_build.log
+}
+
+# Nothing may be left of the suite: no process, no file among the temporary ones, no lock of a screen.
+leftovers() {
+    local pid lock status=0
+    for pid in $(cd /proc && grep -lzsxF "HDLYAP_SUITE=$HDLYAP_SUITE" [0-9]*/environ | cut -d/ -f1); do
+        ps -o pid=,args= -p "$pid" && status=1
+    done
+    while read -r lock; do
+        is_running "$(tr -d ' ' <"$lock")" || { echo "$lock" && status=1; }
+    done < <(find /tmp -maxdepth 1 -name '.X*-lock' -user "$(id -un)" -newer "$TAKEN.since")
+    find "$TMPDIR" -mindepth 1 | grep . && status=1
+    return "$status"
 }
 
 # ---- how many tests a log reports: total and failed ------------------------------------------
@@ -140,26 +184,29 @@ count_checks() {
 
 # stage NAME COUNTER COMMAND...
 stage() {
-    local name=$1 counter=$2 log=$LOGS/$1.log status=0 total=0 failed=0 began=$SECONDS
+    local name=$1 counter=$2 log=$LOGS/$1.log status=0 total=0 failed=0 TIMEFORMAT='%0R %0U %0S'
     shift 2
-    run "$@" >"$log" 2>&1 || status=$?
+    { time run "$@" >"$log" 2>&1; } 2>"$log.time" || status=$?
     read -r total failed < <("count_$counter" "$log") || true
     # neither a crash behind the last test nor a run without tests is a success
     if ((total == 0 || status != 0 && failed == 0)); then
         failed=1
         total=$((total > 0 ? total : 1))
     fi
-    report "$name" $((total - failed)) "$failed" $((SECONDS - began)) "$log" >"$log.report"
+    report "$name" $((total - failed)) "$failed" "$log" >"$log.report"
     flock "$COUNTS" cat "$log.report" # in one piece: the other lane reports too
 }
 
+# report NAME PASSED FAILED LOG: with seconds, and those of processors, where they were measured.
 report() {
+    local seconds=0 user=0 system=0
+    read -r seconds user system < <(tail -n 1 "$4.time" 2>/dev/null) || true
     echo "$2 $3" >>"$COUNTS"
-    printf '%-18s %4d passed %4d failed %5d s\n' "${@:1:4}"
-    grep '^passed on the second try: ' "$5" | tee -a "$SECOND" || true
+    printf '%-18s %4d passed %4d failed %5d s %5d s of processors\n' "${@:1:3}" "$seconds" $((user + system))
+    grep '^passed on the second try: ' "$4" | tee -a "$SECOND" || true
     if (($3)); then
-        tail -n 60 "$5"
-        say "all of it is in $5"
+        tail -n 60 "$4"
+        say "all of it is in $4"
     fi
 }
 
@@ -189,22 +236,33 @@ core_lane() {
     stage core_tests ctest core_ctest
     stage core_install checks core_install
     stage sanitizers_build one sanitizers_build
-    stage sanitizers_tests ctest run_ctest "$WORK/sanitizers"
+    stage sanitizers_tests ctest run_ctest "$WORK/sanitizers" "$(nproc)"
     stage fuzz checks without_ros "$ROOT/tests/fuzz/run.sh" "$WORK/fuzz"
     until has_reported ros_build || ! is_running "$ros"; do sleep 1; done
-    stage checked checks "$ROOT/tests/checked.sh" "$WORK/checked" "$WORK/core" "$WORK/ros"
+    either_lane
 }
 
 ros_lane() {
     stage ros_build one ros_build
     stage ros_tests catkin ros_tests
-    stage plot_tests unittest plot_tests
-    stage lint one lint
-    stage downstream checks downstream
-    stage demo checks "$ROOT/tests/demo.sh" "$WORK/demo"
-    stage reproduce checks "$ROOT/tests/reproduce.sh" "$WORK/reproduce"
-    stage readme checks "$ROOT/tests/readme.sh" "$WORK/readme" "$WORK/ros/.install/setup.bash"
+    either_lane
 }
+
+# What needs both builds, the longest first. Demo and reproduce build in one folder: one after the other.
+either_lane() {
+    first checked checks "$ROOT/tests/checked.sh" "$WORK/checked" "$WORK/core" "$WORK/ros"
+    first readme checks "$ROOT/tests/readme.sh" "$WORK/readme" "$WORK/ros/.install/setup.bash"
+    first demo checks flock -o "$TAKEN.build" "$ROOT/tests/demo.sh" "$WORK/demo"
+    first downstream checks downstream
+    first plot_tests unittest plot_tests
+    first reproduce checks flock -o "$TAKEN.build" "$ROOT/tests/reproduce.sh" "$WORK/reproduce"
+    first lint one lint
+    [[ $(clang-format --version) != *' 14.'* ]] || first format one format
+    first doxygen one public_headers
+}
+
+# first NAME COUNTER COMMAND...: the stage, in the lane that comes first.
+first() { ! mkdir "$TAKEN/$1" 2>/dev/null || stage "$@"; }
 
 INSTALL=yes
 case ${1:-} in
@@ -215,8 +273,10 @@ esac
 stop_at_exit
 trap end_lanes EXIT
 rm -rf "$WORK"
-mkdir -p "$LOGS"
+mkdir -p "$LOGS" "$TAKEN" "$TMPDIR"
+mkdir -m 700 "$XDG_RUNTIME_DIR"
 : >"$SECOND"
+: >"$TAKEN.since"
 own_environment "$WORK/home"
 
 stage shell_scripts one shell_scripts
@@ -227,7 +287,8 @@ start lane core_lane
 finish "$CHILD" || whole=1
 finish "$ros" || whole=1
 stage warnings one warnings
-((!whole)) || report "end of a lane" 0 1 0 "$COUNTS"
+stage leftovers one leftovers
+((!whole)) || report "end of a lane" 0 1 "$COUNTS"
 
 cat "$SECOND"
 awk '{ passed += $1; failed += $2 } END { print passed " passed, " failed + 0 " failed"; exit failed > 0 }' "$COUNTS"

@@ -43,7 +43,7 @@ static void one_round(hd_run *run, gemm *g, double duration, result *r)
     double measuring = 0.0;
     sample speed = {0};
     for (int step = 0; hd_run_time(run) < begin + duration - 1e-9; step++) {
-        require(hd_run_step(run), "averaging");
+        require(hd_run_advance(run), "averaging");
         if (step % 2 != 0) continue;
         measuring += gemm_measure(g);
         sample_add(&speed, gemm_last(g));
@@ -59,7 +59,7 @@ static void one_round(hd_run *run, gemm *g, double duration, result *r)
 static void measure(hd_run *run, gemm *g, const asked *a, result *r)
 {
     progress p = progress_begin("whole run", a->rounds);
-    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
+    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     r->first = hd_run_cost(run);
     for (int k = 0; k < a->rounds; k++) {
         one_round(run, g, a->duration, r);
@@ -130,10 +130,10 @@ static void events_alone(int disks, double density, double collisions)
     hd_trajectory *trajectory;
     require(hd_trajectory_create(&trajectory, &scene), "trajectory");
     const double length = collisions / hd_trajectory_collision_rate(trajectory);
-    require(hd_trajectory_advance(trajectory, NULL, length),
+    require(hd_trajectory_extend(trajectory, NULL, length),
             "trajectory"); /* away from the lattice */
     const double first = (double)hd_trajectory_collisions(trajectory), start = seconds();
-    require(hd_trajectory_advance(trajectory, NULL, 2.0 * length), "trajectory");
+    require(hd_trajectory_extend(trajectory, NULL, 2.0 * length), "trajectory");
     const double count = (double)hd_trajectory_collisions(trajectory) - first;
     printf("%9d %9.2f %12.0f %22.2f\n", disks, density, count, count / (seconds() - start) * 1e-6);
     hd_trajectory_free(trajectory);
@@ -155,10 +155,10 @@ static void one_exponent(int disks, double memory)
     scene.duration = 4e6 / disks;
     hd_run *run;
     require(hd_run_create(&run, &scene, NULL, 0), "one exponent");
-    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
+    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     const double before = hd_run_cost(run).replay;
     const double first = (double)hd_trajectory_collisions(hd_run_trajectory(run));
-    while (hd_run_stage(run) != HD_FINISHED) require(hd_run_step(run), "averaging");
+    while (hd_run_stage(run) != HD_FINISHED) require(hd_run_advance(run), "averaging");
     const double count = (double)hd_trajectory_collisions(hd_run_trajectory(run)) - first;
     const double rate = count / (hd_run_cost(run).replay - before);
     printf("%9d %12.0f %22.1f %12.1f %18.0f\n", disks, count, rate * 1e-6,

@@ -55,10 +55,10 @@ static void keep(course *c, const reading *r)
 static void follow(hd_run *run, course *c)
 {
     progress p = progress_begin("convergence", 1.0);
-    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
+    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     double start = seconds(), before = 0.0;
     for (long step = 0; hd_run_stage(run) != HD_FINISHED; step++) {
-        require(hd_run_step(run), "averaging");
+        require(hd_run_advance(run), "averaging");
         if (step % 8 == 0) start += gemm_measure(c->g);
         if (!hd_run_report_due(run)) continue;
         const reading r = read_run(run, seconds() - start);

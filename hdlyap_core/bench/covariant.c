@@ -14,7 +14,7 @@
 #include "table.h"
 #include "timing.h"
 
-static const double WINDOW = 50.0, SAMPLING = 5.0, ROOM = 16e9;
+static const double WINDOW = 50.0, SAMPLING = 5.0, ROOM = 16.0 /* GB */;
 
 typedef struct asked {
     int disks, windows;
@@ -107,9 +107,9 @@ static void go(const asked *a, row r, table *t)
         fprintf(stderr, "hdlyap_covariant: %s\n", message);
         exit(2);
     }
-    while (hd_run_stage(run) < HD_AVERAGING) require(hd_run_step(run), "warm-up");
+    while (hd_run_stage(run) < HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     const hd_cost before = hd_run_cost(run);
-    while (hd_run_stage(run) < HD_FINISHED) require(hd_run_step(run), "run");
+    while (hd_run_stage(run) < HD_FINISHED) require(hd_run_advance(run), "run");
     tell(run, r, t, forward_seconds(&before));
     hd_run_free(run);
 }

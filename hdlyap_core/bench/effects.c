@@ -92,14 +92,14 @@ static hd_scene_def scene_of(const variant *v, int disks, double aspect)
 
 static void report_interval(side *s)
 {
-    do require(hd_run_step(s->run), "run");
+    do require(hd_run_advance(s->run), "run");
     while (!hd_run_report_due(s->run));
 }
 
 /** Until the intervals have found their length, and the steps are found. */
 static void warm(side *s)
 {
-    while (hd_run_stage(s->run) < HD_AVERAGING) require(hd_run_step(s->run), "warm-up");
+    while (hd_run_stage(s->run) < HD_AVERAGING) require(hd_run_advance(s->run), "warm-up");
     for (int k = 0; k < WARM_REPORTS; k++) report_interval(s);
 }
 

@@ -100,7 +100,7 @@ static void follow(course *c, const asked *a, table *t)
     progress shown = progress_begin("endurance", a->collisions);
     while (collisions_of(c) < a->collisions) {
         require(
-            hd_trajectory_advance(c->trajectory, NULL, hd_trajectory_time(c->trajectory) + piece),
+            hd_trajectory_extend(c->trajectory, NULL, hd_trajectory_time(c->trajectory) + piece),
             "trajectory");
         look(c);
         progress_add(&shown, collisions_of(c) - shown.done);

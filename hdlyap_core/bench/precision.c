@@ -135,7 +135,7 @@ static void measure_fixed(study *s, factor_method method, int pieces, point *p)
 static void average(hd_run *run, gemm *g, sample *speed)
 {
     while (hd_run_stage(run) != HD_FINISHED) {
-        require(hd_run_step(run), "averaging");
+        require(hd_run_advance(run), "averaging");
         gemm_measure(g);
         sample_add(speed, gemm_last(g));
     }
@@ -148,7 +148,7 @@ static void measure_chosen(study *s, double accuracy, point *p)
     sample speed = {0};
     scene.accuracy = accuracy;
     require(hd_run_create(&run, &scene, NULL, 0), "scene");
-    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
+    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     const hd_cost before = hd_run_cost(run);
     average(run, s->g, &speed);
     const hd_cost after = hd_run_cost(run);

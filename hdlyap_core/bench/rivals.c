@@ -34,7 +34,7 @@ static hd_run *ours_create(int disks)
     const hd_scene_def scene = scene_of(disks);
     hd_run *run;
     require(hd_run_create(&run, &scene, NULL, 0), "scene");
-    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
+    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     return run;
 }
 
@@ -42,7 +42,7 @@ static hd_run *ours_create(int disks)
 static double ours(hd_run *run, double duration)
 {
     const double start = seconds(), begin = hd_run_time(run);
-    while (hd_run_time(run) < begin + duration - 1e-9) require(hd_run_step(run), "averaging");
+    while (hd_run_time(run) < begin + duration - 1e-9) require(hd_run_advance(run), "averaging");
     return (seconds() - start) / (hd_run_time(run) - begin);
 }
 
@@ -101,7 +101,8 @@ static double theirs(rival *r, int steps)
     const double start = seconds();
     for (int k = 0; k < steps; k++) {
         const double end = hd_trajectory_time(r->trajectory) + r->interval;
-        require(hd_trajectory_advance(r->trajectory, r->log, end), "trajectory");
+        hd_event_log_clear(r->log);
+        require(hd_trajectory_extend(r->trajectory, r->log, end), "trajectory");
         replay(&r->x, r->since, r->log);
         r->orthonormalise(&r->x);
     }
@@ -115,7 +116,7 @@ static rival rival_create(int disks, double interval, void (*orthonormalise)(col
     rival r = {.interval = interval, .orthonormalise = orthonormalise};
     require(hd_trajectory_create(&r.trajectory, &scene), "trajectory");
     require(hd_event_log_create(&r.log), "trajectory");
-    require(hd_trajectory_advance(r.trajectory, r.log, scene.equilibration), "trajectory");
+    require(hd_trajectory_extend(r.trajectory, r.log, scene.equilibration), "trajectory");
     r.x = columns_create(4 * disks, hd_scene_vectors(&scene));
     r.since = room((size_t)disks, sizeof(double));
     for (size_t k = 0; k < (size_t)r.x.n * (size_t)r.x.rows; k++)

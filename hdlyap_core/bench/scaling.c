@@ -77,7 +77,7 @@ static double average(hd_run *run, const study *all)
     sample speed = {0};
     while (!hd_run_report_due(run) || hd_spectrum_time(spectrum) < TIME_MIN - 1e-9 ||
            seconds() < start + all->seconds_min) {
-        require(hd_run_step(run), "averaging");
+        require(hd_run_advance(run), "averaging");
         if (seconds() < next) continue;
         gemm_measure(all->g);
         sample_add(&speed, gemm_last(all->g));
@@ -117,7 +117,7 @@ static void measure(study *all, int which, int disks, int exponents, unsigned st
     point *p = &all->by[which].at[all->by[which].count++];
     *p = (point){.disks = disks};
     require(hd_run_create(&run, &scene, NULL, 0), "scene");
-    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up");
+    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     read_costs(run, before);
     fill(run, average(run, all), before, p);
     hd_run_free(run);

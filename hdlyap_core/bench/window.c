@@ -15,7 +15,7 @@ static void record_start(window *w)
     tight.accuracy = 1e-12;
     hd_run *run;
     require(hd_run_create(&run, &tight, NULL, 0), "window");
-    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_step(run), "warm-up of the window");
+    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up of the window");
     const hd_frame *frame = hd_run_frame(run);
     w->rows = hd_frame_rows(frame);
     w->vectors = hd_frame_vectors(frame);
@@ -33,8 +33,9 @@ static void record_events(window *w)
     hd_trajectory *trajectory;
     require(hd_event_log_create(&w->log), "window");
     require(hd_trajectory_create(&trajectory, &w->scene), "window");
-    require(hd_trajectory_advance(trajectory, NULL, begin), "window");
-    require(hd_trajectory_advance(trajectory, w->log, begin + w->length), "window");
+    require(hd_trajectory_extend(trajectory, NULL, begin), "window");
+    hd_event_log_clear(w->log);
+    require(hd_trajectory_extend(trajectory, w->log, begin + w->length), "window");
     hd_trajectory_free(trajectory);
 }
 

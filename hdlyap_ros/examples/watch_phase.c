@@ -58,8 +58,9 @@ static void on_phases(void *context, const hdr_lp_phases *all)
     const hdr_lp_phase *phase = find(w, all);
     const int state = phase && phase->state < ABSENT ? phase->state : ABSENT;
     if (state != w->state)
-        hdr_log(state == HDR_LP_PHASE_TRACKED ? HDR_INFO : HDR_WARN, "t = %g: phase %d of LP(%d,%d): %s",
-                all->sim_time, w->number, w->nx, w->ny, states[state]);
+        hdr_log(state == HDR_LP_PHASE_TRACKED ? HDR_INFO : HDR_WARN,
+                "t = %g: phase %d of LP(%d,%d): %s", all->sim_time, w->number, w->nx, w->ny,
+                states[state]);
     w->state = state;
     if (state != HDR_LP_PHASE_TRACKED) return;
 

@@ -11,5 +11,5 @@ add_custom_command(OUTPUT ${HDLYAP_MADE}
   COMMENT "Making the messages for C"
   VERBATIM
 )
-add_custom_target(${PROJECT_NAME}_generate_messages_c DEPENDS ${HDLYAP_MADE})
+add_custom_target(${PROJECT_NAME}_generate_messages_c ALL DEPENDS ${HDLYAP_MADE})
 list(APPEND ${PROJECT_NAME}_EXPORTED_TARGETS ${PROJECT_NAME}_generate_messages_c)

@@ -49,9 +49,9 @@ static void print_spectrum(const hd_run *run)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     const double bound = hd_run_cost(run).error_bound;
-    for (int col = 0; col < hd_spectrum_vectors(spectrum); col++)
+    for (int col = 0; col < hd_run_vectors(run); col++)
         print("exponent", hd_spectrum_exponent(spectrum, col), bound);
-    print("entropy", hd_spectrum_ks_entropy(spectrum), bound * hd_spectrum_vectors(spectrum));
+    print("entropy", hd_spectrum_ks_entropy(spectrum), bound * hd_run_vectors(run));
 }
 
 static void print_steps(const hd_run *run)
@@ -96,7 +96,7 @@ static int show(unsigned observe, int threads, double more)
     const hd_scene_def scene = channel(observe, threads);
     hd_run *run;
     hd_status status = hd_run_create(&run, &scene, NULL, 0);
-    while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) status = hd_run_step(run);
+    while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) status = hd_run_advance(run);
     if (status != HD_OK) {
         fprintf(stderr, "%s\n", hd_status_text(status));
         return 1;

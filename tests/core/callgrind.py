@@ -1,6 +1,8 @@
-"""What a run of load.c executes, counted by callgrind: by source file and line, and by function called.
+"""What a run of load.c executes, counted by callgrind: by source file and line, and by function
+called.
 
-Lines are known of the core alone; it is built with line tables (-g1), which do not change its code."""
+Lines are known of the core alone; it is built with line tables (-g1), which do not change its
+code."""
 
 import collections
 import os

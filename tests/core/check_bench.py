@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""check_bench.py RUN_SH PROGRAMS FOLDER: the benchmark's quick run leaves sound tables and pictures there."""
+"""check_bench.py RUN_SH PROGRAMS FOLDER: the benchmark's quick run leaves sound tables and pictures
+there."""
 
 import csv
 import math

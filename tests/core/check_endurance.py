@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""check_endurance.py PROGRAM COLLISIONS FOLDER: after so many collisions rounding has done what a random walk of
-rounding errors does, and no more."""
+"""check_endurance.py PROGRAM COLLISIONS FOLDER: after so many collisions rounding has done what a
+random walk of rounding errors does, and no more."""
 
 import csv
 import math
@@ -15,15 +15,16 @@ DISKS, DENSITY = 100, 0.7
 BOX = math.sqrt(DISKS / DENSITY)
 Z = 5.0  # standard deviations of a walk that its largest excursion does not reach
 
-# Of one collision, energy: its four momenta are rounded, each to eps p / sqrt(12) rms, and <p^4> = 3, together
-# below 1 eps; what is exchanged is wrong by some eps of b^2, and <b^4> = 32: 3.5 eps. Seen: 2 to 3 eps. A drift of the
-# 3e-16 that r.r rounded near 1 would give exceeds the bound after some 1e4 collisions.
+# Of one collision, energy: its four momenta are rounded, each to eps p / sqrt(12) rms, and <p^4> =
+# 3, together below 1 eps; what is exchanged is wrong by some eps of b^2, and <b^4> = 32: 3.5 eps.
+# Seen: 2 to 3 eps. A drift of the 3e-16 that r.r rounded near 1 would give exceeds the bound after
+# some 1e4 collisions.
 ENERGY_STEP = 4.0 * EPSILON
 # One component: two momenta are rounded, each to eps p / sqrt(12) rms, and <p^2> = 1.
 MOMENTUM_STEP = 0.5 * EPSILON
 MOMENTUM_START = 4.0 * EPSILON  # per disk, when the mean is taken out and all are scaled
-# Two coordinates of size L, each with four roundings of eps L / 2 (test_trajectory_conservation.c); times of size 4 and
-# r^2 of size 9 in the prediction of a contact. It does not grow.
+# Two coordinates of size L, each with four roundings of eps L / 2 (test_trajectory_conservation.c);
+# times of size 4 and r^2 of size 9 in the prediction of a contact. It does not grow.
 OVERLAP = (4.0 * BOX + 16.0) * EPSILON
 
 

@@ -1,10 +1,11 @@
-"""different_blas.py PROGRAM WORK TEST...: runs blas_results under every BLAS of this machine and compares what it
-prints; the tests, which the build runs under one of them, must pass under the others too.
+"""different_blas.py PROGRAM WORK TEST...: runs blas_results under every BLAS of this machine and
+compares what it prints; the tests, which the build runs under one of them, must pass under the
+others too.
 
-A library is put in place by a folder of links under WORK, first on LD_LIBRARY_PATH. HDLYAP_BLAS may name further
-folders, one after another with ':' between them, each as one below /usr/lib/*/: libblas.so.3, liblapack.so.3,
-and libopenblas.so.0 if it is OpenBLAS. Kernels of OpenBLAS are chosen by OPENBLAS_CORETYPE. What is not there is
-skipped by name; two variants must have run.
+A library is put in place by a folder of links under WORK, first on LD_LIBRARY_PATH. HDLYAP_BLAS may
+name further folders, one after another with ':' between them, each as one below /usr/lib/*/:
+libblas.so.3, liblapack.so.3, and libopenblas.so.0 if it is OpenBLAS. Kernels of OpenBLAS are chosen
+by OPENBLAS_CORETYPE. What is not there is skipped by name; two variants must have run.
 """
 import glob
 import os
@@ -27,7 +28,8 @@ def processor():
 
 
 def files_of(name):
-    """Where the three files of a library are, or None. The reference has cblas in libblas, and no libopenblas."""
+    """Where the three files of a library are, or None. The reference has cblas in libblas, and no
+    libopenblas."""
     parents = glob.glob("/usr/lib/*/") + [
         p + "/" for p in os.environ.get("HDLYAP_BLAS", "").split(":") if p
     ]
@@ -47,7 +49,8 @@ def files_of(name):
 
 
 def kernels_of(name, flags):
-    """Of the first library all that this processor has, of the others the first; None: not chosen."""
+    """Of the first library all that this processor has, of the others the first; None: not
+    chosen."""
     suitable = [kernel for kernel in FEATURES if flags.issuperset(FEATURES[kernel])]
     if name == LIBRARIES[0]:
         for kernel in FEATURES.keys() - set(suitable):
@@ -84,7 +87,8 @@ def run(program, environment, label):
     )
     if done.returncode:
         sys.exit(
-            f"{program} under {label}: exit status {done.returncode}\n{done.stdout[-2000:]}{done.stderr}"
+            f"{program} under {label}: exit status {done.returncode}\n"
+            f"{done.stdout[-2000:]}{done.stderr}"
         )
     return done.stdout.splitlines()
 
@@ -105,7 +109,8 @@ def check_identity(lines, folder, name, kernel):
 
 
 def compare(first, second, label):
-    """Every number within the tolerances that both state; the largest difference and part of them, by kind."""
+    """Every number within the tolerances that both state; the largest difference and part of them,
+    by kind."""
     if len(first) != len(second):
         sys.exit(f"{label}: {len(second)} numbers, not {len(first)}")
     used = {}
@@ -114,7 +119,8 @@ def compare(first, second, label):
         off, allowed = abs(x - float(b[1])), tolerance + float(b[2])
         if a[0] != b[0] or not off <= allowed:
             sys.exit(
-                f"{label}: number {k}, {kind}: {a[1]} and {b[1]} differ by {off:.3g}, allowed {allowed:.3g}"
+                f"{label}: number {k}, {kind}: {a[1]} and {b[1]} differ by {off:.3g}, "
+                f"allowed {allowed:.3g}"
             )
         largest = used.setdefault(kind, [0.0, 0.0])
         largest[0] = max(largest[0], off)

@@ -43,8 +43,14 @@ def libraries(of):
     return {part for part in LIBRARIES if any(part in name for name in of.objects)}
 
 
+def of_function(of, file, function):
+    lines = callgrind.body(os.path.join(CORE, 'src', file), function)
+    return of.of_lines(os.path.basename(file), *lines)
+
+
 class Stages(unittest.TestCase):
-    """A stage that is not asked for executes nothing; each test sees it work where it is asked for."""
+    """A stage that is not asked for executes nothing; each test sees it work where it is asked
+    for."""
 
     def test_trajectory_alone(self):
         for scene in (dict(), dict(x=1, y=1)):
@@ -80,23 +86,21 @@ class Stages(unittest.TestCase):
         self.assertLessEqual(OF_TRAJECTORY, with_frame.files())
         self.assertEqual(with_frame.files() & (OF_FRAME | LATER), set())
         alone = profile('equilibrate', exponents=NONE)
-        for file in OF_TRAJECTORY:
+        for file in OF_TRAJECTORY - {'trajectory.c'}:
             self.assertEqual(with_frame.of_file(file), alone.of_file(file), file)
+        for function in ('hd_trajectory_extend', 'take_event', 'collide'):
+            place = ('events/trajectory.c', function)
+            self.assertEqual(of_function(with_frame, *place), of_function(alone, *place), function)
 
 
 class Walls(unittest.TestCase):
     PLACES = (('events/trajectory.c', 'reflect'), ('tangent/frame.c', 'reflect'))
 
-    @staticmethod
-    def count(of, file, function):
-        lines = callgrind.body(os.path.join(CORE, 'src', file), function)
-        return of.of_lines(os.path.basename(file), *lines)
-
     def test_without_walls_nothing_is_reflected(self):
         for place in self.PLACES:
-            self.assertEqual(self.count(profile(), *place), 0, place)
+            self.assertEqual(of_function(profile(), *place), 0, place)
             for x, y in ((0, 1), (1, 0), (1, 1)):
-                self.assertGreater(self.count(profile(x=x, y=y), *place), 1000, place)
+                self.assertGreater(of_function(profile(x=x, y=y), *place), 1000, place)
 
 
 class Vectors(unittest.TestCase):
@@ -129,7 +133,8 @@ class Vectors(unittest.TestCase):
 
 
 class Loop(unittest.TestCase):
-    """After its first steps no part of a run asks for memory; libraries for linear algebra and threads do."""
+    """After its first steps no part of a run asks for memory; libraries for linear algebra and
+    threads do."""
 
     def test_nothing_is_allocated(self):
         for scene in (

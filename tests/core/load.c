@@ -39,17 +39,17 @@ __attribute__((noinline)) void load_create(hd_run **run, const hd_scene_def *sce
 
 __attribute__((noinline)) void load_equilibrate(hd_run *run)
 {
-    while (hd_run_stage(run) < HD_WARMING_UP) require(hd_run_step(run));
+    while (hd_run_stage(run) < HD_WARMING_UP) require(hd_run_advance(run));
 }
 
 __attribute__((noinline)) void load_warm(hd_run *run)
 {
-    while (hd_run_stage(run) < HD_AVERAGING) require(hd_run_step(run));
+    while (hd_run_stage(run) < HD_AVERAGING) require(hd_run_advance(run));
 }
 
 __attribute__((noinline)) void load_average(hd_run *run)
 {
-    while (hd_run_stage(run) != HD_FINISHED) require(hd_run_step(run));
+    while (hd_run_stage(run) != HD_FINISHED) require(hd_run_advance(run));
 }
 
 int main(int argc, char **argv)

@@ -55,7 +55,7 @@ static void go_on(hd_run *run)
     for (int step = 0; step < STEPS; step++) {
         const double before = hd_run_time(run);
         const hd_stage phase = hd_run_stage(run);
-        if (phase == HD_FINISHED || hd_run_step(run) != HD_OK) return;
+        if (phase == HD_FINISHED || hd_run_advance(run) != HD_OK) return;
         require(hd_run_time(run) >= before, "the time goes back", "");
         require(isfinite(hd_run_time(run)), "the time is no number", "");
     }

@@ -31,7 +31,7 @@ static int save_run(const char *folder, const char *name, const hd_scene_def *de
     char path[512], line[256] = "";
     hd_status status = hd_run_create(&run, def, line, sizeof line);
     for (int k = 0; k < 4 && status == HD_OK; k++) {
-        while (status == HD_OK && hd_run_time(run) < times[k]) status = hd_run_step(run);
+        while (status == HD_OK && hd_run_time(run) < times[k]) status = hd_run_advance(run);
         snprintf(path, sizeof path, "%s/%s_%d", folder, name, k);
         if (status == HD_OK) status = hd_run_save(run, path, name, line, sizeof line);
     }

@@ -19,7 +19,7 @@ int main(void)
         fprintf(stderr, "%s\n", message);
     }
     while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) {
-        status = hd_run_step(run);
+        status = hd_run_advance(run);
     }
     if (status != HD_OK) {
         fprintf(stderr, "%s\n", hd_status_text(status));
@@ -27,7 +27,7 @@ int main(void)
         return 1;
     }
     const hd_spectrum *spectrum = hd_run_spectrum(run);
-    for (int col = 0; col < hd_spectrum_vectors(spectrum); col++) {
+    for (int col = 0; col < hd_run_vectors(run); col++) {
         printf("%d %.3f\n", col + 1, hd_spectrum_exponent(spectrum, col));
     }
     hd_run_free(run);

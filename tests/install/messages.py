@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Every message of an installed hdlyap: the same fields for rosmsg and in Python, the same sum in C++.
+"""Every message of an installed hdlyap: the same fields for rosmsg and in Python, the same sum in
+C++.
 
 messages.py PREFIX MESSAGE...
 """

@@ -7,6 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../../launch/common.sh"
 
 readonly WORK=$1 BUILD=$2 PREFIX=$3 PACKAGE=$ROOT/tests/downstream
 readonly SPACE="$WORK/a workspace" STAGE=$WORK/stage ELSEWHERE=/opt/hdlyap_elsewhere # which never exists
+readonly ALONE=$WORK/alone # messages, headers and Python tools
 mkdir -p "$WORK"
 # shellcheck source=tests/check.sh
 source "$ROOT/tests/check.sh"
@@ -23,22 +24,22 @@ in_prefix() { in_space "$PREFIX/setup.bash" "$@"; }
 
 # ---- the downstream package ------------------------------------------------------------------
 
-# builds_against SETUP FOLDER
+# builds_against SETUP FOLDER [CMAKE OPTION]...
 builds_against() {
-    in_space "$1" cmake -S "$PACKAGE" -B "$2" -DPYTHON_EXECUTABLE=/usr/bin/python3 "-DCMAKE_INSTALL_PREFIX=$2/installed" &&
+    in_space "$1" cmake -S "$PACKAGE" -B "$2" -DPYTHON_EXECUTABLE=/usr/bin/python3 "-DCMAKE_INSTALL_PREFIX=$2/installed" "${@:3}" &&
         cmake --build "$2" -- -j "$(nproc)" && cmake --install "$2"
 }
 
 # Four disks have (16 - 6) / 2 positive exponents; the largest is 3.35 (tests/core: N = 4, rho = 0.5).
 is_spectrum() { [[ $(wc -l <"$1") == 5 && $(head -n 1 "$1") == 3.* ]]; }
 
-# they_talk SETUP: C through core and wrapper to C++ and Python.
+# they_talk SETUP [SETUP OF THE LISTENERS]: C through core and wrapper to C++ and Python.
 they_talk() {
     local talker failed=0 name
     start in_space "$1" rosrun hdlyap_downstream talker
     talker=$CHILD
     for name in listener listener.py; do
-        run in_space "$1" timeout 60 rosrun hdlyap_downstream "$name" >"$WORK/heard" || failed=1
+        run in_space "${2:-$1}" timeout 60 rosrun hdlyap_downstream "$name" >"$WORK/heard" || failed=1
         is_spectrum "$WORK/heard" || failed=1
     done
     stop "$talker"
@@ -114,13 +115,61 @@ finds_launch_files() {
     done
 }
 
-headers_stand_alone() {
+# headers_compile PREFIX: each of them, as C and as C++.
+headers_compile() {
     local header
+    [[ -s $1/include/hdlyap_ros/messages.h ]] || return 1
     while read -r header; do
-        printf '#include <%s>\nint main(void) { return 0; }\n' "${header#"$PREFIX"/include/}" >"$WORK/header.c"
-        cc -std=c11 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$PREFIX/include" "$WORK/header.c" || return 1
-        c++ -x c++ -std=c++14 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$PREFIX/include" "$WORK/header.c" || return 1
-    done < <(find "$PREFIX/include/hdlyap" "$PREFIX/include/hdlyap_ros" -name '[a-z]*.h')
+        printf '#include <%s>\nint main(void) { return 0; }\n' "${header#"$1"/include/}" >"$WORK/header.c"
+        cc -std=c11 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$1/include" "$WORK/header.c" || return 1
+        c++ -x c++ -std=c++14 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$1/include" "$WORK/header.c" || return 1
+    done < <(find "$1/include/hdlyap" "$1/include/hdlyap_ros" -name '[a-z]*.h')
+}
+
+# ---- messages, headers and Python tools alone, where nothing of the rest is there -------------
+
+builds_alone() {
+    local name
+    local -a hidden
+    for name in OpenMP PkgConfig ZLIB roscpp diagnostic_msgs std_srvs tf2_msgs tf2_ros visualization_msgs; do
+        hidden+=("-DCMAKE_DISABLE_FIND_PACKAGE_$name=ON")
+    done
+    mkdir -p "$ALONE/hidden"
+    for name in rviz std_srvs tf2_msgs tf2_ros visualization_msgs; do
+        echo 'raise ImportError("hidden")' >"$ALONE/hidden/$name.py"
+    done
+    PKG_CONFIG_LIBDIR=$ELSEWHERE cmake -S "$ROOT" -B "$ALONE/build" -DHDLYAP_MESSAGES_ONLY=ON "${hidden[@]}" \
+        -DPYTHON_EXECUTABLE=/usr/bin/python3 "-DCMAKE_INSTALL_PREFIX=$ALONE/installed" &&
+        cmake --build "$ALONE/build" && cmake --install "$ALONE/build" &&
+        [[ -z $(find "$ALONE/installed" -name 'libhdlyap*' -o -name hdlyap_node) ]]
+}
+
+# shellcheck disable=SC2016
+in_alone() { in_space "$ALONE/installed/setup.bash" sh -c 'PYTHONPATH=$0:$PYTHONPATH exec "$@"' "$ALONE/hidden" "$@"; }
+
+# Every module is imported; figures and a comparison are made of a bag.
+tools_alone() {
+    local bag=$ALONE/run.bag
+    in_alone python3 -c 'import importlib, pkgutil, hdlyap
+for one in pkgutil.walk_packages(hdlyap.__path__, "hdlyap."):
+    print(importlib.import_module(one.name).__file__)' >"$ALONE/modules" &&
+        diff <(sed -n '/\/hdlyap\/msg\//d; s|.*/dist-packages/||p' "$ALONE/modules" | sort) \
+            <(cd "$ROOT/hdlyap_ros/python" && find hdlyap -mindepth 2 -name '*.py' | sort) || return 1
+    in_alone env --chdir="$ROOT/tests/ros" python3 -c 'import sys, made, test_compare
+made.write(sys.argv[1], test_compare.run())' "$bag" &&
+        in_alone rosrun hdlyap plot_bag "$bag" --out "$ALONE" && [[ -s $ALONE/spectrum.png && -s $ALONE/steps.png ]] &&
+        [[ $(in_alone rosrun hdlyap compare "$bag" "$bag") == *identical* ]] && in_alone rosrun hdlyap repeat "$bag"
+}
+
+# A node of the whole package, which waits for those who follow it.
+follows_alone() {
+    local node status=0
+    start in_prefix rosrun hdlyap hdlyap_node _disks:=20 _aspect:=1.0 _equilibration:=1.0 _warmup:=1.0 _duration:=5.0 \
+        '_wait_for_subscribers:=[cost, spectrum]'
+    node=$CHILD
+    run in_alone timeout 60 rosrun hdlyap follow --line || status=$?
+    stop "$node"
+    finish "$node" && ((!status))
 }
 
 # ---- a workspace: catkin_make, ninja, Debug, a space in its path, DESTDIR ---------------------
@@ -161,13 +210,19 @@ check package finds_package
 check messages finds_messages
 check launch_files finds_launch_files
 check files has_every_file "$PREFIX"
-check headers headers_stand_alone
+check headers headers_compile "$PREFIX"
 check programs finds_programs "$PREFIX/setup.bash" "$PREFIX/lib/hdlyap"
 check scripts scripts_run
 check builds_against_install run builds_against "$PREFIX/setup.bash" "$WORK/installed"
 check talks_from_install they_talk "$WORK/installed/installed/setup.bash"
 check builds_against_devel run builds_against "$BUILD/devel/setup.bash" "$WORK/devel"
 check talks_from_devel they_talk "$WORK/devel/devel/setup.bash"
+check builds_alone run builds_alone
+check headers_alone headers_compile "$ALONE/installed"
+check tools_alone tools_alone
+check follows_alone follows_alone
+check builds_against_alone run builds_against "$ALONE/installed/setup.bash" "$WORK/against_alone" -Dhdlyap_downstream_LISTENERS_ONLY=ON
+check talks_to_alone they_talk "$WORK/installed/installed/setup.bash" "$WORK/against_alone/installed/setup.bash"
 check workspace run workspace_builds
 check workspace_builds_once workspace_builds_once
 check workspace_programs finds_programs "$SPACE/devel/setup.bash" "$SPACE/devel/lib/hdlyap"

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "parameters.h"
+
 enum { PARAMS_MAX = 12, TEXT_MAX = 200, ITEMS_MAX = 6 };
 
 typedef enum kind { BOOLEAN, INTEGER, REAL, STRING, STRINGS, INTEGERS, OTHER, KINDS } kind;
@@ -59,46 +61,6 @@ static void take_text(source *s, char text[TEXT_MAX])
 
 /* ---- values -------------------------------------------------------------------------------- */
 
-/** Names, and a value that each takes beside the others' defaults. */
-static const struct known {
-    const char *name;
-    kind type;
-    const char *value;
-} KNOWN[] = {
-    {"scene", STRING, "any"},
-    {"disks", INTEGER, "100"},
-    {"density", REAL, "0.5"},
-    {"aspect", REAL, "1.5"},
-    {"boundary_x", STRING, "reflecting"},
-    {"boundary_y", STRING, "periodic"},
-    {"seed", STRING, "18446744073709551615"},
-    {"exponents", STRING, "all"},
-    {"equilibration", REAL, "1"},
-    {"warmup", REAL, "0"},
-    {"duration", STRING, "1e3"},
-    {"target_std_error", REAL, "0.01"},
-    {"interval", STRING, "auto"},
-    {"accuracy", STRING, "1e-6"},
-    {"report_interval", REAL, "2"},
-    {"max_wave_number", REAL, "1"},
-    {"max_mode_number", INTEGER, "1"},
-    {"covariant_window", REAL, "50"},
-    {"covariant_transient", REAL, "100"},
-    {"covariant_sampling", REAL, "5"},
-    {"covariant_memory", REAL, "4"},
-    {"covariant_storage", STRING, "memory"},
-    {"field_indices", STRING, "steps"},
-    {"field_interval", REAL, "10"},
-    {"observables", STRINGS, "spectrum"},
-    {"threads", INTEGER, "2"},
-    {"wait_for_subscribers", STRINGS, "run_info"},
-    {"pace", REAL, "1"},
-    {"checkpoint", STRING, "kept"},
-    {"checkpoint_interval", REAL, "60"},
-    {"resume", STRING, ""},
-};
-enum { KNOWN_COUNT = sizeof KNOWN / sizeof *KNOWN };
-
 static const char *const WORDS[] = {
     "periodic", "reflecting", "positive",  "all",    "none",     "auto",  "steps",
     "run_info", "spectrum",   "modes",     "fields", "hydro",    "state", "status",
@@ -137,14 +99,25 @@ static double real(source *s)
     return any;
 }
 
-static void value_usual(entry *e, const struct known *known)
+static kind kind_of(const parameter *p)
 {
-    e->type = known->type;
-    e->integer = atoi(known->value);
-    e->real = atof(known->value);
+    if (p->kind == TOPICS_OBSERVED || p->kind == TOPICS_AWAITED) return STRINGS;
+    if (p->kind == REAL_NUMBER || (p->row && p->row->kind == HD_PARAMETER_REAL)) return REAL;
+    if (p->kind == WHOLE_NUMBER) return INTEGER;
+    return p->row && p->row->kind == HD_PARAMETER_INT ? INTEGER : STRING;
+}
+
+/** The default; of a list its first item, or one that it could have. */
+static void value_usual(entry *e, const parameter *p)
+{
+    char usual[PARAMETER_TEXT];
+    parameter_usual(usual, p);
+    e->type = kind_of(p);
+    e->integer = atoi(usual);
+    e->real = atof(usual);
     e->count = 1;
-    strcpy(e->text, known->value);
-    strcpy(e->item[0], known->value);
+    strcpy(e->text, usual);
+    snprintf(e->item[0], TEXT_MAX, "%.*s", (int)strcspn(usual, ","), *usual ? usual : "run_info");
 }
 
 static void value_any(entry *e, source *s)
@@ -187,14 +160,15 @@ static const entry *find(const hdr_params *params, const char *name)
 static void add(hdr_params *params, source *s)
 {
     entry *e = &params->entries[params->count];
-    const unsigned which = take(s), k = which % KNOWN_COUNT;
+    const unsigned which = take(s);
+    const parameter p = parameters_at((int)(which % (unsigned)parameters_count()));
     memset(e, 0, sizeof *e);
     if (which >= 250)
         word(s, e->name);
     else
-        strcpy(e->name, KNOWN[k].name);
+        strcpy(e->name, p.name);
     if (which < 250 && take(s) % 8 < 6)
-        value_usual(e, &KNOWN[k]);
+        value_usual(e, &p);
     else
         value_any(e, s);
     value_write(e);
@@ -225,8 +199,8 @@ static bool begins_with(const char *line, const char *name)
 
 bool fake_params_is_about(const hdr_params *params, const char *line)
 {
-    for (int k = 0; k < KNOWN_COUNT; k++)
-        if (begins_with(line, KNOWN[k].name)) return true;
+    for (int k = 0; k < parameters_count(); k++)
+        if (begins_with(line, parameters_at(k).name)) return true;
     for (int k = 0; k < params->count; k++)
         if (begins_with(line, params->entries[k].name)) return true;
     return false;

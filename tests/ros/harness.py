@@ -1,6 +1,8 @@
 """Starts hdlyap_node as a process of its own, as a user would, and sees what it does."""
 
+import functools
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -8,10 +10,12 @@ import tempfile
 import threading
 import time
 import unittest
+import weakref
 
 import roslib.packages
 import rosgraph
 import rospy
+import yaml
 
 from hdlyap.msg import (
     Cost,
@@ -23,6 +27,7 @@ from hdlyap.msg import (
     Modes,
     RunInfo,
     RunStatus,
+    SlowVectors,
     Spectrum,
     State,
     Steps,
@@ -50,8 +55,18 @@ OBSERVABLES = [topic for topic in TYPES if topic not in ('run_info', 'status', '
 PATIENCE = 60.0  # seconds, for what has no bound of its own
 
 
+@functools.lru_cache(maxsize=None)
+def program(name):
+    return roslib.packages.find_node('hdlyap', name)[0]
+
+
 def executable():
-    return roslib.packages.find_node('hdlyap', 'hdlyap_node')[0]
+    return program('hdlyap_node')
+
+
+def defaults():
+    """Every parameter, as the node prints them."""
+    return yaml.safe_load(subprocess.check_output([executable(), '--parameters'], text=True))
 
 
 def probe_library():
@@ -65,14 +80,14 @@ def free_port():
         return s.getsockname()[1]
 
 
-def wait_until(condition, seconds=PATIENCE):
+def wait_until(condition, seconds=PATIENCE, every=0.01):
     """The condition's value, as soon as it is true, at the latest after so many seconds."""
     end = time.monotonic() + seconds
     while True:
         value = condition()  # looked at once: it may be true for a moment only
         if value or time.monotonic() >= end:
             return value
-        time.sleep(0.01)
+        time.sleep(every)
 
 
 class Process:
@@ -80,8 +95,13 @@ class Process:
 
     def __init__(self, command, **env):
         self.output = tempfile.TemporaryFile('w+')
+        folder = tempfile.mkdtemp()  # what it leaves there when it is killed goes with this object
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         self.process = subprocess.Popen(
-            command, stdout=self.output, stderr=subprocess.STDOUT, env=dict(os.environ, **env)
+            command,
+            stdout=self.output,
+            stderr=subprocess.STDOUT,
+            env=dict(os.environ, TMPDIR=folder, **env),
         )
 
     def send(self, number):
@@ -95,7 +115,8 @@ class Process:
         return self.process.poll() is None
 
     def text(self):
-        # opened again: a process shares its place in the file, and would write over what is read from the start
+        # opened again: a process shares its place in the file, and would write over what is read
+        # from the start
         with open('/proc/self/fd/%d' % self.output.fileno(), errors='replace') as file:
             return file.read()
 
@@ -119,16 +140,18 @@ class Master(Process):
 
 
 def start(params, name=NODE, probe=None, args=(), command=None, **env):
-    """hdlyap_node with exactly these private parameters; probe: what probe.c is asked for; command: another build of it, and
-    what that is run by."""
+    """hdlyap_node with exactly these private parameters; probe: what probe.c is asked for; command:
+    another build of it, and what that is run by."""
     master = rosgraph.Master('/harness', env.get('ROS_MASTER_URI'))
-    if master.hasParam('/' + name):
-        master.deleteParam('/' + name)
-    for key, value in params.items():
-        master.setParam('/%s/%s' % (name, key), value)
+    master.setParam('/' + name, params)
     if probe is not None:
         env.update(probe, LD_PRELOAD=probe_library())
     return Process([*(command or [executable()]), '__name:=' + name, *args], **env)
+
+
+def start_viewer(params=(), **how):
+    """With exactly these private parameters, as the node /viewer."""
+    return start(dict(params), name='viewer', command=[program('viewer')], **how)
 
 
 def counts(test, params):
@@ -148,7 +171,8 @@ def calls(test, params):
 
 
 def examples(steps):
-    """Numbers of those of which a field is published: found, in the positive half, the first of its set."""
+    """Numbers of those of which a field is published: found, in the positive half, the first of its
+    set."""
     first = {}
     for number, step in enumerate(steps):
         if step.resolved and not step.conjugate and step.kind != Mode.ZERO:
@@ -163,7 +187,7 @@ class Listener:
         self.messages = []
         self.delay = delay
         self.arrived = threading.Condition()
-        kind = dict(TYPES, covariant=Covariant)[topic]
+        kind = dict(TYPES, covariant=Covariant, slow_vectors=SlowVectors)[topic]
         self.subscriber = rospy.Subscriber(
             '/%s/%s' % (NODE, topic), kind, self.keep, queue_size=None
         )

@@ -1,5 +1,5 @@
-"""Subscribers without rospy: bare connections to the node's topics, many of them in one process, which are read
-as fast as they come, or not at all."""
+"""Subscribers without rospy: bare connections to the node's topics, many of them in one process,
+which are read as fast as they come, or not at all."""
 
 import selectors
 import signal
@@ -76,7 +76,8 @@ def end(stopped):
 
 
 class Link:
-    """One subscriber of one topic. Of each message it keeps header.seq, which roscpp counts for each of them."""
+    """One subscriber of one topic. Of each message it keeps header.seq, which roscpp counts for
+    each of them."""
 
     def __init__(self, port, topic, name='/links'):
         self.topic = topic

@@ -1,5 +1,6 @@
-"""`reproduce` with a part for each run of a plan instead of the paper's: parts_of.py RUN,RUN.. OPTION..
-HDLYAP_TEST_SILENCE: seconds that a node may be silent. HDLYAP_TEST_BROKEN: a part that fails."""
+"""`reproduce` with a part for each run of a plan instead of the paper's: parts_of.py RUN,RUN..
+OPTION.. HDLYAP_TEST_SILENCE: seconds that a node may be silent. HDLYAP_TEST_BROKEN: a part that
+fails."""
 
 import os
 import runpy

@@ -33,7 +33,7 @@ static double number(const char *variable)
 }
 
 /** PROBE_STEP_SECONDS: a step takes so much longer. PROBE_FAULT_AFTER: steps before one fails. */
-hd_status hd_run_step(hd_run *run)
+hd_status hd_run_advance(hd_run *run)
 {
     hd_status (*real)(hd_run *);
     const double seconds = number("PROBE_STEP_SECONDS"), fault_after = number("PROBE_FAULT_AFTER");
@@ -41,7 +41,7 @@ hd_status hd_run_step(hd_run *run)
     while (nanosleep(&left, &left)) continue;
     if ((double)atomic_fetch_add(&steps, 1) >= fault_after && fault_after > 0.0)
         return HD_ILL_CONDITIONED;
-    next(&real, "hd_run_step");
+    next(&real, "hd_run_advance");
     return real(run);
 }
 
@@ -157,7 +157,7 @@ void hd_hydro_measure(hd_hydro *hydro, const hd_steps *found, const hd_frame *fr
         return real(publisher, message);                                                           \
     }
 #define WRITE_MESSAGES(type) fprintf(file, "%s_publish %ld\n", &#type[4], atomic_load(&of_##type));
-#define TYPES(DO) HDR_MESSAGES(DO) DO(hdr_diagnostic) DO(hdr_markers)
+#define TYPES(DO) HDR_MESSAGES(DO) DO(hdr_diagnostic)
 TYPES(COUNT_MESSAGES)
 
 /** PROBE_COUNTS: file for the numbers of calls, one to a line with its name. */

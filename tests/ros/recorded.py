@@ -49,7 +49,8 @@ def info(disks, density, aspect, boundaries=('periodic', 'periodic'), **fields):
 
 
 def stairs(info, levels, size=40, error=1e-3):
-    """Spectrum of positive exponents whose last ones are stairs: (exponent, count), smallest first."""
+    """Spectrum of positive exponents whose last ones are stairs: (exponent, count), smallest
+    first."""
     small = list(itertools.chain(*([exponent] * count for exponent, count in levels)))[::-1]
     end = (4 * info.disks - info.zero_exponents) // 2
     large = np.linspace(small[0] + 0.1 * size, small[0] + 0.1, size - len(small))

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Short lives of a node that is checked while it runs: subscribed to, paused, reset, stopped by Ctrl-C or at its end.
+"""Short lives of a node that is checked while it runs: subscribed to, paused, reset, stopped by
+Ctrl-C or at its end.
 
 sanitized.py NAME NODE          a build with sanitizers
-sanitized.py NAME COMMAND... NODE   run by a command (valgrind), which is too slow to be stopped within a second
-Prints what the node says, and 'ok NAME' if it ended as it should: the checks end it otherwise.
+sanitized.py NAME COMMAND... NODE   run by a command (valgrind), which is too slow to be stopped
+within a second Prints what the node says, and 'ok NAME' if it ended as it should: the checks end it
+otherwise.
 """
 
 import os
@@ -87,7 +89,8 @@ def live(command, params, stopped=False):
 
 
 def lives(command, checkpoint):
-    """Of a command each is slow; of a build one that ends by itself, one that is stopped, one that resumes the other's."""
+    """Of a command each is slow; of a build one that ends by itself, one that is stopped, one that
+    resumes the other's."""
     if len(command) > 1:
         return [live(command, dict(LITTLE, checkpoint=checkpoint))]
     whole = dict(WHOLE, checkpoint=checkpoint)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Recording, replaying and repeating runs by the launch files: nothing is lost, nothing is changed, and a bag says all of its run."""
+"""Recording, replaying and repeating runs by the launch files: nothing is lost, nothing is changed,
+and a bag says all of its run."""
 
 import glob
 import io
@@ -20,7 +21,7 @@ import harness
 import links
 from harness import MODES, NODE, OBSERVABLES, SHORT, TYPES, Process
 
-README = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../README.md')
+GUIDE = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/user_guide.md')
 # a second run in the bag, and before it a first one
 FIRST = dict(SHORT, seed='7', observables=OBSERVABLES, wait_for_subscribers='all')
 RUN = dict(
@@ -195,7 +196,8 @@ class Recorded(unittest.TestCase):
             )
 
     def test_bytes_are_those_of_the_topic(self):
-        """Another subscriber, who came a little later, got the same; read and written again they still are the same."""
+        """Another subscriber, who came a little later, got the same; read and written again they
+        still are the same."""
         for topic, heard in self.heard.messages.items():
             with self.subTest(topic=topic):
                 bytes_in_bag = [data for _, data, _, _ in self.messages[topic]]
@@ -208,7 +210,7 @@ class Recorded(unittest.TestCase):
                     self.assertEqual((kind, md5), (generated._type, generated._md5sum))
 
     def test_sizes(self):
-        """Of each message, by what README states."""
+        """Of each message, by what the guide states."""
         for number, info in enumerate(self.infos):
             last = {topic: self.of_run(topic, number)[-1] for topic in ('steps', 'lp_phases')}
             sizes = expected_sizes(
@@ -226,9 +228,9 @@ class Recorded(unittest.TestCase):
                         topic,
                     )
 
-    def test_sizes_in_readme(self):
+    def test_sizes_in_guide(self):
         """Of the paper's scene: 8 waves along an axis or not, each T and LP, and the zero modes."""
-        with open(README) as file:
+        with open(GUIDE) as file:
             text = file.read()
         sizes = expected_sizes(780, 1557, 17, 4 * 8 + 4 * 32)
         fields = [sizes['fields'], sizes['fields'] + 4 * 48 * 780]
@@ -246,12 +248,13 @@ class Recorded(unittest.TestCase):
         all_fields = 16 * sizes['fields'] + 4 * (2 + 4) * 48 * 780
         report = sum(size for topic, size in sizes.items() if topic != 'fields') + all_fields / 10
         most, seconds = re.search(
-            r'below (\d+) GB an hour.*? ([0-9.]+) s per time unit', text, re.DOTALL
+            r'below (\d+) GB an hour at ([0-9.]+) s per time unit', ' '.join(text.split())
         ).groups()
         self.assertLess(report * 3600 / float(seconds), 1e9 * float(most))
 
     def test_replay(self):
-        """Waits for those who listen, then tells them what the bag holds, byte for byte; and run_info to who comes late."""
+        """Waits for those who listen, then tells them what the bag holds, byte for byte; and
+        run_info to who comes late."""
         raw, clock = Raw(self.messages), Raw(['/clock'])
         self.addCleanup(clock.close)
         self.addCleanup(raw.close)
@@ -305,7 +308,8 @@ class Recorded(unittest.TestCase):
 
 
 def expected_sizes(disks, vectors, steps, phases):
-    """Bytes of a message without frame_id and run_id, of fields without pairs: what README says, and single numbers."""
+    """Bytes of a message without frame_id and run_id, of fields without pairs: what the guide says,
+    and single numbers."""
     begin = 4 + 8 + 8  # seq, stamp, sim_time
     return dict(
         spectrum=begin + 8 + 8 + 3 * 8 + 4 + 5 * 4 + 40 * vectors,
@@ -338,8 +342,8 @@ class Stopped(unittest.TestCase):
         return sorted(glob.glob(os.path.join(self.folder, pattern)))
 
     def test_in_the_middle(self):
-        """A recorder that is asked to end has closed its files; one that comes late is told run_info; when its node is
-        killed, its bag can still be drawn."""
+        """A recorder that is asked to end has closed its files; one that comes late is told
+        run_info; when its node is killed, its bag can still be drawn."""
         first = self.record('bag:=first.bag', 'split_size:=1')
         node = self.process(harness.start(BULKY))
         self.assertTrue(harness.wait_until(lambda: len(self.files('first_*')) > 2))

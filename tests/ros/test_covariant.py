@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What a run says of its covariant vectors: window by window, right, and only to those who listen."""
+"""What a run says of its covariant vectors: window by window, right, and only to those who
+listen."""
 
 import math
 import os
@@ -113,8 +114,8 @@ class Windows(unittest.TestCase):
             self.assertEqual({len(getattr(message, name)) for name in OF_NEIGHBOURS}, {VECTORS - 1})
 
     def test_exponents_are_those_of_the_way_there(self):
-        """Averages over nearly the same time of nearly the same fluctuations: five errors are beyond chance.
-        Vanishing ones fall like ln(t) / t, which is no matter of chance."""
+        """Averages over nearly the same time of nearly the same fluctuations: five errors are
+        beyond chance. Vanishing ones fall like ln(t) / t, which is no matter of chance."""
         last = self.last
         for k, (back, there) in enumerate(zip(last.exponents, self.spectrum.exponents)):
             error = math.hypot(last.std_errors[k], self.spectrum.std_errors[k])
@@ -285,7 +286,8 @@ class Choices(Case):
         )
 
     def test_goes_on_from_a_checkpoint(self):
-        """With the averages of its windows, what was observed and the parameters; windows may wait elsewhere."""
+        """With the averages of its windows, what was observed and the parameters; windows may wait
+        elsewhere."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, 'run.checkpoint')
             first = self.run_of(duration=60.0, checkpoint=path)
@@ -360,7 +362,8 @@ class Demand(Case):
 
 class Faults(Case):
     def test_no_room(self):
-        """Triangles of every interval need more than those of the longest ones, which it was begun with."""
+        """Triangles of every interval need more than those of the longest ones, which it was begun
+        with."""
         self.listen('covariant')
         node = self.start(
             dict(

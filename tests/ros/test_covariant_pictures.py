@@ -1,8 +1,7 @@
-"""Covariant vectors in plot_bag, from messages that are made here: what it prints, and what it draws."""
+"""Covariant vectors in plot_bag, from messages that are made here: what it prints, and what it
+draws."""
 
 import os
-import subprocess
-import sys
 import tempfile
 import unittest
 
@@ -11,7 +10,7 @@ import numpy as np
 from hdlyap.msg import Cost, Spectrum, Steps
 
 import made
-from made import LP, SCRIPTS, T
+from made import LP, T
 from hdlyap.plots import covariant, recording, report
 from hdlyap.plots.figures import (
     covariant_angles,
@@ -21,6 +20,8 @@ from hdlyap.plots.figures import (
     covariant_weights,
     plt,
 )
+from hdlyap.plots.figures.style import save
+from plotted import plot_bag
 
 FIGURES = (
     covariant_exponents,
@@ -44,7 +45,8 @@ def found_steps(info):
 
 
 def angles():
-    """Smallest ones: 30 in [0.1745, 0.1920) and 10 in the next bin; the centre is at right angles."""
+    """Smallest ones: 30 in [0.1745, 0.1920) and 10 in the next bin; the centre is at right
+    angles."""
     last = {made.BINS - 1: 40}
     return [
         made.covariant_angle(UNSTABLE_STABLE, {10: 30, 11: 10}, {20: 3000, 80: 1000}),
@@ -58,7 +60,8 @@ def angles():
 
 
 def backward():
-    """The forward exponents and 0.03 more: 3 / sqrt(2) combined errors; one exponent 0.06 more, zero modes 0.1 less."""
+    """The forward exponents and 0.03 more: 3 / sqrt(2) combined errors; one exponent 0.06 more,
+    zero modes 0.1 less."""
     exponents = FORWARD + 0.03
     exponents[4] += 0.03
     exponents[POSITIVE : POSITIVE + 6] -= 0.13
@@ -128,7 +131,8 @@ class Bags(unittest.TestCase):
         return kind.draw(self.read() if run is None else run).axes
 
     def names_drawn(self, run, on_paper):
-        """Of the figures that there are; on paper: they can also be drawn to the end, which takes a while."""
+        """Of the figures that there are; on paper: they can also be drawn to the end, which takes a
+        while."""
         for kind in FIGURES:
             figure = kind.draw(run)
             if figure is None:
@@ -241,7 +245,9 @@ class Table(Bags):
             lines['unstable-centre'][0],
             ['1.57080', '1.57080', '1.10000', 'all', 'within', '89', '..', '90', 'degrees'],
         )
-        self.assertIn('centre to exact null space: 4.0e-13 at the last sample, 7.0e-13 at most', text)
+        self.assertIn(
+            'centre to exact null space: 4.0e-13 at the last sample, 7.0e-13 at most', text
+        )
 
     def test_order(self):
         _, text = self.lines(self.read())
@@ -273,8 +279,8 @@ class Table(Bags):
         """made.cost: 0.2 and 0.55 of the time are replay and orthonormalisation."""
         _, text = self.lines(self.read())
         self.assertIn(
-            'covariant vectors took 12.5 s, the tangent frame forwards (replay and orthonormalisation) '
-            '375.0 s, the run 500.0 s',
+            'covariant vectors took 12.5 s, '
+            'the tangent frame forwards (replay and orthonormalisation) 375.0 s, the run 500.0 s',
             text,
         )
         _, text = self.lines(self.without(Cost))
@@ -467,17 +473,9 @@ class Partly(Bags):
 
 
 class Command(Bags):
-    def plot(self):
-        return subprocess.run(
-            [sys.executable, os.path.join(SCRIPTS, 'plot_bag'), self.path, '--out', self.out],
-            universal_newlines=True,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-        )
-
     def test_plot_bag(self):
         made.write(self.path, everything())
-        done = self.plot()
+        done = plot_bag(self.path, '--out', self.out)
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         self.assertIn('covariant vectors: 200 time units in 4 windows', done.stdout)
         names = [
@@ -489,9 +487,15 @@ class Command(Bags):
             self.assertIn(name, os.listdir(self.out))
             self.assertIn(name, done.stdout)
 
+    def test_files(self):
+        run = self.read()
+        for kind in FIGURES:
+            for path in save(kind.draw(run), os.path.dirname(self.path), 'figure'):
+                self.assertGreater(os.path.getsize(path), 5000, kind.__name__)
+
     def test_nothing_without_the_topic(self):
         made.write(self.path, everything()[:-1])
-        done = self.plot()
+        done = plot_bag(self.path, '--out', self.out)
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         self.assertNotIn('covariant', done.stdout)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checkpoints on a disk that is full, or was never to be written to, or in a process that is killed: what has been
-written stays whole, what cannot be is named, and the run goes on."""
+"""Checkpoints on a disk that is full, or was never to be written to, or in a process that is
+killed: what has been written stays whole, what cannot be is named, and the run goes on."""
 
 import os
 import random
@@ -37,7 +37,8 @@ KEPT = dict(
 
 
 def small_disk(folder, bytes_):
-    """Before the node: a file system of its own, which nobody else sees; None where that is not allowed."""
+    """Before the node: a file system of its own, which nobody else sees; None where that is not
+    allowed."""
     for unshare in (['unshare', '-m'], ['unshare', '-rm']):
         if (
             subprocess.run(
@@ -176,7 +177,10 @@ class Disk(unittest.TestCase):
             print('no file system of its own here: only the limit of a file is tested')
             return
         node = self.start(dict(KEPT, checkpoint=self.path()), command=[*disk, harness.executable()])
-        seen = lambda name: '/proc/%d/root%s' % (node.process.pid, self.path(name))
+
+        def seen(name):
+            return '/proc/%d/root%s' % (node.process.pid, self.path(name))
+
         self.wait_for(lambda: written(seen('run.checkpoint')), node)
         self.fill(seen('filler'), lambda: node.lines('checkpoint not written'))
         self.check_full(node, 'No space left on device')

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The two examples beside a running node: their numbers are found again from what the test itself hears."""
+"""The two examples beside a running node: their numbers are found again from what the test itself
+hears."""
 
 import math
 import re

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""What may happen to a node on a machine that is short of something, or in hands that send signals: it ends
-with the status that stands for it and one line that names it, or goes on; it never crashes."""
+"""What may happen to a node on a machine that is short of something, or in hands that send signals:
+it ends with the status that stands for it and one line that names it, or goes on; it never
+crashes."""
 
 import os
 import random
@@ -94,7 +95,8 @@ class Faults(unittest.TestCase):
         self.assertEqual(node.wait(), 0, node.text())
 
     def test_each_part_of_the_run(self):
-        """Memory is out for the core, from its first block to the last one, which a report needs."""
+        """Memory is out for the core, from its first block to the last one, which a report
+        needs."""
         blocks = harness.counts(self, dict(SHORT, observables=OBSERVABLES))['memory_alloc']
         self.assertGreater(blocks, 100)
         moments = [1] + [blocks * k // 6 for k in range(1, 6)]

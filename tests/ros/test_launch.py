@@ -42,16 +42,21 @@ class Launch(unittest.TestCase):
         listener.close()
         info = listener.messages[0]
         self.assertEqual(info.scene, scene)
-        params = dict(params, exponents=str(params['exponents']))
+        params = dict(harness.defaults(), **params)
+        params['exponents'] = str(params['exponents'])
         self.assertEqual(params.pop('interval'), 'auto')
         self.assertIn(params.pop('threads'), (0, info.threads))
         for name, value in params.items():
             self.assertEqual(getattr(info, name), value, name)
 
-    def test_scenes_name_every_parameter(self):
-        names = set(load('paper_periodic'))
+    def test_scenes_list_what_is_not_as_usual(self):
+        """paper_periodic lists all."""
+        usual = harness.defaults()
+        self.assertEqual(set(load('paper_periodic')), set(usual))
         for scene in SCENES:
-            self.assertEqual(set(load(scene)), names, scene)
+            if scene != 'paper_periodic':
+                for name, value in load(scene).items():
+                    self.assertNotEqual(value, usual[name], (scene, name))
 
     def roslaunch(self, folder, *args):
         process = Process(['roslaunch', 'hdlyap', *args], PWD=folder)
@@ -90,6 +95,9 @@ class Launch(unittest.TestCase):
         looked_at = self.replayed('rviz:=true', 'node:=/other')
         self.assertIn('--keep-alive', looked_at['play'])
         self.assertEqual(looked_at['view'], '--node /other')
+        self.assertIn('viewer', looked_at)
+        self.assertNotIn('viewer', self.replayed('rviz:=true', 'viewer:=false'))
+        self.assertNotIn('view', self.replayed('viewer:=true'))
 
     def check_bag(self, path):
         with rosbag.Bag(path) as bag:

@@ -243,7 +243,8 @@ class Agreement(unittest.TestCase):
             self.check_modulation(field, c)
 
     def check_modulation(self, field, c):
-        """The P field divided by the momenta is the pair's own modulation, as far as it spans it."""
+        """The P field divided by the momenta is the pair's own modulation, as far as it spans
+        it."""
         wave = math.sin if field.modulation[c] & 1 else math.cos
         a = [wave(field.wave_number * x) for x in field.x]
         for ratio in (field.p_over_px, field.p_over_py):

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Nodes beside each other, under other names, at a pace, and in a system that runs on simulated time."""
+"""Nodes beside each other, under other names, at a pace, and in a system that runs on simulated
+time."""
 
 import os
 import signal
@@ -88,7 +89,8 @@ class Nodes(unittest.TestCase):
         self.assertTrue(harness.wait_until(lambda: last and harness.is_last(last[-1])))
 
     def test_two_at_once_and_pace(self):
-        """One is paused while the other, of another seed, runs to its end; nothing of that is in the numbers."""
+        """One is paused while the other, of another seed, runs to its end; nothing of that is in
+        the numbers."""
         alone = [self.run_to_end(dict(RUN, seed=seed), '/alone_' + seed) for seed in ('1', '2')]
         paced = Run(self, dict(RUN, seed='1', pace=PACE), '/left/hdlyap')
         self.assertTrue(paced.has(3))
@@ -129,7 +131,7 @@ class Nodes(unittest.TestCase):
             topics,
             {
                 '/lab/room/two/' + name
-                for name in ('run_info', 'state', 'status', 'cost', 'markers')
+                for name in ('run_info', 'state', 'status', 'cost', 'slow_vectors')
             },
         )
         self.assertIn(

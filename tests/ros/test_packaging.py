@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""What others rely on without running anything: names of dependencies, lists of packages, files that Ubuntu 20.04 and ROS
-Noetic (CMake 3.16, Python 3.8) read as well, and what the messages say about their fields. Needs no ROS master."""
+"""What others rely on without running anything: names of dependencies, lists of packages, files
+that Ubuntu 20.04 and ROS Noetic (CMake 3.16, Python 3.8) read as well, and what the messages say
+about their fields. Needs no ROS master."""
 
 import ast
 import os
@@ -14,8 +15,9 @@ import yaml
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..'))
 ROSDEP = '/usr/share/python3-rosdep2/debian.yaml'
 
-# rosdep key: packages of Debian 12 that hdlyap uses of what the key stands for. Of ROS: debian.yaml of Debian's
-# python3-rosdep2 0.22.1; on Noetic each is ros-noetic-KEY (noetic/distribution.yaml of rosdistro).
+# rosdep key: packages of Debian 12 that hdlyap uses of what the key stands for. Of ROS: debian.yaml
+# of Debian's python3-rosdep2 0.22.1; on Noetic each is ros-noetic-KEY (noetic/distribution.yaml of
+# rosdistro).
 OF_ROS = dict(
     catkin='catkin',
     diagnostic_msgs='libdiagnostic-msgs-dev python3-diagnostic-msgs ros-diagnostic-msgs',
@@ -39,12 +41,12 @@ OF_ROS = dict(
     rviz='rviz',
     std_msgs='libstd-msgs-dev python3-std-msgs ros-std-msgs',
     std_srvs='libstd-srvs-dev python3-std-srvs ros-std-srvs',
-    tf2_msgs='python3-tf2-msgs',
-    tf2_ros='libtf2-ros-dev',
-    visualization_msgs='libvisualization-msgs-dev python3-visualization-msgs ros-visualization-msgs',
+    tf2_msgs='libtf2-msgs-dev python3-tf2-msgs',
+    visualization_msgs='libvisualization-msgs-dev python3-visualization-msgs '
+    'ros-visualization-msgs',
 )
-# Of the system: base.yaml and python.yaml of rosdistro, the same on Debian and Ubuntu. libopenblas-openmp-dev is the one of
-# libopenblas-dev's alternatives that hdlyap is tested with.
+# Of the system: base.yaml and python.yaml of rosdistro, the same on Debian and Ubuntu.
+# libopenblas-openmp-dev is the one of libopenblas-dev's alternatives that hdlyap is tested with.
 OF_SYSTEM = {
     'gtest': 'libgtest-dev',
     'imagemagick': 'imagemagick',
@@ -61,22 +63,27 @@ OF_SYSTEM = {
     'xvfb': 'xvfb',
     'zlib': 'zlib1g-dev',
 }
-# for the scripts and the tests of a clone, which no package manager runs: compilers, watchers, lint, a display
+# for the scripts and the tests of a clone, which no package manager runs: compilers, watchers,
+# lint, a display
 TOOLS = set(
-    'build-essential cmake procps libcmocka-dev shellcheck strace valgrind clang libomp-dev libclang-rt-dev catkin-lint '
-    'python3-catkin-lint xvfb imagemagick libgl1-mesa-dri'.split()
+    'build-essential cmake procps libcmocka-dev shellcheck strace valgrind clang libomp-dev '
+    'libclang-rt-dev catkin-lint python3-catkin-lint xvfb imagemagick libgl1-mesa-dri '
+    'black flake8 clang-format doxygen'.split()
 )
 
 # commands, options and variables that CMake has only since 3.17 or later
 NEWER_CMAKE = re.compile(
-    r'cmake_path\(|cmake_language\(|\bendblock\(|ZIP_LISTS|COMMAND_ERROR_IS_FATAL|FILE_SET|RUNTIME_DEPENDENCY_SET|TOP_LEVEL\b|'
-    r'CMAKE_CURRENT_FUNCTION|string\(JSON|file\((REAL_PATH|ARCHIVE_|CHMOD|CONFIGURE|COPY_FILE)|ENVIRONMENT_MODIFICATION|'
-    r'find_(library|program|file|path)\([^)]*REQUIRED|\$<CONFIG:[^>]*,|\$<(PATH|LINK_GROUP|LINK_LIBRARY|DEVICE_LINK|IN_LIST_):|'
+    r'cmake_path\(|cmake_language\(|\bendblock\(|ZIP_LISTS|COMMAND_ERROR_IS_FATAL|FILE_SET|'
+    r'RUNTIME_DEPENDENCY_SET|TOP_LEVEL\b|CMAKE_CURRENT_FUNCTION|string\(JSON|'
+    r'file\((REAL_PATH|ARCHIVE_|CHMOD|CONFIGURE|COPY_FILE)|ENVIRONMENT_MODIFICATION|'
+    r'find_(library|program|file|path)\([^)]*REQUIRED|\$<CONFIG:[^>]*,|'
+    r'\$<(PATH|LINK_GROUP|LINK_LIBRARY|DEVICE_LINK|IN_LIST_):|'
     r'CMP0(09[89]|1[0-9][0-9])|C_STANDARD (17|23)|CXX_STANDARD (2[0-9])|--test-dir|--preset|--fresh'
 )
 # of Python's library, since 3.9 or later; its syntax is known to ast
 NEWER_PYTHON = re.compile(
-    r'\.remove(prefix|suffix)\(|\bmath\.(lcm|nextafter)\(|\bstrict=(True|False)|(->|:) (list|dict|tuple)\[|'
+    r'\.remove(prefix|suffix)\(|\bmath\.(lcm|nextafter)\(|\bstrict=(True|False)|'
+    r'(->|:) (list|dict|tuple)\[|'
     r'functools import [^\\\n]*\bcache\b|itertools import [^\\\n]*\b(pairwise|batched)\b'
 )
 
@@ -136,10 +143,8 @@ class Dependencies(unittest.TestCase):
         found = set()
         for path in ('CMakeLists.txt', 'tests/ros/CMakeLists.txt'):
             text = re.sub(r'#.*', '', text_of(path))
-            for components in re.findall(
-                r'find_package\(catkin REQUIRED COMPONENTS([^)]*)\)', text
-            ):
-                found |= set(components.split())
+            for names in re.findall(r'COMPONENTS([^)$]*)|NODE_DEPENDS ([^)}]*)\)', text):
+                found |= set(' '.join(names).split())
             found |= set(re.findall(r'find_package\((ros\w+)', text))
         self.assertGreater(len(found), 5)
         self.assertLessEqual(found, dependencies())
@@ -173,15 +178,31 @@ class Noetic(unittest.TestCase):
     def test_scripts_are_installed_as_python(self):
         """And so made executable there; rosrun would find an executable source a second time."""
         cmake = text_of('CMakeLists.txt')
-        programs = (
-            re.search(r'catkin_install_python\(PROGRAMS([^)]*?)DESTINATION', cmake).group(1).split()
-        )
+        installed = re.findall(r'catkin_install_python\(PROGRAMS([^)]*?)DESTINATION', cmake)
+        programs = ' '.join(installed).split()
         here = os.path.join(ROOT, 'hdlyap_ros/scripts')
         scripts = [name for name in os.listdir(here) if os.path.isfile(os.path.join(here, name))]
         self.assertEqual(sorted(programs), sorted('hdlyap_ros/scripts/' + name for name in scripts))
         for program in programs:
             self.assertRegex(text_of(program), r'\A#!/usr/bin/(env )?python3\n', program)
             self.assertFalse(os.stat(os.path.join(ROOT, program)).st_mode & 0o111, program)
+
+
+class Targets(unittest.TestCase):
+    """A catkin workspace has one list of all targets."""
+
+    def test_names_are_our_own(self):
+        count = 0
+        for folder in ('', 'hdlyap_core', 'hdlyap_core/bench', 'tests/core', 'tests/ros'):
+            text = text_of(os.path.join(folder, 'CMakeLists.txt'))
+            ours = r'hdlyap_' if 'set(name hdlyap_' not in text else r'hdlyap_|\$\{name\}'
+            made = (
+                r'(?:add_(?:executable|library|custom_target)|catkin_add_gtest|add_rostest_gtest)'
+            )
+            for name in re.findall(made + r'\((\S+)', text):
+                self.assertRegex(name, ours, folder)
+                count += 1
+        self.assertGreater(count, 12)
 
 
 class Messages(unittest.TestCase):

@@ -53,6 +53,8 @@ BAD = dict(
     threads=[-1, 1025, 1.0, '2'],
     wait_for_subscribers=[['nothing'], ['spectrum', ''], 'spectrum', 5, [1]],
     pace=[-1, 2e12, 'x', NAN, INFINITY],
+    slow_vectors_rate=[0, 101, 'x', NAN],
+    slow_vectors_count=['x', 1.5],
     max_wave_number=[-1, 1.1, 2.7, 2e12, 'x', '', [1], NAN, INFINITY, True],
     max_mode_number=[-1, 3, 1000001, 1.0, '2', '', [2], False],
     field_indices=[
@@ -84,6 +86,8 @@ BAD = dict(
     densty=[0.8],
     Disks=[100],
 )
+# what is no parameter any more, and a word about what it is now
+GONE = dict(max_node=(2, 'max_mode_number'), covariant_folder=('/tmp', 'covariant_storage'))
 
 # values that are refused together: the name that the line begins with, and the parameters
 BAD_TOGETHER = [
@@ -115,10 +119,11 @@ BAD_TOGETHER = [
     ('warmup', dict(WINDOW, covariant_transient=1.5)),
     ('duration', dict(WINDOW, covariant_window=1.5)),
     ('field_indices', dict(WINDOW, field_indices=[1])),
-    ('marker_modes', dict(WINDOW, marker_modes=['T(1,0)'])),
     ('field_indices', dict(field_indices=[1], observables=['modes', 'steps'])),
     ('field_indices', dict(field_indices=[1], exponents='none')),
     ('field_indices', dict(field_indices=[3], exponents=2)),
+    ('slow_vectors_count', dict(slow_vectors_count=3, exponents=2)),
+    ('slow_vectors_count', dict(slow_vectors_count=-1)),
     ('wait_for_subscribers', dict(observables=['state'], wait_for_subscribers=['spectrum'])),
     ('wait_for_subscribers', dict(exponents='none', wait_for_subscribers=['spectrum'])),
 ]
@@ -230,6 +235,20 @@ class Parameters(unittest.TestCase):
             ]
         )
 
+    def test_every_parameter_is_refused(self):
+        """With a value of a type that none has."""
+        self.check_refused(
+            [(name + ' = ', '', dict(SHORT, **{name: [[1]]}), []) for name in harness.defaults()]
+        )
+
+    def test_gone(self):
+        self.check_refused(
+            [
+                (name + ' = ', now, dict(SHORT, **{name: value}), [])
+                for name, (value, now) in GONE.items()
+            ]
+        )
+
     def test_refused_together(self):
         self.check_refused(
             [(name + ' = ', '', dict(SHORT, **params), []) for name, params in BAD_TOGETHER]
@@ -274,39 +293,12 @@ class Parameters(unittest.TestCase):
         self.addCleanup(node.stop)
         self.assertTrue(listener.wait_for(lambda info: True), node.text())
         info = listener.messages[0]
-        want = dict(
-            scene='paper_periodic',
-            disks=780,
-            density=0.8,
-            aspect=0.867,
-            seed='1',
-            boundary_x='periodic',
-            boundary_y='periodic',
-            exponents='positive',
-            vectors=1557,
-            zero_exponents=6,
-            duration=0.0,
-            target_std_error=0.0,
-            interval=0.0,
-            accuracy=1e-8,
-            report_interval=1.0,
-            pace=0.0,
-            observables=['spectrum', 'modes', 'steps', 'lp_phases', 'fields', 'state'],
-            max_mode_number=0,
-            max_wave_number=0.0,
-            field_indices='steps',
-            field_interval=10.0,
-            wait_for_subscribers=[],
-            covariant_window=50.0,
-            covariant_transient=100.0,
-            covariant_sampling=5.0,
-            covariant_memory=4.0,
-            covariant_storage='memory',
-            wave_nx=(1, 0, 1, 2, 0, 2, 1, 2),
-            wave_ny=(0, 1, 1, 0, 2, 1, 2, 2),
-        )
+        want = dict(harness.defaults(), vectors=1557, zero_exponents=6)
+        want.update(wave_nx=(1, 0, 1, 2, 0, 2, 1, 2), wave_ny=(0, 1, 1, 0, 2, 1, 2, 2))
+        self.assertEqual((want.pop('interval'), info.interval), ('auto', 0.0))
+        self.assertEqual(want.pop('threads'), 0)
         for field, value in want.items():
-            self.assertEqual(getattr(info, field), value)
+            self.assertEqual(getattr(info, field), value, field)
 
 
 def shown(value):

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""~markers: what the node draws is what it publishes as numbers, only while somebody looks, as often as asked."""
+"""~slow_vectors and the pictures that the viewer makes of topics: what is drawn is what is
+published, only while somebody looks, as often as asked; live and from what was recorded."""
 
 import glob
 import re
@@ -8,7 +9,7 @@ import time
 import unittest
 
 import numpy as np
-import roslib.packages
+import rosgraph
 import rospy
 import rostest
 from std_srvs.srv import SetBool
@@ -22,12 +23,12 @@ ENDLESS = dict(MODES, duration=0.0)
 
 
 class Pictures:
-    """All pictures of the node's, in the order of their arrival."""
+    """All pictures of a node, in the order of their arrival."""
 
-    def __init__(self):
+    def __init__(self, node='/hdlyap'):
         self.all = []
         self.subscriber = rospy.Subscriber(
-            '/hdlyap/markers', MarkerArray, self.all.append, queue_size=None
+            node + '/markers', MarkerArray, self.all.append, queue_size=None
         )
 
     def close(self):
@@ -69,9 +70,17 @@ class Markers(unittest.TestCase):
         self.addCleanup(node.stop)
         return node
 
-    def look(self):
-        pictures = Pictures()
+    def listen(self, topic):
+        listener = Listener(topic)
+        self.addCleanup(listener.close)
+        return listener
+
+    def look(self, modes='lowest', node='/hdlyap', **how):
+        """Pictures of a viewer that has just been started."""
+        pictures = Pictures(node)
         self.addCleanup(pictures.close)
+        pictures.viewer = harness.start_viewer(dict(modes=modes, node=node), **how)
+        self.addCleanup(pictures.viewer.stop)
         return pictures
 
     def pause(self, yes):
@@ -79,11 +88,9 @@ class Markers(unittest.TestCase):
         self.assertTrue(rospy.ServiceProxy('/hdlyap/pause', SetBool)(yes).success)
 
     def test_arrows_are_the_published_vectors(self):
-        states, fields = Listener('state'), Listener('fields')
-        for listener in (states, fields):
-            self.addCleanup(listener.close)
+        states, fields = self.listen('state'), self.listen('fields')
         pictures = self.look()
-        node = self.start(dict(ENDLESS, marker_rate=100.0, field_interval=0.0, pace=10.0))
+        node = self.start(dict(ENDLESS, slow_vectors_rate=100.0, field_interval=0.0, pace=10.0))
         self.assertTrue(
             harness.wait_until(lambda: sum(len(modes(p)) == 2 for p in pictures.all) > 60),
             node.text(),
@@ -115,30 +122,64 @@ class Markers(unittest.TestCase):
                 compared += 1
         self.assertGreater(compared, 5)
 
-    def redraw(self, *args):
-        node = harness.Process(
-            [roslib.packages.find_node('hdlyap', 'redraw')[0], '__name:=hdlyap', *args]
+    def test_slow_vectors_are_those_of_the_fields(self):
+        """And their coefficients those of the phases, wherever all three are of the same time."""
+        slow, fields, phases = map(self.listen, ('slow_vectors', 'fields', 'lp_phases'))
+        node = self.start(
+            dict(
+                ENDLESS,
+                slow_vectors_rate=100.0,
+                slow_vectors_count=12,
+                field_interval=0.0,
+                pace=10.0,
+            )
         )
-        self.addCleanup(node.stop)
-        return node
+        self.assertTrue(slow.wait_for(lambda m: m.sim_time > 110.0), node.text())
+        node.stop()
+        by_time = {m.sim_time: m for m in slow.messages if m.dqx}
+        compared = coefficients = 0
+        for field in fields.messages:
+            m = by_time.get(field.sim_time)
+            k = field.index - m.first_index if m else -1
+            if k < 0:
+                continue
+            self.assertEqual((m.vectors, m.first_index + m.vectors - 1), (12, 117))
+            disks = slice(k * len(m.x), (k + 1) * len(m.x))
+            np.testing.assert_array_equal(m.dqx[disks], field.dqx)
+            np.testing.assert_array_equal(m.dqy[disks], field.dqy)
+            np.testing.assert_array_equal((m.x, m.py), (field.x, field.py))
+            self.assertEqual(m.exponents[k], field.exponent)
+            self.assertEqual((m.kind[k], m.nx[k], m.ny[k]), (field.kind, field.nx, field.ny))
+            compared += 1
+        for message in phases.messages:
+            m = by_time.get(message.sim_time)
+            for phase in message.phases if m else ():
+                k = phase.index - m.first_index
+                if phase.index == 0 or k < 0 or m.pairs[k] == 0:
+                    continue
+                self.assertIn(phase.a, m.a[4 * k : 4 * k + m.pairs[k]])
+                self.assertIn(phase.b, m.b[4 * k : 4 * k + m.pairs[k]])
+                coefficients += 1
+        self.assertGreater(compared, 20)
+        self.assertGreater(coefficients, 20)
 
     def test_the_same_from_messages(self):
-        """What redraw makes of the messages is what the node drew at the times of fields."""
+        """What the viewer makes of a recorded run is what it drew of it live, at the times of
+        fields."""
         topics = ('run_info', 'state', 'spectrum', 'steps', 'lp_phases', 'fields', 'status')
         listeners = {topic: Listener(topic) for topic in topics}
         live = self.look()
-        node = self.start(dict(ENDLESS, marker_rate=100.0, field_interval=0.0, pace=10.0))
+        node = self.start(dict(ENDLESS, slow_vectors_rate=100.0, field_interval=0.0, pace=10.0))
         self.assertTrue(
             harness.wait_until(lambda: sum(len(modes(p)) == 2 for p in live.all) > 60), node.text()
         )
         node.send(signal.SIGINT)
         node.wait()
+        live.viewer.stop()
         for listener in (*listeners.values(), live):
             listener.close()  # what is said again is not heard again
         originals = {tuple(places(p).flat): p for p in live.all if len(modes(p)) == 2}
-        rospy.delete_param('/hdlyap')
         again = self.look()
-        redraw = self.redraw()
         publishers = {
             topic: rospy.Publisher('/hdlyap/' + topic, harness.TYPES[topic], queue_size=1000)
             for topic in topics
@@ -174,47 +215,84 @@ class Markers(unittest.TestCase):
                         [(p.x, p.y) for p in old.points],
                         atol=1e-9,
                     )
-        self.assertGreater(compared, 3, redraw.text())
+        self.assertGreater(compared, 3, again.viewer.text())
 
-    def test_redraw_refuses(self):
-        for name, value in (('modes', 'T(1,0)'), ('modes', 3), ('disks', 10)):
-            rospy.set_param('/hdlyap', {name: value})
-            node = self.redraw()
-            self.assertEqual(node.wait(), 2, node.text())
-            self.assertEqual(len(node.lines(name + ' = ')), 1)
-        rospy.delete_param('/hdlyap')
+    def test_what_is_refused(self):
+        nine = 'T(1,0) ' * 9
+        for name, values in dict(
+            modes=('', 'T(1,0', 'T(1,0)x', 'P(1,0)', 'T(1,0),T(2,0)', nine, 3, ['T(1,0)']),
+            node=('hdlyap', '', 3),
+            disks=(10,),
+        ).items():
+            for value in values:
+                viewer = harness.start_viewer({name: value})
+                self.addCleanup(viewer.stop)
+                self.assertEqual(viewer.wait(), 2, viewer.text())
+                self.assertEqual(len(viewer.lines(name + ' = ')), 1, viewer.text())
 
     def test_named_modes_in_their_order(self):
-        pictures = self.look()
-        self.start(dict(ENDLESS, marker_modes=['LP(1,0)', 'T(2,0)', 'T(1,0)']))
+        pictures = self.look('LP(1,0) T(2,0) T(1,0)')
+        self.start(dict(ENDLESS, slow_vectors_count=16))
         self.assertTrue(
             harness.wait_until(lambda: pictures.all and len(modes(pictures.all[-1])) == 3)
         )
         self.assertEqual(modes(pictures.all[-1]), ['mode/LP(1,0)', 'mode/T(2,0)', 'mode/T(1,0)'])
         self.assertIn('c_T', text(pictures.all[-1]))
 
-    def test_what_is_not_looked_for_is_refused(self):
-        for value in (
-            'T(1,0)',
-            ['T(1,0'],
-            ['T(1,0)x'],
-            ['P(1,0)'],
-            ['T(99,0)'],
-            [],
-            ['T(1,0)'] * 9,
-            [3],
-        ):
-            node = self.start(dict(MODES, marker_modes=value))
-            self.assertEqual(node.wait(), 2, value)
-            self.assertEqual(len(node.lines('marker_modes = ')), 1, node.text())
-        node = self.start(dict(MODES, observables=['spectrum'], marker_modes=['T(1,0)']))
-        self.assertEqual(node.wait(), 2)
+    def test_what_is_not_looked_for(self):
+        pictures = self.look('T(99,0)')
+        self.start(dict(ENDLESS))
+        self.assertTrue(harness.wait_until(lambda: pictures.viewer.lines('(99,0)')))
+        self.assertTrue(harness.wait_until(lambda: pictures.all))
+
+    def test_of_another_node(self):
+        """Each node has pictures of its own."""
+        pictures, other = self.look(), Pictures('/other')
+        self.addCleanup(other.close)
+        for seed, name in enumerate(('hdlyap', 'other')):
+            self.start(dict(ENDLESS, seed=str(seed), pace=10.0), name=name)
+        self.assertTrue(harness.wait_until(lambda: pictures.all))
+        pictures.viewer.stop()
+        self.assertEqual(other.all, [])
+        of_other = self.look(node='/other')
+        self.assertTrue(harness.wait_until(lambda: of_other.all))
+        self.assertGreater(abs(places(pictures.all[0]) - places(of_other.all[0])).max(), 0.1)
+
+    def listeners_of(self, topic):
+        state = rosgraph.Master('/test').getSystemState()[1]
+        return [name for name in dict(state).get('/hdlyap/' + topic, ()) if name == '/viewer']
+
+    def test_the_node_works_for_who_looks(self):
+        """A live node has no fields to make for the viewer, and nothing at all soon after nobody
+        looks any more."""
+        pictures = self.look()
+        self.start(dict(ENDLESS, pace=10.0))
+        self.assertTrue(harness.wait_until(lambda: pictures.all))
+        self.assertTrue(harness.wait_until(lambda: not self.listeners_of('fields')))
+        self.assertTrue(self.listeners_of('slow_vectors') and self.listeners_of('steps'))
+        pictures.close()
+        self.assertTrue(harness.wait_until(lambda: not self.listeners_of('slow_vectors')))
+        self.assertFalse(self.listeners_of('steps') or self.listeners_of('fields'))
+        late = Pictures()
+        self.addCleanup(late.close)
+        self.assertTrue(harness.wait_until(lambda: len(late.all) > 5))
+
+    def test_watching_the_disks_changes_no_bit(self):
+        run = dict(harness.SHORT, duration=4.0, observables=['spectrum', 'state'], pace=4.0)
+        alone = harness.whole_run(run, ('spectrum', 'cost'))
+        watched = harness.whole_run(run, ('spectrum', 'cost', 'slow_vectors'))
+        self.assertGreater(len(watched['slow_vectors']), 3)
+        self.assertEqual(*([m.exponents for m in each['spectrum']] for each in (alone, watched)))
 
     def test_as_often_as_asked(self):
-        """Pictures of the averaging, beside the wall time that they took; before it steps are as long as they like."""
+        """Pictures of the averaging, beside the wall time that they took; before it steps are as
+        long as they like."""
         pictures = self.look()
-        self.start(dict(ENDLESS, pace=2.0, marker_rate=10.0))
-        averaging = lambda: [p for p in pictures.all if 'averaging' in text(p)]
+        self.start(dict(ENDLESS, pace=2.0, slow_vectors_rate=10.0))
+
+        def averaging():
+            return [p for p in pictures.all if 'averaging' in text(p)]
+
         self.assertTrue(harness.wait_until(lambda: len(averaging()) >= 5))
         begin, count = time.monotonic(), len(averaging())
         self.assertTrue(harness.wait_until(lambda: len(averaging()) >= count + 20))
@@ -263,8 +341,9 @@ class Markers(unittest.TestCase):
         before = self.look()
         self.start(ENDLESS)
         self.assertTrue(harness.wait_until(lambda: before.all and len(modes(before.all[-1])) == 2))
+        before.viewer.stop()
         before.close()
-        time.sleep(1.2)  # a picture of less than a second ago is not drawn anew
+        time.sleep(1.2)  # a message of less than a second ago is not sent anew
         self.pause(True)
         late = self.look()
         self.assertTrue(harness.wait_until(lambda: late.all and not modes(late.all[-1]), 10))
@@ -278,29 +357,31 @@ class Markers(unittest.TestCase):
             self.assertRegex(title, r'index \d+ .*not known now')
 
     def test_no_memory_for_it(self):
-        pictures = self.look()
+        many = dict(ENDLESS, disks=20000, aspect=1.0, exponents='none', warmup=0.0, pace=1.0)
+        pictures = self.look(probe={'PROBE_GROWTH': '300000'})
+        self.start(dict(many, equilibration=0.1))
+        viewer = pictures.viewer
+        self.assertTrue(
+            harness.wait_until(lambda: len(viewer.lines('not drawn: out of memory')) > 1),
+            viewer.text(),
+        )
+        self.assertTrue(viewer.running())
+        self.assertEqual(pictures.all, [])
+
+    def test_no_memory_for_slow_vectors(self):
+        self.listen('slow_vectors')
         node = self.start(
-            dict(
-                ENDLESS,
-                disks=20000,
-                aspect=1.0,
-                exponents='none',
-                warmup=0.0,
-                equilibration=0.1,
-                pace=1.0,
-            ),
-            probe={'PROBE_GROWTH': '300000'},
+            dict(ENDLESS, slow_vectors_count=117, pace=10.0), probe={'PROBE_GROWTH': '100000'}
         )
         self.assertTrue(
-            harness.wait_until(lambda: len(node.lines('markers not drawn: out of memory')) > 1),
+            harness.wait_until(lambda: len(node.lines('slow_vectors not sent: out of m')) > 1),
             node.text(),
         )
         self.assertTrue(node.running())
-        self.assertEqual(pictures.all, [])
 
     def test_at_the_slowest_pace(self):
-        """So slow that a picture's time is no number, and the next step's no wall time. What comes before the averaging
-        is as fast as ever."""
+        """So slow that a picture's time is no number, and the next step's no wall time. What comes
+        before the averaging is as fast as ever."""
 
         def sleeps(thread):
             with open(thread) as file:
@@ -313,7 +394,7 @@ class Markers(unittest.TestCase):
             return len(calm) >= 20 and all(calm[-20:])
 
         for pace in (1e-323, 1e-40):
-            pictures = self.look()
+            slow = self.listen('slow_vectors')
             node = self.start(
                 dict(
                     harness.SHORT,
@@ -323,18 +404,15 @@ class Markers(unittest.TestCase):
                     wait_for_subscribers=['state'],
                 )
             )
-            self.assertTrue(
-                harness.wait_until(pictures.subscriber.get_num_connections), node.text()
-            )
-            states = Listener('state')  # the run is looked at from its first step
-            self.addCleanup(states.close)
-            self.assertTrue(harness.wait_until(lambda: pictures.all), node.text())
+            self.assertTrue(harness.wait_until(slow.subscriber.get_num_connections), node.text())
+            states = self.listen('state')  # the run is looked at from its first step
+            self.assertTrue(harness.wait_until(lambda: slow.messages), node.text())
             calm = []
             self.assertTrue(
                 harness.wait_until(lambda: all(calm[-20:] or [False]) or rested()), node.text()
             )
             self.assertTrue(node.running(), node.text())
-            for listener in (pictures, states):
+            for listener in (slow, states):
                 listener.close()
             node.stop()
 
@@ -342,7 +420,7 @@ class Markers(unittest.TestCase):
         frames = []
         listener = rospy.Subscriber('/tf_static', TFMessage, frames.append, queue_size=None)
         self.addCleanup(listener.unregister)
-        self.start(ENDLESS)
+        self.look()
         self.assertTrue(harness.wait_until(lambda: frames))
         transform = frames[0].transforms[0]
         self.assertEqual((transform.header.frame_id, transform.child_frame_id), ('world', 'box'))
@@ -350,9 +428,9 @@ class Markers(unittest.TestCase):
         translation = transform.transform.translation
         self.assertEqual((translation.x, translation.y, translation.z), (0, 0, 0))
 
-    def test_nothing_is_drawn_for_nobody(self):
+    def test_nothing_for_nobody(self):
         calls = harness.calls(self, dict(MODES, duration=5.0))
-        self.assertEqual(calls['markers_publish'], 0)
+        self.assertEqual(calls['slow_vectors_publish'], 0)
 
 
 if __name__ == '__main__':

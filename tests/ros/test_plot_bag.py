@@ -2,8 +2,6 @@
 
 import itertools
 import os
-import subprocess
-import sys
 import tempfile
 import tracemalloc
 import unittest
@@ -16,11 +14,12 @@ from hdlyap.msg import LpPhases, ModeField, Steps
 from std_msgs.msg import String
 
 import made
-from made import LP, SCRIPTS, T
+from made import LP, T
 from hdlyap.plots import paper, recording, report, waves
 from hdlyap.plots.course import LIMIT, Course
 from hdlyap.plots.figures import modes, p_mode, phases, plt
 from hdlyap.plots.numbers import with_error
+from plotted import plot_bag, plot_bag_process
 
 
 def files(*names):
@@ -33,6 +32,8 @@ MODES_FILES = files('dispersion', 'steps', 'modes', 'p_mode', 'phases')
 
 
 class Bags(unittest.TestCase):
+    how = staticmethod(plot_bag)
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -47,19 +48,7 @@ class Bags(unittest.TestCase):
         return recording.read(self.path)
 
     def plot(self, *arguments):
-        return subprocess.run(
-            [
-                sys.executable,
-                os.path.join(SCRIPTS, 'plot_bag'),
-                self.path,
-                '--out',
-                self.out,
-                *arguments,
-            ],
-            universal_newlines=True,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-        )
+        return self.how(self.path, '--out', self.out, *arguments)
 
     def succeeds(self, names, *arguments):
         done = self.plot(*arguments)
@@ -343,6 +332,7 @@ class Table(Bags):
 
 class Figures(Bags):
     def test_everything(self):
+        self.how = plot_bag_process
         self.write(made.small_run())
         text = self.succeeds(SPECTRUM_FILES + COST_FILES + MODES_FILES)
         self.assertRegex(text, r'T\(1,0\) +36-37 +1\.98')
@@ -599,6 +589,7 @@ class Refusals(Bags):
         self.refuses('nothing in it was published by hdlyap_node')
 
     def test_missing_file(self):
+        self.how = plot_bag_process
         self.refuses('No such file')
 
     def test_not_a_bag(self):

@@ -21,9 +21,18 @@ def text_of(value):
     return '[' + ', '.join(map(str, value)) + ']' if isinstance(value, list) else str(value)
 
 
+def complete(name):
+    """A scene with all parameters: of those that it does not list, those of the paper's."""
+    scene = {}
+    for path in ('paper_periodic.yaml', name):
+        with open(os.path.join(SCENES, path)) as file:
+            scene.update(yaml.safe_load(file))
+    return scene
+
+
 def info_of(scene, **others):
     """run_info of a node that was given a scene file."""
-    texts = {name: text_of(scene[name]) for name in ('exponents', 'field_indices', 'marker_modes')}
+    texts = {name: text_of(scene[name]) for name in ('exponents', 'field_indices')}
     params = dict(
         scene,
         **texts,
@@ -68,11 +77,11 @@ class Repeat(unittest.TestCase):
         )
 
     def test_every_scene(self):
-        """What comes out is what went in, every parameter of it, and of the types that the node wants."""
+        """What comes out is what went in, every parameter of it, and of the types that the node
+        wants."""
         for name in sorted(os.listdir(SCENES)):
             with self.subTest(scene=name):
-                with open(os.path.join(SCENES, name)) as file:
-                    scene = yaml.safe_load(file)
+                scene = complete(name)
                 got = yaml.safe_load(repetition.scene_file(info_of(scene)))
                 want = dict(scene, threads=2, exponents=str(scene['exponents']))
                 self.assertEqual(got, want)
@@ -80,20 +89,18 @@ class Repeat(unittest.TestCase):
                     self.assertIs(type(got[key]), type(value), key)
 
     def test_values_that_yaml_may_misread(self):
-        with open(os.path.join(SCENES, 'quick.yaml')) as file:
-            scene = dict(
-                yaml.safe_load(file),
-                seed='18446744073709551615',
-                accuracy=1e-12,
-                scene='off',
-                exponents='007',
-                field_indices=[37, 1],
-                observables=[],
-                interval=1e-6,
-                density=0.1 + 0.2,
-                wait_for_subscribers=['cost', 'run_info'],
-                marker_modes=['T(1,0)', 'LP(1, 1)'],
-            )
+        scene = dict(
+            complete('quick.yaml'),
+            seed='18446744073709551615',
+            accuracy=1e-12,
+            scene='off',
+            exponents='007',
+            field_indices=[37, 1],
+            observables=[],
+            interval=1e-6,
+            density=0.1 + 0.2,
+            wait_for_subscribers=['cost', 'run_info'],
+        )
         made.write(self.bag, [info_of(scene)])
         self.assertEqual(self.repeated(), dict(scene, threads=2))
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What reproduce is made of, without runs: its options, the plan, bags, rows, the page, the display; and which machine each
-run of reproduce.launch goes to. Needs no ROS master."""
+"""What reproduce is made of, without runs: its options, the plan, bags, rows, the page, the
+display; and which machine each run of reproduce.launch goes to. Needs no ROS master."""
 
 import contextlib
 import glob
@@ -114,7 +114,7 @@ class Plan(Folder):
     def test_parameters(self):
         """Those of the scene, then of the entry, then of quick or full."""
         with open(os.path.join(LAUNCH, 'scenes/quick.yaml')) as file:
-            scene = yaml.safe_load(file)
+            scene = {**plan.usual(os.path.join(LAUNCH, 'scenes')), **yaml.safe_load(file)}
         for quick, disks, seconds in ((False, 20, 9), (True, 10, 4)):
             run = self.runs(quick, one=ENTRY)['one']
             self.assertEqual(
@@ -339,7 +339,8 @@ class Page(Folder):
         )
         self.assertIn('\npart 3: not drawn, the run three is missing\n', text)
         self.assertIn(
-            '\nof the rows with a published number 2 agree, 0 differ, 0 known too poorly, 0 not measured\n',
+            '\nof the rows with a published number 2 agree, 0 differ, 0 known too poorly, '
+            '0 not measured\n',
             text,
         )
         self.assertRegex(
@@ -401,7 +402,8 @@ class Shown(unittest.TestCase):
         return types.SimpleNamespace(run=types.SimpleNamespace(name=name), share=share)
 
     def test_lines(self):
-        """5 of 8 and so on; the time left by what has passed, and by the plan at first. A line every ten seconds."""
+        """5 of 8 and so on; the time left by what has passed, and by the plan at first. A line
+        every ten seconds."""
         now = [1000.0]
         out, err = io.StringIO(), io.StringIO()
         with mock.patch('time.monotonic', lambda: now[0]), contextlib.redirect_stdout(
@@ -423,7 +425,8 @@ class Shown(unittest.TestCase):
             out.getvalue().splitlines(),
             [
                 '4 of 12 runs done  a 0 %  b 0 %  all 0 %, about 16:40 left',  # as planned
-                '5 of 12 runs done  b 25 %  all 14 %, about 8:58 left',  # 860 * (65 + 60) / (140 + 60)
+                # 860 * (65 + 60) / (140 + 60)
+                '5 of 12 runs done  b 25 %  all 14 %, about 8:58 left',
                 '6 of 12 runs done  all 20 %, about 9:29 left',  # 800 * (125 + 60) / (200 + 60)
                 '5 of 12 runs done, 1 failed in 1:02:05',
             ],
@@ -457,7 +460,8 @@ show([Made(run=Made(name=name), share=0.5) for name in ('first', 'second', 'thir
 
 class Trees(unittest.TestCase):
     def test_end(self):
-        """Of a command that hears, of one that does not, and of what outlives a command, in a session of its own."""
+        """Of a command that hears, of one that does not, and of what outlives a command, in a
+        session of its own."""
         deaf = 'trap "" INT; sleep 1000 & setsid sleep 1000 & echo; wait'
         trees = [
             tree.Tree(['sleep', '1000']),

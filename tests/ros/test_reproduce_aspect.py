@@ -63,7 +63,8 @@ class Aspect(unittest.TestCase):
         self.assertEqual(sorted(bags()), sorted(aspect.runs(None)))
 
     def test_wave_numbers_of_the_plan(self):
-        """All within what the rounding of N moves: k falls as N^-1/2, and N is rounded by a half."""
+        """All within what the rounding of N moves: k falls as N^-1/2, and N is rounded by a
+        half."""
         for quick in (False, True):
             planned = plan.runs(ROOT, quick)
             for which, _, nodes in aspect.SERIES:

@@ -46,7 +46,8 @@ class Coordinates(Part):
         }
 
     def full(self, change=lambda cos, ratio, report: None):
-        """A report of before the averaging, and all of it; change(cos, ratio, number of the report) in place."""
+        """A report of before the averaging, and all of it; change(cos, ratio, number of the report)
+        in place."""
         spectra = [spectrum(-symmetric()[0], symmetric()[1], 0.0)]
         for report in range(REPORTS):
             cos, ratio = symmetric()
@@ -132,7 +133,8 @@ class Coordinates(Part):
         self.assertEqual((excess.verdict, excess.published_error), ('differs', ACCURACY))
 
     def test_two_vectors_that_mix_leave_what_they_span(self):
-        """Of |dq|^2 the one has more by what the other has less: no excess, though C and C' differ."""
+        """Of |dq|^2 the one has more by what the other has less: no excess, though C and C'
+        differ."""
 
         def change(cos, ratio, report):
             dq2 = 1 / (1 + ratio[4:6] ** 2)

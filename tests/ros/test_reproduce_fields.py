@@ -90,7 +90,8 @@ def by_hand(info, letter, x, y, momenta):
 
 
 def field(info, one, share, letter, others, sim_time=150.0):
-    """A vector of (1,0), so much of it in its last field by hand; the rest knows nothing of any field of `others`."""
+    """A vector of (1,0), so much of it in its last field by hand; the rest knows nothing of any
+    field of `others`."""
     made_field = made.mode_field(info, one, sim_time=sim_time)
     x, y, *momenta = made.disks(info)
     inside = by_hand(info, letter, x, y, momenta)[-1]

@@ -31,7 +31,8 @@ def response(wave, kind, bits, index, values):
 
 
 class Run:
-    """Two T and four LP vectors of each wave, with random coefficients and noise on the responses."""
+    """Two T and four LP vectors of each wave, with random coefficients and noise on the
+    responses."""
 
     def __init__(self, known=KNOWN, noise=0.0):
         self.known = {mode: np.array(values) for mode, values in known.items()}
@@ -160,7 +161,8 @@ class Responses(Turned):
         self.assertEqual((row.measured, row.verdict), ('zero', 'differs'))
 
     def test_noise_is_no_response_along_curl_a(self):
-        """The root of a mean square is above zero of noise alone, the more certainly the more there is of it."""
+        """The root of a mean square is above zero of noise alone, the more certainly the more there
+        is of it."""
         known = {**KNOWN, 'T': (0.0, 0.0, 0.0, 0.0)}
         bag = self.bag(Run(known, noise=0.05).messages())
         found = hydro.responses(bag)[1, 0]

@@ -1,4 +1,5 @@
-"""Part 11 of the reproduction: the rule against fields that are sampled, rows against runs that are known exactly."""
+"""Part 11 of the reproduction: the rule against fields that are sampled, rows against runs that are
+known exactly."""
 
 import itertools
 import os
@@ -86,7 +87,8 @@ class Rule(unittest.TestCase):
 
 
 def run(levels, *made_steps, aspect=0.867, boundaries=(PERIODIC, PERIODIC)):
-    """A run of 100 disks (197 positive exponents) with stairs and steps: (kind, nx, ny, first, last, more)."""
+    """A run of 100 disks (197 positive exponents) with stairs and steps: (kind, nx, ny, first,
+    last, more)."""
     info = recorded.info(100, 0.7, aspect, boundaries=boundaries)
     spectrum = recorded.stairs(info, levels)
     found = [made.step(info, *step[:5], **step[5]) for step in made_steps]
@@ -180,7 +182,8 @@ class Rows(unittest.TestCase):
         self.assertIn('other exponents of 190-195', rows['box: LP(1,0)'].remark)
 
     def test_vectors_of_one_step_on_the_stair_of_another(self):
-        """Three equal exponents where the rule has two, and three where it has four: the neighbours are known."""
+        """Three equal exponents where the rule has two, and three where it has four: the neighbours
+        are known."""
         rows = self.rows(
             run(
                 [(0.6, 3), (0.9, 3), (1.3, 2)],

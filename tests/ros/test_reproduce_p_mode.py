@@ -1,4 +1,5 @@
-"""Part 5 of the reproduction: the modulation in the quotients of a P mode, with what is known of it."""
+"""Part 5 of the reproduction: the modulation in the quotients of a P mode, with what is known of
+it."""
 
 import unittest
 
@@ -16,7 +17,8 @@ TRIALS = 400
 
 
 def field(info, amplitudes, sim_time=150.0, noise=0.0, seed=1, nodes=(1, 0)):
-    """Both pairs of LP(1,0): phi_P,x = amplitude A p_x + noise, with the residual that least squares would have had."""
+    """Both pairs of LP(1,0): phi_P,x = amplitude A p_x + noise, with the residual that least
+    squares would have had."""
     rng = np.random.default_rng(seed)
     one = made.step(info, LP, *nodes, 32, 35)
     k = 2 * np.pi / info.box_x
@@ -85,7 +87,8 @@ class PMode(Part):
         self.assertIn('2 snapshots, 2 pairs', residual.remark)
 
     def test_scatter_before_and_after(self):
-        """After: noise alone. Before: all of it, but for what a sum over few disks has of A by chance."""
+        """After: noise alone. Before: all of it, but for what a sum over few disks has of A by
+        chance."""
         info = made.run_info()
         one = field(info, (0.64, 0.64), noise=0.5)
         rows = self.rows(self.bags(one))
@@ -108,7 +111,8 @@ class PMode(Part):
         )
 
     def test_error_is_the_scatter_of_amplitudes(self):
-        """Of as many trials it is known to 1 / sqrt(2 TRIALS), here five times that; and no bias."""
+        """Of as many trials it is known to 1 / sqrt(2 TRIALS), here five times that; and no
+        bias."""
         rng = np.random.default_rng(3)
         a, weights = np.cos(np.linspace(0, 6, 100)), np.linspace(0.1, 3, 100)
         fits = [

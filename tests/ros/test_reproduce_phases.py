@@ -77,8 +77,8 @@ class Phases(Turned):
         self.assertRegex(one.remark, r'^-\d+\.\d standard errors')
 
     def test_proportion_is_not_told_from_rates_known_poorly(self):
-        """Two rates 2 % apart: with errors of 0.9 % they may be the same, with 1.1 % nothing is said; what differs by
-        more than its error differs all the same."""
+        """Two rates 2 % apart: with errors of 0.9 % they may be the same, with 1.1 % nothing is
+        said; what differs by more than its error differs all the same."""
         for off, error, word in ((0.02, 0.009, 'yes'), (0.02, 0.011, None), (0.2, 0.011, 'no')):
             line = phases.Line(
                 [_Velocity(1.5, 1.5 * 0.005), _Velocity(1.5 * (1 + off), 1.5 * (1 + off) * error)]
@@ -120,7 +120,8 @@ class Phases(Turned):
         self.assertIn('phase fluctuation of LP(1,1), sin kx x sin ky y', rows)
 
     def test_error_of_a_fluctuation(self):
-        """Of times that are independent, however many vectors there are: of fewer than two none is known."""
+        """Of times that are independent, however many vectors there are: of fewer than two none is
+        known."""
         squares = [1.0, 4.0, 2.0, 9.0, 2.5, 5.5]
         for independent, error in (
             (1.0, 0.0),

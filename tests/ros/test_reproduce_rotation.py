@@ -1,4 +1,5 @@
-"""Part 6 of the reproduction, and what it and others measure a rotation with, against LP phases that are known."""
+"""Part 6 of the reproduction, and what it and others measure a rotation with, against LP phases
+that are known."""
 
 import unittest
 
@@ -51,8 +52,8 @@ class Turning(Turned):
         self.assertLess(one.error, 1e-6)
 
     def test_strength_that_goes_with_the_rate(self):
-        """Five turns of two vectors a quarter turn apart: on average each turns as on a circle. Weighed with |z|^2 the
-        rate would be lower by (1 - 0.6)^2 / (1 + 0.6^2)."""
+        """Five turns of two vectors a quarter turn apart: on average each turns as on a circle.
+        Weighed with |z|^2 the rate would be lower by (1 - 0.6)^2 / (1 + 0.6^2)."""
         self.TIMES = 0.2 * np.arange(321)
         one, _ = self.waves(3.2, 2.1)
         one.short = 0.6
@@ -130,7 +131,8 @@ class Turning(Turned):
         self.assertEqual(row.verdict, '')
 
     def test_vectors_scatter_as_one(self):
-        """The standard deviation is known no better from a second vector that does the same at the same times."""
+        """The standard deviation is known no better from a second vector that does the same at the
+        same times."""
         lengths = 0.2 * np.random.default_rng(1).integers(12, 20, 50)
         ends = np.cumsum(lengths)
         wave = Wave(
@@ -209,7 +211,8 @@ class Turning(Turned):
         ]
 
     def test_snapshots(self):
-        # L at 9.6, P at 12.8, .. in the fields; in the course of the phase the vector has the other sign
+        # L at 9.6, P at 12.8, .. in the fields; in the course of the phase the vector has the other
+        # sign
         wave, _ = self.waves(3.2, 2.1, 1.0)
         wave.amplitudes = np.array([[np.exp(-3j * np.pi / 2)], [1.0]])
         wave.turned = lambda t, even=wave.turned: even(t) + np.pi

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""reproduce and reproduce.launch with runs of a second: what is done, done again, left over, and said."""
+"""reproduce and reproduce.launch with runs of a second: what is done, done again, left over, and
+said."""
 
 import contextlib
 import glob
@@ -32,7 +33,10 @@ TINY = dict(
     seconds=[1, 1],
 )
 LONG = dict(TINY, full=dict(duration=1e6))
-SOON = 90.0  # seconds within which all has ended that was asked to, on a busy machine: roslaunch alone takes up to 17
+# seconds within which all has ended that was asked to, on a busy machine: roslaunch alone takes up
+# to 17
+SOON = 90.0
+LOOK = 0.1  # seconds between two looks at all processes, each of which takes some ms
 LATEST = 240.0  # that some runs of a second take there
 
 
@@ -50,7 +54,8 @@ class Reproduce(unittest.TestCase):
         self.addCleanup(self.kill_all)
 
     def start(self, runs, *options, **env):
-        """All parts of the plan of these runs, under the master of this test unless env names another."""
+        """All parts of the plan of these runs, under the master of this test unless env names
+        another."""
         with open(self.plan, 'w') as file:
             yaml.safe_dump(runs, file, sort_keys=False)
         return Process(
@@ -91,7 +96,8 @@ class Reproduce(unittest.TestCase):
         return [os.path.getmtime(self.path(name + '.bag')) for name in names]
 
     def ours(self, word='', variable=''):
-        """Processes of this test whose command line has the word, and whose environment has the variable."""
+        """Processes of this test whose command line has the word, and whose environment has the
+        variable."""
         found = []
         for folder in glob.glob('/proc/[0-9]*'):
             with contextlib.suppress(OSError), open(folder + '/environ', 'rb') as environ, open(
@@ -110,19 +116,21 @@ class Reproduce(unittest.TestCase):
                 os.kill(pid, signal.SIGKILL)
 
     def assert_none_left(self):
-        self.assertTrue(wait_until(lambda: not self.ours(), SOON), self.ours())
+        self.assertTrue(wait_until(lambda: not self.ours(), SOON, LOOK), self.ours())
 
     def await_averaging(self, process, count=1):
         """So many nodes have said something of their runs."""
-        wait_until(lambda: len(self.ours('hdlyap_node')) >= count or not process.running())
+        wait_until(
+            lambda: len(self.ours('hdlyap_node')) >= count or not process.running(), every=LOOK
+        )
         self.assertTrue(process.running(), process.text())
         time.sleep(1.5)
 
     # ---- runs ------------------------------------------------------------------------------------
 
     def test_done_once(self):
-        """A run that fails stops no other, nor does a part; what is there and the same is not run again, what has changed
-        is, and a bag that was cut off."""
+        """A run that fails stops no other, nor does a part; what is there and the same is not run
+        again, what has changed is, and a bag that was cut off."""
         runs = entries(wide=dict(threads=0), first={}, second={}, refused=dict(density=2.5))
         os.makedirs(self.out)
         with open(self.path('first.bag'), 'wb') as file:
@@ -158,7 +166,8 @@ class Reproduce(unittest.TestCase):
         for line in lines:
             self.assertRegex(
                 line,
-                r"^reproduce: refused: the run has not come to its end; .*FATAL.*density = 2\.5: .*; "
+                r"^reproduce: refused: the run has not come to its end; .*FATAL.*"
+                r"density = 2\.5: .*; "
                 f'all that it said is in {log}$',
             )
         self.assertRegex(said, r'(?m)^3 of 4 runs done, 1 failed in \d+:\d\d$')
@@ -181,7 +190,8 @@ class Reproduce(unittest.TestCase):
             )  # png, svg, csv
 
     def test_queue(self):
-        """Runs made elsewhere with the files of --write: by one launch, and as tasks of a queue, one of which fails."""
+        """Runs made elsewhere with the files of --write: by one launch, and as tasks of a queue,
+        one of which fails."""
         runs = entries(one={}, two={}, wide=dict(threads=0), refused=dict(density=2.5))
         names = self.reproduce(runs, '--write')
         self.assertEqual(names, 'one\ntwo\nwide\nrefused\n')
@@ -199,7 +209,8 @@ class Reproduce(unittest.TestCase):
         self.assertEqual(self.reproduce(runs, '--draw').count('elsewhere'), 3)
 
     def task(self, runs, names, number):
-        """Of launch/reproduce.sbatch, as Slurm would start it; with our parts instead of the installed ones."""
+        """Of launch/reproduce.sbatch, as Slurm would start it; with our parts instead of the
+        installed ones."""
         with open(self.plan + '.names', 'w') as file:
             file.write(names)
         path = self.stand_in('rosrun', f'shift 2; exec {self.command(runs)} "$@"')
@@ -220,7 +231,8 @@ class Reproduce(unittest.TestCase):
     # ---- ends ------------------------------------------------------------------------------------
 
     def test_interrupted(self):
-        """Nothing is left of it, nor of a bag that was not whole; the run that was done stays done."""
+        """Nothing is left of it, nor of a bag that was not whole; the run that was done stays
+        done."""
         process = self.start(
             dict(entries(first={}), long=LONG), '--jobs', '2', ROS_MASTER_URI=self.nobodys_master()
         )
@@ -262,7 +274,8 @@ class Reproduce(unittest.TestCase):
         names = ('node', 'launch')
         self.assertTrue(
             wait_until(
-                lambda: all(self.ours('hdlyap_node', 'ROS_NAMESPACE=/' + name) for name in names)
+                lambda: all(self.ours('hdlyap_node', 'ROS_NAMESPACE=/' + name) for name in names),
+                every=LOOK,
             )
         )
         time.sleep(1.5)

@@ -304,7 +304,8 @@ class Crossings(unittest.TestCase):
         apart = (density - 0.37) * (1 + density)  # a parabola: the cubic moves nothing
         errors = 1e-5 * np.arange(1, 9)
         _, error = crossing.measured(density, apart, errors)
-        # on its way through zero it rises by 1.37: Lagrange's polynomials of the four nearest, over that
+        # on its way through zero it rises by 1.37: Lagrange's polynomials of the four nearest, over
+        # that
         near = density[1:5]
         weights = [
             np.prod([(0.37 - other) / (one - other) for other in near if other != one])

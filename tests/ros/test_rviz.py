@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The real rviz, on a screen of its own without a monitor: it shows what ~markers says, where it says so, live, to who comes
-late, and from a bag."""
+"""The real rviz, on a screen of its own without a monitor: it shows what ~markers says, where it
+says so, live, to who comes late, and from a bag."""
 
 import os
 import signal
@@ -26,7 +26,7 @@ VIEW = roslib.packages.find_node('hdlyap', 'view')[0]
 SCREEN = (1360, 960)
 PAPER = (250, 251, 255)  # a background that nothing else has
 # steps within seconds, then slow enough to look on
-SCENE = dict(harness.MODES, warmup=40.0, duration=0.0, pace=2.0, marker_rate=10.0)
+SCENE = dict(harness.MODES, warmup=40.0, duration=0.0, pace=2.0)
 
 
 class Screen:
@@ -201,6 +201,8 @@ class Rviz(unittest.TestCase):
         return self.pictures[-1]
 
     def test_late_live_and_from_a_bag(self):
+        viewer = harness.start_viewer()
+        self.addCleanup(viewer.stop)
         node = self.start(SCENE)
         self.assertTrue(harness.wait_until(self.modes_seen), node.text())
         first = self.rest()
@@ -213,6 +215,7 @@ class Rviz(unittest.TestCase):
         self.check_shown(second)
         self.assertTrue(self.missing(first), 'the picture does not change')
         node.stop()
+        viewer.stop()
         bag = os.path.join(self.folder.name, 'markers.bag')
         with rosbag.Bag(
             bag, 'w'

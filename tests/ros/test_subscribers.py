@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Many subscribers, those that stop reading, come and go, or speak another language, and a master that is
-restarted: none of them slows the node, fills its memory or keeps it from ending."""
+"""Many subscribers, those that stop reading, come and go, or speak another language, and a master
+that is restarted: none of them slows the node, fills its memory or keeps it from ending."""
 
 import os
 import random
@@ -18,7 +18,7 @@ from harness import MODES, OBSERVABLES, SHORT, TYPES
 
 BOUND = 1.0  # seconds from a request to stop to the end, the contract
 MB = 1 << 20
-QUEUE_BYTES = 128e6  # of one topic at most, see outlets.c
+QUEUE_BYTES = 128e6  # of one topic at most, see publishers.c
 SLACK = 32 * MB  # of what is fragmented, and the node's own growth
 EVERY_TOPIC = dict(
     MODES,
@@ -201,7 +201,8 @@ class Subscribers(unittest.TestCase):
         self.assertEqual(cost.gaps(), 0)
 
     def test_master_restarted(self):
-        """Connections outlive it; the node ends in an orderly way. The new master does not know the node."""
+        """Connections outlive it; the node ends in an orderly way. The new master does not know the
+        node."""
         master = harness.Master()
         uri, port_of_master = master.uri, int(master.uri.rsplit(':', 1)[1])
         self.addCleanup(master.stop)

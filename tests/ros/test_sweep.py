@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Several runs in one launch file, each in its own namespace; and what launch files say of themselves."""
+"""Several runs in one launch file, each in its own namespace; and what launch files say of
+themselves."""
 
 import glob
 import os
@@ -45,8 +46,8 @@ class Sweep(unittest.TestCase):
         )
 
     def test_two_sweeps(self):
-        """At once, of which one is recorded; the other, in a namespace and with a master of its own, has a density that
-        is refused."""
+        """At once, of which one is recorded; the other, in a namespace and with a master of its
+        own, has a density that is refused."""
         with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as other:
             recorded = self.sweep(
                 folder,
@@ -69,7 +70,8 @@ class Sweep(unittest.TestCase):
             self.assertEqual(os.listdir(other), [])
 
     def check_recorded(self, launch, folder):
-        """One bag of each, whole, though the runs end one after the other; the table is that of the bags."""
+        """One bag of each, whole, though the runs end one after the other; the table is that of the
+        bags."""
         table = self.table(launch.text())
         self.assertEqual(list(table), sorted(DENSITIES), launch.text())
         paths = [os.path.join(folder, group + '.bag') for group in GROUPS]

@@ -26,8 +26,9 @@ class Turned(Part):
 
 
 class Wave:
-    """z = amplitude exp(i phase(t)) for every vector and pair; phase: a rate, or a function of time. With short below 1
-    a circle becomes an ellipse with that axis along b, on which |z| and the rate depend on the phase.
+    """z = amplitude exp(i phase(t)) for every vector and pair; phase: a rate, or a function of
+    time. With short below 1 a circle becomes an ellipse with that axis along b, on which |z| and
+    the rate depend on the phase.
     """
 
     short = 1.0

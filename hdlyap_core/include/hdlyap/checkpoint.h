@@ -23,8 +23,8 @@ typedef struct hd_checkpoint {
 } hd_checkpoint;
 
 /** Writes the run, between two steps, to `path`: to `path`.part first, which replaces the file only
- * when it is whole and on the disk. label (at most HD_CHECKPOINT_LABEL - 1 bytes of it) is kept.
- * HD_FILE_FAULT with one line in message (the file, the reason), HD_NOT_FINITE if a number of the
+ * when it is whole and on the disk. `label` (at most HD_CHECKPOINT_LABEL - 1 bytes of it) is kept.
+ * HD_FILE_FAULT with one line in `message` (the file, the reason), HD_NOT_FINITE if a number of the
  * run is none; an older file then stays as it was. Cost: 32 N n bytes. */
 HD_MUST_CHECK hd_status hd_run_save(hd_run *run, const char *path, const char *label, char *message,
                                     size_t size);
@@ -32,16 +32,18 @@ HD_MUST_CHECK hd_status hd_run_save(hd_run *run, const char *path, const char *l
 /** HD_OK if hd_run_save could write there now; HD_FILE_FAULT with its line else. */
 HD_MUST_CHECK hd_status hd_checkpoint_writable(const char *path, char *message, size_t size);
 
-/** Reads a checkpoint, all of it, and says whose it is. HD_FILE_FAULT with one line in message: it
- * is missing, no checkpoint, of a newer format, cut short, damaged. */
+/** Reads a checkpoint, all of it, and says whose it is. HD_FILE_FAULT with one line in `message`:
+ * it is missing, no checkpoint, of a newer format, cut short, damaged. */
 HD_MUST_CHECK hd_status hd_checkpoint_read(hd_checkpoint *out, const char *path, char *message,
                                            size_t size);
 
-/** The run of a checkpoint goes on. scene (NULL: the checkpoint's) may differ from the checkpoint's
- * in duration (not shorter than what has been averaged), target_std_error and threads; anything
- * else is HD_REFUSED with its line. With 0 threads as many as before, if the machine has them. A
- * run that had finished goes on if there is more to do. HD_FILE_FAULT as hd_checkpoint_read, and
- * for contents that no run has; HD_NO_MEMORY. */
+/** The run of a checkpoint goes on. `scene` (NULL: the checkpoint's) may differ from the
+ * checkpoint's in those parameters whose row (hd_scene_parameters) says so, with a duration not
+ * shorter than what has been averaged; anything else is HD_REFUSED with its line. With 0 threads as
+ * many as before, if the machine has them. A run that had finished goes on if there is more to do.
+ * A window of covariant vectors that was under way is begun anew. HD_FILE_FAULT as
+ * hd_checkpoint_read, and for contents that no run has; HD_NO_MEMORY.
+ */
 HD_MUST_CHECK hd_status hd_run_resume(hd_run **out, const char *path, const hd_scene_def *scene,
                                       char *message, size_t size);
 

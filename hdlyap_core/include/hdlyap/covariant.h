@@ -22,7 +22,7 @@ extern "C" {
 typedef struct hd_covariant hd_covariant;
 
 /** Whether what a window needs fits the scene's room, orthonormalised every `interval` time units:
- * HD_REFUSED with a line in message. */
+ * HD_REFUSED with a line in `message`. */
 HD_MUST_CHECK hd_status hd_covariant_check_room(const hd_scene_def *def, double interval,
                                                 char *message, size_t size);
 

@@ -23,7 +23,7 @@ typedef struct hd_subspace {
 typedef struct hd_fields hd_fields;
 
 /** HD_NO_MEMORY. Columns: those of all subspaces, in ascending k, T before LP; then the
- * null fields. */
+ * null fields, of HD_NULL_X .. (zero where a direction is not periodic). */
 HD_MUST_CHECK hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def);
 void hd_fields_free(hd_fields *fields);
 
@@ -41,10 +41,6 @@ double hd_fields_norm(const hd_fields *fields, int column);
 
 int hd_fields_subspaces(const hd_fields *fields);
 const hd_subspace *hd_fields_subspace(const hd_fields *fields, int s);
-
-/** Null fields, the last HD_NULLS columns: uniform along x, along y (zero columns unless periodic),
- * momenta. */
-enum { HD_NULL_X, HD_NULL_Y, HD_NULL_P, HD_NULLS };
 
 #ifdef __cplusplus
 }

@@ -1,12 +1,35 @@
-/** Everything: hard disks, their Lyapunov spectrum and modes. */
+/** Everything: hard disks, their Lyapunov spectrum and modes; in the order in which data flows. */
 #ifndef HDLYAP_HDLYAP_H
 #define HDLYAP_HDLYAP_H
 
+/* base */
 #include "hdlyap/blas.h"
-#include "hdlyap/checkpoint.h"
-#include "hdlyap/hydro.h"
+#include "hdlyap/status.h"
+/* scene */
+#include "hdlyap/scene.h"
+#include "hdlyap/parameters.h"
+#include "hdlyap/wave.h"
+/* averages */
+#include "hdlyap/spectrum.h"
+/* events */
+#include "hdlyap/trajectory.h"
+/* tangent */
+#include "hdlyap/frame.h"
+#include "hdlyap/interval.h"
+#include "hdlyap/ortho.h"
+/* modes */
+#include "hdlyap/fields.h"
+#include "hdlyap/modes.h"
+#include "hdlyap/steps.h"
+#include "hdlyap/phases.h"
 #include "hdlyap/pmode.h"
+#include "hdlyap/hydro.h"
+/* covariant */
+#include "hdlyap/splitting.h"
+#include "hdlyap/covariant.h"
+/* run */
 #include "hdlyap/run.h"
+#include "hdlyap/checkpoint.h"
 
 #define HDLYAP_VERSION "0.1.0"
 

@@ -51,9 +51,6 @@ const double *hd_modes_null_average(const hd_modes *modes, int null);
  * at a column of hd_fields; [n]. */
 const double *hd_modes_coefficients(const hd_modes *modes, int column);
 
-/** |dq| of each vector in the snapshot; [n], 0 .. 1. */
-const double *hd_modes_dq_norm(const hd_modes *modes);
-
 #ifdef __cplusplus
 }
 #endif

@@ -1,5 +1,5 @@
-/** V = Q R with diag(R) > 0, by Cholesky of the Gram matrix (BLAS-3), watched for its conditioning.
- */
+/** V = Q R with diag(R) > 0, by block Gram-Schmidt with Cholesky factors of its panels [T7]; the
+ * condition is measured on the way [T6]. */
 #ifndef HDLYAP_ORTHO_H
 #define HDLYAP_ORTHO_H
 
@@ -23,8 +23,8 @@ typedef struct hd_ortho_limits {
 /** Replaces the frame's vectors by Q; ln diag R is then in hd_ortho_log_stretch. Spans and the sum
  * of logarithms are right to rounding whatever the defect of Q: it cancels with the next step's
  * [T5]. HD_ILL_CONDITIONED (frame's contents undefined: rewind it) when the condition is above the
- * limit, the Gram matrix is numerically not positive definite, or an entry overflowed. Cost per
- * pass: 2 m n^2 + 2 n^3 / 3 flops. */
+ * limit, the Gram matrix of a panel is numerically not positive definite, or an entry overflowed.
+ * Cost per pass: 2 m n^2 flops for m rows and n vectors, nearly all in dgemm. */
 HD_MUST_CHECK hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits);
 
 /** The same by Householder reflections: orthonormal whatever the conditioning, several times
@@ -41,10 +41,10 @@ HD_MUST_CHECK hd_status hd_ortho_keep_factor(hd_ortho *ortho);
  * unless kept. */
 const double *hd_ortho_factor(const hd_ortho *ortho);
 
-/** max over l of sqrt(sum_k (R^-1)_kl^2 |V e_k|^2) >= 1: how much the rounding of V (relative to
- * its columns) is amplified in column l of Q. Rounding enters an exponent as eps * condition /
- * interval and the orthogonality of Q as eps * condition^2 [T6] [T7]. Of the last step's first
- * pass. */
+/** max over l of sqrt(sum_k (R^-1)_kl^2 |V e_k|^2) >= 1, estimated to about a quarter: how much
+ * the rounding of V (relative to its columns) is amplified in column l of Q. Rounding enters an
+ * exponent as about eps * condition / interval [T6] and the orthogonality of Q in proportion to
+ * eps * condition [T7]. Of the last step's first pass. */
 double hd_ortho_condition(const hd_ortho *ortho);
 /** Predicted |Q^T Q - 1| after the last step [T7]. */
 double hd_ortho_defect(const hd_ortho *ortho);

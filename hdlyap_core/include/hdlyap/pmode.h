@@ -26,9 +26,8 @@ int hd_pmode_pairs(const hd_pmode *pmode); /**< d */
 const double *hd_pmode_field(const hd_pmode *pmode, int c);
 /** |phi - field|: distance of field c from what the vectors span, 0 .. 1. */
 double hd_pmode_residual(const hd_pmode *pmode, int c);
-/** Q, 2d x 2d, row-major: rows vectors, columns fields as above. */
-const double *hd_pmode_rotation(const hd_pmode *pmode);
-/** Largest deviation of a singular value of Q from 1: its distance from a rotation. */
+/** Largest deviation of a singular value of Q (2d x 2d: of vectors on fields) from 1: its distance
+ * from a rotation. */
 double hd_pmode_rotation_distance(const hd_pmode *pmode);
 
 /** P field divided by the momenta, phi p / (p^2 + eps) component by component, p[2N]: both

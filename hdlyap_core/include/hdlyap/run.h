@@ -47,16 +47,16 @@ typedef struct hd_cost {
 
 typedef struct hd_run hd_run;
 
-/** HD_REFUSED with its line in message as by hd_scene_check (message may be NULL). */
+/** HD_REFUSED with its line in `message` as by hd_scene_check (`message` may be NULL). */
 HD_MUST_CHECK hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message,
                                       size_t size);
 void hd_run_free(hd_run *run);
 
 /** Goes on by one interval; short enough (a fraction of a second for N below 1000) to be
  * interrupted between two calls. Does nothing once HD_FINISHED. */
-HD_MUST_CHECK hd_status hd_run_step(hd_run *run);
+HD_MUST_CHECK hd_status hd_run_advance(hd_run *run);
 
-/** True if the last step ended at a multiple of the report interval. Spectrum, modes, steps and the
+/** True if the last call ended at a multiple of the report interval. Spectrum, modes, steps and the
  * frame are then those of the last orthonormalisation, hd_spectrum_time after the averaging began:
  * at most an interval ago, at once if the hydrodynamic response is looked at, or fields that are
  * due. Phases are those of the very time. */
@@ -67,7 +67,7 @@ bool hd_run_report_due(const hd_run *run);
  * report. Not kept in a checkpoint. */
 void hd_run_fields_every(hd_run *run, double interval);
 
-/** True if the last step ended at such a report: if they are looked at (HD_OBSERVE_FIELDS), the
+/** True if the last call ended at such a report: if they are looked at (HD_OBSERVE_FIELDS), the
  * frame is orthonormalised at this very time. */
 bool hd_run_fields_due(const hd_run *run);
 
@@ -75,17 +75,17 @@ bool hd_run_fields_due(const hd_run *run);
  * A stage that nobody looks at is skipped: its averages miss that time, phases begin anew. */
 void hd_run_observe(hd_run *run, unsigned stages);
 
-/** For pictures: from now on no step is longer than `interval` [time units; INFINITY: nobody
- * looks], and while the modes are observed each step ends with the vectors from column `first` on
- * known (hd_run_vectors or more: none), by a look at the slowest or, where that cannot give them,
- * an orthonormalisation. No average takes them up. */
-void hd_run_view(hd_run *run, double interval, int first);
+/** For who watches: from now on no call goes on by more than `interval` [time units; INFINITY:
+ * nobody watches], and while the modes are observed each ends with the vectors from column `first`
+ * on known (hd_run_vectors or more: none), by a look at the slowest or, where that cannot give
+ * them, an orthonormalisation. No average takes them up. */
+void hd_run_watch(hd_run *run, double interval, int first);
 
-/** The vectors known at the very time of the last step: all of them, the slowest, or none (count
+/** The vectors known at the very time of the last call: all of them, the slowest, or none (count
  * 0). Their coefficients are in the snapshot of hd_run_modes. */
 hd_columns hd_run_columns(const hd_run *run);
 
-/** Starts the averages afresh at the present time. Fails as hd_run_step does. */
+/** Starts the averages afresh at the present time. Fails as hd_run_advance does. */
 HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 
 hd_stage hd_run_stage(const hd_run *run);

@@ -23,12 +23,13 @@ enum { HD_EXPONENTS_NONE = 0, HD_EXPONENTS_POSITIVE = -1, HD_EXPONENTS_ALL = -2 
 /** hd_scene_def.observe: what is computed beyond the exponents. Phases, fields and hydro need
  * steps, which need modes: these come with them. */
 enum {
-    HD_OBSERVE_MODES = 1,     /**< weights of every vector */
-    HD_OBSERVE_STEPS = 2,     /**< degenerate sets, dispersion */
-    HD_OBSERVE_PHASES = 4,    /**< of the LP pairs */
-    HD_OBSERVE_FIELDS = 8,    /**< reconstructed P modes */
-    HD_OBSERVE_HYDRO = 16,    /**< hydrodynamic response */
-    HD_OBSERVE_COVARIANT = 32 /**< covariant vectors; alone, it needs no modes */
+    HD_OBSERVE_MODES = 1,      /**< weights of every vector */
+    HD_OBSERVE_STEPS = 2,      /**< degenerate sets, dispersion */
+    HD_OBSERVE_PHASES = 4,     /**< of the LP pairs */
+    HD_OBSERVE_FIELDS = 8,     /**< reconstructed P modes */
+    HD_OBSERVE_HYDRO = 16,     /**< hydrodynamic response */
+    HD_OBSERVE_COVARIANT = 32, /**< covariant vectors; alone, it needs no modes */
+    HD_OBSERVE_ALL = 63        /**< all of these */
 };
 
 /** Where the triangles that covariant vectors need wait for the way back. */
@@ -37,44 +38,25 @@ typedef enum hd_storage {
     HD_STORAGE_RECOMPUTE /**< they are computed again, from some frames and the events */
 } hd_storage;
 
+/** Each parameter's default, range, unit and text stands in parameters.inc, which declares those
+ * that are plain numbers. */
 typedef struct hd_scene_def {
-    int disks;      /**< N, 2 .. 1000000 */
-    double density; /**< N sigma^2 / (Lx Ly), from 1e-6 up to what the start lattice can hold */
-    double aspect;  /**< Ly / Lx, > 0 */
-    hd_boundary boundary[2]; /**< of x and y */
-    uint64_t seed;           /**< of positions, momenta and the first frame */
-    int exponents;           /**< number of leading ones, 1 .. 4N, or one of HD_EXPONENTS_* */
-    double equilibration;    /**< time units of trajectory alone, >= 0 */
-    double warmup;           /**< time units with the frame, before averaging, >= 0 */
-    double duration;         /**< time units averaged, >= 0; 0 = until stopped */
-    double
-        /** Stop when the smallest exponents carried are known so well; 0 = off */
-        target_std_error;
-    /** Upper limit of the time between orthonormalisations, >= 1e-6; 0 = automatic */
-    double interval;
-    double accuracy;        /**< largest tolerated deviation of an exponent, 1e-12 .. 1e-2 */
-    double report_interval; /**< simulated time between reports, > 0 */
-    unsigned observe;       /**< stages beyond the exponents: a set of HD_OBSERVE_*, 0 = none */
-    double
-        /** Wave vectors up to this |k| are classified; 0 = by max_mode_number [1/sigma] */
-        max_wave_number;
-    int max_mode_number; /**< wave vectors of up to so many nodes per direction; 0 = 2, or as
-                            sampled */
-    int threads;         /**< 0 = as many as the machine has and the work is worth */
-
-    /** Time units at a stretch for which covariant vectors are computed, > 0 */
-    double covariant_window;
-    /** Time units beyond its end from which they are carried back, > 0 */
-    double covariant_transient;
-    double covariant_sampling; /**< time units between two looks at them, > 0 */
-    double covariant_memory;   /**< what may wait for the way back [bytes], > 0 */
+    hd_boundary boundary[2]; /**< boundary_x, boundary_y */
+    uint64_t seed;
+    int exponents;    /**< number of leading ones, 1 .. 4N, or one of HD_EXPONENTS_* */
+    double interval;  /**< 0 = auto [time units] */
+    unsigned observe; /**< a set of HD_OBSERVE_*, 0 = none */
     hd_storage covariant_storage;
+#define HD_INT(name, ...) int name;
+#define HD_REAL(name, ...) double name;
+#define HD_OTHER(...)
+#include "hdlyap/parameters.inc"
 } hd_scene_def;
 
 /** The paper's periodic scene: 780 disks, density 0.8, aspect 0.867. */
 hd_scene_def hd_scene_def_default(void);
 
-/** HD_OK, or HD_REFUSED with one line in message: the parameter, its value, what is allowed. */
+/** HD_OK, or HD_REFUSED with one line in `message`: the parameter, its value, what is allowed. */
 HD_MUST_CHECK hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size);
 
 /** Box edges [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx. */
@@ -82,6 +64,9 @@ void hd_scene_box(const hd_scene_def *def, double box[2]);
 
 /** Number of vanishing exponents: 6, 4 or 2 for both, one or no direction periodic. */
 int hd_scene_zero_exponents(const hd_scene_def *def);
+
+/** Directions of the exact null space [T9]: uniform along x, along y (where periodic), momenta. */
+enum { HD_NULL_X, HD_NULL_Y, HD_NULL_P, HD_NULLS };
 
 /** Number of tangent vectors carried, 0 .. 4N (the positive half is (4N - Z) / 2). */
 int hd_scene_vectors(const hd_scene_def *def);

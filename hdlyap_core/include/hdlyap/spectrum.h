@@ -22,7 +22,6 @@ void hd_spectrum_add(hd_spectrum *spectrum, const double *log_stretch, double dt
 void hd_spectrum_sample(hd_spectrum *spectrum);
 
 double hd_spectrum_time(const hd_spectrum *spectrum); /**< averaged time */
-int hd_spectrum_vectors(const hd_spectrum *spectrum); /**< n */
 double hd_spectrum_exponent(const hd_spectrum *spectrum,
                             int col); /**< running mean of ln R_ll / t */
 /** Standard error of the mean from blocks long against the correlation time [T8]; negative while

@@ -51,8 +51,6 @@ void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum);
 /** A step is resolved if at least this part of its expected multiplicity is found, beyond what
  * random vectors would show. */
 double hd_steps_threshold(void);
-/** Counts the finds that changed any set: what was followed over a change is to be begun anew. */
-long hd_steps_changes(const hd_steps *steps);
 
 /** Steps of all subspaces in their order, the zero modes, and with all 4N vectors the conjugate
  * steps in the same order; resolved or not: the number is constant. */

@@ -40,8 +40,7 @@ void hd_event_log_clear(hd_event_log *log);
 typedef struct hd_trajectory hd_trajectory;
 
 /** Lattice start, seeded momenta (zero total along periodic directions, kinetic energy N), time 0.
- * Fails with HD_REFUSED (message filled as by hd_scene_check) and HD_NO_MEMORY. Cost O(N log N).
- */
+ * Fails with HD_REFUSED, of what hd_scene_check says why, and HD_NO_MEMORY. Cost O(N log N). */
 HD_MUST_CHECK hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def);
 
 /** A prepared state: q[2N] inside the box (x0 y0 x1 y1 ..), p[2N]; nothing is rescaled.
@@ -51,13 +50,10 @@ HD_MUST_CHECK hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_
                                                   const double *q, const double *p);
 void hd_trajectory_free(hd_trajectory *trajectory);
 
-/** Moves the disks to simulated time t_end (>= now) and replaces the log's contents by the events
- * on the way; log may be NULL. The events do not depend on where the intervals are cut. Fails with
- * HD_OVERLAP, HD_NOT_FINITE, HD_NO_MEMORY. Cost O(1) per event. */
-HD_MUST_CHECK hd_status hd_trajectory_advance(hd_trajectory *trajectory, hd_event_log *log,
-                                              double t_end);
-
-/** The same, but adds to a log that ends at the present time. */
+/** Moves the disks to simulated time t_end (>= now) and adds the events on the way to the log,
+ * which ends at the present time (hd_event_log_clear begins it anew); it may be NULL. The events do
+ * not depend on where the intervals are cut. Fails with HD_OVERLAP, HD_NOT_FINITE, HD_NO_MEMORY.
+ * Cost O(1) per event. */
 HD_MUST_CHECK hd_status hd_trajectory_extend(hd_trajectory *trajectory, hd_event_log *log,
                                              double t_end);
 

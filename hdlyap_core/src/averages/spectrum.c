@@ -88,7 +88,6 @@ void hd_spectrum_sample(hd_spectrum *spectrum)
 }
 
 double hd_spectrum_time(const hd_spectrum *spectrum) { return spectrum->time; }
-int hd_spectrum_vectors(const hd_spectrum *spectrum) { return spectrum->vectors; }
 
 double hd_spectrum_exponent(const hd_spectrum *spectrum, int col)
 {

@@ -92,8 +92,6 @@ hd_status hd_backward_step(hd_backward *backward, double *growth, const double *
 
 double *hd_backward_data(hd_backward *backward) { return backward->c; }
 const double *hd_backward_read(const hd_backward *backward) { return backward->c; }
-int hd_backward_vectors(const hd_backward *backward) { return backward->vectors; }
-
 double hd_backward_apart(const hd_backward *one, const hd_backward *other, int col)
 {
     const double *x = column_of(one, col), *y = column_of(other, col);

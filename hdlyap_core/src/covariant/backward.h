@@ -29,7 +29,6 @@ HD_MUST_CHECK hd_status hd_backward_step(hd_backward *backward, double *growth,
 
 double *hd_backward_data(hd_backward *backward); /**< C */
 const double *hd_backward_read(const hd_backward *backward);
-int hd_backward_vectors(const hd_backward *backward);
 
 /** Sine of the angle between column `col` of one C and that of another, whatever their signs. */
 double hd_backward_apart(const hd_backward *one, const hd_backward *other, int col);

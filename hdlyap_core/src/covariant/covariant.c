@@ -19,6 +19,7 @@
 #include "covariant/backward.h"
 #include "covariant/history.h"
 #include "covariant/localization.h"
+#include "scene/null_space.h"
 #include "modes/archived.h"
 
 /** Intervals that there is room for, over those that are expected: they vary. */
@@ -79,14 +80,14 @@ hd_status hd_covariant_check_room(const hd_scene_def *def, double interval, char
                                   size_t size)
 {
     const hd_history_def past = past_of(def, interval);
-    const double bytes = hd_history_bytes(&past);
-    if (bytes <= def->covariant_memory) return HD_OK;
+    const double gigabytes = 1e-9 * hd_history_bytes(&past);
+    if (gigabytes <= def->covariant_memory) return HD_OK;
     return hd_refuse(message, size,
                      "covariant_window = %.15g with covariant_transient = %.15g: %ld triangles and "
                      "%ld frames of %d vectors need %.3g GB, must be at most covariant_memory = "
                      "%.3g GB",
                      def->covariant_window, def->covariant_transient, past.intervals,
-                     past.snapshots, past.vectors, 1e-9 * bytes, 1e-9 * def->covariant_memory);
+                     past.snapshots, past.vectors, gigabytes, def->covariant_memory);
 }
 
 static hd_status allocate_arrays(hd_covariant *c)
@@ -299,15 +300,12 @@ static hd_columns vectors_of(const hd_covariant *c)
 /** Column-major: the null vectors [T9], `centre` of them. */
 static void fill_null(const hd_covariant *c, double *column)
 {
-    for (int d = 0; d < 3; d++) {
-        if (d < 2 && c->scene.boundary[d] == HD_REFLECTING) continue;
-        for (int half = 0; half < 2; half++, column += c->rows) {
-            memset(column, 0, (size_t)c->rows * sizeof *column);
-            for (int disk = 0; disk < c->scene.disks; disk++)
-                for (int e = 0; e < 2; e++)
-                    column[4 * disk + 2 * half + e] = d == 2 ? c->p[2 * disk + e]
-                                                             : (double)(d == e);
-        }
+    const hd_null_space null = hd_null_space_of(c->scene.boundary);
+    for (int k = 0; k < 2 * null.count; k++, column += c->rows) {
+        memset(column, 0, (size_t)c->rows * sizeof *column);
+        for (int j = 0; j < 2 * c->scene.disks; j++)
+            column[4 * (j / 2) + 2 * (k % 2) + j % 2] = hd_null_entry(null.axis[k / 2], j % 2,
+                                                                      c->p[j]);
     }
 }
 

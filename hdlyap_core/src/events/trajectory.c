@@ -192,12 +192,6 @@ static hd_status turn_epoch(hd_trajectory *tr)
     return HD_OK;
 }
 
-hd_status hd_trajectory_advance(hd_trajectory *tr, hd_event_log *log, double t_end)
-{
-    if (log) hd_event_log_clear(log);
-    return hd_trajectory_extend(tr, log, t_end);
-}
-
 hd_status hd_trajectory_extend(hd_trajectory *tr, hd_event_log *log, double t_end)
 {
     HD_ASSERT(t_end >= tr->now);

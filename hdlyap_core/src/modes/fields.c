@@ -10,6 +10,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "scene/null_space.h"
 
 /** cos(k u), sin(k u) and their derivatives, for nodes 0 .. nodes along one direction. */
 typedef struct table {
@@ -23,7 +24,7 @@ typedef struct table {
 struct hd_fields {
     int disks, columns, stride, subspaces;
     table along[2];
-    bool periodic[2];
+    hd_null_space null;
     hd_subspace *subspace; /**< [subspaces] */
     double *data;          /**< [2 disks * stride] */
     double *norm;          /**< [stride], of the columns as sampled */
@@ -78,7 +79,7 @@ static hd_status fields_prepare(hd_fields *fields, const hd_scene_def *def)
 {
     HD_TRY(subspaces_create(fields, def));
     HD_TRY(tables_create(fields, def));
-    for (int d = 0; d < 2; d++) fields->periodic[d] = def->boundary[d] == HD_PERIODIC;
+    fields->null = hd_null_space_of(def->boundary);
     fields->columns += HD_NULLS;
     fields->stride = (fields->columns + 7) / 8 * 8;
     fields->data = hd_memory_alloc(2 * (size_t)fields->disks * (size_t)fields->stride,
@@ -152,9 +153,11 @@ static void sample_disk(hd_fields *fields, const double *q, const double *p, dou
     for (int s = 0; s < fields->subspaces; s++)
         for (int c = 0; c < fields->subspace[s].modulations.count; c++)
             sample_modulation(fields, &fields->subspace[s], c, p, x, y);
-    x[null + HD_NULL_X] = fields->periodic[0];
-    y[null + HD_NULL_Y] = fields->periodic[1];
-    x[null + HD_NULL_P] = p[0], y[null + HD_NULL_P] = p[1];
+    for (int k = 0; k < fields->null.count; k++) {
+        const int axis = fields->null.axis[k];
+        x[null + axis] = hd_null_entry(axis, 0, p[0]);
+        y[null + axis] = hd_null_entry(axis, 1, p[1]);
+    }
 }
 
 /** A column that vanishes at every disk stays zero. */

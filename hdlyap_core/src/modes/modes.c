@@ -280,8 +280,6 @@ static const double *null_of(const hd_modes *modes, const double *rows, int null
 long hd_modes_samples(const hd_modes *modes) { return modes->samples; }
 int hd_modes_vectors(const hd_modes *modes) { return modes->vectors; }
 const hd_fields *hd_modes_fields(const hd_modes *modes) { return modes->fields; }
-const double *hd_modes_dq_norm(const hd_modes *modes) { return modes->dq_norm; }
-
 const double *hd_modes_snapshot(const hd_modes *modes, int s, hd_weight which)
 {
     return weight_of(modes, modes->snapshot, s, which);

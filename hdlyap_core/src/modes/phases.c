@@ -53,7 +53,7 @@ typedef struct rotor {
     double complex z[SLOTS_MAX][PAIRS_MAX]; /**< at the last sample, times sign */
     double time, dt;
     double omega; /**< mean turn of the whole step per time: what phases are unwrapped by */
-    hd_block_average rate; /**< one series: of these turns */
+    long turns;   /**< in that mean */
     hd_block_average
         velocity; /**< one series: mean rate of the tracks, which adds up to their phases */
 } rotor;
@@ -77,8 +77,7 @@ static hd_status rotor_create(rotor *r, track *tracks, const hd_step *step, int 
                  .col = -1};
     for (int t = 0; t < r->slots * r->pairs; t++)
         HD_TRY(hd_block_average_create(&tracks[t].rate, 1));
-    HD_TRY(hd_block_average_create(&r->velocity, 1));
-    return hd_block_average_create(&r->rate, 1);
+    return hd_block_average_create(&r->velocity, 1);
 }
 
 static hd_status rotors_create(hd_phases *phases, const hd_steps *steps)
@@ -131,7 +130,6 @@ void hd_phases_free(hd_phases *phases)
     for (int t = 0; phases->track && t < phases->tracks; t++)
         hd_block_average_clear(&phases->track[t].rate);
     for (int k = 0; phases->rotor && k < phases->rotors; k++) {
-        hd_block_average_clear(&phases->rotor[k].rate);
         hd_block_average_clear(&phases->rotor[k].velocity);
     }
     hd_memory_free(phases->rotor);
@@ -216,7 +214,7 @@ static void rotor_restart(rotor *r, hd_lp_state state)
 {
     r->col = -1;
     r->samples = 0;
-    hd_block_average_restart(&r->rate);
+    r->turns = 0;
     hd_block_average_restart(&r->velocity);
     for (int t = 0; t < r->slots * r->pairs; t++) track_restart(&r->track[t], state);
 }
@@ -313,8 +311,8 @@ static void rotor_turn(rotor *r, const hd_modes *modes, double dt)
     if (sum == 0.0) return;
     double rate = carg(sum) / dt;
     if (r->samples > LEARN) rate = unwrapped(carg(sum), r->omega * dt) / dt;
-    hd_block_average_add(&r->rate, &rate);
-    r->omega = hd_block_average_mean(&r->rate, 0);
+    if (r->turns++ == 0) r->omega = 0.0;
+    r->omega += (rate - r->omega) / (double)r->turns;
 }
 
 /** Takes over the snapshot as the last sample. A vector that is something else for a while goes on
@@ -496,7 +494,7 @@ static void rotor_archive(rotor *r, hd_archive *archive, int vectors)
     hd_archive_double(archive, "rotor time", &r->time);
     hd_archive_double(archive, "rotor dt", &r->dt);
     hd_archive_double(archive, "rotor omega", &r->omega);
-    hd_block_average_archive(&r->rate, archive);
+    hd_archive_long(archive, "rotor turns", &r->turns, 0, LONG_MAX / 2);
     hd_block_average_archive(&r->velocity, archive);
 }
 

@@ -160,7 +160,6 @@ double hd_pmode_residual(const hd_pmode *pmode, int c)
     return pmode->residual[c];
 }
 
-const double *hd_pmode_rotation(const hd_pmode *pmode) { return pmode->q; }
 double hd_pmode_rotation_distance(const hd_pmode *pmode) { return pmode->distance; }
 
 void hd_pmode_divide(const hd_pmode *pmode, double *out, int c, const double *p)

@@ -30,7 +30,6 @@ struct hd_steps {
     int *of_vector; /**< [vectors] */
     double *share;  /**< [count][HD_SET_VECTORS_MAX]: of each vector of the set in this step */
     record *record; /**< [count] */
-    long changes;
 };
 
 /* ---- creation ------------------------------------------------------------------------------ */
@@ -137,7 +136,6 @@ void hd_steps_clear(hd_steps *steps)
 {
     steps_forget(steps);
     for (int k = 0; k < steps->count; k++) record_restart(&steps->record[k]);
-    steps->changes++;
 }
 
 /* ---- steps --------------------------------------------------------------------------------- */
@@ -258,18 +256,15 @@ static uint64_t identity_of(const hd_steps *steps, const hd_step *step)
 }
 
 /** Begins the records anew of those steps that are not what they were the last time. */
-static bool records_follow(hd_steps *steps)
+static void records_follow(hd_steps *steps)
 {
-    bool changed = false;
     for (int k = 0; k < steps->count; k++) {
         record *r = &steps->record[k];
         const uint64_t identity = identity_of(steps, &steps->step[k]);
         if (identity == r->identity) continue;
         r->identity = identity;
         record_restart(r);
-        changed = true;
     }
-    return changed;
 }
 
 void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum)
@@ -281,7 +276,7 @@ void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum)
     zero_find(steps, &sets);
     if (steps->count > steps->subspaces + 1)
         half_find(steps, spectrum, steps->negative, steps->subspaces + 1, &sets);
-    steps->changes += records_follow(steps);
+    records_follow(steps);
     for (int k = 0; k < steps->count; k++) {
         hd_step *step = &steps->step[k];
         if (!step->resolved) continue;
@@ -303,7 +298,6 @@ void hd_steps_sample(hd_steps *steps, const hd_spectrum *spectrum, double length
 double hd_steps_threshold(void) { return HD_SET_THRESHOLD; }
 int hd_steps_count(const hd_steps *steps) { return steps->count; }
 const hd_modes *hd_steps_modes(const hd_steps *steps) { return steps->modes; }
-long hd_steps_changes(const hd_steps *steps) { return steps->changes; }
 
 const hd_step *hd_steps_step(const hd_steps *steps, int index)
 {
@@ -350,7 +344,6 @@ static void record_archive(record *r, hd_archive *archive)
 void hd_steps_archive(hd_steps *steps, hd_archive *archive)
 {
     const size_t count = (size_t)steps->count;
-    hd_archive_long(archive, "steps changes", &steps->changes, 0, LONG_MAX / 2);
     for (size_t k = 0; k < count; k++) step_archive(steps, &steps->step[k], archive);
     for (size_t k = 0; k < count; k++) record_archive(&steps->record[k], archive);
     hd_archive_doubles(archive, "steps share", steps->share, count * HD_SET_VECTORS_MAX);

@@ -1,78 +1,91 @@
-/** Trajectory -> event log, a step at a time: short enough for its log and for whoever waits. */
+/** Trajectory -> event log, one advance at a time. */
 #include "run/advance.h"
 
 #include <float.h>
 #include <math.h>
 
 #include "base/check.h"
-#include "base/clock.h"
-#include "tangent/verify.h"
 
-static const double EVENTS_PER_STEP = 200000.0; /* bounds memory, and the wait for an answer */
-/** No step is planned shorter: simulated time must move. */
-static const double STEP_MIN = 1e-12;
+static const double EVENTS_MAX = 200000.0; /* bounds memory, and the wait for an answer */
+/** None is planned shorter: simulated time must move. */
+static const double SHORTEST = 1e-12;
 
 /** Pair and wall events of one disk per time unit, roughly: momenta across a box are about 1. */
-static double events_per_disk(const hd_run *run, double collisions_per_disk)
+static double events_per_disk(const hd_advance *advance, const hd_scene_def *scene)
 {
-    double box[2], rate = collisions_per_disk;
-    hd_scene_box(&run->scene, box);
+    double box[2], rate = 2.0 * hd_trajectory_collision_rate(advance->trajectory) / scene->disks;
+    hd_scene_box(scene, box);
     for (int d = 0; d < 2; d++)
-        if (run->scene.boundary[d] == HD_REFLECTING) rate += 1.0 / (box[d] - 1.0);
+        if (scene->boundary[d] == HD_REFLECTING) rate += 1.0 / (box[d] - 1.0);
     return rate;
 }
 
-double hd_run_step_bound(const hd_run *run)
+hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene)
 {
-    const double rate = hd_trajectory_collision_rate(run->trajectory), disks = run->scene.disks;
-    return 8.0 * EVENTS_PER_STEP / (disks * events_per_disk(run, 2.0 * rate / disks));
+    HD_TRY(hd_trajectory_create(&advance->trajectory, scene));
+    advance->longest = 1e-3 / events_per_disk(advance, scene);
+    return HD_OK;
 }
 
-void hd_advance_first(hd_run *run, double collisions_per_disk)
+void hd_advance_clear(hd_advance *advance) { hd_trajectory_free(advance->trajectory); }
+
+double hd_advance_now(const hd_advance *advance) { return hd_trajectory_time(advance->trajectory); }
+
+static uint64_t events_so_far(const hd_advance *advance)
 {
-    run->step_max = 1e-3 / events_per_disk(run, collisions_per_disk);
+    return hd_trajectory_collisions(advance->trajectory) +
+           hd_trajectory_wall_events(advance->trajectory);
 }
 
-static uint64_t events_so_far(const hd_run *run)
+double hd_advance_shortest(const hd_advance *advance)
 {
-    return hd_trajectory_collisions(run->trajectory) + hd_trajectory_wall_events(run->trajectory);
+    return SHORTEST + 4.0 * DBL_EPSILON * hd_advance_now(advance);
 }
 
-double hd_advance_shortest(const hd_run *run) { return STEP_MIN + 4.0 * DBL_EPSILON * run->now; }
-
-double hd_advance_longest(const hd_run *run)
+double hd_advance_longest(const hd_advance *advance)
 {
-    return fmax(run->step_max, hd_advance_shortest(run));
+    return fmax(advance->longest, hd_advance_shortest(advance));
 }
 
-void hd_advance_plan(hd_run *run, double stop)
+double hd_advance_bound(const hd_advance *advance, const hd_scene_def *scene)
 {
-    const double left = stop - run->now, most = hd_advance_longest(run);
-    const double end = left <= most ? stop : run->now + left / ceil(left / most);
-    run->plan = (hd_step_plan){.begin = run->now, .end = end, .events = events_so_far(run)};
+    return 8.0 * EVENTS_MAX / (scene->disks * events_per_disk(advance, scene));
 }
 
-/** How long a step may be: a channel of hardly more than a disk's width can have 1e9 wall events in
- * a time unit. */
-static void learn_step(hd_run *run)
+/** Equal shares of what is left until `stop`, none longer than `most`. */
+static double share(double now, double stop, double most)
 {
-    const double length = run->plan.end - run->plan.begin;
-    const double events = fmax(1.0, (double)(events_so_far(run) - run->plan.events));
+    const double left = stop - now;
+    return left <= most ? stop : now + left / ceil(left / most);
+}
+
+void hd_advance_make_plan(hd_advance *advance, double stop)
+{
+    const double now = hd_advance_now(advance);
+    const double end = share(now, stop, hd_advance_longest(advance));
+    advance->plan = (hd_advance_plan){.begin = now, .end = end, .events = events_so_far(advance)};
+}
+
+bool hd_advance_is_done(const hd_advance *advance)
+{
+    return hd_advance_now(advance) >= advance->plan.end;
+}
+
+/** A channel of hardly more than a disk's width can have 1e9 wall events in a time unit. */
+static void learn(hd_advance *advance)
+{
+    const double length = advance->plan.end - advance->plan.begin;
+    const double events = fmax(1.0, (double)(events_so_far(advance) - advance->plan.events));
     if (length > 0)
-        run->step_max = fmin(4.0 * fmax(length, run->step_max / 4.0),
-                             length * EVENTS_PER_STEP / events);
+        advance->longest = fmin(4.0 * fmax(length, advance->longest / 4.0),
+                                length * EVENTS_MAX / events);
 }
 
-hd_status hd_advance(hd_run *run, hd_event_log *log)
+hd_status hd_advance_on(hd_advance *advance, hd_event_log *log, double most)
 {
-    const double start = hd_clock_now(), left = run->plan.end - run->now;
-    const double most = fmax(run->view.interval, hd_advance_shortest(run));
-    const double end = left <= most ? run->plan.end : run->now + left / ceil(left / most);
-    HD_TRY(hd_trajectory_extend(run->trajectory, log, end));
-    run->now = end;
-    if (end >= run->plan.end) learn_step(run);
-    run->cost.events += hd_clock_now() - start;
-    if (HD_VERIFIES) hd_verify_disks(run->trajectory, &run->scene);
-    if (HD_VERIFIES && log) hd_verify_log(log, run->scene.disks);
+    const double end = share(hd_advance_now(advance), advance->plan.end,
+                             fmax(most, hd_advance_shortest(advance)));
+    HD_TRY(hd_trajectory_extend(advance->trajectory, log, end));
+    if (hd_advance_is_done(advance)) learn(advance);
     return HD_OK;
 }

@@ -1,22 +1,45 @@
-/** How far the disks of a run go at a time. */
+/** How far the disks go at a time: short enough for the log and for whoever waits. */
 #ifndef HD_ADVANCE_H
 #define HD_ADVANCE_H
 
-#include "run/run_state.h"
+#include <stdbool.h>
 
-/** For the first step, when hardly anything is known of the rate of events. */
-void hd_advance_first(hd_run *run, double collisions_per_disk);
+#include "hdlyap/trajectory.h"
+
+/** The advance that the disks are in: what is learnt of it waits for its end, however often a
+ * watcher stops it. */
+typedef struct hd_advance_plan {
+    double begin, end; /**< simulated times */
+    uint64_t events;   /**< before it */
+} hd_advance_plan;
+
+typedef struct hd_advance {
+    hd_trajectory *trajectory;
+    double longest; /**< time units; keeps to EVENTS_MAX, as far as the rate of events is known */
+    hd_advance_plan plan;
+} hd_advance;
+
+/** The disks of a scene, at time 0; hardly anything is known of the rate of events. Fails as
+ * hd_trajectory_create. */
+HD_MUST_CHECK hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene);
+void hd_advance_clear(hd_advance *advance);
+
+double hd_advance_now(const hd_advance *advance); /**< simulated time */
 
 /** By less, simulated time would not move. */
-double hd_advance_shortest(const hd_run *run);
+double hd_advance_shortest(const hd_advance *advance);
 /** As far as the rate of events is known. */
-double hd_advance_longest(const hd_run *run);
+double hd_advance_longest(const hd_advance *advance);
+/** More than a run of this scene learns of that: several times the events of the longest one. */
+double hd_advance_bound(const hd_advance *advance, const hd_scene_def *scene);
 
-/** Plans the step from now to at most `stop`. */
-void hd_advance_plan(hd_run *run, double stop);
+/** Plans from now to at most `stop`. */
+void hd_advance_make_plan(hd_advance *advance, double stop);
+/** True at the end of what was planned. */
+bool hd_advance_is_done(const hd_advance *advance);
 
-/** Moves the disks on to the end of the planned step, or as far as a view lets it; the log may be
- * NULL. Fails as hd_trajectory_extend. */
-HD_MUST_CHECK hd_status hd_advance(hd_run *run, hd_event_log *log);
+/** Moves the disks on towards the end of the plan, by at most `most`; the log may be NULL. Fails as
+ * hd_trajectory_extend. */
+HD_MUST_CHECK hd_status hd_advance_on(hd_advance *advance, hd_event_log *log, double most);
 
 #endif

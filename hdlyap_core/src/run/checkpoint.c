@@ -13,6 +13,7 @@
 #include "covariant/archived.h"
 #include "events/archived.h"
 #include "hdlyap/blas.h"
+#include "hdlyap/parameters.h"
 #include "modes/archived.h"
 #include "run/checkpoint.h"
 #include "run/checkpoint_file.h"
@@ -32,8 +33,9 @@ static void head_archive(hd_checkpoint *head, hd_archive *archive)
 static void cost_archive(hd_run *run, hd_archive *archive)
 {
     hd_cost *c = &run->cost;
-    double *const numbers[] = {&c->events,   &c->replay,    &c->ortho,  &c->spectrum, &c->modes,
-                               &c->interval, &c->condition, &c->defect, &c->covariant};
+    double *const numbers[] = {&c->events,    &c->replay, &c->ortho,
+                               &c->spectrum,  &c->modes,  &c->interval,
+                               &c->condition, &c->defect, &run->windows.seconds};
     long *const counts[] = {&c->orthonormalisations, &c->second_passes, &c->looks, &c->repairs};
     int limit = (int)c->limit;
     hd_archive_of_doubles(archive, "cost", sizeof numbers / sizeof *numbers);
@@ -49,21 +51,21 @@ static void cost_archive(hd_run *run, hd_archive *archive)
 static void clocks_archive(hd_run *run, hd_archive *archive)
 {
     const double now = hd_clock_now();
-    double wall = now - run->created,
-           carried = run->frame_started != 0 ? now - run->frame_started : -1.0;
+    double wall = now - run->clocks.created,
+           carried = run->clocks.frame_started != 0 ? now - run->clocks.frame_started : -1.0;
     hd_archive_double(archive, "run wall", &wall);
     hd_archive_double(archive, "run wall carried", &carried);
     if (archive->writing) return;
-    run->created = now - wall;
-    run->frame_started = carried >= 0 ? now - carried : 0.0;
+    run->clocks.created = now - wall;
+    run->clocks.frame_started = carried >= 0 ? now - carried : 0.0;
 }
 
-/** A view can stop a run in the middle of a step that is planned. */
-static void plan_archive(hd_step_plan *plan, hd_archive *archive)
+/** A watcher can stop a run in the middle of an advance that is planned. */
+static void plan_archive(hd_advance_plan *plan, hd_archive *archive)
 {
-    hd_archive_double(archive, "run plan begin", &plan->begin);
-    hd_archive_double(archive, "run plan end", &plan->end);
-    hd_archive_bits(archive, "run plan events", &plan->events);
+    hd_archive_double(archive, "run advance begin", &plan->begin);
+    hd_archive_double(archive, "run advance end", &plan->end);
+    hd_archive_bits(archive, "run advance events", &plan->events);
 }
 
 static void numbers_archive(hd_run *run, hd_archive *archive)
@@ -72,49 +74,50 @@ static void numbers_archive(hd_run *run, hd_archive *archive)
     hd_archive_int(archive, "run observe", &observe, 0, (int)run->scene.observe);
     run->observe = (unsigned)observe & run->scene.observe;
     hd_archive_double(archive, "run interval end", &run->interval_end);
-    hd_archive_double(archive, "run step max", &run->step_max);
-    plan_archive(&run->plan, archive);
-    hd_archive_double(archive, "run frame start", &run->frame_start_time);
-    hd_archive_double(archive, "run condition max", &run->condition_max);
-    hd_archive_double(archive, "run rounding", &run->rounding);
+    hd_archive_double(archive, "run advance longest", &run->advance.longest);
+    plan_archive(&run->advance.plan, archive);
+    hd_archive_double(archive, "run frame start", &run->clocks.frame_start_time);
+    hd_archive_double(archive, "run condition max", &run->rounding.condition_max);
+    hd_archive_double(archive, "run rounding", &run->rounding.sum);
     clocks_archive(run, archive);
     cost_archive(run, archive);
 }
 
 static void parts_archive(hd_run *run, hd_archive *archive)
 {
-    hd_trajectory_archive(run->trajectory, archive);
+    hd_trajectory_archive(run->advance.trajectory, archive);
     hd_schedule_archive(&run->schedule, archive);
     hd_interval_archive(&run->interval, archive);
     if (!run->frame || !hd_archive_good(archive)) return;
     hd_event_log_archive(run->log, archive, run->scene.disks);
     hd_frame_archive(run->frame, archive);
     hd_spectrum_archive(run->spectrum, archive);
-    if (run->modes) hd_modes_archive(run->modes, archive);
-    if (run->steps) hd_steps_archive(run->steps, archive);
-    if (run->phases) hd_phases_archive(run->phases, archive);
-    if (run->covariant) hd_covariant_archive(run->covariant, archive);
+    if (run->observer.modes) hd_modes_archive(run->observer.modes, archive);
+    if (run->observer.steps) hd_steps_archive(run->observer.steps, archive);
+    if (run->observer.phases) hd_phases_archive(run->observer.phases, archive);
+    if (run->windows.covariant) hd_covariant_archive(run->windows.covariant, archive);
 }
 
 static void plan_expect(const hd_run *run, hd_archive *archive)
 {
-    const hd_step_plan *plan = &run->plan;
-    const double cut = run->schedule.stage == HD_FINISHED ? run->now
+    const hd_advance_plan *plan = &run->advance.plan;
+    const double cut = run->schedule.stage == HD_FINISHED ? hd_run_time(run)
                                                           : hd_schedule_cut(&run->schedule);
     const bool pending = run->log && run->log->duration > 0;
-    const double end = fmax(run->now, pending ? fmin(cut, run->interval_end) : cut);
-    const uint64_t events = hd_trajectory_collisions(run->trajectory) +
-                            hd_trajectory_wall_events(run->trajectory);
-    hd_archive_expect(archive, plan->begin <= run->now && plan->end <= end, "run plan end",
-                      "it does not fit the time");
-    hd_archive_expect(archive, plan->events <= events, "run plan events", "there were not so many");
+    const double end = fmax(hd_run_time(run), pending ? fmin(cut, run->interval_end) : cut);
+    const uint64_t events = hd_trajectory_collisions(run->advance.trajectory) +
+                            hd_trajectory_wall_events(run->advance.trajectory);
+    hd_archive_expect(archive, plan->begin <= hd_run_time(run) && plan->end <= end,
+                      "run advance end", "it does not fit the time");
+    hd_archive_expect(archive, plan->events <= events, "run advance events",
+                      "there were not so many");
 }
 
 /** Times fit each other: the run can go on from here. */
 static void times_expect(const hd_run *run, hd_archive *archive)
 {
     const hd_schedule *s = &run->schedule;
-    const double now = run->now, cut = hd_schedule_cut(s);
+    const double now = hd_run_time(run), cut = hd_schedule_cut(s);
     const bool no_more = cut >= now && hd_schedule_stage_end(s) <= now; /* a stage without length */
     const bool ahead = s->stage == HD_FINISHED || cut > now || no_more;
     hd_archive_expect(archive, s->start >= 0 && s->start <= now && ahead, "schedule",
@@ -125,14 +128,15 @@ static void times_expect(const hd_run *run, hd_archive *archive)
                       "run interval end", "it does not fit the time");
     hd_archive_expect(archive, !run->log || (run->log->duration >= 0 && run->log->duration <= now),
                       "log duration", "it does not fit the time");
-    hd_archive_expect(archive, run->step_max > 0, "run step max", "it is not positive");
+    hd_archive_expect(archive, run->advance.longest > 0, "run advance longest",
+                      "it is not positive");
 }
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
 void hd_run_write(hd_run *run, hd_archive *archive, const char *label)
 {
-    hd_checkpoint head = {.scene = run->scene, .time = run->now};
+    hd_checkpoint head = {.scene = run->scene, .time = hd_run_time(run)};
     int threads = run->threads;
     snprintf(head.label, sizeof head.label, "%s", label);
     head_archive(&head, archive);
@@ -165,41 +169,31 @@ hd_status hd_checkpoint_writable(const char *path, char *message, size_t size)
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
+static hd_status refuse_other(const hd_parameter *row, const hd_scene_def *asked,
+                              const hd_scene_def *kept, char *message, size_t size)
+{
+    if (row->kind == HD_PARAMETER_SEED)
+        return hd_refuse(message, size, "seed = %llu: must be %llu, as in the checkpoint",
+                         (unsigned long long)asked->seed, (unsigned long long)kept->seed);
+    return hd_refuse(message, size, "%s = %.15g: must be %.15g, as in the checkpoint",
+                     row->kind == HD_PARAMETER_SET ? "observables (as a set of HD_OBSERVE_*)"
+                                                   : row->name,
+                     hd_parameter_value(row, asked), hd_parameter_value(row, kept));
+}
+
 /** What cannot change within a run. */
 static hd_status check_same(const hd_scene_def *asked, const hd_scene_def *kept, char *message,
                             size_t size)
 {
-    const struct {
-        const char *name;
-        double asked, kept;
-    } table[] = {
-#define SAME(field) {#field, asked->field, kept->field}
-        SAME(disks),
-        SAME(density),
-        SAME(aspect),
-        SAME(exponents),
-        SAME(equilibration),
-        SAME(warmup),
-        SAME(interval),
-        SAME(accuracy),
-        SAME(report_interval),
-        SAME(max_wave_number),
-        SAME(max_mode_number),
-        SAME(covariant_window),
-        SAME(covariant_transient),
-        SAME(covariant_sampling),
-#undef SAME
-        {"boundary_x", asked->boundary[0], kept->boundary[0]},
-        {"boundary_y", asked->boundary[1], kept->boundary[1]},
-        {"observables (as a set of HD_OBSERVE_*)", asked->observe, kept->observe},
-    };
-    for (size_t k = 0; k < sizeof table / sizeof *table; k++)
-        if (!(table[k].asked == table[k].kept))
-            return hd_refuse(message, size, "%s = %.15g: must be %.15g, as in the checkpoint",
-                             table[k].name, table[k].asked, table[k].kept);
-    if (asked->seed != kept->seed)
-        return hd_refuse(message, size, "seed = %llu: must be %llu, as in the checkpoint",
-                         (unsigned long long)asked->seed, (unsigned long long)kept->seed);
+    int count;
+    const hd_parameter *rows = hd_scene_parameters(&count);
+    for (int k = 0; k < count; k++) {
+        const hd_parameter *r = &rows[k];
+        const bool same = r->kind == HD_PARAMETER_SEED
+                              ? asked->seed == kept->seed
+                              : hd_parameter_value(r, asked) == hd_parameter_value(r, kept);
+        if (!same && !r->may_differ) return refuse_other(r, asked, kept, message, size);
+    }
     return HD_OK;
 }
 
@@ -231,10 +225,11 @@ static int threads_of(int asked, int before)
 /** A run that had finished goes on if it has become longer. */
 static hd_status reopen(hd_run *run, char *message, size_t size)
 {
-    const double averaged = run->now - run->schedule.start, target = run->scene.target_std_error;
+    const double averaged = hd_run_time(run) - run->schedule.start,
+                 target = run->scene.target_std_error;
     const bool finished = run->schedule.stage == HD_FINISHED && run->spectrum;
     if (finished && target > 0 && hd_run_smallest_error(run) <= target) return HD_OK;
-    if (run->schedule.stage < HD_AVERAGING || hd_schedule_reopen(&run->schedule, run->now))
+    if (run->schedule.stage < HD_AVERAGING || hd_schedule_reopen(&run->schedule, hd_run_time(run)))
         return HD_OK;
     return hd_refuse(message, size,
                      "duration = %.15g: must be at least %.15g, averaged before the checkpoint",
@@ -245,19 +240,18 @@ static hd_status restore(hd_run *run, hd_archive *archive, double time, char *me
 {
     numbers_archive(run, archive);
     parts_archive(run, archive);
-    run->now = hd_trajectory_time(run->trajectory);
-    hd_archive_expect(archive, run->now == time, "time", "it is not that of the disks");
+    hd_archive_expect(archive, hd_run_time(run) == time, "time", "it is not that of the disks");
     if (hd_archive_end(archive) != HD_OK) return inconsistent(archive, message, size);
     HD_TRY(reopen(run, message, size));
-    const double last = fmax(run->now, hd_schedule_stage_end(&run->schedule));
+    const double last = fmax(hd_run_time(run), hd_schedule_stage_end(&run->schedule));
     run->interval_end = fmin(run->interval_end, last); /* of a duration that has become shorter */
-    run->plan.end = fmin(run->plan.end, last);
+    run->advance.plan.end = fmin(run->advance.plan.end, last);
     times_expect(run, archive);
     plan_expect(run, archive);
-    /* else a file can ask for a step without end */
-    const double bound = hd_run_step_bound(run);
-    run->step_max = fmin(run->step_max, bound);
-    run->plan.end = fmin(run->plan.end, run->now + bound);
+    /* else a file can ask for an advance without end */
+    const double bound = hd_advance_bound(&run->advance, &run->scene);
+    run->advance.longest = fmin(run->advance.longest, bound);
+    run->advance.plan.end = fmin(run->advance.plan.end, hd_run_time(run) + bound);
     return hd_archive_good(archive) ? HD_OK : inconsistent(archive, message, size);
 }
 

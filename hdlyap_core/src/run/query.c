@@ -5,22 +5,22 @@
 #include "base/clock.h"
 #include "run/run_state.h"
 
-bool hd_run_report_due(const hd_run *run) { return run->report_due; }
-bool hd_run_fields_due(const hd_run *run) { return run->fields_due; }
+bool hd_run_report_due(const hd_run *run) { return run->due.report; }
+bool hd_run_fields_due(const hd_run *run) { return run->due.fields; }
 hd_stage hd_run_stage(const hd_run *run) { return run->schedule.stage; }
-double hd_run_time(const hd_run *run) { return run->now; }
+double hd_run_time(const hd_run *run) { return hd_advance_now(&run->advance); }
 const hd_scene_def *hd_run_scene(const hd_run *run) { return &run->scene; }
 int hd_run_vectors(const hd_run *run) { return run->vectors; }
 int hd_run_threads(const hd_run *run) { return run->threads; }
-const hd_trajectory *hd_run_trajectory(const hd_run *run) { return run->trajectory; }
+const hd_trajectory *hd_run_trajectory(const hd_run *run) { return run->advance.trajectory; }
 const hd_frame *hd_run_frame(const hd_run *run) { return run->frame; }
 const hd_spectrum *hd_run_spectrum(const hd_run *run) { return run->spectrum; }
-const hd_modes *hd_run_modes(const hd_run *run) { return run->modes; }
-const hd_steps *hd_run_steps(const hd_run *run) { return run->steps; }
-const hd_phases *hd_run_phases(const hd_run *run) { return run->phases; }
-const hd_covariant *hd_run_covariant(const hd_run *run) { return run->covariant; }
+const hd_modes *hd_run_modes(const hd_run *run) { return run->observer.modes; }
+const hd_steps *hd_run_steps(const hd_run *run) { return run->observer.steps; }
+const hd_phases *hd_run_phases(const hd_run *run) { return run->observer.phases; }
+const hd_covariant *hd_run_covariant(const hd_run *run) { return run->windows.covariant; }
 
-hd_columns hd_run_columns(const hd_run *run) { return run->view.columns; }
+hd_columns hd_run_columns(const hd_run *run) { return run->observer.known; }
 
 int hd_run_samples_per_report(const hd_run *run)
 {
@@ -49,7 +49,7 @@ static double time_left(const hd_run *run)
     const hd_scene_def *scene = &run->scene;
     const hd_stage stage = run->schedule.stage;
     if (stage == HD_FINISHED) return 0.0;
-    double left = fmin(hd_schedule_stage_end(&run->schedule) - run->now, target_left(run));
+    double left = fmin(hd_schedule_stage_end(&run->schedule) - hd_run_time(run), target_left(run));
     if (stage == HD_EQUILIBRATING) left += scene->warmup;
     if (stage < HD_AVERAGING) left += scene->duration > 0 ? scene->duration : INFINITY;
     return left;
@@ -59,20 +59,27 @@ hd_cost hd_run_cost(const hd_run *run)
 {
     hd_cost cost = run->cost;
     const double now = hd_clock_now(), left = time_left(run);
-    cost.wall = now - run->created;
+    cost.covariant = run->windows.seconds;
+    cost.wall = now - run->clocks.created;
     if (run->schedule.stage >= HD_AVERAGING && run->spectrum && hd_spectrum_time(run->spectrum) > 0)
-        cost.error_bound = (HD_ENLARGED * run->rounding + cost.defect * cost.defect) /
+        cost.error_bound = (HD_ENLARGED * run->rounding.sum + cost.defect * cost.defect) /
                            hd_spectrum_time(run->spectrum);
     const double error = run->spectrum ? hd_run_smallest_error(run) : INFINITY;
     cost.std_error = error < INFINITY ? error : -1.0;
     cost.events_per_second = cost.events > 0
-                                 ? (double)hd_trajectory_collisions(run->trajectory) / cost.events
+                                 ? (double)hd_trajectory_collisions(run->advance.trajectory) /
+                                       cost.events
                                  : 0.0;
-    cost.progress = left < INFINITY ? run->now / fmax(run->now + left, DBL_MIN) : 0.0;
+    cost.progress = left < INFINITY ? hd_run_time(run) / fmax(hd_run_time(run) + left, DBL_MIN)
+                                    : 0.0;
     if (run->schedule.stage == HD_FINISHED) cost.progress = 1.0;
-    const double carried = run->now -
-                           run->frame_start_time; /* equilibration is no measure of the rest */
-    const bool known = left == 0 || (run->frame_started != 0 && carried > 0 && left < INFINITY);
-    cost.remaining = !known ? -1.0 : left == 0 ? 0.0 : left * (now - run->frame_started) / carried;
+    const double carried =
+        hd_run_time(run) -
+        run->clocks.frame_start_time; /* equilibration is no measure of the rest */
+    const bool known = left == 0 ||
+                       (run->clocks.frame_started != 0 && carried > 0 && left < INFINITY);
+    cost.remaining = !known      ? -1.0
+                     : left == 0 ? 0.0
+                                 : left * (now - run->clocks.frame_started) / carried;
     return cost;
 }

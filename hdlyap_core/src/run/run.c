@@ -13,24 +13,17 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "hdlyap/blas.h"
-#include "run/advance.h"
+#include "run/factorise.h"
 #include "run/run_state.h"
-#include "run/windows.h"
 #include "tangent/threads.h"
 #include "tangent/verify.h"
 
-/** Loss of orthogonality allowed where nobody looks at the vectors, as the logarithms telescope
- * [T5]; its square enters a mean. */
-static const double DEFECT_LOOSE = 1e-4;
-/** The same where somebody does. */
-static const double DEFECT_MEASURED = 1e-6;
-/** Single precision leaves a tenth of the tail's vectors astray there, and a thousandth of their
+/** Single precision leaves a tenth of the slow vectors astray there, and a thousandth of their
  * phases. */
-static const double CONDITION_TAIL = 1e4;
-enum { PIECES_MAX = 64, TAIL_MAX = 60 };
-/** What modes are needed for. */
-static const unsigned OF_MODES = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES |
-                                 HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO;
+static const double CONDITION_SLOW = 1e4;
+/** Collisions of each disk between two orthonormalisations that no accuracy and no density exceed.
+ */
+static const double COLLISIONS_MOST = 60.0;
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
@@ -61,55 +54,41 @@ static hd_status prepare_frame(hd_run *run)
     return hd_threads_choose(&run->threads, run->ortho, run->frame, run->scene.threads);
 }
 
-static hd_status prepare_phases(hd_run *run)
+static hd_status prepare_windows(hd_run *run, char *message, size_t size)
 {
-    const int most = run->vectors / 4;
-    HD_TRY(hd_phases_create(&run->phases, run->steps));
-    const hd_status status = hd_slow_vectors_create(&run->tail, &run->scene,
-                                                    most < TAIL_MAX ? most : TAIL_MAX);
-    return status == HD_REFUSED ? HD_OK : status;
-}
-
-/** Kinds of modes need steps; only phases cost more. */
-static hd_status prepare_modes(hd_run *run)
-{
-    const hd_scene_def *scene = &run->scene;
-    const size_t size = 2 * (size_t)scene->disks;
-    run->q = hd_memory_alloc(size, sizeof(double));
-    run->p = hd_memory_alloc(size, sizeof(double));
-    if (!run->q || !run->p) return HD_NO_MEMORY;
-    HD_TRY(hd_modes_create(&run->modes, scene, run->vectors, run->threads));
-    HD_TRY(hd_steps_create(&run->steps, scene, run->modes));
-    return scene->observe & HD_OBSERVE_PHASES ? prepare_phases(run) : HD_OK;
+    const double longest = fmin(COLLISIONS_MOST * run->sample_max / HD_COLLISIONS_PER_SAMPLE,
+                                run->interval.limit);
+    if (!(run->scene.observe & HD_OBSERVE_COVARIANT)) return HD_OK;
+    return hd_windows_create(&run->windows, &run->scene, run->ortho, longest, run->threads, message,
+                             size);
 }
 
 static hd_status prepare(hd_run *run, char *message, size_t size)
 {
     const hd_scene_def *scene = &run->scene;
-    HD_TRY(hd_trajectory_create(&run->trajectory, scene));
+    HD_TRY(hd_advance_create(&run->advance, scene));
     run->vectors = hd_scene_vectors(scene);
     run->threads = 1;
-    const double per_disk = 2.0 * hd_trajectory_collision_rate(run->trajectory) / scene->disks;
+    const double per_disk = 2.0 * hd_trajectory_collision_rate(run->advance.trajectory) /
+                            scene->disks;
     const double limit = scene->interval > 0 ? scene->interval : INFINITY;
     run->sample_max = HD_COLLISIONS_PER_SAMPLE / per_disk;
-    hd_advance_first(run, per_disk);
-    run->view = (hd_view){.interval = INFINITY, .first = run->vectors};
+    run->watch = (hd_watch){.interval = INFINITY, .first = run->vectors};
     run->interval = hd_interval_first(2.0 / per_disk, limit, scene->accuracy);
     run->schedule = hd_schedule_of(scene);
     if (run->vectors == 0) return HD_OK;
     HD_TRY(prepare_frame(run));
-    HD_TRY(hd_windows_create(run, message, size));
+    HD_TRY(prepare_windows(run, message, size));
     run->observe = scene->observe;
-    return scene->observe & OF_MODES ? prepare_modes(run) : HD_OK;
+    if (!(scene->observe & HD_OBSERVE_OF_MODES)) return HD_OK;
+    return hd_observer_create(&run->observer, scene, run->vectors, run->threads);
 }
 
 static void averages_clear(hd_run *run)
 {
     hd_spectrum_clear(run->spectrum);
-    if (run->modes) hd_modes_clear(run->modes);
-    if (run->steps) hd_steps_clear(run->steps);
-    if (run->phases) hd_phases_clear(run->phases);
-    hd_windows_clear(run);
+    hd_observer_clear(&run->observer);
+    if (run->windows.covariant) hd_windows_clear(&run->windows);
 }
 
 /** Intervals shorter than a collision of each disk, because the warm-up was, have taught nothing
@@ -130,15 +109,15 @@ static double sample_longest(const hd_run *run)
 
 static void enter_stage(hd_run *run, hd_stage stage)
 {
-    run->stage_ends = false;
-    hd_schedule_enter(&run->schedule, stage, run->now, sample_longest(run));
-    run->plan.end = run->now;
+    run->due.stage_end = false;
+    hd_schedule_enter(&run->schedule, stage, hd_run_time(run), sample_longest(run));
+    run->advance.plan.end = hd_run_time(run);
     stage = run->schedule.stage;
     if (run->spectrum && stage == HD_AVERAGING) averages_clear(run);
-    if (stage == HD_AVERAGING) run->rounding = HD_ROUNDING * run->condition_max;
-    if (stage == HD_EQUILIBRATING || run->frame_started != 0) return;
-    run->frame_started = hd_clock_now();
-    run->frame_start_time = run->now;
+    if (stage == HD_AVERAGING) run->rounding.sum = HD_ROUNDING * run->rounding.condition_max;
+    if (stage == HD_EQUILIBRATING || run->clocks.frame_started != 0) return;
+    run->clocks.frame_started = hd_clock_now();
+    run->clocks.frame_start_time = hd_run_time(run);
 }
 
 hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, size_t size)
@@ -148,7 +127,7 @@ hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, si
     hd_run *run = hd_memory_alloc(1, sizeof *run);
     if (!run) return HD_NO_MEMORY;
     run->scene = *def;
-    run->created = hd_clock_now();
+    run->clocks.created = hd_clock_now();
     const hd_status status = prepare(run, message, size);
     if (status != HD_OK) {
         hd_run_free(run);
@@ -162,116 +141,14 @@ hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, si
 void hd_run_free(hd_run *run)
 {
     if (!run) return;
-    hd_trajectory_free(run->trajectory);
+    hd_advance_clear(&run->advance);
+    hd_observer_free(&run->observer);
+    hd_windows_free(&run->windows);
     hd_event_log_free(run->log);
     hd_frame_free(run->frame);
     hd_ortho_free(run->ortho);
-    hd_covariant_free(run->covariant);
     hd_spectrum_free(run->spectrum);
-    hd_slow_vectors_free(run->tail);
-    hd_phases_free(run->phases);
-    hd_steps_free(run->steps);
-    hd_modes_free(run->modes);
-    hd_memory_free(run->q);
-    hd_memory_free(run->p);
     hd_memory_free(run);
-}
-
-/* ---- one interval -------------------------------------------------------------------------- */
-
-static hd_status replay(hd_run *run, double t_begin, double t_end)
-{
-    hd_symplectic before;
-    if (HD_VERIFIES) before = hd_verify_sample(run->frame);
-    HD_TRY(hd_frame_replay(run->frame, run->log, t_begin, t_end));
-    if (HD_VERIFIES) hd_verify_symplectic(run->frame, &before, (double)run->log->count);
-    return HD_OK;
-}
-
-/** Pieces of the log that are taken back no more: a collision of each disk is the least that can be
- * divided. */
-static double shortest_piece(const hd_run *run)
-{
-    return fmin(run->log->duration / PIECES_MAX, run->sample_max / HD_COLLISIONS_PER_SAMPLE);
-}
-
-/** Carries the frame from t_begin to t_end of the log and orthonormalises it. */
-static hd_status frame_piece(hd_run *run, double t_begin, double t_end, double defect)
-{
-    const double start = hd_clock_now(), length = t_end - t_begin;
-    HD_TRY(replay(run, t_begin, t_end));
-    const double replayed = hd_clock_now();
-    const double allowed = hd_interval_piece_max(&run->interval, length, run->log->duration);
-    const hd_ortho_limits limits = {allowed, defect};
-    const hd_status status = length > shortest_piece(run)
-                                 ? hd_ortho_step(run->ortho, run->frame, limits)
-                                 : hd_ortho_step_stable(run->ortho, run->frame,
-                                                        HD_CONDITION_STABLE);
-    run->cost.replay += replayed - start;
-    run->cost.ortho += hd_clock_now() - replayed;
-    if (HD_VERIFIES && status == HD_OK) hd_verify_ortho(run->ortho, run->frame);
-    return status;
-}
-
-/** What an accepted orthonormalisation says about spectrum, interval and cost. */
-static void piece_accepted(hd_run *run, double length)
-{
-    const double start = hd_clock_now();
-    const double *stretch = hd_ortho_log_stretch(run->ortho);
-    const double condition = hd_ortho_condition(run->ortho);
-    double most = 0.0;
-    for (int col = 0; col < run->vectors; col++) most = fmax(most, fabs(stretch[col]));
-    hd_interval_learn(&run->interval, length, condition, most);
-    if (run->schedule.stage == HD_AVERAGING) hd_spectrum_add(run->spectrum, stretch, length);
-    hd_cost *cost = &run->cost;
-    cost->interval = length;
-    cost->condition = condition;
-    cost->defect = hd_ortho_defect(run->ortho);
-    run->condition_max = fmax(run->condition_max, condition);
-    run->rounding += HD_ROUNDING * condition;
-    cost->orthonormalisations++;
-    cost->second_passes += hd_ortho_passes(run->ortho) > 1;
-    cost->spectrum += hd_clock_now() - start;
-}
-
-/** True while modes are looked at. */
-static bool observing(const hd_run *run)
-{
-    return run->modes && run->observe & OF_MODES && run->schedule.stage == HD_AVERAGING;
-}
-
-/** The whole log. An interval that turned out too long is taken back and replayed in pieces; a
- * shortest piece that is still too much holds a grazing collision and is factored by reflections.
- */
-static hd_status frame_interval(hd_run *run)
-{
-    const double duration = run->log->duration;
-    const bool looked_at = observing(run) || hd_windows_is_watched(run);
-    const double defect = looked_at ? DEFECT_MEASURED : DEFECT_LOOSE;
-    double begin = 0.0, end = duration;
-    HD_TRY(hd_windows_start(run));
-    while (begin < duration) {
-        const double piece = end - begin;
-        const hd_status status = frame_piece(run, begin, end, defect);
-        if (status != HD_OK && status != HD_ILL_CONDITIONED) return status;
-        if (status == HD_OK) {
-            piece_accepted(run, piece);
-            HD_TRY(hd_windows_add(run, begin, end));
-            begin = end;
-            end = duration - end < 1.5 * piece ? duration
-                                               : end + piece; /* no crumb of rounding is left */
-            continue;
-        }
-        if (piece <= shortest_piece(run)) return HD_ILL_CONDITIONED;
-        run->cost.repairs += piece >= duration;
-        run->cost.limit = HD_LIMIT_REPAIR;
-        hd_interval_failed(&run->interval, piece);
-        hd_frame_rewind(run->frame);
-        end = begin + 0.5 * piece;
-    }
-    hd_event_log_clear(run->log);
-    run->interval_end = run->plan.end = run->now;
-    return hd_windows_end(run);
 }
 
 /** True if the exponents nearest to zero are known as well as the scene asks. */
@@ -284,18 +161,21 @@ static bool target_reached(const hd_run *run)
 /** Longest time between two looks at the phases; INFINITY if nobody looks. */
 static double phases_due(const hd_run *run)
 {
-    return run->observe & HD_OBSERVE_PHASES ? hd_phases_sampling(run->steps) : INFINITY;
+    return run->observe & HD_OBSERVE_PHASES ? hd_phases_sampling(run->observer.steps) : INFINITY;
 }
 
 /** The modes of an orthonormal frame. */
 static hd_status measure(hd_run *run)
 {
     const double start = hd_clock_now();
-    run->view.columns = hd_frame_columns(run->frame);
-    hd_trajectory_state(run->trajectory, run->q, run->p);
-    HD_TRY(hd_modes_measure(run->modes, run->view.columns, run->q, run->p));
+    HD_TRY(hd_observer_measure(&run->observer, run->frame, run->advance.trajectory));
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
+}
+
+static void follow_phases(hd_run *run)
+{
+    hd_phases_add(run->observer.phases, run->observer.steps, hd_run_time(run));
 }
 
 /** Modes, steps and phases of a measured state; what is asked for is enough for each. */
@@ -304,10 +184,10 @@ static hd_status observe(hd_run *run, bool report)
     HD_TRY(measure(run));
     const double start = hd_clock_now();
     if (report) {
-        hd_modes_add(run->modes);
-        hd_steps_find(run->steps, run->spectrum);
+        hd_modes_add(run->observer.modes);
+        hd_steps_find(run->observer.steps, run->spectrum);
     }
-    if (run->observe & HD_OBSERVE_PHASES) hd_phases_add(run->phases, run->steps, run->now);
+    if (run->observe & HD_OBSERVE_PHASES) follow_phases(run);
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
 }
@@ -315,22 +195,22 @@ static hd_status observe(hd_run *run, bool report)
 static void sample_spectrum(hd_run *run)
 {
     hd_spectrum_sample(run->spectrum);
-    if (run->observe & OF_MODES)
-        hd_steps_sample(run->steps, run->spectrum, run->schedule.sample_length);
+    if (run->observe & HD_OBSERVE_OF_MODES)
+        hd_steps_sample(run->observer.steps, run->spectrum, run->schedule.sample_length);
 }
 
 /** True where somebody wants all of the vectors of this very time. */
 static bool vectors_wanted(const hd_run *run)
 {
-    const unsigned due = HD_OBSERVE_HYDRO | (run->fields_due ? HD_OBSERVE_FIELDS : 0u);
-    return observing(run) && (run->observe & due);
+    const unsigned due = HD_OBSERVE_HYDRO | (run->due.fields ? HD_OBSERVE_FIELDS : 0u);
+    return hd_run_is_observing(run) && (run->observe & due);
 }
 
-/** True if the tail will do for `count` phases at this time. */
-static bool tail_suffices(const hd_run *run, int count)
+/** True if a look will do for `count` vectors at this time. */
+static bool look_suffices(const hd_run *run, int count)
 {
-    return run->tail && count <= hd_slow_vectors_count_max(run->tail) &&
-           hd_interval_condition(&run->interval, run->log->duration) <= CONDITION_TAIL;
+    return hd_observer_reaches(&run->observer, count) &&
+           hd_interval_condition(&run->interval, run->log->duration) <= CONDITION_SLOW;
 }
 
 /** Finds the slowest vectors in the middle of an interval; the frame stays as it was at its start.
@@ -338,14 +218,10 @@ static bool tail_suffices(const hd_run *run, int count)
 static hd_status look(hd_run *run, int count)
 {
     const double start = hd_clock_now();
-    HD_TRY(replay(run, 0.0, run->log->duration));
+    HD_TRY(hd_run_replay(run, 0.0, run->log->duration));
     const double replayed = hd_clock_now();
-    hd_trajectory_state(run->trajectory, run->q, run->p);
-    hd_status status = hd_slow_vectors_measure(run->tail, run->frame, run->p, count);
-    hd_frame_rewind(run->frame);
-    if (status == HD_OK)
-        status = hd_modes_measure(run->modes, hd_slow_vectors_columns(run->tail), run->q, run->p);
-    if (status == HD_OK) run->view.columns = hd_slow_vectors_columns(run->tail);
+    const hd_status status = hd_observer_look(&run->observer, run->frame, run->advance.trajectory,
+                                              count);
     run->cost.replay += replayed - start;
     run->cost.modes += hd_clock_now() - replayed;
     run->cost.looks += status == HD_OK;
@@ -355,20 +231,22 @@ static hd_status look(hd_run *run, int count)
 static hd_status end_early(hd_run *run)
 {
     run->cost.limit = HD_LIMIT_LOOK;
-    return frame_interval(run);
+    return hd_run_factorise(run);
 }
 
 /** The slowest vectors, by a look or else by an early end of the interval. */
 static hd_status find_slowest(hd_run *run, int count)
 {
-    const hd_status status = tail_suffices(run, count) ? look(run, count) : HD_ILL_CONDITIONED;
+    const hd_status status = look_suffices(run, count) ? look(run, count) : HD_ILL_CONDITIONED;
     return status == HD_ILL_CONDITIONED ? end_early(run) : status;
 }
 
-/** Number of slowest vectors that a view wants now. */
-static int viewed(const hd_run *run)
+/** Number of slowest vectors that a watcher wants now. */
+static int watched(const hd_run *run)
 {
-    return observing(run) && run->view.first < run->vectors ? run->vectors - run->view.first : 0;
+    return hd_run_is_observing(run) && run->watch.first < run->vectors
+               ? run->vectors - run->watch.first
+               : 0;
 }
 
 /** In the middle of an interval: what is wanted there. What a look cannot give, an early end does;
@@ -378,60 +256,62 @@ static hd_status look_or_end(hd_run *run)
     const bool averaging = run->schedule.stage == HD_AVERAGING;
     if (vectors_wanted(run) || (averaging && hd_spectrum_time(run->spectrum) == 0))
         return end_early(run);
-    const bool follows = observing(run) && (run->observe & HD_OBSERVE_PHASES);
-    const int count = follows ? hd_phases_vectors(run->steps) : 0;
-    const int most = count > viewed(run) ? count : viewed(run);
+    const bool follows = hd_run_is_observing(run) && (run->observe & HD_OBSERVE_PHASES);
+    const int count = follows ? hd_phases_vectors(run->observer.steps) : 0;
+    const int most = count > watched(run) ? count : watched(run);
     if (most == 0) return HD_OK;
     HD_TRY(find_slowest(run, most));
-    if (count > 0 && run->now < run->interval_end) hd_phases_add(run->phases, run->steps, run->now);
+    if (count > 0 && hd_run_time(run) < run->interval_end) follow_phases(run);
     return HD_OK;
 }
 
-/** Between two cuts: what a view wants. */
+/** Between two cuts: what a watcher wants. */
 static hd_status show(hd_run *run)
 {
-    if (viewed(run) == 0) return HD_OK;
-    if (run->now < run->interval_end) HD_TRY(find_slowest(run, viewed(run)));
-    return run->now == run->interval_end ? measure(run) : HD_OK;
+    if (watched(run) == 0) return HD_OK;
+    if (hd_run_time(run) < run->interval_end) HD_TRY(find_slowest(run, watched(run)));
+    return hd_run_time(run) == run->interval_end ? measure(run) : HD_OK;
+}
+
+/** True while there is a way back to go. */
+static bool is_going_back(const hd_run *run)
+{
+    return hd_run_is_windowing(run) && hd_windows_is_going(&run->windows);
 }
 
 /** Once covariant vectors have gone their way back, if a stage is to end. The last one may end
  * early. */
 static void leave_stage(hd_run *run)
 {
-    if (!run->stage_ends || hd_windows_is_going(run)) return;
+    if (!run->due.stage_end || is_going_back(run)) return;
     enter_stage(run, run->schedule.stage + 1);
 }
 
-static hd_status go_back(hd_run *run)
+static hd_status go_back(hd_run *run, bool to_its_end)
 {
-    HD_TRY(hd_windows_go(run, false));
+    if (is_going_back(run)) HD_TRY(hd_windows_go(&run->windows, to_its_end));
     leave_stage(run);
     return HD_OK;
 }
 
-hd_status hd_run_settle(hd_run *run)
-{
-    HD_TRY(hd_windows_go(run, true));
-    leave_stage(run);
-    return HD_OK;
-}
+hd_status hd_run_settle(hd_run *run) { return go_back(run, true); }
 
 /** At the end of a piece: what is measured there, and what ends. */
 static hd_status take_cut(hd_run *run)
 {
-    const bool averaging = run->schedule.stage == HD_AVERAGING, measuring = observing(run);
-    run->fields_due = averaging &&
+    const bool averaging = run->schedule.stage == HD_AVERAGING,
+               measuring = hd_run_is_observing(run);
+    run->due.fields = averaging &&
                       hd_schedule_reaches_multiple(&run->schedule, run->field_interval);
-    if (run->frame && run->now < run->interval_end) HD_TRY(look_or_end(run));
-    const bool factored = run->frame && run->now == run->interval_end;
+    if (run->frame && hd_run_time(run) < run->interval_end) HD_TRY(look_or_end(run));
+    const bool factored = run->frame && hd_run_time(run) == run->interval_end;
     const unsigned ends = hd_schedule_pass(&run->schedule, phases_due(run));
-    run->report_due = ends & HD_ENDS_REPORT;
+    run->due.report = ends & HD_ENDS_REPORT;
     if (averaging && run->spectrum && (ends & HD_ENDS_WHOLE_SAMPLE)) sample_spectrum(run);
-    if (measuring && factored) HD_TRY(observe(run, run->report_due));
-    const bool reached = averaging && run->report_due && factored && target_reached(run);
-    run->fields_due |= reached;
-    run->stage_ends = ends & HD_ENDS_STAGE || reached;
+    if (measuring && factored) HD_TRY(observe(run, run->due.report));
+    const bool reached = averaging && run->due.report && factored && target_reached(run);
+    run->due.fields |= reached;
+    run->due.stage_end = ends & HD_ENDS_STAGE || reached;
     leave_stage(run);
     return HD_OK;
 }
@@ -439,37 +319,49 @@ static hd_status take_cut(hd_run *run)
 /** Where the next orthonormalisation falls. */
 static void plan_interval(hd_run *run)
 {
-    const double end = hd_schedule_sample_end(&run->schedule), left = end - run->now;
-    const double most = hd_advance_longest(run);
+    const double end = hd_schedule_sample_end(&run->schedule), left = end - hd_run_time(run);
+    const double most = hd_advance_longest(&run->advance);
     hd_interval_length next = hd_interval_next(&run->interval, left);
     if (next.length > most) next = (hd_interval_length){left / ceil(left / most), HD_LIMIT_EVENTS};
-    next.length = fmax(next.length, hd_advance_shortest(run));
-    run->interval_end = next.length >= left ? end : run->now + next.length;
+    next.length = fmax(next.length, hd_advance_shortest(&run->advance));
+    run->interval_end = next.length >= left ? end : hd_run_time(run) + next.length;
     run->cost.limit = next.limit;
 }
 
-hd_status hd_run_step(hd_run *run)
+/** Moves the disks on, as far as a watcher lets them. */
+static hd_status advance(hd_run *run, hd_event_log *log)
 {
-    run->report_due = run->fields_due = false;
-    run->view.columns.count = 0;
+    const double start = hd_clock_now();
+    HD_TRY(hd_advance_on(&run->advance, log, run->watch.interval));
+    run->cost.events += hd_clock_now() - start;
+    if (HD_VERIFIES) hd_verify_disks(run->advance.trajectory, &run->scene);
+    if (HD_VERIFIES && log) hd_verify_log(log, run->scene.disks);
+    return HD_OK;
+}
+
+hd_status hd_run_advance(hd_run *run)
+{
+    run->due.report = run->due.fields = false;
+    run->observer.known.count = 0;
     if (run->schedule.stage == HD_FINISHED) return HD_OK;
     const bool with_frame = run->frame && run->schedule.stage != HD_EQUILIBRATING;
     if (with_frame) hd_blas_use_threads(run->threads); /* with OpenMP: of the calling thread */
-    if (hd_windows_is_going(run) || run->stage_ends) return go_back(run);
+    if (is_going_back(run) || run->due.stage_end) return go_back(run, false);
     const double cut = hd_schedule_cut(&run->schedule);
-    if (with_frame && run->now >= run->interval_end) plan_interval(run);
-    if (run->now >= run->plan.end)
-        hd_advance_plan(run, with_frame ? fmin(cut, run->interval_end) : cut);
-    HD_TRY(hd_advance(run, with_frame ? run->log : NULL));
-    if (with_frame && run->now >= run->interval_end) HD_TRY(frame_interval(run));
-    return run->now >= cut ? take_cut(run) : show(run);
+    if (with_frame && hd_run_time(run) >= run->interval_end) plan_interval(run);
+    if (hd_advance_is_done(&run->advance))
+        hd_advance_make_plan(&run->advance, with_frame ? fmin(cut, run->interval_end) : cut);
+    HD_TRY(advance(run, with_frame ? run->log : NULL));
+    if (with_frame && hd_run_time(run) >= run->interval_end) HD_TRY(hd_run_factorise(run));
+    return hd_run_time(run) >= cut ? take_cut(run) : show(run);
 }
 
 void hd_run_observe(hd_run *run, unsigned stages)
 {
     const unsigned now = stages & run->scene.observe, begun = now & ~run->observe;
-    if (begun & HD_OBSERVE_PHASES) hd_phases_clear(run->phases); /* not followed in between */
-    if (begun & HD_OBSERVE_COVARIANT) hd_windows_interrupt(run);
+    if (begun & HD_OBSERVE_PHASES)
+        hd_phases_clear(run->observer.phases);                 /* not followed in between */
+    if (begun & HD_OBSERVE_COVARIANT) run->windows.due = true; /* nor this */
     run->observe = now;
 }
 
@@ -479,14 +371,14 @@ hd_status hd_run_reset_average(hd_run *run)
 {
     if (run->schedule.stage != HD_AVERAGING) return HD_OK;
     if (run->frame) hd_blas_use_threads(run->threads);
-    if (run->frame && run->now < run->interval_end) HD_TRY(frame_interval(run));
+    if (run->frame && hd_run_time(run) < run->interval_end) HD_TRY(hd_run_factorise(run));
     enter_stage(run, HD_AVERAGING);
     return HD_OK;
 }
 
-void hd_run_view(hd_run *run, double interval, int first)
+void hd_run_watch(hd_run *run, double interval, int first)
 {
     HD_ASSERT(interval > 0.0 && first >= 0);
-    run->view.interval = interval;
-    run->view.first = first;
+    run->watch.interval = interval;
+    run->watch.first = first;
 }

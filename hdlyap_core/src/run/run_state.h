@@ -1,59 +1,61 @@
-/** What a run holds, for the files that make it up: run.c goes on, progress.c tells, checkpoint.c
- * keeps. */
+/** What a run holds, for the files that make it up: run.c goes on, query.c tells, checkpoint.c
+ * keeps.
+ */
 #ifndef HD_RUN_STATE_H
 #define HD_RUN_STATE_H
 
-#include "hdlyap/covariant.h"
 #include "hdlyap/run.h"
+#include "run/advance.h"
+#include "run/observer.h"
 #include "run/schedule.h"
+#include "run/windows.h"
 #include "tangent/interval.h"
-#include "tangent/slow_vectors.h"
 
-/** The step that the disks are in: what is learnt of it waits for its end, however often a view
- * stops it. */
-typedef struct hd_step_plan {
-    double begin, end; /**< simulated times */
-    uint64_t events;   /**< before it */
-} hd_step_plan;
+/** What somebody watches between orthonormalisations, see hd_run_watch. */
+typedef struct hd_watch {
+    double interval; /**< INFINITY: nobody does */
+    int first;       /**< column from which vectors are wanted */
+} hd_watch;
 
-/** What somebody looks at between orthonormalisations, see hd_run_view. */
-typedef struct hd_view {
-    double interval;    /**< INFINITY: nobody looks */
-    int first;          /**< column from which vectors are wanted */
-    hd_columns columns; /**< known at this very time */
-} hd_view;
+/** What falls due with the step under way. */
+typedef struct hd_due {
+    bool report, fields;
+    bool stage_end; /**< once the covariant vectors have gone their way back */
+} hd_due;
+
+/** What rounding may have done. */
+typedef struct hd_rounding {
+    double condition_max; /**< so far: how well the start of the averaging is known */
+    double sum;           /**< HD_ROUNDING times that and the conditions since, summed */
+} hd_rounding;
+
+/** For estimates of the time left. */
+typedef struct hd_clocks {
+    double created, frame_started; /**< wall clock [s]; 0 before the frame starts */
+    double frame_start_time;       /**< simulated time */
+} hd_clocks;
 
 struct hd_run {
     hd_scene_def scene;
-    hd_trajectory *trajectory;
-    hd_event_log *log;
-    hd_frame *frame; /**< NULL without exponents, as the two below */
+    int vectors, threads;
+    hd_advance advance;
+    hd_event_log
+        *log; /**< since the last orthonormalisation; NULL without exponents, as the next */
+    hd_frame *frame;
     hd_ortho *ortho;
     hd_spectrum *spectrum;
-    hd_modes *modes; /**< NULL unless observed, as the next two */
-    hd_steps *steps;
-    hd_phases *phases;
-    hd_slow_vectors *tail;   /**< NULL without phases, and where it does not apply */
-    hd_covariant *covariant; /**< NULL unless observed */
-    bool window_due;         /**< a window begins with the next interval */
-    double *q, *p;           /**< [2N], state of a snapshot */
-    unsigned observe;        /**< stages needed now */
+    hd_observer observer;
+    hd_windows windows;
     hd_schedule schedule;
     hd_interval interval;
     double interval_end; /**< simulated time at which the frame is orthonormalised next */
-    double step_max; /**< longest step that keeps to EVENTS_PER_STEP, as far as events are known */
-    double sample_max; /**< simulated time of COLLISIONS_PER_SAMPLE */
-    hd_step_plan plan;
-    hd_view view;
-    int vectors, threads;
-    double now; /**< simulated time */
-    bool report_due, fields_due;
-    bool stage_ends; /**< once the covariant vectors have gone their way back */
+    double sample_max;   /**< simulated time of COLLISIONS_PER_SAMPLE */
+    unsigned observe;    /**< set of HD_OBSERVE_* that is needed now */
+    hd_watch watch;
+    hd_due due;
     double field_interval;
-    double created, frame_started,
-        frame_start_time; /**< wall clock, and simulated time, for estimates */
-    double condition_max; /**< so far: how well the start of the averaging is known */
-    double rounding;      /**< HD_ROUNDING times that and the conditions since, summed */
+    hd_clocks clocks;
+    hd_rounding rounding;
     hd_cost cost;
 };
 
@@ -64,10 +66,6 @@ enum { SMALLEST_EXPONENTS = 8 };
 
 /** Ends what a step has begun, so that the run can be kept: half of a way back is none. */
 HD_MUST_CHECK hd_status hd_run_settle(hd_run *run);
-
-/** More than a run of this scene learns of how long a step may be: several times the events of the
- * longest step. */
-double hd_run_step_bound(const hd_run *run);
 
 /** Largest standard error of the exponents nearest to zero; INFINITY while one is unknown. */
 double hd_run_smallest_error(const hd_run *run);

@@ -1,32 +1,41 @@
-/** A run's covariant vectors: what the forward pass leaves to them, and the way back in between.
- * Nothing if nobody asks. */
+/** A run's covariant vectors: what the forward pass leaves to them, and the way back in between. */
 #ifndef HD_WINDOWS_H
 #define HD_WINDOWS_H
 
-#include "run/run_state.h"
+#include "hdlyap/covariant.h"
 
-/** HD_REFUSED with a line in message where no interval that can be expected makes the windows fit.
- */
-HD_MUST_CHECK hd_status hd_windows_create(hd_run *run, char *message, size_t size);
+typedef struct hd_windows {
+    hd_covariant *covariant; /**< NULL unless the scene observes them */
+    bool due;                /**< one begins with the next interval */
+    double seconds;          /**< wall seconds spent here */
+} hd_windows;
 
-/** True while covariant vectors are wanted of what is carried. */
-bool hd_windows_is_watched(const hd_run *run);
+/** Intervals will be at most `longest`. HD_REFUSED with a line in message where no interval that
+ * can be expected makes the windows fit; HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_windows_create(hd_windows *windows, const hd_scene_def *scene,
+                                          hd_ortho *ortho, double longest, int threads,
+                                          char *message, size_t size);
+void hd_windows_free(hd_windows *windows);
 
 /** The averages begin anew with the next interval. */
-void hd_windows_clear(hd_run *run);
-/** Nothing is known of the time before the next interval. */
-void hd_windows_interrupt(hd_run *run);
+void hd_windows_clear(hd_windows *windows);
 
-/** An orthonormalisation of the averaging, and the part of the log before it. Before the first of
- * an interval: the frame is still that of its start. */
-HD_MUST_CHECK hd_status hd_windows_start(hd_run *run);
-HD_MUST_CHECK hd_status hd_windows_add(hd_run *run, double t_begin, double t_end);
+/* Of an interval of the averaging, while somebody looks. */
+
+/** Before the first orthonormalisation: the frame is still that of its start, the next intervals
+ * are expected to be so long. */
+HD_MUST_CHECK hd_status hd_windows_start(hd_windows *windows, hd_columns frame, double begin,
+                                         double expected);
+/** An orthonormalisation, and the part of the log before it. */
+HD_MUST_CHECK hd_status hd_windows_add(hd_windows *windows, const hd_ortho *ortho, hd_columns frame,
+                                       const hd_event_log *log, double t_begin, double t_end);
 /** The whole interval is done. */
-HD_MUST_CHECK hd_status hd_windows_end(hd_run *run);
+HD_MUST_CHECK hd_status hd_windows_end(hd_windows *windows, hd_columns frame,
+                                       const hd_trajectory *trajectory);
 
 /** True while there is a way back to go. */
-bool hd_windows_is_going(const hd_run *run);
+bool hd_windows_is_going(const hd_windows *windows);
 /** Goes on with it for a fraction of a second, or to its end. */
-HD_MUST_CHECK hd_status hd_windows_go(hd_run *run, bool to_its_end);
+HD_MUST_CHECK hd_status hd_windows_go(hd_windows *windows, bool to_its_end);
 
 #endif

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "base/check.h"
+#include "hdlyap/parameters.h"
 #include "hdlyap/wave.h"
 #include "scene/lattice.h"
 
@@ -12,46 +13,31 @@
  * apart. It is 1e-9 but for the rounding of an edge that density and aspect give. */
 static const double ROOM_MIN = 0.999e-9;
 
-typedef struct range {
-    const char *name, *allowed;
-    double value, min, max;
-} range;
-
-/** The negated comparisons refuse NaN too. */
-static hd_status check_table(const range *table, size_t count, char *message, size_t size)
+static hd_status refuse_value(const hd_parameter *row, const hd_scene_def *def, char *message,
+                              size_t size)
 {
-    for (size_t k = 0; k < count; k++) {
-        const range *r = &table[k];
-        if (r->value >= r->min && r->value <= r->max) continue;
-        return hd_refuse(message, size, "%s = %.15g: must be %s", r->name, r->value, r->allowed);
-    }
-    return HD_OK;
+    return hd_refuse(message, size, "%s = %.15g: must be %s", row->name,
+                     hd_parameter_value(row, def), row->allowed);
 }
 
-static const double huge = 1e12;
-
-static hd_status check_ranges(const hd_scene_def *def, char *message, size_t size)
+/** What has a range of its own, whatever the others are. The negated comparison refuses NaN too. */
+static bool is_in_range(const hd_parameter *row, double value)
 {
-    const range table[] = {
-        {"disks", "an integer from 2 to 1000000", def->disks, HD_DISKS_MIN, HD_DISKS_MAX},
-        {"density", "from 1e-6 to 2/sqrt(3) = 1.1547", def->density, 1e-6, 2.0 / sqrt(3.0)},
-        {"aspect", "from 1e-6 to 1e6", def->aspect, 1e-6, 1e6},
-        {"boundary_x", "periodic or reflecting", def->boundary[0], HD_PERIODIC, HD_REFLECTING},
-        {"boundary_y", "periodic or reflecting", def->boundary[1], HD_PERIODIC, HD_REFLECTING},
-        {"equilibration", "from 0 to 1e12", def->equilibration, 0, huge},
-        {"warmup", "from 0 to 1e12", def->warmup, 0, huge},
-        {"duration", "from 0 (until stopped) to 1e12", def->duration, 0, huge},
-        {"target_std_error", "from 0 (off) to 1e12", def->target_std_error, 0, huge},
-        {"interval", "auto, or from 1e-6 to 1e12", def->interval, def->interval == 0 ? 0 : 1e-6,
-         huge},
-        {"accuracy", "from 1e-12 to 1e-2", def->accuracy, 1e-12, 1e-2},
-        {"report_interval", "from 1e-6 to 1e12", def->report_interval, 1e-6, huge},
-        {"max_wave_number", "0 (by max_mode_number) or above", def->max_wave_number, 0, huge},
-        {"max_mode_number", "from 0 (automatic) to 1000000", def->max_mode_number, 0, HD_DISKS_MAX},
-        {"observe", "a set of HD_OBSERVE_*", def->observe, 0, HD_OBSERVE_ALL},
-        {"threads", "from 0 (all cores) to 1024", def->threads, 0, HD_THREADS_MAX},
-    };
-    return check_table(table, sizeof table / sizeof *table, message, size);
+    if (row->kind == HD_PARAMETER_SEED || row->kind == HD_PARAMETER_EXPONENTS) return true;
+    if (row->kind == HD_PARAMETER_INTERVAL && value == 0.0) return true;
+    return value >= row->least && value <= row->most;
+}
+
+/** Those of covariant vectors, or all others. */
+static hd_status check_ranges(const hd_scene_def *def, bool covariant, char *message, size_t size)
+{
+    int count;
+    const hd_parameter *rows = hd_scene_parameters(&count);
+    for (int k = 0; k < count; k++)
+        if ((rows[k].needs == HD_OBSERVE_COVARIANT) == covariant &&
+            !is_in_range(&rows[k], hd_parameter_value(&rows[k], def)))
+            return refuse_value(&rows[k], def, message, size);
+    return HD_OK;
 }
 
 static bool is_wide_enough(const hd_scene_def *def, int d, double edge)
@@ -62,7 +48,7 @@ static bool is_wide_enough(const hd_scene_def *def, int d, double edge)
 hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size)
 {
     double box[2];
-    HD_TRY(check_ranges(def, message, size));
+    HD_TRY(check_ranges(def, false, message, size));
     hd_scene_box(def, box);
     for (int d = 0; d < 2; d++)
         if (!is_wide_enough(def, d, box[d]))
@@ -104,17 +90,12 @@ static hd_status check_waves(const hd_scene_def *def, char *message, size_t size
 static hd_status check_covariant(const hd_scene_def *def, char *message, size_t size)
 {
     const double window = def->covariant_window, transient = def->covariant_transient;
-    const range table[] = {
-        {"covariant_window", "from 1e-6 to 1e12", window, 1e-6, huge},
-        {"covariant_transient", "from 1e-6 to 1e12", transient, 1e-6, huge},
-        {"covariant_sampling", "from 1e-6 to covariant_window", def->covariant_sampling, 1e-6,
-         window},
-        {"covariant_memory", "from 1e6 to 1e15 bytes", def->covariant_memory, 1e6, 1e15},
-        {"covariant_storage", "one of HD_STORAGE_*", def->covariant_storage, HD_STORAGE_MEMORY,
-         HD_STORAGE_RECOMPUTE},
-    };
     if (!(def->observe & HD_OBSERVE_COVARIANT)) return HD_OK;
-    HD_TRY(check_table(table, sizeof table / sizeof *table, message, size));
+    HD_TRY(check_ranges(def, true, message, size));
+    if (def->covariant_sampling > window)
+        return hd_refuse(message, size,
+                         "covariant_sampling = %.15g: must be from 1e-6 to covariant_window",
+                         def->covariant_sampling);
     if (!(def->warmup >= transient))
         return hd_refuse(message, size,
                          "warmup = %.15g: must be at least covariant_transient = %.15g: vectors "

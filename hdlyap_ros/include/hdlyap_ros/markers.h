@@ -58,7 +58,7 @@ HDR_MUST_CHECK hdr_status hdr_markers_advertise(hdr_publisher **out, hdr_node *n
                                                 const char *topic);
 HDR_MUST_CHECK hdr_status hdr_markers_publish(hdr_publisher *publisher, const hdr_markers *message);
 
-/** Says on /tf_static that the frames are one and the same, as long as the node lives. */
+/** Says on /tf_static that the frames are one and the same, as long as the node lives. Once. */
 HDR_MUST_CHECK hdr_status hdr_frame_publish(hdr_node *node, const char *parent, const char *child);
 
 #ifdef __cplusplus

@@ -201,7 +201,7 @@ static hd_status publish_modes(mode_report *m, const snapshot *now)
     return publishers_sent(hdr_modes_publish(m->to->publisher[TOPIC_MODES], &message), TOPIC_MODES);
 }
 
-bool mode_report_steps(mode_report *m, hdr_steps *message, const hd_run *run)
+static bool fill_steps(mode_report *m, hdr_steps *message, const hd_run *run)
 {
     const hd_steps *steps = hd_run_steps(run);
     const hd_phases *phases = hd_run_phases(run);
@@ -238,7 +238,7 @@ bool mode_report_steps(mode_report *m, hdr_steps *message, const hd_run *run)
 static hd_status publish_steps(mode_report *m, const snapshot *now)
 {
     hdr_steps message;
-    if (!mode_report_steps(m, &message, now->run)) return HD_NOT_FINITE;
+    if (!fill_steps(m, &message, now->run)) return HD_NOT_FINITE;
     return publishers_sent(hdr_steps_publish(m->to->publisher[TOPIC_STEPS], &message), TOPIC_STEPS);
 }
 

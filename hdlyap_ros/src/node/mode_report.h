@@ -16,9 +16,6 @@ void mode_report_free(mode_report *m);
 /** Writes to doubles[TOPICS] about how many numbers its messages have. */
 void mode_report_sizes(const mode_report *m, double *doubles);
 
-/** The message of steps, valid until the next one. False if a number of it is not finite. */
-bool mode_report_steps(mode_report *m, hdr_steps *message, const hd_run *run);
-
 /** Publishes those of a set of topics that are its own, of a run with samples of modes. Hydro reads
  * the state. HD_NOT_FINITE, and nothing of the message concerned is published, if a number of it is
  * not. */

@@ -7,6 +7,7 @@
 
 #include "diagnostics.h"
 #include "hdlyap/hdlyap.h"
+#include "parameters_text.h"
 #include "report.h"
 #include "services.h"
 #include "settings.h"
@@ -205,6 +206,8 @@ static int run(app *a)
 int main(int argc, char **argv)
 {
     app a = {.ros = NULL};
+    if (argc == 2 && strcmp(argv[1], "--parameters") == 0) return parameters_print_scene();
+    if (argc == 2 && strcmp(argv[1], "--parameters=table") == 0) return parameters_print_table();
     hd_blas_restart_if_slow(argv);
     const hdr_status created = hdr_node_create(&a.ros, &argc, argv, "hdlyap", stop_seconds,
                                                fault_status(HD_NO_MEMORY));

@@ -1,7 +1,13 @@
-/** One parameter -> its value by type, or the line that refuses it. */
+/** One parameter -> its value by kind, or the line that refuses it. */
 #include "reader.h"
 
+#include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "settings.h"
+#include "topic.h"
 
 static bool is_control(char c) { return (unsigned char)c < ' ' || c == 0x7f; }
 
@@ -22,17 +28,156 @@ bool reader_refuse(const reader *r, const char *allowed)
     return false;
 }
 
-bool reader_accepts(const reader *r, hdr_status status, const char *allowed)
+/** Refused unless the value has been read, or is missing. */
+static bool accepts(const reader *r, hdr_status status, const char *allowed)
 {
     return status == HDR_OK || status == HDR_MISSING || reader_refuse(r, allowed);
 }
 
-bool read_int(const reader *r, void *field)
+/** The parameter if it is a string. */
+static const char *text_of(const reader *r)
 {
-    return reader_accepts(r, hdr_param_int(r->params, r->name, field), "an integer");
+    const char *text = NULL;
+    return hdr_param_string(r->params, r->name, &text) == HDR_OK ? text : NULL;
 }
 
-bool read_double(const reader *r, void *field)
+static bool is_word(const reader *r, const char *word)
 {
-    return reader_accepts(r, hdr_param_double(r->params, r->name, field), "a number");
+    const char *text = text_of(r);
+    return text && strcmp(text, word) == 0;
+}
+
+/** Decimal digits and nothing else, at most `max`. */
+static bool parse_unsigned(uint64_t *out, const char *text, uint64_t max)
+{
+    if (!*text || text[strspn(text, "0123456789")]) return false;
+    errno = 0;
+    const unsigned long long value = strtoull(text, NULL, 10);
+    if (errno || value > max) return false;
+    *out = value;
+    return true;
+}
+
+/* ---- of the scene -------------------------------------------------------------------------- */
+
+/** A string, because integers have 32 bits on the parameter server; short ones are taken too. */
+static bool read_seed(const reader *r, const parameter *p, uint64_t *seed)
+{
+    int number;
+    const char *text = hdr_param_text(r->params, r->name);
+    const hdr_status as_string = hdr_param_string(r->params, r->name, &text);
+    if (as_string == HDR_MISSING) return true;
+    const bool typed = as_string == HDR_OK || hdr_param_int(r->params, r->name, &number) == HDR_OK;
+    return (typed && parse_unsigned(seed, text, UINT64_MAX)) || reader_refuse(r, p->allowed);
+}
+
+/** A word stands for what no number says; a number may also be a string of digits. */
+static bool read_exponents(const reader *r, const parameter *p, int *exponents)
+{
+    uint64_t number = 0;
+    const char *text = text_of(r);
+    const hdr_status as_int = hdr_param_int(r->params, r->name, exponents);
+    if (as_int == HDR_MISSING || (as_int == HDR_OK && *exponents > 0)) return true;
+    if (!text) return reader_refuse(r, p->allowed);
+    if (hd_parameter_value_of(exponents, p->row, text)) return true;
+    if (!parse_unsigned(&number, text, INT32_MAX) || number == 0)
+        return reader_refuse(r, p->allowed);
+    *exponents = (int)number;
+    return true;
+}
+
+static bool read_interval(const reader *r, const parameter *p, double *interval)
+{
+    int value;
+    const char *text = text_of(r);
+    if (text && hd_parameter_value_of(&value, p->row, text)) return *interval = value, true;
+    const hdr_status status = hdr_param_double(r->params, r->name, interval);
+    return status == HDR_MISSING || (status == HDR_OK && *interval > 0.0) ||
+           reader_refuse(r, p->allowed);
+}
+
+static bool read_word(const reader *r, const parameter *p, int *value)
+{
+    const char *text = NULL;
+    const hdr_status status = hdr_param_string(r->params, r->name, &text);
+    return status == HDR_MISSING ||
+           (status == HDR_OK && hd_parameter_value_of(value, p->row, text)) ||
+           reader_refuse(r, p->allowed);
+}
+
+static bool read_of_scene(const reader *r, const parameter *p, hd_scene_def *def)
+{
+    double real = hd_parameter_value(p->row, def);
+    int whole = 0;
+    bool read = true;
+    switch (p->row->kind) {
+    case HD_PARAMETER_SEED: return read_seed(r, p, &def->seed);
+    case HD_PARAMETER_INTERVAL: read = read_interval(r, p, &real); break;
+    case HD_PARAMETER_REAL:
+        read = accepts(r, hdr_param_double(r->params, r->name, &real), "a number");
+        break;
+    default:
+        whole = (int)real;
+        read = p->row->kind == HD_PARAMETER_WORD ? read_word(r, p, &whole)
+               : p->row->kind == HD_PARAMETER_EXPONENTS
+                   ? read_exponents(r, p, &whole)
+                   : accepts(r, hdr_param_int(r->params, r->name, &whole), "an integer");
+        real = whole;
+    }
+    hd_parameter_assign(p->row, def, real);
+    return read;
+}
+
+/* ---- of the node --------------------------------------------------------------------------- */
+
+static bool read_line(const reader *r, const parameter *p, const char **line)
+{
+    return accepts(r, hdr_param_string(r->params, r->name, line), "a string") &&
+           ((is_one_line(*line) && (**line || p->kind == FILE_PATH)) ||
+            reader_refuse(r, p->allowed));
+}
+
+static bool read_topics(const reader *r, const parameter *p, unsigned *set)
+{
+    const unsigned allowed = p->kind == TOPICS_AWAITED ? TOPICS_OBSERVABLE | TOPICS_ALWAYS
+                                                       : TOPICS_OBSERVABLE;
+    const char *const *names = NULL;
+    int count = 0;
+    if (p->kind == TOPICS_AWAITED && is_word(r, "all")) return *set = ALL_PUBLISHED, true;
+    const hdr_status status = hdr_param_string_list(r->params, r->name, &names, &count);
+    if (status == HDR_MISSING) return true;
+    if (status != HDR_OK) return reader_refuse(r, p->allowed);
+    *set = 0;
+    for (int k = 0; k < count; k++) {
+        const unsigned bit = topic_bit_of(names[k]);
+        if (!(bit & allowed)) return reader_refuse(r, p->allowed);
+        *set |= bit;
+    }
+    return true;
+}
+
+/** The range is known only with the scene. */
+static bool read_fields(const reader *r, const parameter *p, field_choice *choice)
+{
+    if (is_word(r, p->usual)) return true;
+    const hdr_status status = hdr_param_int_list(r->params, r->name, &choice->index,
+                                                 &choice->count);
+    if (status == HDR_MISSING) return true;
+    choice->text = hdr_param_text(r->params, r->name);
+    return (status == HDR_OK && choice->count > 0) || reader_refuse(r, p->allowed);
+}
+
+bool reader_read(const reader *r, const parameter *p, void *field)
+{
+    switch (p->kind) {
+    case OF_SCENE: return read_of_scene(r, p, field);
+    case REAL_NUMBER: return accepts(r, hdr_param_double(r->params, r->name, field), "a number");
+    case WHOLE_NUMBER: return accepts(r, hdr_param_int(r->params, r->name, field), "an integer");
+    case NAME:
+    case FILE_PATH: return read_line(r, p, field);
+    case TOPICS_OBSERVED:
+    case TOPICS_AWAITED: return read_topics(r, p, field);
+    case FIELD_CHOICE: return read_fields(r, p, field);
+    }
+    return false;
 }

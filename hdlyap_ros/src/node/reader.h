@@ -1,4 +1,4 @@
-/** One parameter on its way in: its value by type, or the line that refuses it. */
+/** One parameter on its way in: its value by kind, or the line that refuses it. */
 #ifndef HDLYAP_READER_H
 #define HDLYAP_READER_H
 
@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "hdlyap_ros/params.h"
+#include "parameters.h"
 
 typedef struct reader {
     const hdr_params *params;
@@ -17,16 +18,11 @@ typedef struct reader {
 /** Writes the line: the parameter, its value, what is allowed. Always false. */
 bool reader_refuse(const reader *r, const char *allowed);
 
-/** Refused unless the value has been read, or is missing. */
-bool reader_accepts(const reader *r, hdr_status status, const char *allowed);
-
 /** Without line ends and other control characters. */
 bool is_one_line(const char *text);
 
-/* Into the variable at field, which stays as it is where the parameter is missing. False if
- * refused. */
-
-bool read_int(const reader *r, void *field);
-bool read_double(const reader *r, void *field);
+/** Into the variable at field (for one of the scene: the whole of it), which stays as it is where
+ * the parameter is missing. Ranges of numbers are not looked at. False if refused. */
+bool reader_read(const reader *r, const parameter *p, void *field);
 
 #endif

@@ -7,10 +7,10 @@
 #include "clock.h"
 #include "covariant_report.h"
 #include "field_report.h"
-#include "marker_report.h"
 #include "mode_report.h"
 #include "publishers.h"
 #include "run_info.h"
+#include "slow_vectors_report.h"
 #include "subscriber_wait.h"
 
 _Static_assert((int)HD_LIMIT_REPAIR == (int)HDR_COST_LIMIT_REPAIR, "limits as in the core");
@@ -35,7 +35,7 @@ struct report {
     mode_report *modes;   /**< NULL unless some of its topics are asked for */
     field_report *fields; /**< NULL unless asked for, as the next */
     covariant_report *covariant;
-    marker_report *markers;
+    slow_vectors_report *slow;
     subscriber_wait awaited;
     unsigned demand; /**< set of topics that the step under way is made for */
     double seconds;  /**< spent here */
@@ -107,7 +107,7 @@ hdr_status report_create(report **out, hdr_node *ros, const settings *set, const
     rep->n = (uint32_t)hd_run_vectors(run);
     rep->disks = (uint32_t)set->def.disks;
     hdr_status status = parts_create(rep, run) ? advertise(rep, ros) : HDR_NO_MEMORY;
-    if (status == HDR_OK) status = marker_report_create(&rep->markers, ros, set, run, rep->modes);
+    if (status == HDR_OK) status = slow_vectors_report_create(&rep->slow, ros, &rep->out, set, run);
     if (status == HDR_OK) return HDR_OK;
     report_free(rep);
     *out = NULL;
@@ -120,7 +120,7 @@ void report_free(report *rep)
     mode_report_free(rep->modes);
     field_report_free(rep->fields);
     covariant_report_free(rep->covariant);
-    marker_report_free(rep->markers);
+    slow_vectors_report_free(rep->slow);
     free(rep->block);
     free(rep);
 }
@@ -134,25 +134,26 @@ bool report_awaited_here(report *rep)
     return subscriber_wait_over(&rep->awaited, &rep->out, rep->set->awaited);
 }
 
-/** The message of steps has the velocity of the LP phases in it, and pictures have the steps. */
+/** The message of steps has the velocity of the LP phases in it, and slow vectors belong to steps.
+ */
 unsigned report_demand(report *rep)
 {
     const unsigned set = rep->set->observables, phases = topic_bit(TOPIC_LP_PHASES) & set;
     rep->demand = publishers_subscribed(&rep->out);
     unsigned stages = topic_stages(rep->demand);
     if (rep->demand & topic_bit(TOPIC_STEPS)) stages |= topic_stages(phases);
-    if (rep->modes && marker_report_watched(rep->markers))
-        stages |= topic_stages(topic_bit(TOPIC_STEPS) | phases);
+    if (rep->modes && slow_vectors_report_watched(rep->slow))
+        stages |= topic_stages(topic_bit(TOPIC_STEPS));
     return stages;
 }
 
-void report_demand_picture(report *rep, hd_run *run) { marker_report_demand(rep->markers, run); }
+void report_demand_slow(report *rep, hd_run *run) { slow_vectors_report_demand(rep->slow, run); }
 
-hd_status report_picture(report *rep, const hd_run *run, bool at_rest)
+hd_status report_slow(report *rep, const hd_run *run, bool at_rest)
 {
     const double start = clock_seconds();
-    const hd_status status = at_rest ? marker_report_rest(rep->markers, run)
-                                     : marker_report_publish(rep->markers, run);
+    const hd_status status = at_rest ? slow_vectors_report_rest(rep->slow, run)
+                                     : slow_vectors_report_publish(rep->slow, run);
     rep->seconds += clock_seconds() - start;
     return status;
 }

@@ -42,12 +42,12 @@ HDR_MUST_CHECK hdr_status report_run_info(report *rep, const hd_run *run);
  * does not measure is not published after it. */
 unsigned report_demand(report *rep);
 
-/** Tells the run which vectors the next step is to end with, for a picture. */
-void report_demand_picture(report *rep, hd_run *run);
+/** Tells the run which vectors the next step is to end with, for slow_vectors. */
+void report_demand_slow(report *rep, hd_run *run);
 
-/** Publishes a picture after a step, if somebody looks and it is time to; `at_rest`: the run will
- * stand still, and who comes while it does gets this one. HD_NOT_FINITE, HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status report_picture(report *rep, const hd_run *run, bool at_rest);
+/** Publishes slow_vectors after a step, if somebody listens and it is time to; `at_rest`: the run
+ * will stand still, and who comes while it does gets this one. HD_NOT_FINITE. */
+HD_MUST_CHECK hd_status report_slow(report *rep, const hd_run *run, bool at_rest);
 
 /** Publishes what has a subscriber of a run that has a report due.
  * HD_NOT_FINITE, and nothing of the message concerned is published, if a number of it is not. */

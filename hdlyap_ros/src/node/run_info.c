@@ -4,10 +4,13 @@
 #include <stdlib.h>
 
 #include "hdlyap/hdlyap.h"
+#include "parameters.h"
 
-static const char *boundary_name(hd_boundary boundary)
+/** Value of a parameter of the scene that has words. */
+static const char *word_of(const char *name, const hd_scene_def *def)
 {
-    return boundary == HD_PERIODIC ? "periodic" : "reflecting";
+    const parameter p = parameters_named(name);
+    return hd_parameter_word_of(p.row, (int)hd_parameter_value(p.row, def));
 }
 
 /** [count] names of a set of topics. */
@@ -44,37 +47,26 @@ static bool waves_create(wave_list *list, const hd_scene_def *def)
     return created;
 }
 
-/** What the scene says. */
+/** What the scene says. A parameter of it without a field in RunInfo.msg does not compile. */
 static void fill_scene(hdr_run_info *info, const settings *set)
 {
     const hd_scene_def *def = &set->def;
     double box[2];
     hd_scene_box(def, box);
     info->scene = set->scene;
-    info->disks = (uint32_t)def->disks;
-    info->density = def->density;
-    info->aspect = def->aspect;
     info->box_x = box[0];
     info->box_y = box[1];
-    info->boundary_x = boundary_name(def->boundary[0]);
-    info->boundary_y = boundary_name(def->boundary[1]);
+    info->boundary_x = word_of("boundary_x", def);
+    info->boundary_y = word_of("boundary_y", def);
     info->seed = set->seed;
     info->exponents = set->exponents;
     info->zero_exponents = (uint32_t)hd_scene_zero_exponents(def);
-    info->equilibration = def->equilibration;
-    info->warmup = def->warmup;
-    info->duration = def->duration;
-    info->target_std_error = def->target_std_error;
     info->interval = def->interval;
-    info->accuracy = def->accuracy;
-    info->report_interval = def->report_interval;
-    info->max_wave_number = def->max_wave_number;
-    info->max_mode_number = (uint32_t)def->max_mode_number;
-    info->covariant_window = def->covariant_window;
-    info->covariant_transient = def->covariant_transient;
-    info->covariant_sampling = def->covariant_sampling;
-    info->covariant_memory = def->covariant_memory / BYTES_PER_GB;
-    info->covariant_storage = settings_storage_name(def->covariant_storage);
+    info->covariant_storage = word_of("covariant_storage", def);
+#define HD_INT(name, ...) info->name = (uint32_t)def->name;
+#define HD_REAL(name, ...) info->name = def->name;
+#define HD_OTHER(...)
+#include "hdlyap/parameters.inc"
 }
 
 /** What it runs on. */
@@ -105,8 +97,8 @@ hdr_status run_info_publish(const publishers *out, const settings *set, const hd
         .field_interval = set->field_interval,
         .wait_for_subscribers = {.data = awaited, .count = names_of(awaited, set->awaited)},
         .pace = set->pace,
-        .marker_modes = set->markers.text,
-        .marker_rate = set->markers.rate,
+        .slow_vectors_rate = set->slow_vectors_rate,
+        .slow_vectors_count = (uint32_t)set->slow_vectors_count,
         .checkpoint = set->checkpoint,
         .checkpoint_interval = set->checkpoint_interval,
         .resume = set->resume,

@@ -16,24 +16,6 @@ typedef struct field_choice {
     int count;        /**< 0: one of each step */
 } field_choice;
 
-enum { MARKER_MODES_MAX = 8 };
-
-/** A mode by its name. */
-typedef struct marker_mode {
-    int kind; /**< HD_MODE_T or HD_MODE_LP */
-    int n[2]; /**< nodes along x and y */
-} marker_mode;
-
-/** What is drawn for rviz. */
-typedef struct marker_choice {
-    const char *text; /**< as asked for: lowest, or a list; in the params */
-    marker_mode mode[MARKER_MODES_MAX];
-    int count;   /**< 0: the lowest step of each kind */
-    double rate; /**< pictures per wall second, at most */
-} marker_choice;
-
-enum { BYTES_PER_GB = 1000000000 };
-
 typedef struct settings {
     hd_scene_def def;
     const char *scene;    /**< name; in the params, or in the checkpoint */
@@ -41,7 +23,8 @@ typedef struct settings {
     char exponents[16];   /**< as asked for: positive, all, none or a number */
     unsigned observables; /**< set of topics: all but run_info, status and cost */
     field_choice fields;
-    marker_choice markers;
+    double slow_vectors_rate; /**< messages of slow_vectors per wall second, at most */
+    int slow_vectors_count;   /**< vectors in each; 0: down to the lowest T and LP step */
     double field_interval;  /**< time units between publications of fields; 0: with every report */
     unsigned awaited;       /**< set of topics that must have a subscriber before the run starts */
     double pace;            /**< time units per wall second, 0 = as fast as it goes */
@@ -49,9 +32,6 @@ typedef struct settings {
     double checkpoint_interval; /**< wall seconds; 0: only at the end and when asked */
     const char *resume;         /**< file to go on from, or "" */
 } settings;
-
-/** As the parameter names it. */
-const char *settings_storage_name(hd_storage storage);
 
 /** The file to go on from, "" if none. False if refused. */
 bool settings_resume(const char **path, const hdr_params *params, char *message, size_t size);

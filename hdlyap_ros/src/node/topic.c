@@ -1,6 +1,7 @@
 /** The node's own topics. */
 #include "topic.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "hdlyap/scene.h"
@@ -29,6 +30,38 @@ unsigned topic_bit_of(const char *name)
     for (topic t = 0; t < TOPICS; t++)
         if (strcmp(topics[t].name, name) == 0) return topic_bit(t);
     return 0;
+}
+
+/** Names end at commas and blanks. */
+unsigned topics_named(const char *list)
+{
+    unsigned set = 0;
+    char name[16];
+    while (*(list += strspn(list, ", "))) {
+        const size_t length = strcspn(list, ", ");
+        snprintf(name, sizeof name, "%.*s", (int)length, list);
+        set |= topic_bit_of(name);
+        list += length;
+    }
+    return set;
+}
+
+void topic_names(char *text, size_t size, unsigned set)
+{
+    size_t length = 0;
+    if (size > 0) *text = '\0';
+    for (topic t = 0; t < TOPICS && length < size; t++)
+        if (set & topic_bit(t))
+            length += (size_t)snprintf(text + length, size - length, "%s%s", length ? ", " : "",
+                                       topics[t].name);
+}
+
+unsigned topics_of_stages(unsigned stages)
+{
+    unsigned set = 0;
+    for (topic t = 0; t < TOPICS; t++)
+        if (topics[t].stage & stages) set |= topic_bit(t);
+    return set;
 }
 
 unsigned topic_stages(unsigned set)

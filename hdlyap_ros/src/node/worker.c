@@ -89,14 +89,14 @@ static void save(worker *w)
     pthread_cond_broadcast(&w->changed);
 }
 
-/** Before a pause, for who looks on. Lock held, but not while it is drawn. A picture that fails is
+/** Before a pause, for who looks on. Lock held, but not while it is published. What fails here is
  * no fault of the run. */
-static void draw_at_rest(worker *w)
+static void publish_at_rest(worker *w)
 {
     pthread_mutex_unlock(&w->lock);
     pthread_mutex_lock(&w->publishing);
-    if (!w->closed && report_picture(w->rep, w->run, true) != HD_OK)
-        hdr_log(HDR_WARN, "no picture of the pause");
+    if (!w->closed && report_slow(w->rep, w->run, true) != HD_OK)
+        hdr_log(HDR_WARN, "no slow_vectors of the pause");
     pthread_mutex_unlock(&w->publishing);
     pthread_mutex_lock(&w->lock);
 }
@@ -107,7 +107,7 @@ static bool obey(worker *w)
 {
     pthread_mutex_lock(&w->lock);
     if (checkpoint_writer_due(&w->keep)) save(w);
-    if (w->pause && !w->stop) draw_at_rest(w);
+    if (w->pause && !w->stop) publish_at_rest(w);
     while (!w->stop && (w->save || w->pause || too_early(w))) {
         if (w->save || checkpoint_writer_due(&w->keep)) {
             save(w);
@@ -155,7 +155,7 @@ static hd_status publish(worker *w)
     pthread_mutex_lock(&w->publishing);
     if (!w->closed && hd_run_report_due(w->run)) status = report_publish(w->rep, w->run);
     if (!w->closed && status == HD_OK) status = report_window(w->rep, w->run);
-    if (!w->closed && status == HD_OK) status = report_picture(w->rep, w->run, false);
+    if (!w->closed && status == HD_OK) status = report_slow(w->rep, w->run, false);
     pthread_mutex_unlock(&w->publishing);
     return status;
 }
@@ -166,7 +166,7 @@ static hd_status paced_step(worker *w)
 {
     const double begin = clock_seconds(), from = hd_run_time(w->run);
     const bool paced = hd_run_stage(w->run) == HD_AVERAGING;
-    const hd_status status = hd_run_step(w->run);
+    const hd_status status = hd_run_advance(w->run);
     if (paced) w->due = fmax(w->due, begin) + (hd_run_time(w->run) - from) / w->set->pace;
     return status;
 }
@@ -175,10 +175,10 @@ static hd_status step(worker *w)
 {
     examine_if_asked(w);
     hd_run_observe(w->run, report_demand(w->rep));
-    report_demand_picture(w->rep, w->run);
+    report_demand_slow(w->rep, w->run);
     hd_status status = reset_if_asked(w);
     checkpoint_writer_touch(&w->keep);
-    if (status == HD_OK) status = w->set->pace > 0.0 ? paced_step(w) : hd_run_step(w->run);
+    if (status == HD_OK) status = w->set->pace > 0.0 ? paced_step(w) : hd_run_advance(w->run);
     if (status != HD_OK) return status;
     status = publish(w);
     pthread_mutex_lock(&w->lock);
@@ -212,7 +212,7 @@ static void explain(worker *w, hd_status status)
     snprintf(fault, size, "%s", hd_status_text(status));
     if (status == HD_NO_ROOM && hd_covariant_check_room(scene, interval, fault, size) == HD_OK)
         snprintf(fault, size, "%s = %.3g GB, orthonormalised more often than every %.3g time units",
-                 hd_status_text(status), scene->covariant_memory / BYTES_PER_GB, interval);
+                 hd_status_text(status), scene->covariant_memory, interval);
 }
 
 static void *work(void *context)

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <ros/ros.h>
-#include <tf2_ros/static_transform_broadcaster.h>
 
 #include "backlog.hpp"
 #include "hdlyap_ros/node.h"
@@ -39,7 +38,7 @@ struct hdr_node {
     std::string name;
     std::vector<std::unique_ptr<hdr_publisher>> publishers;
     std::vector<ros::ServiceServer> services;
-    std::unique_ptr<tf2_ros::StaticTransformBroadcaster> frames;
+    ros::Publisher frame; /**< of /tf_static */
     std::vector<std::unique_ptr<hdr_subscriber>> subscribers;
     ros::WallTimer lookout; /**< for subscribers that cannot be connected */
     std::mutex mutex;       /**< of subscribers, which callbacks may free, and of lookout */

@@ -32,11 +32,11 @@ static hd_backward *started(int n, uint64_t stream)
     return backward;
 }
 
-static double *copied(const hd_backward *backward)
+static double *copied(const hd_backward *backward, int n)
 {
-    const size_t n = (size_t)hd_backward_vectors(backward);
-    double *c = malloc(n * n * sizeof *c);
-    memcpy(c, hd_backward_read(backward), n * n * sizeof *c);
+    const size_t size = (size_t)n * (size_t)n * sizeof(double);
+    double *c = malloc(size);
+    memcpy(c, hd_backward_read(backward), size);
     return c;
 }
 
@@ -91,7 +91,7 @@ static void each_vector_is_mapped_onto_the_later_one(void **state)
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         const int n = sizes[k];
         hd_backward *backward = started(n, 1);
-        double *later = copied(backward), *r = triangle(n, 4.0 / n, k),
+        double *later = copied(backward, n), *r = triangle(n, 4.0 / n, k),
                *growth = malloc((size_t)n * sizeof *growth);
         CHECK_OK(hd_backward_step(backward, growth, r));
         const double *c = hd_backward_read(backward);

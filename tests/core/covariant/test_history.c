@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "covariant/history.h"
 #include "triangles.h"
+#include "interval.h"
 
 enum { DISKS = 6, INTERVALS = 24, SNAPSHOTS = 8, PASTS = 2, STEPS = 150 };
 
@@ -92,7 +93,7 @@ static void add_piece(forward *x, double t_begin, double t_end, bool snapshot)
 static void add(forward *x, double length, bool cut)
 {
     const double end = hd_trajectory_time(x->f.trajectory) + length;
-    CHECK_OK(hd_trajectory_advance(x->f.trajectory, x->f.log, end));
+    CHECK_OK(trajectory_to(x->f.trajectory, x->f.log, end));
     const double duration = x->f.log->duration, first = cut ? 0.4 * duration : duration;
     add_piece(x, 0.0, first, x->end % 3 == 0);
     if (cut) add_piece(x, first, duration, x->end % 3 == 0);

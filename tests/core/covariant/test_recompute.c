@@ -5,6 +5,7 @@
 #include "forward_pass.h"
 #include "covariant/recompute.h"
 #include "triangles.h"
+#include "interval.h"
 
 enum { DISKS = 8, STRETCH = 4, SLOTS = 5 * STRETCH, KEPT = SLOTS - STRETCH, INTERVALS = 67 };
 
@@ -91,7 +92,7 @@ static void check_ring(int exponents)
     for (int interval = 0; interval < INTERVALS; interval++) {
         const double length = 0.3 + 0.1 * (interval % 3),
                      begin = hd_trajectory_time(k->f.trajectory);
-        CHECK_OK(hd_trajectory_advance(k->f.trajectory, k->f.log, begin + length));
+        CHECK_OK(trajectory_to(k->f.trajectory, k->f.log, begin + length));
         assert_true(k->f.log->duration > 0.0);
         const double duration = k->f.log->duration,
                      cut = interval % 4 == 1 ? 0.4 * duration : duration;

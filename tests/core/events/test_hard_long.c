@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "prepared.h"
+#include "interval.h"
 
 /** 2^20; a multiple of every scene's epoch. */
 static const double LATE = 1048576.0;
@@ -41,8 +42,7 @@ static void check_alike(hd_trajectory *early, hd_trajectory *late)
     size_t events = 0;
     for (int piece = 1; piece <= PIECES; piece++) {
         for (int k = 0; k < 2; k++)
-            CHECK_OK(hd_trajectory_advance(tr[k], log[k],
-                                           begin[k] + end_of(piece, early->epoch_length)));
+            CHECK_OK(trajectory_to(tr[k], log[k], begin[k] + end_of(piece, early->epoch_length)));
         assert_int_equal(log[0]->count, log[1]->count);
         assert_memory_equal(log[0]->event, log[1]->event, log[0]->count * sizeof *log[0]->event);
         events += log[0]->count;
@@ -83,7 +83,7 @@ static void a_late_state_goes_on_as_at_the_start(void **state)
     double q[20], p[20];
     hd_trajectory *late;
     CHECK_OK(hd_trajectory_create(&late, &def));
-    CHECK_OK(hd_trajectory_advance(late, NULL, end));
+    CHECK_OK(hd_trajectory_extend(late, NULL, end));
     assert_true(fmod(end, late->epoch_length) == 0.0);
     assert_true(HD_SANITIZED || hd_trajectory_collisions(late) > 1000000);
     hd_trajectory_state(late, q, p);

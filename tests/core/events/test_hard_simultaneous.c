@@ -8,6 +8,7 @@
 #include "prepared.h"
 #include "base/random.h"
 #include "twin.h"
+#include "interval.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -61,8 +62,7 @@ static long check_all(const hd_scene_def *def, const double *q, const double *p,
 {
     hd_trajectory *tr = started(def, q, p);
     const double energy = hd_trajectory_kinetic_energy(tr);
-    CHECK_OK(
-        hd_trajectory_advance(tr, NULL, t_end)); /* without a log: for ever would fill memory */
+    CHECK_OK(hd_trajectory_extend(tr, NULL, t_end)); /* without a log: for ever would fill memory */
     const double events = (double)(hd_trajectory_collisions(tr) + hd_trajectory_wall_events(tr));
     CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), energy, 8.0 * DBL_EPSILON * energy * events);
     hd_event_log *log = log_of(def, q, p, t_end), *again = log_of(def, q, p, t_end);
@@ -206,9 +206,9 @@ static void check_at(const hd_scene_def *def, const double *q, const double *p, 
         const double cut = side < 0 ? nextafter(t, 0.0) : side > 0 ? nextafter(t, INFINITY) : t;
         hd_trajectory *tr = started(def, q, p);
         hd_event_log *log = new_log();
-        CHECK_OK(hd_trajectory_advance(tr, log, cut));
+        CHECK_OK(trajectory_to(tr, log, cut));
         assert_int_equal(log->count, side > 0 ? events : 0);
-        CHECK_OK(hd_trajectory_advance(tr, log, t + 0.25));
+        CHECK_OK(trajectory_to(tr, log, t + 0.25));
         assert_int_equal(log->count, side > 0 ? 0 : events);
         for (size_t k = 0; k < log->count; k++) assert_true(log->event[k].t == t - cut);
         hd_event_log_free(log);

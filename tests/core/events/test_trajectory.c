@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "scenes.h"
 #include "testing.h"
+#include "interval.h"
 
 /** Log times are sums of two rounded times of at most T. */
 static const double TIME_ROUNDING = 2.0 * DBL_EPSILON;
@@ -60,7 +61,7 @@ static whole whole_run(int scene, double events)
     whole w = {.def = scene_number(scene), .log = new_log()};
     hd_trajectory *tr = created(&w.def);
     w.t_end = events / hd_trajectory_collision_rate(tr);
-    CHECK_OK(hd_trajectory_advance(tr, w.log, w.t_end));
+    CHECK_OK(trajectory_to(tr, w.log, w.t_end));
     assert_true(w.log->count > 100);
     w.state = state_of(tr);
     hd_trajectory_free(tr);
@@ -91,7 +92,7 @@ static void check_cut(const whole *w, const double *cut, size_t count)
     double t = 0;
     for (size_t k = 0; k <= count; k++) {
         const double t_next = k < count ? cut[k] : w->t_end;
-        CHECK_OK(hd_trajectory_advance(tr, log, t_next));
+        CHECK_OK(trajectory_to(tr, log, t_next));
         assert_true(hd_trajectory_time(tr) == t_next && log->duration == t_next - t);
         for (size_t e = 0; e < log->count; e++) {
             assert_true(number < w->log->count);
@@ -159,11 +160,11 @@ static void event_at_the_end_belongs_to_the_next_interval(void **state)
     hd_trajectory *tr;
     hd_event_log *log = new_log();
     CHECK_OK(hd_trajectory_create_from(&tr, &def, q, p));
-    CHECK_OK(hd_trajectory_advance(tr, log, 1.0));
+    CHECK_OK(trajectory_to(tr, log, 1.0));
     assert_int_equal(log->count, 0);
-    CHECK_OK(hd_trajectory_advance(tr, log, 1.0));
+    CHECK_OK(trajectory_to(tr, log, 1.0));
     assert_true(log->count == 0 && log->duration == 0);
-    CHECK_OK(hd_trajectory_advance(tr, log, 1.5));
+    CHECK_OK(trajectory_to(tr, log, 1.5));
     assert_true(log->count == 1 && log->event[0].t == 0);
     hd_event_log_free(log);
     hd_trajectory_free(tr);
@@ -199,8 +200,8 @@ static void log_may_be_left_out(void **state)
     for (int k = 0; k < SCENES; k++) {
         whole w = whole_run(k, 3000.0);
         hd_trajectory *tr = created(&w.def);
-        CHECK_OK(hd_trajectory_advance(tr, NULL, 0.3 * w.t_end));
-        CHECK_OK(hd_trajectory_advance(tr, NULL, w.t_end));
+        CHECK_OK(hd_trajectory_extend(tr, NULL, 0.3 * w.t_end));
+        CHECK_OK(hd_trajectory_extend(tr, NULL, w.t_end));
         double *end = state_of(tr);
         assert_memory_equal(end, w.state, 4 * (size_t)w.def.disks * sizeof *end);
         assert_true(hd_trajectory_collisions(tr) + hd_trajectory_wall_events(tr) == w.log->count);
@@ -251,8 +252,8 @@ static void late_intervals_lose_nothing(void **state)
     hd_trajectory *tr = created(&def);
     hd_event_log *log = new_log();
     const double late = 1e6;
-    CHECK_OK(hd_trajectory_advance(tr, NULL, late));
-    CHECK_OK(hd_trajectory_advance(tr, log, late + 4096.0));
+    CHECK_OK(hd_trajectory_extend(tr, NULL, late));
+    CHECK_OK(trajectory_to(tr, log, late + 4096.0));
     int fine = 0; /* times that a sum with 1e6 could not hold */
     for (size_t e = 0; e < log->count; e++)
         fine += (late + log->event[e].t) - late != log->event[e].t;
@@ -369,7 +370,7 @@ static void resting_disks_rest(void **state)
     double after[4];
     hd_trajectory *tr;
     CHECK_OK(hd_trajectory_create_from(&tr, &def, q, p));
-    CHECK_OK(hd_trajectory_advance(tr, NULL, 1000.0));
+    CHECK_OK(hd_trajectory_extend(tr, NULL, 1000.0));
     hd_trajectory_state(tr, after, NULL);
     assert_memory_equal(after, q, sizeof q);
     assert_true(hd_trajectory_collisions(tr) + hd_trajectory_wall_events(tr) == 0);
@@ -387,9 +388,9 @@ static void warm_log_allocates_nothing(void **state)
         hd_event_log *log = new_log();
         const double piece = 1000.0 / hd_trajectory_collision_rate(tr);
         double t = 4.0 * piece;
-        CHECK_OK(hd_trajectory_advance(tr, log, t)); /* grows to more than it will need */
+        CHECK_OK(trajectory_to(tr, log, t)); /* grows to more than it will need */
         const size_t allocations = hd_memory_allocations();
-        for (int n = 0; n < 100; n++) CHECK_OK(hd_trajectory_advance(tr, log, t += piece));
+        for (int n = 0; n < 100; n++) CHECK_OK(trajectory_to(tr, log, t += piece));
         assert_int_equal(hd_memory_allocations(), allocations);
         hd_event_log_free(log);
         hd_trajectory_free(tr);
@@ -403,7 +404,7 @@ static void a_million_disks(void **state)
     hd_trajectory *tr = created(&def);
     hd_event_log *log = new_log();
     const double t = 5e5 / hd_trajectory_collision_rate(tr);
-    CHECK_OK(hd_trajectory_advance(tr, log, t));
+    CHECK_OK(trajectory_to(tr, log, t));
     assert_true(hd_trajectory_overlap(tr) < 1e-9);
     assert_true(hd_trajectory_collisions(tr) > 50000);
     hd_event_log_free(log);

@@ -4,6 +4,7 @@
 
 #include "scenes.h"
 #include "testing.h"
+#include "interval.h"
 
 /** The core moves coordinates of size L with a few roundings each; ten of them are never exceeded.
  */
@@ -113,7 +114,7 @@ static void check_encounter(const encounter *e)
     CHECK_OK(hd_trajectory_create_from(&tr, &def, e->q, e->p));
     hd_trajectory_box(tr, box);
     CHECK_CLOSE(box[0], LX, 2.0 * DBL_EPSILON * LX); /* sqrt of a rounded density */
-    CHECK_OK(hd_trajectory_advance(tr, log, PASSAGE));
+    CHECK_OK(trajectory_to(tr, log, PASSAGE));
     hd_trajectory_state(tr, NULL, after);
     const int meets = e->miss < 1;
     if ((int)log->count != meets)
@@ -179,7 +180,7 @@ static void check_wall(const hd_scene_def *def, int direction, int high, double 
                       t = reach / fabsl((long double)p[direction]);
     CHECK_OK(hd_event_log_create(&log));
     CHECK_OK(hd_trajectory_create_from(&tr, def, q, p));
-    CHECK_OK(hd_trajectory_advance(tr, log, (double)t * 1.01));
+    CHECK_OK(trajectory_to(tr, log, (double)t * 1.01));
     hd_trajectory_state(tr, NULL, after);
     assert_int_equal(log->count, 1);
     const hd_event *event = &log->event[0];
@@ -212,7 +213,7 @@ static void no_image_through_a_wall(void **state)
     const double q[] = {0.75, 3.0, LX - 0.75, 3.0}, p[] = {-1, 0, 1, 0};
     hd_trajectory *tr;
     CHECK_OK(hd_trajectory_create_from(&tr, &def, q, p));
-    CHECK_OK(hd_trajectory_advance(tr, NULL, 1.0));
+    CHECK_OK(hd_trajectory_extend(tr, NULL, 1.0));
     assert_true(hd_trajectory_collisions(tr) == 0);
     assert_true(hd_trajectory_wall_events(tr) == 2);
     hd_trajectory_free(tr);

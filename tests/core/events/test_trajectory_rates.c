@@ -4,6 +4,7 @@
 
 #include "scenes.h"
 #include "testing.h"
+#include "interval.h"
 
 static const double Z = 3.0, PI = 3.14159265358979323846;
 static const double EQUILIBRATION = 2000.0; /* collisions per disk */
@@ -29,7 +30,7 @@ static hd_trajectory *equilibrated(const hd_scene_def *def)
     hd_trajectory *tr;
     CHECK_OK(hd_trajectory_create(&tr, def));
     const double per_disk = 2.0 * hd_trajectory_collision_rate(tr) / def->disks;
-    CHECK_OK(hd_trajectory_advance(tr, NULL, EQUILIBRATION / per_disk));
+    CHECK_OK(hd_trajectory_extend(tr, NULL, EQUILIBRATION / per_disk));
     return tr;
 }
 
@@ -41,7 +42,7 @@ static estimate rate_per_disk(const hd_scene_def *def, double pair_events)
     double block[BLOCKS];
     for (int k = 0; k < BLOCKS; k++) {
         const uint64_t before = hd_trajectory_collisions(tr);
-        CHECK_OK(hd_trajectory_advance(tr, NULL, hd_trajectory_time(tr) + piece));
+        CHECK_OK(hd_trajectory_extend(tr, NULL, hd_trajectory_time(tr) + piece));
         const double events = (double)(hd_trajectory_collisions(tr) - before);
         block[k] = 2.0 * events / (def->disks * piece);
     }
@@ -98,7 +99,7 @@ static void independent_codes(void **state)
 }
 
 /** Mean of |p.n| over collisions where both directions are periodic and the total momentum is zero:
- * momenta are uniform on the sphere of radius R in M dimensions, physics.md 6. */
+ * momenta are uniform on the sphere of radius R in M dimensions. */
 static double exact_mean_impact(int disks)
 {
     const double radius = sqrt(2.0 * disks), dimensions = 2.0 * disks - 2.0;
@@ -114,7 +115,7 @@ static estimate mean_impact(const hd_scene_def *def, double pair_events)
     hd_event_log *log;
     CHECK_OK(hd_event_log_create(&log));
     for (int k = 0; k < BLOCKS; k++) {
-        CHECK_OK(hd_trajectory_advance(tr, log, hd_trajectory_time(tr) + piece));
+        CHECK_OK(trajectory_to(tr, log, hd_trajectory_time(tr) + piece));
         double sum = 0;
         for (size_t e = 0; e < log->count; e++)
             sum -= log->event[e].n[0] * log->event[e].p[0] +

@@ -8,6 +8,7 @@
 #include "scenes.h"
 #include "testing.h"
 #include "twin.h"
+#include "interval.h"
 
 enum { SIDE = 6, DISKS = SIDE * SIDE, EVENTS = 4000 };
 
@@ -32,7 +33,7 @@ static void check_conserved(const hd_scene_def *def, const double *q, const doub
 {
     double after[2 * DISKS], sum[2] = {0, 0};
     hd_trajectory *tr = started(def, q, p);
-    CHECK_OK(hd_trajectory_advance(tr, NULL, t_end));
+    CHECK_OK(hd_trajectory_extend(tr, NULL, t_end));
     hd_trajectory_state(tr, NULL, after);
     const double energy = energy_of(p, def->disks);
     CHECK_CLOSE(energy_of(after, def->disks), energy, CONSERVED * energy);
@@ -49,7 +50,7 @@ static void check_repeats(const hd_scene_def *def, const double *q, const double
     for (int k = 0; k < 2; k++) {
         hd_trajectory *tr = started(def, q, p);
         CHECK_OK(hd_event_log_create(&log[k]));
-        CHECK_OK(hd_trajectory_advance(tr, log[k], t_end));
+        CHECK_OK(trajectory_to(tr, log[k], t_end));
         hd_trajectory_free(tr);
     }
     assert_int_equal(log[0]->count, log[1]->count);
@@ -167,7 +168,7 @@ static void ties_go_by_index(void **state)
     hd_trajectory *tr = started(&def, q, p);
     hd_event_log *log;
     CHECK_OK(hd_event_log_create(&log));
-    CHECK_OK(hd_trajectory_advance(tr, log, 2.0));
+    CHECK_OK(trajectory_to(tr, log, 2.0));
     assert_true(log->count >= 2);
     assert_true(log->event[0].t == log->event[1].t);
     assert_int_equal(log->event[0].i, 0);
@@ -191,7 +192,7 @@ static void disk_in_a_corner(void **state)
         hd_event_log *log;
         hd_trajectory *tr = started(&def, q, p);
         CHECK_OK(hd_event_log_create(&log));
-        CHECK_OK(hd_trajectory_advance(tr, log, 1.5));
+        CHECK_OK(trajectory_to(tr, log, 1.5));
         hd_trajectory_state(tr, NULL, after);
         assert_int_equal(log->count, 2);
         assert_int_equal(log->event[0].j, HD_WALL_X);
@@ -214,7 +215,7 @@ static void pair_goes_before_wall(void **state)
     hd_event_log *log;
     hd_trajectory *tr = started(&def, q, p);
     CHECK_OK(hd_event_log_create(&log));
-    CHECK_OK(hd_trajectory_advance(tr, log, 1.5));
+    CHECK_OK(trajectory_to(tr, log, 1.5));
     assert_int_equal(log->count, 2);
     assert_true(log->event[0].t == 1.0 && log->event[1].t == 1.0);
     assert_int_equal(log->event[0].i, 1);

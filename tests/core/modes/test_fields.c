@@ -289,7 +289,7 @@ static void columns_lie_in_order(void **state)
     }
 }
 
-/** 8 waves of 2 nodes: 6 T(n) of 4 and so on [physics.md 4]. */
+/** 8 waves of 2 nodes: 6 T(n) of 4 and so on [T10]. */
 static void dimensions_add_up(void **state)
 {
     (void)state;

@@ -206,7 +206,7 @@ static long check_reports(const hd_scene_def *scene, long *numbers)
     CHECK_OK(hd_run_create(&run, scene, NULL, 0));
     *numbers += check_published(run); /* before anything is known */
     while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_step(run));
+        CHECK_OK(hd_run_advance(run));
         if (!hd_run_report_due(run)) continue;
         *numbers += check_published(run);
         reports++;

@@ -97,8 +97,6 @@ static void a_rotation_is_found(void **state)
         assert_true(reconstruct(&r));
         assert_int_equal(hd_pmode_pairs(r.pmode), n / 2);
         CHECK_CLOSE(hd_pmode_rotation_distance(r.pmode), 0.0, ALGEBRA);
-        for (int m = 0; m < n * n; m++)
-            CHECK_CLOSE(hd_pmode_rotation(r.pmode)[m], r.turn[m], ALGEBRA);
         for (int c = 0; c < n; c++) {
             CHECK_CLOSE(hd_pmode_residual(r.pmode, c), 0.0, ALGEBRA);
             double field[ROWS] = {0.0};
@@ -126,7 +124,6 @@ static void lengths_are_the_distance_from_a_rotation(void **state)
         length = sqrt(length);
         distance = fmax(distance, fabs(length - 1.0));
         for (int c = 0; c < 8; c++) {
-            CHECK_CLOSE(hd_pmode_rotation(r.pmode)[8 * m + c], length * r.turn[8 * m + c], ALGEBRA);
             CHECK_CLOSE(hd_pmode_residual(r.pmode, c), 0.0, ALGEBRA);
         }
     }
@@ -155,7 +152,6 @@ static void check_field(const reconstruction *r, int c)
     memcpy(q, field, sizeof q);
     assert_int_equal(LAPACKE_dgels(LAPACK_COL_MAJOR, 'N', ROWS, n, 1, copy, ROWS, q, ROWS), 0);
     for (int m = 0; m < n; m++) {
-        CHECK_CLOSE(hd_pmode_rotation(r->pmode)[m * n + c], q[m], ALGEBRA);
         for (int row = 0; row < ROWS; row++) best[row] += q[m] * psi[m * ROWS + row];
     }
     for (int row = 0; row < ROWS; row++) {

@@ -75,10 +75,10 @@ static void contents_that_no_run_has_are_refused(void **state)
         {"run observe", 0, 0, 9, "out of its range"},
         {"run interval end", 0, 1e300, 0, "interval end"},
         {"run interval end", 0, 1.0, 0, "interval end"},
-        {"run step max", 0, -1.0, 0, "step max"},
-        {"run plan begin", 0, 1e9, 0, "plan end"},
-        {"run plan end", 0, 1e9, 0, "plan end"},
-        {"run plan events", 0, 0, -1, "plan events"},
+        {"run advance longest", 0, -1.0, 0, "advance longest"},
+        {"run advance begin", 0, 1e9, 0, "advance end"},
+        {"run advance end", 0, 1e9, 0, "advance end"},
+        {"run advance events", 0, 0, -1, "advance events"},
         {"cost limit", 0, 0, 99, "cost limit"},
         {"trajectory epoch start", 0, 1e9, 0, "epoch"},
         {"trajectory q p t", 0, 1e3, 0, "cell"},
@@ -133,9 +133,9 @@ static void ends_of_samples_are_not_passed_twice(void **state)
     expect_nonsense_refused(&b, &backwards);
     expect_nonsense_refused(&b, &twice);
     const double endless = 1e300;
-    memcpy(element(&b, "run step max", 0), &endless, sizeof endless);
+    memcpy(element(&b, "run advance longest", 0), &endless, sizeof endless);
     CHECK_OK(status_of(&b, &again, message, sizeof message));
-    assert_true(again->step_max <= hd_run_step_bound(again));
+    assert_true(again->advance.longest <= hd_advance_bound(&again->advance, &again->scene));
     free(b.data);
     hd_run_free(again);
     hd_run_free(run);
@@ -170,7 +170,7 @@ static void nonsense_is_survived(void **state)
             const hd_status status = status_of(&whole, &run, message, sizeof message);
             assert_true(status == HD_OK || (!run && *message));
             for (int step = 0; run && step < 20; step++)
-                if (hd_run_step(run) != HD_OK) break;
+                if (hd_run_advance(run) != HD_OK) break;
             accepted += status == HD_OK;
             refused += status != HD_OK;
             hd_run_free(run);

@@ -106,7 +106,7 @@ static void add_look(twin *t, const hd_scene_def *scene, const passage *x, const
     hd_trajectory *trajectory;
     hd_scene_box(scene, box);
     CHECK_OK(hd_trajectory_create(&trajectory, scene));
-    CHECK_OK(hd_trajectory_advance(trajectory, NULL, WINDOWS_INTERVAL * (WARMUP + at)));
+    CHECK_OK(hd_trajectory_extend(trajectory, NULL, WINDOWS_INTERVAL * (WARMUP + at)));
     hd_trajectory_state(trajectory, q, p);
     hd_trajectory_free(trajectory);
     add_shape(t, v);
@@ -349,7 +349,8 @@ static void a_window_without_room_is_lost_and_the_next_is_not(void **state)
     hd_covariant_clear(w.c);
     assert_int_equal(hd_covariant_lost(w.c), 0);
     windows_free(&w);
-    scene.covariant_memory = 80.0 * (double)triangles + 21.0 * 8 * 16 * 17; /* and its snapshots */
+    /* and its snapshots */
+    scene.covariant_memory = 1e-9 * (80.0 * (double)triangles + 21.0 * 8 * 16 * 17);
     w = windows_begun(&scene, WARMUP, 4.0 * WINDOWS_INTERVAL);
     for (int k = 0; k < 1000; k++) assert_false(windows_forward(&w));
     assert_true(hd_covariant_lost(w.c) > 10);
@@ -362,7 +363,7 @@ static void too_little_room_is_refused_with_the_numbers(void **state)
     char message[400] = "";
     hd_scene_def scene = windows_scene(4, HD_PERIODIC, HD_PERIODIC);
     CHECK_OK(hd_covariant_check_room(&scene, 0.25, message, sizeof message));
-    scene.covariant_memory = 1e5;
+    scene.covariant_memory = 1e-4;
     assert_int_equal(hd_covariant_check_room(&scene, 0.25, message, sizeof message), HD_REFUSED);
     const char *numbers[] = {"covariant_window = 10", "covariant_transient = 20", "16 vectors",
                              "covariant_memory = 0.0001 GB"};

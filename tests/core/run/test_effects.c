@@ -22,7 +22,8 @@ static hd_scene_def small(int exponents, unsigned observe)
 
 static void until(hd_run *run, double time)
 {
-    while (hd_run_time(run) < time && hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_step(run));
+    while (hd_run_time(run) < time && hd_run_stage(run) != HD_FINISHED)
+        CHECK_OK(hd_run_advance(run));
 }
 
 /** Blocks and bytes that a run holds when it is `time` old. */

@@ -45,7 +45,7 @@ static hd_status finish(hd_run *run, double forced)
     while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) {
         const double before = hd_run_time(run);
         force(run, forced);
-        status = hd_run_step(run);
+        status = hd_run_advance(run);
         assert_true(hd_run_time(run) > before);
     }
     return status;
@@ -131,7 +131,7 @@ static void intervals_grow_again_after_grazing_collisions(void **state)
         scene.accuracy = 1e-12;
         hd_run *run = created(&scene);
         CHECK_OK(finish(run, 0.0));
-        const double per_disk = 2.0 * (double)hd_trajectory_collisions(run->trajectory) /
+        const double per_disk = 2.0 * (double)hd_trajectory_collisions(run->advance.trajectory) /
                                 scene.disks * 100.0 / 110.0;
         const double between = per_disk / (double)run->cost.orthonormalisations;
         print_message("seed %d: %.2f collisions of a disk between factorisations\n", (int)seed,
@@ -256,7 +256,7 @@ static void a_broken_frame_is_a_named_fault(void **state)
             hd_run *run = created(&scene);
             double before[VECTORS_MAX];
             while (!run->spectrum || hd_spectrum_time(run->spectrum) < 5.0)
-                CHECK_OK(hd_run_step(run));
+                CHECK_OK(hd_run_advance(run));
             for (int col = 0; col < run->vectors; col++)
                 before[col] = hd_spectrum_exponent(run->spectrum, col);
             const double time = hd_spectrum_time(run->spectrum);

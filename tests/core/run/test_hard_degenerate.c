@@ -31,7 +31,7 @@ static void run_everything(const hd_scene_def *scene, tally *sum)
     }
     CHECK_OK(status);
     while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_step(run));
+        CHECK_OK(hd_run_advance(run));
         if (hd_run_report_due(run)) sum->numbers += check_published(run);
     }
     CHECK_CLOSE(hd_spectrum_time(hd_run_spectrum(run)), scene->duration, 1e-9 * scene->duration);
@@ -142,7 +142,7 @@ static void watch_run(watch *w, const hd_scene_def *scene, double settling)
     bool begun = false;
     CHECK_OK(hd_run_create(&run, scene, NULL, 0));
     while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_step(run));
+        CHECK_OK(hd_run_advance(run));
         if (!hd_run_report_due(run) || hd_spectrum_time(hd_run_spectrum(run)) < settling) continue;
         if (!begun) watch_begin(w, hd_run_steps(run));
         begun = true;

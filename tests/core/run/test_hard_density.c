@@ -30,7 +30,7 @@ static double time_of(const hd_scene_def *def, double count)
     const double wanted = 0.5 * count * def->disks;
     double t = 1e-9 / hd_trajectory_collision_rate(tr), seen = 0;
     while (seen < wanted) {
-        CHECK_OK(hd_trajectory_advance(tr, NULL, t *= 1.5));
+        CHECK_OK(hd_trajectory_extend(tr, NULL, t *= 1.5));
         seen = (double)hd_trajectory_collisions(tr);
     }
     hd_trajectory_free(tr);
@@ -44,7 +44,7 @@ static double time_of(const hd_scene_def *def, double count)
 static void check_overlap(hd_trajectory *tr, const double box[2])
 {
     const double time = fmax(hd_trajectory_time(tr), next_event_time(tr));
-    CHECK_OK(hd_trajectory_advance(tr, NULL, time));
+    CHECK_OK(hd_trajectory_extend(tr, NULL, time));
     CHECK_CLOSE(hd_trajectory_overlap(tr), 0.0, 4.0 * DBL_EPSILON * (fmax(box[0], box[1]) + time));
 }
 
@@ -60,7 +60,7 @@ static void check_conserved(const hd_scene_def *def, double events)
     const double energy = hd_trajectory_kinetic_energy(tr);
     for (int k = 1; k <= LOOKS; k++) {
         const double t = t_end * k / LOOKS;
-        CHECK_OK(hd_trajectory_advance(tr, NULL, fmax(t, hd_trajectory_time(tr))));
+        CHECK_OK(hd_trajectory_extend(tr, NULL, fmax(t, hd_trajectory_time(tr))));
         CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), energy, 20.0 * DBL_EPSILON * sqrt(events));
         check_overlap(tr, box);
     }
@@ -92,9 +92,9 @@ static void thin_gas_collides_as_enskog_says(void **state)
         const double rate = sqrt(PI) * DENSITY[k] * contact * def.disks, start = 1e4 / rate;
         hd_trajectory *tr;
         CHECK_OK(hd_trajectory_create(&tr, &def));
-        CHECK_OK(hd_trajectory_advance(tr, NULL, start));
+        CHECK_OK(hd_trajectory_extend(tr, NULL, start));
         const double before = (double)hd_trajectory_collisions(tr);
-        CHECK_OK(hd_trajectory_advance(tr, NULL, start + count / rate));
+        CHECK_OK(hd_trajectory_extend(tr, NULL, start + count / rate));
         CHECK_CLOSE((double)hd_trajectory_collisions(tr) - before, count, allowed * count);
         hd_trajectory_free(tr);
     }
@@ -118,7 +118,7 @@ static void contact_within_rounding_at_the_start(void **state)
         }
         hd_trajectory *tr = started(&def, q, p);
         assert_true(hd_trajectory_overlap(tr) <= 1e-9);
-        CHECK_OK(hd_trajectory_advance(tr, NULL, 10.0));
+        CHECK_OK(hd_trajectory_extend(tr, NULL, 10.0));
         CHECK_CLOSE(hd_trajectory_overlap(tr), 0.0, 4.0 * DBL_EPSILON * 6.0);
         assert_true(hd_trajectory_collisions(tr) > 100);
         hd_trajectory_free(tr);
@@ -140,7 +140,7 @@ static hd_run *finished(hd_scene_def scene, double time)
     scene.accuracy = fmin(1e-2, 1e-8 / time * 1e3);
     scene.threads = 1;
     if (hd_run_create(&run, &scene, message, sizeof message) != HD_OK) fail_msg("%s", message);
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_step(run));
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
     return run;
 }
 

@@ -7,6 +7,7 @@
 #include "prepared.h"
 #include "run/run_state.h"
 #include "runs.h"
+#include "interval.h"
 
 /** To which the reference is known: its own rounding, 1e-19 of a condition below 1e5, and that of
  * sums of 1e6 doubles. */
@@ -33,7 +34,7 @@ static reference reference_of(hd_trajectory *tr, const hd_frame *frame, double d
     reference r = {.x = exact_create(frame), .least = 1.0};
     hd_event_log *log = new_log();
     while (hd_trajectory_time(tr) < duration) {
-        CHECK_OK(hd_trajectory_advance(tr, log, fmin(duration, hd_trajectory_time(tr) + 8.0)));
+        CHECK_OK(trajectory_to(tr, log, fmin(duration, hd_trajectory_time(tr) + 8.0)));
         exact_replay(r.x, log);
         for (size_t k = 0; k < log->count; k++) {
             if (log->event[k].j < 0) continue;
@@ -72,7 +73,7 @@ static hd_scene_def averaged_at_once(hd_boundary boundary, double duration)
 
 static hd_status finish(hd_run *run)
 {
-    while (hd_run_stage(run) != HD_FINISHED) HD_TRY(hd_run_step(run));
+    while (hd_run_stage(run) != HD_FINISHED) HD_TRY(hd_run_advance(run));
     return HD_OK;
 }
 
@@ -152,8 +153,8 @@ static outcome outcome_of(double impact, int exponents)
     hd_scene_def scene = averaged_at_once(HD_PERIODIC, 20.0);
     scene.exponents = exponents;
     hd_run *run = created(&scene);
-    hd_trajectory_free(run->trajectory);
-    run->trajectory = prepared(&scene, impact);
+    hd_trajectory_free(run->advance.trajectory);
+    run->advance.trajectory = prepared(&scene, impact);
     const reference r = reference_of(prepared(&scene, impact), run->frame, scene.duration);
     assert_true(r.least < 1.1 * impact / 1.6 + 4.0 * DBL_EPSILON);
     outcome o = {.status = finish(run), .impact = 2.0 * DBL_EPSILON / r.least / scene.duration};

@@ -48,7 +48,7 @@ static hd_status live(world *w, const hd_scene_def *scene)
     if (status == HD_OK && scene->observe) status = hd_pmode_create(&w->pmode, scene->disks);
     if (status == HD_OK && scene->observe)
         status = hd_hydro_create(&w->hydro, scene, hd_run_steps(w->run));
-    while (status == HD_OK && hd_run_stage(w->run) != HD_FINISHED) status = hd_run_step(w->run);
+    while (status == HD_OK && hd_run_stage(w->run) != HD_FINISHED) status = hd_run_advance(w->run);
     return status;
 }
 
@@ -123,8 +123,8 @@ static void of_a_resumed_run(void **state)
     const hd_scene_def scene = growing_log();
     hd_run *run;
     CHECK_OK(hd_run_create(&run, &scene, NULL, 0));
-    while (hd_run_stage(run) < HD_AVERAGING) CHECK_OK(hd_run_step(run));
-    CHECK_OK(hd_run_step(run));
+    while (hd_run_stage(run) < HD_AVERAGING) CHECK_OK(hd_run_advance(run));
+    CHECK_OK(hd_run_advance(run));
     CHECK_OK(hd_run_save(run, FILE_NAME, "", NULL, 0));
     hd_run_free(run);
     const size_t before = ledger_now().allocations;

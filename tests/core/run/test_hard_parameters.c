@@ -5,12 +5,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hdlyap/parameters.h"
 #include "hdlyap/run.h"
 #include "base/random.h"
 #include "scenes.h"
 #include "testing.h"
 
-enum { SETS = HD_SANITIZED ? 2000 : 10000, LINE = 256 };
+enum { SETS = HD_SANITIZED ? 2000 : 10000, LINE = 256, PARAMETERS_MAX = 100 };
 
 /** A run is followed for so long: the first steps are short, each at most four times the one
  * before. */
@@ -47,59 +48,52 @@ static double log_uniform(hd_random *random, double least, double most)
     return fmin(fmax(x, least), most);
 }
 
-typedef struct parameter {
+/** Values that scenes usually have here: small ones, which run fast. Of the others all that is
+ * allowed is usual. */
+static const struct {
     const char *name;
-    size_t offset;
-    bool whole;
-    double least, most; /**< allowed if nothing else is wrong */
-    double low, high;   /**< usual */
-} parameter;
-
-#define OFFSET(member) offsetof(hd_scene_def, member)
-static const parameter PARAMETERS[] = {
-    {"disks", OFFSET(disks), true, 2, 1000000, 2, 30},
-    {"density", OFFSET(density), false, 1e-6, 1.1547, 0.01, 0.8},
-    {"aspect", OFFSET(aspect), false, 1e-6, 1e6, 0.1, 10},
-    {"boundary_x", OFFSET(boundary[0]), true, 0, 1, 0, 1},
-    {"boundary_y", OFFSET(boundary[1]), true, 0, 1, 0, 1},
-    {"exponents", OFFSET(exponents), true, -2, 4000000, -2, 8},
-    {"equilibration", OFFSET(equilibration), false, 0, 1e12, 1e-3, 1},
-    {"warmup", OFFSET(warmup), false, 0, 1e12, 1e-3, 1},
-    {"duration", OFFSET(duration), false, 0, 1e12, 0.1, 100},
-    {"target_std_error", OFFSET(target_std_error), false, 0, 1e12, 1e-3, 1},
-    {"interval", OFFSET(interval), false, 0, 1e12, 0.01, 10},
-    {"accuracy", OFFSET(accuracy), false, 1e-12, 1e-2, 1e-12, 1e-2},
-    {"report_interval", OFFSET(report_interval), false, 1e-6, 1e12, 0.1, 10},
-    {"max_wave_number", OFFSET(max_wave_number), false, 0, 1e12, 0.3, 3},
-    {"max_mode_number", OFFSET(max_mode_number), true, 0, 1000000, 0, 3},
-    {"observe", OFFSET(observe), true, 0, 31, 0, 31},
-    {"threads", OFFSET(threads), true, 0, 1024, 0, 2},
+    double low, high;
+} USUAL[] = {
+    {"disks", 2, 30},
+    {"density", 0.01, 0.8},
+    {"aspect", 0.1, 10},
+    {"exponents", -2, 8},
+    {"equilibration", 1e-3, 1},
+    {"warmup", 1e-3, 1},
+    {"duration", 0.1, 100},
+    {"target_std_error", 1e-3, 1},
+    {"interval", 0.01, 10},
+    {"report_interval", 0.1, 10},
+    {"max_wave_number", 0.3, 3},
+    {"max_mode_number", 0, 3},
+    {"observe", 0, HD_OBSERVE_ALL ^ HD_OBSERVE_COVARIANT},
+    {"threads", 0, 2},
 };
-enum { PARAMETER_COUNT = sizeof PARAMETERS / sizeof *PARAMETERS };
 
-static void put(hd_scene_def *def, const parameter *p, double real, int whole)
+static bool is_whole(const hd_parameter *p)
 {
-    char *field = (char *)def + p->offset;
-    if (p->whole)
-        memcpy(field, &whole, sizeof whole);
-    else
-        memcpy(field, &real, sizeof real);
+    return p->kind != HD_PARAMETER_REAL && p->kind != HD_PARAMETER_INTERVAL;
+}
+
+static void put(hd_scene_def *def, const hd_parameter *p, double real, int whole)
+{
+    hd_parameter_assign(p, def, is_whole(p) ? whole : real);
 }
 
 /** Within a range, its ends included; down to denormals where the range begins at 0. */
-static void put_within(hd_random *random, hd_scene_def *def, const parameter *p, double least,
+static void put_within(hd_random *random, hd_scene_def *def, const hd_parameter *p, double least,
                        double most)
 {
-    const double floor_of = p->whole ? 1.0 : DBL_TRUE_MIN;
+    const double floor_of = is_whole(p) ? 1.0 : DBL_TRUE_MIN;
     double x = log_uniform(random, fmax(least, floor_of), fmax(most, floor_of));
     if (chance(random, 0.1)) x = least;
     if (chance(random, 0.1)) x = most;
-    if (p->whole && least < 1 && chance(random, 0.5)) x = least + one_of(random, 1 - (int)least);
+    if (is_whole(p) && least < 1 && chance(random, 0.5)) x = least + one_of(random, 1 - (int)least);
     put(def, p, x, (int)x);
 }
 
 /** What no user means: not numbers, the ends of the types, just outside the range, any bits. */
-static void put_wild(hd_random *random, hd_scene_def *def, const parameter *p)
+static void put_wild(hd_random *random, hd_scene_def *def, const hd_parameter *p)
 {
     const double reals[] = {NAN,
                             INFINITY,
@@ -124,10 +118,20 @@ static void put_wild(hd_random *random, hd_scene_def *def, const parameter *p)
     put(def, p, real, whole);
 }
 
+static bool is_named(const hd_parameter *p, const char *name) { return strcmp(p->name, name) == 0; }
+
 /** Threads are a machine's, and large boxes take long: seldom. */
-static bool is_costly(const parameter *p)
+static bool is_costly(const hd_parameter *p)
 {
-    return p->offset == OFFSET(disks) || p->offset == OFFSET(threads);
+    return is_named(p, "disks") || is_named(p, "threads");
+}
+
+static void put_usual(hd_random *random, hd_scene_def *def, const hd_parameter *p)
+{
+    double low = p->least, high = p->most;
+    for (size_t k = 0; k < sizeof USUAL / sizeof *USUAL; k++)
+        if (is_named(p, USUAL[k].name)) low = USUAL[k].low, high = USUAL[k].high;
+    put_within(random, def, p, low, high);
 }
 
 /** A channel hardly wider than a disk, down to the last bit. */
@@ -138,17 +142,21 @@ static void make_narrow(hd_random *random, hd_scene_def *def)
     if (chance(random, 0.5)) def->aspect = 1.0 / def->aspect;
 }
 
-/** Half of the scenes have wild values; the others are possible one by one, if not together. */
+/** Covariant vectors are left out: on their way back steps take no simulated time. Half of the
+ * scenes have wild values; the others are possible one by one, if not together. */
 static hd_scene_def drawn(hd_random *random)
 {
     hd_scene_def def = hd_scene_def_default();
     const bool wild = chance(random, 0.5);
-    for (int k = 0; k < PARAMETER_COUNT; k++) {
-        const parameter *p = &PARAMETERS[k];
-        if (p->offset == OFFSET(max_mode_number) && chance(random, 0.5)) continue;
-        if (p->offset == OFFSET(max_wave_number) && chance(random, 0.8)) continue;
-        put_within(random, &def, p, p->low, p->high);
-        if (chance(random, is_costly(p) ? 0.005 : 0.1))
+    int count;
+    const hd_parameter *rows = hd_scene_parameters(&count);
+    for (int k = 0; k < count; k++) {
+        const hd_parameter *p = &rows[k];
+        if (p->kind == HD_PARAMETER_SEED || p->needs == HD_OBSERVE_COVARIANT) continue;
+        if (is_named(p, "max_mode_number") && chance(random, 0.5)) continue;
+        if (is_named(p, "max_wave_number") && chance(random, 0.8)) continue;
+        put_usual(random, &def, p);
+        if (p->kind != HD_PARAMETER_SET && chance(random, is_costly(p) ? 0.005 : 0.1))
             put_within(random, &def, p, p->least, p->most);
         if (wild && chance(random, 0.1)) put_wild(random, &def, p);
     }
@@ -175,10 +183,12 @@ static void print_scene(int number, const hd_scene_def *def)
 static int named(const char *line)
 {
     if (strchr(line, '\n')) return -1;
-    for (int k = 0; k < PARAMETER_COUNT; k++) {
-        const size_t length = strlen(PARAMETERS[k].name);
-        if (strncmp(line, PARAMETERS[k].name, length) == 0 &&
-            strncmp(line + length, " = ", 3) == 0 && strstr(line, ": "))
+    int count;
+    const hd_parameter *rows = hd_scene_parameters(&count);
+    for (int k = 0; k < count; k++) {
+        const size_t length = strlen(rows[k].name);
+        if (strncmp(line, rows[k].name, length) == 0 && strncmp(line + length, " = ", 3) == 0 &&
+            strstr(line, ": "))
             return k;
     }
     return -1;
@@ -208,7 +218,7 @@ static const char *step_once(hd_run *run)
 {
     const double before = hd_run_time(run), events = events_of(run);
     const hd_stage phase = hd_run_stage(run);
-    const hd_status status = hd_run_step(run);
+    const hd_status status = hd_run_advance(run);
     if (status != HD_OK) return hd_status_text(status);
     if (!(hd_run_time(run) > before) && hd_run_stage(run) == phase) return "a step goes nowhere";
     if (!(events_of(run) - events <= EVENTS_OF_A_STEP_MAX)) return "a step without end";
@@ -242,7 +252,7 @@ static const char *run_fault(hd_run *run)
 /** How often a scene was what. */
 typedef struct tally {
     int run, refused, large, averaged;
-    int refused_by[PARAMETER_COUNT];
+    int refused_by[PARAMETERS_MAX];
 } tally;
 
 static const char *refusal_fault(hd_random *random, const hd_scene_def *def, const char *line,
@@ -278,8 +288,9 @@ static void report(const tally *seen)
         "of %d scenes %d ran (%d of them as far as averages), %d were refused, %d were too "
         "large to be run here\n  refused by",
         SETS, seen->run, seen->averaged, seen->refused, seen->large);
-    for (int k = 0; k < PARAMETER_COUNT; k++)
-        print_message(" %s %d", PARAMETERS[k].name, seen->refused_by[k]);
+    int count;
+    const hd_parameter *rows = hd_scene_parameters(&count);
+    for (int k = 0; k < count; k++) print_message(" %s %d", rows[k].name, seen->refused_by[k]);
     print_message("\n");
 }
 

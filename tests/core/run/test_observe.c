@@ -29,7 +29,7 @@ static hd_scene_def channel(hd_boundary x, hd_boundary y)
 static hd_run *finished(const hd_scene_def *scene)
 {
     hd_run *run = created(scene);
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_step(run));
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
     return run;
 }
 
@@ -93,7 +93,7 @@ static void coarse_reports_see_the_same_rotation(void **state)
     hd_run *coarse = created(&scene);
     int often = 0;
     while (hd_run_stage(coarse) != HD_FINISHED) {
-        CHECK_OK(hd_run_step(coarse));
+        CHECK_OK(hd_run_advance(coarse));
         if (hd_run_samples_per_report(coarse) > often) often = hd_run_samples_per_report(coarse);
     }
     const hd_velocity a = hd_phases_velocity(hd_run_phases(fine));
@@ -174,9 +174,9 @@ static void a_look_sees_what_a_measured_state_shows(void **state)
     double worst = 0.0;
     int compared = 0;
     while (hd_run_stage(looking) != HD_FINISHED) {
-        do CHECK_OK(hd_run_step(looking));
+        do CHECK_OK(hd_run_advance(looking));
         while (!hd_run_report_due(looking));
-        do CHECK_OK(hd_run_step(measuring));
+        do CHECK_OK(hd_run_advance(measuring));
         while (!hd_run_report_due(measuring));
         CHECK_CLOSE(hd_run_time(looking), hd_run_time(measuring), 0.0);
         worst = fmax(worst, phases_apart(looking, measuring, &compared));
@@ -203,11 +203,11 @@ static void only_what_is_needed_is_measured(void **state)
     assert_null(hd_run_phases(run));
     hd_run_observe(run, 0);
     while (hd_spectrum_time(hd_run_spectrum(run)) < 19.5 || !hd_run_report_due(run))
-        CHECK_OK(hd_run_step(run));
+        CHECK_OK(hd_run_advance(run));
     assert_int_equal(hd_modes_samples(hd_run_modes(run)), 0);
     CHECK_CLOSE(hd_run_cost(run).modes, 0.0, 0.0);
     hd_run_observe(run, EVERYTHING);
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_step(run));
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
     assert_int_equal(hd_modes_samples(hd_run_modes(run)), 20);
     assert_true(hd_run_cost(run).modes > 0);
     hd_run_free(run);
@@ -227,7 +227,7 @@ static void fields_are_due_now_and_then(void **state)
     hd_run_fields_every(run, 10.0);
     int due = 0;
     while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_step(run));
+        CHECK_OK(hd_run_advance(run));
         if (!hd_run_fields_due(run)) continue;
         const double averaged = hd_spectrum_time(hd_run_spectrum(run));
         assert_true(hd_run_report_due(run));
@@ -265,7 +265,7 @@ static void a_look_away_begins_the_phases_anew(void **state)
         const double until = 50.0 * (away + 1);
         hd_run_observe(run, away == 1 ? 0 : EVERYTHING);
         while (hd_spectrum_time(hd_run_spectrum(run)) < until) {
-            CHECK_OK(hd_run_step(run));
+            CHECK_OK(hd_run_advance(run));
             check_none_coarse(run);
         }
     }
@@ -283,9 +283,9 @@ static void nothing_is_allocated_while_looking(void **state)
     (void)state;
     hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
     hd_run *run = created(&scene);
-    while (hd_spectrum_time(hd_run_spectrum(run)) < 50.0) CHECK_OK(hd_run_step(run));
+    while (hd_spectrum_time(hd_run_spectrum(run)) < 50.0) CHECK_OK(hd_run_advance(run));
     const size_t before = hd_memory_allocations();
-    for (int k = 0; k < 200; k++) CHECK_OK(hd_run_step(run));
+    for (int k = 0; k < 200; k++) CHECK_OK(hd_run_advance(run));
     assert_true(hd_memory_allocations() - before <= 2); /* growth of the log and of its maps */
     hd_run_free(run);
 }
@@ -295,7 +295,7 @@ static void a_reset_forgets_modes_steps_and_phases(void **state)
     (void)state;
     hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
     hd_run *run = created(&scene);
-    while (hd_spectrum_time(hd_run_spectrum(run)) < 100.0) CHECK_OK(hd_run_step(run));
+    while (hd_spectrum_time(hd_run_spectrum(run)) < 100.0) CHECK_OK(hd_run_advance(run));
     assert_true(step_of(run, HD_MODE_LP, 1, 0, false)->resolved);
     CHECK_OK(hd_run_reset_average(run));
     assert_int_equal(hd_modes_samples(hd_run_modes(run)), 0);

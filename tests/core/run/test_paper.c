@@ -29,7 +29,7 @@ static hd_run *paper_run(void)
     scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
     hd_run *run;
     CHECK_OK(hd_run_create(&run, &scene, NULL, 0));
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_step(run));
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
     return run;
 }
 

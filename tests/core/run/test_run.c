@@ -21,7 +21,7 @@ static hd_scene_def scene_of(int disks, int exponents)
 
 static hd_run *until(hd_run *run, hd_stage phase)
 {
-    while (hd_run_stage(run) < phase) CHECK_OK(hd_run_step(run));
+    while (hd_run_stage(run) < phase) CHECK_OK(hd_run_advance(run));
     return run;
 }
 
@@ -49,7 +49,7 @@ static void reports_come_on_time(void **state)
     int reports[4] = {0};
     while (hd_run_stage(run) != HD_FINISHED) {
         const hd_stage phase = hd_run_stage(run);
-        CHECK_OK(hd_run_step(run));
+        CHECK_OK(hd_run_advance(run));
         if (!hd_run_report_due(run)) continue;
         reports[phase]++;
         const double end = phase_start[phase] + (phase == HD_AVERAGING ? 20.0 : 10.0);
@@ -62,7 +62,7 @@ static void reports_come_on_time(void **state)
     assert_int_equal(reports[HD_AVERAGING], 29);
     CHECK_CLOSE(hd_run_time(run), 40.0, 0.0);
     CHECK_CLOSE(hd_spectrum_time(hd_run_spectrum(run)), 20.0, 1e-11);
-    CHECK_OK(hd_run_step(run)); /* nothing more */
+    CHECK_OK(hd_run_advance(run)); /* nothing more */
     CHECK_CLOSE(hd_run_time(run), 40.0, 0.0);
     hd_run_free(run);
 }
@@ -149,8 +149,8 @@ static void threads_do_not_change_the_physics(void **state)
     }
     assert_true(deviation(run[0], run[1]) < scene.accuracy);
     CHECK_CLOSE(deviation(run[0], run[2]), 0.0, 0.0); /* the same number: the same bits */
-    assert_int_equal(hd_trajectory_collisions(run[0]->trajectory),
-                     hd_trajectory_collisions(run[1]->trajectory));
+    assert_int_equal(hd_trajectory_collisions(run[0]->advance.trajectory),
+                     hd_trajectory_collisions(run[1]->advance.trajectory));
     for (int k = 0; k < 3; k++) hd_run_free(run[k]);
 }
 
@@ -160,7 +160,8 @@ static void the_loop_allocates_nothing(void **state)
     hd_scene_def scene = scene_of(40, HD_EXPONENTS_POSITIVE);
     scene.duration = 300.0;
     hd_run *run = until(created(&scene), HD_AVERAGING);
-    while (hd_run_time(run) < 120.0) CHECK_OK(hd_run_step(run)); /* the log has grown to its size */
+    while (hd_run_time(run) < 120.0)
+        CHECK_OK(hd_run_advance(run)); /* the log has grown to its size */
     const size_t before = hd_memory_allocations();
     until(run, HD_FINISHED);
     assert_true(hd_memory_allocations() - before <=
@@ -174,7 +175,7 @@ static void the_average_can_start_afresh(void **state)
     hd_scene_def scene = scene_of(12, 4);
     hd_run *run = until(created(&scene), HD_AVERAGING);
     CHECK_OK(hd_run_reset_average(run)); /* at its very start: nothing changes */
-    while (hd_run_time(run) < 25.0 || !hd_run_report_due(run)) CHECK_OK(hd_run_step(run));
+    while (hd_run_time(run) < 25.0 || !hd_run_report_due(run)) CHECK_OK(hd_run_advance(run));
     const double at = hd_run_time(run);
     CHECK_OK(hd_run_reset_average(run));
     CHECK_CLOSE(hd_spectrum_time(hd_run_spectrum(run)), 0.0, 0.0);
@@ -210,7 +211,7 @@ static double predicted_over_taken(uint64_t seed)
     hd_run *run = until(created(&scene), HD_AVERAGING);
     int count = 0, tenth = 0;
     while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_step(run));
+        CHECK_OK(hd_run_advance(run));
         if (!hd_run_report_due(run) || count == 20000) continue;
         averaged[count] = hd_spectrum_time(run->spectrum);
         const double progress = hd_run_cost(run).progress;
@@ -244,7 +245,7 @@ static void progress_and_cost_add_up(void **state)
     double progress = 0.0;
     assert_true(hd_run_cost(run).remaining < 0); /* not known before the frame has been carried */
     while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_step(run));
+        CHECK_OK(hd_run_advance(run));
         const hd_cost cost = hd_run_cost(run);
         assert_true(cost.progress >= progress && cost.progress <= 1.0);
         progress = cost.progress;

@@ -39,7 +39,7 @@ static void run_and_tell(int out, const hd_scene_def *scene)
     hd_run *run;
     if (hd_run_create(&run, scene, NULL, 0) != HD_OK) _exit(1);
     while (hd_run_stage(run) != HD_FINISHED)
-        if (hd_run_step(run) != HD_OK) _exit(1);
+        if (hd_run_advance(run) != HD_OK) _exit(1);
     const peak told = {.asked = (double)ledger_now().peak, .vectors = hd_run_vectors(run)};
     _exit(write(out, &told, sizeof told) == (ssize_t)sizeof told ? 0 : 1);
 }

@@ -26,7 +26,7 @@ static hd_scene_def long_box(double duration)
 static int finish(hd_run *run)
 {
     int steps = 0;
-    for (; hd_run_stage(run) != HD_FINISHED; steps++) CHECK_OK(hd_run_step(run));
+    for (; hd_run_stage(run) != HD_FINISHED; steps++) CHECK_OK(hd_run_advance(run));
     return steps;
 }
 
@@ -49,7 +49,7 @@ static void a_view_of_the_disks_changes_nothing(void **state)
     (void)state;
     const hd_scene_def scene = long_box(60.0);
     hd_run *plain = created(&scene), *viewed = created(&scene);
-    hd_run_view(viewed, 0.037, hd_run_vectors(viewed));
+    hd_run_watch(viewed, 0.037, hd_run_vectors(viewed));
     const int few = finish(plain), many = finish(viewed);
     assert_true(many > 105.0 / 0.037);
     assert_true(few < many / 10);
@@ -80,14 +80,14 @@ static void check_orthonormal(hd_columns v, int rows)
 static void begin_to_look(hd_run *run)
 {
     while (hd_run_stage(run) != HD_AVERAGING || hd_modes_samples(hd_run_modes(run)) < 3)
-        CHECK_OK(hd_run_step(run));
+        CHECK_OK(hd_run_advance(run));
 }
 
 /** Brings a run that reports often and is orthonormalised for each report to the time of another.
  */
 static void catch_up(hd_run *run, double time)
 {
-    while (hd_run_time(run) < time - 1e-6) CHECK_OK(hd_run_step(run));
+    while (hd_run_time(run) < time - 1e-6) CHECK_OK(hd_run_advance(run));
     CHECK_CLOSE(hd_run_time(run), time, 1e-9);
 }
 
@@ -105,8 +105,8 @@ static void each_step_ends_with_the_vectors_wanted(void **state)
     int looked = 0, factored = 0;
     begin_to_look(run);
     while (hd_run_stage(run) != HD_FINISHED) {
-        hd_run_view(run, 0.25, n - WANTED);
-        CHECK_OK(hd_run_step(run));
+        hd_run_watch(run, 0.25, n - WANTED);
+        CHECK_OK(hd_run_advance(run));
         const hd_columns v = hd_run_columns(run);
         assert_true(v.count >= WANTED && v.first <= n - WANTED && v.first + v.count == n);
         looked += v.count < n;
@@ -135,7 +135,7 @@ static void looking_spoils_no_exponent(void **state)
     (void)state;
     const hd_scene_def scene = long_box(40.0);
     hd_run *plain = created(&scene), *viewed = created(&scene);
-    hd_run_view(viewed, 0.3, hd_run_vectors(viewed) - WANTED);
+    hd_run_watch(viewed, 0.3, hd_run_vectors(viewed) - WANTED);
     finish(plain);
     finish(viewed);
     const double bound = hd_run_cost(plain).error_bound + hd_run_cost(viewed).error_bound;
@@ -158,9 +158,9 @@ static void nobody_looks_nothing_is_known(void **state)
     assert_int_equal(hd_run_columns(run).count, 0);
     begin_to_look(run);
     hd_run_observe(run, 0);
-    hd_run_view(run, 0.1, 0);
+    hd_run_watch(run, 0.1, 0);
     while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_step(run));
+        CHECK_OK(hd_run_advance(run));
         known += hd_run_columns(run).count > 0;
         unknown += hd_run_columns(run).count == 0;
     }

@@ -30,7 +30,7 @@ static hd_scene_def small(void)
 
 static void finish(hd_run *run)
 {
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_step(run));
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
 }
 
 static double averaging_start(const hd_run *run)
@@ -40,12 +40,12 @@ static double averaging_start(const hd_run *run)
 
 static void step_to(hd_run *run, double averaged)
 {
-    while (hd_run_time(run) < averaging_start(run) + averaged - 1e-9) CHECK_OK(hd_run_step(run));
+    while (hd_run_time(run) < averaging_start(run) + averaged - 1e-9) CHECK_OK(hd_run_advance(run));
 }
 
 static void step_to_the_way_back(hd_run *run)
 {
-    while (!hd_covariant_is_going_back(hd_run_covariant(run))) CHECK_OK(hd_run_step(run));
+    while (!hd_covariant_is_going_back(hd_run_covariant(run))) CHECK_OK(hd_run_advance(run));
 }
 
 /** Some of the way, behind the run's back: it would go all of it in one step. */
@@ -95,7 +95,7 @@ static void the_forward_pass_stays_as_it_is(void **state)
     hd_run *run = created(&scene);
     step_to_the_way_back(run);
     const double time = hd_run_time(run);
-    CHECK_OK(hd_run_step(run));
+    CHECK_OK(hd_run_advance(run));
     assert_true(hd_run_time(run) == time);
     finish(run);
     scene.observe = 0;
@@ -204,7 +204,7 @@ static void other_stages_do_not_disturb(void **state)
         scene.report_interval = 0.25;
         scene.observe |= HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_HYDRO;
         hd_run *run = created(&scene);
-        if (viewed) hd_run_view(run, 0.1, 8);
+        if (viewed) hd_run_watch(run, 0.1, 8);
         finish(run);
         const hd_covariant *c = hd_run_covariant(run);
         assert_in_range(hd_covariant_windows(c), viewed ? 8 : 11, 12);
@@ -244,7 +244,7 @@ static void too_long_a_window_is_refused(void **state)
     char message[400] = "";
     hd_scene_def scene = small();
     hd_run *run = NULL;
-    scene.covariant_memory = 2.5e6; /* 512 triangles of 4224 bytes and 46 frames of 8448 */
+    scene.covariant_memory = 2.5e-3; /* 512 triangles of 4224 bytes and 46 frames of 8448 */
     assert_int_equal(hd_run_create(&run, &scene, message, sizeof message), HD_REFUSED);
     assert_null(run);
     const char *numbers[] = {
@@ -256,7 +256,7 @@ static void too_long_a_window_is_refused(void **state)
     scene.observe = 0;
     hd_run_free(created(&scene));
     scene = small();
-    scene.covariant_memory = 2.6e6;
+    scene.covariant_memory = 2.6e-3;
     hd_run_free(created(&scene));
 }
 
@@ -264,7 +264,7 @@ static hd_status run_to_a_fault(const hd_scene_def *scene)
 {
     hd_run *run = created(scene);
     hd_status status = HD_OK;
-    while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) status = hd_run_step(run);
+    while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) status = hd_run_advance(run);
     const int fault = errno;
     hd_run_free(run);
     errno = fault;
@@ -278,7 +278,7 @@ static void too_little_room_is_found_when_windows_begin(void **state)
     hd_scene_def scene = small();
     scene.interval = 0.0;
     scene.accuracy = 1e-12; /* intervals as short as they get */
-    scene.covariant_memory = 1e6;
+    scene.covariant_memory = 1e-3;
     assert_int_equal(run_to_a_fault(&scene), HD_NO_ROOM);
 }
 

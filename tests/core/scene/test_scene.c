@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hdlyap/parameters.h"
 #include "scene/lattice.h"
 #include "scenes.h"
 #include "testing.h"
@@ -39,52 +40,74 @@ static void default_is_the_papers(void **state)
     assert_int_equal(hd_scene_vectors(&def), 1557);
 }
 
-typedef struct field {
-    const char *name, *allowed;
-    size_t offset;
-    double least, most;  /**< accepted */
-    double below, above; /**< refused */
-} field;
+/** What has a range of its own; covariant vectors' are checked where they are observed. */
+static bool has_range(const hd_parameter *row)
+{
+    return row->kind == HD_PARAMETER_REAL || row->kind == HD_PARAMETER_INTERVAL;
+}
 
-#define OFFSET(member) offsetof(hd_scene_def, member)
-static const field FIELDS[] = {
-    {"density", "from 1e-6", OFFSET(density), 1e-6, 1.1, 0.99e-6, 1.1548},
-    {"aspect", "from 1e-6 to 1e6", OFFSET(aspect), 0.01, 100.0, 0.99e-6, 1.01e6},
-    {"equilibration", "from 0 to 1e12", OFFSET(equilibration), 0.0, 1e12, -1e-9, 1.1e12},
-    {"warmup", "from 0 to 1e12", OFFSET(warmup), 0.0, 1e12, -1e-9, 1.1e12},
-    {"duration", "from 0", OFFSET(duration), 0.0, 1e12, -1e-9, 1.1e12},
-    {"target_std_error", "from 0", OFFSET(target_std_error), 0.0, 1.0, -1e-9, 1.1e12},
-    {"interval", "auto", OFFSET(interval), 0.0, 1e12, -1e-9, 1.1e12},
-    {"interval", "from 1e-6 to 1e12", OFFSET(interval), 1e-6, 1e12, 0.9e-6, 1.1e12},
-    {"accuracy", "from 1e-12 to 1e-2", OFFSET(accuracy), 1e-12, 1e-2, 0.9e-12, 1.1e-2},
-    {"report_interval", "from 1e-6 to 1e12", OFFSET(report_interval), 1e-6, 1e12, 0.9e-6, 1.1e12},
-};
-enum { FIELD_COUNT = sizeof FIELDS / sizeof *FIELDS };
-
-static hd_scene_def with(const field *f, double value)
+/** Of a scene that is otherwise right, whatever the value: times are as long as they get. */
+static hd_scene_def with(const hd_parameter *row, double value)
 {
     hd_scene_def def = hd_scene_def_default();
-    memcpy((char *)&def + f->offset, &value, sizeof value);
+    if (row->needs == HD_OBSERVE_COVARIANT) {
+        def.observe = HD_OBSERVE_COVARIANT;
+        def.warmup = 1e12;
+        def.covariant_window = row->offset == offsetof(hd_scene_def, covariant_sampling) ? 1e12
+                                                                                         : 1.0;
+        def.covariant_transient = 1.0;
+        def.covariant_sampling = 1e-6;
+    }
+    hd_parameter_assign(row, &def, value);
     return def;
 }
 
-static void real_fields_out_of_range(void **state)
+static void real_parameters_out_of_range(void **state)
 {
     (void)state;
-    for (int k = 0; k < FIELD_COUNT; k++) {
-        const field *f = &FIELDS[k];
-        const double refused[] = {f->below,  f->above, NAN,      -NAN,   INFINITY,
-                                  -INFINITY, -1.0,     -DBL_MAX, DBL_MAX};
+    int count, checked = 0;
+    const hd_parameter *rows = hd_scene_parameters(&count);
+    for (int k = 0; k < count; k++) {
+        const hd_parameter *row = &rows[k];
+        const double refused[] = {row->least - 1e-3 * fabs(row->least) - DBL_MIN,
+                                  row->most * 1.001,
+                                  NAN,
+                                  -NAN,
+                                  INFINITY,
+                                  -INFINITY,
+                                  -1.0,
+                                  -DBL_MAX,
+                                  DBL_MAX};
+        if (!has_range(row)) continue;
         for (size_t v = 0; v < sizeof refused / sizeof *refused; v++) {
             char value[64];
-            const hd_scene_def def = with(f, refused[v]);
+            const hd_scene_def def = with(row, refused[v]);
             snprintf(value, sizeof value, "= %.15g", refused[v]);
-            check_refused(&def, f->name, value, f->allowed);
+            check_refused(&def, row->name, value, row->allowed);
         }
-        const hd_scene_def least = with(f, f->least), most = with(f, f->most);
+        checked++;
+    }
+    assert_true(checked > 10);
+}
+
+/** Those that no other parameter limits further. */
+static void real_parameters_at_the_ends_of_their_range(void **state)
+{
+    (void)state;
+    int count, checked = 0;
+    const hd_parameter *rows = hd_scene_parameters(&count);
+    for (int k = 0; k < count; k++) {
+        const bool limited = strcmp(rows[k].name, "density") == 0 ||
+                             strcmp(rows[k].name, "aspect") == 0 ||
+                             strcmp(rows[k].name, "max_wave_number") == 0;
+        if (!has_range(&rows[k]) || limited) continue;
+        const hd_scene_def least = with(&rows[k], rows[k].least),
+                           most = with(&rows[k], rows[k].most);
         check_accepted(&least);
         check_accepted(&most);
+        checked++;
     }
+    assert_true(checked > 8);
 }
 
 static void whole_fields_out_of_range(void **state)
@@ -230,11 +253,17 @@ static void corners_of_the_table(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(default_is_the_papers),     cmocka_unit_test(real_fields_out_of_range),
-        cmocka_unit_test(whole_fields_out_of_range), cmocka_unit_test(exponents_out_of_range),
-        cmocka_unit_test(narrower_than_a_disk),      cmocka_unit_test(too_dense_for_the_lattice),
-        cmocka_unit_test(message_may_be_short),      cmocka_unit_test(box_has_area_and_aspect),
-        cmocka_unit_test(numbers_of_vectors),        cmocka_unit_test(corners_of_the_table),
+        cmocka_unit_test(default_is_the_papers),
+        cmocka_unit_test(real_parameters_out_of_range),
+        cmocka_unit_test(real_parameters_at_the_ends_of_their_range),
+        cmocka_unit_test(whole_fields_out_of_range),
+        cmocka_unit_test(exponents_out_of_range),
+        cmocka_unit_test(narrower_than_a_disk),
+        cmocka_unit_test(too_dense_for_the_lattice),
+        cmocka_unit_test(message_may_be_short),
+        cmocka_unit_test(box_has_area_and_aspect),
+        cmocka_unit_test(numbers_of_vectors),
+        cmocka_unit_test(corners_of_the_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

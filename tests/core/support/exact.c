@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "testing.h"
+#include "interval.h"
 
 /** Between two factorisations: a few disks' vectors are then conditioned to a thousand, and a
  * grazing event's share. */
@@ -140,7 +141,7 @@ static void carry(exact_frame *x, hd_trajectory *trajectory, hd_event_log *log, 
     const int pieces = (int)ceil(length);
     exact_begin_anew(x);
     for (int k = 1; k <= pieces; k++) {
-        CHECK_OK(hd_trajectory_advance(trajectory, log, begin + length * k / pieces));
+        CHECK_OK(trajectory_to(trajectory, log, begin + length * k / pieces));
         exact_replay(x, log);
     }
 }
@@ -154,7 +155,7 @@ void exact_spectrum(const hd_scene_def *scene, double *out)
     CHECK_OK(hd_trajectory_create(&trajectory, scene));
     CHECK_OK(hd_event_log_create(&log));
     CHECK_OK(hd_frame_create(&frame, scene->disks, n, scene->seed, 1));
-    CHECK_OK(hd_trajectory_advance(trajectory, NULL, scene->equilibration));
+    CHECK_OK(hd_trajectory_extend(trajectory, NULL, scene->equilibration));
     exact_frame *x = exact_create(frame);
     exact_orthonormalise(x->v, x->rows, n, x->sum);
     carry(x, trajectory, log, scene->warmup);

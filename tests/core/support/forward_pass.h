@@ -8,6 +8,7 @@
 #include "hdlyap/ortho.h"
 #include "scenes.h"
 #include "testing.h"
+#include "interval.h"
 
 typedef struct forward_pass {
     hd_trajectory *trajectory;
@@ -28,8 +29,7 @@ static inline void forward_factor(forward_pass *f)
 
 static inline void forward_interval(forward_pass *f, double length)
 {
-    CHECK_OK(
-        hd_trajectory_advance(f->trajectory, f->log, hd_trajectory_time(f->trajectory) + length));
+    CHECK_OK(trajectory_to(f->trajectory, f->log, hd_trajectory_time(f->trajectory) + length));
     CHECK_OK(hd_frame_replay(f->frame, f->log, 0.0, f->log->duration));
     forward_factor(f);
 }

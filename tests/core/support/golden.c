@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "scenes.h"
+#include "interval.h"
 
 typedef struct golden {
     hd_scene_def def;
@@ -57,8 +58,7 @@ uint64_t golden_hash(int scene)
     uint64_t hash = 0;
     if (hd_event_log_create(&log) == HD_OK && hd_trajectory_create(&tr, &g.def) == HD_OK) {
         const double t_end = g.pair_events / hd_trajectory_collision_rate(tr);
-        if (hd_trajectory_advance(tr, log, t_end) == HD_OK && log->count > 1000)
-            hash = hash_log(log);
+        if (trajectory_to(tr, log, t_end) == HD_OK && log->count > 1000) hash = hash_log(log);
     }
     hd_trajectory_free(tr);
     hd_event_log_free(log);

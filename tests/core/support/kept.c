@@ -33,7 +33,8 @@ hd_run *kept_run(const hd_scene_def *def)
 int kept_steps(hd_run *run, int count)
 {
     int taken = 0;
-    for (; taken < count && hd_run_stage(run) != HD_FINISHED; taken++) CHECK_OK(hd_run_step(run));
+    for (; taken < count && hd_run_stage(run) != HD_FINISHED; taken++)
+        CHECK_OK(hd_run_advance(run));
     return taken;
 }
 

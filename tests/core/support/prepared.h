@@ -5,6 +5,7 @@
 #include "events/trajectory_state.h"
 #include "scenes.h"
 #include "testing.h"
+#include "interval.h"
 
 static inline hd_trajectory *started(const hd_scene_def *def, const double *q, const double *p)
 {
@@ -26,7 +27,7 @@ static inline hd_event_log *log_of(const hd_scene_def *def, const double *q, con
 {
     hd_event_log *log = new_log();
     hd_trajectory *tr = started(def, q, p);
-    CHECK_OK(hd_trajectory_advance(tr, log, t_end));
+    CHECK_OK(trajectory_to(tr, log, t_end));
     hd_trajectory_free(tr);
     return log;
 }

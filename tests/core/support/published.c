@@ -25,7 +25,7 @@ static void check_numbers(const double *x, int count, const char *name)
 static void check_spectrum(const hd_run *run)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
-    const int n = hd_spectrum_vectors(spectrum);
+    const int n = hd_run_vectors(run);
     double *halves = malloc(2 * (size_t)n * sizeof *halves);
     for (int col = 0; col < n; col++) {
         check_number(hd_spectrum_exponent(spectrum, col), "exponent");

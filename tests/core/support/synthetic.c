@@ -28,7 +28,7 @@ world world_create(const hd_scene_def *scene, int vectors, int threads)
     CHECK_OK(hd_modes_create(&w.modes, scene, vectors, threads));
     CHECK_OK(hd_steps_create(&w.steps, scene, w.modes));
     CHECK_OK(hd_spectrum_create(&w.spectrum, 4 * scene->disks, vectors));
-    CHECK_OK(hd_trajectory_advance(w.trajectory, NULL, 20.0));
+    CHECK_OK(hd_trajectory_extend(w.trajectory, NULL, 20.0));
     take_state(&w);
     world_noise(&w);
     return w;
@@ -48,7 +48,7 @@ void world_free(world *w)
 
 void world_move(world *w, double time)
 {
-    CHECK_OK(hd_trajectory_advance(w->trajectory, NULL, hd_trajectory_time(w->trajectory) + time));
+    CHECK_OK(hd_trajectory_extend(w->trajectory, NULL, hd_trajectory_time(w->trajectory) + time));
     take_state(w);
 }
 

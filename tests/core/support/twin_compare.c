@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "testing.h"
+#include "interval.h"
 
 /** Intervals are cut unevenly so that their ends fall anywhere in an epoch. */
 static const double PIECES[] = {0.37, 2.9, 0.011, 11.3};
@@ -51,7 +52,7 @@ void twin_compare(hd_trajectory *fast, const hd_scene_def *def, size_t events)
     size_t count = 0;
     for (int k = 0; count < events && k < 10000; k++) {
         const double t_end = t + unit * PIECES[k % PIECE_KINDS];
-        CHECK_OK(hd_trajectory_advance(fast, log, t_end));
+        CHECK_OK(trajectory_to(fast, log, t_end));
         compare_interval(def, slow, log, count, t, t_end);
         count += log->count;
         unit *= log->count > events / 16 ? 0.5 : 2.0;

@@ -6,6 +6,7 @@
 #include "testing.h"
 
 #include "tangent.h"
+#include "interval.h"
 
 /** A state in the fluid, a displacement of it, and the time that both are followed. */
 typedef struct shadow {
@@ -25,7 +26,7 @@ static shadow shadow_of(int disks, double density, hd_boundary x, hd_boundary y)
     s.scene.boundary[1] = y;
     hd_trajectory *tr;
     CHECK_OK(hd_trajectory_create(&tr, &s.scene));
-    CHECK_OK(hd_trajectory_advance(tr, NULL, 20.0));
+    CHECK_OK(hd_trajectory_extend(tr, NULL, 20.0));
     s.time = 1.6 * disks / hd_trajectory_collision_rate(tr); /* about three collisions a disk */
     hd_trajectory_state(tr, s.q, s.p);
     hd_trajectory_free(tr);
@@ -44,7 +45,7 @@ static void follow(const shadow *s, double epsilon, double *q, double *p, hd_eve
         }
     hd_trajectory *tr;
     CHECK_OK(hd_trajectory_create_from(&tr, &s->scene, q0, p0));
-    CHECK_OK(hd_trajectory_advance(tr, log, s->time));
+    CHECK_OK(trajectory_to(tr, log, s->time));
     hd_trajectory_state(tr, q, p);
     hd_trajectory_free(tr);
 }
@@ -123,9 +124,9 @@ static scene_log logged(int disks, hd_boundary boundary, double time)
     hd_trajectory *tr;
     CHECK_OK(hd_event_log_create(&s.log));
     CHECK_OK(hd_trajectory_create(&tr, &s.scene));
-    CHECK_OK(hd_trajectory_advance(tr, NULL, 10.0));
+    CHECK_OK(hd_trajectory_extend(tr, NULL, 10.0));
     hd_trajectory_state(tr, s.q[0], s.p[0]);
-    CHECK_OK(hd_trajectory_advance(tr, s.log, 10.0 + time));
+    CHECK_OK(trajectory_to(tr, s.log, 10.0 + time));
     hd_trajectory_state(tr, s.q[1], s.p[1]);
     hd_trajectory_free(tr);
     return s;

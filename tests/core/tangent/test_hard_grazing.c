@@ -92,7 +92,7 @@ static void check_passage(const hd_scene_def *def, const double *q, const double
     for (int k = 0; k <= LOOKS; k++) {
         const double t = meets + 2.0 * impact * (2.0 * k / LOOKS - 1.0);
         if (t < 0) continue;
-        CHECK_OK(hd_trajectory_advance(tr, NULL, t));
+        CHECK_OK(hd_trajectory_extend(tr, NULL, t));
         CHECK_CLOSE(hd_trajectory_overlap(tr), 0.0, 4.0 * DBL_EPSILON * reach);
     }
     assert_true(hd_trajectory_collisions(tr) <= 1);
@@ -148,7 +148,7 @@ static void a_deep_pair_does_not_meet_for_ever(void **state)
             unit_vectors(&g, n, t);
             for (int d = 0; d < 2; d++) q[2 + d] -= 0.9e-9 * n[d];
             hd_trajectory *tr = started(&def, q, p);
-            CHECK_OK(hd_trajectory_advance(tr, NULL, 0.5));
+            CHECK_OK(hd_trajectory_extend(tr, NULL, 0.5));
             assert_true(hd_trajectory_collisions(tr) <= 1 && void_contacts(tr) <= 2);
             CHECK_CLOSE(hd_trajectory_overlap(tr), 0.0, 0.0);
             hd_trajectory_free(tr);

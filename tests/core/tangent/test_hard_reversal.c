@@ -21,7 +21,7 @@ static state carried(const hd_scene_def *def, const state *from, double time)
 {
     state to;
     hd_trajectory *tr = started(def, from->q, from->p);
-    CHECK_OK(hd_trajectory_advance(tr, NULL, time));
+    CHECK_OK(hd_trajectory_extend(tr, NULL, time));
     hd_trajectory_state(tr, to.q, to.p);
     hd_trajectory_free(tr);
     return to;
@@ -80,7 +80,7 @@ static state first_start(const hd_scene_def *def)
     state s;
     hd_trajectory *tr;
     CHECK_OK(hd_trajectory_create(&tr, def));
-    CHECK_OK(hd_trajectory_advance(tr, NULL, 20.0));
+    CHECK_OK(hd_trajectory_extend(tr, NULL, 20.0));
     hd_trajectory_state(tr, s.q, s.p);
     hd_trajectory_free(tr);
     return s;

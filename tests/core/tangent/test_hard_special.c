@@ -8,6 +8,7 @@
 #include "prepared.h"
 #include "tangent.h"
 #include "twin.h"
+#include "interval.h"
 
 /* ---- the trajectory ------------------------------------------------------------------------ */
 
@@ -77,7 +78,7 @@ static void check_special(const special *s, const hd_scene_def *def)
     hd_event_log *log = new_log();
     double q[2 * DISKS], p[2 * DISKS];
     const double energy = hd_trajectory_kinetic_energy(tr);
-    CHECK_OK(hd_trajectory_advance(tr, log, END));
+    CHECK_OK(trajectory_to(tr, log, END));
     hd_trajectory_state(tr, q, p);
     for (int k = 0; k < 2 * DISKS; k++) assert_true(isfinite(q[k] + p[k]));
     check_finite(log);
@@ -142,7 +143,7 @@ static void denormal_vectors_are_carried_as_others(void **state)
     hd_frame *frame;
     double a[ROWS], b[ROWS];
     CHECK_OK(hd_trajectory_create(&tr, &def));
-    CHECK_OK(hd_trajectory_advance(tr, log, 1.0));
+    CHECK_OK(trajectory_to(tr, log, 1.0));
     CHECK_OK(hd_frame_create(&frame, FRAME_DISKS, 2, 1, 1));
     for (int row = 0; row < ROWS; row++)
         *frame_entry(frame, row, 1) = small * *frame_entry(frame, row, 0);

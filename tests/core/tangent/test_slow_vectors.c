@@ -7,6 +7,7 @@
 
 #include "hdlyap/ortho.h"
 #include "tangent/slow_vectors.h"
+#include "interval.h"
 
 enum { COUNT = 12 };
 
@@ -44,11 +45,11 @@ static world settled(hd_scene_def scene)
     CHECK_OK(hd_slow_vectors_create(&w.tail, &scene, COUNT));
     w.p = malloc(2 * (size_t)scene.disks * sizeof *w.p);
     const double interval = scene.disks / hd_trajectory_collision_rate(w.trajectory);
-    CHECK_OK(hd_trajectory_advance(w.trajectory, NULL, 20.0 * interval));
+    CHECK_OK(hd_trajectory_extend(w.trajectory, NULL, 20.0 * interval));
     for (int k = 0; k < 60; k++) {
         CHECK_OK(hd_ortho_step(w.ortho, w.frame, limits));
         const double end = hd_trajectory_time(w.trajectory) + interval;
-        CHECK_OK(hd_trajectory_advance(w.trajectory, w.log, end));
+        CHECK_OK(trajectory_to(w.trajectory, w.log, end));
         CHECK_OK(hd_frame_replay(w.frame, w.log, 0.0, w.log->duration));
     }
     CHECK_OK(hd_ortho_step(w.ortho, w.frame, limits));
@@ -70,7 +71,7 @@ static void carry(world *w, double collisions)
 {
     const double rate = 2.0 * hd_trajectory_collision_rate(w->trajectory) / w->scene.disks;
     const double end = hd_trajectory_time(w->trajectory) + collisions / rate;
-    CHECK_OK(hd_trajectory_advance(w->trajectory, w->log, end));
+    CHECK_OK(trajectory_to(w->trajectory, w->log, end));
     CHECK_OK(hd_frame_replay(w->frame, w->log, 0.0, w->log->duration));
     hd_trajectory_state(w->trajectory, NULL, w->p);
 }

@@ -50,7 +50,7 @@ static hd_run *run_of(int exponents)
     def.duration = 10.0;
     hd_run *run;
     CHECK_OK(hd_run_create(&run, &def, NULL, 0));
-    for (int k = 0; k < 20; k++) CHECK_OK(hd_run_step(run));
+    for (int k = 0; k < 20; k++) CHECK_OK(hd_run_advance(run));
     return run;
 }
 
@@ -58,8 +58,8 @@ static void disks_are_checked(void **state)
 {
     (void)state;
     hd_run *run = run_of(HD_EXPONENTS_POSITIVE);
-    const hd_trajectory *tr = run->trajectory;
-    hd_disk *disk = run->trajectory->motion.disk;
+    const hd_trajectory *tr = run->advance.trajectory;
+    hd_disk *disk = run->advance.trajectory->motion.disk;
     const hd_disk right = disk[0];
     EXPECT_BROKEN(false, hd_verify_disks(tr, &run->scene));
     disk[0].p[0] *= 1.0 + 1e-9;
@@ -137,9 +137,9 @@ static void a_step_asks_where_the_build_verifies(void **state)
 {
     (void)state;
     hd_run *run = run_of(HD_EXPONENTS_POSITIVE);
-    hd_disk *disk = run->trajectory->motion.disk;
+    hd_disk *disk = run->advance.trajectory->motion.disk;
     for (int i = 0; i < 16; i++) disk[i].p[0] *= 1.0 + 1e-9;
-    EXPECT_BROKEN(VERIFIES, (void)!hd_run_step(run));
+    EXPECT_BROKEN(VERIFIES, (void)!hd_run_advance(run));
     hd_run_free(run);
 }
 

@@ -1,6 +1,6 @@
 """Which topics are listened to, and whether node and master are there: all that may have to wait
-for an answer, in a thread. To watch a run must not change it: what the node computes only for listeners
-is listened to while others do, or if the user wants it."""
+for an answer, in a thread. To watch a run must not change it: what the node computes only for
+listeners is listened to while others do, or if the user wants it."""
 
 import re
 import threading

@@ -28,7 +28,8 @@ def between(message):
 
 
 class Compared:
-    """Exponents of both passes at the covariant vectors' indices; unknown ones and errors are NaN."""
+    """Exponents of both passes at the covariant vectors' indices; unknown ones and errors are
+    NaN."""
 
     def __init__(self, run):
         message = run.covariant
@@ -52,8 +53,8 @@ class Compared:
         return found
 
     def over(self, block):
-        """(forward, its error, backward, its error, deviation in combined errors), means over a block;
-        None unless all of its vectors are carried."""
+        """(forward, its error, backward, its error, deviation in combined errors), means over a
+        block; None unless all of its vectors are carried."""
         inside = within(self.indices, block)
         if inside is None:
             return None
@@ -111,8 +112,8 @@ def chance(run, weight):
 
 
 def weights_over(run, block):
-    """(step, weights) of a block whose vectors are carried: means over them of the Gram-Schmidt dq, of the covariant dq
-    and dp halves, and what chance would give."""
+    """(step, weights) of a block whose vectors are carried: means over them of the Gram-Schmidt dq,
+    of the covariant dq and dp halves, and what chance would give."""
     inside = within(indices(run.covariant), block)
     for step in block.steps if inside is not None else ():
         found = next(
@@ -125,8 +126,8 @@ def weights_over(run, block):
 
 
 def unresolved_weights(run):
-    """(weight, indices, weights) of waves without a step among the positive exponents: of as many vectors as their
-    space has dimensions, those with the largest dq weights; lowest waves first."""
+    """(weight, indices, weights) of waves without a step among the positive exponents: of as many
+    vectors as their space has dimensions, those with the largest dq weights; lowest waves first."""
     numbers = indices(run.covariant)
     carried = int((numbers <= run.positive_end).sum())
     resolved = steps.resolved(run.steps)

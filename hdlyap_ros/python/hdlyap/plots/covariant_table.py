@@ -63,7 +63,8 @@ def _deviation(deviation):
 
 
 def _all_deviations(compared):
-    """The zero modes for themselves: what is left of them falls with the time of a window, not with an average."""
+    """The zero modes for themselves: what is left of them falls with the time of a window, not with
+    an average."""
     for what, chosen in (
         ('without zero modes', ~compared.is_zero),
         ('zero modes', compared.is_zero),
@@ -90,7 +91,8 @@ def _weights(recording):
     for weight, indices, weights in list(covariant.unresolved_weights(recording))[:UNRESOLVED]:
         rows.append(_weight_row(covariant.weight_name(weight) + ' *', _listed(indices), weights))
         remark = [
-            '  * no step found: as many vectors as its fields have dimensions, those with the largest dq weights'
+            '  * no step found: as many vectors as its fields have dimensions, '
+            'those with the largest dq weights'
         ]
     if rows:
         yield '\n'.join(
@@ -159,8 +161,8 @@ def _order(recording):
     changed = int((violations > 0).sum())
     return '\n'.join(
         [
-            f'order of finite-time exponents: {changed} of {len(violations)} pairs of neighbours ever '
-            f'changed it, {100 * violations.mean():.1f} % of the time on average',
+            f'order of finite-time exponents: {changed} of {len(violations)} pairs of neighbours '
+            f'ever changed it, {100 * violations.mean():.1f} % of the time on average',
             f'  dominated splittings ({len(isolated)})'
             + (f': behind {names}{more}' if names else ''),
         ]

@@ -9,8 +9,8 @@ SHORTEST = 3  # points of a curve
 
 
 def goes_on(time, tracked_time):
-    """From each report to the next, whether the tracking is the same: one that began anew knows a shorter time than
-    has gone by. tracked_time: of one phase, or columns of several."""
+    """From each report to the next, whether the tracking is the same: one that began anew knows a
+    shorter time than has gone by. tracked_time: of one phase, or columns of several."""
     return (np.diff(tracked_time, axis=0).T > 0.5 * np.diff(time)).T
 
 

@@ -169,13 +169,15 @@ def read(path, node=None, types=TYPES, number=None):
 
 
 def run_infos(path, node=None):
-    """The run_info of every run of the given node, or of the only one in the bag, in their order."""
+    """The run_info of every run of the given node, or of the only one in the bag, in their
+    order."""
     with _opened(path) as bag:
         return _runs(bag, path, _topics_of_node(bag, path, node, TYPES))
 
 
 def messages(path, kind, node=None):
-    """Every message of one type of the last run of the given node, or of the only one in the bag."""
+    """Every message of one type of the last run of the given node, or of the only one in the
+    bag."""
     with _opened(path) as bag:
         topics = _topics_of_node(bag, path, node, (RUN_INFO, kind))
         run_id = _runs(bag, path, topics)[-1].run_id
@@ -246,7 +248,8 @@ def _read_run(bag, path, topics, number):
 
 
 def _runs(bag, path, topics):
-    """RunInfo of every run, in the order of their beginnings; each file of a bag that was split has it."""
+    """RunInfo of every run, in the order of their beginnings; each file of a bag that was split has
+    it."""
     about = bag.get_type_and_topic_info(topics).topics
     named = [topic for topic in about if about[topic].msg_type == RUN_INFO]
     runs = {}

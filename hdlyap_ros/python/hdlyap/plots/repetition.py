@@ -22,9 +22,11 @@ RESULTS = (
     'blas_library',
     'blas_kernel',
     'blas_threading',
+    'marker_modes',  # of bags of before: parameters of the viewer now
+    'marker_rate',
 )
-# a word, or a list as text: numbers, or modes such as T(1,0)
-LISTS = ('field_indices', 'marker_modes')
+# a word, or a list of numbers as text
+LISTS = ('field_indices',)
 # bags of before these parameters
 OLDER = dict(field_interval=0.0, wait_for_subscribers=[])
 
@@ -48,8 +50,8 @@ def scene_file(info):
 
 
 def parameters(info):
-    """By name. The run begins anew, and leaves the first one's checkpoint alone; what it was resumed from
-    makes no difference to its numbers."""
+    """By name. The run begins anew, and leaves the first one's checkpoint alone; what it was
+    resumed from makes no difference to its numbers."""
     names = [name for name in info.__slots__ if name not in RESULTS]
     asked = {name: getattr(info, name) for name in names}
     asked.update(
@@ -73,13 +75,19 @@ def _remarks(info):
     yield f'Repeats the run {info.run_id}.'
     yield (
         f'The same numbers bit for bit with the same version ({info.version}), linear algebra '
-        f'({info.blas_library}), kernels (OPENBLAS_CORETYPE={info.blas_kernel}) and threads, and the same '
-        'topics listened to.'
+        f'({info.blas_library}), kernels (OPENBLAS_CORETYPE={info.blas_kernel}) and threads, '
+        'and the same topics listened to.'
     )
     if info.wait_for_subscribers:
-        yield 'Waits for subscribers, as that run did: roslaunch hdlyap run.launch scene:=FILE.yaml record:=true'
+        yield (
+            'Waits for subscribers, as that run did: '
+            'roslaunch hdlyap run.launch scene:=FILE.yaml record:=true'
+        )
     if info.resume:
-        yield f'That run went on from {info.resume} at simulated time {info.resumed_time:g}; this one begins anew.'
+        yield (
+            f'That run went on from {info.resume} at simulated time {info.resumed_time:g}; '
+            'this one begins anew.'
+        )
 
 
 def _one_line(text):

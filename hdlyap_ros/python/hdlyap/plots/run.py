@@ -6,8 +6,8 @@ from .numbers import known
 
 
 class Run:
-    """Its run_info, its last spectrum (None without exponents), its last steps and covariant vectors
-    (None if nobody listened)."""
+    """Its run_info, its last spectrum (None without exponents), its last steps and covariant
+    vectors (None if nobody listened)."""
 
     info = spectrum = steps = covariant = None
 

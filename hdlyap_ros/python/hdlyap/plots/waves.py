@@ -49,7 +49,8 @@ def _phases(info, nx, ny, bits, x, y):
 
 
 def modulations(info, nx, ny, transverse=False):
-    """The modulations that the boundaries allow for the L and P fields of a wave vector, or for its T fields."""
+    """The modulations that the boundaries allow for the L and P fields of a wave vector, or for its
+    T fields."""
     along = []
     for n, boundary in ((nx, info.boundary_x), (ny, info.boundary_y)):
         if boundary == 'periodic':

@@ -7,7 +7,8 @@ LEAST = 4
 
 
 def of_snapshots(values):
-    """(mean, standard error) of values so far apart in time that they do not know of each other; 0: not known."""
+    """(mean, standard error) of values so far apart in time that they do not know of each other; 0:
+    not known."""
     values = np.asarray(values, dtype=float)
     if len(values) < 2:
         return values.mean(axis=0), np.zeros_like(values[0])

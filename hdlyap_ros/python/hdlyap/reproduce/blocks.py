@@ -8,8 +8,9 @@ BLOCKS = (
 
 
 def of_sums(estimate, statistics, blocks=BLOCKS):
-    """(estimate(sum of statistics), its standard error): the jackknife, leaving out one block of time after the
-    other. statistics: one row for each time, in order. (None, 0) of fewer rows than blocks."""
+    """(estimate(sum of statistics), its standard error): the jackknife, leaving out one block of
+    time after the other. statistics: one row for each time, in order. (None, 0) of fewer rows than
+    blocks."""
     statistics = np.asarray(statistics, dtype=float)
     if len(statistics) < blocks:
         return None, 0.0

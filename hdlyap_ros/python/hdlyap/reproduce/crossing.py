@@ -1,4 +1,5 @@
-"""Where curves cross: those of the paper's fits, and measured ones between the densities that were run."""
+"""Where curves cross: those of the paper's fits, and measured ones between the densities that were
+run."""
 
 import numpy as np
 
@@ -9,7 +10,8 @@ STEPS = 4000  # of the densities in which a sign change of the fits is looked fo
 
 
 def of_fits(factor_l=1.0, factor_t=1.0):
-    """Density from which on the paper's c_L is above its c_T, each times a factor; None if nowhere."""
+    """Density from which on the paper's c_L is above its c_T, each times a factor; None if
+    nowhere."""
     density = np.linspace(0, paper.DENSITY, STEPS + 1)
     apart = factor_l * paper.slope_l(density) - factor_t * paper.slope_t(density)
     behind = np.flatnonzero((apart[:-1] < 0) & (apart[1:] >= 0))
@@ -26,9 +28,10 @@ def of_fits_between():
 
 
 def measured(density, apart, errors):
-    """(where a smooth difference goes through zero from below, its standard error): a polynomial through the four
-    densities round it. Errors are taken through its slope there, since a crossing that moves far may leave the
-    densities that were run; how far that of three of them moves it is part of the error. (None, 0) if nowhere.
+    """(where a smooth difference goes through zero from below, its standard error): a polynomial
+    through the four densities round it. Errors are taken through its slope there, since a crossing
+    that moves far may leave the densities that were run; how far that of three of them moves it is
+    part of the error. (None, 0) if nowhere.
     """
     density, apart, errors = (
         np.asarray(values, dtype=float) for values in (density, apart, errors)
@@ -53,14 +56,16 @@ def _through(density, values):
 
 
 def _root(curve, beside):
-    """The real zero of a polynomial nearest to a density; there is one where it changes its sign."""
+    """The real zero of a polynomial nearest to a density; there is one where it changes its
+    sign."""
     roots = np.roots(curve)
     real = roots.real[np.abs(roots.imag) < REAL]
     return float(real[np.argmin(np.abs(real - beside))])
 
 
 def _weights(density, place):
-    """How much a polynomial moves there with each of the values that it goes through: Lagrange's polynomials."""
+    """How much a polynomial moves there with each of the values that it goes through: Lagrange's
+    polynomials."""
     return np.array(
         [
             np.prod([(place - other) / (one - other) for other in density if other != one])

@@ -1,4 +1,5 @@
-"""What is under way, in a line: how many runs are done, how much of all, about how long the rest takes."""
+"""What is under way, in a line: how many runs are done, how much of all, about how long the rest
+takes."""
 
 import os
 import sys
@@ -11,7 +12,8 @@ PLANNED = 60.0  # seconds of work that the plan's own estimate counts for, besid
 
 
 class Display:
-    """For work.work: shows progress through `count` runs; `before`: those that were there before."""
+    """For work.work: shows progress through `count` runs; `before`: those that were there
+    before."""
 
     def __init__(self, count, before=0):
         self._count, self._before, self._line = count + before, before, Line()
@@ -32,7 +34,8 @@ class Display:
 
     def _count_of_runs(self):
         failed = f', {self._failed} failed' if self._failed else ''
-        return f'{self._before + max(0, self._ended - self._failed)} of {self._count} runs done{failed}'
+        done = self._before + max(0, self._ended - self._failed)
+        return f'{done} of {self._count} runs done{failed}'
 
     def say(self, line):
         """That a run has failed."""

@@ -1,4 +1,5 @@
-"""The options of `reproduce`. Needs no ROS: launch/reproduce.sh has this file look at them before it builds."""
+"""The options of `reproduce`. Needs no ROS: launch/reproduce.sh has this file look at them before
+it builds."""
 
 import argparse
 import os
@@ -11,9 +12,9 @@ PARTS = len(
         if name.endswith('.py') and not name.startswith('_')
     ]
 )
-ABOUT = """The figures and tables of the paper (Eckmann, Forster, Posch, Zabey 2005), measured again: does the
-runs that are missing, then draws the figures and writes published beside measured numbers. What has been done is
-not done again."""
+ABOUT = """The figures and tables of the paper (Eckmann, Forster, Posch, Zabey 2005), measured
+again: does the runs that are missing, then draws the figures and writes published beside measured
+numbers. What has been done is not done again."""
 
 
 class Parser(argparse.ArgumentParser):

@@ -24,8 +24,8 @@ def contents(chosen, runs):
 
 
 def write(chosen, runs, folder, commit, command, failed=None):
-    """Draws and writes all that the bags in the folder allow, below folder/results; the text of the page.
-    failed: takes a line for each part that could not be drawn though its runs are there."""
+    """Draws and writes all that the bags in the folder allow, below folder/results; the text of the
+    page. failed: takes a line for each part that could not be drawn though its runs are there."""
     results = os.path.join(folder, 'results')
     os.makedirs(results, exist_ok=True)
     bags = {name: Bag(run.bag(folder)) for name, run in runs.items() if run.done(folder)}
@@ -41,7 +41,8 @@ def write(chosen, runs, folder, commit, command, failed=None):
                 Exception
             ) as error:  # whatever it is: the other parts' results are not lost with it
                 missing.append(
-                    f'part {number}: {type(error).__name__}: {error}; more in {_trace(folder, number)}'
+                    f'part {number}: {type(error).__name__}: {error}; '
+                    f'more in {_trace(folder, number)}'
                 )
                 if failed is not None:
                     failed.append(missing[-1])
@@ -101,11 +102,14 @@ def _part(number, part, runs, bags, results):
 def _head(commit, command):
     made = ' '.join(['launch/reproduce.sh', *command, *(['at commit', commit] if commit else [])])
     return (
-        'Eckmann, Forster, Posch, Zabey, Lyapunov modes in hard-disk systems, J. Stat. Phys. 118, 813 (2005): '
-        f'published and measured.\nMade by {made}. In brackets: standard errors of the last digits; +-: what the '
-        f'paper leaves open.\nA row agrees if the numbers are apart by no more than that and {row.SIGMAS:g} '
-        'standard errors;\nit is known too poorly where so many exceed both '
-        f'what the paper leaves open and {row.TELLING:.0%} of the number, or what the row says is enough.'
+        'Eckmann, Forster, Posch, Zabey, Lyapunov modes in hard-disk systems, '
+        'J. Stat. Phys. 118, 813 (2005): published and measured.\n'
+        f'Made by {made}. In brackets: standard errors of the last digits; +-: what the paper '
+        'leaves open.\n'
+        f'A row agrees if the numbers are apart by no more than that and {row.SIGMAS:g} standard '
+        'errors;\n'
+        f'it is known too poorly where so many exceed both what the paper leaves open and '
+        f'{row.TELLING:.0%} of the number, or what the row says is enough.'
     )
 
 

@@ -27,7 +27,8 @@ class Run:
         self.seconds = entry['seconds'][0 if quick else 1]
         base = _load(os.path.join(scenes, entry['base'] + '.yaml'))
         asked = {key: value for key, value in entry.items() if key not in OWN}
-        self.parameters = {**base, 'threads': 1, **asked, **entry.get(which, {}), 'scene': name}
+        self.parameters = {**usual(scenes), **base, 'threads': 1, **asked}
+        self.parameters.update(entry.get(which, {}), scene=name)
         if (
             not all(is_number(seconds) and seconds > 0 for seconds in entry['seconds'])
             or len(entry['seconds']) != 2
@@ -71,7 +72,8 @@ class Run:
             files.write(self.scene_file(folder), text)
 
     def noted(self, folder):
-        """What was noted when it was last done with these parameters, of this bag or another; {} if it was not."""
+        """What was noted when it was last done with these parameters, of this bag or another; {} if
+        it was not."""
         try:
             noted = json.loads(files.read(self.record(folder)) or '{}')
         except ValueError:
@@ -81,8 +83,8 @@ class Run:
         )
 
     def done(self, folder):
-        """What was noted of it when it ended; None if it has not been done with these parameters, or if something has
-        been written to its bag since."""
+        """What was noted of it when it ended; None if it has not been done with these parameters,
+        or if something has been written to its bag since."""
         noted = self.noted(folder)
         try:
             is_older = os.path.getmtime(self.bag(folder)) <= os.path.getmtime(self.record(folder))
@@ -91,11 +93,21 @@ class Run:
         return noted if noted and is_older else None
 
     def note(self, folder, **facts):
-        """To be called when the bag is whole; facts: seconds, run_id, commit, and whether it was made elsewhere."""
+        """To be called when the bag is whole; facts: seconds, run_id, commit, and whether it was
+        made elsewhere."""
         files.write(
             self.record(folder),
             json.dumps({**facts, 'parameters': self.parameters}, indent=1) + '\n',
         )
+
+
+def usual(scenes):
+    """The default of every parameter, as the complete one of the scenes says in its comments."""
+    path = os.path.join(scenes, 'paper_periodic.yaml')
+    text = _read(path).replace('\n# ', ' ')
+    return {
+        name: yaml.safe_load(value) for value, name in re.findall(r'Default: (.*)\.\n(\w+):', text)
+    }
 
 
 def is_number(value):
@@ -103,7 +115,8 @@ def is_number(value):
 
 
 def runs(package, quick, path=None):
-    """{name: Run} of all, in their order; package: folder of the package hdlyap; path: another plan than its own."""
+    """{name: Run} of all, in their order; package: folder of the package hdlyap; path: another plan
+    than its own."""
     launch = os.path.join(package, 'launch')
     path = path or os.path.join(launch, 'reproduce.yaml')
     entries = _load(path)
@@ -126,11 +139,16 @@ def _run(path, name, entry, scenes, quick):
         raise PlanError(f'{path}: {name}: {error}')
 
 
-def _load(path):
+def _read(path):
     try:
         with open(path) as file:
-            return yaml.safe_load(file)
+            return file.read()
     except OSError as error:
         raise PlanError(f'{path}: {error.strerror}')
+
+
+def _load(path):
+    try:
+        return yaml.safe_load(_read(path))
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise PlanError(f'{path}: {" ".join(str(error).split())}')

@@ -6,7 +6,8 @@ from hdlyap.plots import waves
 
 
 def columns(info, field, letter):
-    """The T, L or P fields of the field's wave vector at its disks, 2N rows: x components, then y components."""
+    """The T, L or P fields of the field's wave vector at its disks, 2N rows: x components, then y
+    components."""
     momenta = (np.array(field.px), np.array(field.py)) if letter == 'P' else None
     return _columns(info, field, letter, np.array(field.x), np.array(field.y), momenta)
 
@@ -40,7 +41,8 @@ def weight(info, field, letters):
 
 
 def continued(info, field, letter, x, y):
-    """What lies in the T or L fields, at other places than the disks: x and y components in the shape of x."""
+    """What lies in the T or L fields, at other places than the disks: x and y components in the
+    shape of x."""
     _, coefficients = _fit(info, field, letter)
     values = _columns(info, field, letter, x.ravel(), y.ravel()) @ coefficients
     return values.reshape(2, *x.shape)

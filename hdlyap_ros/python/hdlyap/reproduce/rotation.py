@@ -15,9 +15,10 @@ QUARTER = np.pi / 2
 
 
 class Rotation:
-    """One LP step. Columns are its phases, vectors outside and pairs inside. z = a + i b where a phase is tracked,
-    else NaN, with a vector's sign as it was when its tracking began, so that it is continuous. Where tracking begins
-    anew the first report is left out: what is known on both sides of a step in time is one phase that has gone on.
+    """One LP step. Columns are its phases, vectors outside and pairs inside. z = a + i b where a
+    phase is tracked, else NaN, with a vector's sign as it was when its tracking began, so that it
+    is continuous. Where tracking begins anew the first report is left out: what is known on both
+    sides of a step in time is one phase that has gone on.
     """
 
     def __init__(self, info, first, time, table):
@@ -42,8 +43,9 @@ class Rotation:
         return np.flatnonzero(self.modulation == bits)
 
     def turns(self):
-        """Turn from each report to the next, NaN if unknown: the mean over the phases that are known at both, each of
-        them alike. The turn of sum conj(z) z' would weigh with |z|^2, which is biased where |z| goes with the rate.
+        """Turn from each report to the next, NaN if unknown: the mean over the phases that are
+        known at both, each of them alike. The turn of sum conj(z) z' would weigh with |z|^2, which
+        is biased where |z| goes with the rate.
         """
         steps = np.diff(self.phase, axis=0)
         known = np.isfinite(steps).sum(axis=1)
@@ -65,8 +67,8 @@ class Rotation:
         )
 
     def strength(self):
-        """Mean over the vectors of a^2 + b^2, added up over the pairs, and its standard error; times at which it is too
-        small for a phase count as well."""
+        """Mean over the vectors of a^2 + b^2, added up over the pairs, and its standard error;
+        times at which it is too small for a phase count as well."""
         measured = (self.state == LpPhase.TRACKED) | (self.state == LpPhase.WEAK)
         whole = np.where(measured, self.a**2 + self.b**2, np.nan)
         per_vector = whole.reshape(len(whole), -1, self.pairs).sum(axis=2)
@@ -75,7 +77,8 @@ class Rotation:
 
 
 def read(bag):
-    """{(nx, ny): Rotation} of the LP steps of a run's bag; of those alone that have been tracked."""
+    """{(nx, ny): Rotation} of the LP steps of a run's bag; of those alone that have been
+    tracked."""
     messages = list(bag.messages(PHASES))
     if not messages:
         return {}
@@ -103,8 +106,8 @@ def read(bag):
 
 
 def quarters(time, phase):
-    """(from L, time) of a tracked phase from each multiple of a quarter turn to the next, whichever way it turns; from
-    L: whether the quarter begins at L or -L, and ends at P or -P."""
+    """(from L, time) of a tracked phase from each multiple of a quarter turn to the next, whichever
+    way it turns; from L: whether the quarter begins at L or -L, and ends at P or -P."""
     reached = np.maximum.accumulate(phase if phase[-1] >= phase[0] else -phase)
     levels = QUARTER * np.arange(
         np.floor(reached[0] / QUARTER) + 1, np.floor(reached[-1] / QUARTER) + 1

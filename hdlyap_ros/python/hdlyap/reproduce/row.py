@@ -6,8 +6,9 @@ from numbers import Integral, Real
 from hdlyap.plots.numbers import with_error
 
 SIGMAS = 3.0  # standard errors of ours that numbers may be apart, beyond what the paper leaves open
-TELLING = 0.1  # of the published number, or what the paper leaves open if that is more: agreeing says little if
+# of the published number, or what the paper leaves open if that is more: agreeing says little if
 # our uncertainty is larger
+TELLING = 0.1
 SMALL = 1e-3  # without an error: below, the usual decimals would show little of a number
 AGREES, DIFFERS, MISSING, SHOWN = 'agrees', 'differs', 'not measured', ''
 POOR = 'known too poorly'  # not apart, but hardly any number would have been
@@ -25,10 +26,11 @@ HEADER = (
 
 
 class Row:
-    """One number (or word) of the paper beside ours with its standard error. published_error: what the paper leaves
-    open to either side: the scatter round its fits, half of the last digit, 0 for counts. measured None: not in the
-    bags. published None: the paper has none, ours is only shown. enough: the largest standard error with which agreeing
-    says something; None: by the published number."""
+    """One number (or word) of the paper beside ours with its standard error. published_error: what
+    the paper leaves open to either side: the scatter round its fits, half of the last digit, 0 for
+    counts. measured None: not in the bags. published None: the paper has none, ours is only shown.
+    enough: the largest standard error with which agreeing says something; None: by the published
+    number."""
 
     def __init__(
         self,

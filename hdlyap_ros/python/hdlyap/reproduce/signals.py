@@ -9,7 +9,8 @@ ASK = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
 
 @contextlib.contextmanager
 def held():
-    """A list that each of them which comes meanwhile is added to; the first one's exit follows at the end."""
+    """A list that each of them which comes meanwhile is added to; the first one's exit follows at
+    the end."""
     came, before = [], {}
     for number in ASK:
         if signal.getsignal(number) is not signal.SIG_IGN:  # as nohup asks

@@ -1,5 +1,5 @@
-"""Recording -> the smallest steps of its branches: wave number, exponent, slope lambda / k, with errors. And
-fits through such steps of several runs."""
+"""Recording -> the smallest steps of its branches: wave number, exponent, slope lambda / k, with
+errors. And fits through such steps of several runs."""
 
 import numpy as np
 
@@ -12,8 +12,9 @@ SAME = 1e-9  # relative: wave numbers of a square box
 
 
 class Point:
-    """A step of one run. members: vectors of its set. shares: steps that have them too. skipped: steps of its kind with
-    a smaller wave number that were not resolved, where the smallest was asked for."""
+    """A step of one run. members: vectors of its set. shares: steps that have them too. skipped:
+    steps of its kind with a smaller wave number that were not resolved, where the smallest was
+    asked for."""
 
     def __init__(
         self, name, wave_number, exponent, error, members, remark='', shares=(), skipped=()
@@ -55,7 +56,8 @@ def find(recording, kind, nx, ny):
 
 
 def smallest(recording, kind):
-    """The resolved step of this kind with the smallest wave number; in a square box x and y together."""
+    """The resolved step of this kind with the smallest wave number; in a square box x and y
+    together."""
     found = _resolved(recording, kind)
     least = min((step.wave_number for step in found), default=0.0)
     skipped = [
@@ -69,8 +71,8 @@ def smallest(recording, kind):
 
 
 def noted(points):
-    """How many of the points that a fit goes through share vectors, or are not the smallest step of their run; empty
-    if none does."""
+    """How many of the points that a fit goes through share vectors, or are not the smallest step of
+    their run; empty if none does."""
     points = [point for point in points if point is not None]
     counts = (sum(bool(point.shares) for point in points), 'share vectors'), (
         sum(bool(point.skipped) for point in points),
@@ -89,7 +91,8 @@ def _resolved(recording, kind):
 
 
 def _point(recording, found, skipped=()):
-    """Of steps with the same wave number; they fluctuate together, so the largest error is that of their mean."""
+    """Of steps with the same wave number; they fluctuate together, so the largest error is that of
+    their mean."""
     if not found:
         return None
     exponent = np.average(
@@ -114,10 +117,11 @@ def _point(recording, found, skipped=()):
 
 
 def by_index(recording, kind, nx, ny):
-    """A step that was not resolved, by its degeneracy alone: the first stair, from the smallest exponent on, of
-    as many exponents as it has that no other step is found in; None if a stair before it has a number that belongs
-    to neither branch, or exponents of another step among others: those could be any. For the smallest steps of a
-    periodic box that is not square: T two exponents, LP four."""
+    """A step that was not resolved, by its degeneracy alone: the first stair, from the smallest
+    exponent on, of as many exponents as it has that no other step is found in; None if a stair
+    before it has a number that belongs to neither branch, or exponents of another step among
+    others: those could be any. For the smallest steps of a periodic box that is not square: T two
+    exponents, LP four."""
     counts = {steps.T: 2, steps.LP: 4}
     wave = next(
         (
@@ -161,7 +165,8 @@ def _stair_point(recording, wave, stair):
 
 
 def velocity(recording, nx, ny):
-    """(v, its error, number of phases): |omega| / k of the LP step of these nodes; NaN if nothing is tracked."""
+    """(v, its error, number of phases): |omega| / k of the LP step of these nodes; NaN if nothing
+    is tracked."""
     last, message = recording.phases.last, recording.steps
     wave = next(
         (

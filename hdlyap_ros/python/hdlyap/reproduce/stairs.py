@@ -1,4 +1,5 @@
-"""Exponents -> stairs: how many neighbours go on without a jump, whatever was found by projection."""
+"""Exponents -> stairs: how many neighbours go on without a jump, whatever was found by
+projection."""
 
 import numpy as np
 
@@ -20,7 +21,8 @@ class Stair:
 
 
 def stairs(recording):
-    """Of the positive exponents carried, smallest first; the largest ones are one stair with many."""
+    """Of the positive exponents carried, smallest first; the largest ones are one stair with
+    many."""
     last = min(recording.positive_end, recording.last_index)
     offset = recording.spectrum.first_index
     exponents = np.array(recording.spectrum.exponents[: last + 1 - offset])

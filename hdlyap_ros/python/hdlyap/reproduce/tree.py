@@ -1,5 +1,5 @@
-"""A command and all that it begins: roslaunch gives each node a session of its own, so a signal to a group is not
-enough."""
+"""A command and all that it begins: roslaunch gives each node a session of its own, so a signal to
+a group is not enough."""
 
 import os
 import signal
@@ -7,7 +7,8 @@ import subprocess
 import time
 import uuid
 
-MARK = 'HDLYAP_TREE'  # of the environment, which its processes inherit, whatever becomes of their parents
+# of the environment, which its processes inherit, whatever becomes of their parents
+MARK = 'HDLYAP_TREE'
 POLL = 0.1
 
 
@@ -47,7 +48,8 @@ class Tree:
             time.sleep(POLL)
 
     def _members(self):
-        """Processes; not those that are dead but for their parents' wait, which have no environment."""
+        """Processes; not those that are dead but for their parents' wait, which have no
+        environment."""
         return [
             int(entry)
             for entry in os.listdir('/proc')

@@ -15,7 +15,10 @@ def against_slope(quantity, v, error, recording):
     published = ABOVE if info.density > CROSSING else NEAR
     if v is None:
         return Row(f'{quantity} against c_L', published)
-    remark = f'v / c_L = {v / slope:.3f} with the paper\'s c_L = {slope:.3f} +-{100 * paper.FIT_ACCURACY:g} %'
+    remark = (
+        f'v / c_L = {v / slope:.3f} with the paper\'s c_L = {slope:.3f} '
+        f'+-{100 * paper.FIT_ACCURACY:g} %'
+    )
     own = [step for _, step in steps.resolved_lp(recording.steps)] if recording.steps else []
     if own:
         remark += f', {v * own[0].wave_number / own[0].exponent:.3f} with our {steps.name(own[0])}'

@@ -1,4 +1,5 @@
-"""Runs that are missing -> their bags: one roslaunch each, wide ones alone, the others side by side."""
+"""Runs that are missing -> their bags: one roslaunch each, wide ones alone, the others side by
+side."""
 
 import contextlib
 import os
@@ -29,7 +30,8 @@ class WorkError(Exception):
 
 
 class Job:
-    """One run under way; records in a folder of its own, since what is not whole shall replace nothing."""
+    """One run under way; records in a folder of its own, since what is not whole shall replace
+    nothing."""
 
     def __init__(self, run, folder, log):
         self.run, self.log = run, log
@@ -65,7 +67,8 @@ class Job:
 
     @property
     def share(self):
-        """Of the whole run, 0 .. 1, in simulated time with tangent vectors: without them it goes fast."""
+        """Of the whole run, 0 .. 1, in simulated time with tangent vectors: without them it goes
+        fast."""
         wanted = self.run.parameters
         spent = self.status.sim_time - wanted['equilibration'] if self.status else 0.0
         return min(1.0, max(0.0, spent / (wanted['warmup'] + wanted['duration'])))
@@ -171,8 +174,9 @@ class Work:
 
 
 def work(runs, folder, logs, jobs, commit, show):
-    """Does the runs. show(jobs under way, seconds of work done, of all) is called some times a second, show.say(line)
-    when a run has failed, which stops none of the others; WorkError at the end names all that did.
+    """Does the runs. show(jobs under way, seconds of work done, of all) is called some times a
+    second, show.say(line) when a run has failed, which stops none of the others; WorkError at the
+    end names all that did.
     """
     if not runs:
         return

@@ -8,8 +8,8 @@ SMALL = 10.0  # times what linear growth gives: an exponent that may be zero
 
 
 def linear_growth(info, time):
-    """Mean exponent, over a time, of a vector that grows linearly, as the zero modes do: ln(t)/t; less in a frame
-    that is as old as the warm-up w when averaging begins, ln((w + t)/w)/t."""
+    """Mean exponent, over a time, of a vector that grows linearly, as the zero modes do: ln(t)/t;
+    less in a frame that is as old as the warm-up w when averaging begins, ln((w + t)/w)/t."""
     return log((info.warmup + time) / (info.warmup or 1.0)) / time
 
 

@@ -1,4 +1,5 @@
-"""Which finite-time exponents keep their order, of neighbours and of everything before and behind an index."""
+"""Which finite-time exponents keep their order, of neighbours and of everything before and behind
+an index."""
 
 import numpy as np
 

@@ -1,4 +1,5 @@
-"""Exponents of the way back beside those of the way forward, and their difference in units of its error."""
+"""Exponents of the way back beside those of the way forward, and their difference in units of its
+error."""
 
 import numpy as np
 

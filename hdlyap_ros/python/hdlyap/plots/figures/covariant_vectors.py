@@ -1,4 +1,5 @@
-"""Every covariant vector: how localised, how its halves lie, angle to the next one, how well it is known."""
+"""Every covariant vector: how localised, how its halves lie, angle to the next one, how well it is
+known."""
 
 import numpy as np
 

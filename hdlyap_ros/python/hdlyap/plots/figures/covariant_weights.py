@@ -1,4 +1,5 @@
-"""Weights of the lowest waves' fields in the vectors round the zero modes: Gram-Schmidt beside covariant ones."""
+"""Weights of the lowest waves' fields in the vectors round the zero modes: Gram-Schmidt beside
+covariant ones."""
 
 from .. import covariant, steps
 from .over_index import level, near_zero, shade

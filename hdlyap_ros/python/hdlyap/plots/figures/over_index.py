@@ -1,4 +1,5 @@
-"""Panels over the Lyapunov index: of all vectors, and magnified round the zero modes, with the steps."""
+"""Panels over the Lyapunov index: of all vectors, and magnified round the zero modes, with the
+steps."""
 
 import numpy as np
 from matplotlib import ticker
@@ -54,7 +55,8 @@ class Panels:
 
 
 def near_zero(run, indices):
-    """First and last index of what is magnified: the lowest steps of both halves, as far as they are carried."""
+    """First and last index of what is magnified: the lowest steps of both halves, as far as they
+    are carried."""
     end = min(run.positive_end, indices[-1])
     lowest = min((block.first for block in steps.blocks(run.steps)), default=end)
     first = max(indices[0], end + 1 - min(max(LEAST, end + 4 - lowest), MOST))

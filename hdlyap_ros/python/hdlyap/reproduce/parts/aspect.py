@@ -1,4 +1,5 @@
-"""Part 10: slopes against the aspect ratio at density 0.4 and one wave number, periodic and between walls."""
+"""Part 10: slopes against the aspect ratio at density 0.4 and one wave number, periodic and between
+walls."""
 
 import numpy as np
 
@@ -15,7 +16,8 @@ UNIT = 'sigma/time unit'
 ENOUGH = (
     1.0  # %: a third of the scatter of the fits; with a larger error, 'insensitive' says little
 )
-OPENS = f'{100 * paper.FIT_ACCURACY:g} %: that of the density fits'  # with which the paper says nothing of these
+# the paper gives no error of these
+OPENS = f'{100 * paper.FIT_ACCURACY:g} %: that of the density fits'
 BESIDE = 0.012  # aspect ratio: so that error bars can be seen beside each other
 SYMBOLS = {'T': 'c_T', 'LP': 'c_L'}
 KINDS = {'T': steps.T, 'LP': steps.LP}

@@ -1,4 +1,5 @@
-"""Part 3: the dq and the dp half of every vector: the angle between them, and the ratio of their lengths."""
+"""Part 3: the dq and the dp half of every vector: the angle between them, and the ratio of their
+lengths."""
 
 import numpy as np
 from matplotlib import ticker
@@ -17,9 +18,10 @@ UNIT = '1/time unit'
 
 
 class Halves:
-    """What every report of the averaging said of all 4N vectors. C = |dp| / |dq|; C' = |dq| / |dp| of the conjugate
-    vector 4N + 1 - l, as J turns the one into the other. That holds for what the first l vectors span once it has
-    settled since the random first frame, as exp(-(lambda_l - lambda_l+1) t): soon behind a step, late inside of one.
+    """What every report of the averaging said of all 4N vectors. C = |dp| / |dq|; C' = |dq| / |dp|
+    of the conjugate vector 4N + 1 - l, as J turns the one into the other. That holds for what the
+    first l vectors span once it has settled since the random first frame, as exp(-(lambda_l -
+    lambda_l+1) t): soon behind a step, late inside of one.
     """
 
     def __init__(self, bag):
@@ -83,7 +85,8 @@ def rows(bags):
         None,
         halves.pairing_error if halves.is_known else None,
         unit=UNIT,
-        remark=f'vectors of close exponents have not settled; all of the half: {halves.all_pairs:.1e}'
+        remark='vectors of close exponents have not settled; '
+        f'all of the half: {halves.all_pairs:.1e}'
         if halves.is_known
         else '',
     )
@@ -122,8 +125,8 @@ def _largest(halves, what, values):
         None,
         float(abs(mean[index])),
         float(error[index]),
-        remark=f'index {1 + index}; median of one report {np.median(np.abs(values())):.1e}; vectors of close '
-        'exponents have not settled',
+        remark=f'index {1 + index}; median of one report {np.median(np.abs(values())):.1e}; '
+        'vectors of close exponents have not settled',
     )
 
 

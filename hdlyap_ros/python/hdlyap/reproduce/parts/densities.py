@@ -162,7 +162,10 @@ def _crossing_row(found):
     measured, error = (
         crossing.measured(*zip(*[_apart(one) for one in both])) if len(both) > 1 else (None, 0.0)
     )
-    remark = f'the paper\'s fits +-{100 * paper.FIT_ACCURACY:g} % cross anywhere from {low:.2f} to {high:.2f}'
+    remark = (
+        f'the paper\'s fits +-{100 * paper.FIT_ACCURACY:g} % cross anywhere '
+        f'from {low:.2f} to {high:.2f}'
+    )
     shared = slopes.noted([point for one in both for point in one.branch.values()])
     return Row(
         'c_T = c_L at density',

@@ -1,4 +1,5 @@
-"""Part 4: the vector fields of the T and LP modes of the smallest wave vectors, and T(1,1) as two scalar patterns."""
+"""Part 4: the vector fields of the T and LP modes of the smallest wave vectors, and T(1,1) as two
+scalar patterns."""
 
 import numpy as np
 

@@ -64,7 +64,8 @@ def rows(bags):
 
 
 def _word(found, mode, kind):
-    """Less than SMALL of the largest of its kind is zero, if known as well as that; None if not known well enough."""
+    """Less than SMALL of the largest of its kind is zero, if known as well as that; None if not
+    known well enough."""
     if kind == 'across' and not _stands_out(found):
         return None
     one = found[mode, kind]
@@ -76,8 +77,8 @@ def _word(found, mode, kind):
 
 
 def _stands_out(found):
-    """Whether T answers along curl A by more than LP vectors do. It is the root of a mean square, which noise alone
-    makes larger than zero; so is theirs."""
+    """Whether T answers along curl A by more than LP vectors do. It is the root of a mean square,
+    which noise alone makes larger than zero; so is theirs."""
     one, noise = found['T', 'across'], found[FLOOR]
     return one.value - noise.value > SIGMAS * np.hypot(one.error, noise.error)
 
@@ -101,10 +102,11 @@ def _numbers(found, mode, kind):
 
 
 def responses(bag):
-    """{wave: {(mode, kind): Response}}: to a vector that is a T, an L or a P field alone, normalised [T15].
-    Responses of the vectors of LP(n) are regressed on their coefficients (a, b) at the same modulation and time.
-    Of those of T(n) no coefficients are in the bag, but their response along curl A is in proportion to them.
-    FLOOR: root of the mean square of the LP vectors' own along curl A, as that of T is found."""
+    """{wave: {(mode, kind): Response}}: to a vector that is a T, an L or a P field alone,
+    normalised [T15]. Responses of the vectors of LP(n) are regressed on their coefficients (a, b)
+    at the same modulation and time. Of those of T(n) no coefficients are in the bag, but their
+    response along curl A is in proportion to them. FLOOR: root of the mean square of the LP
+    vectors' own along curl A, as that of T is found."""
     coefficients = _coefficients(bag)
     sums = {wave: ([], [], []) for wave in WAVES}
     for message in bag.messages(HYDRO):
@@ -146,7 +148,7 @@ def _values(one):
     return np.array([getattr(one, kind) for kind in KINDS])
 
 
-# ---- at one time: sums over vectors and modulations --------------------------------------------------------------
+# ---- at one time: sums over vectors and modulations ---------------------------------------------
 
 
 def _t_sums(ones):
@@ -163,14 +165,15 @@ def _squares(ones):
 
 
 def _lp_sums(pairs):
-    """Of the normal equations: three products of a and b, and those of either with the responses."""
+    """Of the normal equations: three products of a and b, and those of either with the
+    responses."""
     total = np.zeros(3 + 2 * len(KINDS))
     for one, (a, b) in pairs:
         total += np.r_[a * a, a * b, b * b, a * _values(one), b * _values(one)]
     return total
 
 
-# ---- sums over time -> responses --------------------------------------------------------------------------------
+# ---- sums over time -> responses -----------------------------------------------------------
 
 
 def _t_estimate(sums):
@@ -206,7 +209,7 @@ def _estimated(estimate, sums, keys):
     }
 
 
-# ---- as a figure and a table ------------------------------------------------------------------------------------
+# ---- as a figure and a table ---------------------------------------------------------------
 
 
 def figures(bags):

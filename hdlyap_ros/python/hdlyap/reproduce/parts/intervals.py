@@ -16,8 +16,9 @@ SAME = 1e-9  # relative: averaged times that are one
 STEPS = ('T(1,0)', 'LP(1,0)')
 TAKEN_BACK = 0.9  # of what was asked: the conditioning did not allow more
 AT_LONG = (
-    'with intervals of 8 Householder factorisations read 2.36 instead of 0.61 for lambda_1557 of 780 disks, '
-    'without any error; here the conditioning shortens them (hdlyap_core/bench/precision.c, README)'
+    'with intervals of 8 Householder factorisations read 2.36 instead of 0.61 '
+    'for lambda_1557 of 780 disks, without any error; '
+    'here the conditioning shortens them (doc/performance.md)'
 )
 UNIT = '1/time unit'
 
@@ -71,8 +72,8 @@ class Trials:
         self.time = self._common_time()
 
     def _common_time(self):
-        """The latest time up to which every run has averaged; None without one. Exponents of different times differ
-        by what has grown in between."""
+        """The latest time up to which every run has averaged; None without one. Exponents of
+        different times differ by what has grown in between."""
         times = [
             time
             for time in self.first.spectra

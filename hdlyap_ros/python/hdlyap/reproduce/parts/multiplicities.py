@@ -1,4 +1,5 @@
-"""Part 11: how many exponents each step has, by the boundaries; how many vanish, and how small those are."""
+"""Part 11: how many exponents each step has, by the boundaries; how many vanish, and how small
+those are."""
 
 import numpy as np
 
@@ -36,7 +37,8 @@ def runs(plan):
 
 
 def prescribed(info, kind, nx, ny):
-    """Multiplicity of a step: the number of modulations A that the boundaries allow; twice that for LP pairs."""
+    """Multiplicity of a step: the number of modulations A that the boundaries allow; twice that for
+    LP pairs."""
     count = 1
     for nodes, box, boundary in (
         (nx, info.box_x, info.boundary_x),
@@ -49,7 +51,8 @@ def prescribed(info, kind, nx, ny):
 
 
 def _functions(nodes, boundary, kind):
-    """Cosine and sine along a periodic direction; along a reflecting one the cosine for L and P, the sine for T."""
+    """Cosine and sine along a periodic direction; along a reflecting one the cosine for L and P,
+    the sine for T."""
     if boundary == 'periodic':
         return 2 if nodes else 1
     return 1 if kind == steps.LP or nodes else 0
@@ -86,8 +89,8 @@ class Level:
 
     @property
     def measured(self):
-        """How many exponents there are: the number; as text those of the pieces, smallest exponents first, if it
-        breaks; None where vectors that no step was found for go on without a jump."""
+        """How many exponents there are: the number; as text those of the pieces, smallest exponents
+        first, if it breaks; None where vectors that no step was found for go on without a jump."""
         if not self.stands_apart:
             return None
         counts = [stair.count for stair in self.pieces]
@@ -144,8 +147,8 @@ def steps_of(found):
 
 
 def _level_row(recording, box, level):
-    """Counted by the exponents alone where they stand apart from all others: the node takes as many vectors as the
-    rule has. Between unknown neighbours nothing can be counted."""
+    """Counted by the exponents alone where they stand apart from all others: the node takes as many
+    vectors as the rule has. Between unknown neighbours nothing can be counted."""
     remark = f'trace {level.trace:.2f}'
     indices = f'{level.pieces[-1].first}-{level.pieces[0].last}' if level.pieces else ''
     if not level.pieces:

@@ -20,7 +20,8 @@ class Snapshot:
         mode = p_mode.PMode(field, pair, info)
         self.before = [mode.fit(axis, divided=False) for axis in (0, 1)]
         self.after = [mode.fit(axis) for axis in (0, 1)]
-        # of the P field, what the measured vectors of the step span: least squares shrinks it to that
+        # of the P field, what the measured vectors of the step span: least squares shrinks it to
+        # that
         self.spanned = 1 - field.residual_p[pair] ** 2
         self.residual = field.residual_p[pair]
 

@@ -1,4 +1,5 @@
-"""Part 7: in the periodic system every phase turns evenly, at a rate in proportion to its wave number."""
+"""Part 7: in the periodic system every phase turns evenly, at a rate in proportion to its wave
+number."""
 
 import numpy as np
 
@@ -91,7 +92,10 @@ class Line:
         worst = float((known[:, 1] / known[:, 0]).max())
         together = (np.abs(off) <= SIGMAS).all()
         self.holds = FAILS if not together else HOLDS if worst < PRECISE else None
-        self.known_to += f'; the largest error is {100 * worst:.2g} %, "{HOLDS}" needs less than {100 * PRECISE:g} %'
+        self.known_to += (
+            f'; the largest error is {100 * worst:.2g} %, '
+            f'"{HOLDS}" needs less than {100 * PRECISE:g} %'
+        )
 
     def remark(self, one):
         v, error = one.velocity()
@@ -103,8 +107,8 @@ class Line:
 
 
 def _fluctuations(recording):
-    """(step and pair, rms deviation from even turning in percent of a turn, its standard error, that of the longest
-    curve as text)."""
+    """(step and pair, rms deviation from even turning in percent of a turn, its standard error,
+    that of the longest curve as text)."""
     curves, last = {}, recording.phases.last
     for number, phase in enumerate(last.phases if last else ()):
         of_pair = curves.setdefault((phase.step, phase.nx, phase.ny, phase.modulation), [])
@@ -113,7 +117,10 @@ def _fluctuations(recording):
         squares = [square for curve in found for square in _windows(*curve)]
         if squares:
             time, phase = max(found, key=lambda curve: curve[0][-1] - curve[0][0])
-            whole = f'{_square(time, phase) ** 0.5:.1f} % over the {time[-1] - time[0]:.0f} of the longest curve'
+            whole = (
+                f'{_square(time, phase) ** 0.5:.1f} % over the {time[-1] - time[0]:.0f} '
+                'of the longest curve'
+            )
             rms, error = _root(squares, _length(recording) / WINDOW)
             yield f'LP({nx},{ny}), {waves.plain_formula(nx, ny, bits)}', rms, error, whole
 
@@ -140,8 +147,8 @@ def _length(recording):
 
 
 def _root(squares, independent):
-    """(root of the mean, its standard error): vectors fluctuate together, what is independent are times. 0: not known,
-    of fewer than two of those."""
+    """(root of the mean, its standard error): vectors fluctuate together, what is independent are
+    times. 0: not known, of fewer than two of those."""
     mean = float(np.mean(squares))
     error = np.std(squares) / np.sqrt(independent - 1) if independent >= 2 else 0.0
     return mean**0.5, float(0.5 * error / mean**0.5) if mean else 0.0

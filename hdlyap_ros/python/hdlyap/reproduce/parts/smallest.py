@@ -16,7 +16,8 @@ KINDS = {'T': steps.T, 'LP': steps.LP}
 SYMBOLS = {'T': 'lambda_T', 'LP': 'lambda_L'}
 UNIT = '1/time unit'
 ENOUGH = 1.0  # %: a third of the scatter of the fits; with a larger error, 'alike' says little
-OPENS = f'{100 * paper.FIT_ACCURACY:g} %: that of the density fits'  # with which the paper says nothing of these
+# the paper gives no error of these
+OPENS = f'{100 * paper.FIT_ACCURACY:g} %: that of the density fits'
 
 
 def run_of(boundary, box):
@@ -91,7 +92,8 @@ def _curve_rows(branch, which):
 
 
 def _coefficient_rows(branch):
-    """What +-3 % of lambda at both ends of the range, in opposite directions, leave open to c and c2."""
+    """What +-3 % of lambda at both ends of the range, in opposite directions, leave open to c and
+    c2."""
     curve, published = branch.curves['both'], paper.CURVES[branch.kind]
     low, high = slopes.span(branch.points['both']) or (0.0, 0.0)
     names = f'c of {SYMBOLS[branch.kind]}, both', f'c2 of {SYMBOLS[branch.kind]}, both'
@@ -99,8 +101,8 @@ def _coefficient_rows(branch):
         yield from (Row(name, value, None) for name, value in zip(names, published))
         return
     remark = (
-        f'{branch.noted("both")}; c and c2 are correlated: {curve.correlation:.2f}; +-: of lambda at both ends '
-        f'{OPENS}'
+        f'{branch.noted("both")}; c and c2 are correlated: {curve.correlation:.2f}; '
+        f'+-: of lambda at both ends {OPENS}'
     )
     opens = paper.FIT_ACCURACY * published.c / (high - low)
     yield Row(

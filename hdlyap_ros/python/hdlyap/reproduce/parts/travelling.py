@@ -24,11 +24,12 @@ def runs(plan):
 
 
 class Front:
-    """One vector over a stretch of time. Its L part is a_cos d/dx cos(k x) + a_sin d/dx sin(k x), in proportion to
-    -r sin(k x - theta), theta = angle(a_cos, a_sin): the front, where it goes through zero, is at theta / k. With
-    z = a + i b turning at omega, r^2 dtheta/dt = omega Im(z_cos conj z_sin). Its size over that of a circle is the
-    handedness: 1 for a wave that runs evenly towards +x, -1 towards -x, 0 for one that stands. A vector that runs
-    towards -x is looked at in a mirror: it is `sign` times theta that is followed."""
+    """One vector over a stretch of time. Its L part is a_cos d/dx cos(k x) + a_sin d/dx sin(k x),
+    in proportion to -r sin(k x - theta), theta = angle(a_cos, a_sin): the front, where it goes
+    through zero, is at theta / k. With z = a + i b turning at omega, r^2 dtheta/dt = omega Im(z_cos
+    conj z_sin). Its size over that of a circle is the handedness: 1 for a wave that runs evenly
+    towards +x, -1 towards -x, 0 for one that stands. A vector that runs towards -x is looked at in
+    a mirror: it is `sign` times theta that is followed."""
 
     def __init__(self, turning, columns, piece):
         cos, sin = turning.z[piece][:, columns].T
@@ -84,8 +85,8 @@ def vectors(turning):
 
 
 def fronts(turning):
-    """Every stretch over which a vector has both of its pairs tracked and runs one way: vectors are superpositions of
-    waves of both directions, in parts that change slowly."""
+    """Every stretch over which a vector has both of its pairs tracked and runs one way: vectors are
+    superpositions of waves of both directions, in parts that change slowly."""
     found = []
     for columns in vectors(turning):
         way = circular(*turning.z[:, columns].T)
@@ -96,7 +97,8 @@ def fronts(turning):
 
 
 def chosen(turning):
-    """The front that runs the farthest for the least part of the other direction; None without one."""
+    """The front that runs the farthest for the least part of the other direction; None without
+    one."""
     return max(
         fronts(turning) if turning else (),
         default=None,
@@ -105,7 +107,8 @@ def chosen(turning):
 
 
 def one_way(turning):
-    """Mean size of the handedness over vectors and times: 1 if all run one way, 1/2 of random superpositions."""
+    """Mean size of the handedness over vectors and times: 1 if all run one way, 1/2 of random
+    superpositions."""
     ways = np.array([np.abs(circular(*turning.z[:, columns].T)) for columns in vectors(turning)])
     known = np.isfinite(ways).any(axis=0)
     return blocks.mean(np.nanmean(ways[:, known], axis=0))

@@ -83,7 +83,8 @@ def _name(wave):
 
 
 class Quarters:
-    """Quarter period of a step: pi / 2 over its mean rate, and how single quarters of single vectors scatter."""
+    """Quarter period of a step: pi / 2 over its mean rate, and how single quarters of single
+    vectors scatter."""
 
     def __init__(self, turning, info):
         self.mean = self.spread = None
@@ -107,8 +108,8 @@ class Quarters:
         )
 
     def _in_whole_box(self, turning, info):
-        """The quarter period of this v at wave numbers pi n / L: what a box would have whose edges are counted
-        between the centres."""
+        """The quarter period of this v at wave numbers pi n / L: what a box would have whose edges
+        are counted between the centres."""
         whole = np.pi * np.hypot(turning.nx / info.box_x, turning.ny / info.box_y)
         return self.mean * turning.wave_number / whole
 
@@ -125,7 +126,8 @@ class Quarters:
 
     @property
     def off(self):
-        """How far 3.20 is from the mean, in standard deviations of single quarters; None if those are not known."""
+        """How far 3.20 is from the mean, in standard deviations of single quarters; None if those
+        are not known."""
         return abs(QUARTER - self.mean) / self.spread if self.spread else None
 
 
@@ -142,7 +144,8 @@ def _quarters_of(turning, column):
 
 
 def _uneven(one):
-    """(which quarters of which vector, mean, standard error): a vector does not turn evenly within a period."""
+    """(which quarters of which vector, mean, standard error): a vector does not turn evenly within
+    a period."""
     for number, (from_l, times) in enumerate(one.of_vector, start=1):
         for name, which in (('L to P', from_l > 0), ('P to -L', from_l == 0)):
             mean, error = blocks.mean(times[which])
@@ -151,8 +154,8 @@ def _uneven(one):
 
 
 def _owner(found):
-    """The step among whose single quarters 3.20 is nearest to the mean; 'neither' beyond three deviations. None unless
-    all are measured: alone, one would be the nearest whatever it is."""
+    """The step among whose single quarters 3.20 is nearest to the mean; 'neither' beyond three
+    deviations. None unless all are measured: alone, one would be the nearest whatever it is."""
     if not all(one.spread for one in found.values()):
         return None
     nearest = min(found, key=lambda wave: found[wave].off)
@@ -187,7 +190,7 @@ def tables(bags):
     ]
 
 
-# ---- (a, b) on the unit circle ---------------------------------------------------------------------------------
+# ---- (a, b) on the unit circle -------------------------------------------------------------
 
 
 def _circles(info, turning):
@@ -234,7 +237,8 @@ def _circles(info, turning):
 
 
 def _course(one):
-    """(rows, column) of the first stretch of one vector that is as long as what is shown, or as can be."""
+    """(rows, column) of the first stretch of one vector that is as long as what is shown, or as can
+    be."""
     known = [
         (piece, column)
         for column in range(one.z.shape[1])
@@ -251,7 +255,7 @@ def _course(one):
     return slice(piece.start, min(piece.stop, end)), column
 
 
-# ---- fields a quarter period apart --------------------------------------------------------------------------------
+# ---- fields a quarter period apart ---------------------------------------------------------
 
 
 class Snapshot(modes.Panel):
@@ -271,7 +275,8 @@ class Snapshot(modes.Panel):
 
 
 def _chosen(bag, turning):
-    """Four fields of one vector of LP(1,0), each QUARTER after the other, that are nearest to L, P, -L, -P."""
+    """Four fields of one vector of LP(1,0), each QUARTER after the other, that are nearest to L, P,
+    -L, -P."""
     if (1, 0) not in turning:
         return []
     series = _fields(bag, turning[1, 0])

@@ -1,4 +1,4 @@
-/** What a picture is made of: the run's numbers as the messages have them. Whoever draws knows no
+/** What a picture is made of: the run's numbers as the messages have them. Who draws it knows no
  * run. */
 #ifndef HDLYAP_PICTURE_H
 #define HDLYAP_PICTURE_H
@@ -23,7 +23,7 @@ typedef struct picture_mode {
 } picture_mode;
 
 typedef struct picture {
-    const char *scene, *phase; /**< names */
+    const char *scene, *stage; /**< names */
     double box[2];             /**< [sigma] */
     bool periodic[2];
     double time, averaged;  /**< [time units] */

@@ -210,6 +210,6 @@ void curves_caption(canvas *on, const layout *l, const picture *p)
     canvas_text(on, "text", l->caption_x, l->caption_y, 1.4 * l->unit, PALETTE_INK,
                 "%.60s: %u disks, x %s, y %s\nt = %.1f, %s%s, averaged %.1f\n%s", p->scene,
                 (unsigned)p->x.count, p->periodic[0] ? "periodic" : "reflecting",
-                p->periodic[1] ? "periodic" : "reflecting", p->time, p->phase, done, p->averaged,
+                p->periodic[1] ? "periodic" : "reflecting", p->time, p->stage, done, p->averaged,
                 fits);
 }

@@ -1,0 +1,66 @@
+/** What a scene is asked for with: each parameter's name, kind, range, default, unit and text. The
+ * rows themselves stand in parameters.inc. */
+#ifndef HDLYAP_PARAMETERS_H
+#define HDLYAP_PARAMETERS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "hdlyap/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** What is stored in hd_scene_def, and how a user says it. */
+typedef enum hd_parameter_kind {
+    HD_PARAMETER_INT,
+    HD_PARAMETER_REAL,
+    HD_PARAMETER_WORD,      /**< an enumeration, by words */
+    HD_PARAMETER_SEED,      /**< a uint64_t, by its digits */
+    HD_PARAMETER_EXPONENTS, /**< an int or a word; what is allowed depends on the disks */
+    HD_PARAMETER_INTERVAL,  /**< a double or a word */
+    HD_PARAMETER_SET        /**< a set of bits; the user says it in another way */
+} hd_parameter_kind;
+
+/** Whether a resumed run may have another value than its checkpoint. */
+enum { HD_AS_BEFORE = 0, HD_MAY_DIFFER = 1 };
+
+/** A value that has a name. */
+typedef struct hd_parameter_word {
+    const char *word;
+    int value;
+} hd_parameter_word;
+
+typedef struct hd_parameter {
+    const char *name;
+    hd_parameter_kind kind;
+    const hd_parameter_word *words; /**< up to one without a word; NULL if there are none */
+    size_t offset;                  /**< of the value in hd_scene_def */
+    double usual;                   /**< default */
+    double least, most;
+    const char *allowed; /**< in words */
+    const char *unit;    /**< "" if it has none */
+    bool may_differ;     /**< of a resumed run from its checkpoint */
+    unsigned needs; /**< HD_OBSERVE_* of which one must be there for another value than usual */
+    const char *text;
+    const char *record; /**< name in a checkpoint */
+} hd_parameter;
+
+/** All of them, [count]. */
+const hd_parameter *hd_scene_parameters(int *count);
+
+/** Value in a scene; of a seed it may be rounded. */
+double hd_parameter_value(const hd_parameter *row, const hd_scene_def *def);
+/** The row's kind must be able to hold the value. */
+void hd_parameter_assign(const hd_parameter *row, hd_scene_def *def, double value);
+
+/** The word for a value; NULL if it has none. */
+const char *hd_parameter_word_of(const hd_parameter *row, int value);
+/** False if there is no such word. */
+bool hd_parameter_value_of(int *value, const hd_parameter *row, const char *word);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

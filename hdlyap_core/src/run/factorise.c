@@ -1,0 +1,146 @@
+/** Log -> frame -> orthonormal frame, spectrum, and what the next interval may be. An interval that
+ * turned out too long is taken back and replayed in pieces; a shortest piece that is still too much
+ * holds a grazing collision and is factored by reflections. */
+#include "run/factorise.h"
+
+#include <math.h>
+
+#include "base/check.h"
+#include "base/clock.h"
+#include "tangent/verify.h"
+
+/** Loss of orthogonality allowed where nobody looks at the vectors, as the logarithms telescope
+ * [T5]; its square enters a mean. */
+static const double DEFECT_LOOSE = 1e-4;
+/** The same where somebody does. */
+static const double DEFECT_MEASURED = 1e-6;
+enum { PIECES_MAX = 64 };
+
+hd_status hd_run_replay(hd_run *run, double t_begin, double t_end)
+{
+    hd_symplectic before;
+    if (HD_VERIFIES) before = hd_verify_sample(run->frame);
+    HD_TRY(hd_frame_replay(run->frame, run->log, t_begin, t_end));
+    if (HD_VERIFIES) hd_verify_symplectic(run->frame, &before, (double)run->log->count);
+    return HD_OK;
+}
+
+/** Pieces of the log that are taken back no more: a collision of each disk is the least that can be
+ * divided. */
+static double shortest_piece(const hd_run *run)
+{
+    return fmin(run->log->duration / PIECES_MAX, run->sample_max / HD_COLLISIONS_PER_SAMPLE);
+}
+
+/** Carries the frame from t_begin to t_end of the log and orthonormalises it. */
+static hd_status frame_piece(hd_run *run, double t_begin, double t_end, double defect)
+{
+    const double start = hd_clock_now(), length = t_end - t_begin;
+    HD_TRY(hd_run_replay(run, t_begin, t_end));
+    const double replayed = hd_clock_now();
+    const double allowed = hd_interval_piece_max(&run->interval, length, run->log->duration);
+    const hd_ortho_limits limits = {allowed, defect};
+    const hd_status status = length > shortest_piece(run)
+                                 ? hd_ortho_step(run->ortho, run->frame, limits)
+                                 : hd_ortho_step_stable(run->ortho, run->frame,
+                                                        HD_CONDITION_STABLE);
+    run->cost.replay += replayed - start;
+    run->cost.ortho += hd_clock_now() - replayed;
+    if (HD_VERIFIES && status == HD_OK) hd_verify_ortho(run->ortho, run->frame);
+    return status;
+}
+
+/** What an accepted orthonormalisation says about spectrum, interval and cost. */
+static void piece_accepted(hd_run *run, double length)
+{
+    const double start = hd_clock_now();
+    const double *stretch = hd_ortho_log_stretch(run->ortho);
+    const double condition = hd_ortho_condition(run->ortho);
+    double most = 0.0;
+    for (int col = 0; col < run->vectors; col++) most = fmax(most, fabs(stretch[col]));
+    hd_interval_learn(&run->interval, length, condition, most);
+    if (run->schedule.stage == HD_AVERAGING) hd_spectrum_add(run->spectrum, stretch, length);
+    hd_cost *cost = &run->cost;
+    cost->interval = length;
+    cost->condition = condition;
+    cost->defect = hd_ortho_defect(run->ortho);
+    run->rounding.condition_max = fmax(run->rounding.condition_max, condition);
+    run->rounding.sum += HD_ROUNDING * condition;
+    cost->orthonormalisations++;
+    cost->second_passes += hd_ortho_passes(run->ortho) > 1;
+    cost->spectrum += hd_clock_now() - start;
+}
+
+bool hd_run_is_observing(const hd_run *run)
+{
+    return run->observer.modes && run->observe & HD_OBSERVE_OF_MODES &&
+           run->schedule.stage == HD_AVERAGING;
+}
+
+bool hd_run_is_windowing(const hd_run *run)
+{
+    return run->windows.covariant && (run->observe & HD_OBSERVE_COVARIANT) &&
+           run->schedule.stage == HD_AVERAGING;
+}
+
+/** What the next intervals are expected to be: equal shares of a sample, or of a report that needs
+ * all vectors. */
+static double expected_interval(const hd_run *run)
+{
+    const bool at_reports = run->observe & (HD_OBSERVE_HYDRO | HD_OBSERVE_FIELDS);
+    const double sample = run->schedule.sample_length;
+    const double left = at_reports ? fmin(sample, run->scene.report_interval) : sample;
+    return hd_interval_next(&run->interval, left).length;
+}
+
+/** Before its first orthonormalisation. */
+static hd_status window_starts(hd_run *run)
+{
+    if (!hd_run_is_windowing(run)) return HD_OK;
+    return hd_windows_start(&run->windows, hd_frame_columns(run->frame),
+                            hd_run_time(run) - run->log->duration, expected_interval(run));
+}
+
+static hd_status window_adds(hd_run *run, double begin, double end)
+{
+    if (!hd_run_is_windowing(run)) return HD_OK;
+    return hd_windows_add(&run->windows, run->ortho, hd_frame_columns(run->frame), run->log, begin,
+                          end);
+}
+
+static hd_status window_ends(hd_run *run)
+{
+    if (!hd_run_is_windowing(run)) return HD_OK;
+    return hd_windows_end(&run->windows, hd_frame_columns(run->frame), run->advance.trajectory);
+}
+
+hd_status hd_run_factorise(hd_run *run)
+{
+    const double duration = run->log->duration;
+    const bool looked_at = hd_run_is_observing(run) || hd_run_is_windowing(run);
+    const double defect = looked_at ? DEFECT_MEASURED : DEFECT_LOOSE;
+    double begin = 0.0, end = duration;
+    HD_TRY(window_starts(run));
+    while (begin < duration) {
+        const double piece = end - begin;
+        const hd_status status = frame_piece(run, begin, end, defect);
+        if (status != HD_OK && status != HD_ILL_CONDITIONED) return status;
+        if (status == HD_OK) {
+            piece_accepted(run, piece);
+            HD_TRY(window_adds(run, begin, end));
+            begin = end;
+            end = duration - end < 1.5 * piece ? duration
+                                               : end + piece; /* no crumb of rounding is left */
+            continue;
+        }
+        if (piece <= shortest_piece(run)) return HD_ILL_CONDITIONED;
+        run->cost.repairs += piece >= duration;
+        run->cost.limit = HD_LIMIT_REPAIR;
+        hd_interval_failed(&run->interval, piece);
+        hd_frame_rewind(run->frame);
+        end = begin + 0.5 * piece;
+    }
+    hd_event_log_clear(run->log);
+    run->interval_end = run->advance.plan.end = hd_run_time(run);
+    return window_ends(run);
+}

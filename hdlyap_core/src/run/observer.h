@@ -1,0 +1,37 @@
+/** What a run that observes its modes needs for it: at the end of an interval, and in between. */
+#ifndef HD_OBSERVER_H
+#define HD_OBSERVER_H
+
+#include "hdlyap/phases.h"
+#include "tangent/slow_vectors.h"
+
+typedef struct hd_observer {
+    hd_modes *modes; /**< NULL unless observed, as all others */
+    hd_steps *steps;
+    hd_phases *phases;     /**< NULL unless they are observed */
+    hd_slow_vectors *slow; /**< NULL without phases, and where it does not apply */
+    double *q, *p;         /**< [2N], state of a snapshot */
+    hd_columns known;      /**< vectors that are known at this very time */
+} hd_observer;
+
+/** HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_observer_create(hd_observer *observer, const hd_scene_def *scene,
+                                           int vectors, int threads);
+void hd_observer_free(hd_observer *observer);
+
+/** Empties the averages. */
+void hd_observer_clear(hd_observer *observer);
+
+/** The modes of an orthonormal frame. Fails as hd_modes_measure. */
+HD_MUST_CHECK hd_status hd_observer_measure(hd_observer *observer, const hd_frame *frame,
+                                            const hd_trajectory *trajectory);
+
+/** True if so many of the slowest vectors can be found without an orthonormalisation. */
+bool hd_observer_reaches(const hd_observer *observer, int count);
+
+/** The modes of the slowest vectors of a frame that has been replayed up to now: then it is
+ * rewound. Fails as hd_slow_vectors_measure and hd_modes_measure. */
+HD_MUST_CHECK hd_status hd_observer_look(hd_observer *observer, hd_frame *frame,
+                                         const hd_trajectory *trajectory, int count);
+
+#endif

@@ -1,0 +1,73 @@
+/** parameters.inc -> rows, and values by them. */
+#include "hdlyap/parameters.h"
+
+#include <string.h>
+
+static const hd_parameter_word hd_boundary_words[] = {
+    {"periodic", HD_PERIODIC}, {"reflecting", HD_REFLECTING}, {NULL, 0}};
+static const hd_parameter_word hd_exponents_words[] = {{"positive", HD_EXPONENTS_POSITIVE},
+                                                       {"all", HD_EXPONENTS_ALL},
+                                                       {"none", HD_EXPONENTS_NONE},
+                                                       {NULL, 0}};
+static const hd_parameter_word hd_interval_words[] = {{"auto", 0}, {NULL, 0}};
+static const hd_parameter_word hd_storage_words[] = {
+    {"memory", HD_STORAGE_MEMORY}, {"recompute", HD_STORAGE_RECOMPUTE}, {NULL, 0}};
+
+#define ROW(name, member, kind, words, usual, least, most, allowed, unit, may_differ, needs, text) \
+    {#name,         kind,       words, offsetof(hd_scene_def, member),                             \
+     usual,         least,      most,  allowed,                                                    \
+     unit,          may_differ, needs, text,                                                       \
+     "scene " #name},
+static const hd_parameter rows[] = {
+#define HD_INT(name, ...) ROW(name, name, HD_PARAMETER_INT, NULL, __VA_ARGS__)
+#define HD_REAL(name, ...) ROW(name, name, HD_PARAMETER_REAL, NULL, __VA_ARGS__)
+#define HD_OTHER(name, member, kind, words, ...) ROW(name, member, kind, words, __VA_ARGS__)
+#include "hdlyap/parameters.inc"
+};
+#undef ROW
+
+const hd_parameter *hd_scene_parameters(int *count)
+{
+    *count = (int)(sizeof rows / sizeof *rows);
+    return rows;
+}
+
+/** Enumerations and sets have the size of an int. */
+double hd_parameter_value(const hd_parameter *row, const hd_scene_def *def)
+{
+    const char *field = (const char *)def + row->offset;
+    int whole;
+    double real;
+    uint64_t bits;
+    switch (row->kind) {
+    case HD_PARAMETER_REAL:
+    case HD_PARAMETER_INTERVAL: return memcpy(&real, field, sizeof real), real;
+    case HD_PARAMETER_SEED: return memcpy(&bits, field, sizeof bits), (double)bits;
+    default: return memcpy(&whole, field, sizeof whole), whole;
+    }
+}
+
+void hd_parameter_assign(const hd_parameter *row, hd_scene_def *def, double value)
+{
+    char *field = (char *)def + row->offset;
+    switch (row->kind) {
+    case HD_PARAMETER_REAL:
+    case HD_PARAMETER_INTERVAL: memcpy(field, &value, sizeof value); break;
+    case HD_PARAMETER_SEED: memcpy(field, &(uint64_t){(uint64_t)value}, sizeof(uint64_t)); break;
+    default: memcpy(field, &(int){(int)value}, sizeof(int));
+    }
+}
+
+const char *hd_parameter_word_of(const hd_parameter *row, int value)
+{
+    for (const hd_parameter_word *w = row->words; w && w->word; w++)
+        if (w->value == value) return w->word;
+    return NULL;
+}
+
+bool hd_parameter_value_of(int *value, const hd_parameter *row, const char *word)
+{
+    for (const hd_parameter_word *w = row->words; w && w->word; w++)
+        if (strcmp(w->word, word) == 0) return *value = w->value, true;
+    return false;
+}

@@ -1,0 +1,210 @@
+/** The rows. */
+#include "parameters.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "settings.h"
+#include "topic.h"
+
+#define OBSERVABLES "spectrum, modes, steps, lp_phases, fields, hydro, covariant, state"
+
+static const parameter name_row = {
+    .name = "scene",
+    .kind = NAME,
+    .offset = offsetof(settings, scene),
+    .usual = "paper_periodic",
+    .allowed = "a line that is not empty",
+    .unit = "",
+    .may_differ = true,
+    .text = "Name of the scene, copied into run_info.",
+};
+
+static const parameter rows[] = {
+    {
+        .name = "observables",
+        .kind = TOPICS_OBSERVED,
+        .offset = offsetof(settings, observables),
+        .usual = "spectrum, modes, steps, lp_phases, fields, state",
+        .allowed = "a list out of " OBSERVABLES,
+        .unit = "",
+        .text =
+            "Topics that are computed and published, beside run_info, status, cost and "
+            "/diagnostics. A topic costs nothing while nobody subscribes to it. With exponents: "
+            "none there is only state. A resumed run may have other ones of spectrum and state.",
+    },
+    {
+        .name = "field_indices",
+        .kind = FIELD_CHOICE,
+        .offset = offsetof(settings, fields),
+        .usual = "steps",
+        .allowed = "steps or a list of integers from 1",
+        .unit = "",
+        .may_differ = true,
+        .needs = 1u << TOPIC_FIELDS,
+        .text = "Vectors that are published as fields: one of each step found, or these Lyapunov "
+                "indices.",
+    },
+    {
+        .name = "slow_vectors_rate",
+        .kind = REAL_NUMBER,
+        .offset = offsetof(settings, slow_vectors_rate),
+        .usual = "10",
+        .least = 0.01,
+        .most = 100,
+        .allowed = "from 0.01 to 100",
+        .unit = "1/s",
+        .may_differ = true,
+        .text =
+            "Messages of slow_vectors per wall second, at most. With pace the steps become short "
+            "enough for it.",
+    },
+    {
+        .name = "slow_vectors_count",
+        .kind = WHOLE_NUMBER,
+        .offset = offsetof(settings, slow_vectors_count),
+        .usual = "0",
+        .allowed = "from 0 (the lowest T and LP steps) to the vectors carried",
+        .unit = "",
+        .may_differ = true,
+        .text =
+            "Slowest vectors in each message of slow_vectors; 0: as many as reach to the lowest T "
+            "and LP steps found.",
+    },
+    {
+        .name = "field_interval",
+        .kind = REAL_NUMBER,
+        .offset = offsetof(settings, field_interval),
+        .usual = "10",
+        .most = 1e12,
+        .allowed = "from 0 (with every report) to 1e12",
+        .unit = "time units",
+        .may_differ = true,
+        .text =
+            "Simulated time between fields. They come with the first report of the averaging, "
+            "with the first one at or after each multiple of this, and with the last. The vectors "
+            "are orthonormalised for each: often means slow.",
+    },
+    {
+        .name = "wait_for_subscribers",
+        .kind = TOPICS_AWAITED,
+        .offset = offsetof(settings, awaited),
+        .usual = "",
+        .allowed = "all or a list out of run_info, " OBSERVABLES ", status, cost",
+        .unit = "",
+        .may_differ = true,
+        .text = "Topics that must have a subscriber before the run starts, so that it misses "
+                "nothing: run_info, status, cost and observables, or all for all of these.",
+    },
+    {
+        .name = "pace",
+        .kind = REAL_NUMBER,
+        .offset = offsetof(settings, pace),
+        .usual = "0",
+        .most = 1e12,
+        .allowed = "from 0 (as fast as it goes) to 1e12",
+        .unit = "time units/s",
+        .may_differ = true,
+        .text = "Limit of the averaging's simulated time per wall second. What comes before the "
+                "averaging has no limit.",
+    },
+    {
+        .name = "checkpoint",
+        .kind = FILE_PATH,
+        .offset = offsetof(settings, checkpoint),
+        .usual = "",
+        .allowed = "a path in one line",
+        .unit = "",
+        .may_differ = true,
+        .text = "File in which the run is kept, written whole or not at all; empty: none.",
+    },
+    {
+        .name = "checkpoint_interval",
+        .kind = REAL_NUMBER,
+        .offset = offsetof(settings, checkpoint_interval),
+        .usual = "600",
+        .most = 1e12,
+        .allowed = "from 0 (only at the end and when asked) to 1e12",
+        .unit = "s",
+        .may_differ = true,
+        .text = "Wall time between two writings of the checkpoint. It is also written at the end "
+                "and when ~checkpoint asks.",
+    },
+    {
+        .name = "resume",
+        .kind = FILE_PATH,
+        .offset = offsetof(settings, resume),
+        .usual = "",
+        .allowed = "a path in one line",
+        .unit = "",
+        .may_differ = true,
+        .text = "Checkpoint to go on from; empty: from the start. Parameters of the scene that are "
+                "not given are then as in the file.",
+    },
+};
+enum { ROWS = sizeof rows / sizeof *rows };
+
+/** What were parameters once. */
+static const struct {
+    const char *name, *now;
+} gone[] = {
+    {"max_node", "removed: it is max_mode_number now"},
+    {"marker_rate", "removed: it is slow_vectors_rate now"},
+    {"marker_modes", "removed: it is modes of the viewer now (rviz.launch modes:=..)"},
+    {"covariant_folder", "removed: covariant_storage is memory or recompute now"},
+};
+
+static int scene_count(void)
+{
+    int count;
+    (void)hd_scene_parameters(&count);
+    return count - 1; /* without observe, for which there are observables */
+}
+
+static parameter of_scene(int k)
+{
+    int count;
+    const hd_parameter *row = hd_scene_parameters(&count);
+    for (; k > 0 || row->kind == HD_PARAMETER_SET; row++) k -= row->kind != HD_PARAMETER_SET;
+    return (parameter){.name = row->name,
+                       .kind = OF_SCENE,
+                       .offset = offsetof(settings, def),
+                       .allowed = row->allowed,
+                       .unit = row->unit,
+                       .may_differ = row->may_differ,
+                       .needs = topics_of_stages(row->needs),
+                       .text = row->text,
+                       .row = row};
+}
+
+int parameters_count(void) { return 1 + scene_count() + ROWS; }
+
+parameter parameters_at(int k)
+{
+    const int own = k - 1 - scene_count();
+    if (k == 0) return name_row;
+    return own < 0 ? of_scene(k - 1) : rows[own];
+}
+
+parameter parameters_named(const char *name)
+{
+    int k = 0;
+    while (strcmp(parameters_at(k).name, name) != 0) k++;
+    return parameters_at(k);
+}
+
+void parameter_usual(char text[PARAMETER_TEXT], const parameter *p)
+{
+    const char *word = p->row ? hd_parameter_word_of(p->row, (int)p->row->usual) : p->usual;
+    if (word)
+        snprintf(text, PARAMETER_TEXT, "%s", word);
+    else
+        snprintf(text, PARAMETER_TEXT, "%.15g", p->row->usual);
+}
+
+const char *parameters_why_not(const char *name)
+{
+    for (size_t k = 0; k < sizeof gone / sizeof *gone; k++)
+        if (strcmp(gone[k].name, name) == 0) return gone[k].now;
+    return "removed: there is no parameter of this name";
+}

@@ -1,0 +1,52 @@
+/** Every parameter of the node, one row each: those of the scene, which the core names, and those
+ * that only the node knows. */
+#ifndef HDLYAP_PARAMETERS_NODE_H
+#define HDLYAP_PARAMETERS_NODE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "hdlyap/parameters.h"
+
+/** How a value is said and read. */
+typedef enum parameter_kind {
+    OF_SCENE,        /**< as the scene's row says */
+    REAL_NUMBER,     /**< double */
+    WHOLE_NUMBER,    /**< int; what is allowed depends on the scene */
+    NAME,            /**< const char *: a line that is not empty */
+    FILE_PATH,       /**< const char *: a line, "" for none */
+    TOPICS_OBSERVED, /**< unsigned: a set of topics */
+    TOPICS_AWAITED,  /**< the same, or all */
+    FIELD_CHOICE     /**< field_choice */
+} parameter_kind;
+
+typedef struct parameter {
+    const char *name;
+    parameter_kind kind;
+    size_t offset;       /**< in settings */
+    const char *usual;   /**< default: the number, the word, or the items of the list */
+    double least, most;  /**< of a number */
+    const char *allowed; /**< in words */
+    const char *unit;    /**< "" if it has none */
+    bool may_differ;     /**< of a run that goes on from its checkpoint */
+    unsigned needs;      /**< topics of which one must be observed for another value; 0: none */
+    const char *text;
+    const hd_parameter *row; /**< NULL unless it is the scene's */
+} parameter;
+
+/** In the order in which they are read. */
+int parameters_count(void);
+parameter parameters_at(int k);
+
+/** The row of a name, which there must be. */
+parameter parameters_named(const char *name);
+
+/** Room for parameter_usual. */
+enum { PARAMETER_TEXT = 80 };
+/** The default as it is said in a message. */
+void parameter_usual(char text[PARAMETER_TEXT], const parameter *p);
+
+/** What to say of a name that is none; names that were some are told what they are now. */
+const char *parameters_why_not(const char *name);
+
+#endif

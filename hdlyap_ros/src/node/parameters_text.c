@@ -1,0 +1,119 @@
+/** Rows -> text. */
+#include "parameters_text.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "parameters.h"
+
+enum { LINE_WIDTH = 100 };
+
+static const char *const head =
+    "Every parameter of hdlyap_node, with its default. Reduced units: disk mass 1, disk diameter "
+    "sigma = 1, kinetic energy per disk 1; the time unit follows from these. YAML reads 1e-8 as a "
+    "string, which is taken too.";
+
+/** A comment of several lines. */
+static void print_comment(const char *text)
+{
+    int column = LINE_WIDTH;
+    const char *begin = "#";
+    while (*text) {
+        const int length = (int)strcspn(text, " ");
+        if (column + 1 + length > LINE_WIDTH) {
+            printf("%s", begin);
+            begin = "\n#";
+            column = 1;
+        }
+        printf(" %.*s", length, text);
+        column += 1 + length;
+        text += length;
+        text += strspn(text, " ");
+    }
+    printf("\n");
+}
+
+/** A number that YAML reads as a real one: 1.0e-8, not 1e-08. */
+static void write_real(char *out, size_t size, double value)
+{
+    char digits[32], *exponent;
+    snprintf(digits, sizeof digits, "%.15g", value);
+    exponent = strchr(digits, 'e');
+    const int power = exponent ? atoi(exponent + 1) : 0;
+    if (exponent) *exponent = '\0';
+    const char *point = strchr(digits, '.') ? "" : ".0";
+    if (power)
+        snprintf(out, size, "%s%se%d", digits, point, power);
+    else
+        snprintf(out, size, "%s%s", digits, point);
+}
+
+/** The default as a scene file has it. */
+static void write_value(char *out, size_t size, const parameter *p)
+{
+    char usual[PARAMETER_TEXT];
+    const hd_parameter_kind kind = p->row ? p->row->kind : HD_PARAMETER_WORD;
+    parameter_usual(usual, p);
+    if (kind == HD_PARAMETER_SEED || p->kind == FILE_PATH)
+        snprintf(out, size, "\"%s\"", usual);
+    else if (p->kind == TOPICS_OBSERVED || p->kind == TOPICS_AWAITED)
+        snprintf(out, size, "[%s]", usual);
+    else if (kind == HD_PARAMETER_REAL || p->kind == REAL_NUMBER)
+        write_real(out, size, atof(usual));
+    else
+        snprintf(out, size, "%s", usual);
+}
+
+/** What is allowed, with its unit. */
+static void write_allowed(char *out, size_t size, const parameter *p)
+{
+    const bool has_unit = *p->unit && !strchr(p->allowed, '[');
+    snprintf(out, size, "%s%s%s%s", p->allowed, has_unit ? " [" : "", has_unit ? p->unit : "",
+             has_unit ? "]" : "");
+}
+
+int parameters_print_scene(void)
+{
+    print_comment(head);
+    for (int k = 0; k < parameters_count(); k++) {
+        const parameter p = parameters_at(k);
+        char allowed[200], value[PARAMETER_TEXT + 8], text[400];
+        write_allowed(allowed, sizeof allowed, &p);
+        write_value(value, sizeof value, &p);
+        snprintf(text, sizeof text, "Allowed: %s. Default: %s.", allowed, value);
+        printf("\n");
+        print_comment(p.text);
+        print_comment(text);
+        printf("%s: %s\n", p.name, value);
+    }
+    return fflush(stdout) == 0 ? 0 : 1;
+}
+
+/** A bar would end the cell. */
+static void print_cell(const char *text)
+{
+    printf("| ");
+    for (; *text; text++) printf(*text == '|' ? "\\|" : "%c", *text);
+    printf(" ");
+}
+
+int parameters_print_table(void)
+{
+    printf("| parameter | allowed | default | in a resumed run | what |\n"
+           "| --- | --- | --- | --- | --- |\n");
+    for (int k = 0; k < parameters_count(); k++) {
+        const parameter p = parameters_at(k);
+        char allowed[200], value[PARAMETER_TEXT + 8], name[PARAMETER_TEXT];
+        write_allowed(allowed, sizeof allowed, &p);
+        write_value(value, sizeof value, &p);
+        snprintf(name, sizeof name, "`%s`", p.name);
+        print_cell(name);
+        print_cell(allowed);
+        print_cell(value);
+        print_cell(p.may_differ ? "may differ" : "as before");
+        print_cell(p.text);
+        printf("|\n");
+    }
+    return fflush(stdout) == 0 ? 0 : 1;
+}

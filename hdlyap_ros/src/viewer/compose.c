@@ -1,0 +1,145 @@
+/** What was heard of a run -> a picture. */
+#include "compose.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "hdlyap_ros/stage.h"
+
+_Static_assert((int)PICTURE_PAIRS_MAX == (int)HEARD_PAIRS_MAX, "pairs as they are heard");
+
+bool mode_name_parse(mode_name *out, const char *text)
+{
+    const bool is_lp = strncmp(text, "LP", 2) == 0;
+    int end = -1;
+    if (!is_lp && *text != 'T') return false;
+    out->kind = is_lp ? HDR_MODE_LP : HDR_MODE_T;
+    text += is_lp ? 2 : 1;
+    if (strspn(text, "(0123456789,)") != strlen(text)) return false;
+    return sscanf(text, "(%4u,%4u)%n", &out->nx, &out->ny, &end) == 2 && end > 0 && !text[end];
+}
+
+static bool is_shown(const hdr_step *step) { return step->resolved && !step->conjugate; }
+
+/** The lowest step of a kind that is resolved, or the one of a name; NULL if there is none. */
+static const hdr_step *step_of(const heard *h, uint8_t kind, const mode_name *name)
+{
+    const hdr_step *found = NULL;
+    for (uint32_t k = 0; k < h->steps.steps.count; k++) {
+        const hdr_step *step = &h->steps.steps.data[k];
+        if (step->kind != kind || !is_shown(step)) continue;
+        if (name && (step->nx != name->nx || step->ny != name->ny)) continue;
+        if (!found || step->exponent < found->exponent) found = step;
+    }
+    return found;
+}
+
+/** The vector nearest to zero of a kind, or the first of a name; NULL if there is none. */
+static const heard_vector *vector_of(const heard *h, uint8_t kind, const mode_name *name)
+{
+    const heard_vector *found = NULL;
+    for (int k = 0; k < h->vectors; k++) {
+        const heard_vector *v = &h->vector[k];
+        if (v->kind != kind || (name && (v->nx != name->nx || v->ny != name->ny))) continue;
+        if (!found || (name ? v->index < found->index : v->exponent < found->exponent)) found = v;
+    }
+    return found;
+}
+
+/** The first of a step, or of its set where none is its own; NULL if there is none. */
+static const heard_vector *vector_of_step(const heard *h, const hdr_step *step)
+{
+    const mode_name name = {step->kind, step->nx, step->ny};
+    const heard_vector *found = vector_of(h, step->kind, &name);
+    for (int k = 0; k < h->vectors && !found; k++)
+        if (h->vector[k].index == step->first_index) found = &h->vector[k];
+    return found;
+}
+
+static hdr_doubles array_of(const double *data, uint32_t count)
+{
+    return (hdr_doubles){.data = data, .count = count, .stride = 1};
+}
+
+/** Coefficients of a vector: with it, or as the phases of the same time have them. */
+static void fill_pairs(picture_mode *mode, const heard *h, const heard_vector *v)
+{
+    mode->pairs = v->pairs;
+    memcpy(mode->a, v->a, sizeof mode->a);
+    memcpy(mode->b, v->b, sizeof mode->b);
+    if (v->pairs > 0 || h->phases.sim_time != h->time) return;
+    for (uint32_t k = 0; k < h->phases.phases.count && mode->pairs < PICTURE_PAIRS_MAX; k++) {
+        const hdr_lp_phase *phase = &h->phases.phases.data[k];
+        if (phase->index != v->index || phase->nx != v->nx || phase->ny != v->ny) continue;
+        mode->a[mode->pairs] = phase->a;
+        mode->b[mode->pairs++] = phase->b;
+    }
+}
+
+static void fill_vector(picture_mode *mode, const heard *h, const heard_vector *v)
+{
+    mode->index = v->index;
+    mode->exponent = v->exponent;
+    mode->known = v->known;
+    if (!v->known) return;
+    mode->dx = array_of(v->dx, h->disks);
+    mode->dy = array_of(v->dy, h->disks);
+    if (mode->kind == HDR_MODE_LP && v->kind == HDR_MODE_LP) fill_pairs(mode, h, v);
+}
+
+static void write_name(picture_mode *mode, const mode_name *is)
+{
+    const char *kind = is->kind == HDR_MODE_T ? "T" : "LP";
+    const int length = snprintf(mode->name, sizeof mode->name, "%s", kind);
+    if (is->nx > 0 || is->ny > 0)
+        snprintf(mode->name + length, sizeof mode->name - (size_t)length, "(%u,%u)",
+                 (unsigned)is->nx, (unsigned)is->ny);
+}
+
+/** name: the one asked for; NULL: the lowest of the kind, as the steps say or else the vectors. */
+static picture_mode mode_of(const heard *h, uint8_t kind, const mode_name *name)
+{
+    picture_mode mode = {.kind = kind};
+    const hdr_step *step = step_of(h, kind, name);
+    const heard_vector *v = step ? vector_of_step(h, step) : NULL;
+    mode_name is = name ? *name : (mode_name){.kind = kind};
+    if (step) {
+        is = (mode_name){kind, step->nx, step->ny};
+        mode.index = step->first_index;
+        mode.exponent = step->exponent;
+    }
+    if (!v && (v = vector_of(h, kind, name))) is = (mode_name){kind, v->nx, v->ny};
+    mode.found = step || v;
+    write_name(&mode, &is);
+    if (v) fill_vector(&mode, h, v);
+    return mode;
+}
+
+static void fill_modes(picture *p, const heard *h, const mode_choice *asked)
+{
+    if (!h->has_lp) return;
+    for (int k = 0; k < asked->count; k++)
+        p->mode[p->modes++] = mode_of(h, asked->mode[k].kind, &asked->mode[k]);
+    if (asked->count == 0 && h->has_t) p->mode[p->modes++] = mode_of(h, HDR_MODE_T, NULL);
+    if (asked->count == 0) p->mode[p->modes++] = mode_of(h, HDR_MODE_LP, NULL);
+}
+
+picture compose(const heard *h, const mode_choice *asked)
+{
+    picture p = {
+        .scene = h->scene,
+        .stage = hdr_stage_name(h->stage),
+        .box = {h->box[0], h->box[1]},
+        .periodic = {h->periodic[0], h->periodic[1]},
+        .time = h->time,
+        .averaged = h->averaged,
+        .progress = h->progress,
+        .x = array_of(h->x, h->disks),
+        .y = array_of(h->y, h->disks),
+        .has_exponents = h->has_exponents,
+        .exponents = array_of(h->exponents, h->exponents_count),
+        .steps = h->has_steps ? &h->steps : NULL,
+    };
+    fill_modes(&p, h, asked);
+    return p;
+}

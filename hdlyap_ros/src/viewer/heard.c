@@ -1,0 +1,239 @@
+/** Messages -> what a picture is made of. */
+#include "heard.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void heard_clear(heard *h)
+{
+    for (int k = 0; k < HEARD_VECTORS_MAX; k++) free(h->vector[k].dx);
+    free(h->x);
+    free(h->exponents);
+    free((void *)h->steps.steps.data);
+    free((void *)h->phases.phases.data);
+    *h = (heard){.time = -1.0};
+}
+
+/* ---- the run ------------------------------------------------------------------------------- */
+
+static bool is_in(const hdr_strings *list, const char *name)
+{
+    for (uint32_t k = 0; k < list->count; k++)
+        if (strcmp(list->data[k], name) == 0) return true;
+    return false;
+}
+
+/** Transverse modes have a node between reflecting walls [T10]. */
+static bool has_transverse(const heard *h, const hdr_run_info *info)
+{
+    for (uint32_t k = 0; k < info->wave_nx.count && k < info->wave_ny.count; k++)
+        if ((h->periodic[0] || info->wave_nx.data[k] > 0) &&
+            (h->periodic[1] || info->wave_ny.data[k] > 0))
+            return true;
+    return false;
+}
+
+static void begin(heard *h, const hdr_run_info *info)
+{
+    static const char *const of_modes[] = {"modes", "steps", "lp_phases", "fields", "hydro"};
+    snprintf(h->run_id, sizeof h->run_id, "%s", info->run_id);
+    snprintf(h->scene, sizeof h->scene, "%s", info->scene);
+    h->disks = info->disks;
+    h->box[0] = info->box_x;
+    h->box[1] = info->box_y;
+    h->periodic[0] = strcmp(info->boundary_x, "periodic") == 0;
+    h->periodic[1] = strcmp(info->boundary_y, "periodic") == 0;
+    h->has_exponents = info->vectors > 0;
+    h->has_steps = is_in(&info->observables, "steps");
+    for (size_t k = 0; k < sizeof of_modes / sizeof *of_modes; k++)
+        h->has_lp |= info->wave_nx.count > 0 && is_in(&info->observables, of_modes[k]);
+    h->has_t = h->has_lp && has_transverse(h, info);
+    h->begun = true;
+}
+
+bool heard_run_info(heard *h, const hdr_run_info *info)
+{
+    if (h->begun && strcmp(h->run_id, info->run_id) == 0) return false;
+    heard_clear(h);
+    h->x = malloc(2 * (size_t)info->disks * sizeof *h->x + 1);
+    if (!h->x) return false;
+    h->y = h->x + info->disks;
+    begin(h, info);
+    return true;
+}
+
+static bool is_ours(const heard *h, const char *run_id)
+{
+    return h->begun && strcmp(h->run_id, run_id) == 0;
+}
+
+static void copy(double *to, const hdr_doubles *array)
+{
+    for (uint32_t k = 0; k < array->count; k++) to[k] = array->data[(size_t)k * array->stride];
+}
+
+/** A block of `bytes` in place of an old one, or NULL: the old one is then as it was. */
+static void *replaced(const void *old, const void *from, size_t bytes)
+{
+    void *block = malloc(bytes + 1);
+    if (!block) return NULL;
+    if (from && bytes > 0) memcpy(block, from, bytes);
+    free((void *)old);
+    return block;
+}
+
+/* ---- disks and vectors of one time ----------------------------------------------------------- */
+
+/** What is heard next is of this time and these places; false if they are not of each disk. */
+static bool move(heard *h, double time, const hdr_doubles *x, const hdr_doubles *y)
+{
+    if (x->count != h->disks || y->count != h->disks) return false;
+    copy(h->x, x);
+    copy(h->y, y);
+    h->time = time;
+    h->vectors = 0;
+    h->changed = true;
+    return true;
+}
+
+void heard_state(heard *h, const hdr_state *state)
+{
+    if (!is_ours(h, state->run_id)) return;
+    if (h->vectors == 0 || state->sim_time < h->time) /* a bag that is played again */
+        (void)move(h, state->sim_time, &state->x, &state->y);
+}
+
+/** A vector more, with all but its arrays; NULL without room. */
+static heard_vector *add(heard *h, const heard_vector *what)
+{
+    if (h->vectors == HEARD_VECTORS_MAX) return NULL;
+    heard_vector *v = &h->vector[h->vectors];
+    double *block = v->dx ? v->dx : malloc(2 * (size_t)h->disks * sizeof *block + 1);
+    if (!block) return NULL;
+    *v = *what;
+    v->dx = block;
+    v->dy = block + h->disks;
+    h->vectors++;
+    return v;
+}
+
+/** Its field is heard once more. */
+static heard_vector *with_index(heard *h, uint32_t index)
+{
+    for (int k = 0; k < h->vectors; k++)
+        if (h->vector[k].index == index) return &h->vector[k];
+    return NULL;
+}
+
+void heard_mode_field(heard *h, const hdr_mode_field *field)
+{
+    const heard_vector what = {.kind = field->kind,
+                               .nx = field->nx,
+                               .ny = field->ny,
+                               .index = field->index,
+                               .exponent = field->exponent,
+                               .known = true};
+    if (!is_ours(h, field->run_id)) return;
+    if (field->dqx.count != h->disks || field->dqy.count != h->disks) return;
+    if (field->sim_time != h->time && !move(h, field->sim_time, &field->x, &field->y)) return;
+    heard_vector *v = with_index(h, field->index);
+    if (!v) v = add(h, &what);
+    if (!v) return;
+    copy(v->dx, &field->dqx);
+    copy(v->dy, &field->dqy);
+    h->changed = true;
+}
+
+/** One of a step is enough: the first that is its own, or the first of its set. */
+static bool is_wanted(const heard *h, const heard_vector *v)
+{
+    bool is_new = v->kind == HDR_MODE_T || v->kind == HDR_MODE_LP;
+    for (int k = 0; k < h->vectors && is_new; k++)
+        is_new = h->vector[k].kind != v->kind || h->vector[k].nx != v->nx ||
+                 h->vector[k].ny != v->ny;
+    for (uint32_t k = 0; k < h->steps.steps.count && !is_new; k++)
+        is_new = h->steps.steps.data[k].resolved && h->steps.steps.data[k].first_index == v->index;
+    return is_new;
+}
+
+/** Element k of each array. */
+static heard_vector vector_of(const hdr_slow_vectors *slow, uint32_t k)
+{
+    heard_vector v = {.kind = slow->kind.data[k],
+                      .nx = slow->nx.data[k],
+                      .ny = slow->ny.data[k],
+                      .index = slow->first_index + k,
+                      .exponent = slow->exponents.data[k],
+                      .known = slow->dqx.count > 0,
+                      .pairs = slow->pairs.data[k]};
+    memcpy(v.a, slow->a.data + (size_t)HEARD_PAIRS_MAX * k, sizeof v.a);
+    memcpy(v.b, slow->b.data + (size_t)HEARD_PAIRS_MAX * k, sizeof v.b);
+    return v;
+}
+
+/** Its arrays are as long as it says. */
+static bool is_whole(const heard *h, const hdr_slow_vectors *m)
+{
+    const uint64_t n = m->vectors, all = n * h->disks;
+    const bool known = m->dqx.count == all && m->dqy.count == all;
+    return m->exponents.count == n && m->kind.count == n && m->nx.count == n && m->ny.count == n &&
+           m->pairs.count == n && m->a.count == HEARD_PAIRS_MAX * n &&
+           m->b.count == HEARD_PAIRS_MAX * n && (known || (m->dqx.count == 0 && m->dqy.count == 0));
+}
+
+void heard_slow_vectors(heard *h, const hdr_slow_vectors *slow)
+{
+    if (!is_ours(h, slow->run_id) || !is_whole(h, slow)) return;
+    if (!move(h, slow->sim_time, &slow->x, &slow->y)) return;
+    for (uint32_t k = 0; k < slow->vectors; k++) {
+        const heard_vector what = vector_of(slow, k);
+        heard_vector *v = is_wanted(h, &what) ? add(h, &what) : NULL;
+        if (!v || !v->known) continue;
+        if (v->pairs > HEARD_PAIRS_MAX) v->pairs = HEARD_PAIRS_MAX;
+        memcpy(v->dx, slow->dqx.data + (size_t)k * h->disks, h->disks * sizeof *v->dx);
+        memcpy(v->dy, slow->dqy.data + (size_t)k * h->disks, h->disks * sizeof *v->dy);
+    }
+}
+
+/* ---- averages -------------------------------------------------------------------------------- */
+
+void heard_spectrum(heard *h, const hdr_spectrum *spectrum)
+{
+    if (!is_ours(h, spectrum->run_id)) return;
+    double *exponents = replaced(h->exponents, NULL, spectrum->exponents.count * sizeof *exponents);
+    if (!exponents) return;
+    copy(exponents, &spectrum->exponents);
+    h->exponents = exponents;
+    h->exponents_count = spectrum->exponents.count;
+    h->averaged = spectrum->averaged_time;
+}
+
+void heard_steps(heard *h, const hdr_steps *steps)
+{
+    if (!is_ours(h, steps->run_id)) return;
+    hdr_step *own = replaced(h->steps.steps.data, steps->steps.data,
+                             steps->steps.count * sizeof *own);
+    if (!own) return;
+    h->steps = *steps;
+    h->steps.steps.data = own;
+}
+
+void heard_phases(heard *h, const hdr_lp_phases *phases)
+{
+    if (!is_ours(h, phases->run_id)) return;
+    hdr_lp_phase *own = replaced(h->phases.phases.data, phases->phases.data,
+                                 phases->phases.count * sizeof *own);
+    if (!own) return;
+    h->phases = *phases;
+    h->phases.phases.data = own;
+    h->changed |= phases->sim_time == h->time;
+}
+
+void heard_status(heard *h, const hdr_run_status *status)
+{
+    if (!is_ours(h, status->run_id)) return;
+    h->changed |= h->time >= 0.0 && h->stage != status->stage;
+    h->stage = status->stage;
+    h->progress = status->progress;
+}

@@ -1,0 +1,57 @@
+/** What a run has said last, kept beyond the callbacks in which it was heard: enough to draw it. */
+#ifndef HDLYAP_HEARD_H
+#define HDLYAP_HEARD_H
+
+#include <stdbool.h>
+
+#include "hdlyap_ros/messages.h"
+
+enum { HEARD_VECTORS_MAX = 64, HEARD_PAIRS_MAX = 4 };
+
+/** One Lyapunov vector, of slow_vectors or of fields. */
+typedef struct heard_vector {
+    uint8_t kind; /**< of its step, as in Mode, and where that lies */
+    uint32_t nx, ny, index;
+    double exponent;
+    uint32_t pairs; /**< of which a and b are known with the vector */
+    double a[HEARD_PAIRS_MAX], b[HEARD_PAIRS_MAX];
+    bool known;      /**< the vector itself: */
+    double *dx, *dy; /**< [N] each, in one block at dx */
+} heard_vector;
+
+typedef struct heard {
+    bool begun; /**< run_info is known: box, names and what follows */
+    char run_id[96], scene[64];
+    uint32_t disks;
+    double box[2];
+    bool periodic[2];
+    bool has_exponents, has_steps; /**< sooner or later, as the next two */
+    bool has_t, has_lp; /**< modes of these kinds: can be in the box, and are looked for */
+    uint8_t stage;
+    double progress;
+    double time, *x, *y; /**< of the picture; in one block at x; time is -1 before the first */
+    heard_vector vector[HEARD_VECTORS_MAX]; /**< of that time */
+    int vectors;
+    double *exponents, averaged;
+    uint32_t exponents_count;
+    hdr_steps steps; /**< of an own array, as the next */
+    hdr_lp_phases phases;
+    bool changed; /**< since the caller took that back: a picture would show something else */
+} heard;
+
+void heard_clear(heard *h); /**< frees; {0} before the first use */
+
+/* Each copies what is needed; what is of another run, or no memory is left for, is passed over. */
+
+/** True if a run begins, or begins again. */
+bool heard_run_info(heard *h, const hdr_run_info *info);
+void heard_slow_vectors(heard *h, const hdr_slow_vectors *slow);
+/** Positions, unless there are vectors: they have positions of their own. */
+void heard_state(heard *h, const hdr_state *state);
+void heard_mode_field(heard *h, const hdr_mode_field *field);
+void heard_spectrum(heard *h, const hdr_spectrum *spectrum);
+void heard_steps(heard *h, const hdr_steps *steps);
+void heard_phases(heard *h, const hdr_lp_phases *phases);
+void heard_status(heard *h, const hdr_run_status *status);
+
+#endif

@@ -1,0 +1,257 @@
+/** The pictures of a run from its topics, live or from a bag that is played: <node>/markers.
+ * rosrun hdlyap viewer [_node:=/hdlyap] [_modes:="T(1,0) LP(1,0)"] */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "compose.h"
+#include "draw.h"
+#include "hdlyap_ros/hdlyap_ros.h"
+
+enum { EXIT_REFUSED = 2, EXIT_NO_MEMORY = 3, QUEUE = 1000, TOPIC_SIZE = 300 };
+
+/** How often it is seen who looks, and who publishes [s]. */
+static const double poll_seconds = 0.1;
+/** As long as this nobody may look before the topics are left alone: rviz takes its time to open.
+ */
+static const double patience_seconds = 10.0;
+
+/** What is listened to, and freed, together. */
+enum { AVERAGES, STAND_INS, SUBSCRIBERS_MAX = 4 };
+
+typedef struct viewer {
+    hdr_node *ros;
+    const char *node; /**< whose topics */
+    mode_choice modes;
+    heard said; /**< of the callbacks' thread, as the next two */
+    canvas *on;
+    hdr_publisher *markers;
+    hdr_subscriber *slow;
+    /** Of averages; and of state and fields, which a bag has in place of slow_vectors */
+    hdr_subscriber *others[2][SUBSCRIBERS_MAX];
+    double seen; /**< when somebody looked last */
+} viewer;
+
+/* ---- callbacks ----------------------------------------------------------------------------- */
+
+static void show(viewer *v)
+{
+    hdr_markers markers;
+    if (!v->said.begun || v->said.time < 0.0 || !v->said.changed) return;
+    v->said.changed = false;
+    const picture p = compose(&v->said, &v->modes);
+    if (!draw(v->on, &markers, &p, "box"))
+        hdr_log(HDR_ERROR, "t = %g not drawn: out of memory", p.time);
+    else if (hdr_markers_publish(v->markers, &markers) != HDR_OK)
+        hdr_log(HDR_ERROR, "picture not sent: %s", hdr_error_text());
+}
+
+static bool is_looked_for(const hdr_run_info *info, const mode_name *name)
+{
+    for (uint32_t k = 0; k < info->wave_nx.count && k < info->wave_ny.count; k++)
+        if (info->wave_nx.data[k] == name->nx && info->wave_ny.data[k] == name->ny) return true;
+    return false;
+}
+
+static void on_run_info(void *context, const hdr_run_info *info)
+{
+    viewer *v = context;
+    if (!heard_run_info(&v->said, info)) return;
+    for (int k = 0; k < v->modes.count; k++)
+        if (!is_looked_for(info, &v->modes.mode[k]))
+            hdr_log(HDR_WARN,
+                    "modes: no wave (%u,%u) is looked for in %s (its max_node, max_wave_number)",
+                    (unsigned)v->modes.mode[k].nx, (unsigned)v->modes.mode[k].ny, info->scene);
+}
+
+static void on_slow_vectors(void *context, const hdr_slow_vectors *slow)
+{
+    viewer *v = context;
+    heard_slow_vectors(&v->said, slow);
+    show(v);
+}
+
+static void on_state(void *context, const hdr_state *state)
+{
+    heard_state(&((viewer *)context)->said, state);
+}
+
+static void on_field(void *context, const hdr_mode_field *field)
+{
+    heard_mode_field(&((viewer *)context)->said, field);
+}
+
+static void on_spectrum(void *context, const hdr_spectrum *spectrum)
+{
+    heard_spectrum(&((viewer *)context)->said, spectrum);
+}
+
+static void on_steps(void *context, const hdr_steps *steps)
+{
+    heard_steps(&((viewer *)context)->said, steps);
+}
+
+static void on_phases(void *context, const hdr_lp_phases *phases)
+{
+    heard_phases(&((viewer *)context)->said, phases);
+}
+
+/** The last message of a report. */
+static void on_status(void *context, const hdr_run_status *status)
+{
+    viewer *v = context;
+    heard_status(&v->said, status);
+    show(v);
+}
+
+/* ---- topics -------------------------------------------------------------------------------- */
+
+/** Of the node, by its name; valid until the next one. */
+static const char *topic(const viewer *v, const char *name)
+{
+    static char text[TOPIC_SIZE];
+    snprintf(text, sizeof text, "%s/%s", v->node, name);
+    return text;
+}
+
+static hdr_status hear_averages(viewer *v)
+{
+    hdr_subscriber **s = v->others[AVERAGES];
+    hdr_status status = hdr_spectrum_subscribe(&s[0], v->ros, topic(v, "spectrum"), QUEUE,
+                                               on_spectrum, v);
+    if (status == HDR_OK)
+        status = hdr_steps_subscribe(&s[1], v->ros, topic(v, "steps"), QUEUE, on_steps, v);
+    if (status == HDR_OK)
+        status = hdr_run_status_subscribe(&s[2], v->ros, topic(v, "status"), QUEUE, on_status, v);
+    if (status == HDR_OK)
+        status = hdr_slow_vectors_subscribe(&v->slow, v->ros, topic(v, "slow_vectors"), 1,
+                                            on_slow_vectors, v);
+    return status;
+}
+
+static hdr_status hear_stand_ins(viewer *v)
+{
+    hdr_subscriber **s = v->others[STAND_INS];
+    hdr_status status = hdr_state_subscribe(&s[0], v->ros, topic(v, "state"), QUEUE, on_state, v);
+    if (status == HDR_OK)
+        status = hdr_lp_phases_subscribe(&s[1], v->ros, topic(v, "lp_phases"), QUEUE, on_phases, v);
+    if (status == HDR_OK)
+        status = hdr_mode_field_subscribe(&s[2], v->ros, topic(v, "fields"), QUEUE, on_field, v);
+    return status;
+}
+
+static void hear_no_more(hdr_subscriber **group)
+{
+    for (int k = 0; k < SUBSCRIBERS_MAX; k++) {
+        hdr_subscriber_free(group[k]);
+        group[k] = NULL;
+    }
+}
+
+/** Listens while somebody looks: a node works for whoever listens. Of fields in particular, where
+ * there are slow_vectors. */
+static hdr_status follow(viewer *v, double now)
+{
+    hdr_status status = HDR_OK;
+    if (hdr_publisher_subscribers(v->markers) > 0) v->seen = now;
+    const bool wanted = now - v->seen < patience_seconds;
+    if (wanted && !v->slow) status = hear_averages(v);
+    if (!wanted && v->slow) {
+        hear_no_more(v->others[AVERAGES]);
+        hdr_subscriber_free(v->slow);
+        v->slow = NULL;
+    }
+    const bool live = v->slow && hdr_subscriber_publishers(v->slow) > 0;
+    const bool stand_in = wanted && !live, stands_in = v->others[STAND_INS][0];
+    if (stand_in && !stands_in && status == HDR_OK) status = hear_stand_ins(v);
+    if (!stand_in && stands_in) hear_no_more(v->others[STAND_INS]);
+    return status;
+}
+
+static double seconds_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static hdr_status look_after(viewer *v)
+{
+    hdr_subscriber *info; /* the node's, until its end */
+    hdr_status status = hdr_markers_advertise(&v->markers, v->ros, topic(v, "markers"));
+    if (status == HDR_OK) status = hdr_frame_publish(v->ros, "world", "box");
+    if (status == HDR_OK)
+        status = hdr_run_info_subscribe(&info, v->ros, topic(v, "run_info"), QUEUE, on_run_info, v);
+    v->seen = seconds_now();
+    while (status == HDR_OK) {
+        status = follow(v, seconds_now());
+        if (!hdr_node_wait(poll_seconds)) break;
+    }
+    return status;
+}
+
+/* ---- parameters ---------------------------------------------------------------------------- */
+
+static bool refuse(const hdr_params *params, const char *name, const char *allowed)
+{
+    hdr_log(HDR_FATAL, "%s = %s: must be %s", name, hdr_param_text(params, name), allowed);
+    return false;
+}
+
+static bool read_node(viewer *v, const hdr_params *params)
+{
+    const hdr_status status = hdr_param_string(params, "node", &v->node);
+    if (status != HDR_MISSING &&
+        (status != HDR_OK || *v->node != '/' || strlen(v->node) > TOPIC_SIZE / 2))
+        return refuse(params, "node", "the name of a node with its namespace, such as /hdlyap");
+    return true;
+}
+
+/** False unless the text is of 1 to PICTURE_MODES_MAX names, with spaces between. */
+static bool parse_modes(mode_choice *modes, const char *text)
+{
+    char name[16];
+    int end = 0;
+    for (; sscanf(text, "%15s%n", name, &end) == 1; text += end)
+        if (modes->count == PICTURE_MODES_MAX ||
+            !mode_name_parse(&modes->mode[modes->count++], name))
+            return false;
+    return modes->count > 0;
+}
+
+static bool read_modes(mode_choice *modes, const hdr_params *params)
+{
+    const char *text = NULL;
+    const hdr_status status = hdr_param_string(params, "modes", &text);
+    if (status == HDR_MISSING || (status == HDR_OK && strcmp(text, "lowest") == 0)) return true;
+    return (status == HDR_OK && parse_modes(modes, text)) ||
+           refuse(params, "modes",
+                  "lowest or 1 to 8 names such as T(1,0) LP(1,1), with spaces between");
+}
+
+static bool read_parameters(viewer *v, const hdr_params *params)
+{
+    static const char *const known[] = {"node", "modes", NULL};
+    const char *unknown = hdr_params_unknown(params, known);
+    if (unknown) return refuse(params, unknown, "removed: there is no parameter of this name");
+    return read_node(v, params) && read_modes(&v->modes, params);
+}
+
+int main(int argc, char **argv)
+{
+    hdr_params *params = NULL;
+    viewer v = {.node = "/hdlyap", .said = {.time = -1.0}};
+    hdr_status status = hdr_node_create(&v.ros, &argc, argv, "viewer", 1.0, EXIT_NO_MEMORY);
+    if (status == HDR_OK && !v.ros) return 0; /* stopped before there was a master */
+    if (status == HDR_OK) status = hdr_params_create(&params, v.ros);
+    const bool refused = status == HDR_OK && !read_parameters(&v, params);
+    if (status == HDR_OK && !refused && !canvas_create(&v.on)) status = HDR_NO_MEMORY;
+    if (status == HDR_OK && !refused) status = look_after(&v);
+    if (status != HDR_OK) hdr_log(HDR_FATAL, "%s", hdr_error_text());
+    hdr_node_free(v.ros, 1.0); /* after this no callback runs */
+    hdr_params_free(params);
+    canvas_free(v.on);
+    heard_clear(&v.said);
+    return refused ? EXIT_REFUSED : status == HDR_OK ? 0 : EXIT_NO_MEMORY;
+}

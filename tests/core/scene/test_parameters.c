@@ -1,0 +1,106 @@
+/** The rows of a scene's parameters: each says the same thing once in numbers and once in words,
+ * and none is missing. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "hdlyap/parameters.h"
+#include "testing.h"
+
+static size_t size_of(const hd_parameter *row)
+{
+    const bool wide = row->kind == HD_PARAMETER_REAL || row->kind == HD_PARAMETER_INTERVAL ||
+                      row->kind == HD_PARAMETER_SEED;
+    return wide ? 8 : sizeof(int);
+}
+
+/** Every byte of a definition belongs to one row, but for what alignment leaves free. */
+static void each_member_has_a_row(void **state)
+{
+    (void)state;
+    unsigned char rows_of[sizeof(hd_scene_def)] = {0};
+    int count;
+    size_t free_bytes = 0;
+    const hd_parameter *rows = hd_scene_parameters(&count);
+    for (int k = 0; k < count; k++)
+        for (size_t byte = 0; byte < size_of(&rows[k]); byte++) rows_of[rows[k].offset + byte]++;
+    for (size_t byte = 0; byte < sizeof rows_of; byte++) {
+        assert_true(rows_of[byte] <= 1);
+        free_bytes = rows_of[byte] ? 0 : free_bytes + 1;
+        assert_true(free_bytes < sizeof(int) + 1);
+    }
+}
+
+static void names_and_words_are_there_once(void **state)
+{
+    (void)state;
+    int count;
+    const hd_parameter *rows = hd_scene_parameters(&count);
+    for (int k = 0; k < count; k++) {
+        const hd_parameter *row = &rows[k];
+        assert_true(*row->name && *row->allowed && *row->text && row->unit);
+        assert_true(strlen(row->record) < 40); /* room in a checkpoint */
+        assert_string_equal(row->record + strlen("scene "), row->name);
+        for (int other = 0; other < k; other++)
+            assert_string_not_equal(rows[other].name, row->name);
+        for (const hd_parameter_word *w = row->words; w && w->word; w++) {
+            int value = 12345;
+            assert_non_null(strstr(row->allowed, w->word));
+            assert_true(hd_parameter_value_of(&value, row, w->word));
+            assert_int_equal(value, w->value);
+            assert_string_equal(hd_parameter_word_of(row, value), w->word);
+        }
+        assert_false(hd_parameter_value_of(&(int){0}, row, "nothing"));
+    }
+}
+
+/** "from A .. to B": in words as in numbers. */
+static void ranges_are_said_in_words(void **state)
+{
+    (void)state;
+    int count, said = 0;
+    const hd_parameter *rows = hd_scene_parameters(&count);
+    for (int k = 0; k < count; k++) {
+        const hd_parameter *row = &rows[k];
+        const char *from = strstr(row->allowed, "from "), *to = from ? strstr(from, " to ") : NULL;
+        if (!to || row->kind == HD_PARAMETER_SEED || row->kind == HD_PARAMETER_EXPONENTS) continue;
+        char *end;
+        const double most = strtod(to + 4, &end);
+        CHECK_CLOSE(strtod(from + 5, NULL), row->least, 0.0);
+        if (strcmp(row->name, "density") == 0)
+            CHECK_CLOSE(2.0 / sqrt(3.0), row->most, 0.0);
+        else if (end != to + 4) /* a number */
+            CHECK_CLOSE(most, row->most, 0.0);
+        said++;
+    }
+    assert_true(said > 12);
+}
+
+static void defaults_are_in_range_and_values_come_back(void **state)
+{
+    (void)state;
+    int count;
+    const hd_parameter *rows = hd_scene_parameters(&count);
+    const hd_scene_def usual = hd_scene_def_default();
+    for (int k = 0; k < count; k++) {
+        const hd_parameter *row = &rows[k];
+        const bool automatic = row->kind == HD_PARAMETER_INTERVAL && row->usual == 0.0;
+        hd_scene_def def = usual;
+        CHECK_CLOSE(hd_parameter_value(row, &usual), row->usual, 0.0);
+        assert_true(automatic || (row->usual >= row->least && row->usual <= row->most));
+        hd_parameter_assign(row, &def, row->kind == HD_PARAMETER_SEED ? 1e15 : row->most);
+        assert_int_equal(memcmp(&def, &usual, row->offset), 0);
+        hd_parameter_assign(row, &def, row->usual);
+        assert_memory_equal(&def, &usual, sizeof def);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_member_has_a_row),
+        cmocka_unit_test(names_and_words_are_there_once),
+        cmocka_unit_test(ranges_are_said_in_words),
+        cmocka_unit_test(defaults_are_in_range_and_values_come_back),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""What doc/reference.md and launch/scenes/paper_periodic.yaml repeat of the sources: parameters,
+launch arguments and message fields.
+
+reference.py --write puts them there; test_documents.py says when that is due. The parameters are
+those of the node that ROS finds."""
+
+import os
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+
+import roslib.packages
+
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..'))
+REFERENCE = 'doc/reference.md'
+SCENE = 'launch/scenes/paper_periodic.yaml'
+# parameters of that scene that are not as usual
+OWN = 'warmup', 'duration'
+
+
+def read(*path):
+    with open(os.path.join(ROOT, *path)) as file:
+        return file.read()
+
+
+def listed(folder, suffix):
+    return sorted(name for name in os.listdir(os.path.join(ROOT, folder)) if name.endswith(suffix))
+
+
+def table(titles, rows):
+    lines = [titles, ['---'] * len(titles), *rows]
+    return ''.join('| ' + ' | '.join(line) + ' |\n' for line in lines)
+
+
+def escaped(text):
+    return text.replace('|', r'\|').replace('*', r'\*').replace('<', '&lt;')
+
+
+def code(text):
+    return '`' + text.replace('|', r'\|') + '`' if text else 'empty'
+
+
+def launch_arguments():
+    """Each file, and its arguments that can be given."""
+    sections = []
+    for name in listed('launch', '.launch'):
+        rows = [
+            [code(arg.get('name')), code(arg.get('default')), escaped(arg.get('doc', ''))]
+            for arg in ElementTree.fromstring(read('launch', name)).findall('arg')
+            if arg.get('value') is None
+        ]
+        sections.append(f'### {name}\n\n' + table(['argument', 'default', 'what'], rows))
+    return '\n'.join(sections)
+
+
+def message_fields():
+    sections = []
+    for name in listed('msg', '.msg'):
+        head, rows = [], []
+        for line in read('msg', name).splitlines():
+            found = re.match(r'(\S+)\s+(\w+)(?:\s*=\s*(\S+))?\s*(?:#\s*(.*))?$', line)
+            if line.startswith('#'):
+                head.append(line[1:].strip())
+            elif found:
+                kind, field, value, what = found.groups()
+                kind += ' = ' + value if value is not None else ''
+                rows.append([code(field), code(kind), escaped(what or '')])
+        text = escaped(' '.join(head))
+        sections.append(f'### {name[:-4]}\n\n{text}\n\n' + table(['field', 'type', 'what'], rows))
+    return '\n'.join(sections)
+
+
+def node_says(option):
+    node = roslib.packages.find_node('hdlyap', 'hdlyap_node')[0]
+    return subprocess.run([node, option], check=True, text=True, stdout=subprocess.PIPE).stdout
+
+
+def parameter_table():
+    return node_says('--parameters=table')
+
+
+def scene_written(scene):
+    """The scene file as it follows from the parameters: but for its head and its own values."""
+    rows = node_says('--parameters').split('\n\n', 1)[1]
+    for name in OWN:
+        own = re.search(r'(?m)^%s: .*$' % name, scene).group()
+        rows = re.sub(r'(?m)^%s: .*$' % name, own, rows)
+    return scene.split('\n\n', 1)[0] + '\n\n' + rows
+
+
+SECTIONS = {
+    'hdlyap_node --parameters=table': parameter_table,
+    'launch/*.launch': launch_arguments,
+    'msg/*.msg': message_fields,
+}
+
+
+def written(document):
+    """The document with these sections as they follow from the sources."""
+    for source, section in SECTIONS.items():
+        begin, end = f'<!-- of {source} -->\n', f'<!-- end of {source} -->\n'
+        before, rest = document.split(begin)
+        after = rest.split(end)[1]
+        document = before + begin + '\n' + section() + '\n' + end + after
+    return document
+
+
+if __name__ == '__main__':
+    if sys.argv[1:] != ['--write']:
+        sys.exit(__doc__)
+    for path, follows in ((REFERENCE, written), (SCENE, scene_written)):
+        text = follows(read(path))
+        with open(os.path.join(ROOT, path), 'w') as file:
+            file.write(text)
