@@ -236,8 +236,7 @@ class Parameters(unittest.TestCase):
         )
 
     def test_every_parameter_is_refused(self):
-        """Above, or by a value that is never its type."""
-        self.assertLessEqual(set(harness.defaults()), set(BAD))
+        """With a value of a type that none has."""
         self.check_refused(
             [(name + ' = ', '', dict(SHORT, **{name: [[1]]}), []) for name in harness.defaults()]
         )

@@ -1,4 +1,4 @@
-/** See parameters_text.h. */
+/** Rows -> text. */
 #include "parameters_text.h"
 
 #include <stdio.h>
@@ -10,13 +10,9 @@
 enum { LINE_WIDTH = 100 };
 
 static const char *const head =
-    "Every parameter of hdlyap_node, with its default. "
-    "Reduced units throughout: disk mass 1, disk diameter sigma = 1, kinetic energy per disk 1; "
-    "the "
-    "time unit follows from these. All parameters are private to the node and checked before it "
-    "starts: an unknown name, a wrong type, a value out of range or a combination that cannot "
-    "exist "
-    "ends it with one line and exit status 2. YAML reads 1e-8 as a string, which is taken too.";
+    "Every parameter of hdlyap_node, with its default. Reduced units: disk mass 1, disk diameter "
+    "sigma = 1, kinetic energy per disk 1; the time unit follows from these. YAML reads 1e-8 as a "
+    "string, which is taken too.";
 
 /** A comment of several lines. */
 static void print_comment(const char *text)
