@@ -248,15 +248,14 @@ ros_lane() {
     either_lane
 }
 
-# What needs both builds, the longest first. Demo and reproduce use one folder: one after the other.
+# What needs both builds, the longest first. Demo and reproduce build in one folder: one after the other.
 either_lane() {
     first checked checks "$ROOT/tests/checked.sh" "$WORK/checked" "$WORK/core" "$WORK/ros"
     first readme checks "$ROOT/tests/readme.sh" "$WORK/readme" "$WORK/ros/.install/setup.bash"
-    first demo checks "$ROOT/tests/demo.sh" "$WORK/demo"
+    first demo checks flock -o "$TAKEN.build" "$ROOT/tests/demo.sh" "$WORK/demo"
     first downstream checks downstream
     first plot_tests unittest plot_tests
-    until has_reported demo; do sleep 1; done
-    first reproduce checks "$ROOT/tests/reproduce.sh" "$WORK/reproduce"
+    first reproduce checks flock -o "$TAKEN.build" "$ROOT/tests/reproduce.sh" "$WORK/reproduce"
     first lint one lint
     [[ $(clang-format --version) != *' 14.'* ]] || first format one format
     first doxygen one public_headers

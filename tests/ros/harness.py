@@ -78,14 +78,14 @@ def free_port():
         return s.getsockname()[1]
 
 
-def wait_until(condition, seconds=PATIENCE):
+def wait_until(condition, seconds=PATIENCE, every=0.01):
     """The condition's value, as soon as it is true, at the latest after so many seconds."""
     end = time.monotonic() + seconds
     while True:
         value = condition()  # looked at once: it may be true for a moment only
         if value or time.monotonic() >= end:
             return value
-        time.sleep(0.01)
+        time.sleep(every)
 
 
 class Process:

@@ -10,7 +10,11 @@ import reference
 from reference import REFERENCE, ROOT, listed, read
 
 NODE = 'hdlyap_ros/src/node'
-TABLES = {'topic': 'README.md', 'header': 'doc/wrapper.md'}  # the others are in REFERENCE
+TABLES = {
+    'topic': 'README.md',
+    'header': 'doc/wrapper.md',
+    'folder': 'doc/core.md',
+}  # the others are in REFERENCE
 # messages of others that hdlyap publishes
 FOREIGN = {'Diagnostic': 'diagnostic_msgs/DiagnosticArray'}
 ALWAYS = {'run_info', 'status', 'cost', 'slow_vectors'}  # topics that are no observables
@@ -134,8 +138,19 @@ class Tables(unittest.TestCase):
                     name,
                 )
 
-    def test_headers(self):
-        """Of the wrapper, with what is in them; messages.h is made at build time."""
+    def test_headers_of_the_core(self):
+        said = [
+            name
+            for cells in table('folder').values()
+            for name in re.findall(r'`(\w+\.h)`', cells[1])
+        ]
+        headers = listed('hdlyap_core/include/hdlyap', '.h')
+        self.assertEqual(sorted(said + ['hdlyap.h']), headers)
+        folders = {path.split('/')[2] for path in files(r'^hdlyap_core/src/')}
+        self.assertEqual({name.strip('/') for name in table('folder')}, folders)
+
+    def test_headers_of_the_wrapper(self):
+        """With what is in them; messages.h is made at build time."""
         folder = 'hdlyap_ros/include/hdlyap_ros'
         rows = table('header')
         self.assertEqual(set(rows) - {'messages.h'}, set(listed(folder, '.h')) - {'hdlyap_ros.h'})

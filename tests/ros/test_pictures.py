@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""~slow_vectors and the pictures that the viewer makes of topics: what is drawn is what is published,
-only while somebody looks, as often as asked; live and from what was recorded."""
+"""~slow_vectors and the pictures that the viewer makes of topics: what is drawn is what is
+published, only while somebody looks, as often as asked; live and from what was recorded."""
 
 import glob
 import re
@@ -164,7 +164,8 @@ class Markers(unittest.TestCase):
         self.assertGreater(coefficients, 20)
 
     def test_the_same_from_messages(self):
-        """What the viewer makes of a recorded run is what it drew of it live, at the times of fields."""
+        """What the viewer makes of a recorded run is what it drew of it live, at the times of
+        fields."""
         topics = ('run_info', 'state', 'spectrum', 'steps', 'lp_phases', 'fields', 'cost')
         listeners = {topic: Listener(topic) for topic in topics}
         live = self.look()
@@ -262,7 +263,8 @@ class Markers(unittest.TestCase):
         return [name for name in dict(state).get('/hdlyap/' + topic, ()) if name == '/viewer']
 
     def test_the_node_works_for_who_looks(self):
-        """A live node has no fields to make for the viewer, and nothing at all soon after nobody looks any more."""
+        """A live node has no fields to make for the viewer, and nothing at all soon after nobody
+        looks any more."""
         pictures = self.look()
         self.start(dict(ENDLESS, pace=10.0))
         self.assertTrue(harness.wait_until(lambda: pictures.all))

@@ -36,6 +36,7 @@ LONG = dict(TINY, full=dict(duration=1e6))
 # seconds within which all has ended that was asked to, on a busy machine: roslaunch alone takes up
 # to 17
 SOON = 90.0
+LOOK = 0.1  # seconds between two looks at all processes, each of which takes some ms
 LATEST = 240.0  # that some runs of a second take there
 
 
@@ -115,11 +116,13 @@ class Reproduce(unittest.TestCase):
                 os.kill(pid, signal.SIGKILL)
 
     def assert_none_left(self):
-        self.assertTrue(wait_until(lambda: not self.ours(), SOON), self.ours())
+        self.assertTrue(wait_until(lambda: not self.ours(), SOON, LOOK), self.ours())
 
     def await_averaging(self, process, count=1):
         """So many nodes have said something of their runs."""
-        wait_until(lambda: len(self.ours('hdlyap_node')) >= count or not process.running())
+        wait_until(
+            lambda: len(self.ours('hdlyap_node')) >= count or not process.running(), every=LOOK
+        )
         self.assertTrue(process.running(), process.text())
         time.sleep(1.5)
 
@@ -271,7 +274,8 @@ class Reproduce(unittest.TestCase):
         names = ('node', 'launch')
         self.assertTrue(
             wait_until(
-                lambda: all(self.ours('hdlyap_node', 'ROS_NAMESPACE=/' + name) for name in names)
+                lambda: all(self.ours('hdlyap_node', 'ROS_NAMESPACE=/' + name) for name in names),
+                every=LOOK,
             )
         )
         time.sleep(1.5)

@@ -60,7 +60,7 @@ static void enskog_with_henderson(void **state)
         const double eta = PI * density[k] / 4.0;
         const double contact = (1.0 - 7.0 * eta / 16.0) / ((1.0 - eta) * (1.0 - eta));
         const double enskog = 2.0 * sqrt(PI) * density[k] * contact;
-        const estimate rate = rate_per_disk(&def, HD_SANITIZED ? 2e5 : 5e5);
+        const estimate rate = rate_per_disk(&def, 5e5);
         assert_true(Z * rate.error < 0.5 * allowed * enskog); /* else the test says nothing */
         CHECK_CLOSE(rate.mean, enskog, allowed * enskog);
     }
