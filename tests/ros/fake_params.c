@@ -62,10 +62,11 @@ static void take_text(source *s, char text[TEXT_MAX])
 /* ---- values -------------------------------------------------------------------------------- */
 
 static const char *const WORDS[] = {
-    "periodic", "reflecting", "positive", "all",   "none",    "auto",    "steps",     "run_info",
-    "spectrum", "modes",      "fields",   "hydro", "state",   "cost",    "lp_phases", "covariant",
-    "",         "0",          "-1",       "1e-6",  "nan",     "inf",     "0x10",      "1e999",
-    "true",     "[1]",        "a\nb",     "%s%n",  "../../x", "\x1b[2J", " 1",        "\xff\xfe",
+    "periodic", "reflecting", "positive",  "all",    "none",     "auto",  "steps",
+    "run_info", "spectrum",   "modes",     "fields", "hydro",    "state", "status",
+    "cost",     "lp_phases",  "covariant", "",       "0",        "-1",    "1e-6",
+    "nan",      "inf",        "0x10",      "1e999",  "true",     "[1]",   "a\nb",
+    "%s%n",     "../../x",    "\x1b[2J",   " 1",     "\xff\xfe",
 };
 static const int INTEGERS_AT[] = {0,    1,    2,       3,  10,      37,     100,
                                   1024, 1025, 1000000, -1, INT_MAX, INT_MIN};

@@ -26,6 +26,7 @@ from hdlyap.msg import (
     ModeField,
     Modes,
     RunInfo,
+    RunStatus,
     SlowVectors,
     Spectrum,
     State,
@@ -47,9 +48,10 @@ TYPES = dict(
     fields=ModeField,
     hydro=Hydro,
     state=State,
+    status=RunStatus,
     cost=Cost,
 )
-OBSERVABLES = [topic for topic in TYPES if topic not in ('run_info', 'cost')]
+OBSERVABLES = [topic for topic in TYPES if topic not in ('run_info', 'status', 'cost')]
 PATIENCE = 60.0  # seconds, for what has no bound of its own
 
 
@@ -205,13 +207,20 @@ class Listener:
         self.subscriber.unregister()
 
 
+def is_last(status):
+    """Whether it is the last one of a run."""
+    return status.stage == RunStatus.FINISHED
+
+
 def whole_run(params, topics):
     """All messages of a run that ends by itself, {topic: messages}; cost is among the topics."""
-    listeners = {topic: Listener(topic) for topic in topics}
+    listeners = {topic: Listener(topic) for topic in ('status', *topics)}
     node = start(params)
     try:
         status = node.wait()
-        listeners['cost'].wait_for(lambda cost: cost.phase == Cost.FINISHED)
+        listeners['status'].wait_for(is_last)
+        end = listeners['status'].messages[-1].sim_time
+        listeners['cost'].wait_for(lambda cost: cost.sim_time == end)
     finally:
         node.stop()
         for listener in listeners.values():

@@ -17,6 +17,7 @@ from hdlyap.msg import (
     LpPhases,
     ModeField,
     RunInfo,
+    RunStatus,
     Spectrum,
     Step,
     Steps,
@@ -31,6 +32,7 @@ VELOCITY = 1.6
 TOPICS = {
     RunInfo: 'run_info',
     Spectrum: 'spectrum',
+    RunStatus: 'status',
     Cost: 'cost',
     Steps: 'steps',
     LpPhases: 'lp_phases',
@@ -93,13 +95,19 @@ def cost(sim_time, run_id='one'):
     return Cost(
         run_id=run_id,
         sim_time=sim_time,
-        phase=Cost.AVERAGING,
         wall_seconds=sim_time,
         events_seconds=0.1 * sim_time,
         replay_seconds=0.2 * sim_time,
         ortho_seconds=0.55 * sim_time,
         modes_seconds=0.05 * sim_time,
     )
+
+
+def status(sim_time, run_id='one', **fields):
+    message = RunStatus(run_id=run_id, sim_time=sim_time, stage=RunStatus.AVERAGING)
+    for name, value in fields.items():
+        setattr(message, name, value)
+    return message
 
 
 def wave_number(info, nx, ny):
@@ -231,21 +239,21 @@ def covariant(exponents, run_id='one', error=0.01, **fields):
         sim_time=350.0,
         averaged_time=200.0,
         windows=4,
-        looks=40,
+        samples=40,
         seconds=12.5,
         first_index=1,
         exponents=exponents,
         std_errors=[error] * n,
         local_exponents=np.add(exponents, 0.1),
-        apart=[1e-9] * n,
+        start_mismatch=[1e-9] * n,
         neighbour_angles=[0.7] * (n - 1),
         least_neighbour_angles=[0.2] * (n - 1),
         violations=[0.25] * (n - 1),
-        entangled=[0.5] * (n - 1),
+        domination_violations=[0.5] * (n - 1),
         widths=[0.4] * n,
         cos_theta=[0.6] * n,
-        centre_apart=-1.0,
-        stable_apart=-1.0,
+        centre_start_mismatch=-1.0,
+        stable_start_mismatch=-1.0,
         null_angle=-1.0,
         largest_null_angle=-1.0,
     )
@@ -376,6 +384,7 @@ def small_run():
         for message in (
             spectrum(exponents, t),
             steps([*found, zero_modes()], t),
+            status(100 + t),
             cost(100 + t),
             lp_phases(info, found, 100 + t, began=100, rng=rng),
         )

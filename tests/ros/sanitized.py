@@ -17,7 +17,7 @@ import rospy
 from std_srvs.srv import SetBool, Trigger
 
 import harness
-from harness import Cost
+from harness import RunStatus
 
 # all that there is to compute; and what takes valgrind a short time
 WHOLE = dict(
@@ -54,22 +54,23 @@ def expect(node, condition):
 
 def lead(node, listeners):
     """Through all that it can be asked for."""
-    cost = listeners['cost'].messages
-    expect(node, lambda: cost and cost[-1].phase == Cost.AVERAGING)
+    said = listeners['status'].messages
+    expect(node, lambda: said and said[-1].stage == RunStatus.AVERAGING)
     call('pause', SetBool, True)
     call('pause', SetBool, False)
     call('reset_average', Trigger)
     call('checkpoint', Trigger)
     expect(node, lambda: all(listener.messages for listener in listeners.values()))
     listeners['state'].close()
-    count = len(cost)
-    expect(node, lambda: len(cost) > count + 2)
+    count = len(said)
+    expect(node, lambda: len(said) > count + 2)
 
 
 def live(command, params, stopped=False):
     """Exit status of a node that is stopped, or that comes to its end by itself."""
     listeners = {
-        topic: harness.Listener(topic) for topic in params['observables'] + ['run_info', 'cost']
+        topic: harness.Listener(topic)
+        for topic in params['observables'] + ['run_info', 'status', 'cost']
     }
     # its own libraries, not those of the build whose messages are used here
     libraries = os.path.dirname(os.path.dirname(command[-1]))
@@ -78,7 +79,7 @@ def live(command, params, stopped=False):
         lead(node, listeners)
         if stopped:
             node.send(signal.SIGINT)
-        expect(node, lambda: listeners['cost'].messages[-1].phase == Cost.FINISHED)
+        expect(node, lambda: harness.is_last(listeners['status'].messages[-1]))
         return node.wait(PATIENCE)
     finally:
         node.stop()

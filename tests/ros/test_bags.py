@@ -48,7 +48,10 @@ BULKY = dict(
     observables=['spectrum', 'state'],
     wait_for_subscribers='all',
 )
-PROBED = {'fields': 'mode_field'}  # of topics that the probe knows by another name
+PROBED = {
+    'fields': 'mode_field',
+    'status': 'run_status',
+}  # of topics that the probe knows by another name
 
 
 def program(name):
@@ -137,7 +140,7 @@ class Recorded(unittest.TestCase):
         topics = [
             topic
             for topic in TYPES
-            if topic in ('run_info', 'cost') or topic in params['observables']
+            if topic in ('run_info', 'status', 'cost') or topic in params['observables']
         ]
         assert harness.wait_until(lambda: not node.running() or is_recorded(node, topics))
         cls.heard = Raw(['/hdlyap/' + topic for topic in TYPES])
@@ -167,7 +170,7 @@ class Recorded(unittest.TestCase):
     def test_first_report(self):
         """The runs have waited for the recorder."""
         for number in (0, 1):
-            for topic in ('state', 'cost'):
+            for topic in ('state', 'status', 'cost'):
                 self.assertEqual(self.of_run(topic, number)[0].sim_time, 1.0)
 
     def test_fields_come_now_and_then(self):
@@ -315,7 +318,8 @@ def expected_sizes(disks, vectors, steps, phases):
         lp_phases=begin + 4 + 4 + 74 * phases,
         fields=begin + 29 + 8 * 4 + 64 * disks + 4 + 3 * 4 + 8 + 6 * 4,
         state=begin + 8 + 4 * 4 + 32 * disks,
-        cost=begin + 162,
+        status=begin + 1 + 3 * 8,
+        cost=begin + 137,
     )
 
 

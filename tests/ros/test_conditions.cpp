@@ -28,7 +28,7 @@ error_trend trend_of(double (*error)(double))
     return trend;
 }
 
-TEST(ErrorCourse, HealthyFalls)
+TEST(ErrorTrend, HealthyFalls)
 {
     error_at since;
     const error_trend trend = trend_of([](double t) { return 1 / std::sqrt(t); });
@@ -37,7 +37,7 @@ TEST(ErrorCourse, HealthyFalls)
     EXPECT_LT(trend.last.time, 33 * since.time);
 }
 
-TEST(ErrorCourse, StallsAndFallsAgain)
+TEST(ErrorTrend, StallsAndFallsAgain)
 {
     error_at since;
     const error_trend trend = trend_of([](double t) { return t < 250 ? 1 / std::sqrt(t) : 0.3; });
@@ -47,7 +47,7 @@ TEST(ErrorCourse, StallsAndFallsAgain)
     EXPECT_FALSE(error_trend_stalled(&again, &since));
 }
 
-TEST(ErrorCourse, SaysNothingTooEarly)
+TEST(ErrorTrend, SaysNothingTooEarly)
 {
     error_at since;
     error_trend trend = {};
@@ -123,6 +123,25 @@ TEST(Backlog, NobodyListens)
     backlog.add({}, 1.0);
     EXPECT_TRUE(backlog.empty());
     EXPECT_EQ(backlog.lag(100.0).seconds, 0.0);
+}
+
+/** Of a latched topic somebody keeps the newest message. */
+TEST(Backlog, Latched)
+{
+    hdr_backlog backlog(true);
+    hdr_backlog::buffer kept(new uint8_t[1]);
+    backlog.add(kept, 1.0);
+    EXPECT_TRUE(backlog.empty());
+    hdr_backlog::buffer waiting = kept; /* for one who comes late */
+    EXPECT_FALSE(backlog.empty());
+    kept.reset(new uint8_t[1]);
+    backlog.add(kept, 2.0);
+    EXPECT_TRUE(backlog.empty());
+    waiting = kept;
+    EXPECT_FALSE(backlog.empty());
+    EXPECT_EQ(backlog.lag(5.0).seconds, 3.0);
+    waiting.reset();
+    EXPECT_TRUE(backlog.empty());
 }
 
 TEST(Backlog, TakenAtOnce)

@@ -12,7 +12,7 @@ import rostest
 from std_srvs.srv import Trigger
 
 import harness
-from harness import Cost
+from harness import is_last
 from hdlyap.msg import CovariantAngle, Mode
 
 START, WINDOW, TRANSIENT, SAMPLING, DURATION = 30.0, 5.0, 20.0, 1.0, 200.0
@@ -34,8 +34,13 @@ SCENE = dict(
 WINDOWS = round((DURATION - TRANSIENT) / WINDOW)  # the last one is complete when the run ends
 LOOKS = round(WINDOW / SAMPLING)
 N, VECTORS, POSITIVE, CENTRE = 16, 64, 29, 6
-OF_VECTORS = ('exponents', 'std_errors', 'local_exponents', 'apart', 'widths', 'cos_theta')
-OF_NEIGHBOURS = ('neighbour_angles', 'least_neighbour_angles', 'violations', 'entangled')
+OF_VECTORS = ('exponents', 'std_errors', 'local_exponents', 'start_mismatch', 'widths', 'cos_theta')
+OF_NEIGHBOURS = (
+    'neighbour_angles',
+    'least_neighbour_angles',
+    'violations',
+    'domination_violations',
+)
 RIGHT = math.pi / 2
 CONVERGED = 1e-8  # beyond what a transient of 20 leaves of the least rate, 2.2
 ROUNDING = 1e-9
@@ -54,12 +59,12 @@ def plain(message):
 class Case(harness.Case):
     def run_of(self, **params):
         """Messages of covariant vectors of a run that ends by itself."""
-        listener, cost = self.listen('covariant'), self.listen('cost')
-        node = self.start(dict(SCENE, wait_for_subscribers=['covariant', 'cost'], **params))
+        listener, status = self.listen('covariant'), self.listen('status')
+        node = self.start(dict(SCENE, wait_for_subscribers=['covariant', 'status'], **params))
         self.assertEqual(node.wait(), 0, node.text())
-        self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
+        self.assertTrue(status.wait_for(is_last))
         listener.close()
-        cost.close()
+        status.close()
         self.assertGreater(len(listener.messages), 0)
         return listener.messages
 
@@ -79,7 +84,7 @@ class Windows(unittest.TestCase):
         messages = harness.whole_run(dict(SCENE, wait_for_subscribers=list(topics)), topics)
         cls.info = messages['run_info'][0]
         cls.spectrum = messages['spectrum'][-1]
-        cls.cost = messages['cost'][-1]
+        cls.cost, cls.status = messages['cost'][-1], messages['status'][-1]
         cls.messages = messages['covariant']
         cls.last = cls.messages[-1]
 
@@ -91,11 +96,11 @@ class Windows(unittest.TestCase):
                 message.sim_time, START + message.windows * WINDOW, delta=ROUNDING
             )
             self.assertAlmostEqual(message.averaged_time, message.windows * WINDOW, delta=ROUNDING)
-            self.assertEqual(message.looks, message.windows * LOOKS)
+            self.assertEqual(message.samples, message.windows * LOOKS)
             self.assertEqual(message.lost_windows, 0)
 
     def test_last_one_comes_before_the_last_cost(self):
-        self.assertEqual(self.cost.phase, Cost.FINISHED)
+        self.assertTrue(is_last(self.status))
         self.assertLess(self.last.header.stamp, self.cost.header.stamp)
         self.assertEqual(self.last.sim_time + TRANSIENT, self.cost.sim_time)
         self.assertGreater(self.last.seconds, 0.0)
@@ -123,8 +128,8 @@ class Windows(unittest.TestCase):
 
     def test_errors_are_known_with_sixteen_looks(self):
         for message in self.messages:
-            self.assertEqual(min(message.std_errors) >= 0.0, message.looks >= 16)
-            self.assertTrue(message.looks >= 16 or set(message.std_errors) == {-1.0})
+            self.assertEqual(min(message.std_errors) >= 0.0, message.samples >= 16)
+            self.assertTrue(message.samples >= 16 or set(message.std_errors) == {-1.0})
 
     def test_local_exponents_fluctuate(self):
         means = [sum(m.local_exponents[0] for m in self.messages) / WINDOWS, self.last.exponents[0]]
@@ -135,10 +140,14 @@ class Windows(unittest.TestCase):
     def test_two_starts_have_met(self):
         """Spaces do; single vectors only where exponents are apart."""
         for message in self.messages:
-            self.assertLess(max(message.centre_apart, message.stable_apart), CONVERGED)
-            self.assertGreaterEqual(min(message.centre_apart, message.stable_apart), 0.0)
-            self.assertLess(message.apart[0], CONVERGED)
-            self.assertLessEqual(max(message.apart), 1.0 + ROUNDING)
+            self.assertLess(
+                max(message.centre_start_mismatch, message.stable_start_mismatch), CONVERGED
+            )
+            self.assertGreaterEqual(
+                min(message.centre_start_mismatch, message.stable_start_mismatch), 0.0
+            )
+            self.assertLess(message.start_mismatch[0], CONVERGED)
+            self.assertLessEqual(max(message.start_mismatch), 1.0 + ROUNDING)
 
     def test_centre_is_the_null_space(self):
         for message in self.messages:
@@ -159,7 +168,7 @@ class Windows(unittest.TestCase):
             for angle in message.angles:
                 self.assertEqual(
                     (sum(angle.smallest_counts), sum(angle.all_counts)),
-                    (message.looks, message.looks * pairs[angle.spaces]),
+                    (message.samples, message.samples * pairs[angle.spaces]),
                 )
                 self.assertEqual((len(angle.smallest_counts), len(angle.all_counts)), (90, 90))
                 self.check_angle(angle)
@@ -195,11 +204,11 @@ class Windows(unittest.TestCase):
             self.assertLess(0.0, least)
             self.assertLessEqual(least, mean + ROUNDING)
             self.assertLessEqual(mean, RIGHT + ROUNDING)
-        for violated, entangled in zip(last.violations, last.entangled):
+        for violated, of_any in zip(last.violations, last.domination_violations):
             self.assertLessEqual(0.0, violated)
-            self.assertLessEqual(violated, entangled)
-            self.assertLessEqual(entangled, 1.0 + ROUNDING)
-        self.assertNotEqual(last.violations, last.entangled)
+            self.assertLessEqual(violated, of_any)
+            self.assertLessEqual(of_any, 1.0 + ROUNDING)
+        self.assertNotEqual(last.violations, last.domination_violations)
         self.assertNotEqual(last.least_neighbour_angles, last.neighbour_angles)
 
     def test_shapes(self):
@@ -253,9 +262,9 @@ class Choices(Case):
             self.assertEqual({len(getattr(message, name)) for name in OF_VECTORS}, {vectors})
             self.assertEqual({len(getattr(message, name)) for name in OF_NEIGHBOURS}, {vectors - 1})
             self.assertEqual({len(weight.dq) for weight in message.weights}, {vectors})
-            self.assertEqual((message.angles, message.stable_apart), ([], -1.0))
+            self.assertEqual((message.angles, message.stable_start_mismatch), ([], -1.0))
             self.assertEqual(message.null_angle < 0.0, vectors <= POSITIVE)
-            self.assertEqual(message.centre_apart < 0.0, vectors <= POSITIVE)
+            self.assertEqual(message.centre_start_mismatch < 0.0, vectors <= POSITIVE)
             self.assertLess(message.largest_null_angle, CONVERGED)
 
     def test_with_modes(self):
@@ -297,7 +306,7 @@ class Choices(Case):
             [message.windows for message in first + listener.messages], list(range(1, 13))
         )
         self.assertAlmostEqual(listener.messages[0].sim_time, START + 60.0 + WINDOW, delta=ROUNDING)
-        self.assertEqual(listener.messages[0].looks, 9 * LOOKS)
+        self.assertEqual(listener.messages[0].samples, 9 * LOOKS)
         info = info.messages[0]
         self.assertEqual(
             (info.observables, info.covariant_window, info.covariant_storage),
@@ -307,9 +316,9 @@ class Choices(Case):
 
 class Demand(Case):
     def test_nobody(self):
-        cost = self.listen('cost')
+        cost, status = self.listen('cost'), self.listen('status')
         calls = harness.counts(self, dict(SCENE, wait_for_subscribers=['cost']))
-        self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
+        self.assertTrue(status.wait_for(is_last))
         self.assertEqual({message.covariant_seconds for message in cost.messages}, {0.0})
         self.assertEqual((calls['covariant_publish'], calls['modes_measure']), (0, 0))
 
@@ -348,7 +357,7 @@ class Demand(Case):
             harness.wait_until(lambda: any(m.windows == 1 for m in covariant.messages[seen:]))
         )
         first = next(m for m in covariant.messages[seen:] if m.windows == 1)
-        self.assertEqual((first.looks, round(first.averaged_time, 6)), (LOOKS, WINDOW))
+        self.assertEqual((first.samples, round(first.averaged_time, 6)), (LOOKS, WINDOW))
 
 
 class Faults(Case):

@@ -74,8 +74,8 @@ def everything():
     message = made.covariant(
         backward(),
         angles=angles(),
-        centre_apart=3e-12,
-        stable_apart=5e-11,
+        centre_start_mismatch=3e-12,
+        stable_start_mismatch=5e-11,
         null_angle=4e-13,
         largest_null_angle=7e-13,
         weights=[
@@ -85,8 +85,10 @@ def everything():
     )
     message.weights[0].dq[43:45] = [0.77] * 2  # of the conjugate step
     message.weights[0].gram_schmidt[43:45] = [0.73] * 2
-    message.entangled[6] = message.violations[6] = message.entangled[36] = 0.0
-    message.apart[3], message.widths[2], message.cos_theta[2] = 1.0, 0.123, 0.456
+    message.domination_violations[6] = message.violations[6] = message.domination_violations[
+        36
+    ] = 0.0
+    message.start_mismatch[3], message.widths[2], message.cos_theta[2] = 1.0, 0.123, 0.456
     return [info, made.spectrum(FORWARD, 400.0), made.steps(steps), made.cost(500.0), message]
 
 
@@ -180,10 +182,10 @@ class Table(Bags):
     def test_windows(self):
         _, text = self.lines(self.read())
         self.assertIn(
-            'covariant vectors: 200 time units in 4 windows, 40 looks (standard errors)', text
+            'covariant vectors: 200 time units in 4 windows, 40 samples (standard errors)', text
         )
         _, text = self.lines(self.changed(windows=1, lost_windows=3))
-        self.assertIn('in 1 window, 3 lost for want of room, 40 looks', text)
+        self.assertIn('in 1 window, 3 lost for want of room, 40 samples', text)
 
     def test_exponents(self):
         """Errors of 0.01 in both passes: combined 0.01414."""
@@ -243,17 +245,19 @@ class Table(Bags):
             lines['unstable-centre'][0],
             ['1.57080', '1.57080', '1.10000', 'all', 'within', '89', '..', '90', 'degrees'],
         )
-        self.assertIn('centre to exact null space: 4.0e-13 at the last look, 7.0e-13 at most', text)
+        self.assertIn(
+            'centre to exact null space: 4.0e-13 at the last sample, 7.0e-13 at most', text
+        )
 
     def test_order(self):
         _, text = self.lines(self.read())
         self.assertIn('78 of 79 pairs of neighbours ever changed it, 24.7 % of the time', text)
         self.assertIn('dominated splittings (2): behind 7 37', text)
-        many = self.changed(entangled=[0.0] * (ALL - 1))
+        many = self.changed(domination_violations=[0.0] * (ALL - 1))
         self.assertIn(
             'dominated splittings (79): behind 1 2 3 4 5 6 7 8 and 71 more', report.report(many)
         )
-        none = self.changed(entangled=[0.1] * (ALL - 1))
+        none = self.changed(domination_violations=[0.1] * (ALL - 1))
         self.assertIn('dominated splittings (0)\n', report.report(none))
 
     def test_apart(self):
@@ -261,13 +265,14 @@ class Table(Bags):
         self.assertIn('sine 1.0e-09 in the middle, 1.0e+00 at most', text)
         self.assertIn('spaces: centre 3.0e-12, stable 5.0e-11 rad', text)
         self.assertNotIn('too short', text)
-        for which in ('centre_apart', 'stable_apart'):
+        for which in ('centre_start_mismatch', 'stable_start_mismatch'):
             self.assertIn(
                 ' rad: covariant_transient is too short',
                 report.report(self.changed(**{which: 0.3})),
             )
         self.assertNotIn(
-            'spaces: ', report.report(self.changed(centre_apart=-1.0, stable_apart=-1.0))
+            'spaces: ',
+            report.report(self.changed(centre_start_mismatch=-1.0, stable_start_mismatch=-1.0)),
         )
 
     def test_seconds(self):
@@ -288,7 +293,7 @@ class Figures(Bags):
         for label, wanted in (
             ('forward (Gram-Schmidt)', FORWARD),
             ('backward (covariant)', backward()),
-            ('backward, between two looks', backward() + 0.1),
+            ('backward, between two samples', backward() + 0.1),
         ):
             points = line(axes[0], label)
             np.testing.assert_array_equal(points[:, 0], range(1, ALL + 1))
@@ -386,7 +391,7 @@ class Partly(Bags):
 
     def test_one_window(self):
         self.complete(
-            self.changed(windows=1, averaged_time=50.0, looks=1, std_errors=[-1.0] * ALL),
+            self.changed(windows=1, averaged_time=50.0, samples=1, std_errors=[-1.0] * ALL),
             on_paper=True,
         )
 

@@ -14,7 +14,7 @@ import rostest
 
 import harness
 import links
-from harness import MODES, OBSERVABLES, SHORT, TYPES, Cost, Process
+from harness import MODES, OBSERVABLES, SHORT, TYPES, Process, is_last
 
 # some hundred messages of each topic, in less than a second
 MANY = dict(
@@ -74,7 +74,7 @@ class Delivery(unittest.TestCase):
     def check_recording(self, messages):
         self.assertEqual(len(messages['run_info']), 1)
         grid = [0.25 * (k + 1) for k in range(REPORTS)]
-        for topic in ('state', 'cost'):
+        for topic in ('state', 'status', 'cost'):
             self.assertEqual([message.sim_time for message in messages[topic]], grid, topic)
         for topic in ('spectrum', 'modes', 'steps', 'lp_phases', 'hydro'):
             self.assertEqual(
@@ -88,9 +88,9 @@ class Delivery(unittest.TestCase):
                 for _ in harness.examples(message.steps)
             ],
         )
-        self.assertEqual([cost.phase for cost in messages['cost']].count(Cost.FINISHED), 1)
-        self.assertEqual(messages['cost'][-1].phase, Cost.FINISHED)
-        self.assertEqual(messages['cost'][-1].progress, 1.0)
+        self.assertEqual([is_last(status) for status in messages['status']].count(True), 1)
+        self.assertTrue(is_last(messages['status'][-1]))
+        self.assertEqual(messages['status'][-1].progress, 1.0)
         run_ids = {message.run_id for kept in messages.values() for message in kept}
         self.assertEqual(len(run_ids), 1)
 
@@ -126,12 +126,12 @@ class Delivery(unittest.TestCase):
 
     def test_slow_subscriber(self):
         slow = self.listen('state', delay=0.2)
-        cost = self.listen('cost')
-        node = self.start(dict(MANY, wait_for_subscribers=['state', 'cost']))
-        self.assertTrue(cost.wait_for(lambda message: message.sim_time == 90))
+        status = self.listen('status')
+        node = self.start(dict(MANY, wait_for_subscribers=['state', 'status']))
+        self.assertTrue(status.wait_for(lambda message: message.sim_time == 90))
         self.assertLess(len(slow.messages), 100)
         self.assertEqual(node.wait(), 0, node.text())
-        self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
+        self.assertTrue(status.wait_for(is_last))
         slow.delay = 0.0
         self.assertTrue(slow.wait_for(lambda message: message.sim_time == 102))
         self.assertEqual(len(slow.messages), REPORTS)
@@ -139,7 +139,7 @@ class Delivery(unittest.TestCase):
     def test_stopped_subscriber(self):
         # more than what queue and sockets hold
         stopped = self.process(['rostopic', 'echo', '-p', '/hdlyap/state'])
-        cost = self.listen('cost')
+        cost, status = self.listen('cost'), self.listen('status')
         node = self.start(
             dict(
                 MANY,
@@ -147,14 +147,15 @@ class Delivery(unittest.TestCase):
                 exponents='none',
                 observables=['state'],
                 duration=200.0,
-                wait_for_subscribers=['state', 'cost'],
+                wait_for_subscribers=['state', 'status', 'cost'],
             )
         )
         self.assertTrue(cost.wait_for(lambda message: True))
         stopped.send(signal.SIGSTOP)
         self.assertEqual(node.wait(), 0, node.text())
-        self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
-        self.assertEqual(len(cost.messages), 808)
+        self.assertTrue(status.wait_for(is_last))
+        self.assertTrue(harness.wait_until(lambda: len(cost.messages) == 808))
+        self.assertEqual(len(status.messages), 808)
         links.end(stopped)
 
     def test_waits_for_subscribers(self):
@@ -203,14 +204,15 @@ class Delivery(unittest.TestCase):
     def test_does_not_wait_for_ever(self):
         """For one that has subscribed and is gone."""
         links.register(self, 'cost', '/gone')
-        cost, state = self.listen('cost'), self.listen('state')
+        cost, state, status = map(self.listen, ('cost', 'state', 'status'))
         node = self.start(dict(SHORT, wait_for_subscribers=['cost', 'state']))
         self.assertEqual(node.wait(), 0, node.text())
         warnings = node.lines('WARN')
         self.assertEqual(len(warnings), 1, node.text())
         self.assertIn('cost: 1 of 2 subscribers connected after 3 s', warnings[0])
-        self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
-        self.assertEqual((len(cost.messages), len(state.messages)), (4, 4))
+        self.assertTrue(status.wait_for(is_last))
+        said = cost.messages, state.messages
+        self.assertTrue(harness.wait_until(lambda: list(map(len, said)) == [4, 4]), said)
 
     def has_services(self, master):
         """The last that the node asks its master for: until then it would wait for another one."""

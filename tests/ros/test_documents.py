@@ -18,7 +18,7 @@ TABLES = {
 # messages of others that hdlyap publishes
 FOREIGN = {'Diagnostic': 'diagnostic_msgs/DiagnosticArray'}
 ALWAYS = {'run_info', 'status', 'cost', 'slow_vectors'}  # topics that are no observables
-NOT_AWAITED = {'status', 'slow_vectors'}
+NOT_AWAITED = {'slow_vectors'}
 
 # where a path that a document names may begin; what is made, or is of others
 PLACES = '', 'doc', 'hdlyap_core', 'hdlyap_core/include', 'hdlyap_core/src', 'hdlyap_ros/include'

@@ -117,10 +117,11 @@ class Beside(Examples):
         }
         self.wait_for(lambda: wanted <= self.connections(node), node)
         self.wait_for(lambda: subscriber.get_num_connections() == 1, watch)
-        cost = harness.Listener('cost')  # the run begins
+        cost, status = harness.Listener('cost'), harness.Listener('status')  # the run begins
         self.addCleanup(cost.close)
+        self.addCleanup(status.close)
         self.assertEqual(node.wait(), 0, node.text())
-        self.assertTrue(cost.wait_for(lambda message: message.phase == message.FINISHED))
+        self.assertTrue(status.wait_for(harness.is_last))
         phases, steps = (listeners[topic].messages for topic in ('lp_phases', 'steps'))
         self.assertEqual((len(phases), len(steps)), (250, 250))
         self.check_deviations(phases, deviations, watch)

@@ -12,7 +12,7 @@ from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 import harness
 import made
 import rosgraph
-from hdlyap.msg import Cost, LpPhase
+from hdlyap.msg import Cost, LpPhase, RunStatus
 from made import LP, SCRIPTS, T
 from terminal import Terminal
 from hdlyap.follow import layout, panels
@@ -31,18 +31,22 @@ SCREEN = 'from hdlyap.follow.screen import Screen\n'
 
 def cost(**fields):
     message = made.cost(150.0)
-    message.remaining_seconds, message.progress = 65.0, 0.5
     message.interval, message.interval_limit = 2.37, Cost.LIMIT_CONDITION
     message.orthonormalisations, message.repairs = 60, 4
-    message.condition, message.error_bound, message.std_error = 2.8e5, 1.2e-10, -1.0
+    message.condition, message.error_bound = 2.8e5, 1.2e-10
     for name, value in fields.items():
         setattr(message, name, value)
     return message
 
 
-def diagnosis(level=0, text='averaging', phase='averaging'):
+def status(**fields):
+    values = dict(remaining_seconds=65.0, progress=0.5, std_error=-1.0)
+    return made.status(150.0, **{**values, **fields})
+
+
+def diagnosis(level=0, text='averaging', stage='averaging'):
     return DiagnosticStatus(
-        level=level, name='/hdlyap', message=text, values=[KeyValue('phase', phase)]
+        level=level, name='/hdlyap', message=text, values=[KeyValue('stage', stage)]
     )
 
 
@@ -59,6 +63,7 @@ def view(**fields):
     values = dict(
         node='/hdlyap',
         info=info,
+        status=status(),
         cost=cost(),
         speed=1.234,
         spectrum=made.spectrum(np.linspace(9, 3, 37), 50.0),
@@ -179,7 +184,13 @@ class Screens(unittest.TestCase):
 
     def test_what_is_not_there(self):
         nothing = dict(
-            cost=None, spectrum=None, steps=None, phases=None, diagnosis=None, speed=None
+            status=None,
+            cost=None,
+            spectrum=None,
+            steps=None,
+            phases=None,
+            diagnosis=None,
+            speed=None,
         )
         self.assertIn('waiting for its first word', self.text(view(**nothing)))
         self.assertIn('/hdlyap', self.text(view(**nothing, info=None)))
@@ -213,7 +224,7 @@ class Screens(unittest.TestCase):
         one = self.text(view(spectrum=made.spectrum([9.0], 50.0), steps=None, phases=None))
         self.assertIn('lambda_max', one)
         self.assertNotIn('sum', one)
-        endless = self.text(view(cost=cost(progress=0.0, remaining_seconds=-1.0)))
+        endless = self.text(view(status=status(progress=0.0, remaining_seconds=-1.0)))
         self.assertNotIn('left', endless)
         self.assertIn(
             'std error ? of 0.01',
@@ -226,7 +237,7 @@ class Screens(unittest.TestCase):
             steps=made.steps([made.step(info, T, n, 1, 2 * n, 2 * n + 1) for n in range(1, 40)])
         )
         for size in SIZES:
-            for shown in (many, view(), view(is_gone=True, is_master_gone=True, cost=None)):
+            for shown in (many, view(), view(is_gone=True, is_master_gone=True, status=None)):
                 lines = drawn(shown, size)
                 self.assertLessEqual(len(lines), size[1])
                 self.assertLessEqual(max(map(len, lines)), size[0])
@@ -238,11 +249,11 @@ class Screens(unittest.TestCase):
         for fields, text in (
             (dict(diagnosis=diagnosis(1, 'overlap')), 'WARN  overlap'),
             (dict(diagnosis=diagnosis(2, 'disk full')), 'ERROR  disk full'),
-            (dict(diagnosis=diagnosis(phase='paused')), 'paused  █'),
+            (dict(diagnosis=diagnosis(stage='paused')), 'paused  █'),
             (dict(is_gone=True), 'GONE  /hdlyap does not answer'),
             (dict(silence=63.0), 'no message for 1:03'),
             (dict(is_master_gone=True), 'no master'),
-            (dict(cost=cost(phase=Cost.FINISHED), is_gone=True), 'the run has finished'),
+            (dict(status=status(stage=RunStatus.FINISHED), is_gone=True), 'the run has finished'),
         ):
             self.assertIn(text, self.text(view(**fields)))
 
@@ -262,11 +273,12 @@ class Screens(unittest.TestCase):
                 'steps': made.steps([]),
                 'run_info': made.run_info(run_id='two'),
                 'spectrum': made.spectrum([3.0], 1.0),
-                'cost': cost(run_id='two'),
+                'status': status(run_id='two'),
+                'cost': cost(run_id='one'),
             },
         )
-        self.assertEqual((shown.info.run_id, shown.cost.run_id), ('two', 'two'))
-        self.assertEqual((shown.steps, shown.spectrum), (None, None))
+        self.assertEqual((shown.info.run_id, shown.status.run_id), ('two', 'two'))
+        self.assertEqual((shown.steps, shown.spectrum, shown.cost), (None, None, None))
 
     def test_messages_are_unpacked_when_asked(self):
         class Counted(made.Spectrum):
@@ -372,13 +384,13 @@ class Running(unittest.TestCase):
         terminal = self.follow()
         self.shows(terminal, 'computed only if somebody listens')
         self.shows(terminal, 'lambda_max')
-        self.assertEqual(self.listeners(), {'run_info', 'cost', 'spectrum'})
+        self.assertEqual(self.listeners(), {'run_info', 'status', 'cost', 'spectrum'})
         terminal.press('m')
         self.shows(terminal, ' 116-117 ')
         self.shows(terminal, 'no more steps and phases')
         terminal.press('m')
         self.shows(terminal, 'computed only if somebody listens')
-        self.assertEqual(self.listeners(), {'run_info', 'cost', 'spectrum'})
+        self.assertEqual(self.listeners(), {'run_info', 'status', 'cost', 'spectrum'})
         terminal.resize(50, 10)
         self.assertTrue(harness.wait_until(lambda: len(terminal.screen()) <= 10))
         terminal.press('\x03')
@@ -414,7 +426,9 @@ class Running(unittest.TestCase):
         self.node(duration=60.0, **SEEN)
         process = harness.Process([sys.executable, FOLLOW], **self.env)
         self.addCleanup(process.stop)
-        self.assertTrue(harness.wait_until(lambda: self.listeners() == {'cost', 'spectrum'}))
+        self.assertTrue(
+            harness.wait_until(lambda: self.listeners() == {'status', 'cost', 'spectrum'})
+        )
         self.assertEqual(process.wait(), 0, process.text())
         self.assertRegex(process.text().splitlines()[-1], r'^finished  100\.0 %  t = 81\.0')
 

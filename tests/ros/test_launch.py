@@ -14,7 +14,7 @@ import rostest
 import yaml
 
 import harness
-from harness import Cost, Process
+from harness import Process
 
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
 SCENES = sorted(name[:-5] for name in os.listdir(os.path.join(LAUNCH, 'scenes')))
@@ -77,10 +77,10 @@ class Launch(unittest.TestCase):
             self.assertEqual(run.wait(), 0, run.text())
             bag = os.path.join(folder, 'q.bag')
             self.check_bag(bag)
-            cost = harness.Listener('cost')
-            self.addCleanup(cost.close)
+            status = harness.Listener('status')
+            self.addCleanup(status.close)
             replay = self.roslaunch(folder, 'replay.launch', 'bag:=' + bag, 'rate:=10')
-            self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
+            self.assertTrue(status.wait_for(harness.is_last))
             self.assertEqual(replay.wait(), 0, replay.text())
 
     def replayed(self, *args):
@@ -121,6 +121,7 @@ class Launch(unittest.TestCase):
                 fields=fields,
                 hydro=0,
                 state=70,
+                status=70,
                 cost=70,
             ),
         )

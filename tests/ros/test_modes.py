@@ -9,7 +9,7 @@ import rospy
 import rostest
 
 import harness
-from harness import MODES, OBSERVABLES, Cost
+from harness import MODES, OBSERVABLES, is_last
 from hdlyap.msg import LpPhase, Mode
 
 REPORTS = 20  # of MODES, while averaging
@@ -329,7 +329,9 @@ class Demand(unittest.TestCase):
             for name, count in calls.items()
             if name.endswith('_publish') and count
         }
-        self.assertEqual(made, {'run_info'} | {MESSAGE.get(topic, topic) for topic in topics})
+        self.assertEqual(
+            made, {'run_info', 'run_status'} | {MESSAGE.get(topic, topic) for topic in topics}
+        )
         return calls
 
     def check(self, calls, measures, phases=0, pmodes=0, hydros=0):
@@ -392,7 +394,7 @@ class Demand(unittest.TestCase):
 class Fields(unittest.TestCase):
     def fields(self, **params):
         listeners = {
-            topic: harness.Listener(topic) for topic in ('fields', 'modes', 'cost', 'run_info')
+            topic: harness.Listener(topic) for topic in ('fields', 'modes', 'status', 'run_info')
         }
         for listener in listeners.values():
             self.addCleanup(listener.close)
@@ -401,7 +403,7 @@ class Fields(unittest.TestCase):
         )
         self.addCleanup(node.stop)
         self.assertEqual(node.wait(), 0, node.text())
-        self.assertTrue(listeners['cost'].wait_for(lambda cost: cost.phase == Cost.FINISHED))
+        self.assertTrue(listeners['status'].wait_for(is_last))
         return {topic: listener.messages for topic, listener in listeners.items()}
 
     def test_of_single_vectors(self):

@@ -19,9 +19,9 @@ from std_srvs.srv import SetBool, Trigger
 import yaml
 
 import harness
-from harness import SHORT, TYPES, Cost, Process, RunInfo
+from harness import SHORT, TYPES, Process, RunInfo
 
-TOPICS = ['spectrum', 'state', 'cost']
+TOPICS = ['spectrum', 'state', 'status', 'cost']
 RUN = dict(
     SHORT,
     threads=1,
@@ -85,8 +85,8 @@ class Nodes(unittest.TestCase):
     def ended(self, run, reports=REPORTS):
         self.assertEqual(run.node.wait(), 0, run.node.text())
         self.assertTrue(run.has(reports))
-        last = run.messages['cost']
-        self.assertTrue(harness.wait_until(lambda: last and last[-1].phase == Cost.FINISHED))
+        last = run.messages['status']
+        self.assertTrue(harness.wait_until(lambda: last and harness.is_last(last[-1])))
 
     def test_two_at_once_and_pace(self):
         """One is paused while the other, of another seed, runs to its end; nothing of that is in
@@ -129,7 +129,10 @@ class Nodes(unittest.TestCase):
         topics = {topic for topic, _ in rospy.get_published_topics('/lab')}
         self.assertEqual(
             topics,
-            {'/lab/room/two/' + name for name in ('run_info', 'state', 'cost', 'slow_vectors')},
+            {
+                '/lab/room/two/' + name
+                for name in ('run_info', 'state', 'status', 'cost', 'slow_vectors')
+            },
         )
         self.assertIn(
             '/lab/room/two', dict(rosgraph.Master('/nodes').getSystemState()[0])['/rosout']

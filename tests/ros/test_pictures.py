@@ -166,7 +166,7 @@ class Markers(unittest.TestCase):
     def test_the_same_from_messages(self):
         """What the viewer makes of a recorded run is what it drew of it live, at the times of
         fields."""
-        topics = ('run_info', 'state', 'spectrum', 'steps', 'lp_phases', 'fields', 'cost')
+        topics = ('run_info', 'state', 'spectrum', 'steps', 'lp_phases', 'fields', 'status')
         listeners = {topic: Listener(topic) for topic in topics}
         live = self.look()
         node = self.start(dict(ENDLESS, slow_vectors_rate=100.0, field_interval=0.0, pace=10.0))
@@ -191,14 +191,14 @@ class Markers(unittest.TestCase):
         )
         publishers['run_info'].publish(listeners['run_info'].messages[-1])
         compared = 0
-        for cost in listeners['cost'].messages:
+        for status in listeners['status'].messages:
             for topic in topics[1:-1]:
                 for message in listeners[topic].messages:
-                    if message.sim_time == cost.sim_time:
+                    if message.sim_time == status.sim_time:
                         publishers[topic].publish(message)
             time.sleep(0.02)  # topics do not keep step
             count = len(again.all)
-            publishers['cost'].publish(cost)
+            publishers['status'].publish(status)
             harness.wait_until(lambda: len(again.all) > count, 0.2)
             picture = again.all[-1] if again.all else None
             original = picture and originals.get(tuple(places(picture).flat))

@@ -20,7 +20,7 @@ import yaml
 import harness
 import made
 from terminal import Terminal
-from hdlyap.msg import Cost
+from hdlyap.msg import RunStatus
 from hdlyap.plots.figures import plt
 from hdlyap.reproduce import display, files, options, page, parts, plan, row, tree, work
 from hdlyap.reproduce.bag import Bag
@@ -47,15 +47,17 @@ class Folder(unittest.TestCase):
             yaml.safe_dump(entries, file, sort_keys=False)
         return plan.runs(ROOT, quick, file.name)
 
-    def bag(self, run, phase=Cost.FINISHED, progress=1.0, **changed):
+    def bag(self, run, stage=RunStatus.FINISHED, progress=1.0, **changed):
         """A made one of the run."""
         info = {
             name: value for name, value in run.parameters.items() if name in made.RunInfo.__slots__
         }
         info.update({'exponents': 'positive', 'interval': 0.0, **changed})
-        last = made.cost(150.0)
-        last.phase, last.progress = phase, progress
-        made.write(run.bag(self.folder), [made.run_info(**info), made.cost(120.0), last])
+        last = made.status(150.0, stage=stage, progress=progress)
+        made.write(
+            run.bag(self.folder),
+            [made.run_info(**info), made.status(120.0), made.cost(150.0), last],
+        )
         return Bag(run.bag(self.folder))
 
 
@@ -185,9 +187,9 @@ class Bags(Folder):
         run = self.runs(one=ENTRY)['one']
         self.assertFalse(Bag(run.bag(self.folder)).is_complete())
         for phase, progress, complete in (
-            (Cost.FINISHED, 1.0, True),
-            (Cost.FINISHED, 0.99, False),
-            (Cost.AVERAGING, 1.0, False),
+            (RunStatus.FINISHED, 1.0, True),
+            (RunStatus.FINISHED, 0.99, False),
+            (RunStatus.AVERAGING, 1.0, False),
         ):
             self.assertEqual(self.bag(run, phase, progress).is_complete(), complete)
         with open(run.bag(self.folder), 'r+b') as file:

@@ -20,17 +20,13 @@ class Intervals(Part):
         """One run; its exponents are those of the time, and one of them is off."""
         info = made.run_info(interval=interval, accuracy=ACCURACY)
         messages = [info]
-        for number, (phase, in_use) in enumerate(
+        for number, (stage, in_use) in enumerate(
             ((0, 9.0), (1, 5.0), (2, 2.5), (2, 0.75), (3, 0.5))
         ):
             cost = made.cost(100.0 + number)
-            cost.phase, cost.interval, cost.orthonormalisations = (
-                phase,
-                min(in_use, interval),
-                4 * number,
-            )
+            cost.interval, cost.orthonormalisations = min(in_use, interval), 4 * number
             cost.error_bound = 3e-10
-            messages.append(cost)
+            messages += [cost, made.status(100.0 + number, stage=stage)]
         for time in times:
             exponents = EXPONENTS + 0.1 / time
             exponents[index - 1] += deviation

@@ -10,7 +10,7 @@ import rostest
 from std_srvs.srv import SetBool, Trigger
 
 import harness
-from harness import SHORT, Cost
+from harness import SHORT, is_last
 
 ENDLESS = dict(SHORT, duration=0.0, pace=20.0, report_interval=0.5)
 
@@ -35,26 +35,29 @@ class Run(unittest.TestCase):
         self.assertEqual(node.wait(), 0, node.text())
 
     def test_messages_agree(self):
-        topics = ['run_info', 'spectrum', 'state', 'cost']
+        topics = ['run_info', 'spectrum', 'state', 'cost', 'status']
         listeners = {topic: self.listen(topic) for topic in topics}
         node = self.start(dict(SHORT, wait_for_subscribers=topics, exponents='all'))
         self.assert_finished(node)
-        self.assertTrue(listeners['cost'].wait_for(lambda cost: cost.phase == Cost.FINISHED))
+        self.assertTrue(listeners['status'].wait_for(is_last))
         info = listeners['run_info'].messages[0]
         spectrum = listeners['spectrum'].messages[-1]
         state = listeners['state'].messages[-1]
-        cost = listeners['cost'].messages[-1]
-        self.assertEqual([len(one.messages) for one in listeners.values()], [1, 2, 4, 4])
+        counts = [1, 2, 4, 4, 4]
+        self.assertTrue(
+            harness.wait_until(lambda: [len(one.messages) for one in listeners.values()] == counts)
+        )
+        cost, status = listeners['cost'].messages[-1], listeners['status'].messages[-1]
         self.assertRegex(info.run_id, r'^\d{8}T\d{6}\.\d{6}Z-%d-1$' % node.process.pid)
-        for message in (spectrum, state, cost):
+        for message in (spectrum, state, cost, status):
             self.assertEqual(message.run_id, info.run_id)
             self.assertEqual(message.sim_time, 4.0)
             self.assertEqual(message.header.frame_id, 'box')
             self.assertLess(abs(message.header.stamp - rospy.Time.now()), rospy.Duration(60))
         self.check_spectrum(spectrum, info)
         self.check_state(state, info)
-        self.assertEqual(cost.progress, 1.0)
-        self.assertEqual(cost.remaining_seconds, 0.0)
+        self.assertEqual(status.progress, 1.0)
+        self.assertEqual(status.remaining_seconds, 0.0)
 
     def check_spectrum(self, spectrum, info):
         self.assertEqual(info.vectors, 80)
@@ -145,7 +148,7 @@ class Run(unittest.TestCase):
         values = {pair.key: pair.value for pair in status.values}
         self.assertEqual(values['blas kernel'], info.messages[0].blas_kernel)
         self.assertEqual(values['repairs'], '0')
-        for key in ('phase', 'progress', 'interval', 'condition', 'collisions per second'):
+        for key in ('stage', 'progress', 'interval', 'condition', 'collisions per second'):
             self.assertIn(key, values)
         self.assertNotIn('resolved steps', values)  # nobody listens to them
 
@@ -160,20 +163,23 @@ class Run(unittest.TestCase):
 
     def test_nothing_computed_without_subscribers(self):
         calls = harness.calls(self, SHORT)
-        self.assertEqual(calls.pop('run_info_publish'), 1)  # latched
+        self.assertEqual(calls.pop('run_info_publish'), 1)  # latched, as is the next
+        self.assertEqual(calls.pop('run_status_publish'), 4)
         self.assertEqual(set(calls.values()), {0}, calls)
 
     def test_computed_for_subscribers(self):
         self.listen('state')
         calls = harness.calls(self, dict(SHORT, wait_for_subscribers=['state']))
         self.assertEqual(calls.pop('run_info_publish'), 1)
+        self.assertEqual(calls.pop('run_status_publish'), 4)
         self.assertEqual(calls.pop('state_publish'), 4)
         self.assertEqual(calls.pop('trajectory_state'), 4)
         self.assertEqual(set(calls.values()), {0}, calls)
 
     def fault(self, **probe):
         self.listen('state')
-        cost = self.listen('cost')
+        self.listen('cost')
+        status = self.listen('status')
         node = self.start(
             dict(SHORT, wait_for_subscribers='all', observables=['state']), probe=probe
         )
@@ -181,7 +187,7 @@ class Run(unittest.TestCase):
         self.assertEqual(node.wait(), 3, node.text())
         fatal = node.lines('FATAL')
         self.assertEqual(len(fatal), 1, node.text())
-        self.assertNotIn(Cost.FINISHED, [message.phase for message in cost.messages])
+        self.assertFalse(any(map(is_last, status.messages)))
         return fatal[0]
 
     def test_numerical_fault(self):

@@ -12,7 +12,7 @@ import rostest
 
 import harness
 import links
-from harness import SHORT, Cost
+from harness import SHORT, is_last
 
 BOUND = 1.0  # seconds, the contract
 ENDLESS = dict(SHORT, disks=100, duration=0.0)
@@ -35,21 +35,21 @@ class Stop(unittest.TestCase):
         self.assertEqual(node.wait(), 0, node.text())
         self.assertLess(time.monotonic() - begin, BOUND)
 
-    def check_stopped(self, cost, spectrum):
+    def check_stopped(self, status, spectrum):
         """Nothing is missing up to the last message."""
-        self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
-        self.assertEqual(cost.messages[-1].phase, Cost.FINISHED)
-        times = [int(message.sim_time) for message in cost.messages]
+        self.assertTrue(status.wait_for(is_last))
+        self.assertTrue(is_last(status.messages[-1]))
+        times = [int(message.sim_time) for message in status.messages]
         self.assertEqual(times[:-1], list(range(times[0], times[0] + len(times) - 1)))
         averaged = [int(message.sim_time) for message in spectrum.messages]
         self.assertEqual(averaged, list(range(averaged[0], times[-2] + 1)))
 
     def stops_with_last_message(self, ask):
-        cost, spectrum = self.listen('cost'), self.listen('spectrum')
-        node = self.start(dict(ENDLESS, wait_for_subscribers=['cost', 'spectrum']))
+        status, spectrum = self.listen('status'), self.listen('spectrum')
+        node = self.start(dict(ENDLESS, wait_for_subscribers=['status', 'spectrum']))
         self.assertTrue(spectrum.wait_for(lambda message: True))
         self.stop(node, lambda: ask(node))
-        self.check_stopped(cost, spectrum)
+        self.check_stopped(status, spectrum)
         self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())
 
     def test_interrupt(self):
@@ -77,15 +77,15 @@ class Stop(unittest.TestCase):
         self.stop(node)
 
     def test_during_a_step(self):
-        cost = self.listen('cost')
+        status = self.listen('status')
         node = self.start(
-            dict(ENDLESS, wait_for_subscribers=['cost']), probe={'PROBE_STEP_SECONDS': '1.6'}
+            dict(ENDLESS, wait_for_subscribers=['status']), probe={'PROBE_STEP_SECONDS': '1.6'}
         )
-        self.assertTrue(cost.wait_for(lambda message: True))
-        before = cost.messages[-1]
+        self.assertTrue(status.wait_for(lambda message: True))
+        before = status.messages[-1]
         self.stop(node)
-        self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
-        self.assertEqual(cost.messages[-1].sim_time, before.sim_time)
+        self.assertTrue(status.wait_for(is_last))
+        self.assertEqual(status.messages[-1].sim_time, before.sim_time)
 
     def test_during_creation(self):
         node = self.start(dict(disks=1000, exponents='all', threads=1))
@@ -96,15 +96,15 @@ class Stop(unittest.TestCase):
     def test_while_paused_recorder_listens(self):
         echo = harness.Process(['rostopic', 'echo', '/hdlyap/state'])
         self.addCleanup(echo.stop)
-        cost = self.listen('cost')
+        status = self.listen('status')
         node = self.start(
-            dict(ENDLESS, disks=5000, exponents='none', wait_for_subscribers=['state', 'cost'])
+            dict(ENDLESS, disks=5000, exponents='none', wait_for_subscribers=['state', 'status'])
         )
-        self.assertTrue(cost.wait_for(lambda message: True))
+        self.assertTrue(status.wait_for(lambda message: True))
         echo.send(signal.SIGSTOP)
-        self.assertTrue(cost.wait_for(lambda message: message.sim_time > 60))
+        self.assertTrue(status.wait_for(lambda message: message.sim_time > 60))
         self.stop(node)
-        self.assertTrue(cost.wait_for(lambda message: message.phase == Cost.FINISHED))
+        self.assertTrue(status.wait_for(is_last))
         links.end(echo)
 
     def test_while_waiting_for_subscribers(self):

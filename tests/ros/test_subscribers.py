@@ -97,6 +97,7 @@ class Subscribers(unittest.TestCase):
             dict(
                 run_info=1,
                 state=REPORTS,
+                status=REPORTS,
                 cost=REPORTS,
                 **{
                     topic: AVERAGED_REPORTS

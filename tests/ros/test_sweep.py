@@ -97,7 +97,7 @@ class Sweep(unittest.TestCase):
             }
             info = next(message for _, message, _ in bag.read_messages(node + '/run_info'))
         self.assertEqual(count[node + '/spectrum'], 20)
-        self.assertEqual(count[node + '/cost'], 60)
+        self.assertEqual((count[node + '/status'], count[node + '/cost']), (60, 60))
         self.assertEqual({topic.rsplit('/', 1)[0] for topic in count} - {''}, {node})
         self.assertEqual((info.density, info.threads, info.seed), (density, 1, '5'))
 

@@ -56,8 +56,7 @@ typedef struct hdr_lag {
     bool losing;       /**< as many as the queue holds: the oldest are lost */
 } hdr_lag;
 
-/** May be called by any thread, the more often the more exactly; does not wait. 0 for latched
- * topics. */
+/** May be called by any thread, the more often the more exactly; does not wait. */
 hdr_lag hdr_publisher_lag(hdr_publisher *publisher);
 
 #ifdef __cplusplus

@@ -4,11 +4,11 @@
 
 #include "hdlyap_ros/messages.h"
 
-/** Of hdr_cost.phase. */
-static inline const char *hdr_phase_name(unsigned phase)
+/** Of hdr_run_status.stage. */
+static inline const char *hdr_stage_name(unsigned stage)
 {
     static const char *const names[] = {"equilibrating", "warming up", "averaging", "finished"};
-    return phase <= HDR_COST_FINISHED ? names[phase] : "unknown";
+    return stage <= HDR_RUN_STATUS_FINISHED ? names[stage] : "unknown";
 }
 
 #endif

@@ -48,11 +48,11 @@ static void add_number(key_list *list, const char *key, double number)
     add_text(list, key, text);
 }
 
-static const char *phase_name(const worker_state *state)
+static const char *stage_name(const worker_state *state)
 {
     if (state->stage == WORKER_WAITING) return "waiting for subscribers";
     if (state->stage == WORKER_PAUSED) return "paused";
-    return hdr_phase_name((unsigned)state->last.phase);
+    return hdr_stage_name((unsigned)state->last.stage);
 }
 
 /** Since the last message, which this call makes the present one. */
@@ -78,7 +78,7 @@ static const char *limit_name(hd_limit limit)
 static void fill_keys(diagnostics *d, key_list *list, const worker_state *state, double now)
 {
     const hd_cost *cost = &state->last.cost;
-    add_text(list, "phase", phase_name(state));
+    add_text(list, "stage", stage_name(state));
     add_number(list, "simulated time", state->last.time);
     add_number(list, "progress", cost->progress);
     add_number(list, "remaining seconds", cost->remaining);
@@ -131,7 +131,7 @@ bool diagnostics_publish(diagnostics *d, const worker_state *state)
         .header = {.stamp = hdr_time_now(), .frame_id = ""},
         .level = all.level,
         .name = d->node_name,
-        .message = *all.message ? all.message : phase_name(state),
+        .message = *all.message ? all.message : stage_name(state),
         .hardware_id = report_run_id(d->rep),
         .values = {list.value, list.count},
     };

@@ -145,7 +145,7 @@ static void log_end(const worker_state *state)
         hdr_log(HDR_INFO,
                 "%s at simulated time %.6g after %.1f s: %" PRIu64 " collisions, "
                 "%ld orthonormalisations, %ld repairs",
-                last->phase == HD_FINISHED ? "finished" : "stopped", last->time, last->cost.wall,
+                last->stage == HD_FINISHED ? "finished" : "stopped", last->time, last->cost.wall,
                 last->collisions, last->cost.orthonormalisations, last->cost.repairs);
 }
 

@@ -90,11 +90,11 @@ static const parameter rows[] = {
         .kind = TOPICS_AWAITED,
         .offset = offsetof(settings, awaited),
         .usual = "",
-        .allowed = "all or a list out of run_info, " OBSERVABLES ", cost",
+        .allowed = "all or a list out of run_info, " OBSERVABLES ", status, cost",
         .unit = "",
         .may_differ = true,
         .text = "Topics that must have a subscriber before the run starts, so that it misses "
-                "nothing: run_info, cost and observables, or all for all of these.",
+                "nothing: run_info, status, cost and observables, or all for all of these.",
     },
     {
         .name = "pace",

@@ -22,6 +22,7 @@ static const advertise_function advertise[TOPICS] = {
     [TOPIC_HYDRO] = hdr_hydro_advertise,
     [TOPIC_COVARIANT] = hdr_covariant_advertise,
     [TOPIC_STATE] = hdr_state_advertise,
+    [TOPIC_STATUS] = hdr_run_status_advertise_latched,
     [TOPIC_COST] = hdr_cost_advertise,
 };
 

@@ -14,6 +14,7 @@
 #include "subscriber_wait.h"
 
 _Static_assert((int)HD_LIMIT_REPAIR == (int)HDR_COST_LIMIT_REPAIR, "limits as in the core");
+_Static_assert((int)HD_FINISHED == (int)HDR_RUN_STATUS_FINISHED, "stages as in the core");
 
 /** Topics whose messages are made of positions and momenta. */
 static const unsigned of_state = 1u << TOPIC_STATE | 1u << TOPIC_FIELDS | 1u << TOPIC_HYDRO;
@@ -55,7 +56,7 @@ progress progress_of(const hd_run *run)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     return (progress){
-        .phase = hd_run_stage(run),
+        .stage = hd_run_stage(run),
         .time = hd_run_time(run),
         .collisions = hd_trajectory_collisions(hd_run_trajectory(run)),
         .cost = hd_run_cost(run),
@@ -225,14 +226,31 @@ static hd_status publish_state(report *rep, const hd_run *run)
                            TOPIC_STATE);
 }
 
-static hd_status publish_cost(report *rep, const progress *now, hd_stage phase)
+static hd_status publish_status(report *rep, const progress *now, hd_stage stage)
+{
+    const hd_cost *cost = &now->cost;
+    const hdr_run_status message = {
+        .header = message_header(),
+        .run_id = rep->out.run_id,
+        .sim_time = now->time,
+        .stage = (uint8_t)stage,
+        .progress = cost->progress,
+        .remaining_seconds = cost->remaining < 0.0 ? -1.0 : cost->remaining,
+        .std_error = cost->std_error < 0.0 ? -1.0 : cost->std_error,
+    };
+    const double numbers[] = {now->time, cost->progress, cost->remaining, cost->std_error};
+    if (!message_finite(numbers, sizeof numbers / sizeof *numbers)) return HD_NOT_FINITE;
+    return publishers_sent(hdr_run_status_publish(rep->out.publisher[TOPIC_STATUS], &message),
+                           TOPIC_STATUS);
+}
+
+static hd_status publish_cost(report *rep, const progress *now)
 {
     const hd_cost *cost = &now->cost;
     const hdr_cost message = {
         .header = message_header(),
         .run_id = rep->out.run_id,
         .sim_time = now->time,
-        .phase = (uint8_t)phase,
         .wall_seconds = cost->wall,
         .events_seconds = cost->events,
         .replay_seconds = cost->replay,
@@ -249,27 +267,29 @@ static hd_status publish_cost(report *rep, const progress *now, hd_stage phase)
         .error_bound = cost->error_bound,
         .orthonormalisations = (uint64_t)cost->orthonormalisations,
         .second_passes = (uint64_t)cost->second_passes,
-        .looks = (uint64_t)cost->looks,
+        .slow_vector_samples = (uint64_t)cost->looks,
         .repairs = (uint64_t)cost->repairs,
-        .std_error = cost->std_error < 0.0 ? -1.0 : cost->std_error,
-        .progress = cost->progress,
-        .remaining_seconds = cost->remaining < 0.0 ? -1.0 : cost->remaining,
     };
-    const double numbers[] = {cost->wall,      cost->events,
-                              cost->replay,    cost->ortho,
-                              cost->spectrum,  cost->interval,
-                              cost->condition, cost->defect,
-                              now->time,       cost->progress,
-                              cost->remaining, cost->error_bound,
-                              cost->std_error, cost->events_per_second,
-                              cost->modes,     cost->covariant};
+    const double numbers[] = {now->time,        cost->wall,      cost->events,
+                              cost->replay,     cost->ortho,     cost->spectrum,
+                              cost->modes,      cost->covariant, cost->events_per_second,
+                              cost->interval,   cost->condition, cost->defect,
+                              cost->error_bound};
     if (!message_finite(numbers, sizeof numbers / sizeof *numbers)) return HD_NOT_FINITE;
     return publishers_sent(hdr_cost_publish(rep->out.publisher[TOPIC_COST], &message), TOPIC_COST);
 }
 
+/** Cost, if anybody listens, and status. */
+static hd_status publish_progress(report *rep, const progress *now, hd_stage stage)
+{
+    const bool heard = publishers_subscribed(&rep->out) & topic_bit(TOPIC_COST);
+    hd_status status = heard ? publish_cost(rep, now) : HD_OK;
+    if (status == HD_OK) status = publish_status(rep, now, stage);
+    return status;
+}
+
 /** Topics that have something to say after this step and someone to listen. The modes were measured
- * only if someone listened before. The cost of a finished run is left to report_finish: it is the
- * last message. */
+ * only if someone listened before. */
 static unsigned topics_due(const report *rep, const hd_run *run)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
@@ -279,10 +299,10 @@ static unsigned topics_due(const report *rep, const hd_run *run)
     if (!spectrum || !(hd_spectrum_time(spectrum) > 0.0)) set &= ~topic_bit(TOPIC_SPECTRUM);
     if (!modes || hd_modes_samples(modes) == 0) set &= ~of_modes;
     if (!hd_run_fields_due(run)) set &= ~topic_bit(TOPIC_FIELDS);
-    if (hd_run_stage(run) == HD_FINISHED) set &= ~topic_bit(TOPIC_COST);
     return set & (rep->demand | ~of_modes);
 }
 
+/** The last word about a run that has finished is left to report_finish. */
 static hd_status publish_due(report *rep, const hd_run *run)
 {
     const unsigned set = topics_due(rep, run);
@@ -295,11 +315,9 @@ static hd_status publish_due(report *rep, const hd_run *run)
         status = mode_report_publish(rep->modes, &now, set);
     if (status == HD_OK && (set & topic_bit(TOPIC_FIELDS)))
         status = field_report_publish(rep->fields, &now);
-    if (status == HD_OK && (set & topic_bit(TOPIC_COST))) {
-        const progress last = progress_of(run);
-        status = publish_cost(rep, &last, last.phase);
-    }
-    return status;
+    if (status != HD_OK || hd_run_stage(run) == HD_FINISHED) return status;
+    const progress last = progress_of(run);
+    return publish_progress(rep, &last, last.stage);
 }
 
 hd_status report_publish(report *rep, const hd_run *run)
@@ -320,6 +338,5 @@ hd_status report_window(report *rep, const hd_run *run)
 
 hd_status report_finish(report *rep, const progress *last)
 {
-    const bool heard = publishers_subscribed(&rep->out) & topic_bit(TOPIC_COST);
-    return heard ? publish_cost(rep, last, HD_FINISHED) : HD_OK;
+    return publish_progress(rep, last, HD_FINISHED);
 }

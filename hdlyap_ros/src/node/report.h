@@ -9,7 +9,7 @@
 
 /** What other threads may know of the run: a copy as of its last finished step. */
 typedef struct progress {
-    hd_stage phase;
+    hd_stage stage;
     double time;         /**< simulated time since the start */
     uint64_t collisions; /**< pairs, since the start */
     hd_cost cost;
@@ -57,7 +57,7 @@ HD_MUST_CHECK hd_status report_publish(report *rep, const hd_run *run);
  * step or a checkpoint. HD_NOT_FINITE as above. */
 HD_MUST_CHECK hd_status report_window(report *rep, const hd_run *run);
 
-/** Publishes the run's last message, if anybody listens: the cost, with phase FINISHED. */
+/** Publishes the run's last messages: the cost, and the status with stage FINISHED. */
 HD_MUST_CHECK hd_status report_finish(report *rep, const progress *last);
 
 #endif

@@ -21,7 +21,7 @@ static bool on_reset_average(void *context, char *message, size_t size)
 {
     worker *w = context;
     const worker_state state = worker_state_now(w);
-    if (state.stage == WORKER_ENDED || state.last.phase != HD_AVERAGING) {
+    if (state.stage == WORKER_ENDED || state.last.stage != HD_AVERAGING) {
         snprintf(message, size, "there are no averages now");
         return false;
     }

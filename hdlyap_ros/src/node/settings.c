@@ -69,7 +69,7 @@ static bool check_awaited(settings *set, reader *r)
     r->name = "wait_for_subscribers";
     if (set->awaited == ALL_PUBLISHED) set->awaited = published;
     return !(set->awaited & ~published) ||
-           reader_refuse(r, "out of run_info, cost and the observables");
+           reader_refuse(r, "out of run_info, status, cost and the observables");
 }
 
 static bool is_usual(settings *set, const parameter *p)

@@ -21,7 +21,7 @@ typedef struct settings {
     const char *scene;    /**< name; in the params, or in the checkpoint */
     char seed[24];        /**< decimal */
     char exponents[16];   /**< as asked for: positive, all, none or a number */
-    unsigned observables; /**< set of topics: all but run_info and cost */
+    unsigned observables; /**< set of topics: all but run_info, status and cost */
     field_choice fields;
     double slow_vectors_rate; /**< messages of slow_vectors per wall second, at most */
     int slow_vectors_count;   /**< vectors in each; 0: down to the lowest T and LP step */

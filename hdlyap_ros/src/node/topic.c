@@ -19,6 +19,7 @@ static const struct {
     [TOPIC_HYDRO] = {"hydro", HD_OBSERVE_HYDRO},
     [TOPIC_COVARIANT] = {"covariant", HD_OBSERVE_COVARIANT},
     [TOPIC_STATE] = {"state", 0},
+    [TOPIC_STATUS] = {"status", 0},
     [TOPIC_COST] = {"cost", 0},
 };
 

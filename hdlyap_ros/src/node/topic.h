@@ -14,13 +14,14 @@ typedef enum topic {
     TOPIC_HYDRO,
     TOPIC_COVARIANT,
     TOPIC_STATE,
+    TOPIC_STATUS,
     TOPIC_COST,
     TOPICS
 } topic;
 
 /** Sets of topics: always there; whatever else can be asked for; what is made of the modes. */
 enum {
-    TOPICS_ALWAYS = 1u << TOPIC_RUN_INFO | 1u << TOPIC_COST,
+    TOPICS_ALWAYS = 1u << TOPIC_RUN_INFO | 1u << TOPIC_STATUS | 1u << TOPIC_COST,
     TOPICS_OBSERVABLE = ((1u << TOPICS) - 1) ^ TOPICS_ALWAYS,
     TOPICS_OF_MODES = 1u << TOPIC_MODES | 1u << TOPIC_STEPS | 1u << TOPIC_LP_PHASES |
                       1u << TOPIC_FIELDS | 1u << TOPIC_HYDRO,

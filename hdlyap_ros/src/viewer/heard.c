@@ -230,10 +230,10 @@ void heard_phases(heard *h, const hdr_lp_phases *phases)
     h->changed |= phases->sim_time == h->time;
 }
 
-void heard_cost(heard *h, const hdr_cost *cost)
+void heard_status(heard *h, const hdr_run_status *status)
 {
-    if (!is_ours(h, cost->run_id)) return;
-    h->changed |= h->time >= 0.0 && h->stage != cost->phase;
-    h->stage = cost->phase;
-    h->progress = cost->progress;
+    if (!is_ours(h, status->run_id)) return;
+    h->changed |= h->time >= 0.0 && h->stage != status->stage;
+    h->stage = status->stage;
+    h->progress = status->progress;
 }

@@ -52,6 +52,6 @@ void heard_mode_field(heard *h, const hdr_mode_field *field);
 void heard_spectrum(heard *h, const hdr_spectrum *spectrum);
 void heard_steps(heard *h, const hdr_steps *steps);
 void heard_phases(heard *h, const hdr_lp_phases *phases);
-void heard_cost(heard *h, const hdr_cost *cost);
+void heard_status(heard *h, const hdr_run_status *status);
 
 #endif

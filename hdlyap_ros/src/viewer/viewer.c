@@ -98,10 +98,10 @@ static void on_phases(void *context, const hdr_lp_phases *phases)
 }
 
 /** The last message of a report. */
-static void on_cost(void *context, const hdr_cost *cost)
+static void on_status(void *context, const hdr_run_status *status)
 {
     viewer *v = context;
-    heard_cost(&v->said, cost);
+    heard_status(&v->said, status);
     show(v);
 }
 
@@ -123,7 +123,7 @@ static hdr_status hear_averages(viewer *v)
     if (status == HDR_OK)
         status = hdr_steps_subscribe(&s[1], v->ros, topic(v, "steps"), QUEUE, on_steps, v);
     if (status == HDR_OK)
-        status = hdr_cost_subscribe(&s[2], v->ros, topic(v, "cost"), QUEUE, on_cost, v);
+        status = hdr_run_status_subscribe(&s[2], v->ros, topic(v, "status"), QUEUE, on_status, v);
     if (status == HDR_OK)
         status = hdr_slow_vectors_subscribe(&v->slow, v->ros, topic(v, "slow_vectors"), 1,
                                             on_slow_vectors, v);

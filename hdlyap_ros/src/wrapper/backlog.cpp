@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-/** Owners here: newest, followed, or both. Lock held. */
+/** Owners here: newest, followed, or both; and roscpp, of the newest one. Lock held. */
 bool hdr_backlog::waits(const buffer &message) const
 {
-    const long here = (message == newest) + (message == followed);
+    const long here = (message == newest) * (1 + latched) + (message == followed);
     return message && message.use_count() > here;
 }
 

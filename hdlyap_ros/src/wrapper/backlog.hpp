@@ -18,6 +18,9 @@ class hdr_backlog
   public:
     using buffer = boost::shared_array<uint8_t>;
 
+    /** For a latched topic: its newest message has one more owner, for those who come late. */
+    explicit hdr_backlog(bool of_latched = false) : latched(of_latched) {}
+
     void add(const buffer &message, double now);
     /** True if nothing waits. */
     bool empty() const;
@@ -29,6 +32,7 @@ class hdr_backlog
     bool waits(const buffer &message) const;
     void look(double now);
 
+    const bool latched;
     mutable std::mutex lock;
     buffer newest, followed;
     uint64_t count = 0;     /**< messages so far */

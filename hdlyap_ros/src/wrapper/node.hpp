@@ -13,11 +13,13 @@
 #include "hdlyap_ros/node.h"
 
 struct hdr_publisher {
+    explicit hdr_publisher(bool latched) : backlog(latched) {}
+
     ros::Publisher publisher;
     std::string topic;
     std::string datatype;
     int queue;
-    hdr_backlog backlog; /**< not of latched topics */
+    hdr_backlog backlog;
 };
 
 struct hdr_subscriber {

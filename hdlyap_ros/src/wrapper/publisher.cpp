@@ -11,6 +11,35 @@
 #include "node.hpp"
 #include "standard_messages.hpp"
 
+namespace hdlyap_ros
+{
+/** A message that is serialised already. */
+struct serialised {
+    const ros::SerializedMessage &bytes;
+};
+} // namespace hdlyap_ros
+
+namespace ros
+{
+namespace message_traits
+{
+template <> struct MD5Sum<hdlyap_ros::serialised> {
+    static const char *value(const hdlyap_ros::serialised &) { return "*"; }
+};
+template <> struct DataType<hdlyap_ros::serialised> {
+    static const char *value(const hdlyap_ros::serialised &) { return "*"; }
+};
+} // namespace message_traits
+
+namespace serialization
+{
+template <> SerializedMessage serializeMessage(const hdlyap_ros::serialised &message)
+{
+    return message.bytes;
+}
+} // namespace serialization
+} // namespace ros
+
 namespace
 {
 template <class Message>
@@ -19,7 +48,7 @@ hdr_status advertise(hdr_publisher **out, hdr_node *node, const char *topic, int
     using type = typename hdlyap_ros::message_of<Message>::type;
     *out = nullptr;
     return hdr_guard([&] {
-        std::unique_ptr<hdr_publisher> made(new hdr_publisher);
+        std::unique_ptr<hdr_publisher> made(new hdr_publisher(latch));
         made->topic = ros::names::resolve(topic);
         made->datatype = ros::message_traits::datatype<type>();
         made->queue = queue;
@@ -51,13 +80,14 @@ double seconds_now()
 template <class Message> void send(hdr_publisher &publisher, const Message &message)
 {
     const hdlyap_ros::sent<Message> out = {message};
-    if (publisher.publisher.isLatched()) {
-        publisher.publisher.publish(out);
-        return;
-    }
-    ros::SerializedMessage bytes;
     const auto serialise = [&out] { return ros::serialization::serializeMessage(out); };
-    ros::TopicManager::instance()->publish(publisher.topic, serialise, bytes);
+    ros::SerializedMessage bytes;
+    if (publisher.publisher.isLatched()) {
+        bytes = serialise();
+        publisher.publisher.publish(hdlyap_ros::serialised{bytes});
+    } else {
+        ros::TopicManager::instance()->publish(publisher.topic, serialise, bytes);
+    }
     publisher.backlog.add(bytes.buf, seconds_now());
 }
 

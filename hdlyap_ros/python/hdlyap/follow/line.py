@@ -7,49 +7,57 @@ import time
 
 import rospy
 
-from hdlyap.msg import Cost, Spectrum
+from hdlyap.msg import Cost, RunStatus, Spectrum
 from hdlyap.plots.numbers import clock
-from hdlyap.plots.stages import LIMITS, PHASES
+from hdlyap.plots.stages import LIMITS, STAGES
 
 from .nodes import is_alive
 
 LINE_PERIOD = 10.0  # seconds between lines where there is no terminal
 SILENCE = 2.0  # seconds without a message after which the node is asked
-LAST_SPECTRUM = 0.3  # seconds that it may be behind the last word about the cost
+LAST_WORDS = 0.3  # seconds that others may be behind the last status
 
 
 class Progress:
-    """What the node said last; the callbacks of two topics write it, the main loop reads."""
+    """What the node said last; the callbacks of three topics write it, the main loop reads."""
 
     def __init__(self, node):
-        self.cost = None
-        self.spectrum = None
+        self.status = self.cost = self.spectrum = None
         self.news = threading.Event()
         self.last_heard = time.monotonic()
+        rospy.Subscriber(node + '/status', RunStatus, self._hear_status, queue_size=1)
         rospy.Subscriber(node + '/cost', Cost, self._hear_cost, queue_size=1)
         rospy.Subscriber(node + '/spectrum', Spectrum, self._hear_spectrum, queue_size=1)
 
-    def _hear_cost(self, msg):
-        self.cost = msg
+    def _hear_status(self, msg):
+        self.status = msg
         self.last_heard = time.monotonic()
         self.news.set()
+
+    def _hear_cost(self, msg):
+        self.cost = msg
 
     def _hear_spectrum(self, msg):
         self.spectrum = msg
 
     @property
     def finished(self):
-        return self.cost is not None and self.cost.phase == Cost.FINISHED
+        return self.status is not None and self.status.stage == RunStatus.FINISHED
 
     def line(self):
-        cost = self.cost
-        parts = [PHASES.get(cost.phase, '?'), f't = {cost.sim_time:.1f}']
-        if cost.progress > 0:
-            parts.insert(1, f'{100 * cost.progress:.1f} %')
-        if cost.remaining_seconds >= 0 and not self.finished:
-            parts.append(f'{clock(cost.remaining_seconds)} left')
+        status = self.status
+        parts = [STAGES.get(status.stage, '?'), f't = {status.sim_time:.1f}']
+        if status.progress > 0:
+            parts.insert(1, f'{100 * status.progress:.1f} %')
+        if status.remaining_seconds >= 0 and not self.finished:
+            parts.append(f'{clock(status.remaining_seconds)} left')
         if self.spectrum is not None and self.spectrum.averaged_time > 0:
             parts.append(f'lambda_max {self.spectrum.lambda_max:.4f}' + self._error())
+        return '  '.join(parts + (self._spent(self.cost) if self.cost is not None else []))
+
+    @staticmethod
+    def _spent(cost):
+        parts = []
         if cost.orthonormalisations:
             parts.append(
                 f'interval {cost.interval:.3g} ({LIMITS.get(cost.interval_limit, "?")}), '
@@ -58,7 +66,7 @@ class Progress:
         if cost.modes_seconds > 0:
             share = 100 * cost.modes_seconds / cost.wall_seconds
             parts.append(f'classification {share:.0f} % of the time')
-        return '  '.join(parts)
+        return parts
 
     def _error(self):
         errors = self.spectrum.std_errors
@@ -95,7 +103,7 @@ def follow(node):
                 progress.news.clear()
                 display.show(progress.line())
             if progress.finished:
-                time.sleep(LAST_SPECTRUM)
+                time.sleep(LAST_WORDS)
                 display.show(progress.line(), last=True)
                 return 0
             if time.monotonic() - progress.last_heard > SILENCE and not is_alive(node):

@@ -7,7 +7,7 @@ import xmlrpc.client
 import rosgraph
 import rospy
 
-from hdlyap.msg import Cost
+from hdlyap.msg import RunStatus
 
 ANSWER = 5.0  # seconds that a master or a node may take to answer
 # a question that could not be asked, or whose answer is none
@@ -22,10 +22,12 @@ def wait_for_master(deadline):
 
 
 def wait_for_node(name, deadline):
-    """Name of the node that publishes hdlyap/Cost; None after the deadline."""
+    """Name of the node that publishes hdlyap/RunStatus; None after the deadline."""
     while time.monotonic() < deadline and not rospy.is_shutdown():
         nodes = {
-            topic.rpartition('/')[0] for topic, kind in _published_topics() if kind == Cost._type
+            topic.rpartition('/')[0]
+            for topic, kind in _published_topics()
+            if kind == RunStatus._type
         }
         if name in nodes or (name is None and len(nodes) == 1):
             return name or nodes.pop()

@@ -7,12 +7,12 @@ from hdlyap.plots import paper, steps, step_table, waves
 from hdlyap.plots.numbers import clock, with_error
 from hdlyap.plots.phases import apart
 from hdlyap.plots.report import system
-from hdlyap.plots.stages import LIMITS, PHASES, seconds
+from hdlyap.plots.stages import LIMITS, STAGES, seconds
 
 LEVELS = {0: ('OK', 'ok'), 1: ('WARN', 'warn'), 2: ('ERROR', 'error'), 3: ('STALE', 'warn')}
 KIND_STYLES = {steps.T: 'T', steps.LP: 'LP'}
 PAPER_WIDTH = 88  # of a table of steps with the paper's values
-STAGE_BAR = 6  # columns
+PART_BAR = 6  # columns
 GAP = '   '
 STATES = {LpPhase.WEAK: 'too weak now', LpPhase.COARSE: 'turns too fast'}
 PHASE_ROW = '  {:<9} {:<17} {:>6} {:>7}  {} {:<6}{:<14} {}'
@@ -31,37 +31,38 @@ def head(view):
 
 
 def progress(view, width, glyphs):
-    cost = view.cost
-    if cost is None:
-        return [[(_phase(view), 'strong')]]
-    text = _phase(view)
-    right = f' {100 * cost.progress:5.1f} %' if cost.progress > 0 else ''
-    if cost.remaining_seconds >= 0 and not view.is_finished:
-        right += f'  {clock(cost.remaining_seconds)} left'
+    status = view.status
+    if status is None:
+        return [[(_stage(view), 'strong')]]
+    text = _stage(view)
+    right = f' {100 * status.progress:5.1f} %' if status.progress > 0 else ''
+    if status.remaining_seconds >= 0 and not view.is_finished:
+        right += f'  {clock(status.remaining_seconds)} left'
     room = width - len(text) - len(right) - 2
     line = [(text, 'strong'), ('  ', '')]
     if right and room >= 10:
-        line.append((glyphs.bar(cost.progress, room, rest=True), 'T'))
+        line.append((glyphs.bar(status.progress, room, rest=True), 'T'))
     return [line + [(right, '')], *flow(_times(view), width)]
 
 
-def _phase(view):
-    """The node's own word knows more than the phase: paused, waiting for subscribers."""
+def _stage(view):
+    """The node's own word knows more than the stage: paused, waiting for subscribers."""
     if view.is_finished or view.diagnosis is None:
-        return PHASES.get(view.cost.phase, '?') if view.cost else 'waiting for its first word'
+        return STAGES.get(view.status.stage, '?') if view.status else 'waiting for its first word'
     said = {pair.key: pair.value for pair in view.diagnosis.values}
-    return said.get('phase', '?')
+    return said.get('stage', '?')
 
 
 def _times(view):
-    cost, info = view.cost, view.info
-    yield f'simulated {cost.sim_time:.1f}'
+    status, info = view.status, view.info
+    yield f'simulated {status.sim_time:.1f}'
     if view.is_averaged:
         whole = f' of {info.duration:g}' if info and info.duration > 0 else ''
         yield f'averaged {view.spectrum.averaged_time:.1f}{whole}'
     if info and info.target_std_error > 0:
-        yield f'std error {_number(cost.std_error)} of {info.target_std_error:g}'
-    yield f'wall time {clock(cost.wall_seconds)}'
+        yield f'std error {_number(status.std_error)} of {info.target_std_error:g}'
+    if view.cost is not None:
+        yield f'wall time {clock(view.cost.wall_seconds)}'
     if view.speed is not None:
         yield f'{view.speed:.3g} time units/s'
 
@@ -166,11 +167,11 @@ def cost(view, width, glyphs):
     """Shares of the wall time, and what the interval between orthonormalisations is due to."""
     if view.cost is None or view.cost.wall_seconds <= 0:
         return []
-    shares = {stage: spent / view.cost.wall_seconds for stage, spent in seconds(view.cost).items()}
+    shares = {part: spent / view.cost.wall_seconds for part, spent in seconds(view.cost).items()}
     return flow(
         [
-            f'{stage:<9} {glyphs.bar(share, STAGE_BAR)} {100 * share:3.0f} %'
-            for stage, share in shares.items()
+            f'{part:<9} {glyphs.bar(share, PART_BAR)} {100 * share:3.0f} %'
+            for part, share in shares.items()
         ],
         width,
         '  ',

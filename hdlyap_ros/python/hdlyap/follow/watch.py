@@ -4,12 +4,12 @@ import time
 from collections import deque
 
 from diagnostic_msgs.msg import DiagnosticArray
-from hdlyap.msg import Cost, LpPhases, RunInfo, Spectrum, Steps
+from hdlyap.msg import Cost, LpPhases, RunInfo, RunStatus, Spectrum, Steps
 from hdlyap.plots.run import Run
 
 from .scout import Scout
 
-ALWAYS = {'run_info': RunInfo, 'cost': Cost, 'spectrum': Spectrum}
+ALWAYS = {'run_info': RunInfo, 'status': RunStatus, 'cost': Cost, 'spectrum': Spectrum}
 COMPUTED = {'steps': Steps, 'lp_phases': LpPhases}
 SPEED_OVER = 10.0  # wall seconds
 
@@ -19,13 +19,13 @@ class View(Run):
     `diagnosis`: its DiagnosticStatus; `others`: topics of COMPUTED that somebody else listens to;
     `wanted`: whether the user has asked for all of them."""
 
-    cost = phases = diagnosis = speed = None
+    status = cost = phases = diagnosis = speed = None
     node, silence, others, wanted = '', 0.0, frozenset(), False
     is_gone = is_master_gone = False
 
     @property
     def is_finished(self):
-        return self.cost is not None and self.cost.phase == Cost.FINISHED
+        return self.status is not None and self.status.stage == RunStatus.FINISHED
 
     @property
     def is_averaged(self):
@@ -86,14 +86,15 @@ class Watch:
 
 def fill(view, last):
     """With the last messages of the topics, but those that are left of a run before the one that
-    the cost is of."""
-    newest = last.get('cost') or last.get('run_info')
+    the status is of."""
+    newest = last.get('status') or last.get('run_info')
     last = (
         {name: message for name, message in last.items() if message.run_id == newest.run_id}
         if newest
         else {}
     )
-    view.info, view.cost = last.get('run_info'), last.get('cost')
+    view.info = last.get('run_info')
+    view.status, view.cost = last.get('status'), last.get('cost')
     view.spectrum, view.steps = last.get('spectrum'), last.get('steps')
     view.phases = last.get('lp_phases')
 

@@ -165,4 +165,4 @@ def only_bin(counts):
 
 def isolated(message):
     """Indices behind which the splitting is dominated: no later vector ever grew more."""
-    return indices(message)[:-1][np.array(message.entangled) == 0]
+    return indices(message)[:-1][np.array(message.domination_violations) == 0]

@@ -28,7 +28,7 @@ def _head(message):
     count = f'{message.windows} window' + ('s' if message.windows != 1 else '')
     return (
         f'covariant vectors: {message.averaged_time:g} time units in {count}{lost}, '
-        f'{message.looks} looks (standard errors)'
+        f'{message.samples} samples (standard errors)'
     )
 
 
@@ -139,7 +139,7 @@ def _spaces(recording):
         )
     if message.null_angle >= 0:
         lines.append(
-            f'  covariant centre to exact null space: {message.null_angle:.1e} at the last look, '
+            f'  covariant centre to exact null space: {message.null_angle:.1e} at the last sample, '
             f'{message.largest_null_angle:.1e} at most'
         )
     return '\n'.join(lines)
@@ -171,7 +171,7 @@ def _order(recording):
 
 def _convergence(recording):
     message = recording.covariant
-    apart = np.array(message.apart)
+    apart = np.array(message.start_mismatch)
     lines = [
         'how far two random starts are apart where the last window ended',
         f'  vectors: sine {np.median(apart):.1e} in the middle, {apart.max():.1e} at most '
@@ -179,7 +179,10 @@ def _convergence(recording):
     ]
     spaces = {
         name: value
-        for name, value in (('centre', message.centre_apart), ('stable', message.stable_apart))
+        for name, value in (
+            ('centre', message.centre_start_mismatch),
+            ('stable', message.stable_start_mismatch),
+        )
         if value >= 0
     }
     if spaces:

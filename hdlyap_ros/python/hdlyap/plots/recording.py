@@ -13,12 +13,13 @@ from .numbers import known
 from .phases import PhaseCourse
 from .progress import Progress
 from .run import Run
-from .stages import STAGES
+from .stages import PARTS
 
-RUN_INFO, SPECTRUM, COST = 'hdlyap/RunInfo', 'hdlyap/Spectrum', 'hdlyap/Cost'
+RUN_INFO, SPECTRUM = 'hdlyap/RunInfo', 'hdlyap/Spectrum'
+STATUS, COST = 'hdlyap/RunStatus', 'hdlyap/Cost'
 STEPS, PHASES, FIELD = 'hdlyap/Steps', 'hdlyap/LpPhases', 'hdlyap/ModeField'
 COVARIANT = 'hdlyap/Covariant'
-TYPES = (RUN_INFO, SPECTRUM, COST, STEPS, PHASES, FIELD, COVARIANT)
+TYPES = (RUN_INFO, SPECTRUM, STATUS, COST, STEPS, PHASES, FIELD, COVARIANT)
 SMALLEST = 4  # exponents whose course is kept, counted back from the last positive one
 DAMAGE = (genpy.DeserializationError, struct.error, UnicodeDecodeError, KeyError)
 
@@ -37,6 +38,7 @@ class Recording(Run):
         self.info = info
         self.runs = runs  # in the bag
         self.spectrum = None
+        self.began = {}  # simulated time of the first status of each stage
         self.phases = PhaseCourse()
         self._history, self._costs = Course(), Course()
         self._last, self._fields = {}, {}
@@ -73,9 +75,12 @@ class Recording(Run):
         elif kind == FIELD:
             self._fields[packed.field_index()] = packed
         else:
-            {SPECTRUM: self._add_spectrum, COST: self._add_cost, PHASES: self.phases.add}[kind](
-                packed.message()
-            )
+            {
+                SPECTRUM: self._add_spectrum,
+                STATUS: self._add_status,
+                COST: self._add_cost,
+                PHASES: self.phases.add,
+            }[kind](packed.message())
 
     def _add_spectrum(self, msg):
         if msg.averaged_time <= 0:
@@ -96,14 +101,16 @@ class Recording(Run):
             )
         )
 
+    def _add_status(self, msg):
+        self.began.setdefault(msg.stage, msg.sim_time)
+
     def _add_cost(self, msg):
         self._costs.add(
             (
                 msg.sim_time,
-                msg.phase,
                 msg.wall_seconds,
-                # older bags do not know every stage
-                *(getattr(msg, stage + '_seconds', 0.0) for stage in STAGES),
+                # older bags do not know every part
+                *(getattr(msg, part + '_seconds', 0.0) for part in PARTS),
             )
         )
 
@@ -124,12 +131,12 @@ class Recording(Run):
         return course
 
     def cost(self):
-        """Wall seconds since the start against simulated time, by stage; None if unrecorded."""
+        """Wall seconds since the start against simulated time, by part; None if unrecorded."""
         table = self._costs.table()
         if table is None:
             return None
-        cost = {'time': table[:, 0], 'phase': table[:, 1].astype(int), 'wall': table[:, 2]}
-        cost.update(zip(STAGES, table[:, 3:].T))
+        cost = {'time': table[:, 0], 'wall': table[:, 1]}
+        cost.update(zip(PARTS, table[:, 2:].T))
         return cost
 
 

@@ -1,6 +1,6 @@
-"""What is said about the cost of a run: names for the constants and the seconds of hdlyap/Cost."""
+"""Names for the constants of hdlyap/RunStatus and hdlyap/Cost, and for the seconds of the cost."""
 
-from hdlyap.msg import Cost
+from hdlyap.msg import Cost, RunStatus
 
 # a field of that name, with _seconds behind it: what it is for
 LABELS = {
@@ -13,12 +13,12 @@ LABELS = {
     'publish': 'publishing',
     'other': 'other',
 }
-STAGES = tuple(LABELS)[:-1]
-PHASES = {
-    Cost.EQUILIBRATING: 'equilibrating',
-    Cost.WARMING_UP: 'warming up',
-    Cost.AVERAGING: 'averaging',
-    Cost.FINISHED: 'finished',
+PARTS = tuple(LABELS)[:-1]
+STAGES = {
+    RunStatus.EQUILIBRATING: 'equilibrating',
+    RunStatus.WARMING_UP: 'warming up',
+    RunStatus.AVERAGING: 'averaging',
+    RunStatus.FINISHED: 'finished',
 }
 # why the interval is not longer
 LIMITS = {
@@ -34,6 +34,6 @@ LIMITS = {
 
 
 def seconds(cost):
-    """{stage: wall seconds so far}; other is what no stage accounts for."""
-    spent = {stage: getattr(cost, stage + '_seconds') for stage in STAGES}
+    """{part: wall seconds so far}; other is what no part accounts for."""
+    spent = {part: getattr(cost, part + '_seconds') for part in PARTS}
     return {**spent, 'other': max(0.0, cost.wall_seconds - sum(spent.values()))}

@@ -1,10 +1,10 @@
 """The bag of one run, read as often as the parts of the paper need and no more."""
 
+from hdlyap.msg import RunStatus
 from hdlyap.plots import recording, repetition
 
 # parameters that make no difference to what is measured, or that run_info has as they were resolved
 HERE = ('threads', 'wait_for_subscribers', 'checkpoint', 'resume')
-FINISHED = 3  # phase of the last message of Cost of a run that was not stopped
 
 
 class Bag:
@@ -30,12 +30,11 @@ class Bag:
         """Every message of a type, 'hdlyap/LpPhases' say, of the last run in its order."""
         yield from recording.messages(self.path, kind)
 
-    @property
-    def cost(self):
-        """The last message about it; None if there is none."""
+    def last(self, kind):
+        """The last message of a type; None if there is none."""
         last = None
         try:
-            for last in self.messages(recording.COST):
+            for last in self.messages(kind):
                 pass
         except recording.RecordingError:
             return None
@@ -43,8 +42,8 @@ class Bag:
 
     def is_complete(self):
         """Whether the run went to its end."""
-        last = self.cost
-        return last is not None and last.phase == FINISHED and last.progress >= 1
+        last = self.last(recording.STATUS)
+        return last is not None and last.stage == RunStatus.FINISHED and last.progress >= 1
 
     def was_run_with(self, parameters):
         """Whether its run had these parameters of the node."""

@@ -9,7 +9,7 @@ import time
 
 import rospy
 
-from hdlyap.msg import Cost
+from hdlyap.msg import RunStatus
 
 from . import signals
 from .bag import Bag
@@ -38,12 +38,14 @@ class Job:
         self._folder, self._new = folder, os.path.join(
             folder, UNDER_WAY, f'{run.name}.{os.getpid()}'
         )
-        self.cost = None  # its last message
+        self.status = None  # its last message
         self._began = time.monotonic()
         os.makedirs(self._new, exist_ok=True)
         run.write(folder)
         run.write(self._new)
-        self._subscriber = rospy.Subscriber(run.node + '/cost', Cost, self._hear, queue_size=10)
+        self._subscriber = rospy.Subscriber(
+            run.node + '/status', RunStatus, self._hear, queue_size=10
+        )
         with open(log, 'w') as file:
             self.tree = Tree(
                 [
@@ -57,7 +59,7 @@ class Job:
             )
 
     def _hear(self, message):
-        self.cost = message
+        self.status = message
 
     @property
     def seconds(self):
@@ -68,14 +70,14 @@ class Job:
         """Of the whole run, 0 .. 1, in simulated time with tangent vectors: without them it goes
         fast."""
         wanted = self.run.parameters
-        spent = self.cost.sim_time - wanted['equilibration'] if self.cost else 0.0
+        spent = self.status.sim_time - wanted['equilibration'] if self.status else 0.0
         return min(1.0, max(0.0, spent / (wanted['warmup'] + wanted['duration'])))
 
     def has_ended(self):
         return self.tree.has_ended()
 
     def is_silent(self):
-        return self.cost is None and self.seconds > SILENCE
+        return self.status is None and self.seconds > SILENCE
 
     def close(self, commit):
         """After its end: notes it. WorkError if the run did not go to its end."""

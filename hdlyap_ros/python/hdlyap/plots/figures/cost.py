@@ -1,11 +1,13 @@
-"""Wall time by stage: its course, and its shares of the whole run."""
+"""Wall time by part: its course, and its shares of the whole run."""
 
 import numpy as np
 
-from ..stages import LABELS, STAGES
+from hdlyap.msg import RunStatus
+
+from ..stages import LABELS, PARTS
 from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, plt, thinned
 
-STAGE_COLOURS = {
+PART_COLOURS = {
     'events': BLUE,
     'replay': SKY,
     'ortho': ORANGE,
@@ -15,7 +17,11 @@ STAGE_COLOURS = {
     'publish': PURPLE,
     'other': '#BFBFBF',
 }
-PHASES = ('equilibration', 'warm-up', 'averaging')
+STAGES = {
+    RunStatus.EQUILIBRATING: 'equilibration',
+    RunStatus.WARMING_UP: 'warm-up',
+    RunStatus.AVERAGING: 'averaging',
+}
 
 
 def draw(recording):
@@ -25,27 +31,26 @@ def draw(recording):
     figure, (course, share) = plt.subplots(
         1, 2, figsize=(7.2, 3.2), constrained_layout=True, gridspec_kw={'width_ratios': [1.5, 1]}
     )
-    cost['other'] = np.maximum(0, cost['wall'] - sum(cost[stage] for stage in STAGES))
-    _course(course, cost)
+    cost['other'] = np.maximum(0, cost['wall'] - sum(cost[part] for part in PARTS))
+    _course(course, cost, recording.began)
     _shares(share, cost)
     return figure
 
 
-def _course(axes, cost):
+def _course(axes, cost, began):
     kept = thinned(len(cost['time']))
     axes.stackplot(
         cost['time'][kept],
-        *(cost[stage][kept] for stage in LABELS),
-        colors=list(STAGE_COLOURS.values()),
+        *(cost[part][kept] for part in LABELS),
+        colors=list(PART_COLOURS.values()),
         linewidth=0,
     )
-    for phase, name in enumerate(PHASES):
-        during = cost['time'][cost['phase'] == phase]
-        if during.size:
-            axes.axvline(during[0], color=INK, linewidth=0.6, linestyle=':')
+    for stage, name in STAGES.items():
+        if stage in began:
+            axes.axvline(began[stage], color=INK, linewidth=0.6, linestyle=':')
             axes.annotate(
                 name,
-                (during[0], 1),
+                (began[stage], 1),
                 xycoords=('data', 'axes fraction'),
                 xytext=(6, -3),
                 textcoords='offset points',
@@ -61,9 +66,9 @@ def _course(axes, cost):
 
 
 def _shares(axes, cost):
-    seconds = np.array([cost[stage][-1] for stage in LABELS])
+    seconds = np.array([cost[part][-1] for part in LABELS])
     rows = np.arange(len(seconds))
-    axes.barh(rows, seconds, color=list(STAGE_COLOURS.values()))
+    axes.barh(rows, seconds, color=list(PART_COLOURS.values()))
     for row, value in zip(rows, seconds):
         axes.annotate(
             f'{value:.3g} s ({100 * value / cost["wall"][-1]:.1f} %)',

@@ -26,7 +26,7 @@ def draw(run):
         axes.set_xticklabels(['0', r'$\pi/8$', r'$\pi/4$', r'$3\pi/8$', r'$\pi/2$'])
         axes.set_xlabel('angle  [rad]')
     left.set_ylabel('probability density  [1/rad]')
-    figure.suptitle(f'{scene(run.info)}, {message.looks} looks', fontsize=9)
+    figure.suptitle(f'{scene(run.info)}, {message.samples} samples', fontsize=9)
     return figure
 
 

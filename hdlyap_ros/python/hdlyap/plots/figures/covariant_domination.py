@@ -12,17 +12,19 @@ def draw(run):
     message = run.covariant
     if message is None or len(message.exponents) < 2:
         return None
-    places, entangled = covariant.between(message), np.array(message.entangled, dtype=float)
+    places, violated = covariant.between(message), np.array(
+        message.domination_violations, dtype=float
+    )
     panels = Panels(run, 2, 4.8)
     panels.plot(
         0, places, message.violations, '.', color=BLUE, markersize=3, label='next one grew more'
     )
-    panels.plot(1, places, entangled, '.', color=INK, markersize=3, label='of all times')
-    isolated = entangled == 0
+    panels.plot(1, places, violated, '.', color=INK, markersize=3, label='of all times')
+    isolated = violated == 0
     panels.plot(
         1,
         places[isolated],
-        entangled[isolated],
+        violated[isolated],
         'v',
         color=GREEN,
         markersize=4.5,

@@ -21,7 +21,7 @@ def draw(run):
         '.',
         color=LIGHT,
         markersize=3,
-        label='backward, between two looks',
+        label='backward, between two samples',
     )
     panels.plot(
         0,

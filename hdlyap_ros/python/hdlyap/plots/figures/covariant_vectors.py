@@ -30,7 +30,7 @@ def draw(run):
         markersize=3,
         label='smallest so far',
     )
-    apart = np.array(message.apart, dtype=float)
+    apart = np.array(message.start_mismatch, dtype=float)
     panels.plot(
         3,
         indices,

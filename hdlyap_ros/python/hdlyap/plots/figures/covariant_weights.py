@@ -38,7 +38,9 @@ def draw(run):
         axes.set_xlabel(r'index $\ell$')
     # far from its step the weights are small
     grid[0, 0].legend(loc='upper left', bbox_to_anchor=(0, 0.92), fontsize=6.5, handletextpad=0.2)
-    figure.suptitle(f'{scene(run.info)}, covariant vectors of {message.looks} looks', fontsize=9)
+    figure.suptitle(
+        f'{scene(run.info)}, covariant vectors of {message.samples} samples', fontsize=9
+    )
     return figure
 
 

@@ -1,7 +1,10 @@
 """Part 14: the claim that nothing depends on the time between orthonormalisations."""
 
+import math
+
 import numpy as np
 
+from hdlyap.msg import RunStatus
 from hdlyap.plots import recording, steps
 from hdlyap.plots.figures.style import GREY, MEMBER_COLOURS, plt, scene
 
@@ -33,11 +36,8 @@ class Trial:
             for message in bag.messages(recording.SPECTRUM)
             if message.averaged_time > 0
         }
-        costs = [
-            message
-            for message in bag.messages(recording.COST)
-            if message.phase >= message.AVERAGING
-        ]
+        began = self.recording.began.get(RunStatus.AVERAGING, math.inf)
+        costs = [message for message in bag.messages(recording.COST) if message.sim_time >= began]
         self.longest = max((message.interval for message in costs), default=None)
         self.mean = _mean_interval(costs)
         self.bound = costs[-1].error_bound if costs else None
