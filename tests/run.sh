@@ -133,8 +133,7 @@ public_headers() {
     cd "$WORK/ros/.install/include"
     {
         cat "$ROOT/tests/doxygen/Doxyfile"
-        echo "INPUT = hdlyap hdlyap_ros"
-        echo "OUTPUT_DIRECTORY = $WORK/doxygen"
+        printf "%s\n" "INPUT = hdlyap hdlyap_ros" "INCLUDE_PATH = ." "OUTPUT_DIRECTORY = $WORK/doxygen"
     } | doxygen - >"$WORK/doxygen/said" 2>&1
     cat "$WORK/doxygen/said"
     [[ ! -s $WORK/doxygen/said ]] && python3 "$ROOT/tests/doxygen/names.py" "$WORK/doxygen/xml"

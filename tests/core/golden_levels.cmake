@@ -3,10 +3,8 @@
 # expects the same events of every program.
 cmake_minimum_required(VERSION 3.16)
 
-set(SOURCES base/archive base/random base/memory base/status scene/lattice scene/scene scene/scene_check scene/wave events/trajectory events/prediction
-  events/prefetch events/nearby events/cells events/queue events/event_log)
-list(TRANSFORM SOURCES PREPEND ${CORE}/src/)
-list(TRANSFORM SOURCES APPEND .c)
+file(GLOB SOURCES ${CORE}/src/base/*.c ${CORE}/src/scene/*.c ${CORE}/src/events/*.c)
+list(FILTER SOURCES EXCLUDE REGEX /blas.c$)
 set(TESTS ${CMAKE_CURRENT_LIST_DIR}/support)
 set(EXACT -std=c11 -ffp-contract=off -fno-math-errno -fno-trapping-math)
 set(LEVELS "-O0" "-O2" "-O3 -march=native")

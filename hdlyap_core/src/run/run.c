@@ -151,6 +151,8 @@ void hd_run_free(hd_run *run)
     hd_memory_free(run);
 }
 
+/* ---- what is looked at ---------------------------------------------------------------------- */
+
 /** True if the exponents nearest to zero are known as well as the scene asks. */
 static bool target_reached(const hd_run *run)
 {
@@ -272,6 +274,8 @@ static hd_status show(hd_run *run)
     if (hd_run_time(run) < run->interval_end) HD_TRY(find_slowest(run, watched(run)));
     return hd_run_time(run) == run->interval_end ? measure(run) : HD_OK;
 }
+
+/* ---- from one cut to the next -------------------------------------------------------------- */
 
 /** True while there is a way back to go. */
 static bool is_going_back(const hd_run *run)

@@ -50,14 +50,14 @@ hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size
     double box[2];
     HD_TRY(check_ranges(def, false, message, size));
     hd_scene_box(def, box);
-    for (int d = 0; d < 2; d++)
-        if (!is_wide_enough(def, d, box[d]))
-            return hd_refuse(
-                message, size,
-                "density = %.15g with disks = %d, aspect = %.15g: the box edge L%c = %.15g "
-                "must be above the disk diameter 1%s",
-                def->density, def->disks, def->aspect, "xy"[d], box[d],
-                def -> boundary[d] == HD_REFLECTING ? " by 1e-9" : "");
+    for (int d = 0; d < 2; d++) {
+        const char *room = def->boundary[d] == HD_REFLECTING ? " by 1e-9" : "";
+        if (is_wide_enough(def, d, box[d])) continue;
+        return hd_refuse(message, size,
+                         "density = %.15g with disks = %d, aspect = %.15g: the box edge L%c = "
+                         "%.15g must be above the disk diameter 1%s",
+                         def->density, def->disks, def->aspect, "xy"[d], box[d], room);
+    }
     return HD_OK;
 }
 

@@ -12,6 +12,9 @@ enum { PAIRS_MAX = HD_MODULATIONS_MAX };
 
 /** A message this old is as good as new for a run that stands still [s]. */
 static const double rest_seconds = 1.0;
+/** Of the time between two messages, one may be so early: steps are somewhat shorter than that, and
+ * every other one would be too early. On average there are no more than asked for. */
+static const double early = 0.5;
 
 /** What is said of each vector, [vectors] each unless said otherwise. */
 typedef struct vector_arrays {
@@ -124,7 +127,7 @@ void slow_vectors_report_demand(slow_vectors_report *r, hd_run *run)
     const double between = paced && averaging
                                ? fmax(r->set->pace / r->set->slow_vectors_rate, DBL_MIN)
                                : INFINITY;
-    r->due = watched && clock_seconds() >= r->next;
+    r->due = watched && clock_seconds() >= r->next - early / r->set->slow_vectors_rate;
     const int first = r->due ? first_of(r, run) : r->end;
     hd_run_watch(run, watched ? between : INFINITY, first < r->end ? first : hd_run_vectors(run));
 }
