@@ -67,7 +67,7 @@ static double median_apart(const hd_covariant *c)
 {
     const size_t n = (size_t)hd_covariant_vectors(c);
     double *sines = room(n, sizeof *sines);
-    for (size_t k = 0; k < n; k++) sines[k] = hd_covariant_met_each(c)[k];
+    for (size_t k = 0; k < n; k++) sines[k] = hd_covariant_start_mismatch_each(c)[k];
     qsort(sines, n, sizeof *sines, ascending);
     const double median = 0.5 * (sines[(n - 1) / 2] + sines[n / 2]);
     free(sines);
@@ -82,7 +82,7 @@ static double forward_seconds(const hd_cost *cost)
 static void tell(const hd_run *run, row r, table *t, double began)
 {
     const hd_covariant *c = hd_run_covariant(run);
-    const hd_covariant_apart apart = hd_covariant_met(c);
+    const hd_covariant_mismatch apart = hd_covariant_start_mismatch(c);
     const hd_cost cost = hd_run_cost(run);
     const double length = hd_spectrum_time(hd_run_spectrum(run));
     const double forward = (forward_seconds(&cost) - began) / length;

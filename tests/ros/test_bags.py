@@ -348,6 +348,7 @@ class Stopped(unittest.TestCase):
         self.assertTrue(harness.wait_until(lambda: len(self.files('first_*')) > 2))
         end(first)
         self.assertTrue(node.running())
+        self.process(harness.start_viewer(dict(node='/hdlyap')))
         second = self.record('bag:=second.bag', 'markers:=true')
         averaged = harness.Listener('spectrum')
         self.addCleanup(averaged.close)

@@ -221,7 +221,9 @@ class Rviz(unittest.TestCase):
             bag, 'w'
         ) as file:  # and from a bag, in which the run stands where it did at first
             file.write('/hdlyap/markers', first)
-        play = harness.Process(['rosbag', 'play', '--quiet', '--delay=1', '--keep-alive', bag])
+        play = harness.Process(
+            ['rosrun', 'rosbag', 'play', '--quiet', '--delay=1', '--keep-alive', bag]
+        )
         self.addCleanup(play.stop)
         self.check_shown(first)
         self.assertTrue(rviz.running())

@@ -73,18 +73,18 @@ const hd_spectrum *hd_covariant_spectrum(const hd_covariant *covariant);
 const hd_splitting *hd_covariant_splitting(const hd_covariant *covariant);
 
 /** How far two starts were apart where windows ended, after the transient. */
-typedef struct hd_covariant_apart {
+typedef struct hd_covariant_mismatch {
     /** Last window: largest sine of single vectors; those of equal exponents never meet */
     double most;
     /** Any window: largest angle between the spaces of vanishing exponents [radians]; negative if
      * not carried */
     double centre;
     double stable; /**< the same of negative exponents */
-} hd_covariant_apart;
-hd_covariant_apart hd_covariant_met(const hd_covariant *covariant);
+} hd_covariant_mismatch;
+hd_covariant_mismatch hd_covariant_start_mismatch(const hd_covariant *covariant);
 /** Sine of each vector, [n], at the end of the last window. A lower bound of what the start still
  * matters, as both starts lean towards the frame. */
-const double *hd_covariant_met_each(const hd_covariant *covariant);
+const double *hd_covariant_start_mismatch_each(const hd_covariant *covariant);
 
 /** Largest angle between the covariant centre and the exact null space [T9] at the last look, and
  * of all; negative if not carried. */

@@ -35,7 +35,7 @@ typedef struct hd_cost {
                            time: what rounding may have done to a mean */
     long orthonormalisations; /**< number of them */
     long second_passes;       /**< how many needed a second pass */
-    long looks;               /**< at phases between two of them */
+    long slow_vector_samples; /**< at phases between two of them */
     long repairs;             /**< intervals that turned out too long and were replayed in pieces */
     /** largest of the exponents nearest to zero, which target_std_error is for; negative if unknown
      */

@@ -55,7 +55,7 @@ const hd_angle_of_spaces *hd_splitting_angle(const hd_splitting *splitting, hd_p
 const double *hd_splitting_violations(const hd_splitting *splitting);
 /** Fraction over which any of the vectors up to col grew less than any later one, [n - 1]: 0 where
  * the splitting there is dominated, so that what is on either side is isolated from the other. */
-const double *hd_splitting_entangled(const hd_splitting *splitting);
+const double *hd_splitting_domination_violations(const hd_splitting *splitting);
 
 #ifdef __cplusplus
 }

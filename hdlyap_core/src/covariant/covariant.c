@@ -55,7 +55,7 @@ struct hd_covariant {
     long last; /**< interval that the window ends with */
     long windows, lost, intervals;
     uint64_t starts;
-    hd_covariant_apart spaces_apart;
+    hd_covariant_mismatch spaces_apart;
     double null_apart, null_apart_most;
 };
 
@@ -213,7 +213,7 @@ void hd_covariant_clear(hd_covariant *c)
     hd_modes_clear(c->of_frame);
     c->windows = c->lost = 0;
     c->null_apart = c->null_apart_most = -1.0;
-    c->spaces_apart = (hd_covariant_apart){-1.0, -1.0, -1.0};
+    c->spaces_apart = (hd_covariant_mismatch){-1.0, -1.0, -1.0};
 }
 
 hd_status hd_covariant_begin(hd_covariant *c, hd_columns frame, double time, double interval)
@@ -392,7 +392,7 @@ static hd_status spaces_apart(hd_covariant *c, double *angle, int first, int cou
 /** At the window's end: how far the two starts have met; the worst of all windows is kept. */
 static hd_status meet(hd_covariant *c)
 {
-    hd_covariant_apart *apart = &c->spaces_apart;
+    hd_covariant_mismatch *apart = &c->spaces_apart;
     const int stable = c->vectors - c->unstable - c->centre;
     double now;
     apart->most = 0.0;
@@ -449,8 +449,8 @@ double hd_covariant_bytes(const hd_covariant *c) { return c->bytes; }
 double hd_covariant_window_end(const hd_covariant *c) { return c->window; }
 const hd_spectrum *hd_covariant_spectrum(const hd_covariant *c) { return c->spectrum; }
 const hd_splitting *hd_covariant_splitting(const hd_covariant *c) { return c->splitting; }
-hd_covariant_apart hd_covariant_met(const hd_covariant *c) { return c->spaces_apart; }
-const double *hd_covariant_met_each(const hd_covariant *c) { return c->apart; }
+hd_covariant_mismatch hd_covariant_start_mismatch(const hd_covariant *c) { return c->spaces_apart; }
+const double *hd_covariant_start_mismatch_each(const hd_covariant *c) { return c->apart; }
 double hd_covariant_null(const hd_covariant *c) { return c->null_apart; }
 double hd_covariant_null_most(const hd_covariant *c) { return c->null_apart_most; }
 const hd_modes *hd_covariant_half(const hd_covariant *c, int half) { return c->half[half]; }

@@ -178,7 +178,7 @@ int hd_splitting_has_spaces(const hd_splitting *s) { return s->angles != NULL; }
 const double *hd_splitting_neighbours(const hd_splitting *s) { return s->mean; }
 const double *hd_splitting_neighbours_least(const hd_splitting *s) { return s->least; }
 const double *hd_splitting_violations(const hd_splitting *s) { return s->violations; }
-const double *hd_splitting_entangled(const hd_splitting *s) { return s->entangled; }
+const double *hd_splitting_domination_violations(const hd_splitting *s) { return s->entangled; }
 
 const hd_angle_of_spaces *hd_splitting_angle(const hd_splitting *s, hd_pair_of_spaces pair)
 {

@@ -36,7 +36,8 @@ static void cost_archive(hd_run *run, hd_archive *archive)
     double *const numbers[] = {&c->events,    &c->replay, &c->ortho,
                                &c->spectrum,  &c->modes,  &c->interval,
                                &c->condition, &c->defect, &run->windows.seconds};
-    long *const counts[] = {&c->orthonormalisations, &c->second_passes, &c->looks, &c->repairs};
+    long *const counts[] = {&c->orthonormalisations, &c->second_passes, &c->slow_vector_samples,
+                            &c->repairs};
     int limit = (int)c->limit;
     hd_archive_of_doubles(archive, "cost", sizeof numbers / sizeof *numbers);
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)

@@ -226,7 +226,7 @@ static hd_status look(hd_run *run, int count)
                                               count);
     run->cost.replay += replayed - start;
     run->cost.modes += hd_clock_now() - replayed;
-    run->cost.looks += status == HD_OK;
+    run->cost.slow_vector_samples += status == HD_OK;
     return status;
 }
 

@@ -127,7 +127,7 @@ static hdr_covariant message_of(covariant_report *r, const hd_run *run)
 {
     const hd_covariant *covariant = hd_run_covariant(run);
     const hd_splitting *splitting = hd_covariant_splitting(covariant);
-    const hd_covariant_apart apart = hd_covariant_met(covariant);
+    const hd_covariant_mismatch apart = hd_covariant_start_mismatch(covariant);
     const uint32_t n = r->vectors;
     gather_exponents(r, hd_covariant_spectrum(covariant));
     gather_angles(r, splitting);
@@ -145,11 +145,12 @@ static hdr_covariant message_of(covariant_report *r, const hd_run *run)
         .exponents = message_array(r->exponents, n, 1),
         .std_errors = message_array(r->std_errors, n, 1),
         .local_exponents = message_array(r->local_exponents, n, 1),
-        .start_mismatch = message_array(hd_covariant_met_each(covariant), n, 1),
+        .start_mismatch = message_array(hd_covariant_start_mismatch_each(covariant), n, 1),
         .neighbour_angles = message_array(hd_splitting_neighbours(splitting), n - 1, 1),
         .least_neighbour_angles = message_array(hd_splitting_neighbours_least(splitting), n - 1, 1),
         .violations = message_array(hd_splitting_violations(splitting), n - 1, 1),
-        .domination_violations = message_array(hd_splitting_entangled(splitting), n - 1, 1),
+        .domination_violations = message_array(hd_splitting_domination_violations(splitting), n - 1,
+                                               1),
         .widths = message_array(hd_covariant_widths(covariant), n, 1),
         .cos_theta = message_array(hd_covariant_cosines(covariant), n, 1),
         .centre_start_mismatch = known(apart.centre),
@@ -196,7 +197,7 @@ static bool is_finite(const hdr_covariant *v)
 static void warn(covariant_report *r, const hd_run *run)
 {
     const hd_covariant *covariant = hd_run_covariant(run);
-    const hd_covariant_apart apart = hd_covariant_met(covariant);
+    const hd_covariant_mismatch apart = hd_covariant_start_mismatch(covariant);
     const double worst = fmax(apart.centre, apart.stable);
     const long lost = hd_covariant_lost(covariant);
     if (worst > SPACES_APART && !r->warned)

@@ -267,7 +267,7 @@ static hd_status publish_cost(report *rep, const progress *now)
         .error_bound = cost->error_bound,
         .orthonormalisations = (uint64_t)cost->orthonormalisations,
         .second_passes = (uint64_t)cost->second_passes,
-        .slow_vector_samples = (uint64_t)cost->looks,
+        .slow_vector_samples = (uint64_t)cost->slow_vector_samples,
         .repairs = (uint64_t)cost->repairs,
     };
     const double numbers[] = {now->time,        cost->wall,      cost->events,

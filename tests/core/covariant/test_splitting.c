@@ -169,7 +169,7 @@ static void check_order(const hd_splitting *s, double growth[TIMES][MANY], int t
             entangled += crossed;
         }
         CHECK_CLOSE(hd_splitting_violations(s)[col], (double)violated / times, 1e-14);
-        CHECK_CLOSE(hd_splitting_entangled(s)[col], (double)entangled / times, 1e-14);
+        CHECK_CLOSE(hd_splitting_domination_violations(s)[col], (double)entangled / times, 1e-14);
     }
 }
 
@@ -187,8 +187,8 @@ static void order_violations_are_counted(void **state)
     }
     int open = 0; /* the case tells: neither all nor none */
     for (int col = 0; col + 1 < MANY; col++)
-        open += hd_splitting_violations(s)[col] < hd_splitting_entangled(s)[col] &&
-                hd_splitting_entangled(s)[col] < 1;
+        open += hd_splitting_violations(s)[col] < hd_splitting_domination_violations(s)[col] &&
+                hd_splitting_domination_violations(s)[col] < 1;
     assert_true(open > 3);
     hd_splitting_clear(s);
     hd_splitting_grow(s, growth[0]);

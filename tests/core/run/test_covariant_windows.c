@@ -170,7 +170,7 @@ static void check_means(const hd_covariant *c, const twin *t)
         CHECK_CLOSE(hd_spectrum_local(hd_covariant_spectrum(c), col), t->local[col], ROUNDING);
         CHECK_CLOSE(hd_covariant_widths(c)[col], exp(t->entropy[col]) / DISKS, ROUNDING);
         CHECK_CLOSE(hd_covariant_cosines(c)[col], t->cosine[col], ROUNDING);
-        CHECK_CLOSE(hd_covariant_met_each(c)[col], t->met[col], ROUNDING);
+        CHECK_CLOSE(hd_covariant_start_mismatch_each(c)[col], t->met[col], ROUNDING);
         if (col + 1 == ROWS) break;
         CHECK_CLOSE(hd_splitting_neighbours(s)[col], t->neighbours[col],
                     1e-7); /* small ones by their cosine */
@@ -393,8 +393,8 @@ static void the_centre_is_the_null_space(void **state)
         windows_finish(&w, 10);
         const double rounding = 16.0 * DBL_EPSILON * w.f.worst;
         CHECK_CLOSE(hd_covariant_null_most(w.c), 0.0, rounding);
-        CHECK_CLOSE(hd_covariant_met(w.c).centre, 0.0, rounding);
-        CHECK_CLOSE(hd_covariant_met(w.c).stable, 0.0, rounding);
+        CHECK_CLOSE(hd_covariant_start_mismatch(w.c).centre, 0.0, rounding);
+        CHECK_CLOSE(hd_covariant_start_mismatch(w.c).stable, 0.0, rounding);
         assert_true(hd_covariant_null(w.c) >= 0 &&
                     hd_covariant_null(w.c) <= hd_covariant_null_most(w.c));
         windows_free(&w);
@@ -419,22 +419,23 @@ static void too_short_a_transient_is_seen(void **state)
     windows w[4];
     for (int k = 0; k < 4; k++) w[k] = after_transient(transient[k]);
     for (int k = 0; k + 1 < 4; k++) {
-        const hd_covariant_apart met = hd_covariant_met(w[k].c),
-                                 longer = hd_covariant_met(w[k + 1].c);
+        const hd_covariant_mismatch met = hd_covariant_start_mismatch(w[k].c),
+                                    longer = hd_covariant_start_mismatch(w[k + 1].c);
         const double rounding = 16.0 * DBL_EPSILON * w[k + 1].f.worst; /* where both have met */
         assert_true(longer.stable < fmax(met.stable, rounding) &&
                     longer.centre < fmax(met.centre, rounding));
         for (int col = 1; k > 0 && col < 5; col++) /* two random starts may lie near each other */
-            assert_true(hd_covariant_met_each(w[k + 1].c)[col] <
-                        hd_covariant_met_each(w[k].c)[col]);
+            assert_true(hd_covariant_start_mismatch_each(w[k + 1].c)[col] <
+                        hd_covariant_start_mismatch_each(w[k].c)[col]);
     }
-    const hd_covariant_apart none = hd_covariant_met(w[0].c), met = hd_covariant_met(w[3].c);
+    const hd_covariant_mismatch none = hd_covariant_start_mismatch(w[0].c),
+                                met = hd_covariant_start_mismatch(w[3].c);
     assert_true(none.most > 0.1 && none.centre > 0.1 && none.stable > 0.1);
     assert_true(hd_covariant_null_most(w[0].c) > 0.1);
     CHECK_CLOSE(met.centre, 0.0, 16.0 * DBL_EPSILON * w[3].f.worst);
     CHECK_CLOSE(met.stable, 0.0, 16.0 * DBL_EPSILON * w[3].f.worst);
     for (int col = 0; col < 16; col++) {
-        const double apart = hd_covariant_met_each(w[3].c)[col];
+        const double apart = hd_covariant_start_mismatch_each(w[3].c)[col];
         assert_true(apart <= met.most);
         if (col < 5 || col > 10) CHECK_CLOSE(apart, 0.0, 16.0 * DBL_EPSILON * w[3].f.worst);
     }
@@ -457,9 +458,9 @@ static void any_number_of_vectors_will_do(void **state)
             assert_int_equal(hd_splitting_has_spaces(hd_covariant_splitting(w.c)),
                              n > positive + 6);
             assert_int_equal(hd_covariant_null_most(w.c) >= 0, centre);
-            assert_int_equal(hd_covariant_met(w.c).centre >= 0, centre);
-            assert_int_equal(hd_covariant_met(w.c).stable >= 0, n > positive + 6);
-            assert_true(hd_covariant_met(w.c).most >= 0);
+            assert_int_equal(hd_covariant_start_mismatch(w.c).centre >= 0, centre);
+            assert_int_equal(hd_covariant_start_mismatch(w.c).stable >= 0, n > positive + 6);
+            assert_true(hd_covariant_start_mismatch(w.c).most >= 0);
             windows_free(&w);
         }
     }

@@ -227,9 +227,9 @@ static void the_positive_half_has_no_spaces(void **state)
     const hd_covariant *c = hd_run_covariant(run);
     assert_int_equal(hd_covariant_vectors(c), (VECTORS - 6) / 2);
     assert_false(hd_splitting_has_spaces(hd_covariant_splitting(c)));
-    assert_true(hd_covariant_null(c) < 0 && hd_covariant_met(c).centre < 0 &&
-                hd_covariant_met(c).stable < 0);
-    assert_true(hd_covariant_met(c).most >= 0);
+    assert_true(hd_covariant_null(c) < 0 && hd_covariant_start_mismatch(c).centre < 0 &&
+                hd_covariant_start_mismatch(c).stable < 0);
+    assert_true(hd_covariant_start_mismatch(c).most >= 0);
     for (int col = 0; col < hd_covariant_vectors(c); col++)
         assert_true(hd_covariant_widths(c)[col] >= 4.0 / VECTORS &&
                     hd_covariant_widths(c)[col] <= 1.0);
