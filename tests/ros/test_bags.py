@@ -191,9 +191,8 @@ class Recorded(unittest.TestCase):
             kind = TYPES[connection.topic.rsplit('/', 1)[1]]
             self.assertEqual((connection.datatype, connection.md5sum), (kind._type, kind._md5sum))
             self.assertEqual(connection.msg_def.strip(), kind._full_text.strip())
-            self.assertEqual(
-                connection.header.get('latching', b'0'), b'1' if kind is TYPES['run_info'] else b'0'
-            )
+            latched = kind in (TYPES['run_info'], TYPES['status'])
+            self.assertEqual(connection.header.get('latching', b'0'), b'1' if latched else b'0')
 
     def test_bytes_are_those_of_the_topic(self):
         """Another subscriber, who came a little later, got the same; read and written again they

@@ -47,7 +47,7 @@ class Checkpoint(harness.Case):
 
     def recorded(self, params, stop_after=None):
         """All messages of a run by topic, without what the clock and the run's name are."""
-        topics = ['run_info', 'cost', *RUN['observables']]
+        topics = ['run_info', 'status', 'cost', *RUN['observables']]
         listeners = {topic: self.listen(topic) for topic in topics}
         node = self.start(params)
         if stop_after:
