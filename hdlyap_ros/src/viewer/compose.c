@@ -128,7 +128,7 @@ picture compose(const heard *h, const mode_choice *asked)
 {
     picture p = {
         .scene = h->scene,
-        .stage = hdr_stage_name(h->stage),
+        .stage = h->stage < UINT8_MAX ? hdr_stage_name(h->stage) : "stage unknown",
         .box = {h->box[0], h->box[1]},
         .periodic = {h->periodic[0], h->periodic[1]},
         .time = h->time,

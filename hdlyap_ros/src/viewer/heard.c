@@ -40,6 +40,7 @@ static void begin(heard *h, const hdr_run_info *info)
     snprintf(h->run_id, sizeof h->run_id, "%s", info->run_id);
     snprintf(h->scene, sizeof h->scene, "%s", info->scene);
     h->disks = info->disks;
+    h->stage = UINT8_MAX;
     h->box[0] = info->box_x;
     h->box[1] = info->box_y;
     h->periodic[0] = strcmp(info->boundary_x, "periodic") == 0;

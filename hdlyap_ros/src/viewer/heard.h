@@ -27,7 +27,7 @@ typedef struct heard {
     bool periodic[2];
     bool has_exponents, has_steps; /**< sooner or later, as the next two */
     bool has_t, has_lp; /**< modes of these kinds: can be in the box, and are looked for */
-    uint8_t stage;
+    uint8_t stage;      /**< UINT8_MAX before the first status */
     double progress;
     double time, *x, *y; /**< of the picture; in one block at x; time is -1 before the first */
     heard_vector vector[HEARD_VECTORS_MAX]; /**< of that time */

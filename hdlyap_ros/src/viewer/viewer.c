@@ -72,14 +72,19 @@ static void on_slow_vectors(void *context, const hdr_slow_vectors *slow)
     show(v);
 }
 
+/** With a message of a later time what was heard is whole, also where a bag has no status. */
 static void on_state(void *context, const hdr_state *state)
 {
-    heard_state(&((viewer *)context)->said, state);
+    viewer *v = context;
+    if (state->sim_time != v->said.time) show(v);
+    heard_state(&v->said, state);
 }
 
 static void on_field(void *context, const hdr_mode_field *field)
 {
-    heard_mode_field(&((viewer *)context)->said, field);
+    viewer *v = context;
+    if (field->sim_time != v->said.time) show(v);
+    heard_mode_field(&v->said, field);
 }
 
 static void on_spectrum(void *context, const hdr_spectrum *spectrum)
