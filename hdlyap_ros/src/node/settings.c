@@ -37,13 +37,14 @@ static bool read_all(settings *out, reader *r)
     return true;
 }
 
-/** Those that the scene does not know of. */
+/** Those that the scene does not know of, where the row says a range. */
 static bool check_ranges(settings *set, reader *r)
 {
     for (int k = 0; k < parameters_count(); k++) {
         const parameter p = parameters_at(k);
-        if (p.kind != REAL_NUMBER) continue;
-        const double value = *(double *)field_of(set, &p);
+        if (!(p.most > p.least) || (p.kind != REAL_NUMBER && p.kind != WHOLE_NUMBER)) continue;
+        const void *field = field_of(set, &p);
+        const double value = p.kind == REAL_NUMBER ? *(const double *)field : *(const int *)field;
         r->name = p.name;
         if (!(value >= p.least && value <= p.most)) return reader_refuse(r, p.allowed);
     }
@@ -74,8 +75,14 @@ static bool check_awaited(settings *set, reader *r)
 
 static bool is_usual(settings *set, const parameter *p)
 {
-    if (p->kind == FIELD_CHOICE) return set->fields.count == 0;
-    return hd_parameter_value(p->row, &set->def) == p->row->usual;
+    const void *field = field_of(set, p);
+    switch (p->kind) {
+    case OF_SCENE: return hd_parameter_value(p->row, &set->def) == p->row->usual;
+    case FIELD_CHOICE: return set->fields.count == 0;
+    case REAL_NUMBER: return *(const double *)field == strtod(p->usual, NULL);
+    case WHOLE_NUMBER: return *(const int *)field == atoi(p->usual);
+    default: return false;
+    }
 }
 
 /** What is given of something that nobody observes; defaults may be. */

@@ -14,6 +14,13 @@
 
 enum { VECTORS_MAX = 64 };
 
+/** To a build that verifies, a frame that a test has broken is a bug. */
+#ifdef HD_VERIFY_BUILD
+enum { VERIFIES = 1 };
+#else
+enum { VERIFIES = 0 };
+#endif
+
 /* ---- whole runs ---------------------------------------------------------------------------- */
 
 /** Few vectors: extended precision is slow. */
@@ -186,7 +193,8 @@ static void nearly_dependent_start_vectors_are_separated_or_refused(void **state
 {
     (void)state;
     double exact[VECTORS_MAX];
-    for (int all = 0; all < 2; all++) {
+    const int frames = VERIFIES ? 1 : 2; /* all vectors together have a volume */
+    for (int all = 0; all < frames; all++) {
         const hd_scene_def scene = small_scene(10, all ? HD_EXPONENTS_ALL : HD_EXPONENTS_POSITIVE,
                                                4);
         double worst = 0.0;
@@ -249,6 +257,7 @@ static void break_frame(hd_frame *frame, breakage how)
 static void a_broken_frame_is_a_named_fault(void **state)
 {
     (void)state;
+    if (VERIFIES) skip();
     for (int all = 0; all < 2; all++)
         for (breakage how = 0; how < BREAKAGES; how++) {
             hd_scene_def scene = small_scene(10, all ? HD_EXPONENTS_ALL : HD_EXPONENTS_POSITIVE, 1);
