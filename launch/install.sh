@@ -35,7 +35,7 @@ run_packages() {
 }
 
 test_packages() {
-    echo libcmocka-dev libgtest-dev ninja-build shellcheck strace valgrind clang libomp-dev xvfb imagemagick libgl1-mesa-dri \
+    echo ccache libcmocka-dev libgtest-dev ninja-build shellcheck strace valgrind clang libomp-dev xvfb imagemagick libgl1-mesa-dri \
         black flake8 clang-format doxygen
     case $1 in
         debian)

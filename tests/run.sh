@@ -10,6 +10,9 @@ readonly WORK=$ROOT/build/check # not build/tests: cmake puts the folder tests t
 readonly LOGS=$WORK/log COUNTS=$WORK/counts SECOND=$WORK/second TAKEN=$WORK/taken
 export TMPDIR=$WORK/tmp XDG_RUNTIME_DIR=$WORK/runtime
 export HDLYAP_SUITE=$$.$EPOCHREALTIME # marks its processes
+# Several builds compile the same: of the demo's clone, of a catkin workspace. A cache of this run's own.
+export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+export CCACHE_DIR=$WORK/ccache CCACHE_BASEDIR=/ CCACHE_NOHASHDIR=1
 
 # ---- the stages ------------------------------------------------------------------------------
 
