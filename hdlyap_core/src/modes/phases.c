@@ -17,10 +17,9 @@
 #include "base/memory.h"
 #include "modes/archived.h"
 #include "modes/sets.h"
+#include "modes/track.h"
 
 static const double PI = 3.14159265358979323846;
-/** a^2 + b^2 below this has no phase: noise of a few percent would turn it. */
-static const double WEAK = 0.05;
 /** |omega| / lambda is at most about this: v / c_L is 1.14 at density 0.8, near 1 below 0.6. */
 static const double RATE_PER_EXPONENT = 1.25;
 /** Sampling is refined when a step may turn by more than this part of pi. */
@@ -30,24 +29,13 @@ static const double GAP_MAX = 16.0;
 
 enum { PAIRS_MAX = HD_MODULATIONS_MAX, SLOTS_MAX = 2 * PAIRS_MAX, LEARN = 4 };
 
-/** One slot and one pair. Slope by regression: running means and centred sums of time and phase. */
-typedef struct track {
-    hd_lp_phase out;
-    double last;  /**< time of the last phase */
-    double begin; /**< of the tracking */
-    long count;
-    double mean_t, mean_phase, square_t, product;
-    double rate_now;       /**< last increment of the phase per time */
-    hd_block_average rate; /**< one series: all of them */
-} track;
-
 /** One LP step. */
 typedef struct rotor {
     int step, column, pairs, slots; /**< column: of the first L field */
     double wave_number;
-    track *track;   /**< [slots][pairs] */
-    int col, count; /**< the set followed; col -1: none */
-    long samples;   /**< since the set was taken up */
+    hd_track *track; /**< [slots][pairs] */
+    int col, count;  /**< the set followed; col -1: none */
+    long samples;    /**< since the set was taken up */
     int slot_col[SLOTS_MAX];
     double sign[SLOTS_MAX]; /**< of the vector in a slot against the one it began with */
     double complex z[SLOTS_MAX][PAIRS_MAX]; /**< at the last sample, times sign */
@@ -61,12 +49,13 @@ typedef struct rotor {
 struct hd_phases {
     int rotors, tracks, vectors;
     rotor *rotor;
-    track *track;
+    hd_track *track;
 };
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
-static hd_status rotor_create(rotor *r, track *tracks, const hd_step *step, int index, int column)
+static hd_status rotor_create(rotor *r, hd_track *tracks, const hd_step *step, int index,
+                              int column)
 {
     *r = (rotor){.step = index,
                  .column = column,
@@ -137,77 +126,6 @@ void hd_phases_free(hd_phases *phases)
     hd_memory_free(phases);
 }
 
-/* ---- one track ----------------------------------------------------------------------------- */
-
-static void track_restart(track *t, hd_lp_state state)
-{
-    const hd_lp_phase out = t->out;
-    t->out = (hd_lp_phase){.step = out.step,
-                           .modulation = out.modulation,
-                           .col = -1,
-                           .state = state,
-                           .omega_error = -1.0};
-    t->count = 0;
-    hd_block_average_restart(&t->rate);
-}
-
-static void track_begin(track *t, double time, double phase)
-{
-    t->begin = t->last = t->mean_t = time;
-    t->out.phase = t->mean_phase = phase;
-    t->square_t = t->product = 0.0;
-    t->count = 1;
-    hd_block_average_restart(&t->rate);
-}
-
-/** Phase nearest to the prediction that differs from `phase` by turns. */
-static double unwrapped(double phase, double predicted)
-{
-    return phase + 2.0 * PI * round((predicted - phase) / (2.0 * PI));
-}
-
-static void track_regress(track *t, double time, double phase)
-{
-    const double off_t = time - t->mean_t, off = phase - t->mean_phase;
-    t->count++;
-    t->mean_t += off_t / (double)t->count;
-    t->mean_phase += off / (double)t->count;
-    t->square_t += off_t * (time - t->mean_t);
-    t->product += off_t * (phase - t->mean_phase);
-    t->out.omega = t->product / t->square_t;
-}
-
-/** Longest blocks see a phase that diffuses as well as one that only trembles; the slope of a
- * diffusing phase has 6/5 of the variance of its mean rate. */
-static double slope_error(const track *t)
-{
-    const double error = hd_block_average_long_error(&t->rate, 0);
-    return error < 0 ? -1.0 : sqrt(1.2) * error;
-}
-
-/** z: with sign; r->omega predicts. True if the phase has gone on. */
-static bool track_add(track *t, const rotor *r, double complex z, double time)
-{
-    const double strength = creal(z) * creal(z) + cimag(z) * cimag(z);
-    if (t->count > 0 && time - t->last > GAP_MAX * r->dt) track_restart(t, HD_LP_WEAK);
-    t->out.state = strength < WEAK ? HD_LP_WEAK : HD_LP_TRACKED;
-    if (strength < WEAK) return false;
-    if (t->count == 0) {
-        track_begin(t, time, carg(z));
-        return false;
-    }
-    const double dt = time - t->last;
-    const double phase = unwrapped(carg(z), t->out.phase + r->omega * dt);
-    double rate = t->rate_now = (phase - t->out.phase) / dt;
-    hd_block_average_add(&t->rate, &rate);
-    track_regress(t, time, phase);
-    t->out.phase = phase;
-    t->last = time;
-    t->out.time = time - t->begin;
-    t->out.omega_error = slope_error(t);
-    return true;
-}
-
 /* ---- one rotor ----------------------------------------------------------------------------- */
 
 static void rotor_restart(rotor *r, hd_lp_state state)
@@ -216,7 +134,7 @@ static void rotor_restart(rotor *r, hd_lp_state state)
     r->samples = 0;
     r->turns = 0;
     hd_block_average_restart(&r->velocity);
-    for (int t = 0; t < r->slots * r->pairs; t++) track_restart(&r->track[t], state);
+    for (int t = 0; t < r->slots * r->pairs; t++) hd_track_restart(&r->track[t], state);
 }
 
 static double complex coefficient(const rotor *r, const hd_modes *modes, int col, int c)
@@ -304,13 +222,13 @@ static void rotor_turn(rotor *r, const hd_modes *modes, double dt)
 {
     double complex sum = 0.0;
     for (int v = 0; v < r->slots; v++) {
-        if (strength_of(r, modes, r->slot_col[v]) < WEAK) continue;
+        if (strength_of(r, modes, r->slot_col[v]) < HD_TRACK_WEAK) continue;
         for (int c = 0; c < r->pairs; c++)
             sum += conj(r->z[v][c]) * r->sign[v] * coefficient(r, modes, r->slot_col[v], c);
     }
     if (sum == 0.0) return;
     double rate = carg(sum) / dt;
-    if (r->samples > LEARN) rate = unwrapped(carg(sum), r->omega * dt) / dt;
+    if (r->samples > LEARN) rate = hd_track_unwrapped(carg(sum), r->omega * dt) / dt;
     if (r->turns++ == 0) r->omega = 0.0;
     r->omega += (rate - r->omega) / (double)r->turns;
 }
@@ -325,12 +243,13 @@ static void rotor_store(rotor *r, const hd_modes *modes, double time)
     double sum = 0.0, count = 0.0;
     for (int v = 0; v < r->slots; v++) {
         const int col = r->slot_col[v];
-        const bool away = r->samples > 0 && strength_of(r, modes, col) < WEAK;
+        const bool away = r->samples > 0 && strength_of(r, modes, col) < HD_TRACK_WEAK;
         for (int c = 0; c < r->pairs; c++) {
-            track *t = &r->track[v * r->pairs + c];
+            hd_track *t = &r->track[v * r->pairs + c];
             const double complex z = coefficient(r, modes, col, c);
             r->z[v][c] = away ? r->z[v][c] * turn : r->sign[v] * z;
-            if (track_add(t, r, r->sign[v] * z, time)) sum += t->rate_now, count++;
+            if (hd_track_add(t, r->sign[v] * z, time, r->omega, GAP_MAX * r->dt))
+                sum += t->rate_now, count++;
             t->out.col = col;
             t->out.a = creal(z);
             t->out.b = cimag(z);
@@ -459,24 +378,6 @@ double hd_phases_sampling(const hd_steps *steps)
 
 /* ---- file ---------------------------------------------------------------------------------- */
 
-static void track_archive(track *t, hd_archive *archive, int vectors)
-{
-    int state = (int)t->out.state;
-    hd_archive_int(archive, "phase col", &t->out.col, -1, vectors - 1);
-    hd_archive_int(archive, "phase state", &state, HD_LP_UNRESOLVED, HD_LP_TRACKED);
-    t->out.state = (hd_lp_state)state;
-    double *const of_out[] = {&t->out.a,     &t->out.b,           &t->out.phase,
-                              &t->out.omega, &t->out.omega_error, &t->out.time};
-    double *const sums[] = {&t->last,       &t->begin,    &t->mean_t,
-                            &t->mean_phase, &t->square_t, &t->product};
-    hd_archive_of_doubles(archive, "phase a b phase omega error time", 6);
-    for (int k = 0; k < 6; k++) hd_archive_next_doubles(archive, of_out[k], 1);
-    hd_archive_of_doubles(archive, "phase sums", 6);
-    for (int k = 0; k < 6; k++) hd_archive_next_doubles(archive, sums[k], 1);
-    hd_archive_long(archive, "phase count", &t->count, 0, LONG_MAX / 2);
-    hd_block_average_archive(&t->rate, archive);
-}
-
 /** The vectors in the slots are those of the set. */
 static void rotor_archive(rotor *r, hd_archive *archive, int vectors)
 {
@@ -503,5 +404,5 @@ void hd_phases_archive(hd_phases *phases, hd_archive *archive)
     for (int k = 0; k < phases->rotors; k++)
         rotor_archive(&phases->rotor[k], archive, phases->vectors);
     for (int t = 0; t < phases->tracks; t++)
-        track_archive(&phases->track[t], archive, phases->vectors);
+        hd_track_archive(&phases->track[t], archive, phases->vectors);
 }

@@ -1,0 +1,36 @@
+/** The phase of one vector (slot) of an LP step and one pair, unwrapped [T13]. */
+#ifndef HD_TRACK_H
+#define HD_TRACK_H
+
+#include <complex.h>
+
+#include "averages/block_average.h"
+#include "hdlyap/phases.h"
+
+/** a^2 + b^2 below this has no phase: noise of a few percent would turn it. */
+#define HD_TRACK_WEAK 0.05
+
+/** One slot and one pair. Slope by regression: running means and centred sums of time and phase. */
+typedef struct hd_track {
+    hd_lp_phase out;
+    double last;  /**< time of the last phase */
+    double begin; /**< of the tracking */
+    long count;
+    double mean_t, mean_phase, square_t, product;
+    double rate_now;       /**< last increment of the phase per time */
+    hd_block_average rate; /**< one series: all of them */
+} hd_track;
+
+/** Begins anew with the next coefficients; `state` is said until then. */
+void hd_track_restart(hd_track *t, hd_lp_state state);
+
+/** z = a + i b at this time, with the sign of its slot; omega predicts the phase. After more than
+ * `gap` without one it begins anew. True if the phase has gone on. */
+bool hd_track_add(hd_track *t, double complex z, double time, double omega, double gap);
+
+/** Phase nearest to the prediction that differs from `phase` by turns. */
+double hd_track_unwrapped(double phase, double predicted);
+
+void hd_track_archive(hd_track *t, hd_archive *archive, int vectors);
+
+#endif
