@@ -102,14 +102,15 @@ static void expect_same_state(hd_run *a, hd_run *b)
 /* ---- the run goes on ----------------------------------------------------------------------- */
 
 /** Stopped and taken up again every few steps, beside one that is left alone; both with steps no
- * longer than `view`. */
-static void expect_uninterrupted_view(const hd_scene_def *def, int every, int least, double view)
+ * longer than `between`. */
+static void expect_uninterrupted_watched(const hd_scene_def *def, int every, int least,
+                                         double between)
 {
     hd_run *alone = kept_run(def), *other = kept_run(def);
     int times = 0, taken = 0;
-    hd_run_watch(alone, view, hd_run_vectors(alone));
+    hd_run_watch(alone, between, hd_run_vectors(alone));
     do {
-        hd_run_watch(other, view, hd_run_vectors(other));
+        hd_run_watch(other, between, hd_run_vectors(other));
         kept_steps(alone, every);
         taken = kept_steps(other, every);
         hd_run *resumed = kept_and_resumed(other, PATH, def);
@@ -126,7 +127,7 @@ static void expect_uninterrupted_view(const hd_scene_def *def, int every, int le
 
 static void expect_uninterrupted(const hd_scene_def *def, int every, int least)
 {
-    expect_uninterrupted_view(def, every, least, INFINITY);
+    expect_uninterrupted_watched(def, every, least, INFINITY);
 }
 
 static void a_resumed_run_is_the_uninterrupted_one(void **state)
@@ -152,14 +153,14 @@ static void a_resumed_run_is_the_uninterrupted_one(void **state)
     expect_uninterrupted(&none, 2, 10);
 }
 
-/** Also where a view has stopped it in the middle of a step that is planned. */
+/** Also where a watcher has stopped it in the middle of a step that is planned. */
 static void a_run_that_is_looked_at_keeps_its_plan(void **state)
 {
     (void)state;
     const hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
     const hd_scene_def none = kept_scene(50, 0.7, 1.0, HD_EXPONENTS_NONE, 0);
-    expect_uninterrupted_view(&def, 37, 100, 0.01);
-    expect_uninterrupted_view(&none, 37, 100, 0.01);
+    expect_uninterrupted_watched(&def, 37, 100, 0.01);
+    expect_uninterrupted_watched(&none, 37, 100, 0.01);
 }
 
 /** The states that the run above went through are not all the same kind: looks, tracked phases,
