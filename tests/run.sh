@@ -10,9 +10,9 @@ readonly WORK=$ROOT/build/check # not build/tests: cmake puts the folder tests t
 readonly LOGS=$WORK/log COUNTS=$WORK/counts SECOND=$WORK/second TAKEN=$WORK/taken
 export TMPDIR=$WORK/tmp XDG_RUNTIME_DIR=$WORK/runtime
 export HDLYAP_SUITE=$$.$EPOCHREALTIME # marks its processes
-# Several builds compile the same: of the demo's clone, of a catkin workspace. A cache of this run's own.
-export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
-export CCACHE_DIR=$WORK/ccache CCACHE_BASEDIR=/ CCACHE_NOHASHDIR=1
+# The core is compiled alone, for ROS and for the demo, each time the same: a cache of this run's own.
+readonly CACHE=(CMAKE_C_COMPILER_LAUNCHER=ccache "CCACHE_DIR=$WORK/ccache" CCACHE_NOHASHDIR=1)
+export "${CACHE[@]}"
 
 # ---- the stages ------------------------------------------------------------------------------
 
@@ -23,7 +23,7 @@ shell_scripts() {
 
 # without_ros COMMAND...: as on a machine that has no ROS.
 without_ros() {
-    env -i HOME="$HOME" PATH=/usr/bin:/bin LC_ALL=C.UTF-8 "TMPDIR=$TMPDIR" "HDLYAP_SUITE=$HDLYAP_SUITE" "$@"
+    env -i HOME="$HOME" PATH=/usr/bin:/bin LC_ALL=C.UTF-8 "TMPDIR=$TMPDIR" "HDLYAP_SUITE=$HDLYAP_SUITE" "${CACHE[@]}" "$@"
 }
 
 core_build() {

@@ -48,6 +48,7 @@ OF_ROS = dict(
 # Of the system: base.yaml and python.yaml of rosdistro, the same on Debian and Ubuntu.
 # libopenblas-openmp-dev is the one of libopenblas-dev's alternatives that hdlyap is tested with.
 OF_SYSTEM = {
+    'ccache': 'ccache',
     'gtest': 'libgtest-dev',
     'imagemagick': 'imagemagick',
     'liblapacke-dev': 'liblapacke-dev',

@@ -282,7 +282,12 @@ class Markers(unittest.TestCase):
         alone = harness.whole_run(run, ('spectrum', 'cost'))
         watched = harness.whole_run(run, ('spectrum', 'cost', 'slow_vectors'))
         self.assertGreater(len(watched['slow_vectors']), 3)
-        self.assertEqual(*([m.exponents for m in each['spectrum']] for each in (alone, watched)))
+        one, other = (
+            {m.sim_time: m.exponents for m in each['spectrum']} for each in (alone, watched)
+        )
+        both = one.keys() & other.keys()  # the first message of a run may be missed
+        self.assertGreater(len(both), 1)
+        self.assertEqual([one[time] for time in both], [other[time] for time in both])
 
     def test_as_often_as_asked(self):
         """Pictures of the averaging, beside the wall time that they took; before it steps are as
@@ -346,7 +351,7 @@ class Markers(unittest.TestCase):
         time.sleep(1.2)  # a message of less than a second ago is not sent anew
         self.pause(True)
         late = self.look()
-        self.assertTrue(harness.wait_until(lambda: late.all and not modes(late.all[-1]), 10))
+        self.assertTrue(harness.wait_until(lambda: late.all and not modes(late.all[-1]), 30))
         titles = [
             m.text
             for m in late.all[-1].markers
