@@ -113,14 +113,12 @@ static void combine(hd_pmode *pmode, int c)
     pmode->residual[c] = sqrt(distance2);
 }
 
-/** Q becomes row-major; its singular values against 1. */
+/** The singular values of Q against 1. */
 static void finish(hd_pmode *pmode)
 {
     const int n = pmode->dimension;
     double copy[DIMENSION_MAX * DIMENSION_MAX], s[DIMENSION_MAX], work[64 * DIMENSION_MAX], none;
-    memcpy(copy, pmode->q, sizeof copy);
-    for (int m = 0; m < n; m++)
-        for (int c = 0; c < n; c++) pmode->q[m * n + c] = copy[c * n + m];
+    memcpy(copy, pmode->q, sizeof copy); /* used up */
     const int failed = LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'N', 'N', n, n, copy, n, s, &none, 1,
                                            &none, 1, work, (int)(sizeof work / sizeof *work));
     HD_ASSERT(failed == 0);
