@@ -16,7 +16,8 @@ static const double DEFECT_LOOSE = 1e-4;
 static const double DEFECT_MEASURED = 1e-6;
 /** Part of an interval's share of the accuracy that its square may be, as it too bounds a mean. */
 static const double DEFECT_SHARE = 0.1;
-enum { PIECES_MAX = 64 };
+/** Of an interval, beyond which dividing costs more than it saves [T6]. */
+enum { PIECES_MAX = 8 };
 
 hd_status hd_run_replay(hd_run *run, double t_begin, double t_end)
 {
@@ -27,8 +28,8 @@ hd_status hd_run_replay(hd_run *run, double t_begin, double t_end)
     return HD_OK;
 }
 
-/** Pieces of the log that are taken back no more: a collision of each disk is the least that can be
- * divided. */
+/** Pieces of the log that are taken back no more: a collision of each disk, or an eighth of an
+ * interval that is only a few collisions long. */
 static double shortest_piece(const hd_run *run)
 {
     return fmin(run->log->duration / PIECES_MAX, run->sample_max / HD_COLLISIONS_PER_SAMPLE);
