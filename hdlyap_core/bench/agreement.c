@@ -114,6 +114,19 @@ agreement agreement_of(const number *numbers, int seeds, int stride, int first, 
     return a;
 }
 
+/** Three standard errors of a part of so many. */
+static double three(double part, int seeds) { return 3.0 * sqrt(part * (1.0 - part) / seeds); }
+
+bool agreement_holds(const agreement *a, int seeds)
+{
+    static const double normal[2] = {0.683, 0.954}, student[2] = {0.663, 0.931};
+    for (int k = 0; k < 2; k++)
+        if (!(a->within[k] >= student[k] - three(student[k], seeds) &&
+              a->within[k] <= normal[k] + three(normal[k], seeds)))
+            return false;
+    return a->ratio >= 0.8 && a->ratio <= 1.25;
+}
+
 double agreement_with_neighbours(const number *numbers, int seeds, int stride, int first, int count)
 {
     double least = INFINITY;
