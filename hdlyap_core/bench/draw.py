@@ -415,9 +415,9 @@ def errors(tables):
     axes.axvspan(0.8, 1.25, color=LIGHT, alpha=0.5, lw=0)
     axes.axvline(1, color=GREY, lw=0.7)
     for row in rows:
-        line = kinds.index(_kind(row['quantity'])) + 0.1 * (boxes.index(row['box']) - 2.5)
-        style = {'color': colours[row['box']], 'marker': markers[row['length']]}
-        axes.plot(row['scatter / stated'], line, linestyle='', **style)
+        off = 0.1 * (boxes.index(row['box']) - (len(boxes) - 1) / 2)
+        style = {'color': colours[row['box']], 'marker': markers[row['length']], 'ls': ''}
+        axes.plot(row['scatter / stated'], kinds.index(_kind(row['quantity'])) + off, **style)
     for box in boxes:
         axes.plot([], [], linestyle='', marker='s', color=colours[box], label=box)
     for length in lengths:
