@@ -295,6 +295,8 @@ static void rotor_take_up(rotor *r, const hd_step *step, const hd_modes *modes)
     slots_fill(r, step, modes);
 }
 
+/** Samples may come at other distances than before, as pieces of the schedule do: only one that is
+ * too far away for the step's own rate begins anew. */
 static void rotor_add(rotor *r, const hd_step *step, const hd_modes *modes, double time)
 {
     const double dt = time - r->time;
@@ -305,9 +307,8 @@ static void rotor_add(rotor *r, const hd_step *step, const hd_modes *modes, doub
     const bool same = r->col == step->col && r->count == step->count;
     if (same && r->samples > 1 && dt < 0.5 * r->dt)
         return; /* the end of the averaging cuts a piece short */
-    const bool paused = r->samples > 1 && dt > 1.5 * r->dt;
-    const bool coarse = same && !paused && dt * SAFE > safe_sampling(step);
-    if (!same || paused || coarse) {
+    const bool coarse = same && dt * SAFE > safe_sampling(step);
+    if (!same || coarse) {
         rotor_take_up(r, step, modes);
     } else {
         if (r->samples > LEARN) slots_match(r, step, modes, dt);

@@ -107,7 +107,7 @@ static bool interval_is_learnt(const hd_run *run)
 static double sample_longest(const hd_run *run)
 {
     if (!run->frame || !interval_is_learnt(run)) return run->sample_max;
-    return fmin(run->sample_max, hd_interval_longest(&run->interval).length);
+    return fmin(run->sample_max, hd_interval_usual(&run->interval));
 }
 
 static void enter_stage(hd_run *run, hd_stage stage)
@@ -118,6 +118,7 @@ static void enter_stage(hd_run *run, hd_stage stage)
     stage = run->schedule.stage;
     if (run->spectrum && stage == HD_AVERAGING) averages_clear(run);
     if (stage == HD_AVERAGING) run->rounding.sum = HD_ROUNDING * run->rounding.condition_max;
+    hd_run_save_accuracy(run);
     if (stage == HD_EQUILIBRATING || run->clocks.frame_started != 0) return;
     run->clocks.frame_started = hd_clock_now();
     run->clocks.frame_start_time = hd_run_time(run);
