@@ -97,7 +97,7 @@ static void in_a_narrow_box(void **state)
                                         "LP(1;0)",   "c_T",           "c2 of T", "c_L",
                                         "v",         "omega LP(1;0)", NULL};
     (void)state;
-    harvest h = harvested(narrow_box(), 250.0, SEEDS);
+    harvest h = harvested(narrow_box(), 150.0, SEEDS);
     check_rule(&h, names, false);
     free(h.numbers);
 }
