@@ -12,7 +12,7 @@
 #include <string.h>
 
 /** SEEDS know a ratio to 7 %; numbers of the same runs against each other need fewer. */
-enum { SEEDS = 100, SEEDS_OF_PAIRS = 32 };
+enum { SEEDS = 100, SEEDS_OF_PAIRS = 24 };
 
 /** What the seeds of one scene found. */
 typedef struct harvest {
@@ -28,7 +28,8 @@ static hd_scene_def box(int disks, double density, double aspect, hd_boundary bo
     scene.density = density;
     scene.aspect = aspect;
     scene.boundary[0] = scene.boundary[1] = boundary;
-    scene.equilibration = scene.warmup = 50.0;
+    scene.equilibration = 50.0;
+    scene.warmup = 25.0;
     scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
     scene.threads = 1;
     return scene;
@@ -70,15 +71,13 @@ static agreement agreement_on(const harvest *h, const char *name)
 }
 
 /** All of them are looked at before one fails; names ends with NULL. Most seeds publish each number
- * and state its error, unless it `may_be_unknown`. */
-static void check_rule(const harvest *h, const char *const *names, bool may_be_unknown)
+ * and state its error. */
+static void check_rule(const harvest *h, const char *const *names)
 {
     int broken = 0;
     for (; *names; names++) {
         const agreement a = agreement_on(h, *names);
-        const bool known = a.stated >= 0.9 * h->seeds;
-        if (may_be_unknown && a.stated < AGREEMENT_LEAST) continue;
-        if ((known || may_be_unknown) && agreement_holds(&a, a.stated)) continue;
+        if (a.stated >= 0.9 * h->seeds && agreement_holds(&a, a.stated)) continue;
         print_error("%s: its errors are not true\n", *names);
         broken++;
     }
@@ -98,17 +97,18 @@ static void in_a_narrow_box(void **state)
                                         "v",         "omega LP(1;0)", NULL};
     (void)state;
     harvest h = harvested(narrow_box(), 150.0, SEEDS);
-    check_rule(&h, names, false);
+    check_rule(&h, names);
     free(h.numbers);
 }
 
-static void of_short_runs_or_unknown(void **state)
+/** 16 blocks are 80 to 100 time units; shorter runs state nothing. */
+static void of_runs_just_long_enough(void **state)
 {
     static const char *const names[] = {"exponents", "h_KS", "T(1;0)", "LP(1;0)", "c_T",
                                         "c2 of T",   "c_L",  "v",      NULL};
     (void)state;
-    harvest h = harvested(narrow_box(), 40.0, SEEDS);
-    check_rule(&h, names, true);
+    harvest h = harvested(narrow_box(), 110.0, SEEDS);
+    check_rule(&h, names);
     free(h.numbers);
 }
 
@@ -118,7 +118,7 @@ static void between_walls(void **state)
                                         "v",         "omega LP(1;0)", NULL};
     (void)state;
     harvest h = harvested(box(36, 0.7, 0.5, HD_REFLECTING), 100.0, SEEDS);
-    check_rule(&h, names, false);
+    check_rule(&h, names);
     free(h.numbers);
 }
 
@@ -128,7 +128,7 @@ static void between_walls(void **state)
 static void of_steps_that_share_a_set(void **state)
 {
     (void)state;
-    harvest h = harvested(box(100, 0.7, 1.0, HD_PERIODIC), 150.0, SEEDS_OF_PAIRS);
+    harvest h = harvested(box(100, 0.7, 1.0, HD_PERIODIC), 120.0, SEEDS_OF_PAIRS);
     const double of_c = agreement_on(&h, "c_T").ratio;
     const double of_steps = 0.5 *
                             (agreement_on(&h, "T(1;0)").ratio + agreement_on(&h, "T(0;1)").ratio);
@@ -141,7 +141,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(in_a_narrow_box),
-        cmocka_unit_test(of_short_runs_or_unknown),
+        cmocka_unit_test(of_runs_just_long_enough),
         cmocka_unit_test(between_walls),
         cmocka_unit_test(of_steps_that_share_a_set),
     };
