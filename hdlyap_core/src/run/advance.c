@@ -71,14 +71,14 @@ bool hd_advance_is_done(const hd_advance *advance)
     return hd_advance_now(advance) >= advance->plan.end;
 }
 
-/** A channel of hardly more than a disk's width can have 1e9 wall events in a time unit. */
+/** A channel of hardly more than a disk's width can have 1e9 wall events in a time unit: grows step
+ * by step, each by what the last one showed. */
 static void learn(hd_advance *advance)
 {
     const double length = advance->plan.end - advance->plan.begin;
     const double events = fmax(1.0, (double)(events_so_far(advance) - advance->plan.events));
     if (length > 0)
-        advance->longest = fmin(4.0 * fmax(length, advance->longest / 4.0),
-                                length * EVENTS_MAX / events);
+        advance->longest = fmin(4.0 * fmax(length, advance->longest), length * EVENTS_MAX / events);
 }
 
 hd_status hd_advance_on(hd_advance *advance, hd_event_log *log, double most)

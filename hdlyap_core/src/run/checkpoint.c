@@ -17,6 +17,7 @@
 #include "modes/archived.h"
 #include "run/checkpoint.h"
 #include "run/checkpoint_file.h"
+#include "run/factorise.h"
 #include "run/run_state.h"
 #include "scene/archived.h"
 #include "tangent/archived.h"
@@ -244,6 +245,7 @@ static hd_status restore(hd_run *run, hd_archive *archive, double time, char *me
     hd_archive_expect(archive, hd_run_time(run) == time, "time", "it is not that of the disks");
     if (hd_archive_end(archive) != HD_OK) return inconsistent(archive, message, size);
     HD_TRY(reopen(run, message, size));
+    hd_run_save_accuracy(run);
     const double last = fmax(hd_run_time(run), hd_schedule_stage_end(&run->schedule));
     run->interval_end = fmin(run->interval_end, last); /* of a duration that has become shorter */
     run->advance.plan.end = fmin(run->advance.plan.end, last);

@@ -14,7 +14,10 @@
 static const double DEFECT_LOOSE = 1e-4;
 /** The same where somebody does. */
 static const double DEFECT_MEASURED = 1e-6;
-enum { PIECES_MAX = 64 };
+/** Part of an interval's share of the accuracy that its square may be, as it too bounds a mean. */
+static const double DEFECT_SHARE = 0.1;
+/** Of an interval, beyond which dividing costs more than it saves [T6]. */
+enum { PIECES_MAX = 8 };
 
 hd_status hd_run_replay(hd_run *run, double t_begin, double t_end)
 {
@@ -25,8 +28,8 @@ hd_status hd_run_replay(hd_run *run, double t_begin, double t_end)
     return HD_OK;
 }
 
-/** Pieces of the log that are taken back no more: a collision of each disk is the least that can be
- * divided. */
+/** Pieces of the log that are taken back no more: a collision of each disk, or an eighth of an
+ * interval that is only a few collisions long. */
 static double shortest_piece(const hd_run *run)
 {
     return fmin(run->log->duration / PIECES_MAX, run->sample_max / HD_COLLISIONS_PER_SAMPLE);
@@ -50,6 +53,13 @@ static hd_status frame_piece(hd_run *run, double t_begin, double t_end, double d
     return status;
 }
 
+void hd_run_save_accuracy(hd_run *run)
+{
+    const bool averaging = run->spectrum && run->schedule.stage == HD_AVERAGING;
+    const double used = HD_ENLARGED * run->rounding.sum / run->scene.accuracy;
+    run->interval.saved = averaging ? hd_spectrum_time(run->spectrum) - used : INFINITY;
+}
+
 /** What an accepted orthonormalisation says about spectrum, interval and cost. */
 static void piece_accepted(hd_run *run, double length)
 {
@@ -68,6 +78,7 @@ static void piece_accepted(hd_run *run, double length)
     run->rounding.sum += HD_ROUNDING * condition;
     cost->orthonormalisations++;
     cost->second_passes += hd_ortho_passes(run->ortho) > 1;
+    hd_run_save_accuracy(run);
     cost->spectrum += hd_clock_now() - start;
 }
 
@@ -118,7 +129,8 @@ hd_status hd_run_factorise(hd_run *run)
 {
     const double duration = run->log->duration;
     const bool looked_at = hd_run_is_observing(run) || hd_run_is_windowing(run);
-    const double defect = looked_at ? DEFECT_MEASURED : DEFECT_LOOSE;
+    const double defect = fmin(looked_at ? DEFECT_MEASURED : DEFECT_LOOSE,
+                               sqrt(DEFECT_SHARE * run->scene.accuracy * duration));
     double begin = 0.0, end = duration;
     HD_TRY(window_starts(run));
     while (begin < duration) {

@@ -22,4 +22,8 @@ HD_MUST_CHECK hd_status hd_run_replay(hd_run *run, double t_begin, double t_end)
  * piece is short enough. */
 HD_MUST_CHECK hd_status hd_run_factorise(hd_run *run);
 
+/** Tells the interval how much of the accuracy the averaging has not used up: at its start, and
+ * after each orthonormalisation. */
+void hd_run_save_accuracy(hd_run *run);
+
 #endif

@@ -24,6 +24,8 @@ static const double CONDITION_SLOW = 1e4;
 /** Collisions of each disk between two orthonormalisations that no accuracy and no density exceed.
  */
 static const double COLLISIONS_MOST = 60.0;
+/** Collisions of each disk that growth remembers: shorter blocks tell no error. */
+static const double COLLISIONS_PER_BLOCK = 8.0;
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
@@ -40,6 +42,14 @@ static hd_status create_frame(hd_run *run)
     return hd_ortho_step_stable(run->ortho, run->frame, 1.0 / DBL_EPSILON);
 }
 
+/** Shortest block of the averages: growth follows the waves of density, too, which need that long
+ * through the box [T8]. */
+static double block_least(const hd_run *run)
+{
+    const double collision = run->sample_max / HD_COLLISIONS_PER_SAMPLE;
+    return fmax(COLLISIONS_PER_BLOCK * collision, hd_scene_sound_crossing(&run->scene));
+}
+
 static hd_status prepare_frame(hd_run *run)
 {
     const int rows = 4 * run->scene.disks, n = run->vectors;
@@ -49,7 +59,7 @@ static hd_status prepare_frame(hd_run *run)
     hd_blas_use_threads(run->threads);
     HD_TRY(hd_event_log_create(&run->log));
     HD_TRY(hd_ortho_create(&run->ortho, rows, n));
-    HD_TRY(hd_spectrum_create(&run->spectrum, rows, n));
+    HD_TRY(hd_spectrum_create(&run->spectrum, rows, n, block_least(run)));
     HD_TRY(create_frame(run));
     return hd_threads_choose(&run->threads, run->ortho, run->frame, run->scene.threads);
 }
@@ -104,7 +114,7 @@ static bool interval_is_learnt(const hd_run *run)
 static double sample_longest(const hd_run *run)
 {
     if (!run->frame || !interval_is_learnt(run)) return run->sample_max;
-    return fmin(run->sample_max, hd_interval_longest(&run->interval).length);
+    return fmin(run->sample_max, hd_interval_usual(&run->interval));
 }
 
 static void enter_stage(hd_run *run, hd_stage stage)
@@ -115,6 +125,7 @@ static void enter_stage(hd_run *run, hd_stage stage)
     stage = run->schedule.stage;
     if (run->spectrum && stage == HD_AVERAGING) averages_clear(run);
     if (stage == HD_AVERAGING) run->rounding.sum = HD_ROUNDING * run->rounding.condition_max;
+    hd_run_save_accuracy(run);
     if (stage == HD_EQUILIBRATING || run->clocks.frame_started != 0) return;
     run->clocks.frame_started = hd_clock_now();
     run->clocks.frame_start_time = hd_run_time(run);
@@ -194,12 +205,7 @@ static hd_status observe(hd_run *run, bool report)
     return HD_OK;
 }
 
-static void sample_spectrum(hd_run *run)
-{
-    hd_spectrum_sample(run->spectrum);
-    if (run->observe & HD_OBSERVE_OF_MODES)
-        hd_steps_sample(run->observer.steps, run->spectrum, run->schedule.sample_length);
-}
+static void sample_spectrum(hd_run *run) { hd_spectrum_sample(run->spectrum); }
 
 /** True where somebody wants all of the vectors of this very time. */
 static bool vectors_wanted(const hd_run *run)

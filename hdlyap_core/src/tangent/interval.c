@@ -20,6 +20,10 @@ static const double STRETCH_MAX = 150.0;
 /** A remainder that is longer by this factor is taken at once: a repair now and then costs less
  * than halves would. */
 static const double STRAIN = 1.06;
+/** An interval's shares of the accuracy: what one may use however much is saved; if nothing is; and
+ * before the averaging, where the largest alone counts: eight intervals make up for it. */
+static const double SHARES_MAX = 20.0, SHARES_MIN = 0.5, SHARES_BEFORE = 4.0;
+static const double AIM_MIN = 0.3; /* of ln(condition) */
 static const double GROW_MAX = 2.0, FORGET = 0.1, VARIANCE_FIRST = 0.5;
 
 hd_interval hd_interval_first(double first, double limit, double accuracy)
@@ -27,19 +31,29 @@ hd_interval hd_interval_first(double first, double limit, double accuracy)
     return (hd_interval){.limit = limit,
                          .accuracy = accuracy,
                          .last = fmin(first, limit),
-                         .variance = VARIANCE_FIRST};
+                         .variance = VARIANCE_FIRST,
+                         .saved = INFINITY};
+}
+
+/** That uses up the accuracy's share of so many time units. */
+static double condition_of(const hd_interval *interval, double time)
+{
+    const double condition = interval->accuracy * time / (HD_ENLARGED * HD_ROUNDING);
+    return fmax(CONDITION_MIN, fmin(CONDITION_MAX, condition));
 }
 
 double hd_interval_condition_max(const hd_interval *interval, double length)
 {
-    return fmax(CONDITION_MIN, fmin(CONDITION_MAX, interval->accuracy *
-                                                       fmax(length, interval->last) / HD_ROUNDING));
+    const double usual = fmax(length, interval->last);
+    const double least = SHARES_MIN * usual,
+                 most = (interval->saved < INFINITY ? SHARES_MAX : SHARES_BEFORE) * usual;
+    return condition_of(interval, fmax(least, fmin(most, length + interval->saved)));
 }
 
 double hd_interval_piece_max(const hd_interval *interval, double length, double whole)
 {
     const double most = hd_interval_condition_max(interval, length);
-    return length < whole ? fmax(CONDITION_MIN, most / HD_ENLARGED) : most;
+    return length < whole ? fmin(most, condition_of(interval, fmax(length, interval->last))) : most;
 }
 
 static double follow(double old, double seen) { return fmax(seen, old + FORGET * (seen - old)); }
@@ -75,15 +89,37 @@ static void shorten(hd_interval_length *chosen, double length, hd_limit limit)
     if (length < chosen->length) *chosen = (hd_interval_length){length, limit};
 }
 
-hd_interval_length hd_interval_longest(const hd_interval *interval)
+/** Mean of ln(condition) with which few intervals exceed a condition. */
+static double aim_below(const hd_interval *interval, double condition)
 {
-    const double most = log(hd_interval_condition_max(interval, interval->last));
-    const double aim = fmax(most - fmax(MARGIN * sqrt(interval->variance), HEADROOM_MIN), 0.3);
+    return log(condition) - fmax(MARGIN * sqrt(interval->variance), HEADROOM_MIN);
+}
+
+/** Longest interval with this mean of ln(condition), and what else limits it. */
+static hd_interval_length within(const hd_interval *interval, double aim)
+{
     hd_interval_length chosen = {GROW_MAX * interval->last, HD_LIMIT_GROWTH};
     shorten(&chosen, interval->limit, HD_LIMIT_SCENE);
-    if (interval->slope > 0) shorten(&chosen, aim / interval->slope, HD_LIMIT_CONDITION);
+    if (interval->slope > 0)
+        shorten(&chosen, fmax(aim, AIM_MIN) / interval->slope, HD_LIMIT_CONDITION);
     if (interval->stretch > 0) shorten(&chosen, STRETCH_MAX / interval->stretch, HD_LIMIT_OVERFLOW);
     return chosen;
+}
+
+hd_interval_length hd_interval_longest(const hd_interval *interval)
+{
+    const double most = hd_interval_condition_max(interval, interval->last);
+    return within(interval, aim_below(interval, most));
+}
+
+/** The mean of a condition that scatters like a lognormal variable is exp(variance / 2) above its
+ * median. */
+double hd_interval_usual(const hd_interval *interval)
+{
+    const double share = log(condition_of(interval, interval->last)),
+                 most = condition_of(interval, SHARES_MAX * interval->last);
+    const double aim = fmin(share - 0.5 * interval->variance, aim_below(interval, most));
+    return within(interval, STRAIN * aim).length;
 }
 
 hd_interval_length hd_interval_next(const hd_interval *interval, double remaining)

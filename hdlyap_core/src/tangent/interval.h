@@ -26,17 +26,20 @@ typedef struct hd_interval {
     double variance; /**< of ln(condition) about slope * length, likewise */
     double stretch;  /**< largest |ln R_ll| per time unit: rises at once, falls slowly */
     double last;     /**< last interval measured, or the first guess */
+    /** Averaged time whose share of the accuracy is not used up; negative: used in advance;
+     * INFINITY before the averaging */
+    double saved;
 } hd_interval;
 
 hd_interval hd_interval_first(double first, double limit, double accuracy);
 
-/** Largest condition that leaves the exponents as accurate as asked after an interval this long (or
- * one as long as usual, if that is longer: a rare short one with a grazing collision may use its
- * share). */
+/** Largest condition that leaves the means as accurate as asked, with what is saved, after an
+ * interval this long; some part of the share of one as long as usual is always given. */
 double hd_interval_condition_max(const hd_interval *interval, double length);
 
-/** The same for a piece of an interval of `whole`: those that were not taken back mostly stay far
- * below what they are allowed, pieces of the others just below. */
+/** The same for a piece of an interval of `whole`, which uses no more than the share of a usual
+ * one: those that were not taken back mostly stay far below what they are allowed, pieces of the
+ * others just below. */
 double hd_interval_piece_max(const hd_interval *interval, double length, double whole);
 
 /** What an interval of `length` showed. */
@@ -55,6 +58,9 @@ typedef struct hd_interval_length {
 
 /** What the conditioning allows the next interval to be. */
 hd_interval_length hd_interval_longest(const hd_interval *interval);
+
+/** What it allows on average: as long as intervals of this length use what they are given. */
+double hd_interval_usual(const hd_interval *interval);
 
 /** The next interval: an equal share of `remaining`, as few shares as the conditioning allows. */
 hd_interval_length hd_interval_next(const hd_interval *interval, double remaining);

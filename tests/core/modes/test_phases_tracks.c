@@ -191,18 +191,32 @@ static void another_set_is_followed_anew(void **state)
     rotating_free(&r);
 }
 
-static void a_pause_begins_anew(void **state)
+/** Samples at other distances, as pieces of a schedule that changes: a slow step, for which 12.5
+ * time units would do, goes on. The end of an averaging in the middle of a piece, and its going on
+ * later, are such too. */
+static void pieces_of_any_length_go_on(void **state)
 {
     (void)state;
+    const double lengths[] = {1.0, 2.0, 4.0, 8.0, 12.5, 7.0, 0.6 * 7.0, 0.4 * 7.0, 7.0, 5.0, 2.5};
     rotating r = pairs(1);
-    find(&r, 0.2); /* slow: 12 time units would do */
-    for (int t = 0; t < 20; t++) turn(&r, 0.1);
-    r.time += 0.4;
-    turn(&r, 0.1);
-    check_all(&r, HD_LP_TRACKED, 21.4);
-    r.time += 1.2;
-    turn(&r, 0.1);
-    check_all(&r, HD_LP_TRACKED, 0.0);
+    double time = 0.0;
+    find(&r, 0.2);
+    for (size_t k = 0; k < sizeof lengths / sizeof *lengths; k++)
+        for (int t = 0; t < (k == 0 ? 20 : 4); t++) {
+            r.dt = lengths[k];
+            turn(&r, 0.2);
+            time += r.dt;
+            check_all(&r, HD_LP_TRACKED, r.time);
+        }
+    assert_int_equal(check_tracks(&r, 0.2 * time, time, time * ROUNDING), 2);
+    CHECK_CLOSE(phase_of(&r, 0, 0)->omega, 0.2, ROUNDING);
+    CHECK_CLOSE(hd_phases_velocity(r.phases).v, 0.2 / r.step->wave.number, ROUNDING);
+    r.dt = 12.6;
+    turn(&r, 0.2);
+    check_all(&r, HD_LP_COARSE, 0.0);
+    r.dt = 1.0;
+    turn(&r, 0.2);
+    check_all(&r, HD_LP_TRACKED, 1.0);
     rotating_free(&r);
 }
 
@@ -256,7 +270,7 @@ int main(void)
         cmocka_unit_test(absence_of_all_vectors_is_survived),
         cmocka_unit_test(unresolved_steps_are_not_followed),
         cmocka_unit_test(another_set_is_followed_anew),
-        cmocka_unit_test(a_pause_begins_anew),
+        cmocka_unit_test(pieces_of_any_length_go_on),
         cmocka_unit_test(clear_begins_anew),
         cmocka_unit_test(coarse_samples_are_said_to_be),
     };

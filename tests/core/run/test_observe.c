@@ -279,6 +279,50 @@ static void a_look_away_begins_the_phases_anew(void **state)
     hd_run_free(run);
 }
 
+/** Longest that a phase of a step has been tracked for. */
+static double tracked_for(const hd_run *run, const hd_step *step)
+{
+    const hd_phases *phases = hd_run_phases(run);
+    double longest = 0.0;
+    for (int k = 0; k < hd_phases_count(phases); k++) {
+        const hd_lp_phase *phase = hd_phases_phase(phases, k);
+        if (hd_steps_step(hd_run_steps(run), phase->step) == step)
+            longest = fmax(longest, phase->time);
+    }
+    return longest;
+}
+
+/** LP(2,0), at first taken for resolved now and then, asks for twice as many samples as LP(1,0)
+ * does: when it is not any more, pieces double. What LP(1,0) has been tracked for never falls. */
+static void longer_pieces_lose_no_phase(void **state)
+{
+    (void)state;
+    hd_scene_def scene = hd_scene_def_default();
+    scene.disks = 200;
+    scene.aspect = 0.2;
+    scene.duration = 14.0;
+    scene.report_interval = 2.0;
+    scene.observe = EVERYTHING;
+    int longer = 0, longest = 0;
+    for (scene.seed = 1; scene.seed <= 3; scene.seed++) {
+        hd_run *run = created(&scene);
+        const hd_step *step = step_of(run, HD_MODE_LP, 1, 0, false);
+        int before = 1;
+        for (double tracked = 0.0; hd_run_stage(run) != HD_FINISHED;) {
+            CHECK_OK(hd_run_advance(run));
+            const int now = hd_run_samples_per_report(run);
+            longer += now < before && tracked > 3.0;
+            before = now;
+            assert_true(!step->resolved || tracked_for(run, step) >= tracked);
+            tracked = tracked_for(run, step);
+        }
+        longest += step->resolved && tracked_for(run, step) > 7.0;
+        hd_run_free(run);
+    }
+    print_message("pieces became longer %d times\n", longer);
+    assert_true(longer >= 1 && longest >= 1);
+}
+
 static void nothing_is_allocated_while_looking(void **state)
 {
     (void)state;
@@ -400,6 +444,7 @@ int main(void)
         cmocka_unit_test(only_what_is_needed_is_measured),
         cmocka_unit_test(fields_are_due_now_and_then),
         cmocka_unit_test(a_look_away_begins_the_phases_anew),
+        cmocka_unit_test(longer_pieces_lose_no_phase),
         cmocka_unit_test(nothing_is_allocated_while_looking),
         cmocka_unit_test(a_reset_forgets_modes_steps_and_phases),
         cmocka_unit_test(the_negative_half_mirrors_the_positive_one),

@@ -114,6 +114,38 @@ static void any_interval_gives_the_same_spectrum(void **state)
     }
 }
 
+/** From the eighth interval of the averaging on; thin, dense, accurate. */
+static void the_bound_keeps_to_the_accuracy(void **state)
+{
+    (void)state;
+    const struct {
+        double density, report, accuracy;
+        uint64_t seed;
+    } cases[] = {{0.2, 10.0, 1e-8, 4}, {0.8, 1.0, 1e-8, 3}, {0.8, 1.0, 1e-10, 3}};
+    for (int k = 0; k < 3; k++) {
+        hd_scene_def scene = hd_scene_def_default();
+        scene.disks = 100;
+        scene.density = cases[k].density;
+        scene.report_interval = cases[k].report;
+        scene.accuracy = cases[k].accuracy;
+        scene.seed = cases[k].seed;
+        scene.duration = 100.0;
+        hd_run *run = until(created(&scene), HD_AVERAGING);
+        const long before = hd_run_cost(run).orthonormalisations;
+        double worst = 0.0;
+        while (hd_run_stage(run) != HD_FINISHED) {
+            CHECK_OK(hd_run_advance(run));
+            const hd_cost cost = hd_run_cost(run);
+            if (cost.orthonormalisations >= before + 8) worst = fmax(worst, cost.error_bound);
+        }
+        print_message("density %.1f, accuracy %.0e: bound up to %.2f of it, at the end %.2f\n",
+                      scene.density, scene.accuracy, worst / scene.accuracy,
+                      hd_run_cost(run).error_bound / scene.accuracy);
+        assert_true(worst > 0.0 && worst <= scene.accuracy);
+        hd_run_free(run);
+    }
+}
+
 /** Forced behind the controller's back: noticed, taken back, replayed in pieces. */
 static void an_interval_too_long_is_repaired(void **state)
 {
@@ -277,6 +309,7 @@ int main(void)
         cmocka_unit_test(reports_come_on_time),
         cmocka_unit_test(without_exponents_there_is_no_frame),
         cmocka_unit_test(any_interval_gives_the_same_spectrum),
+        cmocka_unit_test(the_bound_keeps_to_the_accuracy),
         cmocka_unit_test(an_interval_too_long_is_repaired),
         cmocka_unit_test(threads_do_not_change_the_physics),
         cmocka_unit_test(the_loop_allocates_nothing),

@@ -3,6 +3,7 @@
 
 #include "testing.h"
 
+#include "base/random.h"
 #include "tangent/interval.h"
 
 /** A frame whose ln(condition) is rate * length, seen over `steps` intervals. */
@@ -118,24 +119,89 @@ static void shares_of_the_rest_are_equal(void **state)
     CHECK_CLOSE(hd_interval_next(&interval, 0.1).length, 0.1, 0.0);
 }
 
+/** Time units of accuracy that a condition uses up in error_bound. */
+static double used_up(double condition, double accuracy)
+{
+    return 20.0 * 2.0 * DBL_EPSILON * condition / accuracy;
+}
+
 static void more_accuracy_allows_less_condition(void **state)
 {
     (void)state;
-    const hd_interval tight = hd_interval_first(1.0, INFINITY, 1e-12);
+    const hd_interval tight = hd_interval_first(1.0, INFINITY, 1e-11);
     const hd_interval loose = hd_interval_first(1.0, INFINITY, 1e-2);
-    CHECK_CLOSE(hd_interval_condition_max(&tight, 1.0), 0.5e-12 / DBL_EPSILON, 1e-6);
+    CHECK_CLOSE(used_up(hd_interval_condition_max(&tight, 1.0), 1e-11), 4.0, 1e-9);
     CHECK_CLOSE(hd_interval_condition_max(&loose, 1.0), 1e12, 0.0);
 }
 
-/** A piece of a repair has a twentieth of its own share; nothing is divided for a condition of 1e3.
- */
+static double gaussian(hd_random *random)
+{
+    double sum = 0.0; /* of twelve uniform variables */
+    for (int k = 0; k < 12; k++) sum += 0.5 * hd_random_symmetric(random);
+    return sum;
+}
+
+static void what_is_saved_may_be_used(void **state)
+{
+    (void)state;
+    const double shares[][2] = {{-5.0, 0.5},  {-0.6, 0.7}, {0.0, 1.0},     {13.0, 7.5},
+                                {38.0, 20.0}, {1e9, 20.0}, {INFINITY, 4.0}};
+    hd_interval interval = hd_interval_first(2.0, INFINITY, 1e-8);
+    for (size_t k = 0; k < sizeof shares / sizeof *shares; k++) {
+        interval.saved = shares[k][0];
+        const double most = hd_interval_condition_max(&interval, 2.0);
+        CHECK_CLOSE(used_up(most, 1e-8), 2.0 * shares[k][1], 1e-9);
+    }
+    interval.saved = 13.0; /* a short one, of what is there */
+    CHECK_CLOSE(used_up(hd_interval_condition_max(&interval, 0.5), 1e-8), 13.5, 1e-9);
+}
+
+/** Conditions that scatter by a factor e: the sum that the error bound is made of never exceeds the
+ * accuracy, and the intervals are hardly shorter than those which just use it up on average. */
+static void the_bound_is_kept_and_used(void **state)
+{
+    (void)state;
+    enum { INTERVALS = 4000, FIRST = 200 };
+    const double rate = 6.5, scatter = 1.0, accuracy = 1e-8;
+    hd_interval interval = hd_interval_first(0.1, INFINITY, accuracy);
+    hd_random random = hd_random_seeded(1, 0);
+    double time = 0.0;
+    int repaired = 0, averaged = 0;
+    for (int k = 0; k < INTERVALS; k++) {
+        if (k == FIRST) interval.saved = -8.0; /* four intervals */
+        const double length = hd_interval_next(&interval, 1e9).length;
+        const double seen = exp(rate * length + scatter * gaussian(&random));
+        if (seen > hd_interval_condition_max(&interval, length)) {
+            hd_interval_failed(&interval, length);
+            repaired++;
+            continue;
+        }
+        hd_interval_learn(&interval, length, fmax(seen, 1.0), rate * length);
+        interval.saved += length - used_up(seen, accuracy);
+        assert_true(k < FIRST + 8 || interval.saved >= 0.0);
+        averaged += k >= FIRST;
+        if (k >= FIRST) time += length;
+    }
+    const double mean = time / averaged, usual = hd_interval_usual(&interval);
+    const double ideal = (log(accuracy * mean / (40.0 * DBL_EPSILON)) - 0.5 * scatter) / rate;
+    print_message("mean length %.3f, foreseen %.3f, ideal %.3f; %.1f %% repaired, %.1f saved\n",
+                  mean, usual, ideal, 100.0 * repaired / INTERVALS, interval.saved);
+    CHECK_CLOSE(mean, ideal, 0.05 * ideal);
+    CHECK_CLOSE(usual, mean, 0.15 * mean);
+    assert_true(repaired < 0.1 * INTERVALS);
+}
+
+/** A piece of a repair has the share of its own length, or of a usual one; nothing is divided for a
+ * condition of 1e3. */
 static void pieces_keep_to_their_share(void **state)
 {
     (void)state;
-    const hd_interval interval = hd_interval_first(0.1, INFINITY, 1e-8);
+    hd_interval interval = hd_interval_first(0.1, INFINITY, 1e-8);
     const double whole = hd_interval_condition_max(&interval, 2.0);
     CHECK_CLOSE(hd_interval_piece_max(&interval, 2.0, 2.0), whole, 0.0);
-    CHECK_CLOSE(hd_interval_piece_max(&interval, 1.0, 2.0), whole / 40.0, 1e-9 * whole);
+    CHECK_CLOSE(hd_interval_piece_max(&interval, 1.0, 2.0), whole / 8.0, 1e-9 * whole);
+    interval.saved = -0.3;
+    CHECK_CLOSE(hd_interval_piece_max(&interval, 1.0, 2.0), whole / 8.0 * 0.7, 1e-9 * whole);
     const hd_interval tight = hd_interval_first(0.1, INFINITY, 1e-12);
     CHECK_CLOSE(hd_interval_condition_max(&tight, 0.01), 1e3, 0.0);
     CHECK_CLOSE(hd_interval_piece_max(&tight, 0.01, 0.1), 1e3, 0.0);
@@ -152,6 +218,8 @@ int main(void)
         cmocka_unit_test(the_reason_is_told),
         cmocka_unit_test(shares_of_the_rest_are_equal),
         cmocka_unit_test(more_accuracy_allows_less_condition),
+        cmocka_unit_test(what_is_saved_may_be_used),
+        cmocka_unit_test(the_bound_is_kept_and_used),
         cmocka_unit_test(pieces_keep_to_their_share),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
