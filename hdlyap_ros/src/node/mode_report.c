@@ -135,7 +135,13 @@ static bool fill_step(hdr_step *out, const hd_step *step)
     out->members = (uint32_t)step->members;
     out->exponent = step->exponent;
     out->std_error = error_of(step->std_error);
-    return isfinite(step->multiplicity + step->exponent + step->std_error);
+    out->sharing = (uint8_t)step->sharing;
+    out->set_time = step->set_time;
+    out->own_part = step->own_part;
+    out->gap = step->gap;
+    out->gap_error = error_of(step->gap_error);
+    return isfinite(step->multiplicity + step->exponent + step->std_error + step->own_part +
+                    step->gap + step->gap_error);
 }
 
 static bool fill_phase(hdr_lp_phase *out, const hd_lp_phase *phase, const hd_steps *steps)
