@@ -33,8 +33,8 @@ typedef struct course {
 static reading read_run(const hd_run *run, double wall)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
-    const hd_dispersion t = hd_steps_dispersion(hd_run_steps(run), HD_MODE_T);
-    const hd_dispersion l = hd_steps_dispersion(hd_run_steps(run), HD_MODE_LP);
+    const hd_dispersion t = hd_steps_dispersion(hd_run_steps(run), spectrum, HD_MODE_T);
+    const hd_dispersion l = hd_steps_dispersion(hd_run_steps(run), spectrum, HD_MODE_LP);
     const hd_velocity v = hd_phases_velocity(hd_run_phases(run));
     return (reading){.time = hd_spectrum_time(spectrum),
                      .wall = wall,

@@ -394,7 +394,45 @@ def effects(tables):
     return figure
 
 
-FIGURES = (precision, convergence, scaling, whole, effects)
+# ---- whether the errors are true ------------------------------------------------------------
+
+
+def _kind(quantity):
+    """Steps and angular velocities of all waves in one line."""
+    if '(' not in quantity:
+        return quantity
+    return 'omega' if quantity.startswith('omega') else 'steps'
+
+
+def errors(tables):
+    rows = [row for row in tables['errors'].rows if row['scatter / stated'] >= 0]
+    kinds = list(dict.fromkeys(_kind(row['quantity']) for row in rows))
+    boxes = list(dict.fromkeys(row['box'] for row in rows))
+    lengths = sorted({row['length'] for row in rows})
+    colours = dict(zip(boxes, (BLUE, GREEN, VERMILION, PURPLE, ORANGE, SKY)))
+    markers = dict(zip(lengths, 'v^o'))
+    figure, axes = plt.subplots(figsize=(6.4, 0.9 + 0.28 * len(kinds)))
+    axes.axvspan(0.8, 1.25, color=LIGHT, alpha=0.5, lw=0)
+    axes.axvline(1, color=GREY, lw=0.7)
+    for row in rows:
+        off = 0.1 * (boxes.index(row['box']) - (len(boxes) - 1) / 2)
+        style = {'color': colours[row['box']], 'marker': markers[row['length']], 'ls': ''}
+        axes.plot(row['scatter / stated'], kinds.index(_kind(row['quantity'])) + off, **style)
+    for box in boxes:
+        axes.plot([], [], linestyle='', marker='s', color=colours[box], label=box)
+    for length in lengths:
+        label = f'{length:g} time units'
+        axes.plot([], [], linestyle='', marker=markers[length], color=INK, label=label)
+    axes.set(xscale='log', xlabel='scatter over the seeds / stated error')
+    _plain_ticks(axes)
+    axes.set_yticks(range(len(kinds)))
+    axes.set_yticklabels(kinds)
+    axes.invert_yaxis()
+    axes.legend(loc='center left', bbox_to_anchor=(1, 0.5))
+    return figure
+
+
+FIGURES = (precision, convergence, scaling, whole, effects, errors)
 
 
 def save(figure, machine, path):

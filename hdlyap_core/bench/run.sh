@@ -85,7 +85,7 @@ run_all() {
     elif [[ -x $PROGRAMS/hdlyap_effects ]]; then
         with_effects=1
     fi
-    TOTAL=$((${#QUICK[@]} ? 11 : 1122))
+    TOTAL=$((${#QUICK[@]} ? 12 : 2022))
     if ((with_effects)); then TOTAL=$((TOTAL + 60)); fi
     stage 220 'what accuracy costs' "$PROGRAMS/hdlyap_precision" --out "$OUT" "${QUICK[@]}"
     stage 45 'how long a wanted error takes' "$PROGRAMS/hdlyap_convergence" --out "$OUT" "${QUICK[@]}"
@@ -101,6 +101,7 @@ run_all() {
         stage 12 'events alone, and one exponent' "$PROGRAMS/hdlyap_bench" --events
     fi
     stage 250 'what covariant vectors cost' "$PROGRAMS/hdlyap_covariant" --out "$OUT" "${QUICK[@]}"
+    stage 900 'whether the errors are true' "$PROGRAMS/hdlyap_errors" --out "$OUT" "${QUICK[@]}"
     stage 40 'what others write' "$PROGRAMS/hdlyap_rivals" --out "$OUT" "${small[@]}"
     stage 350 'a long trajectory' "$PROGRAMS/hdlyap_endurance" --out "$OUT" "${QUICK[@]}"
     if ((with_effects)); then

@@ -38,9 +38,10 @@ COLUMNS = {  # the first ones of each table, without units
         'covariant over forward',
         'median sine apart',
     ],
+    'errors': ['quantity', 'from', 'box', 'length', 'seeds', 'stated', 'mean', 'stated error'],
     'rivals': ['quantity', 'disks', 'minimum', 'median', 'maximum', 'rounds'],
 }
-PICTURES = ('precision', 'convergence', 'scaling', 'whole')
+PICTURES = ('precision', 'convergence', 'scaling', 'errors', 'whole')
 ACCURACY = 1e-8  # asked for, and so the largest deviation allowed
 SPREAD = 0.05  # of the grey values of a picture that shows something
 RUN_SH, PROGRAMS, FOLDER = sys.argv[1:4]
@@ -103,6 +104,11 @@ class Bench(unittest.TestCase):
         self.assertEqual(longest['status'], 'ok')
         self.assertGreater(float(longest['deviation of any [1/time unit]']), 1e-3)
 
+    def test_scatter_is_of_the_order_of_the_stated_errors(self):
+        for row in table('errors')[1]:
+            ratio = float(row['scatter / stated'])
+            self.assertTrue(ratio == -1 or 0.2 < ratio < 5, row)
+
     def test_pictures_show_something(self):
         for name in PICTURES:
             pixels = matplotlib.image.imread(os.path.join(FOLDER, name + '.png'))
@@ -113,7 +119,15 @@ class Bench(unittest.TestCase):
         self.assertEqual([name for name in os.listdir(FOLDER) if '.part' in name], [])
 
     def test_bad_arguments_give_one_line_and_status_2(self):
-        for command in ('bench', 'rivals', 'precision', 'convergence', 'scaling', 'endurance'):
+        for command in (
+            'bench',
+            'rivals',
+            'precision',
+            'convergence',
+            'scaling',
+            'endurance',
+            'errors',
+        ):
             run = subprocess.run(
                 [os.path.join(PROGRAMS, 'hdlyap_' + command), '--nonsense'],
                 stderr=subprocess.PIPE,

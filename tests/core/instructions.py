@@ -17,7 +17,7 @@ MODES, STEPS, PHASES, EVERYTHING = 1, 2, 4, 31  # HD_OBSERVE_*
 
 # sources of each stage; what is common to all is in none
 OF_TRAJECTORY = {'trajectory.c', 'prediction.c', 'contact.h', 'cells.c', 'queue.c'}
-OF_FRAME = {'frame.c', 'ortho.c', 'spectrum.c', 'block_average.c', 'blas.c'}
+OF_FRAME = {'frame.c', 'ortho.c', 'spectrum.c', 'blocks.c', 'blas.c'}
 OF_MODES = {'fields.c', 'modes.c'}
 OF_STEPS = {'steps.c', 'sets.c'}
 OF_PHASES = {'phases.c'}

@@ -82,6 +82,7 @@ def spectrum(exponents, averaged_time, run_id='one', error=0.01, pairing_error=-
         lambda_max=exponents[0],
         pairing_error=pairing_error,
         ks_entropy=sum(e for e in exponents if e > 0),
+        ks_entropy_error=error * n if error >= 0 else -1.0,
         first_index=1,
         exponents=exponents,
         std_errors=[error] * n,
@@ -184,14 +185,17 @@ def steps(made, averaged_time=50.0, run_id='one'):
         c_t_error=0.012,
         c_t2=0.1,
         c_t2_error=0.034,
+        t_misfit=1.25,
         l_points=2,
         c_l=1.5,
         c_l_error=0.02,
         c_l2=0.5,
         c_l2_error=0.1,
+        l_misfit=-1.0,
         v_phases=8,
         v=1.612,
         v_error=0.023,
+        v_misfit=2.5,
     )
 
 

@@ -102,7 +102,7 @@ class Screens(unittest.TestCase):
                 'averaged 50.0 of 200',
                 '1.23 time units/s',
                 'lambda_max 9.000(10)',
-                'h_KS 222.00, error < 0.37',
+                'h_KS 222.00(37)',
                 'c_T 1.400(12)',
                 'c_L 1.500(20)',
                 'v 1.612(23)',
@@ -174,9 +174,9 @@ class Screens(unittest.TestCase):
         text = self.text(shown)
         for part in (
             'lambda_max 9.00000 ',
-            'sum of exponents 12.00 ',
+            'sum of exponents 12.00000 ',
             'c_T 1.40000 ',
-            'c_L - ',
+            'c_L -',
             'condition nan',
         ):
             self.assertIn(part, text)

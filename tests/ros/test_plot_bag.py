@@ -241,7 +241,7 @@ class Table(Bags):
 
     def test_fits(self):
         lines, text = self.run_with(made.step(made.run_info(), T, 1, 0, 36, 37))
-        self.assertEqual(lines['c_T'], ['1.400(12)', '3', 'wave', 'numbers'])
+        self.assertEqual(lines['c_T'], ['1.400(12)', '3', 'wave', 'numbers,', 'misfit', '1.2'])
         self.assertEqual(lines['c_T2'], ['0.100(34)'])
         self.assertEqual(lines['c_L'], ['1.500(20)', '2', 'wave', 'numbers'])
         self.assertEqual(lines['c_L2'], ['0.50(10)'])
@@ -250,7 +250,7 @@ class Table(Bags):
 
     def test_fits_with_too_little(self):
         lines, text = self.run_with(t_points=1, l_points=0, v_phases=0)
-        self.assertEqual(lines['c_T'], ['1.400(12)', '1', 'wave', 'number'])
+        self.assertEqual(lines['c_T'], ['1.400(12)', '1', 'wave', 'number,', 'misfit', '1.2'])
         self.assertNotIn('c_T2', lines)
         self.assertIn('c_L   not known: no step resolved', text)
         self.assertNotIn('c_L2', lines)

@@ -45,12 +45,16 @@ typedef struct hd_step {
     double gap_error; /**< of it; negative if not yet known, 0 if alone */
 } hd_step;
 
-/** lambda = c k + c2 k^2, least squares weighted with the errors of the resolved steps; errors are
- * those of the fit, raised where it scatters more than they allow. */
+/** lambda = c k + c2 k^2, least squares weighted with the errors of the resolved steps. The errors
+ * are those of c and c2 as averages: they know how the steps fluctuate together, not whether the
+ * relation holds, which the misfit tells. */
 typedef struct hd_dispersion {
     int points;          /**< distinct wave numbers; below 2 c2 is 0, below 1 also c */
-    double c, c_error;   /**< error negative if unknown [sigma/time unit] */
+    double c, c_error;   /**< error negative if not yet known [sigma/time unit] */
     double c2, c2_error; /**< [sigma^2/time unit] */
+    double misfit; /**< root mean square deviation of the steps from the relation, per degree of
+                      freedom, in standard errors of the steps; negative if it has no freedom or
+                      they are not known. Far above 1: the relation does not hold so far */
 } hd_dispersion;
 
 typedef struct hd_steps hd_steps;
@@ -61,9 +65,6 @@ HD_MUST_CHECK hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def,
 void hd_steps_free(hd_steps *steps);
 void hd_steps_clear(hd_steps *steps);
 
-/** Adds the last sample of the spectrum, of so many time units, to the error of each step's mean.
- */
-void hd_steps_sample(hd_steps *steps, const hd_spectrum *spectrum, double length);
 /** Finds the sets from running averages of weights and exponents. Cost O(n subspaces). */
 void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum);
 /** A step is resolved if at least this part of its expected multiplicity is found, beyond what
@@ -80,8 +81,14 @@ const hd_step *hd_steps_step(const hd_steps *steps, int index);
  * outside all sets, or with less than that part of it in its set. */
 int hd_steps_of_vector(const hd_steps *steps, int col);
 
-/** kind: HD_MODE_T or HD_MODE_LP. */
-hd_dispersion hd_steps_dispersion(const hd_steps *steps, hd_mode_kind kind);
+/** Standard error of the sum over the resolved steps of factor(step, context) times exponent; see
+ * hd_spectrum_error_of_sum. `spectrum` as in hd_steps_find. */
+double hd_steps_error_of_sum(const hd_steps *steps, const hd_spectrum *spectrum,
+                             double (*factor)(const hd_step *, const void *), const void *context);
+
+/** Of the steps found with this spectrum. kind: HD_MODE_T or HD_MODE_LP. */
+hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spectrum,
+                                  hd_mode_kind kind);
 
 #ifdef __cplusplus
 }

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #include "averages/archived.h"
-#include "averages/block_average.h"
+#include "averages/blocks.h"
 #include "base/check.h"
 #include "base/memory.h"
 
@@ -14,22 +14,24 @@ struct hd_spectrum {
     double *sum;        /**< [vectors], of ln R_ll */
     double *sample_sum; /**< [vectors], since the last sample */
     double *local;      /**< [vectors], means over the last sample */
-    double *work;       /**< [vectors] */
+    hd_part *parts;     /**< [vectors], workspace */
     double time, sample_time;
-    hd_block_average blocks;
+    hd_blocks blocks; /**< of ln R_ll; their weight is time */
 };
 
-static hd_status spectrum_allocate(hd_spectrum *spectrum)
+static hd_status spectrum_allocate(hd_spectrum *spectrum, double block)
 {
-    double **arrays[] = {&spectrum->sum, &spectrum->sample_sum, &spectrum->local, &spectrum->work};
+    double **arrays[] = {&spectrum->sum, &spectrum->sample_sum, &spectrum->local};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
         *arrays[k] = hd_memory_alloc((size_t)spectrum->vectors, sizeof(double));
         if (!*arrays[k]) return HD_NO_MEMORY;
     }
-    return hd_block_average_create(&spectrum->blocks, spectrum->vectors);
+    spectrum->parts = hd_memory_alloc((size_t)spectrum->vectors, sizeof *spectrum->parts);
+    if (!spectrum->parts) return HD_NO_MEMORY;
+    return hd_blocks_create(&spectrum->blocks, spectrum->vectors, block);
 }
 
-hd_status hd_spectrum_create(hd_spectrum **out, int rows, int vectors)
+hd_status hd_spectrum_create(hd_spectrum **out, int rows, int vectors, double block)
 {
     HD_ASSERT(vectors >= 1 && vectors <= rows);
     hd_spectrum *spectrum = hd_memory_alloc(1, sizeof *spectrum);
@@ -37,7 +39,7 @@ hd_status hd_spectrum_create(hd_spectrum **out, int rows, int vectors)
     if (!spectrum) return HD_NO_MEMORY;
     spectrum->rows = rows;
     spectrum->vectors = vectors;
-    const hd_status status = spectrum_allocate(spectrum);
+    const hd_status status = spectrum_allocate(spectrum, block);
     if (status == HD_OK)
         *out = spectrum;
     else
@@ -51,8 +53,8 @@ void hd_spectrum_free(hd_spectrum *spectrum)
     hd_memory_free(spectrum->sum);
     hd_memory_free(spectrum->sample_sum);
     hd_memory_free(spectrum->local);
-    hd_memory_free(spectrum->work);
-    hd_block_average_clear(&spectrum->blocks);
+    hd_memory_free(spectrum->parts);
+    hd_blocks_clear(&spectrum->blocks);
     hd_memory_free(spectrum);
 }
 
@@ -61,7 +63,7 @@ void hd_spectrum_clear(hd_spectrum *spectrum)
     for (int col = 0; col < spectrum->vectors; col++)
         spectrum->sum[col] = spectrum->sample_sum[col] = spectrum->local[col] = 0.0;
     spectrum->time = spectrum->sample_time = 0.0;
-    hd_block_average_restart(&spectrum->blocks);
+    hd_blocks_restart(&spectrum->blocks);
 }
 
 void hd_spectrum_add(hd_spectrum *spectrum, const double *log_stretch, double dt)
@@ -78,13 +80,12 @@ void hd_spectrum_add(hd_spectrum *spectrum, const double *log_stretch, double dt
 void hd_spectrum_sample(hd_spectrum *spectrum)
 {
     HD_ASSERT(spectrum->sample_time > 0);
+    hd_blocks_add(&spectrum->blocks, spectrum->sample_sum, spectrum->sample_time);
     for (int col = 0; col < spectrum->vectors; col++) {
         spectrum->local[col] = spectrum->sample_sum[col] / spectrum->sample_time;
-        spectrum->work[col] = spectrum->local[col];
         spectrum->sample_sum[col] = 0.0;
     }
     spectrum->sample_time = 0.0;
-    hd_block_average_add(&spectrum->blocks, spectrum->work);
 }
 
 double hd_spectrum_time(const hd_spectrum *spectrum) { return spectrum->time; }
@@ -98,7 +99,12 @@ double hd_spectrum_exponent(const hd_spectrum *spectrum, int col)
 double hd_spectrum_std_error(const hd_spectrum *spectrum, int col)
 {
     HD_ASSERT(col >= 0 && col < spectrum->vectors);
-    return hd_block_average_std_error(&spectrum->blocks, col);
+    return hd_blocks_error(&spectrum->blocks, &(hd_part){col, 1.0}, 1);
+}
+
+double hd_spectrum_error_of_sum(const hd_spectrum *spectrum, const hd_part *parts, int count)
+{
+    return hd_blocks_error(&spectrum->blocks, parts, count);
 }
 
 double hd_spectrum_error_of_last(const hd_spectrum *spectrum, int count)
@@ -131,6 +137,14 @@ double hd_spectrum_ks_entropy(const hd_spectrum *spectrum)
     return sum;
 }
 
+double hd_spectrum_ks_entropy_error(const hd_spectrum *spectrum)
+{
+    int count = 0;
+    for (int col = 0; col < spectrum->vectors; col++)
+        if (hd_spectrum_exponent(spectrum, col) > 0) spectrum->parts[count++] = (hd_part){col, 1.0};
+    return hd_blocks_error(&spectrum->blocks, spectrum->parts, count);
+}
+
 double hd_spectrum_pairing_error(const hd_spectrum *spectrum)
 {
     if (spectrum->vectors < spectrum->rows) return -1.0;
@@ -149,7 +163,7 @@ void hd_spectrum_archive(hd_spectrum *spectrum, hd_archive *archive)
     hd_archive_doubles(archive, "spectrum sum", spectrum->sum, n);
     hd_archive_doubles(archive, "spectrum sample sum", spectrum->sample_sum, n);
     hd_archive_doubles(archive, "spectrum local", spectrum->local, n);
-    hd_block_average_archive(&spectrum->blocks, archive);
+    hd_blocks_archive(&spectrum->blocks, archive);
     hd_archive_expect(archive, spectrum->time >= 0 && spectrum->sample_time >= 0, "spectrum time",
                       "it is negative");
 }

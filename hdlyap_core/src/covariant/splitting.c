@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "averages/block_average.h"
+#include "averages/blocks.h"
 #include "base/check.h"
 #include "base/memory.h"
 #include "covariant/angles.h"
@@ -23,7 +23,7 @@ struct hd_splitting {
     double *violations, *entangled; /**< [vectors - 1]: fractions */
     double *later;                  /**< [vectors]: largest growth of later vectors */
     hd_angle_of_spaces angle[HD_PAIRS_OF_SPACES];
-    hd_block_average blocks; /**< of the smallest angles */
+    hd_blocks blocks; /**< of the smallest angles; their weight is their number */
     long samples, times;
 };
 
@@ -35,7 +35,7 @@ static hd_status allocate(hd_splitting *s)
     double **array[] = {&s->found, &s->mean, &s->least, &s->violations, &s->entangled, &s->later};
     for (size_t k = 0; k < sizeof array / sizeof *array; k++)
         if (!(*array[k] = hd_memory_alloc(n, sizeof(double)))) return HD_NO_MEMORY;
-    HD_TRY(hd_block_average_create(&s->blocks, HD_PAIRS_OF_SPACES));
+    HD_TRY(hd_blocks_create(&s->blocks, HD_PAIRS_OF_SPACES, 0.0));
     if (s->space[2].count == 0) return HD_OK;
     const int widest = s->space[0].count > s->space[2].count ? s->space[0].count
                                                              : s->space[2].count;
@@ -76,7 +76,7 @@ void hd_splitting_free(hd_splitting *s)
     hd_memory_free(s->violations);
     hd_memory_free(s->entangled);
     hd_memory_free(s->later);
-    hd_block_average_clear(&s->blocks);
+    hd_blocks_clear(&s->blocks);
     hd_memory_free(s);
 }
 
@@ -89,7 +89,7 @@ void hd_splitting_clear(hd_splitting *s)
     }
     memset(s->angle, 0, sizeof s->angle);
     for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) s->angle[pair].least = RIGHT_ANGLE;
-    hd_block_average_restart(&s->blocks);
+    hd_blocks_restart(&s->blocks);
 }
 
 /* ---- angles -------------------------------------------------------------------------------- */
@@ -147,9 +147,9 @@ hd_status hd_splitting_add(hd_splitting *s, const double *c)
         add_angles(&s->angle[pair], s->found, a.count < b.count ? a.count : b.count, s->samples);
         sample[pair] = s->angle[pair].last;
     }
-    hd_block_average_add(&s->blocks, sample);
+    hd_blocks_add(&s->blocks, sample, 1.0);
     for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++)
-        s->angle[pair].std_error = hd_block_average_std_error(&s->blocks, pair);
+        s->angle[pair].std_error = hd_blocks_error(&s->blocks, &(hd_part){pair, 1.0}, 1);
     return HD_OK;
 }
 
@@ -208,5 +208,5 @@ void hd_splitting_archive(hd_splitting *s, hd_archive *archive)
     hd_archive_doubles(archive, "splitting violations", s->violations, n);
     hd_archive_doubles(archive, "splitting entangled", s->entangled, n);
     for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) angle_archive(&s->angle[pair], archive);
-    hd_block_average_archive(&s->blocks, archive);
+    hd_blocks_archive(&s->blocks, archive);
 }

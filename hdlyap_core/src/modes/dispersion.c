@@ -1,14 +1,15 @@
-/** Steps -> dispersion relation: weighted least squares for lambda = c k + c2 k^2 [T12]. */
+/** Steps -> dispersion relation: weighted least squares for lambda = c k + c2 k^2 [T12]. Both
+ * results are sums of factors times exponents, so their errors are those of such sums. */
 #include "hdlyap/steps.h"
 
 #include <math.h>
 
-/** Normal equations, and what the errors of the fit need. */
+/** Normal equations. */
 typedef struct fit {
-    double kk, k3, k4, kl, k2l; /**< sums of w k^2, w k^3, w k^4, w k lambda, w k^2 lambda */
-    int points;                 /**< steps */
-    int wave_numbers;           /**< distinct ones */
-    bool weighted;              /**< all errors are known */
+    double kk, k3, k4; /**< sums of w k^2, w k^3, w k^4 */
+    int points;        /**< steps */
+    int wave_numbers;  /**< distinct ones */
+    bool weighted;     /**< all errors are known */
 } fit;
 
 static bool counts(const hd_step *step, hd_mode_kind kind)
@@ -49,15 +50,39 @@ static fit sums_of(const hd_steps *steps, hd_mode_kind kind)
         f.kk += w * k * k;
         f.k3 += w * k * k * k;
         f.k4 += w * k * k * k * k;
-        f.kl += w * k * step->exponent;
-        f.k2l += w * k * k * step->exponent;
     }
     return f;
 }
 
-/** Factor on the errors: scatter over what the weights allow, at least 1; negative if unknown. */
-static double scatter(const hd_steps *steps, hd_mode_kind kind, const fit *f,
-                      const hd_dispersion *d)
+/** Of which result, c (power 1) or c2 (power 2), and from which steps. */
+typedef struct result {
+    const fit *of;
+    hd_mode_kind kind;
+    int power;
+} result;
+
+/** Factor of a step's exponent in the result. */
+static double share(const hd_step *step, const void *context)
+{
+    const result *r = context;
+    const fit *f = r->of;
+    if (!counts(step, r->kind)) return 0.0;
+    const double k = step->wave.number, wk = k * weight_of(step, f->weighted);
+    const double det = f->kk * f->k4 - f->k3 * f->k3;
+    if (f->wave_numbers < 2) return wk / f->kk;
+    return r->power == 1 ? wk * (f->k4 - k * f->k3) / det : wk * (k * f->kk - f->k3) / det;
+}
+
+static double value_of(const hd_steps *steps, const result *r)
+{
+    double sum = 0.0;
+    for (int i = 0; i < hd_steps_count(steps); i++)
+        sum += share(hd_steps_step(steps, i), r) * hd_steps_step(steps, i)->exponent;
+    return sum;
+}
+
+static double misfit_of(const hd_steps *steps, hd_mode_kind kind, const fit *f,
+                        const hd_dispersion *d)
 {
     const int freedom = f->points - (f->wave_numbers > 1 ? 2 : 1);
     double chi2 = 0.0;
@@ -68,23 +93,22 @@ static double scatter(const hd_steps *steps, hd_mode_kind kind, const fit *f,
         const double off = step->exponent - d->c * k - d->c2 * k * k;
         chi2 += weight_of(step, f->weighted) * off * off;
     }
-    if (freedom == 0) return f->weighted ? 1.0 : -1.0;
-    const double factor = sqrt(chi2 / freedom);
-    return f->weighted ? fmax(factor, 1.0) : factor;
+    return freedom > 0 && f->weighted ? sqrt(chi2 / freedom) : -1.0;
 }
 
-hd_dispersion hd_steps_dispersion(const hd_steps *steps, hd_mode_kind kind)
+hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spectrum,
+                                  hd_mode_kind kind)
 {
     const fit f = sums_of(steps, kind);
-    hd_dispersion d = {.points = f.wave_numbers, .c_error = -1.0, .c2_error = -1.0};
+    hd_dispersion d = {.points = f.wave_numbers, .c_error = -1.0, .c2_error = -1.0, .misfit = -1.0};
     if (f.points == 0) return d;
-    const bool curved = f.wave_numbers > 1;
-    const double det = f.kk * f.k4 - f.k3 * f.k3;
-    d.c = curved ? (f.kl * f.k4 - f.k2l * f.k3) / det : f.kl / f.kk;
-    d.c2 = curved ? (f.k2l * f.kk - f.kl * f.k3) / det : 0.0;
-    const double factor = scatter(steps, kind, &f, &d);
-    if (factor < 0) return d;
-    d.c_error = factor * sqrt(curved ? f.k4 / det : 1.0 / f.kk);
-    if (curved) d.c2_error = factor * sqrt(f.kk / det);
+    const result c = {&f, kind, 1}, c2 = {&f, kind, 2};
+    d.c = value_of(steps, &c);
+    d.c_error = hd_steps_error_of_sum(steps, spectrum, share, &c);
+    if (f.wave_numbers > 1) {
+        d.c2 = value_of(steps, &c2);
+        d.c2_error = hd_steps_error_of_sum(steps, spectrum, share, &c2);
+    }
+    d.misfit = misfit_of(steps, kind, &f, &d);
     return d;
 }

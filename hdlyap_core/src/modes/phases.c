@@ -12,7 +12,7 @@
 #include <limits.h>
 #include <math.h>
 
-#include "averages/block_average.h"
+#include "averages/blocks.h"
 #include "base/check.h"
 #include "base/memory.h"
 #include "modes/archived.h"
@@ -26,6 +26,9 @@ static const double RATE_PER_EXPONENT = 1.25;
 static const double SAFE = 0.75;
 /** Weak for more samples than this: the phase is begun anew. */
 static const double GAP_MAX = 16.0;
+
+/** Of a velocity: rotation without any noise has a weight, too. */
+static const double VARIANCE_MIN = 1e-100;
 
 enum { PAIRS_MAX = HD_MODULATIONS_MAX, SLOTS_MAX = 2 * PAIRS_MAX, LEARN = 4 };
 
@@ -42,14 +45,18 @@ typedef struct rotor {
     double time, dt;
     double omega; /**< mean turn of the whole step per time: what phases are unwrapped by */
     long turns;   /**< in that mean */
-    hd_block_average
-        velocity; /**< one series: mean rate of the tracks, which adds up to their phases */
+    double turned, turning; /**< by the mean rate of the tracks, and for how long */
+    hd_blocks *blocks;      /**< of all rotors */
+    double *sample;         /**< [2], at column 2 number of their rows: turned and turning */
+    int number;
 } rotor;
 
 struct hd_phases {
     int rotors, tracks, vectors;
     rotor *rotor;
     hd_track *track;
+    hd_blocks blocks; /**< two series of each rotor; their weight is the number of samples */
+    double *sample;   /**< [2 * rotors] */
 };
 
 /* ---- creation ------------------------------------------------------------------------------ */
@@ -65,8 +72,8 @@ static hd_status rotor_create(rotor *r, hd_track *tracks, const hd_step *step, i
                  .track = tracks,
                  .col = -1};
     for (int t = 0; t < r->slots * r->pairs; t++)
-        HD_TRY(hd_block_average_create(&tracks[t].rate, 1));
-    return hd_block_average_create(&r->velocity, 1);
+        HD_TRY(hd_blocks_create(&tracks[t].turns, 1, 0.0));
+    return HD_OK;
 }
 
 static hd_status rotors_create(hd_phases *phases, const hd_steps *steps)
@@ -77,8 +84,11 @@ static hd_status rotors_create(hd_phases *phases, const hd_steps *steps)
         const hd_step *step = hd_steps_step(steps, k);
         if (step->kind != HD_MODE_LP) continue;
         const hd_subspace *s = hd_fields_subspace(fields, step->subspace);
-        rotor *r = &phases->rotor[phases->rotors++];
+        rotor *r = &phases->rotor[phases->rotors];
         HD_TRY(rotor_create(r, phases->track + t, step, k, s->column));
+        r->number = phases->rotors++;
+        r->blocks = &phases->blocks;
+        r->sample = phases->sample + 2 * r->number;
         for (int v = 0; v < r->slots; v++)
             for (int c = 0; c < r->pairs; c++)
                 phases->track[t++].out = (hd_lp_phase){.step = k,
@@ -104,8 +114,11 @@ hd_status hd_phases_create(hd_phases **out, const hd_steps *steps)
     }
     phases->rotor = hd_memory_alloc((size_t)rotors + 1, sizeof *phases->rotor);
     phases->track = hd_memory_alloc((size_t)phases->tracks + 1, sizeof *phases->track);
-    const hd_status status = phases->rotor && phases->track ? rotors_create(phases, steps)
-                                                            : HD_NO_MEMORY;
+    phases->sample = hd_memory_alloc(2 * (size_t)rotors + 1, sizeof *phases->sample);
+    hd_status status = phases->rotor && phases->track && phases->sample
+                           ? hd_blocks_create(&phases->blocks, 2 * rotors + 1, 0.0)
+                           : HD_NO_MEMORY;
+    if (status == HD_OK) status = rotors_create(phases, steps);
     if (status == HD_OK)
         *out = phases;
     else
@@ -117,10 +130,9 @@ void hd_phases_free(hd_phases *phases)
 {
     if (!phases) return;
     for (int t = 0; phases->track && t < phases->tracks; t++)
-        hd_block_average_clear(&phases->track[t].rate);
-    for (int k = 0; phases->rotor && k < phases->rotors; k++) {
-        hd_block_average_clear(&phases->rotor[k].velocity);
-    }
+        hd_blocks_clear(&phases->track[t].turns);
+    hd_blocks_clear(&phases->blocks);
+    hd_memory_free(phases->sample);
     hd_memory_free(phases->rotor);
     hd_memory_free(phases->track);
     hd_memory_free(phases);
@@ -133,7 +145,11 @@ static void rotor_restart(rotor *r, hd_lp_state state)
     r->col = -1;
     r->samples = 0;
     r->turns = 0;
-    hd_block_average_restart(&r->velocity);
+    r->turned = r->turning = 0.0;
+    for (int k = 0; k < 2; k++) {
+        r->sample[k] = 0.0;
+        hd_blocks_forget(r->blocks, 2 * r->number + k);
+    }
     for (int t = 0; t < r->slots * r->pairs; t++) hd_track_restart(&r->track[t], state);
 }
 
@@ -255,7 +271,12 @@ static void rotor_store(rotor *r, const hd_modes *modes, double time)
             t->out.b = cimag(z);
         }
     }
-    if (count > 0) hd_block_average_add(&r->velocity, &(double){sum / count});
+    if (count > 0) {
+        r->sample[1] = time - r->time;
+        r->sample[0] = sum / count * r->sample[1];
+        r->turned += r->sample[0];
+        r->turning += r->sample[1];
+    }
     r->time = time;
     r->samples++;
 }
@@ -303,13 +324,16 @@ void hd_phases_add(hd_phases *phases, const hd_steps *steps, double time)
     const hd_modes *modes = hd_steps_modes(steps);
     for (int k = 0; k < phases->rotors; k++) {
         rotor *r = &phases->rotor[k];
+        r->sample[0] = r->sample[1] = 0.0;
         rotor_add(r, hd_steps_step(steps, r->step), modes, time);
     }
+    hd_blocks_add(&phases->blocks, phases->sample, 1.0);
 }
 
 void hd_phases_clear(hd_phases *phases)
 {
     for (int k = 0; k < phases->rotors; k++) rotor_restart(&phases->rotor[k], HD_LP_UNRESOLVED);
+    hd_blocks_restart(&phases->blocks);
 }
 
 /* ---- what can be read ---------------------------------------------------------------------- */
@@ -329,29 +353,66 @@ static int tracked(const rotor *r)
     return count;
 }
 
-/** Weighted mean over the steps; where they scatter more than their errors allow, the error grows.
- */
+/** First block in which the rotor turned; their number if there is none. */
+static int first_block(const rotor *r)
+{
+    int k = 0;
+    while (k < r->blocks->count && hd_blocks_sum(r->blocks, k)[2 * r->number + 1] == 0) k++;
+    return k;
+}
+
+/** Adds factor times what each block contributes to the deviation of the mean rate; returns the
+ * size that rounding may have. */
+static double add_deviations(const rotor *r, double factor, double *deviation)
+{
+    double turned = 0.0, turning = 0.0, size = 0.0;
+    for (int k = first_block(r); k < r->blocks->count; k++) {
+        turned += hd_blocks_sum(r->blocks, k)[2 * r->number];
+        size += fabs(hd_blocks_sum(r->blocks, k)[2 * r->number]);
+        turning += hd_blocks_sum(r->blocks, k)[2 * r->number + 1];
+    }
+    for (int k = first_block(r); k < r->blocks->count; k++) {
+        const double *of = hd_blocks_sum(r->blocks, k) + 2 * r->number;
+        deviation[k] += factor * (of[0] - turned / turning * of[1]) / turning;
+    }
+    return turning > 0 ? HD_BLOCKS_ROUNDING * fabs(factor) * size / turning : 0.0;
+}
+
+/** Of the mean rate; negative if not yet known. */
+static double rate_error(const rotor *r)
+{
+    double deviation[HD_BLOCKS_MAX] = {0.0};
+    const int first = first_block(r);
+    const double rounding = add_deviations(r, 1.0, deviation);
+    return hd_deviations_error(deviation + first, r->blocks->count - first, rounding);
+}
+
+/** Mean over the steps, weighted with their errors; its own error knows how they turn together. */
 hd_velocity hd_phases_velocity(const hd_phases *phases)
 {
-    hd_velocity out = {.v_error = -1.0};
-    double weights = 0.0, sum = 0.0, squares = 0.0;
-    int steps = 0;
+    hd_velocity out = {.v_error = -1.0, .misfit = -1.0};
+    double weights = 0.0, squares = 0.0, rounding = 0.0, deviation[HD_BLOCKS_MAX] = {0.0};
+    int first = HD_BLOCKS_MAX, steps = 0;
     for (int k = 0; k < phases->rotors; k++) {
         const rotor *r = &phases->rotor[k];
-        const double error = hd_block_average_long_error(&r->velocity, 0) / r->wave_number;
-        if (!(error > 0)) continue;
-        const double v = fabs(hd_block_average_mean(&r->velocity, 0)) / r->wave_number,
-                     w = 1.0 / (error * error);
+        const double error = rate_error(r) / r->wave_number;
+        if (error < 0) continue;
+        const double rate = r->turned / r->turning / r->wave_number;
+        const double w = 1.0 / fmax(error * error, VARIANCE_MIN);
         out.phases += tracked(r);
-        steps++;
         weights += w;
-        sum += w * v;
-        squares += w * v * v;
+        steps++;
+        out.v += w * fabs(rate);
+        squares += w * rate * rate;
+        rounding += add_deviations(r, copysign(w / r->wave_number, rate), deviation);
+        if (first_block(r) < first) first = first_block(r);
     }
-    if (steps == 0) return out;
-    out.v = sum / weights;
-    const double chi2 = fmax(squares - sum * out.v, 0.0);
-    out.v_error = sqrt(fmax(1.0, steps > 1 ? chi2 / (steps - 1) : 1.0) / weights);
+    if (weights == 0) return out;
+    out.v /= weights;
+    const double error = hd_deviations_error(deviation + first, phases->blocks.count - first,
+                                             rounding);
+    out.v_error = error < 0 ? error : error / weights;
+    if (steps > 1) out.misfit = sqrt(fmax(squares - weights * out.v * out.v, 0.0) / (steps - 1));
     return out;
 }
 
@@ -397,7 +458,8 @@ static void rotor_archive(rotor *r, hd_archive *archive, int vectors)
     hd_archive_double(archive, "rotor dt", &r->dt);
     hd_archive_double(archive, "rotor omega", &r->omega);
     hd_archive_long(archive, "rotor turns", &r->turns, 0, LONG_MAX / 2);
-    hd_block_average_archive(&r->velocity, archive);
+    hd_archive_double(archive, "rotor turned", &r->turned);
+    hd_archive_double(archive, "rotor turning", &r->turning);
 }
 
 void hd_phases_archive(hd_phases *phases, hd_archive *archive)
@@ -406,4 +468,5 @@ void hd_phases_archive(hd_phases *phases, hd_archive *archive)
         rotor_archive(&phases->rotor[k], archive, phases->vectors);
     for (int t = 0; t < phases->tracks; t++)
         hd_track_archive(&phases->track[t], archive, phases->vectors);
+    hd_blocks_archive(&phases->blocks, archive);
 }

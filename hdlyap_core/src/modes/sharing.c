@@ -7,6 +7,8 @@
 
 #include <math.h>
 
+#include "modes/sets.h"
+
 /** Exponents differ beyond so many standard errors. */
 static const double DIFFERENT = 3.0;
 /** Of the exponent: what three standard errors of a gap must be below to call exponents the same.
@@ -48,16 +50,14 @@ static double group_mean(const hd_spectrum *spectrum, group g)
     return sum / g.count;
 }
 
-/** As if all of them fluctuated together; negative if not yet known. */
-static double group_error(const hd_spectrum *spectrum, group g)
+/** Of the difference of two such means. */
+static double gap_error(const hd_spectrum *spectrum, group a, group b)
 {
-    double sum = 0.0;
-    for (int v = 0; v < g.count; v++) {
-        const double error = hd_spectrum_std_error(spectrum, g.col + v);
-        if (error < 0) return -1.0;
-        sum += error;
-    }
-    return sum / g.count;
+    hd_part parts[2 * HD_SET_VECTORS_MAX];
+    int count = 0;
+    for (int v = 0; v < a.count; v++) parts[count++] = (hd_part){a.col + v, 1.0 / a.count};
+    for (int v = 0; v < b.count; v++) parts[count++] = (hd_part){b.col + v, -1.0 / b.count};
+    return hd_spectrum_error_of_sum(spectrum, parts, count);
 }
 
 /** Smallest gap to a member next to step k. */
@@ -71,9 +71,8 @@ static void find_gap(hd_step *step, int count, int k, const hd_spectrum *spectru
         const group other = own_columns(step, count, next[side], none);
         const double gap = fabs(group_mean(spectrum, own) - group_mean(spectrum, other));
         if (gap >= step[k].gap) continue;
-        const double a = group_error(spectrum, own), b = group_error(spectrum, other);
         step[k].gap = gap;
-        step[k].gap_error = a < 0 || b < 0 ? -1.0 : hypot(a, b);
+        step[k].gap_error = gap_error(spectrum, own, other);
     }
 }
 

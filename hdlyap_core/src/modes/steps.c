@@ -6,19 +6,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "averages/block_average.h"
 #include "base/check.h"
 #include "base/memory.h"
 #include "modes/archived.h"
 #include "modes/sets.h"
 #include "modes/sharing.h"
-
-/** What the error of one step's mean is known from. */
-typedef struct record {
-    hd_block_average blocks; /**< one series: the mean, sample by sample */
-    double time;             /**< that they cover */
-    uint64_t identity;       /**< of which vectors and members the set consisted */
-} record;
 
 struct hd_steps {
     const hd_modes *modes;
@@ -30,7 +22,7 @@ struct hd_steps {
     hd_step *step;       /**< [count] */
     int *of_vector;      /**< [vectors] */
     double *share;       /**< [count][HD_SET_VECTORS_MAX]: of each vector of the set in this step */
-    record *record;      /**< [count] */
+    hd_part *parts;      /**< [count * HD_SET_VECTORS_MAX], workspace */
     hd_company *company; /**< [count] */
     double warmup;       /**< of the frame, before any average */
 };
@@ -53,11 +45,10 @@ static hd_status steps_allocate(hd_steps *steps)
     steps->step = hd_memory_alloc(count, sizeof *steps->step);
     steps->of_vector = hd_memory_alloc(n, sizeof *steps->of_vector);
     steps->share = hd_memory_alloc(count * HD_SET_VECTORS_MAX, sizeof *steps->share);
-    steps->record = hd_memory_alloc(count, sizeof *steps->record);
+    steps->parts = hd_memory_alloc(count * HD_SET_VECTORS_MAX, sizeof *steps->parts);
     steps->company = hd_memory_alloc(count, sizeof *steps->company);
-    if (!steps->company) return HD_NO_MEMORY;
-    if (!steps->step || !steps->of_vector || !steps->share || !steps->record) return HD_NO_MEMORY;
-    for (size_t k = 0; k < count; k++) HD_TRY(hd_block_average_create(&steps->record[k].blocks, 1));
+    if (!steps->step || !steps->of_vector || !steps->share || !steps->parts || !steps->company)
+        return HD_NO_MEMORY;
     return hd_sets_create(&steps->sets, steps->modes, steps->rows);
 }
 
@@ -109,9 +100,7 @@ void hd_steps_free(hd_steps *steps)
     if (!steps) return;
     hd_memory_free(steps->step);
     hd_sets_clear(&steps->sets);
-    for (int k = 0; steps->record && k < steps->count; k++)
-        hd_block_average_clear(&steps->record[k].blocks);
-    hd_memory_free(steps->record);
+    hd_memory_free(steps->parts);
     hd_memory_free(steps->company);
     hd_memory_free(steps->of_vector);
     hd_memory_free(steps->share);
@@ -135,44 +124,47 @@ static void steps_forget(hd_steps *steps)
     for (int col = 0; col < steps->vectors; col++) steps->of_vector[col] = -1;
 }
 
-static void record_restart(record *r)
-{
-    hd_block_average_restart(&r->blocks);
-    r->time = 0.0;
-}
-
 void hd_steps_clear(hd_steps *steps)
 {
     steps_forget(steps);
     memset(steps->company, 0, (size_t)steps->count * sizeof *steps->company);
-    for (int k = 0; k < steps->count; k++) record_restart(&steps->record[k]);
 }
 
 /* ---- steps --------------------------------------------------------------------------------- */
 
-/** Mean of values over the set of a step, each vector by its share. */
-static double shared_mean(const hd_steps *steps, int k, double (*value)(const hd_spectrum *, int),
-                          const hd_spectrum *spectrum)
+/** The mean over the set of a step, each vector by its share, times factor. */
+static int mean_parts(const hd_steps *steps, int k, double factor, hd_part *parts)
 {
+    const hd_step *step = &steps->step[k];
     const double *share = steps->share + (size_t)k * HD_SET_VECTORS_MAX;
-    double sum = 0.0, weight = 0.0;
-    for (int v = 0; v < steps->step[k].count; v++) {
-        sum += share[v] * value(spectrum, steps->step[k].col + v);
-        weight += share[v];
-    }
-    return sum / weight;
+    double whole = 0.0;
+    for (int v = 0; v < step->count; v++) whole += share[v];
+    for (int v = 0; v < step->count; v++)
+        parts[v] = (hd_part){step->col + v, factor * share[v] / whole};
+    return step->count;
 }
 
-/** Error of the running mean: from blocks of the step's own mean, which know how its vectors
- * fluctuate together, scaled to the whole time if the set is younger; until then as if all went
- * together. */
-static double step_error(const hd_steps *steps, int k, const hd_spectrum *spectrum)
+static void step_measure(const hd_steps *steps, int k, const hd_spectrum *spectrum)
 {
-    const double error = hd_block_average_std_error(&steps->record[k].blocks, 0);
-    if (error >= 0) return error * sqrt(steps->record[k].time / hd_spectrum_time(spectrum));
-    for (int v = 0; v < steps->step[k].count; v++)
-        if (hd_spectrum_std_error(spectrum, steps->step[k].col + v) < 0) return -1.0;
-    return shared_mean(steps, k, hd_spectrum_std_error, spectrum);
+    hd_step *step = &steps->step[k];
+    const int count = mean_parts(steps, k, 1.0, steps->parts);
+    step->exponent = 0.0;
+    for (int p = 0; p < count; p++)
+        step->exponent += steps->parts[p].factor *
+                          hd_spectrum_exponent(spectrum, steps->parts[p].series);
+    step->std_error = hd_spectrum_error_of_sum(spectrum, steps->parts, count);
+}
+
+double hd_steps_error_of_sum(const hd_steps *steps, const hd_spectrum *spectrum,
+                             double (*factor)(const hd_step *, const void *), const void *context)
+{
+    int count = 0;
+    for (int k = 0; k < steps->count; k++) {
+        if (!steps->step[k].resolved) continue;
+        const double f = factor(&steps->step[k], context);
+        if (f != 0) count += mean_parts(steps, k, f, steps->parts + count);
+    }
+    return hd_spectrum_error_of_sum(spectrum, steps->parts, count);
 }
 
 /** A vector takes the label of the member that it is most of. */
@@ -255,28 +247,6 @@ static void zero_find(hd_steps *steps, int *sets)
     }
 }
 
-/** Of which vectors a step consists, and with which others it shares them. */
-static uint64_t identity_of(const hd_steps *steps, const hd_step *step)
-{
-    uint64_t identity = (uint64_t)(step->col * 1000L + step->count);
-    for (int k = 0; k < steps->count; k++)
-        if (step->set >= 0 && steps->step[k].set == step->set)
-            identity = 31 * identity + (uint64_t)k;
-    return identity;
-}
-
-/** Begins the records anew of those steps that are not what they were the last time. */
-static void records_follow(hd_steps *steps)
-{
-    for (int k = 0; k < steps->count; k++) {
-        record *r = &steps->record[k];
-        const uint64_t identity = identity_of(steps, &steps->step[k]);
-        if (identity == r->identity) continue;
-        r->identity = identity;
-        record_restart(r);
-    }
-}
-
 void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum)
 {
     int sets = 0;
@@ -286,25 +256,10 @@ void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum)
     zero_find(steps, &sets);
     if (steps->count > steps->subspaces + 1)
         half_find(steps, spectrum, steps->negative, steps->subspaces + 1, &sets);
-    records_follow(steps);
-    for (int k = 0; k < steps->count; k++) {
-        hd_step *step = &steps->step[k];
-        if (!step->resolved) continue;
-        step->exponent = shared_mean(steps, k, hd_spectrum_exponent, spectrum);
-        step->std_error = step_error(steps, k, spectrum);
-    }
+    for (int k = 0; k < steps->count; k++)
+        if (steps->step[k].resolved) step_measure(steps, k, spectrum);
     hd_sharing_find(steps->step, steps->company, steps->count, steps->modes, spectrum,
                     steps->warmup + hd_spectrum_time(spectrum));
-}
-
-void hd_steps_sample(hd_steps *steps, const hd_spectrum *spectrum, double length)
-{
-    for (int k = 0; k < steps->count; k++) {
-        if (!steps->step[k].resolved) continue;
-        double mean = shared_mean(steps, k, hd_spectrum_local, spectrum);
-        hd_block_average_add(&steps->record[k].blocks, &mean);
-        steps->record[k].time += length;
-    }
 }
 
 double hd_steps_threshold(void) { return HD_SET_THRESHOLD; }
@@ -352,19 +307,11 @@ static void step_archive(hd_steps *steps, hd_step *step, hd_archive *archive)
                       "it has not the vectors that it needs");
 }
 
-static void record_archive(record *r, hd_archive *archive)
-{
-    hd_archive_double(archive, "step record time", &r->time);
-    hd_archive_bits(archive, "step record identity", &r->identity);
-    hd_block_average_archive(&r->blocks, archive);
-}
-
 /** Sets are found anew from the averages whenever they are needed. */
 void hd_steps_archive(hd_steps *steps, hd_archive *archive)
 {
     const size_t count = (size_t)steps->count;
     for (size_t k = 0; k < count; k++) step_archive(steps, &steps->step[k], archive);
-    for (size_t k = 0; k < count; k++) record_archive(&steps->record[k], archive);
     for (size_t k = 0; k < count; k++) hd_company_archive(&steps->company[k], archive);
     hd_archive_doubles(archive, "steps share", steps->share, count * HD_SET_VECTORS_MAX);
     hd_archive_of_ints(archive, "steps of vector", (size_t)steps->vectors);

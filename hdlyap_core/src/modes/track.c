@@ -15,7 +15,7 @@ void hd_track_restart(hd_track *t, hd_lp_state state)
                            .state = state,
                            .omega_error = -1.0};
     t->count = 0;
-    hd_block_average_restart(&t->rate);
+    hd_blocks_restart(&t->turns);
 }
 
 static void begin(hd_track *t, double time, double phase)
@@ -24,7 +24,7 @@ static void begin(hd_track *t, double time, double phase)
     t->out.phase = t->mean_phase = phase;
     t->square_t = t->product = 0.0;
     t->count = 1;
-    hd_block_average_restart(&t->rate);
+    hd_blocks_restart(&t->turns);
 }
 
 double hd_track_unwrapped(double phase, double predicted)
@@ -43,11 +43,10 @@ static void regress(hd_track *t, double time, double phase)
     t->out.omega = t->product / t->square_t;
 }
 
-/** Longest blocks see a phase that diffuses as well as one that only trembles; the slope of a
- * diffusing phase has 6/5 of the variance of its mean rate. */
+/** The slope of a diffusing phase has 6/5 of the variance of its mean rate. */
 static double slope_error(const hd_track *t)
 {
-    const double error = hd_block_average_long_error(&t->rate, 0);
+    const double error = hd_blocks_error_of_turns(&t->turns);
     return error < 0 ? -1.0 : sqrt(1.2) * error;
 }
 
@@ -63,8 +62,8 @@ bool hd_track_add(hd_track *t, double complex z, double time, double omega, doub
     }
     const double dt = time - t->last;
     const double phase = hd_track_unwrapped(carg(z), t->out.phase + omega * dt);
-    double rate = t->rate_now = (phase - t->out.phase) / dt;
-    hd_block_average_add(&t->rate, &rate);
+    t->rate_now = (phase - t->out.phase) / dt;
+    hd_blocks_add(&t->turns, &(double){phase - t->out.phase}, dt);
     regress(t, time, phase);
     t->out.phase = phase;
     t->last = time;
@@ -88,5 +87,5 @@ void hd_track_archive(hd_track *t, hd_archive *archive, int vectors)
     hd_archive_of_doubles(archive, "phase sums", 6);
     for (int k = 0; k < 6; k++) hd_archive_next_doubles(archive, sums[k], 1);
     hd_archive_long(archive, "phase count", &t->count, 0, LONG_MAX / 2);
-    hd_block_average_archive(&t->rate, archive);
+    hd_blocks_archive(&t->turns, archive);
 }

@@ -4,7 +4,7 @@
 
 #include <complex.h>
 
-#include "averages/block_average.h"
+#include "averages/blocks.h"
 #include "hdlyap/phases.h"
 
 /** a^2 + b^2 below this has no phase: noise of a few percent would turn it. */
@@ -17,8 +17,8 @@ typedef struct hd_track {
     double begin; /**< of the tracking */
     long count;
     double mean_t, mean_phase, square_t, product;
-    double rate_now;       /**< last increment of the phase per time */
-    hd_block_average rate; /**< one series: all of them */
+    double rate_now; /**< last increment of the phase per time */
+    hd_blocks turns; /**< one series: the increments; their weight is time */
 } hd_track;
 
 /** Begins anew with the next coefficients; `state` is said until then. */

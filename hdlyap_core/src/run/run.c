@@ -24,6 +24,8 @@ static const double CONDITION_SLOW = 1e4;
 /** Collisions of each disk between two orthonormalisations that no accuracy and no density exceed.
  */
 static const double COLLISIONS_MOST = 60.0;
+/** Collisions of each disk that growth may remember: shorter blocks tell no error. */
+static const double COLLISIONS_PER_BLOCK = 4.0;
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
@@ -49,7 +51,8 @@ static hd_status prepare_frame(hd_run *run)
     hd_blas_use_threads(run->threads);
     HD_TRY(hd_event_log_create(&run->log));
     HD_TRY(hd_ortho_create(&run->ortho, rows, n));
-    HD_TRY(hd_spectrum_create(&run->spectrum, rows, n));
+    HD_TRY(hd_spectrum_create(&run->spectrum, rows, n,
+                              COLLISIONS_PER_BLOCK * run->sample_max / HD_COLLISIONS_PER_SAMPLE));
     HD_TRY(create_frame(run));
     return hd_threads_choose(&run->threads, run->ortho, run->frame, run->scene.threads);
 }
@@ -196,12 +199,7 @@ static hd_status observe(hd_run *run, bool report)
     return HD_OK;
 }
 
-static void sample_spectrum(hd_run *run)
-{
-    hd_spectrum_sample(run->spectrum);
-    if (run->observe & HD_OBSERVE_OF_MODES)
-        hd_steps_sample(run->observer.steps, run->spectrum, run->schedule.sample_length);
-}
+static void sample_spectrum(hd_run *run) { hd_spectrum_sample(run->spectrum); }
 
 /** True where somebody wants all of the vectors of this very time. */
 static bool vectors_wanted(const hd_run *run)

@@ -188,7 +188,7 @@ static bool fill_response(hdr_hydro_mode *out, const hd_hydro_response *response
 
 static bool is_finite(const hd_dispersion *fit)
 {
-    return isfinite(fit->c + fit->c_error + fit->c2 + fit->c2_error);
+    return isfinite(fit->c + fit->c_error + fit->c2 + fit->c2_error + fit->misfit);
 }
 
 static hd_status publish_modes(mode_report *m, const snapshot *now)
@@ -211,9 +211,9 @@ static bool fill_steps(mode_report *m, hdr_steps *message, const hd_run *run)
 {
     const hd_steps *steps = hd_run_steps(run);
     const hd_phases *phases = hd_run_phases(run);
-    const hd_velocity none = {.v_error = -1.0}, v = phases ? hd_phases_velocity(phases) : none;
-    const hd_dispersion t = hd_steps_dispersion(steps, HD_MODE_T);
-    const hd_dispersion l = hd_steps_dispersion(steps, HD_MODE_LP);
+    const hd_velocity none = {.v_error = -1.0, .misfit = -1.0}, v = phases ? hd_phases_velocity(phases) : none;
+    const hd_dispersion t = hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_T);
+    const hd_dispersion l = hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_LP);
     *message = (hdr_steps){
         .header = message_header(),
         .run_id = m->to->run_id,
@@ -226,16 +226,19 @@ static bool fill_steps(mode_report *m, hdr_steps *message, const hd_run *run)
         .c_t_error = error_of(t.c_error),
         .c_t2 = t.c2,
         .c_t2_error = error_of(t.c2_error),
+        .t_misfit = error_of(t.misfit),
         .l_points = (uint32_t)l.points,
         .c_l = l.c,
         .c_l_error = error_of(l.c_error),
         .c_l2 = l.c2,
         .c_l2_error = error_of(l.c2_error),
+        .l_misfit = error_of(l.misfit),
         .v_phases = (uint32_t)v.phases,
         .v = v.v,
         .v_error = error_of(v.v_error),
+        .v_misfit = error_of(v.misfit),
     };
-    bool finite = isfinite(v.v + v.v_error) && is_finite(&t) && is_finite(&l);
+    bool finite = isfinite(v.v + v.v_error + v.misfit) && is_finite(&t) && is_finite(&l);
     for (uint32_t k = 0; k < m->steps && finite; k++)
         finite = fill_step(&m->step[k], hd_steps_step(steps, (int)k));
     return finite;

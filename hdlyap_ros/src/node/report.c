@@ -181,6 +181,7 @@ static hd_status publish_spectrum(report *rep, const hd_run *run)
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     const spectrum_arrays *a = &rep->spectrum;
     const double pairing = hd_spectrum_pairing_error(spectrum);
+    const double entropy_error = hd_spectrum_ks_entropy_error(spectrum);
     spectrum_gather(rep, run);
     const hdr_spectrum message = {
         .header = message_header(),
@@ -190,6 +191,7 @@ static hd_status publish_spectrum(report *rep, const hd_run *run)
         .collisions = hd_trajectory_collisions(hd_run_trajectory(run)),
         .lambda_max = hd_spectrum_lambda_max(spectrum),
         .ks_entropy = hd_spectrum_ks_entropy(spectrum),
+        .ks_entropy_error = entropy_error < 0.0 ? -1.0 : entropy_error,
         .pairing_error = pairing < 0.0 ? -1.0 : pairing,
         .first_index = 1,
         .exponents = message_array(a->exponents, rep->n, 1),
@@ -199,7 +201,7 @@ static hd_status publish_spectrum(report *rep, const hd_run *run)
         .dp_dq_ratio = message_array(a->dp_dq_ratio, rep->n, 1),
     };
     const double scalars[] = {message.averaged_time, message.lambda_max, message.ks_entropy,
-                              pairing};
+                              entropy_error, pairing};
     if (!message_finite(scalars, sizeof scalars / sizeof *scalars)) return HD_NOT_FINITE;
     if (!message_finite(a->exponents, 5 * (size_t)rep->n)) return HD_NOT_FINITE;
     return publishers_sent(hdr_spectrum_publish(rep->out.publisher[TOPIC_SPECTRUM], &message),

@@ -7,7 +7,7 @@ static void means_are_weighted_by_time(void **state)
 {
     (void)state;
     hd_spectrum *s;
-    CHECK_OK(hd_spectrum_create(&s, 4, 2));
+    CHECK_OK(hd_spectrum_create(&s, 4, 2, 0.0));
     CHECK_CLOSE(hd_spectrum_exponent(s, 0), 0.0, 0.0);
     hd_spectrum_add(s, (const double[]){2.0, -1.0}, 0.5);
     hd_spectrum_add(s, (const double[]){4.0, 0.0}, 1.5);
@@ -34,7 +34,7 @@ static void all_exponents_show_the_pairing_error(void **state)
 {
     (void)state;
     hd_spectrum *s;
-    CHECK_OK(hd_spectrum_create(&s, 4, 4));
+    CHECK_OK(hd_spectrum_create(&s, 4, 4, 0.0));
     hd_spectrum_add(s, (const double[]){3.0, 1.0, -1.25, -3.0}, 1.0);
     CHECK_CLOSE(hd_spectrum_pairing_error(s), 0.25, 0.0);
     CHECK_CLOSE(hd_spectrum_ks_entropy(s), 4.0, 0.0);
@@ -46,7 +46,7 @@ static void the_error_is_that_of_the_samples(void **state)
 {
     (void)state;
     hd_spectrum *s;
-    CHECK_OK(hd_spectrum_create(&s, 4, 1));
+    CHECK_OK(hd_spectrum_create(&s, 4, 1, 0.0));
     for (int k = 0; k < 64; k++) { /* de Bruijn-like: no memory at any length */
         const double x = (k * 37 % 64) / 64.0;
         hd_spectrum_add(s, &x, 0.5);

@@ -4,7 +4,7 @@
 
 #include "testing.h"
 
-#include "averages/block_average.h"
+#include "averages/blocks.h"
 #include "hdlyap/splitting.h"
 #include "base/random.h"
 
@@ -87,17 +87,17 @@ static void check_pair(const hd_splitting *s, const truth *t, int pair, double l
 
 static void check_errors(const hd_splitting *s)
 {
-    hd_block_average blocks;
-    CHECK_OK(hd_block_average_create(&blocks, 2));
+    hd_blocks blocks;
+    CHECK_OK(hd_blocks_create(&blocks, 2, 0.0));
     for (int k = 0; k < SAMPLES; k++) {
         double sample[2] = {alpha_of(k), beta_of(k)};
-        hd_block_average_add(&blocks, sample);
+        hd_blocks_add(&blocks, sample, 1.0);
     }
     const int pair[] = {HD_UNSTABLE_STABLE, HD_CENTRE_STABLE};
     for (int k = 0; k < 2; k++)
         CHECK_CLOSE(hd_splitting_angle(s, (hd_pair_of_spaces)pair[k])->std_error,
-                    hd_block_average_std_error(&blocks, k), ROUNDING);
-    hd_block_average_clear(&blocks);
+                    hd_blocks_error(&blocks, &(hd_part){k, 1.0}, 1), ROUNDING);
+    hd_blocks_clear(&blocks);
 }
 
 static void add_all(hd_splitting *s)

@@ -40,6 +40,7 @@ static void check_spectrum(const hd_run *run)
     check_number(hd_spectrum_time(spectrum), "averaged time");
     check_number(hd_spectrum_lambda_max(spectrum), "lambda_max");
     check_number(hd_spectrum_ks_entropy(spectrum), "entropy");
+    check_number(hd_spectrum_ks_entropy_error(spectrum), "error of the entropy");
     check_number(hd_spectrum_pairing_error(spectrum), "pairing error");
 }
 
@@ -57,12 +58,13 @@ static void check_modes(const hd_modes *modes)
 
 static void check_dispersion(hd_dispersion fit)
 {
-    const double x[] = {fit.c, fit.c_error, fit.c2, fit.c2_error};
-    check_numbers(x, 4, "dispersion");
+    const double x[] = {fit.c, fit.c_error, fit.c2, fit.c2_error, fit.misfit};
+    check_numbers(x, 5, "dispersion");
 }
 
-static void check_steps(const hd_steps *steps)
+static void check_steps(const hd_run *run)
 {
+    const hd_steps *steps = hd_run_steps(run);
     const int n = hd_modes_vectors(hd_steps_modes(steps));
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
@@ -72,8 +74,8 @@ static void check_steps(const hd_steps *steps)
         assert_true(step->multiplicity >= 0.0 && step->multiplicity <= step->count * (1.0 + 1e-9));
         assert_true(!step->resolved || (step->col >= 0 && step->col + step->count <= n));
     }
-    check_dispersion(hd_steps_dispersion(steps, HD_MODE_T));
-    check_dispersion(hd_steps_dispersion(steps, HD_MODE_LP));
+    check_dispersion(hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_T));
+    check_dispersion(hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_LP));
 }
 
 static void check_phases(const hd_phases *phases)
@@ -135,7 +137,7 @@ long check_published(const hd_run *run)
     check_cost(hd_run_cost(run));
     if (hd_run_spectrum(run)) check_spectrum(run);
     if (hd_run_modes(run)) check_modes(hd_run_modes(run));
-    if (hd_run_steps(run)) check_steps(hd_run_steps(run));
+    if (hd_run_steps(run)) check_steps(run);
     if (hd_run_phases(run)) check_phases(hd_run_phases(run));
     if (hd_run_steps(run)) check_fields(run);
     return numbers;

@@ -78,7 +78,7 @@ def _numbers(view):
     if view.is_averaged and len(spectrum.exponents):
         yield 'lambda_max', _measured(spectrum.lambda_max, spectrum.std_errors[0])
         if len(spectrum.exponents) > 1 and view.info:
-            yield view.sum_name, _at_most(spectrum.ks_entropy, view.sum_error)
+            yield view.sum_name, _measured(spectrum.ks_entropy, spectrum.ks_entropy_error)
         if spectrum.pairing_error >= 0:
             yield 'pairing error', f'{spectrum.pairing_error:.1e}'
     if message is None or message.averaged_time <= 0:
@@ -247,10 +247,6 @@ def _note(name, text):
 
 def _measured(value, error):
     return with_error(value, error) if isfinite(value) else '-'
-
-
-def _at_most(value, error):
-    return f'{value:.2f}' + (f', error < {error:.2g}' if error >= 0 else '')
 
 
 def _number(value):

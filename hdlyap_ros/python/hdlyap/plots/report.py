@@ -49,24 +49,22 @@ def _sums(recording):
     ]
     if recording.last_index >= recording.positive_end:
         lines += [
-            f'h_KS            {spectrum.ks_entropy:.4f}' + _at_most(recording.sum_error),
-            f'h_KS / N        {spectrum.ks_entropy / disks:.6f}',
+            f'h_KS            {spectrum.ks_entropy:.4f}' + _error(spectrum.ks_entropy_error, 4),
+            f'h_KS / N        {spectrum.ks_entropy / disks:.6f}'
+            + _error(spectrum.ks_entropy_error / disks),
         ]
     elif len(spectrum.exponents) > 1:
         lines.append(
-            f'sum of the {len(spectrum.exponents)} exponents carried ' f'{spectrum.ks_entropy:.4f}'
+            f'sum of the {len(spectrum.exponents)} exponents carried {spectrum.ks_entropy:.4f}'
+            + _error(spectrum.ks_entropy_error, 4)
         )
     if spectrum.pairing_error >= 0:
         lines.append(f'pairing error   {spectrum.pairing_error:.2e}')
     return '\n'.join(lines)
 
 
-def _error(error):
-    return f' +- {error:.6f}' if error >= 0 else ''
-
-
-def _at_most(error):
-    return f'  error at most {error:.2g}' if error >= 0 else ''
+def _error(error, digits=6):
+    return f' +- {error:.{digits}f}' if error >= 0 else ''
 
 
 def _tail(recording):

@@ -1,9 +1,5 @@
 """What is known of one run, whether it was recorded or still goes on."""
 
-import numpy as np
-
-from .numbers import known
-
 
 class Run:
     """Its run_info, its last spectrum (None without exponents), its last steps and covariant
@@ -25,11 +21,3 @@ class Run:
     def sum_name(self):
         """Of the sum of the positive exponents carried."""
         return 'h_KS' if self.last_index >= self.positive_end else 'sum of exponents'
-
-    @property
-    def sum_error(self):
-        """Of that sum, at most; -1 while not yet known. The exponents fluctuate together in a way
-        that is not recorded: the error of the sum is at most the sum of the errors."""
-        positive = np.asarray(self.spectrum.exponents) > 0
-        error = known(self.spectrum.std_errors)[positive].sum()
-        return float(error) if np.isfinite(error) else -1.0

@@ -154,10 +154,8 @@ def _fits(recording):
             message, letter, getattr(message, points), paper.branches(recording.info).get(kind)
         )
     velocity = with_error(message.v, message.v_error) if message.v_phases else 'not known'
-    lines.append(
-        f'  v     {velocity:<15}'
-        + (f'|omega| / k of {message.v_phases} LP phases' if message.v_phases else '')
-    )
+    of_phases = f'|omega| / k of {message.v_phases} LP phases' + _misfit(message.v_misfit)
+    lines.append(f'  v     {velocity:<15}' + (of_phases if message.v_phases else ''))
     return '\n'.join(line.rstrip() for line in lines)
 
 
@@ -166,6 +164,7 @@ def _fit_lines(message, letter, points, branch):
     if not points:
         return [f'  c_{letter.upper()}   not known: no step resolved']
     waves = f'{points} wave number' + ('s' if points > 1 else '')
+    waves += _misfit(getattr(message, letter + '_misfit'))
     lines = []
     for suffix, published in (('', branch and branch.c), ('2', branch and branch.c2)):
         if suffix and points < 2:
@@ -173,11 +172,16 @@ def _fit_lines(message, letter, points, branch):
         name = f'c_{letter}{suffix}'
         value = with_error(getattr(message, name), getattr(message, name + '_error'))
         lines.append(
-            f'  {"c_" + letter.upper() + suffix:<5} {value:<15}{waves:<17}'
+            f'  {"c_" + letter.upper() + suffix:<5} {value:<15}{waves:<29}'
             + _published(published, branch)
         )
         waves = ''
     return lines
+
+
+def _misfit(value):
+    """How far the steps are from the relation, in their errors."""
+    return f', misfit {value:.1f}' if value >= 0 else ''
 
 
 def _published(value, branch):

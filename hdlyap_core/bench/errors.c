@@ -1,0 +1,271 @@
+/** Whether the standard errors that a run states are true: many seeds of several boxes, each number
+ * read at three lengths of its run; its scatter over the seeds against its stated errors. Usage:
+ * hdlyap_errors [--seeds N] [--box NAME] [--out FOLDER] [--quick]; 100 seeds; writes errors.csv.
+ * As many runs side by side as there are cores, one thread each. */
+#include <hdlyap/hdlyap.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "agreement.h"
+#include "gemm.h"
+#include "options.h"
+#include "progress.h"
+#include "sample.h"
+#include "table.h"
+#include "timing.h"
+
+enum { LENGTHS = 3 };
+
+static const double LENGTH[LENGTHS] = {50, 200, 800};
+
+typedef struct box {
+    const char *name;
+    int disks;
+    double density, aspect;
+    hd_boundary boundary;
+    bool covariant; /**< and all 4N vectors */
+    double cost;    /**< about, of a run, against the others */
+} box;
+
+static const box BOXES[] = {{"long", 200, 0.7, 0.2, HD_PERIODIC, false, 7.0},
+                            {"periodic", 144, 0.7, 0.867, HD_PERIODIC, false, 2.0},
+                            {"square", 100, 0.7, 1.0, HD_PERIODIC, false, 0.7},
+                            {"reflecting", 100, 0.7, 0.5, HD_REFLECTING, false, 1.2},
+                            {"narrow", 60, 0.8, 0.03, HD_PERIODIC, false, 0.5},
+                            {"tiny", 24, 0.7, 0.13, HD_PERIODIC, true, 1.0}};
+enum { BOXES_ALL = sizeof BOXES / sizeof *BOXES };
+
+/** What the seeds of one box found. */
+typedef struct harvest {
+    const box *box;
+    int seeds, rows, stride;
+    row_of_numbers row[NUMBER_ROWS_MAX];
+    number *numbers[LENGTHS]; /**< [seeds][stride] */
+    int *first_of_modes;      /**< [seeds], at the end */
+    hd_run *run;              /**< of the first seed: it knows the steps' names */
+} harvest;
+
+static hd_scene_def scene_of(const box *b, int seed)
+{
+    hd_scene_def scene = hd_scene_def_default();
+    scene.disks = b->disks;
+    scene.density = b->density;
+    scene.aspect = b->aspect;
+    scene.boundary[0] = scene.boundary[1] = b->boundary;
+    scene.seed = (uint64_t)seed + 1;
+    scene.equilibration = 50.0;
+    scene.warmup = 50.0;
+    scene.duration = LENGTH[LENGTHS - 1];
+    scene.threads = 1;
+    scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
+    if (!b->covariant) return scene;
+    scene.exponents = HD_EXPONENTS_ALL;
+    scene.observe |= HD_OBSERVE_COVARIANT;
+    scene.covariant_window = scene.covariant_transient = 20.0;
+    scene.covariant_sampling = 2.0;
+    return scene;
+}
+
+/* ---- running ------------------------------------------------------------------------------- */
+
+static hd_run *created(const hd_scene_def *scene)
+{
+    char message[512] = "out of memory";
+    hd_run *run;
+    if (hd_run_create(&run, scene, message, sizeof message) == HD_OK) return run;
+    fprintf(stderr, "hdlyap_errors: %s\n", message);
+    exit(2);
+}
+
+static harvest harvest_create(const box *b, int seeds)
+{
+    const hd_scene_def scene = scene_of(b, 0);
+    harvest h = {.box = b, .seeds = seeds, .run = created(&scene)};
+    h.rows = numbers_rows(h.run, h.row);
+    h.stride = h.row[h.rows - 1].first + h.row[h.rows - 1].count;
+    for (int k = 0; k < LENGTHS; k++)
+        h.numbers[k] = room((size_t)seeds * (size_t)h.stride, sizeof(number));
+    h.first_of_modes = room((size_t)seeds, sizeof *h.first_of_modes);
+    return h;
+}
+
+static void harvest_free(harvest *h)
+{
+    for (int k = 0; k < LENGTHS; k++) free(h->numbers[k]);
+    free(h->first_of_modes);
+    hd_run_free(h->run);
+}
+
+static void follow(harvest *h, int seed)
+{
+    const hd_scene_def scene = scene_of(h->box, seed);
+    hd_run *run = created(&scene);
+    while (hd_run_stage(run) < HD_AVERAGING) require(hd_run_advance(run), "warm-up");
+    const double start = hd_run_time(run);
+    for (int k = 0; k < LENGTHS;) {
+        require(hd_run_advance(run), h->box->name);
+        const bool there = hd_run_report_due(run) && hd_run_time(run) - start >= LENGTH[k] - 1e-6;
+        if (!there && hd_run_stage(run) != HD_FINISHED) continue;
+        numbers_read(run, h->numbers[k++] + (size_t)seed * (size_t)h->stride);
+    }
+    h->first_of_modes[seed] = numbers_first_of_modes(run);
+    hd_run_free(run);
+}
+
+/** The longest runs first. */
+static void follow_all(harvest *h, int boxes, int seeds)
+{
+    double total = 0.0;
+    for (int b = 0; b < boxes; b++) total += seeds * h[b].box->cost;
+    progress p = progress_begin("errors", total);
+#pragma omp parallel for schedule(dynamic)
+    for (int k = 0; k < boxes * seeds; k++) {
+        follow(&h[k / seeds], k % seeds);
+#pragma omp critical
+        progress_add(&p, h[k / seeds].box->cost);
+    }
+    progress_end();
+}
+
+/* ---- telling ------------------------------------------------------------------------------- */
+
+static const char *const HEADER =
+    "quantity,from,box,length [time units],seeds,stated,mean,stated error,scatter / stated,"
+    "least of the row,most of the row,within one error,within two errors,"
+    "smallest error / median of its own,smallest error / mean of its neighbours'";
+
+static void tell_heading(int seeds)
+{
+    printf("%d seeds of each box. taken: those that publish the number, from the same steps; "
+           "stated: of these, those\nwith a standard error; ratio: scatter / stated (median, and "
+           "least and most of several numbers), *: not as\nthe rule says; 1 s, 2 s: part within "
+           "one and two errors of the mean; least: smallest error / median of its\nown number; "
+           "neighb: / mean of its neighbours'\n",
+           seeds);
+    printf("%-21s %-10s %6s %5s %6s %9s %8s %6s  %11s %5s %5s %5s %6s  %s\n", "quantity", "box",
+           "length", "taken", "stated", "mean", "error", "ratio", "", "1 s", "2 s", "least",
+           "neighb", "from");
+}
+
+/** A number, or a dash where it is negative. */
+static void print_known(const char *format, int width, double value)
+{
+    if (value < 0)
+        printf(" %*s", width, "-");
+    else
+        printf(format, width, value);
+}
+
+static void print_row(const char *box_name, const char *name, const char *from, double length,
+                      const agreement *a, double neighbours)
+{
+    char range[32] = "";
+    if (a->most_ratio > a->least_ratio)
+        snprintf(range, sizeof range, "%.2f..%.2f", a->least_ratio, a->most_ratio);
+    printf("%-21s %-10s %6g %5d %6d %9.5g", name, box_name, length, a->taken, a->stated, a->mean);
+    print_known(" %*.2g", 8, a->error);
+    print_known(" %*.2f", 6, a->ratio);
+    printf("%s %11s", a->ratio < 0 || agreement_holds(a, a->stated) ? " " : "*", range);
+    print_known(" %*.2f", 5, a->within[0]);
+    print_known(" %*.2f", 5, a->within[1]);
+    print_known(" %*.2f", 5, a->least_error);
+    print_known(" %*.2f", 6, neighbours);
+    printf("  %s\n", from);
+}
+
+static void tell(const harvest *h, table *t, const row_of_numbers *row, int length)
+{
+    const number *numbers = h->numbers[length];
+    const agreement a = agreement_of(numbers, h->seeds, h->stride, row->first, row->count);
+    const double neighbours = strstr(row->name, "exponents")
+                                  ? agreement_with_neighbours(numbers, h->seeds, h->stride,
+                                                              row->first, row->count)
+                                  : -1.0;
+    char from[256];
+    numbers_name(h->run, a.of, from, sizeof from);
+    if (a.taken == 0) return;
+    if (strcmp(from, row->name) == 0) from[0] = '\0';
+    print_row(h->box->name, row->name, from, LENGTH[length], &a, neighbours);
+    table_row(t, "%s,%s,%s,%g,%d,%d,%.8g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g", row->name,
+              from[0] ? from : "-", h->box->name, LENGTH[length], a.taken, a.stated, a.mean,
+              a.error, a.ratio, a.least_ratio, a.most_ratio, a.within[0], a.within[1],
+              a.least_error, neighbours);
+}
+
+/** Those in columns that belong to modes in most seeds. */
+static row_of_numbers exponents_of_modes(const harvest *h)
+{
+    sample first = {0};
+    for (int s = 0; s < h->seeds; s++) sample_add(&first, h->first_of_modes[s]);
+    const int col = (int)sample_median(&first);
+    return (row_of_numbers){"exponents of modes", col, h->row[0].count - col};
+}
+
+static void tell_lengths(const harvest *h, table *t, const row_of_numbers *row)
+{
+    for (int length = 0; length < LENGTHS; length++) tell(h, t, row, length);
+}
+
+static void tell_box(const harvest *h, table *t)
+{
+    const row_of_numbers of_modes = exponents_of_modes(h);
+    for (int k = 0; k < h->rows; k++) {
+        tell_lengths(h, t, &h->row[k]);
+        if (k == 0 && of_modes.count > 0) tell_lengths(h, t, &of_modes);
+    }
+}
+
+/* ---- the program --------------------------------------------------------------------------- */
+
+typedef struct asked {
+    int seeds;
+    const char *box, *out;
+    bool quick;
+} asked;
+
+static asked read_options(int argc, char **argv)
+{
+    asked a = {.seeds = 100, .out = "."};
+    const option list[] = {{"--seeds", .count = &a.seeds, .least = 2, .most = SAMPLE_MAX},
+                           {"--box", .text = &a.box},
+                           {"--out", .text = &a.out},
+                           {"--quick", .flag = &a.quick},
+                           {0}};
+    options_read(argc, argv, list);
+    if (a.quick) a.seeds = 12, a.box = "narrow";
+    return a;
+}
+
+/** The boxes that are asked for. */
+static int choose(const asked *a, harvest *h)
+{
+    int count = 0;
+    for (const box *b = BOXES; b < BOXES + BOXES_ALL; b++)
+        if (!a->box || strcmp(a->box, b->name) == 0) h[count++] = harvest_create(b, a->seeds);
+    if (count > 0) return count;
+    fprintf(stderr, "hdlyap_errors: --box = %s: must be one of", a->box);
+    for (const box *b = BOXES; b < BOXES + BOXES_ALL; b++) fprintf(stderr, " %s", b->name);
+    fprintf(stderr, "\n");
+    exit(2);
+}
+
+int main(int argc, char **argv)
+{
+    const asked a = read_options(argc, argv);
+    harvest h[BOXES_ALL];
+    hd_blas_restart_if_slow(argv);
+    const int boxes = choose(&a, h);
+    table *t = table_create(a.out, "errors", HEADER);
+    follow_all(h, boxes, a.seeds);
+    tell_heading(a.seeds);
+    for (int k = 0; k < boxes; k++) {
+        tell_box(&h[k], t);
+        harvest_free(&h[k]);
+    }
+    gemm *g = gemm_create(1000, 1000); /* the comment says on what machine */
+    gemm_measure(g);
+    table_write(t, argv, gemm_rate(g));
+    gemm_free(g);
+    return 0;
+}

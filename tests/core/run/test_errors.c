@@ -1,0 +1,148 @@
+/** The rule of every published standard error, in a quick form: over independent runs a number
+ * scatters as far as each run states. hdlyap_errors makes the whole table.
+ *
+ * The seeds are fixed and the trajectories are the same bits everywhere, so that the outcome is
+ * reproducible. A new estimator whose errors are true fails with a chance of 1 % for each number
+ * (agreement_holds), and so about once in ten for all of this file, as numbers of one scene go
+ * together: then the whole table decides. */
+#include "agreement.h"
+#include "runs.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/** SEEDS know a ratio to 7 %; numbers of the same runs against each other need fewer. */
+enum { SEEDS = 100, SEEDS_OF_PAIRS = 32 };
+
+/** What the seeds of one scene found. */
+typedef struct harvest {
+    int seeds, rows, stride;
+    row_of_numbers row[NUMBER_ROWS_MAX];
+    number *numbers; /**< [seeds][stride] */
+} harvest;
+
+static hd_scene_def box(int disks, double density, double aspect, hd_boundary boundary)
+{
+    hd_scene_def scene = hd_scene_def_default();
+    scene.disks = disks;
+    scene.density = density;
+    scene.aspect = aspect;
+    scene.boundary[0] = scene.boundary[1] = boundary;
+    scene.equilibration = scene.warmup = 50.0;
+    scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
+    scene.threads = 1;
+    return scene;
+}
+
+static void lay_out(harvest *h, const hd_run *run)
+{
+    if (h->numbers) return;
+    h->rows = numbers_rows(run, h->row);
+    h->stride = h->row[h->rows - 1].first + h->row[h->rows - 1].count;
+    h->numbers = calloc((size_t)h->seeds * (size_t)h->stride, sizeof *h->numbers);
+    assert_non_null(h->numbers);
+}
+
+static harvest harvested(hd_scene_def scene, double duration, int seeds)
+{
+    harvest h = {.seeds = seeds};
+    scene.duration = duration;
+    for (int seed = 0; seed < seeds; seed++) {
+        scene.seed = (uint64_t)seed + 1;
+        hd_run *run = created(&scene);
+        lay_out(&h, run);
+        while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+        numbers_read(run, h.numbers + (size_t)seed * (size_t)h.stride);
+        hd_run_free(run);
+    }
+    return h;
+}
+
+static agreement agreement_on(const harvest *h, const char *name)
+{
+    const row_of_numbers *row = h->row;
+    while (row < h->row + h->rows && strcmp(row->name, name) != 0) row++;
+    assert_true(row < h->row + h->rows);
+    const agreement a = agreement_of(h->numbers, h->seeds, h->stride, row->first, row->count);
+    print_message("%-14s %3d of %3d  %9.5g +- %7.2g  scatter / stated %5.2f  within %.2f %.2f\n",
+                  name, a.stated, a.taken, a.mean, a.error, a.ratio, a.within[0], a.within[1]);
+    return a;
+}
+
+/** All of them are looked at before one fails; names ends with NULL. Where too few seeds state an
+ * error to judge it, that is an answer if `may_be_unknown`. */
+static void check_rule(const harvest *h, const char *const *names, bool may_be_unknown)
+{
+    int broken = 0;
+    for (; *names; names++) {
+        const agreement a = agreement_on(h, *names);
+        const bool unknown = a.stated < AGREEMENT_LEAST;
+        const bool whole = a.taken >= 0.9 * h->seeds && a.stated == a.taken;
+        if (may_be_unknown ? unknown || agreement_holds(&a, a.stated)
+                           : whole && agreement_holds(&a, a.stated))
+            continue;
+        print_error("%s: its errors are not true\n", *names);
+        broken++;
+    }
+    assert_int_equal(broken, 0);
+}
+
+/** Fewer than 36 disks, or a wider box, show no T(2,0): c_T is of two wave numbers here, which
+ * fluctuate together. */
+static hd_scene_def narrow_box(void) { return box(36, 0.8, 0.03, HD_PERIODIC); }
+
+static void in_a_narrow_box(void **state)
+{
+    static const char *const names[] = {"exponents", "h_KS",          "T(1;0)",  "T(2;0)",
+                                        "LP(1;0)",   "c_T",           "c2 of T", "c_L",
+                                        "v",         "omega LP(1;0)", NULL};
+    (void)state;
+    harvest h = harvested(narrow_box(), 200.0, SEEDS);
+    check_rule(&h, names, false);
+    free(h.numbers);
+}
+
+static void of_short_runs_or_unknown(void **state)
+{
+    static const char *const names[] = {"exponents", "h_KS", "T(1;0)", "LP(1;0)", "c_T",
+                                        "c2 of T",   "c_L",  "v",      NULL};
+    (void)state;
+    harvest h = harvested(narrow_box(), 40.0, SEEDS);
+    check_rule(&h, names, true);
+    free(h.numbers);
+}
+
+static void between_walls(void **state)
+{
+    static const char *const names[] = {"exponents", "h_KS", "LP(1;0)", "c_L", "v", NULL};
+    (void)state;
+    harvest h = harvested(box(36, 0.7, 0.5, HD_REFLECTING), 100.0, SEEDS);
+    check_rule(&h, names, false);
+    free(h.numbers);
+}
+
+/** T(1,0) and T(0,1) share their vectors: c_T knows no more than either of them. No smaller square
+ * resolves them. Scatter and errors of the same runs go together, so that their ratios agree far
+ * better than either is known: a few seeds are enough. */
+static void of_steps_that_share_a_set(void **state)
+{
+    (void)state;
+    harvest h = harvested(box(100, 0.7, 1.0, HD_PERIODIC), 150.0, SEEDS_OF_PAIRS);
+    const double of_c = agreement_on(&h, "c_T").ratio;
+    const double of_steps = 0.5 *
+                            (agreement_on(&h, "T(1;0)").ratio + agreement_on(&h, "T(0;1)").ratio);
+    assert_true(of_c > 0 && of_steps > 0);
+    CHECK_CLOSE(of_c / of_steps, 1.0, 0.15);
+    free(h.numbers);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(in_a_narrow_box),
+        cmocka_unit_test(of_short_runs_or_unknown),
+        cmocka_unit_test(between_walls),
+        cmocka_unit_test(of_steps_that_share_a_set),
+    };
+    return cmocka_run_group_tests_name("errors", tests, NULL, NULL);
+}
