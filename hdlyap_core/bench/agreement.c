@@ -72,6 +72,7 @@ typedef struct rest {
 
 static void column_add(rest *r, const column *c)
 {
+    if (c->taken == 0) return; /* not of this scene */
     sample_add(&r->taken, c->taken);
     sample_add(&r->stated, c->stated);
     if (c->stated < AGREEMENT_LEAST) return;

@@ -1,6 +1,7 @@
 /** Whether the standard errors that a run states are true: many seeds of several boxes, each number
  * read at three lengths of its run; its scatter over the seeds against its stated errors. Usage:
- * hdlyap_errors [--seeds N] [--box NAME] [--out FOLDER] [--quick]; 100 seeds; writes errors.csv.
+ * hdlyap_errors [--seeds N] [--box NAME] [--out FOLDER] [--quick]; 100 seeds; prints the kinds of
+ * numbers, and writes each of them to errors.csv.
  * As many runs side by side as there are cores, one thread each. */
 #include <hdlyap/hdlyap.h>
 #include <math.h>
@@ -33,6 +34,7 @@ static const box BOXES[] = {{"long", 200, 0.7, 0.2, HD_PERIODIC, false, 7.0},
                             {"square", 100, 0.7, 1.0, HD_PERIODIC, false, 0.7},
                             {"reflecting", 100, 0.7, 0.5, HD_REFLECTING, false, 1.2},
                             {"narrow", 60, 0.8, 0.03, HD_PERIODIC, false, 0.5},
+                            {"channel", 44, 0.7, 0.03, HD_PERIODIC, false, 0.3},
                             {"tiny", 24, 0.7, 0.13, HD_PERIODIC, true, 1.0}};
 enum { BOXES_ALL = sizeof BOXES / sizeof *BOXES };
 
@@ -135,20 +137,12 @@ static const char *const HEADER =
     "least of the row,most of the row,within one error,within two errors,"
     "smallest error / median of its own,smallest error / mean of its neighbours'";
 
-static void tell_heading(int seeds)
-{
-    printf("%d seeds of each box. taken: those that publish the number, from the same steps; "
-           "stated: of these, those\nwith a standard error; ratio: scatter / stated (median, and "
-           "least and most of several numbers), *: not as\nthe rule says; 1 s, 2 s: part within "
-           "one and two errors of the mean; least: smallest error / median of its\nown number; "
-           "neighb: / mean of its neighbours'\n",
-           seeds);
-    printf("%-21s %-10s %6s %5s %6s %9s %8s %6s  %11s %5s %5s %5s %6s  %s\n", "quantity", "box",
-           "length", "taken", "stated", "mean", "error", "ratio", "", "1 s", "2 s", "least",
-           "neighb", "from");
-}
+/** One line of the printed table: a kind of number in one box, at each length. */
+typedef struct line {
+    agreement at[LENGTHS];
+} line;
 
-/** A number, or a dash where it is negative. */
+/** A dash where it is not known. */
 static void print_known(const char *format, int width, double value)
 {
     if (value < 0)
@@ -157,40 +151,56 @@ static void print_known(const char *format, int width, double value)
         printf(format, width, value);
 }
 
-static void print_row(const char *box_name, const char *name, const char *from, double length,
-                      const agreement *a, double neighbours)
+static void print_heading(int seeds)
 {
-    char range[32] = "";
-    if (a->most_ratio > a->least_ratio)
-        snprintf(range, sizeof range, "%.2f..%.2f", a->least_ratio, a->most_ratio);
-    printf("%-21s %-10s %6g %5d %6d %9.5g", name, box_name, length, a->taken, a->stated, a->mean);
-    print_known(" %*.2g", 8, a->error);
-    print_known(" %*.2f", 6, a->ratio);
-    printf("%s %11s", a->ratio < 0 || agreement_holds(a, a->stated) ? " " : "*", range);
-    print_known(" %*.2f", 5, a->within[0]);
-    print_known(" %*.2f", 5, a->within[1]);
-    print_known(" %*.2f", 5, a->least_error);
-    print_known(" %*.2f", 6, neighbours);
-    printf("  %s\n", from);
+    printf("%d seeds of each box, read after", seeds);
+    for (int k = 0; k < LENGTHS; k++) printf(" %g", LENGTH[k]);
+    printf(" time units; *: not as the rule says\n%-19s %-10s |%*s |%*s |%*s |%*s\n", "quantity",
+           "box", 6 * LENGTHS, "scatter / stated", 4 * LENGTHS, "% within 1", 4 * LENGTHS,
+           "within 2", 5 * LENGTHS, "smallest error");
 }
 
-static void tell(const harvest *h, table *t, const row_of_numbers *row, int length)
+static void print_line(const char *name, const char *box_name, const line *l)
 {
-    const number *numbers = h->numbers[length];
-    const agreement a = agreement_of(numbers, h->seeds, h->stride, row->first, row->count);
+    bool published = false;
+    for (int k = 0; k < LENGTHS; k++) published |= l->at[k].taken > 0;
+    if (!published) return;
+    printf("%-19s %-10s |", name, box_name);
+    for (const agreement *a = l->at; a < l->at + LENGTHS; a++) {
+        print_known(" %*.2f", 4, a->ratio);
+        printf(a->ratio < 0 || agreement_holds(a, a->stated) ? " " : "*");
+    }
+    for (int part = 0; part < 2; part++) {
+        printf(" |");
+        for (int k = 0; k < LENGTHS; k++) print_known(" %*.0f", 3, 100.0 * l->at[k].within[part]);
+    }
+    printf(" |");
+    for (int k = 0; k < LENGTHS; k++) print_known(" %*.2f", 4, l->at[k].least_error);
+    printf("\n");
+}
+
+static line line_of(const harvest *h, const row_of_numbers *row)
+{
+    line l;
+    for (int k = 0; k < LENGTHS; k++)
+        l.at[k] = agreement_of(h->numbers[k], h->seeds, h->stride, row->first, row->count);
+    return l;
+}
+
+static void write_row(const harvest *h, table *t, const row_of_numbers *row, const agreement *a,
+                      int length)
+{
     const double neighbours = strstr(row->name, "exponents")
-                                  ? agreement_with_neighbours(numbers, h->seeds, h->stride,
-                                                              row->first, row->count)
+                                  ? agreement_with_neighbours(h->numbers[length], h->seeds,
+                                                              h->stride, row->first, row->count)
                                   : -1.0;
     char from[256];
-    numbers_name(h->run, a.of, from, sizeof from);
-    if (a.taken == 0) return;
-    if (strcmp(from, row->name) == 0) from[0] = '\0';
-    print_row(h->box->name, row->name, from, LENGTH[length], &a, neighbours);
+    if (a->taken == 0) return;
+    numbers_name(h->run, a->of, from, sizeof from);
     table_row(t, "%s,%s,%s,%g,%d,%d,%.8g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g", row->name,
-              from[0] ? from : "-", h->box->name, LENGTH[length], a.taken, a.stated, a.mean,
-              a.error, a.ratio, a.least_ratio, a.most_ratio, a.within[0], a.within[1],
-              a.least_error, neighbours);
+              from[0] ? from : "-", h->box->name, LENGTH[length], a->taken, a->stated, a->mean,
+              a->error, a->ratio, a->least_ratio, a->most_ratio, a->within[0], a->within[1],
+              a->least_error, neighbours);
 }
 
 /** Those in columns that belong to modes in most seeds. */
@@ -202,17 +212,45 @@ static row_of_numbers exponents_of_modes(const harvest *h)
     return (row_of_numbers){"exponents of modes", col, h->row[0].count - col};
 }
 
-static void tell_lengths(const harvest *h, table *t, const row_of_numbers *row)
+/** Steps, and angular velocities, of all waves are one kind. */
+static const char *kind_of(const row_of_numbers *row)
 {
-    for (int length = 0; length < LENGTHS; length++) tell(h, t, row, length);
+    if (!strchr(row->name, '(')) return row->name;
+    return strncmp(row->name, "omega", 5) == 0 ? "omega" : "steps";
+}
+
+/** Rows of one kind follow each other: the first of them, made longer. */
+static row_of_numbers whole_kind(const harvest *h, int *k)
+{
+    const row_of_numbers *first = &h->row[*k];
+    row_of_numbers whole = {.first = first->first};
+    snprintf(whole.name, sizeof whole.name, "%s", kind_of(first));
+    for (; *k < h->rows && strcmp(kind_of(&h->row[*k]), whole.name) == 0; ++*k)
+        whole.count += h->row[*k].count;
+    return whole;
+}
+
+static void print_kind(const harvest *h, const row_of_numbers *row)
+{
+    const line l = line_of(h, row);
+    print_line(row->name, h->box->name, &l);
+}
+
+static void write_lengths(const harvest *h, table *t, const row_of_numbers *row)
+{
+    const line l = line_of(h, row);
+    for (int length = 0; length < LENGTHS; length++) write_row(h, t, row, &l.at[length], length);
 }
 
 static void tell_box(const harvest *h, table *t)
 {
     const row_of_numbers of_modes = exponents_of_modes(h);
-    for (int k = 0; k < h->rows; k++) {
-        tell_lengths(h, t, &h->row[k]);
-        if (k == 0 && of_modes.count > 0) tell_lengths(h, t, &of_modes);
+    for (int k = 0; k < h->rows; k++) write_lengths(h, t, &h->row[k]);
+    if (of_modes.count > 0) write_lengths(h, t, &of_modes);
+    for (int k = 0; k < h->rows;) {
+        const row_of_numbers whole = whole_kind(h, &k);
+        print_kind(h, &whole);
+        if (whole.first == 0 && of_modes.count > 0) print_kind(h, &of_modes);
     }
 }
 
@@ -258,7 +296,7 @@ int main(int argc, char **argv)
     const int boxes = choose(&a, h);
     table *t = table_create(a.out, "errors", HEADER);
     follow_all(h, boxes, a.seeds);
-    tell_heading(a.seeds);
+    print_heading(a.seeds);
     for (int k = 0; k < boxes; k++) {
         tell_box(&h[k], t);
         harvest_free(&h[k]);

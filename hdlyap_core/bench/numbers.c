@@ -81,8 +81,6 @@ static void rows_of_steps(const hd_run *run, rows *r)
 int numbers_rows(const hd_run *run, row_of_numbers *out)
 {
     static const char *const singles[] = {"c_T", "c2 of T", "c_L", "c2 of LP", "v"};
-    static const char *const pairs[] = {"angle unstable-stable", "angle unstable-centre",
-                                        "angle centre-stable"};
     rows r = {.row = out};
     row_add(&r, "exponents", positive(run));
     row_add(&r, "h_KS", 1);
@@ -92,7 +90,7 @@ int numbers_rows(const hd_run *run, row_of_numbers *out)
     }
     if (!hd_run_covariant(run)) return r.count;
     row_add(&r, "covariant exponents", positive(run));
-    for (int k = 0; k < HD_PAIRS_OF_SPACES; k++) row_add(&r, pairs[k], 1);
+    row_add(&r, "angle", 1);
     return r.count;
 }
 
@@ -156,27 +154,26 @@ static number *read_phases(const hd_run *run, number *out)
     return out;
 }
 
+/** The angle between unstable and stable space; the centre is exactly perpendicular to both [T18].
+ */
 static void read_covariant(const hd_run *run, number *out)
 {
     const hd_covariant *covariant = hd_run_covariant(run);
     const hd_splitting *splitting = hd_covariant_splitting(covariant);
     const bool known = hd_covariant_windows(covariant) > 0;
     out = read_exponents(hd_covariant_spectrum(covariant), positive(run), known, out);
-    for (int k = 0; k < HD_PAIRS_OF_SPACES; k++) {
-        *out = (number){.error = -1.0};
-        if (known && hd_splitting_has_spaces(splitting)) {
-            const hd_angle_of_spaces *angle = hd_splitting_angle(splitting, (hd_pair_of_spaces)k);
-            *out = (number){angle->mean, angle->std_error, NO_STEPS};
-        }
-        out++;
-    }
+    *out = (number){.error = -1.0};
+    if (!known || !hd_splitting_has_spaces(splitting)) return;
+    const hd_angle_of_spaces *angle = hd_splitting_angle(splitting, HD_UNSTABLE_STABLE);
+    *out = (number){angle->mean, angle->std_error, NO_STEPS};
 }
 
 void numbers_read(const hd_run *run, number *out)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     out = read_exponents(spectrum, positive(run), true, out);
-    *out++ = (number){hd_spectrum_ks_entropy(spectrum), -1.0, NO_STEPS};
+    *out++ = (number){hd_spectrum_ks_entropy(spectrum), hd_spectrum_ks_entropy_error(spectrum),
+                      NO_STEPS};
     if (hd_run_steps(run)) {
         out = read_dispersion(run, HD_MODE_T, out);
         out = read_dispersion(run, HD_MODE_LP, out);

@@ -66,6 +66,10 @@ HD_MUST_CHECK hd_status hd_scene_check(const hd_scene_def *def, char *message, s
 /** Box edges [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx. */
 void hd_scene_box(const hd_scene_def *def, double box[2]);
 
+/** Time that sound takes through the longer edge of the box, by Henderson's equation of state (Mol.
+ * Phys. 30, 971 (1975)) [time units]. */
+double hd_scene_sound_crossing(const hd_scene_def *def);
+
 /** Number of vanishing exponents: 6, 4 or 2 for both, one or no direction periodic. */
 int hd_scene_zero_exponents(const hd_scene_def *def);
 

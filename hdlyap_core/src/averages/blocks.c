@@ -11,7 +11,7 @@
 /** Ends that are this close, as a part of a block, are one. */
 static const double CLOSE = 1e-9;
 /** Neighbours are correlated if their correlation exceeds so many of its standard deviations. */
-static const double SIGNIFICANT = 1.5;
+static const double SIGNIFICANT = 1.0;
 /** Fewer blocks than this are not joined any more. */
 enum { FEW = 48 };
 /** Blocks that remember more than this of the one before are too short to tell an error. */

@@ -130,7 +130,8 @@ static hd_status allocate(hd_covariant *c)
         HD_TRY(hd_modes_create(&c->half[k], &c->scene, c->vectors, c->threads));
     }
     HD_TRY(hd_modes_create(&c->of_frame, &c->scene, c->vectors, c->threads));
-    HD_TRY(hd_spectrum_create(&c->spectrum, c->rows, c->vectors, 0.0));
+    HD_TRY(
+        hd_spectrum_create(&c->spectrum, c->rows, c->vectors, hd_scene_sound_crossing(&c->scene)));
     HD_TRY(hd_splitting_create(&c->splitting, c->vectors, c->unstable, c->centre));
     return hd_localization_create(&c->shape, c->scene.disks, c->vectors);
 }

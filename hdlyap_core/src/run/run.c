@@ -24,8 +24,8 @@ static const double CONDITION_SLOW = 1e4;
 /** Collisions of each disk between two orthonormalisations that no accuracy and no density exceed.
  */
 static const double COLLISIONS_MOST = 60.0;
-/** Collisions of each disk that growth may remember: shorter blocks tell no error. */
-static const double COLLISIONS_PER_BLOCK = 4.0;
+/** Collisions of each disk that growth remembers: shorter blocks tell no error. */
+static const double COLLISIONS_PER_BLOCK = 8.0;
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
@@ -42,6 +42,14 @@ static hd_status create_frame(hd_run *run)
     return hd_ortho_step_stable(run->ortho, run->frame, 1.0 / DBL_EPSILON);
 }
 
+/** Shortest block of the averages: growth follows the waves of density, too, which need that long
+ * through the box [T8]. */
+static double block_least(const hd_run *run)
+{
+    const double collision = run->sample_max / HD_COLLISIONS_PER_SAMPLE;
+    return fmax(COLLISIONS_PER_BLOCK * collision, hd_scene_sound_crossing(&run->scene));
+}
+
 static hd_status prepare_frame(hd_run *run)
 {
     const int rows = 4 * run->scene.disks, n = run->vectors;
@@ -51,8 +59,7 @@ static hd_status prepare_frame(hd_run *run)
     hd_blas_use_threads(run->threads);
     HD_TRY(hd_event_log_create(&run->log));
     HD_TRY(hd_ortho_create(&run->ortho, rows, n));
-    HD_TRY(hd_spectrum_create(&run->spectrum, rows, n,
-                              COLLISIONS_PER_BLOCK * run->sample_max / HD_COLLISIONS_PER_SAMPLE));
+    HD_TRY(hd_spectrum_create(&run->spectrum, rows, n, block_least(run)));
     HD_TRY(create_frame(run));
     return hd_threads_choose(&run->threads, run->ortho, run->frame, run->scene.threads);
 }

@@ -22,6 +22,17 @@ void hd_scene_box(const hd_scene_def *def, double box[2])
     box[1] = def->aspect * box[0];
 }
 
+/** p = rho Z: c^2 = d(rho Z)/d rho + Z^2, as a disk has two degrees of freedom and kT = 1. */
+double hd_scene_sound_crossing(const hd_scene_def *def)
+{
+    const double eta = 0.25 * 3.14159265358979323846 * def->density, free = 1.0 - eta;
+    const double z = (1.0 + eta * eta / 8.0) / (free * free);
+    const double slope = (0.25 * eta + 2.0 * z * free) / (free * free); /* dZ / d eta */
+    double box[2];
+    hd_scene_box(def, box);
+    return fmax(box[0], box[1]) / sqrt(z + eta * slope + z * z);
+}
+
 int hd_scene_zero_exponents(const hd_scene_def *def)
 {
     return 2 + 2 * (def->boundary[0] == HD_PERIODIC) + 2 * (def->boundary[1] == HD_PERIODIC);

@@ -2,8 +2,8 @@
  * scatters as far as each run states. hdlyap_errors makes the whole table.
  *
  * The seeds are fixed and the trajectories are the same bits everywhere, so that the outcome is
- * reproducible. A new estimator whose errors are true fails with a chance of 1 % for each number
- * (agreement_holds), and so about once in ten for all of this file, as numbers of one scene go
+ * reproducible. A new estimator whose errors are true breaks the rule with a chance of 1 % for each
+ * number (agreement_holds), and fails here about once in ten times, as numbers of one scene go
  * together: then the whole table decides. */
 #include "agreement.h"
 #include "runs.h"
@@ -69,27 +69,27 @@ static agreement agreement_on(const harvest *h, const char *name)
     return a;
 }
 
-/** All of them are looked at before one fails; names ends with NULL. Where too few seeds state an
- * error to judge it, that is an answer if `may_be_unknown`. */
+/** All of them are looked at before one fails; names ends with NULL. Most seeds publish each number
+ * and state its error, unless it `may_be_unknown`. */
 static void check_rule(const harvest *h, const char *const *names, bool may_be_unknown)
 {
     int broken = 0;
     for (; *names; names++) {
         const agreement a = agreement_on(h, *names);
-        const bool unknown = a.stated < AGREEMENT_LEAST;
-        const bool whole = a.taken >= 0.9 * h->seeds && a.stated == a.taken;
-        if (may_be_unknown ? unknown || agreement_holds(&a, a.stated)
-                           : whole && agreement_holds(&a, a.stated))
-            continue;
+        const bool known = a.stated >= 0.9 * h->seeds;
+        if (may_be_unknown && a.stated < AGREEMENT_LEAST) continue;
+        if ((known || may_be_unknown) && agreement_holds(&a, a.stated)) continue;
         print_error("%s: its errors are not true\n", *names);
         broken++;
     }
     assert_int_equal(broken, 0);
 }
 
-/** Fewer than 36 disks, or a wider box, show no T(2,0): c_T is of two wave numbers here, which
- * fluctuate together. */
-static hd_scene_def narrow_box(void) { return box(36, 0.8, 0.03, HD_PERIODIC); }
+/** c_T is of two wave numbers here, whose steps fluctuate together. In channels that are narrower
+ * or less dense h_KS and T(2,0) remember too long for such short runs (hdlyap_errors --box
+ * channel).
+ */
+static hd_scene_def narrow_box(void) { return box(48, 0.8, 0.03, HD_PERIODIC); }
 
 static void in_a_narrow_box(void **state)
 {
@@ -97,7 +97,7 @@ static void in_a_narrow_box(void **state)
                                         "LP(1;0)",   "c_T",           "c2 of T", "c_L",
                                         "v",         "omega LP(1;0)", NULL};
     (void)state;
-    harvest h = harvested(narrow_box(), 200.0, SEEDS);
+    harvest h = harvested(narrow_box(), 150.0, SEEDS);
     check_rule(&h, names, false);
     free(h.numbers);
 }
@@ -114,7 +114,8 @@ static void of_short_runs_or_unknown(void **state)
 
 static void between_walls(void **state)
 {
-    static const char *const names[] = {"exponents", "h_KS", "LP(1;0)", "c_L", "v", NULL};
+    static const char *const names[] = {"exponents", "h_KS",          "LP(1;0)", "c_L",
+                                        "v",         "omega LP(1;0)", NULL};
     (void)state;
     harvest h = harvested(box(36, 0.7, 0.5, HD_REFLECTING), 100.0, SEEDS);
     check_rule(&h, names, false);

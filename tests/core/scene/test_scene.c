@@ -273,6 +273,28 @@ static void corners_of_the_table(void **state)
     }
 }
 
+/** Of a gas sqrt(2); of a fluid from the slope of the pressure p(rho) = rho Z at constant entropy:
+ * d p / d rho + p^2 / rho^2, as kT changes by p / rho for each part of rho. */
+static void sound_is_that_of_the_equation_of_state(void **state)
+{
+    (void)state;
+    hd_scene_def def = hd_scene_def_default();
+    double box[2], p[3];
+    def.aspect = 4.0;
+    def.density = 1e-6;
+    hd_scene_box(&def, box);
+    CHECK_CLOSE(box[1] / hd_scene_sound_crossing(&def), sqrt(2.0), 1e-5);
+    const double step = 1e-4, rho = 0.8;
+    for (int k = 0; k < 3; k++) {
+        const double x = rho + (k - 1) * step, eta = atan(1.0) * x;
+        p[k] = x * (1.0 + eta * eta / 8.0) / pow(1.0 - eta, 2.0);
+    }
+    def.density = rho;
+    hd_scene_box(&def, box);
+    const double want = sqrt((p[2] - p[0]) / (2.0 * step) + pow(p[1] / rho, 2.0));
+    CHECK_CLOSE(box[1] / hd_scene_sound_crossing(&def), want, 1e-5 * want);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -288,6 +310,7 @@ int main(void)
         cmocka_unit_test(box_has_area_and_aspect),
         cmocka_unit_test(numbers_of_vectors),
         cmocka_unit_test(corners_of_the_table),
+        cmocka_unit_test(sound_is_that_of_the_equation_of_state),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
