@@ -211,7 +211,8 @@ static bool fill_steps(mode_report *m, hdr_steps *message, const hd_run *run)
 {
     const hd_steps *steps = hd_run_steps(run);
     const hd_phases *phases = hd_run_phases(run);
-    const hd_velocity none = {.v_error = -1.0, .misfit = -1.0}, v = phases ? hd_phases_velocity(phases) : none;
+    const hd_velocity none = {.v_error = -1.0, .misfit = -1.0},
+                      v = phases ? hd_phases_velocity(phases) : none;
     const hd_dispersion t = hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_T);
     const hd_dispersion l = hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_LP);
     *message = (hdr_steps){
