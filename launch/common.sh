@@ -128,7 +128,8 @@ stop() {
     kill -KILL -- "-$1" 2>/dev/null || true # what it has begun meanwhile, where signals are ignored
 }
 
-is_running() { kill -0 "$1" 2>/dev/null; }
+# Not for a zombie, which the first process of a container may leave.
+is_running() { [[ $(ps -o stat= -p "$1") == [!Z]* ]]; }
 
 # descendants PID: it and all below it. roslaunch gives each node a session of its own.
 descendants() {

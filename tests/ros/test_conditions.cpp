@@ -2,6 +2,7 @@
  * subscribers that are behind, and what is made of all of it. */
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <random>
@@ -102,98 +103,107 @@ TEST(Examination, RoundingIsNoOverlap)
 class Queue
 {
   public:
+    explicit Queue(size_t queue) : backlog(queue), length(queue) {}
     void publish(double now)
     {
         const hdr_backlog::buffer message(new uint8_t[1]);
         waiting.push_back(message);
         if (waiting.size() > length) waiting.erase(waiting.begin());
+        backlog.count();
         backlog.add(message, now);
     }
     void take() { waiting.erase(waiting.begin()); }
-    hdr_lag lag(double now) { return backlog.lag(now); }
     hdr_backlog backlog;
+    size_t length;
     std::vector<hdr_backlog::buffer> waiting;
-    size_t length = 1000;
 };
 
 TEST(Backlog, NobodyListens)
 {
-    hdr_backlog backlog;
-    EXPECT_TRUE(backlog.empty());
+    hdr_backlog backlog(10);
+    EXPECT_EQ(backlog.look().waiting, 0);
+    backlog.count();
     backlog.add({}, 1.0);
-    EXPECT_TRUE(backlog.empty());
-    EXPECT_EQ(backlog.lag(100.0).seconds, 0.0);
+    EXPECT_EQ(backlog.look(100.0).waiting, 0);
+    EXPECT_EQ(backlog.look(100.0).seconds, 0.0);
+    EXPECT_EQ(backlog.look().published, 1);
 }
 
 /** Of a latched topic somebody keeps the newest message. */
 TEST(Backlog, Latched)
 {
-    hdr_backlog backlog(true);
+    hdr_backlog backlog(10, true);
     hdr_backlog::buffer kept(new uint8_t[1]);
     backlog.add(kept, 1.0);
-    EXPECT_TRUE(backlog.empty());
+    EXPECT_EQ(backlog.look().waiting, 0);
     hdr_backlog::buffer waiting = kept; /* for one who comes late */
-    EXPECT_FALSE(backlog.empty());
+    EXPECT_EQ(backlog.look().waiting, 1);
     kept.reset(new uint8_t[1]);
-    backlog.add(kept, 2.0);
-    EXPECT_TRUE(backlog.empty());
-    waiting = kept;
-    EXPECT_FALSE(backlog.empty());
-    EXPECT_EQ(backlog.lag(5.0).seconds, 3.0);
     waiting.reset();
-    EXPECT_TRUE(backlog.empty());
+    backlog.add(kept, 2.0);
+    EXPECT_EQ(backlog.look().waiting, 0);
+    waiting = kept;
+    EXPECT_EQ(backlog.look(5.0).waiting, 1);
+    EXPECT_EQ(backlog.look(5.0).seconds, 3.0);
+    waiting.reset();
+    EXPECT_EQ(backlog.look().waiting, 0);
 }
 
 TEST(Backlog, TakenAtOnce)
 {
-    Queue queue;
+    Queue queue(1000);
     for (int k = 0; k < 20; k++) {
         queue.publish(10.0 * k);
-        EXPECT_FALSE(queue.backlog.empty());
+        EXPECT_EQ(queue.backlog.look().waiting, 1);
         queue.take();
-        EXPECT_TRUE(queue.backlog.empty());
-        EXPECT_EQ(queue.lag(10.0 * k + 9.0).seconds, 0.0); /* however late it is asked */
+        EXPECT_EQ(queue.backlog.look(10.0 * k + 9.0).waiting, 0);
     }
 }
 
 TEST(Backlog, DeafThenWellAgain)
 {
-    Queue queue;
+    Queue queue(1000);
     for (int k = 0; k < 30; k++) {
         queue.publish(k);
-        EXPECT_EQ(queue.lag(k + 0.5).seconds, k + 0.5);
-        EXPECT_EQ(queue.lag(k + 0.5).messages, k + 1);
+        EXPECT_EQ(queue.backlog.look(k + 0.5).seconds, k + 0.5);
+        EXPECT_EQ(queue.backlog.look(k + 0.5).waiting, k + 1);
     }
     while (!queue.waiting.empty()) queue.take();
-    EXPECT_EQ(queue.lag(30).seconds, 0.0);
+    EXPECT_EQ(queue.backlog.look(30).waiting, 0);
     queue.publish(31);
-    queue.take();
-    queue.publish(32); /* nothing of the past is left */
-    EXPECT_EQ(queue.lag(32).seconds, 0.0);
+    EXPECT_EQ(queue.backlog.look(32).seconds, 1.0); /* nothing of the past is left */
+    EXPECT_EQ(queue.backlog.look().lost, 0);
 }
 
 TEST(Backlog, AlwaysFiveBehind)
 {
-    Queue queue;
+    Queue queue(1000);
     for (int k = 0; k < 100; k++) {
         queue.publish(k);
         if (k >= 5) queue.take();
-        if (k < 12) continue;
-        EXPECT_GE(queue.lag(k).seconds, 4.0);
-        EXPECT_LE(queue.lag(k).seconds, 5.0);
+        EXPECT_EQ(queue.backlog.look(k).seconds, std::min(k, 4));
     }
+    EXPECT_EQ(queue.backlog.look().lost, 0);
 }
 
+/** One message is being written while the queue is full: what is dropped lies behind it. */
 TEST(Backlog, FullQueue)
 {
-    Queue queue;
-    queue.length = 10;
+    Queue queue(10);
+    hdr_backlog::buffer written(new uint8_t[1]);
+    queue.backlog.count();
+    queue.backlog.add(written, -1.0);
     for (int k = 0; k < 100; k++) {
         queue.publish(k);
-        if (k < 22) continue;
-        EXPECT_GE(queue.lag(k).messages, 10);
-        EXPECT_GE(queue.lag(k).seconds, 9.0);
+        EXPECT_EQ(queue.backlog.look(k).waiting, std::min(k + 2, 11));
+        EXPECT_EQ(queue.backlog.look(k).seconds, k + 1);
+        EXPECT_EQ(queue.backlog.look(k).lost, std::max(0, k - 9));
     }
+    written.reset();
+    queue.publish(100);
+    EXPECT_EQ(queue.backlog.look().published, 102);
+    EXPECT_EQ(queue.backlog.look(100).waiting, 10);
+    EXPECT_EQ(queue.backlog.look().lost, 90); /* the last one goes unseen with what was written */
 }
 
 worker_state healthy()
@@ -207,7 +217,7 @@ worker_state healthy()
 TEST(Conditions, NothingToSay)
 {
     const worker_state state = healthy();
-    const hdr_lag slowest = {"/a", 2.9, 5, false};
+    const hdr_lag slowest = {"/a", 2.9, 5, 0};
     const conditions all = conditions_of(&state, &slowest, false);
     EXPECT_EQ(all.level, HDR_DIAGNOSTIC_OK);
     EXPECT_STREQ(all.message, "");
@@ -215,8 +225,8 @@ TEST(Conditions, NothingToSay)
 
 TEST(Conditions, EachHasItsLevelAndMessage)
 {
-    const hdr_lag prompt = {"", 0, 0, false}, behind = {"/b/fields", 12.34, 5, false},
-                  losing = {"/b/fields", 0.5, 1001, true};
+    const hdr_lag prompt = {"", 0, 0, 0}, behind = {"/b/fields", 12.34, 5, 0},
+                  losing = {"/b/fields", 0.5, 1001, 42};
     worker_state fault = healthy(), unkept = healthy(), deep = healthy(), warm = healthy(),
                  stalled = healthy();
     fault.status = HD_ILL_CONDITIONED;
@@ -245,7 +255,7 @@ TEST(Conditions, EachHasItsLevelAndMessage)
          "errors of the smallest exponents do not fall: 0.5 after 4 averaged, 0.5 after 32"},
         {&well, &behind, false, HDR_DIAGNOSTIC_WARN, "a subscriber of /b/fields is 12.3 s behind"},
         {&well, &losing, false, HDR_DIAGNOSTIC_WARN,
-         "a subscriber of /b/fields is 0.5 s behind and loses messages"},
+         "subscribers of /b/fields have lost 42 messages"},
     };
     for (const auto &one : cases) {
         const conditions all = conditions_of(one.state, one.lag, one.repaired);
@@ -257,7 +267,7 @@ TEST(Conditions, EachHasItsLevelAndMessage)
 TEST(Conditions, SeveralAtOnce)
 {
     worker_state state = healthy();
-    const hdr_lag behind = {"/a", 4, 1, false};
+    const hdr_lag behind = {"/a", 4, 1, 0};
     state.checkpoint.failed = true;
     memset(state.checkpoint.message, 'x', 400);
     const conditions all = conditions_of(&state, &behind, true);

@@ -2,6 +2,7 @@
 """A recorder misses nothing, and nobody who listens, or does not, holds a run up."""
 
 import os
+import re
 import signal
 import tempfile
 import time
@@ -28,8 +29,23 @@ MANY = dict(
     wait_for_subscribers='all',
 )
 REPORTS, AVERAGED_REPORTS = 408, 400
-# rosbag keeps 100 messages of a topic that it has not looked at: a third of a second of fields
 RECORDED = dict(MANY, pace=25.0)
+# thousands of messages of each topic, as fast as they can be made: rosbag keeps 100 of a topic that
+# it has not looked at
+FLOOD_TOPICS = ('spectrum', 'modes', 'steps', 'state')
+FLOOD = dict(
+    disks=100,
+    density=0.4,
+    aspect=1.0,
+    exponents=20,
+    equilibration=1.0,
+    warmup=1.0,
+    duration=12.0,
+    report_interval=0.01,
+    observables=list(FLOOD_TOPICS),
+    wait_for_subscribers='all',
+)
+FLOOD_REPORTS, FLOOD_AVERAGED = 1400, 1200
 
 
 class Delivery(unittest.TestCase):
@@ -53,12 +69,11 @@ class Delivery(unittest.TestCase):
         self.addCleanup(listener.close)
         return listener
 
-    def record(self, **env):
+    def record(self, bag=None, name='record', **env):
         topics = ['/hdlyap/' + topic for topic in TYPES]
         # not `rosbag record`: that wrapper may end before its recorder has closed the bag
-        return self.process(
-            ['rosrun', 'rosbag', 'record', '-O', self.bag, '--buffsize=0'] + topics, **env
-        )
+        command = ['rosrun', 'rosbag', 'record', '-O', bag or self.bag, '--buffsize=0']
+        return self.process(command + topics + ['__name:=' + name], **env)
 
     def recorded(self, recorder):
         """Messages by topic, and connections, of a recorder that is asked to end."""
@@ -123,6 +138,77 @@ class Delivery(unittest.TestCase):
         master.stop()
         self.assertEqual(node.wait(), 0, node.text())
         self.check_recording(self.recorded(recorder)[0])
+
+    def record_all(self, names):
+        """Recorders that the node will know of, by the bags that they write."""
+        folder = os.path.dirname(self.bag)
+        bags = {os.path.join(folder, name + '.bag'): '/' + name for name in names}
+        recorders = {bag: self.record(bag, name[1:]) for bag, name in bags.items()}
+        master = rosgraph.Master('/test')
+
+        def known():
+            subscribed = dict(master.getSystemState()[1])
+            return all(
+                set(bags.values()) <= set(subscribed.get('/hdlyap/' + topic, ())) for topic in TYPES
+            )
+
+        self.assertTrue(harness.wait_until(known))
+        return recorders
+
+    def check_flood(self, bag):
+        """header.seq of each topic: from 0, without a gap, as many as reports."""
+        seqs = {}
+        with rosbag.Bag(bag) as file:
+            for topic, message, _ in file.read_messages():
+                seqs.setdefault(topic.rsplit('/', 1)[1], []).append(message.header.seq)
+        counts = dict.fromkeys(('state', 'status', 'cost'), FLOOD_REPORTS)
+        counts.update(dict.fromkeys(('spectrum', 'modes', 'steps'), FLOOD_AVERAGED), run_info=1)
+        self.assertEqual({topic: len(seq) for topic, seq in seqs.items()}, counts)
+        for topic, seq in seqs.items():
+            self.assertEqual(seq, list(range(counts[topic])), topic)
+
+    def test_flood_recorded(self):
+        """By one recorder; and by two, of which one stands still for a second."""
+        for names, stops in ((['record'], False), (['first', 'second'], True)):
+            with self.subTest(recorders=len(names)):
+                recorders = self.record_all(names)
+                cost = self.listen('cost')
+                node = self.start(FLOOD)
+                if stops:
+                    self.assertTrue(cost.wait_for(lambda message: message.sim_time > 4.0))
+                    one = list(recorders.values())[0]
+                    one.send(signal.SIGSTOP)
+                    time.sleep(1.0)
+                    one.send(signal.SIGCONT)
+                self.assertEqual(node.wait(), 0, node.text())
+                self.assertEqual(node.lines('WARN'), [])
+                for bag, recorder in recorders.items():
+                    recorder.send(signal.SIGINT)
+                    recorder.wait()
+                    self.check_flood(bag)
+                cost.close()
+
+    def test_recorder_that_stands_still(self):
+        """It is not waited for without an end, and what it loses is said."""
+        recorder = self.record_all(['record']).popitem()[1]
+        cost = self.listen('cost')
+        node = self.start(FLOOD)
+        self.assertTrue(cost.wait_for(lambda message: message.sim_time > 4.0))
+        recorder.send(signal.SIGSTOP)
+        begin = time.monotonic()
+        self.assertEqual(node.wait(), 0, node.text())
+        self.assertLess(time.monotonic() - begin, 15.0)
+        self.assertEqual(len(node.lines('/record has read nothing of')), 1, node.text())
+        left = [
+            re.search(r'has not read the last (\d+) messages of /hdlyap/(\w+)', line).groups()
+            for line in node.lines('has not read the last')
+        ]
+        self.assertEqual(
+            sorted(topic for _, topic in left),
+            ['cost', 'modes', 'spectrum', 'state', 'status', 'steps'],
+        )
+        self.assertTrue(all(500 < int(count) <= FLOOD_REPORTS for count, _ in left), left)
+        links.end(recorder)
 
     def test_slow_subscriber(self):
         slow = self.listen('state', delay=0.2)

@@ -296,6 +296,8 @@ class Parameters(unittest.TestCase):
         want = dict(harness.defaults(), vectors=1557, zero_exponents=6)
         want.update(wave_nx=(1, 0, 1, 2, 0, 2, 1, 2), wave_ny=(0, 1, 1, 0, 2, 1, 2, 2))
         self.assertEqual((want.pop('interval'), info.interval), ('auto', 0.0))
+        self.assertEqual(want.pop('warmup'), 'auto')
+        self.assertAlmostEqual(info.warmup, 97.48, delta=0.01)  # 3 / (0.05 c_T k), c_T = 3.285
         self.assertEqual(want.pop('threads'), 0)
         for field, value in want.items():
             self.assertEqual(getattr(info, field), value, field)

@@ -10,7 +10,7 @@ import numpy as np
 import rosbag
 import rospy
 
-from hdlyap.msg import LpPhases, ModeField, Steps
+from hdlyap.msg import LpPhases, ModeField, Step, Steps
 from std_msgs.msg import String
 
 import made
@@ -182,6 +182,22 @@ class Table(Bags):
         self.assertEqual(lines['T(1,1)'], ['3.90', '4', '1.40496', '2.1643(20)'])
         self.assertEqual(lines['LP(0,1)'], ['3.50', '4', '0.99346', '1.9837(20)'])
         self.assertIn('\n    T(1,1) ', text)
+
+    def test_whether_they_coincide(self):
+        info = made.run_info()
+        said = {
+            (Step.SHARING_UNKNOWN, Step.SHARING_UNKNOWN): [],
+            (Step.SHARING_COINCIDENT, Step.SHARING_COINCIDENT): ['coincide'],
+            (Step.SHARING_BLENDED, Step.SHARING_BLENDED): ['blended'],
+            (Step.SHARING_MIXING, Step.SHARING_COINCIDENT): ['coincide,', 'mixing'],
+        }
+        for (first, second), words in said.items():
+            shared = {'set': 7, 'members': 2, 'expected': 4, 'multiplicity': 3.5}
+            lines, _ = self.run_with(
+                made.step(info, T, 1, 1, 26, 33, sharing=first, **shared),
+                made.step(info, LP, 0, 1, 26, 33, sharing=second, **shared),
+            )
+            self.assertEqual(lines['LP(0,1)+T(1,1)'], ['26-33', '7.00', '8', *words])
 
     def test_unresolved_steps_in_one_line(self):
         info = made.run_info()

@@ -57,6 +57,8 @@ void hd_parameter_assign(const hd_parameter *row, hd_scene_def *def, double valu
 
 /** The word for a value; NULL if it has none. */
 const char *hd_parameter_word_of(const hd_parameter *row, int value);
+/** True if a word stands for this value: it is no number then. */
+bool hd_parameter_is_word(const hd_parameter *row, double value);
 /** False if there is no such word. */
 bool hd_parameter_value_of(int *value, const hd_parameter *row, const char *word);
 

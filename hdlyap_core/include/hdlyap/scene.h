@@ -20,6 +20,9 @@ typedef enum hd_stage { HD_EQUILIBRATING, HD_WARMING_UP, HD_AVERAGING, HD_FINISH
 /** Values of hd_scene_def.exponents that are not a plain number. */
 enum { HD_EXPONENTS_NONE = 0, HD_EXPONENTS_POSITIVE = -1, HD_EXPONENTS_ALL = -2 };
 
+/** The value of hd_scene_def.warmup that is not a plain number. */
+enum { HD_WARMUP_AUTO = -1 };
+
 /** hd_scene_def.observe: what is computed beyond the exponents. Phases, fields and hydro need
  * steps, which need modes: these come with them. */
 enum {
@@ -44,6 +47,7 @@ typedef struct hd_scene_def {
     hd_boundary boundary[2]; /**< boundary_x, boundary_y */
     uint64_t seed;
     int exponents;    /**< number of leading ones, 1 .. 4N, or one of HD_EXPONENTS_* */
+    double warmup;    /**< HD_WARMUP_AUTO, see hd_scene_warmup [time units] */
     double interval;  /**< 0 = auto [time units] */
     unsigned observe; /**< a set of HD_OBSERVE_*, 0 = none */
     hd_storage covariant_storage;
@@ -71,6 +75,9 @@ int hd_scene_zero_exponents(const hd_scene_def *def);
 
 /** Directions of the exact null space [T9]: uniform along x, along y (where periodic), momenta. */
 enum { HD_NULL_X, HD_NULL_Y, HD_NULL_P, HD_NULLS };
+
+/** Time with the frame before the averaging, as asked for or chosen [T12]. */
+double hd_scene_warmup(const hd_scene_def *def);
 
 /** Number of tangent vectors carried, 0 .. 4N (the positive half is (4N - Z) / 2). */
 int hd_scene_vectors(const hd_scene_def *def);

@@ -10,6 +10,17 @@
 extern "C" {
 #endif
 
+/** Of a step with others in one set: do their exponents coincide, or do vectors mix that differ? */
+typedef enum hd_sharing {
+    HD_SHARING_ALONE,   /**< it has its set for itself, or is not resolved */
+    HD_SHARING_UNKNOWN, /**< standard errors are not yet known, or too large to tell */
+    HD_SHARING_MIXING,  /**< exponents differ, vectors have not had the time to part */
+    HD_SHARING_BLENDED, /**< exponents differ, vectors have had the time and mix all the same: their
+                             growth fluctuates by more than it differs */
+    /** An exponent next to it is the same within three standard errors, at most 3 % of it */
+    HD_SHARING_COINCIDENT
+} hd_sharing;
+
 /** One kind of field at one wave vector, with the vectors that were found for it; or the zero
  * modes. */
 typedef struct hd_step {
@@ -25,6 +36,13 @@ typedef struct hd_step {
     double multiplicity; /**< measured: trace of the projection onto its fields over its set */
     double exponent;  /**< mean over the set, each vector by its share in this step [1/time unit] */
     double std_error; /**< of it; negative if not yet known */
+    /** Of the set: its steps, in the order of their exponents, each have columns of their own. */
+    hd_sharing sharing;
+    double set_time; /**< averaged time since the set has had these members [time units] */
+    double own_part; /**< of the step's weight in its set, in its own columns: 1 if alone, its part
+                        of the set's columns if all are mixed */
+    double gap; /**< of the mean exponents of its own columns and those next to them; 0 if alone */
+    double gap_error; /**< of it; negative if not yet known, 0 if alone */
 } hd_step;
 
 /** lambda = c k + c2 k^2, least squares weighted with the errors of the resolved steps. The errors

@@ -185,13 +185,13 @@ static bool is_flat(const hd_spectrum *spectrum, const hd_set *set)
 /** The member of a set that is found worst, as a part of what its threshold asks for. */
 static int weakest(const hd_sets *sets, int set, double *part)
 {
+    const double least = hd_sets_threshold(sets->rows, sets->set[set].count);
     int worst = -1;
     *part = INFINITY;
     for (int s = 0; s < sets->subspaces; s++) {
         if (sets->of[s] != set) continue;
         const int d = dimension(sets, s);
-        const double found = hd_sets_trace(sets, s, &sets->set[set]) /
-                             (d * hd_sets_threshold(sets->rows, d));
+        const double found = hd_sets_trace(sets, s, &sets->set[set]) / (d * least);
         if (worst >= 0 && !(found < *part)) continue;
         worst = s;
         *part = found;

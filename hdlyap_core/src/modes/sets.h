@@ -45,9 +45,10 @@ void hd_sets_weigh(hd_sets *sets, int set, hd_half half);
 /** Trace of the projection onto subspace s over a set. */
 double hd_sets_trace(const hd_sets *sets, int s, const hd_set *set);
 
-/** Least weight that counts as found in d of `rows` / 2 dimensions: random vectors have chance = 2
- * d / rows on average, of the rest HD_SET_THRESHOLD is asked; INFINITY where chance is above 1/2.
- */
+/** Least part of what is expected that counts as found, with d of `rows` / 2 dimensions: of a
+ * vector in the fields of d dimensions, or of any subspace in a window of d columns. Random vectors
+ * have chance = 2 d / rows of it on average, of the rest HD_SET_THRESHOLD is asked; INFINITY where
+ * chance is above 1/2. */
 double hd_sets_threshold(int rows, int d);
 
 #endif

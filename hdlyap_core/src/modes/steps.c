@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "modes/archived.h"
 #include "modes/sets.h"
+#include "modes/sharing.h"
 
 struct hd_steps {
     const hd_modes *modes;
@@ -17,11 +18,13 @@ struct hd_steps {
     hd_sets sets;
     int zero_first, zero_end; /**< columns of the zero modes carried */
     int subspaces, count, vectors;
-    int rows;       /**< 4N */
-    hd_step *step;  /**< [count] */
-    int *of_vector; /**< [vectors] */
-    double *share;  /**< [count][HD_SET_VECTORS_MAX]: of each vector of the set in this step */
-    hd_part *parts; /**< [count * HD_SET_VECTORS_MAX], workspace */
+    int rows;            /**< 4N */
+    hd_step *step;       /**< [count] */
+    int *of_vector;      /**< [vectors] */
+    double *share;       /**< [count][HD_SET_VECTORS_MAX]: of each vector of the set in this step */
+    hd_part *parts;      /**< [count * HD_SET_VECTORS_MAX], workspace */
+    hd_company *company; /**< [count] */
+    double warmup;       /**< of the frame, before any average */
 };
 
 /* ---- creation ------------------------------------------------------------------------------ */
@@ -43,7 +46,9 @@ static hd_status steps_allocate(hd_steps *steps)
     steps->of_vector = hd_memory_alloc(n, sizeof *steps->of_vector);
     steps->share = hd_memory_alloc(count * HD_SET_VECTORS_MAX, sizeof *steps->share);
     steps->parts = hd_memory_alloc(count * HD_SET_VECTORS_MAX, sizeof *steps->parts);
-    if (!steps->step || !steps->of_vector || !steps->share || !steps->parts) return HD_NO_MEMORY;
+    steps->company = hd_memory_alloc(count, sizeof *steps->company);
+    if (!steps->step || !steps->of_vector || !steps->share || !steps->parts || !steps->company)
+        return HD_NO_MEMORY;
     return hd_sets_create(&steps->sets, steps->modes, steps->rows);
 }
 
@@ -69,6 +74,7 @@ hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def, const hd_mode
     steps->modes = modes;
     steps->vectors = hd_modes_vectors(modes);
     steps->rows = 4 * def->disks;
+    steps->warmup = def->warmup;
     steps->subspaces = hd_fields_subspaces(fields);
     const bool all = steps->vectors == 4 * def->disks;
     steps->count = steps->subspaces * (all ? 2 : 1) + 1;
@@ -95,6 +101,7 @@ void hd_steps_free(hd_steps *steps)
     hd_memory_free(steps->step);
     hd_sets_clear(&steps->sets);
     hd_memory_free(steps->parts);
+    hd_memory_free(steps->company);
     hd_memory_free(steps->of_vector);
     hd_memory_free(steps->share);
     hd_memory_free(steps);
@@ -107,6 +114,8 @@ static void step_forget(hd_step *step)
     step->count = step->members = 0;
     step->multiplicity = step->exponent = 0.0;
     step->std_error = -1.0;
+    step->sharing = HD_SHARING_ALONE;
+    step->set_time = step->own_part = step->gap = step->gap_error = 0.0;
 }
 
 static void steps_forget(hd_steps *steps)
@@ -115,7 +124,11 @@ static void steps_forget(hd_steps *steps)
     for (int col = 0; col < steps->vectors; col++) steps->of_vector[col] = -1;
 }
 
-void hd_steps_clear(hd_steps *steps) { steps_forget(steps); }
+void hd_steps_clear(hd_steps *steps)
+{
+    steps_forget(steps);
+    memset(steps->company, 0, (size_t)steps->count * sizeof *steps->company);
+}
 
 /* ---- steps --------------------------------------------------------------------------------- */
 
@@ -245,6 +258,8 @@ void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum)
         half_find(steps, spectrum, steps->negative, steps->subspaces + 1, &sets);
     for (int k = 0; k < steps->count; k++)
         if (steps->step[k].resolved) step_measure(steps, k, spectrum);
+    hd_sharing_find(steps->step, steps->company, steps->count, steps->modes, spectrum,
+                    steps->warmup + hd_spectrum_time(spectrum));
 }
 
 double hd_steps_threshold(void) { return HD_SET_THRESHOLD; }
@@ -278,6 +293,13 @@ static void step_archive(hd_steps *steps, hd_step *step, hd_archive *archive)
     hd_archive_double(archive, "step multiplicity", &step->multiplicity);
     hd_archive_double(archive, "step exponent", &step->exponent);
     hd_archive_double(archive, "step error", &step->std_error);
+    int sharing = (int)step->sharing;
+    hd_archive_int(archive, "step sharing", &sharing, HD_SHARING_ALONE, HD_SHARING_COINCIDENT);
+    step->sharing = (hd_sharing)sharing;
+    hd_archive_double(archive, "step set time", &step->set_time);
+    hd_archive_double(archive, "step own part", &step->own_part);
+    hd_archive_double(archive, "step gap", &step->gap);
+    hd_archive_double(archive, "step gap error", &step->gap_error);
     const int least = step->kind == HD_MODE_ZERO ? 1 : step->expected;
     const bool whole = step->col >= 0 && step->count >= least && step->set >= 0 &&
                        step->col + step->count <= steps->vectors;
@@ -290,6 +312,7 @@ void hd_steps_archive(hd_steps *steps, hd_archive *archive)
 {
     const size_t count = (size_t)steps->count;
     for (size_t k = 0; k < count; k++) step_archive(steps, &steps->step[k], archive);
+    for (size_t k = 0; k < count; k++) hd_company_archive(&steps->company[k], archive);
     hd_archive_doubles(archive, "steps share", steps->share, count * HD_SET_VECTORS_MAX);
     hd_archive_of_ints(archive, "steps of vector", (size_t)steps->vectors);
     for (int col = 0; col < steps->vectors; col++)

@@ -274,7 +274,8 @@ hd_status hd_run_read(hd_run **out, hd_archive *archive, const hd_scene_def *sce
     int threads = 1;
     *out = NULL;
     HD_TRY(read_head(&head, archive, message, size));
-    const hd_scene_def asked = scene ? *scene : head.scene;
+    hd_scene_def asked = scene ? *scene : head.scene;
+    asked.warmup = hd_scene_warmup(&asked);
     hd_archive_int(archive, "run threads", &threads, 1, INT_MAX);
     HD_TRY(check_same(&asked, &head.scene, message, size));
     if (!holds(archive, &head.scene)) return inconsistent(archive, message, size);

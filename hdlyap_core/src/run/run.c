@@ -138,6 +138,7 @@ hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, si
     hd_run *run = hd_memory_alloc(1, sizeof *run);
     if (!run) return HD_NO_MEMORY;
     run->scene = *def;
+    run->scene.warmup = hd_scene_warmup(def);
     run->clocks.created = hd_clock_now();
     const hd_status status = prepare(run, message, size);
     if (status != HD_OK) {

@@ -9,6 +9,7 @@ static const hd_parameter_word hd_exponents_words[] = {{"positive", HD_EXPONENTS
                                                        {"all", HD_EXPONENTS_ALL},
                                                        {"none", HD_EXPONENTS_NONE},
                                                        {NULL, 0}};
+static const hd_parameter_word hd_warmup_words[] = {{"auto", HD_WARMUP_AUTO}, {NULL, 0}};
 static const hd_parameter_word hd_interval_words[] = {{"auto", 0}, {NULL, 0}};
 static const hd_parameter_word hd_storage_words[] = {
     {"memory", HD_STORAGE_MEMORY}, {"recompute", HD_STORAGE_RECOMPUTE}, {NULL, 0}};
@@ -63,6 +64,13 @@ const char *hd_parameter_word_of(const hd_parameter *row, int value)
     for (const hd_parameter_word *w = row->words; w && w->word; w++)
         if (w->value == value) return w->word;
     return NULL;
+}
+
+bool hd_parameter_is_word(const hd_parameter *row, double value)
+{
+    for (const hd_parameter_word *w = row->words; w && w->word; w++)
+        if (w->value == value) return true;
+    return false;
 }
 
 bool hd_parameter_value_of(int *value, const hd_parameter *row, const char *word)

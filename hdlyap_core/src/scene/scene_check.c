@@ -24,7 +24,7 @@ static hd_status refuse_value(const hd_parameter *row, const hd_scene_def *def, 
 static bool is_in_range(const hd_parameter *row, double value)
 {
     if (row->kind == HD_PARAMETER_SEED || row->kind == HD_PARAMETER_EXPONENTS) return true;
-    if (row->kind == HD_PARAMETER_INTERVAL && value == 0.0) return true;
+    if (row->kind == HD_PARAMETER_INTERVAL && hd_parameter_is_word(row, value)) return true;
     return value >= row->least && value <= row->most;
 }
 
@@ -96,7 +96,7 @@ static hd_status check_covariant(const hd_scene_def *def, char *message, size_t 
         return hd_refuse(message, size,
                          "covariant_sampling = %.15g: must be from 1e-6 to covariant_window",
                          def->covariant_sampling);
-    if (!(def->warmup >= transient))
+    if (!(hd_scene_warmup(def) >= transient))
         return hd_refuse(message, size,
                          "warmup = %.15g: must be at least covariant_transient = %.15g: vectors "
                          "converge forwards no "

@@ -24,8 +24,9 @@ typedef struct hdr_publisher hdr_publisher;
  * message. The publishers belong to the node and live as long as it does. Advertising fails with
  * HDR_FAULT or HDR_NO_MEMORY.
  *
- * The message is serialised before _publish returns and never waited for. Without a subscriber and
- * without latching it does nothing. HDR_FAULT if the publisher is of another type; HDR_NO_MEMORY.
+ * The message is serialised before _publish returns and not waited for, but for hdr_publisher_wait.
+ * Without a subscriber and without latching it does nothing. HDR_FAULT if the publisher is of
+ * another type; HDR_NO_MEMORY.
  */
 #define HDR_PUBLISHER(type)                                                                        \
     HDR_MUST_CHECK hdr_status type##_advertise(hdr_publisher **out, hdr_node *node,                \
@@ -48,12 +49,19 @@ HDR_MUST_CHECK hdr_status hdr_publishers_registered(int registered[],
                                                     hdr_publisher *const publishers[], int count,
                                                     double seconds);
 
+/** From now on _publish waits rather than that a message is lost: while it is 96 messages (as many
+ * as surely fit the queue of rosbag's recorder) ahead of what a subscriber of roscpp had read 0.1 s
+ * before, and while the queue for another one is full. It waits 5 s for one that reads nothing, and
+ * 5 s for a queue; then it goes on with a warning, and counts what is lost. It does not wait once a
+ * stop is requested. HDR_NO_MEMORY. */
+HDR_MUST_CHECK hdr_status hdr_publisher_wait(hdr_publisher *publisher);
+
 /** How far the slowest subscriber is behind; what waits in buffers of the kernel does not count. */
 typedef struct hdr_lag {
     const char *topic; /**< resolved and remapped; as long as the publisher lives */
-    double seconds;    /**< that a message waits, or has waited; 0 if none does now */
+    double seconds;    /**< that a message waits; 0 if none does now */
     int messages;      /**< published meanwhile, with that one */
-    bool losing;       /**< as many as the queue holds: the oldest are lost */
+    int64_t lost; /**< messages so far: by queues here, and by those of subscribers that say so */
 } hdr_lag;
 
 /** May be called by any thread, the more often the more exactly; does not wait. */

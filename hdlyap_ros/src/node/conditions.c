@@ -2,6 +2,7 @@
  * or keeps is no longer right. WARN: the numbers are right, but not what was hoped for. */
 #include "conditions.h"
 
+#include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -51,9 +52,11 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
             "errors of the smallest exponents do not fall: %.2g after %.3g averaged, %.2g after "
             "%.3g",
             since.error, since.time, last->error, last->time);
-    if (slowest->seconds >= behind_seconds || slowest->losing)
-        add(all, level, "a subscriber of %s is %.1f s behind%s", slowest->topic, slowest->seconds,
-            slowest->losing ? " and loses messages" : "");
+    if (slowest->seconds >= behind_seconds)
+        add(all, level, "a subscriber of %s is %.1f s behind", slowest->topic, slowest->seconds);
+    if (slowest->lost > 0)
+        add(all, level, "subscribers of %s have lost %" PRId64 " messages", slowest->topic,
+            slowest->lost);
 }
 
 conditions conditions_of(const worker_state *state, const hdr_lag *slowest, bool repaired)

@@ -109,6 +109,7 @@ static void fill_watched(key_list *list, const worker_state *state, const hdr_la
     }
     add_number(list, "seconds that a subscriber is behind", slowest->seconds);
     if (*slowest->topic) add_text(list, "topic that it is behind in", slowest->topic);
+    add_number(list, "lost messages", (double)slowest->lost);
 }
 
 static bool was_repaired(diagnostics *d, const worker_state *state, double now)

@@ -135,7 +135,13 @@ static bool fill_step(hdr_step *out, const hd_step *step)
     out->members = (uint32_t)step->members;
     out->exponent = step->exponent;
     out->std_error = error_of(step->std_error);
-    return isfinite(step->multiplicity + step->exponent + step->std_error);
+    out->sharing = (uint8_t)step->sharing;
+    out->set_time = step->set_time;
+    out->own_part = step->own_part;
+    out->gap = step->gap;
+    out->gap_error = error_of(step->gap_error);
+    return isfinite(step->multiplicity + step->exponent + step->std_error + step->own_part +
+                    step->gap + step->gap_error);
 }
 
 static bool fill_phase(hdr_lp_phase *out, const hd_lp_phase *phase, const hd_steps *steps)
@@ -205,7 +211,8 @@ static bool fill_steps(mode_report *m, hdr_steps *message, const hd_run *run)
 {
     const hd_steps *steps = hd_run_steps(run);
     const hd_phases *phases = hd_run_phases(run);
-    const hd_velocity none = {.v_error = -1.0, .misfit = -1.0}, v = phases ? hd_phases_velocity(phases) : none;
+    const hd_velocity none = {.v_error = -1.0, .misfit = -1.0},
+                      v = phases ? hd_phases_velocity(phases) : none;
     const hd_dispersion t = hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_T);
     const hd_dispersion l = hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_LP);
     *message = (hdr_steps){

@@ -56,6 +56,7 @@ hdr_status publishers_advertise(publishers *out, hdr_node *ros, unsigned set,
         snprintf(name, sizeof name, "~%s", topic_name(t));
         if (set & topic_bit(t))
             status = advertise[t](&out->publisher[t], ros, name, queue_length(doubles[t]));
+        if (out->publisher[t] && status == HDR_OK) status = hdr_publisher_wait(out->publisher[t]);
     }
     return status;
 }
@@ -71,7 +72,7 @@ unsigned publishers_subscribed(const publishers *out)
 
 static bool is_worse(hdr_lag a, hdr_lag b)
 {
-    return a.losing != b.losing ? a.losing : a.seconds > b.seconds;
+    return a.lost != b.lost ? a.lost > b.lost : a.seconds > b.seconds;
 }
 
 hdr_lag publishers_lag(const publishers *out)

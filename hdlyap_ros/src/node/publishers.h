@@ -23,8 +23,8 @@ HDR_MUST_CHECK hdr_status publishers_advertise(publishers *out, hdr_node *ros, u
 /** Set of the topics that have a subscriber now. */
 unsigned publishers_subscribed(const publishers *out);
 
-/** Of the topic whose slowest subscriber is furthest behind, losing messages or else in time; topic
- * "" if nobody is. Any thread. */
+/** Of the topic that has lost most messages, or else whose slowest subscriber is furthest behind;
+ * topic "" if there is none. Any thread. */
 hdr_lag publishers_lag(const publishers *out);
 
 /** Name of the frame that positions are in. */

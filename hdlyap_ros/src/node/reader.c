@@ -92,8 +92,8 @@ static bool read_interval(const reader *r, const parameter *p, double *interval)
     const char *text = text_of(r);
     if (text && hd_parameter_value_of(&value, p->row, text)) return *interval = value, true;
     const hdr_status status = hdr_param_double(r->params, r->name, interval);
-    return status == HDR_MISSING || (status == HDR_OK && *interval > 0.0) ||
-           reader_refuse(r, p->allowed);
+    const bool number = status == HDR_OK && !hd_parameter_is_word(p->row, *interval);
+    return status == HDR_MISSING || number || reader_refuse(r, p->allowed);
 }
 
 static bool read_word(const reader *r, const parameter *p, int *value)

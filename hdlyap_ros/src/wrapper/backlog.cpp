@@ -2,52 +2,42 @@
 
 #include <algorithm>
 
-/** Owners here: newest, followed, or both; and roscpp, of the newest one. Lock held. */
-bool hdr_backlog::waits(const buffer &message) const
+/** Owners here: the list; and roscpp, of the newest one of a latched topic. Lock held. */
+bool hdr_backlog::waits(const entry &one) const
 {
-    const long here = (message == newest) * (1 + latched) + (message == followed);
-    return message && message.use_count() > here;
+    const long here = 1 + (latched && &one == &kept.back());
+    return one.message.use_count() > here;
 }
 
-/** What is gone has waited until it was last seen waiting, at least. Lock held. */
-void hdr_backlog::look(double now)
+/** Lock held. */
+void hdr_backlog::forget()
 {
-    if (!followed) return;
-    if (waits(followed)) {
-        wait.seconds = now - since;
-        wait.messages = static_cast<int>(count - first);
-        return;
-    }
-    past = wait;
-    followed.reset();
+    while (kept.size() > 1 && !waits(kept.front())) kept.pop_front();
+    if (kept.size() <= length) return;
+    const auto dropped = [this](const entry &one) { return !waits(one); };
+    const auto end = std::remove_if(kept.begin(), kept.end() - 1, dropped);
+    lost += kept.end() - 1 - end;
+    kept.erase(end, kept.end() - 1);
+}
+
+void hdr_backlog::count()
+{
+    const std::lock_guard<std::mutex> guard(lock);
+    published++;
 }
 
 void hdr_backlog::add(const buffer &message, double now)
 {
     const std::lock_guard<std::mutex> guard(lock);
-    count++;
-    look(now);
-    newest = message;
-    if (followed) return;
-    followed = message;
-    first = count - 1;
-    since = now;
-    wait = {};
+    if (!message) return;
+    kept.push_back({message, now});
+    forget();
 }
 
-bool hdr_backlog::empty() const
+hdr_backlog::numbers hdr_backlog::look(double now)
 {
     const std::lock_guard<std::mutex> guard(lock);
-    return !waits(newest);
-}
-
-hdr_lag hdr_backlog::lag(double now)
-{
-    const std::lock_guard<std::mutex> guard(lock);
-    look(now);
-    hdr_lag longer = {};
-    if (!waits(newest)) return longer;
-    longer.seconds = std::max(wait.seconds, past.seconds);
-    longer.messages = std::max(wait.messages, past.messages);
-    return longer;
+    forget();
+    if (kept.empty() || !waits(kept.front())) return {published, lost, 0, 0.0};
+    return {published, lost, static_cast<int>(kept.size()), now - kept.front().since};
 }

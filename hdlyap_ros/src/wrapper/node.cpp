@@ -70,10 +70,11 @@ std::vector<std::unique_ptr<hdr_subscriber>> unsubscribe(hdr_node &node)
     return all;
 }
 
-bool drained(const hdr_node &node)
+bool drained(hdr_node &node)
 {
     return std::all_of(node.publishers.begin(), node.publishers.end(),
-                       [](const auto &publisher) { return publisher->backlog.empty(); });
+                       [](const auto &each) { return each->backlog->look().waiting == 0; }) &&
+           node.readers.have_read_all();
 }
 
 bool has_subscribers(const hdr_node &node)
@@ -94,7 +95,7 @@ void one_line(char *text)
     }
 }
 
-void drain(const hdr_node &node, double linger)
+void drain(hdr_node &node, double linger)
 {
     double after_stop = linger_after_stop;
     for (; linger > 0 && after_stop > 0 && !drained(node); linger -= poll_seconds) {
@@ -138,6 +139,8 @@ void hdr_node_free(hdr_node *node, double linger)
         const std::unique_ptr<hdr_node> owned(node);
         const auto ended = unsubscribe(*node); /* callbacks publish, too */
         drain(*node, linger);
+        node->readers.say_lost();
+        node->readers.end();
         node->spinner.stop();
         ros::shutdown();
     });

@@ -11,15 +11,18 @@
 
 #include "backlog.hpp"
 #include "hdlyap_ros/node.h"
+#include "readers.hpp"
 
 struct hdr_publisher {
-    explicit hdr_publisher(bool latched) : backlog(latched) {}
-
     ros::Publisher publisher;
     std::string topic;
     std::string datatype;
     int queue;
-    hdr_backlog backlog;
+    std::shared_ptr<hdr_backlog> backlog;
+    hdr_node *node;
+    bool patient = false;   /**< waits rather than that a message is lost */
+    bool exhausted = false; /**< its patience for who leaves the queue full */
+    double waited = 0.0;    /**< for them [s] */
 };
 
 struct hdr_subscriber {
@@ -36,6 +39,7 @@ struct hdr_node {
     ros::NodeHandle handle;
     ros::AsyncSpinner spinner{1};
     std::string name;
+    hdr_readers readers;
     std::vector<std::unique_ptr<hdr_publisher>> publishers;
     std::vector<ros::ServiceServer> services;
     ros::Publisher frame; /**< of /tf_static */

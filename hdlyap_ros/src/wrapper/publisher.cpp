@@ -48,12 +48,20 @@ hdr_status advertise(hdr_publisher **out, hdr_node *node, const char *topic, int
     using type = typename hdlyap_ros::message_of<Message>::type;
     *out = nullptr;
     return hdr_guard([&] {
-        std::unique_ptr<hdr_publisher> made(new hdr_publisher(latch));
+        const auto on_connect = [node](const ros::SingleSubscriberPublisher &one) {
+            const std::string name = one.getSubscriberName();
+            hdr_guard([&] { node->readers.add(name); }); /* without memory it is not asked */
+        };
+        std::unique_ptr<hdr_publisher> made(new hdr_publisher);
         made->topic = ros::names::resolve(topic);
         made->datatype = ros::message_traits::datatype<type>();
         made->queue = queue;
-        made->publisher = node->handle.advertise<type>(made->topic,
-                                                       queue_length(made->topic, queue), latch);
+        made->node = node;
+        const uint32_t length = queue_length(made->topic, queue);
+        made->backlog = std::make_shared<hdr_backlog>(length, latch);
+        made->publisher = node->handle.advertise<type>(
+            made->topic, length, queue > 1 ? on_connect : ros::SubscriberStatusCallback(), {}, {},
+            latch);
         if (!made->publisher) throw_of_another_type(made->topic, made->datatype);
         node->publishers.push_back(std::move(made));
         *out = node->publishers.back().get();
@@ -80,6 +88,8 @@ double seconds_now()
 template <class Message> void send(hdr_publisher &publisher, const Message &message)
 {
     const hdlyap_ros::sent<Message> out = {message};
+    if (publisher.patient) publisher.node->readers.wait(publisher);
+    publisher.backlog->count();
     const auto serialise = [&out] { return ros::serialization::serializeMessage(out); };
     ros::SerializedMessage bytes;
     if (publisher.publisher.isLatched()) {
@@ -88,7 +98,7 @@ template <class Message> void send(hdr_publisher &publisher, const Message &mess
     } else {
         ros::TopicManager::instance()->publish(publisher.topic, serialise, bytes);
     }
-    publisher.backlog.add(bytes.buf, seconds_now());
+    publisher.backlog->add(bytes.buf, seconds_now());
 }
 
 template <class Message> hdr_status publish(hdr_publisher *publisher, const Message *message)
@@ -136,11 +146,19 @@ int hdr_publisher_subscribers(const hdr_publisher *publisher)
     return status == HDR_OK ? subscribers : 0;
 }
 
+hdr_status hdr_publisher_wait(hdr_publisher *publisher)
+{
+    return hdr_guard([publisher] {
+        publisher->node->readers.watch(*publisher);
+        publisher->patient = true;
+    });
+}
+
 hdr_lag hdr_publisher_lag(hdr_publisher *publisher)
 {
-    hdr_lag lag = publisher->backlog.lag(seconds_now());
-    lag.topic = publisher->topic.c_str();
+    const hdr_backlog::numbers now = publisher->backlog->look(seconds_now());
+    hdr_lag lag = {publisher->topic.c_str(), now.seconds, now.waiting, 0};
     /* a queue of one is meant to lose what is old */
-    lag.losing = publisher->queue > 1 && lag.messages >= publisher->queue;
+    if (publisher->queue > 1) lag.lost = now.lost + publisher->node->readers.lost(publisher->topic);
     return lag;
 }

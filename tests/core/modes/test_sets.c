@@ -123,6 +123,51 @@ static void chance_does_not_resolve_a_step(void **state)
     assert_true(between > 5 && resolved > 5);
 }
 
+/** Random vectors have d / 2N of their weight in d dimensions, each: a window of D columns has the
+ * trace D d / 2N, however many of them belong to the subspace. */
+static void chance_grows_with_the_window(void **state)
+{
+    (void)state;
+    enum { DRAWS = 400, COLUMNS = 12 };
+    hd_scene_def def = scene_of(12, 0.5, 0.8, P, P, 4);
+    def.max_mode_number = 1;
+    world w = world_create(&def, COLUMNS, 1);
+    for (int k = 0; k < PLACES; k++) {
+        const int s = subspace_of(&w, k), d = world_dimension(&w, s);
+        double sum = 0.0;
+        hd_modes_clear(w.modes);
+        for (int draw = 0; draw < DRAWS; draw++) {
+            world_noise(&w);
+            world_look(&w);
+        }
+        for (int col = 0; col < COLUMNS; col++) sum += hd_modes_average(w.modes, s, HD_WEIGHT)[col];
+        CHECK_CLOSE(sum, COLUMNS * d / 24.0, 0.04 * COLUMNS * d / 24.0);
+    }
+    world_free(&w);
+}
+
+/** Twelve disks: two steps in a window of 8 to 12 columns have 1/3 to 1/2 of what is expected by
+ * chance alone. Were each held against its own 2, 4 or 8 dimensions, 2517 steps would be found. */
+static void chance_resolves_no_shared_set(void **state)
+{
+    (void)state;
+    hd_scene_def def = scene_of(12, 0.5, 0.8, P, P, 4);
+    def.max_mode_number = 1;
+    world w = world_create(&def, 21, 1);
+    double exponents[VECTORS];
+    int shared = 0;
+    exponents_flat(exponents, 0, 21, 0.4);
+    for (int draw = 0; draw < 2000; draw++) {
+        world_noise(&w);
+        hd_modes_clear(w.modes);
+        hd_spectrum_clear(w.spectrum);
+        world_find(&w, exponents);
+        for (int k = 0; k < PLACES; k++) shared += step_of(&w, k)->members > 1;
+    }
+    assert_int_equal(shared, 0);
+    world_free(&w);
+}
+
 /** Three disks: any four vectors look like LP(1,0), whose fields fill 4 of 6 dimensions. */
 static void fields_that_fill_the_space_name_nothing(void **state)
 {
@@ -374,6 +419,8 @@ int main(void)
         cmocka_unit_test(noise_has_no_name),
         cmocka_unit_test(weak_steps_are_not_resolved),
         cmocka_unit_test(chance_does_not_resolve_a_step),
+        cmocka_unit_test(chance_grows_with_the_window),
+        cmocka_unit_test(chance_resolves_no_shared_set),
         cmocka_unit_test(fields_that_fill_the_space_name_nothing),
         cmocka_unit_test(a_stranger_in_a_step_stays_unnamed),
         cmocka_unit_test(what_is_not_flat_is_not_resolved),

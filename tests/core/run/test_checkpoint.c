@@ -80,6 +80,11 @@ static void expect_same_steps(const hd_steps *a, const hd_steps *b)
         CHECK_CLOSE(x->multiplicity, y->multiplicity, 0.0);
         CHECK_CLOSE(x->exponent, y->exponent, 0.0);
         CHECK_CLOSE(x->std_error, y->std_error, 0.0);
+        assert_int_equal(x->sharing, y->sharing);
+        CHECK_CLOSE(x->set_time, y->set_time, 0.0);
+        CHECK_CLOSE(x->own_part, y->own_part, 0.0);
+        CHECK_CLOSE(x->gap, y->gap, 0.0);
+        CHECK_CLOSE(x->gap_error, y->gap_error, 0.0);
     }
 }
 

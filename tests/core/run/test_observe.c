@@ -300,6 +300,7 @@ static void longer_pieces_lose_no_phase(void **state)
     hd_scene_def scene = hd_scene_def_default();
     scene.disks = 200;
     scene.aspect = 0.2;
+    scene.warmup = 50.0;
     scene.duration = 14.0;
     scene.report_interval = 2.0;
     scene.observe = EVERYTHING;

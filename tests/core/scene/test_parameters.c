@@ -83,7 +83,8 @@ static void defaults_are_in_range_and_values_come_back(void **state)
     const hd_scene_def usual = hd_scene_def_default();
     for (int k = 0; k < count; k++) {
         const hd_parameter *row = &rows[k];
-        const bool automatic = row->kind == HD_PARAMETER_INTERVAL && row->usual == 0.0;
+        const bool automatic = row->kind == HD_PARAMETER_INTERVAL &&
+                               hd_parameter_is_word(row, row->usual);
         hd_scene_def def = usual;
         CHECK_CLOSE(hd_parameter_value(row, &usual), row->usual, 0.0);
         assert_true(automatic || (row->usual >= row->least && row->usual <= row->most));

@@ -40,6 +40,29 @@ static void default_is_the_papers(void **state)
     assert_int_equal(hd_scene_vectors(&def), 1557);
 }
 
+/** 3 / (0.05 c_T k): 100 time units in the paper's scene, more in larger boxes. */
+static void the_warm_up_follows_from_the_smallest_step(void **state)
+{
+    (void)state;
+    hd_scene_def def = hd_scene_def_default();
+    const double box = 33.535, slope = 3.28, first = 60.0 * box / (2.0 * 3.14159265 * slope);
+    CHECK_CLOSE(hd_scene_warmup(&def), first, 0.01 * first);
+    def.disks *= 4; /* twice as long */
+    CHECK_CLOSE(hd_scene_warmup(&def), 2.0 * first, 0.02 * first);
+    def.exponents = 3;
+    CHECK_CLOSE(hd_scene_warmup(&def), 50.0, 0.0);
+    def.exponents = HD_EXPONENTS_NONE;
+    CHECK_CLOSE(hd_scene_warmup(&def), 0.0, 0.0);
+    def.exponents = HD_EXPONENTS_ALL;
+    def.disks = 2; /* too few for any step */
+    def.density = 0.2;
+    CHECK_CLOSE(hd_scene_warmup(&def), 20.0, 0.0);
+    def.observe = HD_OBSERVE_COVARIANT;
+    CHECK_CLOSE(hd_scene_warmup(&def), def.covariant_transient, 0.0);
+    def.warmup = 7.0;
+    CHECK_CLOSE(hd_scene_warmup(&def), 7.0, 0.0);
+}
+
 /** What has a range of its own; covariant vectors' are checked where they are observed. */
 static bool has_range(const hd_parameter *row)
 {
@@ -75,7 +98,7 @@ static void real_parameters_out_of_range(void **state)
                                   -NAN,
                                   INFINITY,
                                   -INFINITY,
-                                  -1.0,
+                                  -2.0,
                                   -DBL_MAX,
                                   DBL_MAX};
         if (!has_range(row)) continue;
@@ -276,6 +299,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(default_is_the_papers),
+        cmocka_unit_test(the_warm_up_follows_from_the_smallest_step),
         cmocka_unit_test(real_parameters_out_of_range),
         cmocka_unit_test(real_parameters_at_the_ends_of_their_range),
         cmocka_unit_test(whole_fields_out_of_range),

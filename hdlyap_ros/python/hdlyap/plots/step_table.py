@@ -1,5 +1,7 @@
 """Recording -> the table of steps: what they are, their exponents, fits, LP dynamics, cost."""
 
+from hdlyap.msg import Step
+
 from . import paper, steps
 from .numbers import with_error
 from .phases import mean_omega
@@ -13,6 +15,11 @@ COLUMNS = (
     ('exponent', '>13'),
 )
 PAPER_COLUMNS = (('c k', '>8'), ('deviation', '>11'))
+SHARING = {
+    Step.SHARING_MIXING: 'mixing',
+    Step.SHARING_BLENDED: 'blended',
+    Step.SHARING_COINCIDENT: 'coincide',
+}
 FITS = (('T', 't', 't_points'), ('LP', 'l', 'l_points'))
 
 
@@ -71,7 +78,15 @@ def zero_cells(run):
 
 
 def _shared_cells(block):
-    return [block.name, block.indices, f'{block.multiplicity:.2f}', str(block.expected)]
+    said = sorted({SHARING.get(step.sharing, '') for step in block.steps} - {''})
+    return [
+        block.name,
+        block.indices,
+        f'{block.multiplicity:.2f}',
+        str(block.expected),
+        '',
+        ', '.join(said),
+    ]
 
 
 def _cells(block, step, fitted):

@@ -9,9 +9,9 @@ import time
 
 import rospy
 
+from hdlyap import signals
 from hdlyap.msg import RunStatus
 
-from . import signals
 from .bag import Bag
 from .master import Master, MasterError
 from .tree import Tree, end

@@ -1,0 +1,369 @@
+/** roscpp's subscribers read a message from their socket at once, into a queue that may be short
+ * (100 messages of each topic in rosbag), and drop what finds no room there: a full socket does not
+ * hold the sender up. So no more is sent than that queue holds ahead of what they had read, by
+ * their own word (getBusStats), a moment ago. rospy's read only what they have room for. */
+#include "readers.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <thread>
+#include <utility>
+
+#include <ros/network.h>
+#include <ros/publication.h>
+#include <ros/topic_manager.h>
+#include <ros/xmlrpc_manager.h>
+
+#include "guard.hpp"
+#include "node.hpp"
+
+namespace
+{
+using clock_type = std::chrono::steady_clock;
+
+/** rosbag's queue, but for messages that a topic begins with. */
+const int window = 96;
+/** After so many more they are asked again: the answer comes long before the window is full. */
+const int ask_every = 12;
+/** What was read so long ago has left the subscriber's queue [s]: threads of a busy machine stand
+ * still for some hundredths. */
+const double settle_seconds = 0.1;
+/** How long one that does not read, and a queue that does not empty, are waited for [s]. */
+const double patience_seconds = 5.0;
+const std::chrono::milliseconds poll_time{2};
+/** Before each question. */
+const std::chrono::milliseconds rest_time{1};
+const size_t readers_max = 64;
+
+double seconds_since(clock_type::time_point begin)
+{
+    return std::chrono::duration<double>(clock_type::now() - begin).count();
+}
+} // namespace
+
+struct hdr_readers::reader {
+    /** Its connection to one topic. */
+    struct link {
+        int id = -1;
+        int64_t before = 0; /**< published before it was made */
+        int64_t asked_at = 0;
+        int received = 0, settled = 0, lost = 0;
+        std::deque<std::pair<clock_type::time_point, int>> answers; /**< not settled yet */
+    };
+    std::string name;
+    std::map<std::string, link> links; /**< by topic, of those that are known */
+    std::condition_variable asked_for;
+    bool asked = true;
+    bool is_deaf = false;                             /**< is not waited for any more */
+    clock_type::time_point moved = clock_type::now(); /**< when it had last read something */
+};
+
+struct hdr_readers::common {
+    struct watched {
+        std::shared_ptr<hdr_backlog> backlog;
+        int window;
+    };
+    std::mutex lock, finding;
+    std::condition_variable answered;
+    std::map<std::string, watched> topics;
+    std::map<std::string, std::shared_ptr<reader>> readers;
+    std::map<std::string, std::map<std::string, int>> lost; /**< by topic and reader */
+    int exhausted = 0; /**< publishers that wait for a full queue no more */
+    bool ended = false;
+};
+
+namespace
+{
+using common = hdr_readers::common;
+using reader = hdr_readers::reader;
+
+/** Connection of a node to a topic: its number, and how many messages it was given. False if there
+ * is none. */
+bool find_link(int &id, int &given, const std::string &topic, const std::string &name)
+{
+    XmlRpc::XmlRpcValue info;
+    const ros::PublicationPtr publication = ros::TopicManager::instance()->lookupPublication(topic);
+    if (!publication) return false;
+    info.setSize(0);
+    publication->getInfo(info);
+    XmlRpc::XmlRpcValue stats = publication->getStats()[1];
+    for (int k = 0; k < info.size(); k++)
+        for (int j = 0; j < stats.size(); j++) {
+            id = info[k][0];
+            given = stats[j][3];
+            if (std::string(info[k][1]) == name && id == int(stats[j][0])) return true;
+        }
+    return false;
+}
+
+void note_loss(common &all, reader &one, const std::string &topic, int lost)
+{
+    int &known = all.lost[topic][one.name];
+    const int more = lost - one.links[topic].lost;
+    if (more > 0 && known == 0)
+        hdr_log(HDR_WARN, "%s loses messages of %s: its own queue was full", one.name.c_str(),
+                topic.c_str());
+    known += more;
+    one.links[topic].lost = lost;
+}
+
+/** Of one topic, as the reader has it: a list of its connections. False if it cannot say what it
+ * has dropped, as rospy's, which do not. Lock held. */
+bool take_topic(common &all, reader &one, const std::string &topic, XmlRpc::XmlRpcValue &links)
+{
+    int id = -1, given = 0;
+    if (links.size() == 0) return true;
+    const int received = links[0][2], lost = links[0][3];
+    if (lost < 0) return false;
+    if (!find_link(id, given, topic, one.name) || given < received) return true;
+    const common::watched &watched = all.topics[topic];
+    const int64_t published = watched.backlog->look().published;
+    reader::link &link = one.links[topic];
+    if (id != link.id) {
+        link = reader::link();
+        link.id = id;
+        link.before = published - given;
+    }
+    link.before = std::min(link.before, published - given); /* some are on their way to it */
+    link.asked_at = published;
+    if (received != link.received) {
+        one.moved = clock_type::now();
+        link.answers.emplace_back(one.moved, received);
+    }
+    link.received = received;
+    note_loss(all, one, topic, lost);
+    return true;
+}
+
+/** Messages of a topic that it has not read. Lock held. */
+int64_t unread(const common &all, const std::string &topic, const reader::link &link)
+{
+    return all.topics.at(topic).backlog->look().published - link.before - link.received;
+}
+
+/** Lock held. */
+bool has_read(const common &all, const reader &one, int but)
+{
+    return std::all_of(one.links.begin(), one.links.end(), [&](const auto &link) {
+        return unread(all, link.first, link.second) <= but;
+    });
+}
+
+/** What getBusStats says: publishers, subscribers; but for roscpp within a status, a text and this.
+ * False if it says too little. Lock held. */
+bool take(common &all, reader &one, XmlRpc::XmlRpcValue &answer)
+{
+    const bool is_bare = answer[0].getType() == XmlRpc::XmlRpcValue::TypeArray;
+    XmlRpc::XmlRpcValue &subscribed = is_bare ? answer[1] : answer[2][1];
+    for (int k = 0; k < subscribed.size(); k++) {
+        const std::string topic = subscribed[k][0];
+        if (all.topics.count(topic) && !take_topic(all, one, topic, subscribed[k][1])) return false;
+    }
+    if (one.is_deaf && has_read(all, one, window / 2)) {
+        one.is_deaf = false;
+        hdr_log(HDR_WARN, "%s reads again", one.name.c_str());
+    }
+    return true;
+}
+
+/** One at a time: roscpp keeps a connection to the master for each that it needed at once. */
+bool find(common &all, std::string &host, uint32_t &port, const std::string &name)
+{
+    const std::lock_guard<std::mutex> guard(all.finding);
+    XmlRpc::XmlRpcValue request, response, uri;
+    request[0] = ros::this_node::getName();
+    request[1] = name;
+    return ros::master::execute("lookupNode", request, response, uri, false) &&
+           ros::network::splitURI(uri, host, port);
+}
+
+/** Asks when it is to, until that makes no sense any more. */
+void ask(common &all, reader &one)
+{
+    std::string host;
+    uint32_t port;
+    XmlRpc::XmlRpcValue request;
+    request[0] = ros::this_node::getName();
+    if (!find(all, host, port, one.name)) return;
+    XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+    std::unique_lock<std::mutex> guard(all.lock);
+    for (;;) {
+        while (!one.asked && !all.ended) one.asked_for.wait(guard);
+        if (all.ended) return;
+        one.asked = false;
+        guard.unlock();
+        std::this_thread::sleep_for(rest_time);
+        XmlRpc::XmlRpcValue answer;
+        const bool said = client.execute("getBusStats", request, answer) && !client.isFault();
+        guard.lock();
+        if (all.ended || !said || !take(all, one, answer)) return;
+        all.answered.notify_all();
+    }
+}
+
+/** The thread of a reader. It is forgotten at the end: what connects later is new. */
+void follow(const std::shared_ptr<common> &all, const std::shared_ptr<reader> &one)
+{
+    hdr_guard([&] { ask(*all, *one); });
+    const std::lock_guard<std::mutex> guard(all->lock);
+    const auto found = all->readers.find(one->name);
+    if (found != all->readers.end() && found->second == one) all->readers.erase(found);
+    all->answered.notify_all();
+}
+
+/** Lock held. */
+void ask_soon(reader &one)
+{
+    one.asked = true;
+    one.asked_for.notify_one();
+}
+
+/** How many may be published. Lock held. */
+int64_t allowed(const common &all, const std::string &topic, reader::link &link)
+{
+    while (!link.answers.empty() && seconds_since(link.answers.front().first) >= settle_seconds) {
+        link.settled = link.answers.front().second;
+        link.answers.pop_front();
+    }
+    return link.before + link.settled + all.topics.at(topic).window;
+}
+
+/** The one that has not read enough of a topic, if any; asks those who may be soon. Lock held. */
+reader *slowest(common &all, const std::string &topic, int64_t published)
+{
+    reader *slow = nullptr;
+    for (const auto &named : all.readers) {
+        reader &one = *named.second;
+        const auto found = one.links.find(topic);
+        if (found == one.links.end()) continue;
+        const bool is_slow = !one.is_deaf && published >= allowed(all, topic, found->second);
+        const bool is_due = published >= found->second.asked_at + ask_every;
+        if (is_due || (is_slow && unread(all, topic, found->second) > 0)) ask_soon(one);
+        if (is_slow) slow = &one;
+    }
+    return slow;
+}
+
+/** A queue here is full: of one who reads too little, and cannot be asked. It is waited for as long
+ * as patience lasts, but no further publisher then waits for its queue too. Lock held. */
+bool waits_for_queue(common &all, hdr_publisher &publisher, const hdr_backlog::numbers &now,
+                     clock_type::time_point began)
+{
+    if (now.waiting == 0) {
+        all.exhausted -= publisher.exhausted;
+        publisher.exhausted = false;
+        publisher.waited = 0.0;
+    }
+    if (now.waiting < publisher.queue || publisher.exhausted) return false;
+    if (all.exhausted == 0 && publisher.waited + seconds_since(began) < patience_seconds)
+        return true;
+    publisher.exhausted = true;
+    all.exhausted++;
+    hdr_log(HDR_WARN,
+            "a subscriber of %s does not read: the run goes on, and what is oldest of %d "
+            "messages that wait is lost",
+            publisher.topic.c_str(), now.waiting);
+    return false;
+}
+
+/** Lock held. */
+bool waits_for(reader &one, clock_type::time_point began, const std::string &topic)
+{
+    if (seconds_since(std::max(began, one.moved)) < patience_seconds) return true;
+    one.is_deaf = true;
+    hdr_log(HDR_WARN,
+            "%s has read nothing of %s for %g s: the run goes on, and it may lose messages",
+            one.name.c_str(), topic.c_str(), patience_seconds);
+    return false;
+}
+} // namespace
+
+hdr_readers::hdr_readers() : all(std::make_shared<common>()) {}
+
+void hdr_readers::end()
+{
+    const std::lock_guard<std::mutex> guard(all->lock);
+    all->ended = true;
+    for (const auto &named : all->readers) named.second->asked_for.notify_one();
+}
+
+void hdr_readers::watch(const hdr_publisher &publisher)
+{
+    const std::lock_guard<std::mutex> guard(all->lock);
+    all->topics[publisher.topic] = {publisher.backlog, std::min(window, publisher.queue)};
+}
+
+void hdr_readers::add(const std::string &name)
+{
+    const std::lock_guard<std::mutex> guard(all->lock);
+    if (all->readers.size() >= readers_max) return;
+    std::shared_ptr<reader> &one = all->readers[name];
+    if (one) {
+        ask_soon(*one);
+        return;
+    }
+    one = std::make_shared<reader>();
+    one->name = name;
+    std::thread(follow, all, one).detach();
+}
+
+void hdr_readers::wait(hdr_publisher &publisher)
+{
+    const auto began = clock_type::now();
+    std::unique_lock<std::mutex> guard(all->lock);
+    bool full = false;
+    while (!hdr_stop_requested()) {
+        const hdr_backlog::numbers now = publisher.backlog->look();
+        reader *slow = slowest(*all, publisher.topic, now.published);
+        full = !slow && waits_for_queue(*all, publisher, now, began);
+        if (!full && !slow) break;
+        if (full || waits_for(*slow, began, publisher.topic))
+            all->answered.wait_for(guard, poll_time);
+    }
+    publisher.waited += full ? seconds_since(began) : 0.0;
+}
+
+bool hdr_readers::have_read_all()
+{
+    const std::lock_guard<std::mutex> guard(all->lock);
+    bool read = true;
+    for (const auto &named : all->readers) {
+        reader &one = *named.second;
+        if (one.is_deaf || has_read(*all, one, 0)) continue;
+        read = false;
+        ask_soon(one);
+    }
+    return read;
+}
+
+int64_t hdr_readers::lost(const std::string &topic)
+{
+    const std::lock_guard<std::mutex> guard(all->lock);
+    int64_t sum = 0;
+    for (const auto &named : all->lost[topic]) sum += named.second;
+    return sum;
+}
+
+void hdr_readers::say_lost()
+{
+    const std::lock_guard<std::mutex> guard(all->lock);
+    for (const auto &topic : all->topics) {
+        const hdr_backlog::numbers now = topic.second.backlog->look();
+        const char *name = topic.first.c_str();
+        if (now.lost > 0)
+            hdr_log(HDR_WARN,
+                    "%lld of %lld messages of %s were not sent to all: the queue was full",
+                    static_cast<long long>(now.lost), static_cast<long long>(now.published), name);
+        for (const auto &named : all->lost[topic.first])
+            if (named.second > 0)
+                hdr_log(HDR_WARN, "%s has lost %d of %lld messages of %s", named.first.c_str(),
+                        named.second, static_cast<long long>(now.published), name);
+    }
+    for (const auto &named : all->readers)
+        for (const auto &link : named.second->links) {
+            const long long left = unread(*all, link.first, link.second);
+            if (left > 0)
+                hdr_log(HDR_WARN, "%s has not read the last %lld messages of %s",
+                        named.first.c_str(), left, link.first.c_str());
+        }
+}

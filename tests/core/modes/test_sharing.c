@@ -1,0 +1,132 @@
+/** Steps in one set: the same exponent, or vectors that still mix. */
+#include "testing.h"
+
+#include "places.h"
+#include "scenes.h"
+
+enum { FIRST = 40, EACH = 4, SAMPLES = 256 };
+
+/** T(1,1) and LP(0,1) in columns 40 to 47, all turned at random: the exponents of the first four
+ * are above those of the others by `gap`. */
+static world mixed(double *exponents, double gap)
+{
+    const hd_scene_def def = scene_of_places(0.8);
+    world w = world_create(&def, VECTORS, 1);
+    const int both[] = {subspace_of(&w, 4), subspace_of(&w, 3)};
+    exponents_falling(&w, exponents);
+    exponents_flat(exponents, FIRST, EACH, 0.4 + 0.5 * gap);
+    exponents_flat(exponents, FIRST + EACH, EACH, 0.4 - 0.5 * gap);
+    world_span(&w, FIRST, both, 2, 0.0);
+    world_look(&w);
+    return w;
+}
+
+/** So many samples that scatter by `noise`, of one time unit each; then the steps. */
+static void go_on(world *w, const double *exponents, double noise, int samples)
+{
+    double sample[VECTORS];
+    for (int t = 0; t < samples; t++) {
+        for (int col = 0; col < VECTORS; col++)
+            sample[col] = exponents[col] + noise * (((t + col) * 37) % 64 / 32.0 - 63.0 / 64.0);
+        world_stretch(w, sample);
+    }
+    hd_steps_find(w->steps, w->spectrum);
+}
+
+static void check_sharing(double gap, double noise, int samples, hd_sharing expected)
+{
+    double exponents[VECTORS];
+    world w = mixed(exponents, gap);
+    go_on(&w, exponents, noise, samples);
+    for (int k = 3; k <= 4; k++) {
+        const hd_step *step = step_of(&w, k);
+        assert_int_equal(step->members, 2);
+        assert_int_equal(step->sharing, expected);
+        assert_true(samples < 16 ? step->gap_error < 0 : step->gap_error >= 0);
+        CHECK_CLOSE(step->gap, gap, fmax(3.0 * step->gap_error, 1e-12) + (samples < 16));
+        CHECK_CLOSE(step->own_part, 0.5, 0.35); /* of four vectors each, mixed at random */
+    }
+    world_free(&w);
+}
+
+/** The frame is as old as warm-up (50) and averages: 306 time units. */
+static void exponents_and_time_tell(void **state)
+{
+    (void)state;
+    check_sharing(0.0, 0.02, 8, HD_SHARING_UNKNOWN); /* no errors yet */
+    check_sharing(0.0, 1.5, SAMPLES, HD_SHARING_UNKNOWN);
+    check_sharing(0.0, 0.02, SAMPLES, HD_SHARING_COINCIDENT);
+    check_sharing(0.02, 0.02, SAMPLES, HD_SHARING_MIXING);
+    check_sharing(0.05, 0.02, SAMPLES, HD_SHARING_BLENDED);
+}
+
+static void who_is_alone_shares_nothing(void **state)
+{
+    (void)state;
+    double exponents[VECTORS];
+    world w = steps_in_place(exponents, 0.0);
+    world_look(&w);
+    go_on(&w, exponents, 0.02, SAMPLES);
+    for (int k = 0; k < PLACES; k++) {
+        const hd_step *step = step_of(&w, k);
+        assert_int_equal(step->sharing, HD_SHARING_ALONE);
+        CHECK_CLOSE(step->own_part, 1.0, 0.0);
+        CHECK_CLOSE(step->gap, 0.0, 0.0);
+        CHECK_CLOSE(step->gap_error, 0.0, 0.0);
+    }
+    world_free(&w);
+}
+
+/** Vectors that do not mix lie in their own columns: T, then LP; so the part tells how far they
+ * have parted. */
+static void own_columns_follow_the_exponents(void **state)
+{
+    (void)state;
+    double exponents[VECTORS];
+    world w = mixed(exponents, 0.02);
+    const int t = subspace_of(&w, 4), lp = subspace_of(&w, 3);
+    world_span(&w, FIRST, &t, 1, 0.0);
+    world_span(&w, FIRST + EACH, &lp, 1, 0.0);
+    for (int v = 0; v < EACH; v++) world_turn(&w, FIRST + v, FIRST + EACH + v, 0.6);
+    hd_modes_clear(w.modes);
+    world_look(&w);
+    go_on(&w, exponents, 0.02, SAMPLES);
+    assert_int_equal(step_of(&w, 4)->members, 2);
+    for (int k = 3; k <= 4; k++) CHECK_CLOSE(step_of(&w, k)->own_part, pow(cos(0.6), 2.0), 0.1);
+    world_free(&w);
+}
+
+static void time_counts_from_when_they_came_together(void **state)
+{
+    (void)state;
+    double exponents[VECTORS];
+    world w = mixed(exponents, 0.0);
+    go_on(&w, exponents, 0.02, 20);
+    CHECK_CLOSE(step_of(&w, 4)->set_time, 0.0, 0.0);
+    go_on(&w, exponents, 0.02, 30);
+    CHECK_CLOSE(step_of(&w, 4)->set_time, 30.0, 1e-9);
+    const int t = subspace_of(&w, 4), lp = subspace_of(&w, 3); /* they part */
+    world_span(&w, FIRST, &t, 1, 0.0);
+    world_span(&w, FIRST + EACH, &lp, 1, 0.0);
+    hd_modes_clear(w.modes);
+    world_look(&w);
+    go_on(&w, exponents, 0.02, 7);
+    assert_int_equal(step_of(&w, 4)->sharing, HD_SHARING_ALONE);
+    CHECK_CLOSE(step_of(&w, 4)->set_time, 0.0, 0.0);
+    go_on(&w, exponents, 0.02, 5);
+    CHECK_CLOSE(step_of(&w, 4)->set_time, 5.0, 1e-9);
+    hd_steps_clear(w.steps);
+    assert_int_equal(step_of(&w, 4)->sharing, HD_SHARING_ALONE);
+    world_free(&w);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exponents_and_time_tell),
+        cmocka_unit_test(who_is_alone_shares_nothing),
+        cmocka_unit_test(own_columns_follow_the_exponents),
+        cmocka_unit_test(time_counts_from_when_they_came_together),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
