@@ -409,7 +409,7 @@ def errors(tables):
     kinds = list(dict.fromkeys(_kind(row['quantity']) for row in rows))
     boxes = list(dict.fromkeys(row['box'] for row in rows))
     lengths = sorted({row['length'] for row in rows})
-    colours = dict(zip(boxes, (BLUE, GREEN, VERMILION, PURPLE, ORANGE, SKY)))
+    colours = dict(zip(boxes, (BLUE, GREEN, VERMILION, PURPLE, ORANGE, GREY, SKY)))
     markers = dict(zip(lengths, 'v^o'))
     figure, axes = plt.subplots(figsize=(6.4, 0.9 + 0.28 * len(kinds)))
     axes.axvspan(0.8, 1.25, color=LIGHT, alpha=0.5, lw=0)
@@ -424,7 +424,11 @@ def errors(tables):
         label = f'{length:g} time units'
         axes.plot([], [], linestyle='', marker=markers[length], color=INK, label=label)
     axes.set(xscale='log', xlabel='scatter over the seeds / stated error')
-    _plain_ticks(axes)
+    low, high = axes.get_xlim()
+    ticks = [tick for tick in (0.25, 0.5, 0.7, 0.8, 0.9, 1, 1.1, 1.25, 1.5, 2) if low < tick < high]
+    axes.set_xticks(ticks)
+    axes.set_xticklabels([f'{tick:g}' for tick in ticks])
+    axes.minorticks_off()
     axes.set_yticks(range(len(kinds)))
     axes.set_yticklabels(kinds)
     axes.invert_yaxis()
