@@ -45,6 +45,9 @@ class Launch(unittest.TestCase):
         params = dict(harness.defaults(), **params)
         params['exponents'] = str(params['exponents'])
         self.assertEqual(params.pop('interval'), 'auto')
+        if params['warmup'] == 'auto':
+            params['warmup'] = info.warmup  # chosen
+            self.assertGreaterEqual(info.warmup, 20.0 if info.vectors else 0.0)
         self.assertIn(params.pop('threads'), (0, info.threads))
         for name, value in params.items():
             self.assertEqual(getattr(info, name), value, name)
