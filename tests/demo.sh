@@ -80,7 +80,7 @@ check writes_all_files is_complete "$WORK/out" spectrum convergence steps disper
 check prints_the_table grep -q '^lambda_max' "$LOG"
 check names_a_step has_step 'T\(1,0\)'
 LOG=$WORK/channel.log
-check runs_a_channel gives_status 0 demo --scene narrow --duration 200 --out "$WORK/channel"
+check runs_a_channel gives_status 0 demo --scene narrow --duration 1200 --out "$WORK/channel"
 check names_an_lp_step has_step 'LP\(1,0\)'
 check writes_lp_figures is_complete "$WORK/channel" spectrum steps dispersion modes p_mode phases
 LOG=$WORK/second.log
