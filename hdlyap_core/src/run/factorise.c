@@ -16,8 +16,9 @@ static const double DEFECT_LOOSE = 1e-4;
 static const double DEFECT_MEASURED = 1e-6;
 /** Part of an interval's share of the accuracy that its square may be, as it too bounds a mean. */
 static const double DEFECT_SHARE = 0.1;
-/** Of an interval, beyond which dividing costs more than it saves [T6]. */
-enum { PIECES_MAX = 8 };
+/** Of an interval, beyond which dividing costs more than it saves [T6]; and beyond which what even
+ * reflections cannot factor is given up. */
+enum { PIECES_MAX = 8, PIECES_LAST = 512 };
 
 hd_status hd_run_replay(hd_run *run, double t_begin, double t_end)
 {
@@ -28,7 +29,7 @@ hd_status hd_run_replay(hd_run *run, double t_begin, double t_end)
     return HD_OK;
 }
 
-/** Pieces of the log that are taken back no more: a collision of each disk, or an eighth of an
+/** Pieces of the log that are factored by reflections: a collision of each disk, or an eighth of an
  * interval that is only a few collisions long. */
 static double shortest_piece(const hd_run *run)
 {
@@ -145,7 +146,7 @@ hd_status hd_run_factorise(hd_run *run)
                                                : end + piece; /* no crumb of rounding is left */
             continue;
         }
-        if (piece <= shortest_piece(run)) return HD_ILL_CONDITIONED;
+        if (piece <= duration / PIECES_LAST) return HD_ILL_CONDITIONED;
         run->cost.repairs += piece >= duration;
         run->cost.limit = HD_LIMIT_REPAIR;
         hd_interval_failed(&run->interval, piece);

@@ -181,6 +181,25 @@ static void exponents_pair_at_every_density(void **state)
     }
 }
 
+/** Each of these has an interval whose eighth stretches by more than 1e13. */
+static void several_grazes_in_an_interval_are_divided(void **state)
+{
+    (void)state;
+    const uint64_t seeds[] = {159, 284};
+    for (int k = 0; k < 2; k++) {
+        hd_scene_def scene = scene_of(3, 0.001, 1.0, HD_PERIODIC, HD_PERIODIC, seeds[k]);
+        const double time = 300.0 / (3.5 * scene.density);
+        hd_run *run;
+        scene.exponents = HD_EXPONENTS_ALL;
+        scene.equilibration = scene.warmup = 0.0;
+        scene.duration = scene.report_interval = time;
+        CHECK_OK(hd_run_create(&run, &scene, NULL, 0));
+        while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+        CHECK_CLOSE(hd_spectrum_pairing_error(hd_run_spectrum(run)) * time, 0.0, 12.0);
+        hd_run_free(run);
+    }
+}
+
 typedef struct channel {
     double width; /**< Ly - 1 */
     double gap;   /**< along the channel, per disk */
@@ -241,6 +260,7 @@ int main(void)
         cmocka_unit_test(thin_gas_collides_as_enskog_says),
         cmocka_unit_test(contact_within_rounding_at_the_start),
         cmocka_unit_test(exponents_pair_at_every_density),
+        cmocka_unit_test(several_grazes_in_an_interval_are_divided),
         cmocka_unit_test(single_file),
         cmocka_unit_test(several_images),
     };
