@@ -2,10 +2,12 @@
 
 import itertools
 import os
+import re
 import tempfile
 import tracemalloc
 import unittest
 
+import genpy.dynamic
 import numpy as np
 import rosbag
 import rospy
@@ -81,6 +83,36 @@ class Exponents(Bags):
         self.assertIn('h_KS / N        3.7', text)
         self.assertNotIn('pairing', text)
         self.assertNotIn('steps', text)
+
+    def test_a_bag_of_before(self):
+        """Its messages lack what came later."""
+        later = (
+            r'^(float64|uint8) (ks_entropy_error|\w_misfit|sharing|set_time|own_part|gap\w*) .*\n'
+        )
+        info = made.run_info()
+        messages = [
+            made.spectrum(np.linspace(3, 1, 37), 50.0),
+            made.steps([made.step(info, T, 1, 0, 36, 37), made.step(info, LP, 1, 0, 32, 35)]),
+        ]
+        self.write([info])
+        with rosbag.Bag(self.path, 'a') as bag:
+            for second, new in enumerate(messages, start=2):
+                text = re.sub(later, '', new._full_text, flags=re.MULTILINE)
+                self.assertLess(len(text), len(new._full_text))
+                made_of = genpy.dynamic.generate_dynamic(new._type, text)
+                fields = {name: getattr(new, name) for name in made_of[new._type].__slots__}
+                if new._type == 'hdlyap/Steps':
+                    step = made_of['hdlyap/Step']
+                    fields['steps'] = [
+                        step(**{name: getattr(one, name) for name in step.__slots__})
+                        for one in new.steps
+                    ]
+                topic = '/hdlyap/' + made.TOPICS[type(new)]
+                bag.write(topic, made_of[new._type](**fields), rospy.Time(second))
+        text = self.succeeds(SPECTRUM_FILES + files('dispersion', 'steps'))
+        self.assertRegex(text, r'h_KS +74\.0000\n')
+        self.assertRegex(text, r'c_T +1\.400\(12\)')
+        self.assertNotIn('misfit', text)
 
     def test_all_exponents(self):
         half = np.linspace(3, 1, 37)

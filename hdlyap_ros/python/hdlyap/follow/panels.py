@@ -78,7 +78,7 @@ def _numbers(view):
     if view.is_averaged and len(spectrum.exponents):
         yield 'lambda_max', _measured(spectrum.lambda_max, spectrum.std_errors[0])
         if len(spectrum.exponents) > 1 and view.info:
-            yield view.sum_name, _measured(spectrum.ks_entropy, spectrum.ks_entropy_error)
+            yield view.sum_name, _measured(spectrum.ks_entropy, view.sum_error)
         if spectrum.pairing_error >= 0:
             yield 'pairing error', f'{spectrum.pairing_error:.1e}'
     if message is None or message.averaged_time <= 0:

@@ -129,9 +129,7 @@ def _exponents(a, b):
 def _sum(a, b):
     """Of the positive exponents."""
     return Deviation(
-        a.sum_name,
-        (a.spectrum.ks_entropy, b.spectrum.ks_entropy),
-        (a.spectrum.ks_entropy_error, b.spectrum.ks_entropy_error),
+        a.sum_name, (a.spectrum.ks_entropy, b.spectrum.ks_entropy), (a.sum_error, b.sum_error)
     )
 
 

@@ -49,14 +49,14 @@ def _sums(recording):
     ]
     if recording.last_index >= recording.positive_end:
         lines += [
-            f'h_KS            {spectrum.ks_entropy:.4f}' + _error(spectrum.ks_entropy_error, 4),
+            f'h_KS            {spectrum.ks_entropy:.4f}' + _error(recording.sum_error, 4),
             f'h_KS / N        {spectrum.ks_entropy / disks:.6f}'
-            + _error(spectrum.ks_entropy_error / disks),
+            + _error(recording.sum_error / disks),
         ]
     elif len(spectrum.exponents) > 1:
         lines.append(
             f'sum of the {len(spectrum.exponents)} exponents carried {spectrum.ks_entropy:.4f}'
-            + _error(spectrum.ks_entropy_error, 4)
+            + _error(recording.sum_error, 4)
         )
     if spectrum.pairing_error >= 0:
         lines.append(f'pairing error   {spectrum.pairing_error:.2e}')

@@ -1,5 +1,7 @@
 """What is known of one run, whether it was recorded or still goes on."""
 
+from .numbers import stated
+
 
 class Run:
     """Its run_info, its last spectrum (None without exponents), its last steps and covariant
@@ -21,3 +23,8 @@ class Run:
     def sum_name(self):
         """Of the sum of the positive exponents carried."""
         return 'h_KS' if self.last_index >= self.positive_end else 'sum of exponents'
+
+    @property
+    def sum_error(self):
+        """Of that sum; -1 while not yet known."""
+        return stated(self.spectrum, 'ks_entropy_error')

@@ -3,7 +3,7 @@
 from hdlyap.msg import Step
 
 from . import paper, steps
-from .numbers import with_error
+from .numbers import stated, with_error
 from .phases import mean_omega
 
 WIDTH = 100  # of a line with a list of names
@@ -78,7 +78,7 @@ def zero_cells(run):
 
 
 def _shared_cells(block):
-    said = sorted({SHARING.get(step.sharing, '') for step in block.steps} - {''})
+    said = sorted({SHARING.get(stated(step, 'sharing'), '') for step in block.steps} - {''})
     return [
         block.name,
         block.indices,
@@ -154,7 +154,9 @@ def _fits(recording):
             message, letter, getattr(message, points), paper.branches(recording.info).get(kind)
         )
     velocity = with_error(message.v, message.v_error) if message.v_phases else 'not known'
-    of_phases = f'|omega| / k of {message.v_phases} LP phases' + _misfit(message.v_misfit)
+    of_phases = f'|omega| / k of {message.v_phases} LP phases' + _misfit(
+        stated(message, 'v_misfit')
+    )
     lines.append(f'  v     {velocity:<15}' + (of_phases if message.v_phases else ''))
     return '\n'.join(line.rstrip() for line in lines)
 
@@ -164,7 +166,7 @@ def _fit_lines(message, letter, points, branch):
     if not points:
         return [f'  c_{letter.upper()}   not known: no step resolved']
     waves = f'{points} wave number' + ('s' if points > 1 else '')
-    waves += _misfit(getattr(message, letter + '_misfit'))
+    waves += _misfit(stated(message, letter + '_misfit'))
     lines = []
     for suffix, published in (('', branch and branch.c), ('2', branch and branch.c2)):
         if suffix and points < 2:
