@@ -205,11 +205,15 @@ class Started(unittest.TestCase):
             own = 'ROS_MASTER_URI=http://localhost:%d' % harness.free_port()
             return ['env', own, harness.program('reproduce'), *out]
 
+        def command_of(pid):
+            try:
+                with open('/proc/%d/cmdline' % pid, 'rb') as file:
+                    return file.read()
+            except OSError:  # it has ended meanwhile
+                return b''
+
         def runs(process):
-            return any(
-                b'hdlyap_node' in open('/proc/%d/cmdline' % pid, 'rb').read()
-                for pid in self.ours(process.mark)
-            )
+            return any(b'hdlyap_node' in command_of(pid) for pid in self.ours(process.mark))
 
         self.check([('background', INT)], command, runs)
 
