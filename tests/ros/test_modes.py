@@ -5,6 +5,7 @@ import math
 import unittest
 
 from diagnostic_msgs.msg import DiagnosticArray
+import numpy as np
 import rospy
 import rostest
 
@@ -15,6 +16,67 @@ from hdlyap.msg import LpPhase, Mode
 REPORTS = 20  # of MODES, while averaging
 MESSAGE = {'fields': 'mode_field'}  # of topics that are named otherwise
 ROUNDING = 1e-9
+
+
+class Errors(unittest.TestCase):
+    """Fits and errors, of a run that is long enough for them: made again from the steps."""
+
+    @classmethod
+    def setUpClass(cls):
+        topics = ['spectrum', 'steps', 'lp_phases', 'cost']
+        scene = dict(disks=200, density=0.7, aspect=0.2, equilibration=20.0, warmup=50.0)
+        scene.update(duration=140.0, report_interval=10.0, max_mode_number=3)
+        messages = harness.whole_run(dict(scene, wait_for_subscribers=topics), topics)
+        cls.spectrum, cls.steps = messages['spectrum'][-1], messages['steps'][-1]
+
+    def check_fit(self, kind, points, c, c_error, c2, c2_error, misfit):
+        """With weights 1 / error^2. An error is at most that of steps that all move together."""
+        fitted = [s for s in self.steps.steps if s.resolved and s.kind == kind and s.ny == 0]
+        k, exponent, error = np.array(
+            [(s.wave_number, s.exponent, s.std_error) for s in fitted]
+        ).transpose()
+        self.assertEqual(points, len(fitted))
+        self.assertGreater(error.min(), 0.0)
+        powers = np.array([k, k * k][: 2 if points > 1 else 1]) / error
+        inverse = np.linalg.pinv(powers.transpose())
+        found = [c, c2][: len(powers)]
+        np.testing.assert_allclose(inverse @ (exponent / error), found, rtol=1e-9)
+        most = abs(inverse).sum(axis=1)
+        for value, bound in zip((c_error, c2_error), most):
+            self.assertGreater(value, 0.01 * bound)
+            self.assertLess(value, 1.5 * bound)  # blocks may be joined differently
+        freedom = points - len(powers)
+        off = exponent / error - found @ powers
+        want = math.sqrt(off @ off / freedom) if freedom else -1.0
+        self.assertAlmostEqual(misfit, want, delta=1e-6 * abs(want))
+        return freedom
+
+    def test_fits(self):
+        m = self.steps
+        of_t = self.check_fit(
+            Mode.T, m.t_points, m.c_t, m.c_t_error, m.c_t2, m.c_t2_error, m.t_misfit
+        )
+        of_l = self.check_fit(
+            Mode.LP, m.l_points, m.c_l, m.c_l_error, m.c_l2, m.c_l2_error, m.l_misfit
+        )
+        self.assertGreater(of_t, of_l)  # the one has a misfit, the other has none
+        self.assertTrue(0.0 < m.v_error < 0.05 * m.v and m.v_misfit >= 0.0)
+
+    def test_steps_that_are_alone(self):
+        found = [s for s in self.steps.steps if s.resolved]
+        self.assertGreater(len(found), 3)
+        for s in found:
+            self.assertEqual((s.members, s.sharing, s.own_part), (1, s.SHARING_ALONE, 1.0))
+            self.assertEqual((s.gap, s.gap_error), (0.0, 0.0))
+            self.assertTrue(0.0 <= s.set_time <= self.steps.averaged_time)
+
+    def test_entropy(self):
+        """Its error is less than that of exponents which all move together, and more than that of
+        some which do not at all."""
+        errors = np.array(self.spectrum.std_errors)
+        self.assertGreater(errors.min(), 0.0)
+        self.assertLess(self.spectrum.ks_entropy_error, errors.sum())
+        self.assertGreater(self.spectrum.ks_entropy_error, errors.max())
 
 
 class Agreement(unittest.TestCase):

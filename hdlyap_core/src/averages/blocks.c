@@ -146,7 +146,7 @@ double hd_deviations_error(double *deviation, int count, double rounding)
         count = joined(deviation, count);
     const double variance = variance_of(deviation, count);
     const double memory = count < FEW ? memory_of(deviation, count) : 0.0;
-    if (memory <= 1.0 / sqrt(count)) return sqrt(variance);
+    if (!(memory > 1.0 / sqrt(count))) return sqrt(variance); /* no number stays none */
     return memory <= MEMORY_MAX ? sqrt(variance * (1.0 + memory) / (1.0 - memory)) : -1.0;
 }
 

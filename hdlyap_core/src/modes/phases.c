@@ -398,7 +398,7 @@ hd_velocity hd_phases_velocity(const hd_phases *phases)
         const double error = rate_error(r) / r->wave_number;
         if (error < 0) continue;
         const double rate = r->turned / r->turning / r->wave_number;
-        const double w = 1.0 / fmax(error * error, VARIANCE_MIN);
+        const double w = 1.0 / (error * error < VARIANCE_MIN ? VARIANCE_MIN : error * error);
         out.phases += tracked(r);
         weights += w;
         steps++;

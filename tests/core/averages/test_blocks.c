@@ -158,6 +158,21 @@ static void a_constant_has_error_zero(void **state)
     hd_blocks_clear(&blocks);
 }
 
+/** In few blocks and in many: unknown is something else. */
+static void what_is_no_number_has_no_error(void **state)
+{
+    (void)state;
+    for (int samples = 20; samples <= 200; samples += 90) {
+        hd_blocks blocks;
+        CHECK_OK(hd_blocks_create(&blocks, 1, 0.0));
+        for (int k = 0; k < samples; k++)
+            hd_blocks_add(&blocks, &(double){k == 7 ? NAN : 1.0}, 1.0);
+        assert_true(isnan(error_of(&blocks, 0)));
+        assert_true(isnan(hd_blocks_error_of_turns(&blocks)));
+        hd_blocks_clear(&blocks);
+    }
+}
+
 /* ---- sums ---------------------------------------------------------------------------------- */
 
 /** x; y = -x; z, as large and on its own: what is added up knows what goes together. */
@@ -249,6 +264,7 @@ int main(void)
         cmocka_unit_test(few_samples_give_no_error),
         cmocka_unit_test(a_memory_as_long_as_the_series_gives_no_error),
         cmocka_unit_test(a_constant_has_error_zero),
+        cmocka_unit_test(what_is_no_number_has_no_error),
         cmocka_unit_test(sums_know_what_goes_together),
         cmocka_unit_test(means_are_per_weight),
         cmocka_unit_test(blocks_hold_the_whole_history),

@@ -16,7 +16,7 @@ def wave_name(kind, wave):
 
 
 class Block:
-    """The resolved steps of one set of vectors; more than one where steps coincide."""
+    """The resolved steps of one set of vectors; more than one where steps share it."""
 
     def __init__(self, steps):
         self.steps = sorted(steps, key=lambda step: (step.wave_number, step.kind))

@@ -123,10 +123,10 @@ def _legend(axes, blocks):
         if any(steps.NAMES[step.kind] == kind for block in blocks for step in block.steps):
             handles.append(_marker(kind, KIND_COLOURS[kind]))
             labels.append(f'{kind} steps')
-    coincident = [block.steps for block in blocks if len(block.steps) > 1]
-    if coincident:
-        handles.append(_marker(steps.NAMES[coincident[0][0].kind], 'white'))
-        labels.append('steps that coincide')
+    shared = [block.steps for block in blocks if len(block.steps) > 1]
+    if shared:
+        handles.append(_marker(steps.NAMES[shared[0][0].kind], 'white'))
+        labels.append('steps that share a set')
     if any(line.get_label() == '_published' for line in axes.get_lines()):
         handles.append(plt.Line2D([], [], color=GREY, linewidth=0.8, dashes=(2, 2)))
         labels.append('Eckmann et al. 2005')

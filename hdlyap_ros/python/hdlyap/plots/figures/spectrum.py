@@ -202,7 +202,7 @@ def _legend(axes, blocks, bands):
         for colour, label in (
             (KIND_COLOURS['T'], 'T, transverse'),
             (KIND_COLOURS['LP'], 'LP, longitudinal and momentum'),
-            (MIXED, 'T and LP coincide'),
+            (MIXED, 'T and LP share a set'),
             (ZERO, 'zero modes'),
         )
         if colour in {_block_colour(block) for block in blocks}

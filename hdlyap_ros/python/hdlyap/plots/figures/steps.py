@@ -46,7 +46,7 @@ def draw(recording):
 
 
 def _found(axes, place, block):
-    """Of steps that coincide, of all together."""
+    """Of steps that share a set, of all together."""
     axes.bar(
         place, 100 * block.multiplicity / block.expected, width=0.7, color=kind_colour(block.kind)
     )
