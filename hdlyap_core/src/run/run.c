@@ -335,7 +335,9 @@ static void plan_interval(hd_run *run)
     hd_interval_length next = hd_interval_next(&run->interval, left);
     if (next.length > most) next = (hd_interval_length){left / ceil(left / most), HD_LIMIT_EVENTS};
     next.length = fmax(next.length, hd_advance_shortest(&run->advance));
-    run->interval_end = next.length >= left ? end : hd_run_time(run) + next.length;
+    run->interval_end = next.length >= left
+                            ? end
+                            : hd_schedule_snap(&run->schedule, hd_run_time(run), next.length);
     run->cost.limit = next.limit;
 }
 

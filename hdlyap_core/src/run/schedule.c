@@ -85,6 +85,13 @@ static double samples_at_cut(const hd_schedule *s)
 
 double hd_schedule_cut(const hd_schedule *s) { return end_after(s, samples_at_cut(s)); }
 
+double hd_schedule_snap(const hd_schedule *s, double now, double length)
+{
+    const double end = now + length, piece = s->sample_length / s->pieces;
+    const double cut = end_after(s, round((end - s->start) / piece) / s->pieces);
+    return fabs(end - cut) <= CLOSE * length ? cut : end;
+}
+
 int hd_schedule_cuts_per_report(const hd_schedule *s)
 {
     return s->pieces / s->reports_per_sample * s->samples_per_report;

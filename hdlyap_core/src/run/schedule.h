@@ -40,6 +40,9 @@ double hd_schedule_stage_end(const hd_schedule *schedule); /**< INFINITY: endles
 double hd_schedule_sample_end(const hd_schedule *schedule);
 double hd_schedule_cut(const hd_schedule *schedule); /**< end of the present piece */
 int hd_schedule_cuts_per_report(const hd_schedule *schedule);
+/** End of an interval of this length: a cut of the present sample if it falls on one but for
+ * rounding, which would leave a crumb. */
+double hd_schedule_snap(const hd_schedule *schedule, double now, double length);
 
 /** The time is that of the cut: goes on to the next piece; a set of HD_ENDS_*. Pieces of the next
  * sample are no longer than piece_max. The stage stays: see hd_schedule_enter. */

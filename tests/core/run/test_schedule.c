@@ -1,4 +1,6 @@
 /** Ends of phases, samples and reports. */
+#include <float.h>
+
 #include "testing.h"
 
 #include "run/schedule.h"
@@ -114,6 +116,24 @@ static void pieces_are_short_enough_for_the_phases(void **state)
 
 /** Of the reports every `report` time units in an averaging of 50, with cuts as short as piece_max.
  */
+/** A cut or the end of a sample; never a time that has passed. */
+static void an_end_that_falls_on_a_cut_is_the_cut(void **state)
+{
+    (void)state;
+    hd_schedule s = schedule_of(0.0, 100.0, 0.05);
+    hd_schedule_enter(&s, HD_AVERAGING, 30.0, 2.3);
+    const double cut = hd_schedule_cut(&s), rounding = 32.0 * DBL_EPSILON * cut;
+    assert_true(hd_schedule_snap(&s, 30.0, 0.05 * (1.0 - rounding)) == cut);
+    assert_true(hd_schedule_snap(&s, 30.0, 0.05 * (1.0 + rounding)) == cut);
+    const double third = hd_schedule_snap(&s, cut, 0.1 - rounding);
+    CHECK_CLOSE(third, 30.15, 1e-13);
+    assert_true(hd_schedule_snap(&s, 30.0, 0.15 + rounding) == third);
+    assert_true(hd_schedule_snap(&s, 30.0, 0.049) == 30.0 + 0.049);
+    assert_true(hd_schedule_snap(&s, 30.0, 1e-11) > 30.0);
+    assert_true(hd_schedule_snap(&s, 30.0, s.sample_length - rounding) ==
+                hd_schedule_sample_end(&s));
+}
+
 static void expect_multiples(double report, double sample_max, double piece_max, double interval)
 {
     hd_schedule s = schedule_of(0.0, 50.0, report);
@@ -155,6 +175,7 @@ int main(void)
         cmocka_unit_test(samples_are_as_long_as_allowed),
         cmocka_unit_test(a_short_averaging_has_samples_all_the_same),
         cmocka_unit_test(pieces_are_short_enough_for_the_phases),
+        cmocka_unit_test(an_end_that_falls_on_a_cut_is_the_cut),
         cmocka_unit_test(multiples_are_reached_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
