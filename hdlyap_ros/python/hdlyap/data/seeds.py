@@ -56,7 +56,6 @@ class Seeds:
         names = list(dict.fromkeys(name for one in frames for name in one.index))
         about = pandas.concat(frames)
         about = about[~about.index.duplicated()].loc[names, ['kind', 'nx', 'ny', 'wave_number']]
-        mean = self._mean([one.reindex(names) for one in frames], 'exponent')
         frames = [one.reindex(names) for one in frames]
         made = self._mean(frames, 'exponent')
         multiplicity = self._mean(frames, 'multiplicity')['multiplicity']
