@@ -86,7 +86,8 @@ class Exponents(Bags):
     def test_a_bag_of_before(self):
         """Its messages lack what came later."""
         later = (
-            r'^(float64|uint8) (ks_entropy_error|\w_misfit|sharing|set_time|own_part|gap\w*) .*\n'
+            r'^(float64|uint8|uint32) (ks_entropy_error|[tlv]_(misfit|terms|k_m\w+)|sharing|'
+            r'set_time|own_part|gap\w*) .*\n'
         )
         info = made.run_info()
         messages = [
@@ -104,6 +105,7 @@ class Exponents(Bags):
         self.assertRegex(text, r'h_KS +74\.0000\n')
         self.assertRegex(text, r'c_T +1\.400\(12\)')
         self.assertNotIn('misfit', text)
+        self.assertIn('  T steps: form not recorded, over 3 wave numbers 0.9935\n', text)
 
     def test_all_exponents(self):
         half = np.linspace(3, 1, 37)
@@ -264,16 +266,24 @@ class Table(Bags):
 
     def test_fits(self):
         lines, text = self.run_with(made.step(made.run_info(), T, 1, 0, 36, 37))
-        self.assertEqual(lines['c_T'], ['1.400(12)', '3', 'wave', 'numbers,', 'misfit', '1.2'])
+        self.assertEqual(lines['c_T'], ['1.400(12)'])
         self.assertEqual(lines['c_T2'], ['0.100(34)'])
-        self.assertEqual(lines['c_L'], ['1.500(20)', '2', 'wave', 'numbers'])
+        self.assertEqual(lines['c_L'], ['1.500(20)'])
         self.assertEqual(lines['c_L2'], ['0.50(10)'])
-        self.assertEqual(lines['v'][:1], ['1.612(23)'])
-        self.assertIn('|omega| / k of 8 LP phases', text)
+        self.assertEqual(lines['v'], ['1.612(23)'])
+        for basis, coefficient in (
+            ('T steps: c k + c2 k^2 over 3 wave numbers 0.9935 .. 1.987, misfit 1.2', 'c_T'),
+            ('LP steps: c k + c2 k^2 over 2 wave numbers 0.9935 .. 1.405', 'c_L'),
+            ('|omega| / k of the LP phases at 0.9935 .. 1.405, 8 of them, misfit 2.5', 'v'),
+        ):
+            self.assertIn(f'\n  {basis}\n  {coefficient} ', text)
 
     def test_fits_with_too_little(self):
-        lines, text = self.run_with(t_points=1, l_points=0, v_phases=0)
-        self.assertEqual(lines['c_T'], ['1.400(12)', '1', 'wave', 'number,', 'misfit', '1.2'])
+        lines, text = self.run_with(
+            t_points=1, t_terms=1, t_k_max=0.99346, l_points=0, l_terms=0, v_phases=0
+        )
+        self.assertEqual(lines['c_T'], ['1.400(12)'])
+        self.assertIn('\n  T steps: c k over 1 wave number 0.9935, misfit 1.2\n', text)
         self.assertNotIn('c_T2', lines)
         self.assertIn('c_L   not known: no step resolved', text)
         self.assertNotIn('c_L2', lines)
