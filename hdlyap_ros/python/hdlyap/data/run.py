@@ -8,7 +8,7 @@ import numpy as np
 import pandas
 
 from hdlyap import msg
-from hdlyap.plots import run as common
+from hdlyap.plots import fits, run as common
 from hdlyap.plots.numbers import known
 
 from . import fields, reader, tables
@@ -45,14 +45,6 @@ ARRAYS = {
     'positions': (msg.State, 'x'),
     'momenta': (msg.State, 'px'),
 }
-FITS = (  # name, field, that of its number of points, and least points
-    ('c_T', 'c_t', 't_points', 1),
-    ('c_T2', 'c_t2', 't_points', 2),
-    ('c_L', 'c_l', 'l_points', 1),
-    ('c_L2', 'c_l2', 'l_points', 2),
-    ('v', 'v', 'v_phases', 1),
-)
-
 Averages = namedtuple('Averages', 'times averaged_times exponents std_errors local last')
 # samples that follow each other without overlap: their ends, lengths (NaN if unknown), exponents
 Local = namedtuple('Local', 'times lengths exponents')
@@ -153,29 +145,30 @@ class Run:
     @cached_property
     def results(self):
         """lambda_max, the sum of the positive exponents, and the fits over steps if there were
-        any."""
+        any, with what they stand on."""
         last = self._averages.last
         about = common.Run()
         about.info, about.spectrum = self.info, last
+        rate, none = fields.of(last)['lambda_max'].unit, ''
         rows = [
-            ('lambda_max', last, 'lambda_max', last.std_errors[0]),
-            (about.sum_name, last, 'ks_entropy', about.sum_error),
+            ('lambda_max', last.lambda_max, last.std_errors[0], rate, none),
+            (about.sum_name, last.ks_entropy, about.sum_error, rate, none),
         ]
-        if self.has('steps'):
-            steps = self.last('steps')
-            rows += [
-                (name, steps, field, getattr(steps, field + '_error'))
-                for name, field, points, least in FITS
-                if getattr(steps, points) >= least
-            ]
-        return pandas.DataFrame(
-            {
-                'value': [float(getattr(message, field)) for _, message, field, _ in rows],
-                'std_error': known([error for *_, error in rows]),
-                'unit': [fields.of(message)[field].unit for _, message, field, _ in rows],
-            },
-            index=pandas.Index([name for name, *_ in rows], name='quantity'),
-        )
+        units = fields.of(msg.Steps)
+        rows += [
+            (*of_value, units[of_value[0].lower()].unit, fit.basis)
+            for fit in self.fits
+            for of_value in fit.values
+        ]
+        made = pandas.DataFrame(rows, columns=['quantity', 'value', 'std_error', 'unit', 'basis'])
+        made['std_error'] = known(made['std_error'])
+        return made.set_index('quantity')
+
+    @cached_property
+    def fits(self):
+        """plots.fits.Fit of each kind that there is."""
+        found = fits.of(self.last('steps')) if self.has('steps') else []
+        return [fit for fit in found if fit.count]
 
     @cached_property
     def cost(self):

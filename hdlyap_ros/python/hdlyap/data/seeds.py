@@ -65,20 +65,15 @@ class Seeds:
     @cached_property
     def results(self):
         """lambda_max, the sum of the positive exponents, and of the fits over steps those that
-        are over the same steps in all runs that have them."""
+        are of one form over the same wave numbers in all runs."""
         frames = [run.results for run in self.runs]
-        names = list(dict.fromkeys(name for one in frames for name in one.index))
-        names = [name for name in names if name[:3] not in ('c_T', 'c_L') or self._alike(name[2])]
-        unit = pandas.concat(frames)['unit']
-        made = self._mean([one.reindex(names) for one in frames], 'value')
-        made['unit'] = unit[~unit.index.duplicated()]
-        return made
+        fits = [fit for fit in self.runs[0].fits if self._is_in_all(fit)]
+        names = [*frames[0].index[:2], *(name for fit in fits for name, _, _ in fit.values)]
+        made = self._mean([one.loc[names] for one in frames], 'value')
+        return made.join(frames[0][['unit', 'basis']])
 
-    def _alike(self, letter):
-        """Whether the fit is over the same steps in every run: others are of other quantities."""
-        kind = {'T': 'T', 'L': 'LP'}[letter]
-        fitted = [run.steps[run.steps['resolved'] & ~run.steps['conjugate']] for run in self.runs]
-        return len({tuple(sorted(one.index[one['kind'] == kind])) for one in fitted}) == 1
+    def _is_in_all(self, fit):
+        return all(any(fit.is_like(other) for other in run.fits) for run in self.runs)
 
     def _mean(self, frames, name):
         """Of a column of frames with the same rows, beside its errors."""
