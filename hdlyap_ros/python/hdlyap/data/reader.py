@@ -35,6 +35,10 @@ class RecordingError(Exception):
         super().__init__(plain(text, LINE))
 
 
+class Missing(RecordingError):
+    """Was not recorded, or not measured."""
+
+
 class Damaged(Exception):
     """What a message says that none of a node's says."""
 

@@ -13,7 +13,7 @@ from hdlyap.plots.numbers import known
 
 from . import fields, reader, tables
 from .disks import Disks
-from .reader import RecordingError
+from .reader import Missing
 
 TOPICS = {
     'spectrum': reader.SPECTRUM,
@@ -170,6 +170,22 @@ class Run:
         found = fits.of(self.last('steps')) if self.has('steps') else []
         return [fit for fit in found if fit.count]
 
+    def over_time(self):
+        """{name: frame} of the running means, their errors and the samples: a column for each
+        Lyapunov index."""
+        index = pandas.Index(self.spectrum.index, name='index')
+        rows = pandas.MultiIndex.from_arrays(
+            [self.times, self.averaged_times], names=['sim_time', 'averaged_time']
+        )
+        samples = pandas.MultiIndex.from_arrays(
+            [self.local.times, self.local.lengths], names=['sim_time', 'length']
+        )
+        return {
+            'exponents': pandas.DataFrame(self.exponents, rows, index),
+            'std_errors': pandas.DataFrame(self.std_errors, rows, index),
+            'local_exponents': pandas.DataFrame(self.local.exponents, samples, index),
+        }
+
     @cached_property
     def cost(self):
         return tables.scalars(self._all('cost'))
@@ -211,6 +227,9 @@ class Run:
         return TOPICS[topic] in self._lasts
 
     def last(self, topic):
+        """The last message of one of them, or of 'spectrum'."""
+        if topic == 'spectrum':
+            return self._averages.last
         if not self.has(topic):
             raise self._missing(topic)
         return self._lasts[TOPICS[topic]].message(np)
@@ -223,7 +242,7 @@ class Run:
 
     def _missing(self, topic):
         what = 'averaged spectrum' if topic == 'spectrum' else f'message of {topic}'
-        return RecordingError(f'{self._joined.name}: no {what} in it')
+        return Missing(f'{self._joined.name}: no {what} in it')
 
 
 def _new_length(message, before):

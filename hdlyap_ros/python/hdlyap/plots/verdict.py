@@ -104,7 +104,7 @@ def _short(value):
 def _remarks(comparison):
     a, b = comparison.runs
     lines = []
-    if a.info.seed == b.info.seed:
+    if set(a.info.seed.split(', ')) & set(b.info.seed.split(', ')):  # of means: several
         lines.append(
             'the same seed: where the runs share their trajectory their errors are no '
             'measure of their difference'
