@@ -4,12 +4,14 @@ status."""
 import os
 import sys
 import traceback
+import warnings
 
 from hdlyap.data.reader import RecordingError, plain
 
 
 def by(name, main, fault=1):
     """Of the tool of that name. fault: the exit status if something is wrong."""
+    warnings.simplefilter('ignore', RuntimeWarning)  # numpy's, of numbers that no node says
     try:
         status = main()
     except (RecordingError, OSError) as error:

@@ -23,8 +23,8 @@ def read(paths, node=None, types=recording.TYPES, number=None):
     return Means(seeds.Seeds([run.Run(one) for one in found]))
 
 
-ROW = '  {:<16} {:>15} {:>15} {:>15} {:>9} {:>5}  {}'
-HEAD = ROW.format('', 'mean', 'stated error', 'from scatter', 'chi^2/n-1', 'n', '').rstrip()
+ROW = '  {:<16} {:>15} {:>15} {:>15} {:>12} {:>4}  {}'
+HEAD = ROW.format('', 'mean', 'stated error', 'from scatter', 'chi^2/(n-1)', 'n', '').rstrip()
 
 
 class Means(Run):
