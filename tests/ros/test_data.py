@@ -3,6 +3,8 @@ time."""
 
 import os
 import re
+import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -17,6 +19,7 @@ from hdlyap.msg import LpPhase, Mode, Modes, Spectrum, State
 from made import T
 
 DISKS = 20
+DOC = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc')
 
 
 def modes(sim_time):
@@ -258,6 +261,25 @@ class Samples(Bags):
     def test_none(self):
         run = self.load([made.run_info(), *self.spectra(self.local[:1])])
         self.assertEqual((len(run.local.times), run.local.exponents.shape), (0, (0, 2)))
+
+
+class Example(Bags):
+    """What the user guide shows is in doc/own_figure.py, and makes a figure."""
+
+    def test_figure(self):
+        made.write(self.path(), made.small_run())
+        figure = os.path.join(self.folder, 'own.png')
+        program = os.path.join(DOC, 'own_figure.py')
+        subprocess.run(
+            [sys.executable, program, figure, self.path()],
+            env={**os.environ, 'MPLBACKEND': 'Agg'},
+            check=True,
+        )
+        self.assertGreater(os.path.getsize(figure), 5000)
+        with open(program) as file, open(os.path.join(DOC, 'user_guide.md')) as guide:
+            (shown,) = re.findall('(?s)```python\n(.*?)```', guide.read())
+            self.assertTrue(file.read().endswith('\n' + shown))
+        self.assertEqual(shown.count('\n'), 10)
 
 
 class Older(Bags):
