@@ -1,9 +1,11 @@
 """follow: what its screen shows of made messages, and of real nodes on a terminal of its own."""
 
+import itertools
 import os
 import signal
 import sys
 import unittest
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -16,8 +18,10 @@ from hdlyap.msg import Cost, LpPhase, RunStatus
 from made import LP, SCRIPTS, T
 from terminal import Terminal
 from hdlyap.follow import layout, panels
+from hdlyap.follow.line import Progress
 from hdlyap.follow.screen import clean, cut
 from hdlyap.follow.watch import Speed, View, fill, lazy
+from hdlyap.follow.wrap import joined, length, wrapped
 from hdlyap.plots.glyphs import Glyphs
 
 FOLLOW = os.path.join(SCRIPTS, 'follow')
@@ -82,6 +86,18 @@ def drawn(shown, size=(80, 24), plain=False):
         ''.join(text for text, _ in cut(line, size[0]))
         for line in layout.lines(shown, size, Glyphs(plain))
     ]
+
+
+def with_all(message, kind, number):
+    """Every field of this type, of the parts of the message too, becomes the number."""
+    for name in message.__slots__:
+        value = getattr(message, name)
+        if isinstance(value, (list, tuple)):
+            for part in value:
+                if hasattr(part, '__slots__'):
+                    with_all(part, kind, number)
+        elif type(value) is kind:
+            setattr(message, name, number)
 
 
 class Screens(unittest.TestCase):
@@ -254,8 +270,98 @@ class Screens(unittest.TestCase):
                 self.assertLessEqual(len(lines), size[1])
                 self.assertLessEqual(max(map(len, lines)), size[0])
             self.assertIn('averag'[: size[0]], '\n'.join(drawn(many, size)))
-        self.assertIn('   36 more\n', self.text(many, (80, 18)))
+        self.assertIn('  36 more\n', self.text(many, (80, 18)))
         self.assertNotIn('more\n', self.text(many, (200, 80)))
+
+    def test_nothing_is_cut(self):
+        """From 80 columns on: long lines go on below, names of a shared set are those of the rows
+        below it, the paper's values stand where there is room."""
+        info = made.paper_info()
+        info.run_id, info.observables = '20261122T194504.100733Z-17630-1', OBSERVED
+        shared = dict(set=1, first_index=1500, last_index=1549, members=12, sharing=2)
+        shown = view(
+            node='/laboratory_two/of_a_long_name/hdlyap',
+            info=info,
+            status=status(remaining_seconds=96961.0),
+            spectrum=made.spectrum(np.linspace(6, 1, 1557), 50.0),
+            steps=made.steps(
+                [made.step(info, T, 1, 0, 1556, 1557)]
+                + [made.step(info, T, 10, n, 1, 2, **shared) for n in range(10, 22)]
+            ),
+            phases=made.lp_phases(
+                info, [made.step(info, LP, 10, n, 1200, 1203) for n in range(10, 40)], 150.0
+            ),
+            diagnosis=diagnosis(
+                1,
+                'errors of the smallest exponents do not fall: 0.0034 after 1e+03 '
+                'averaged, 0.0035 after 9e+02; a subscriber of /hdlyap/spectrum is 3 s behind',
+            ),
+        )
+        whole = ' '.join(self.text(shown, (400, 400)).split())
+        for width in range(80, 131):
+            for height in (24, 40, 400):
+                lines = layout.lines(shown, (width, height), Glyphs())
+                self.assertLessEqual(max(map(length, lines)), width)
+            text = ' '.join(self.text(shown, (width, 400)).split())
+            said = ' '.join(text.split())
+            for part in (
+                'seed 1 run 20261122T194504.100733Z-17630-1',
+                ' 50.0 % 26:56:01 left',
+                'WARN ' + shown.diagnosis.message,
+                'T(10,21)',
+                'mixing',
+            ):
+                self.assertIn(part, said, width)
+                self.assertIn(part, whole)
+
+    def test_shared_names(self):
+        self.assertEqual(joined(['T(1,0)', 'T(0,1)'], 13), 'T(1,0)+T(0,1)')
+        self.assertEqual(joined(['T(1,0)', 'T(0,1)', 'T(1,1)'], 13), 'T(1,0)+2 more')
+        self.assertEqual(joined(['T(1,0)', 'T(0,1)'], 2), 'T(1,0)')
+
+    def test_wrapping(self):
+        line = [('  one two', 'strong'), (' three  four', '')]
+        self.assertEqual(wrapped(line, 21), [line])
+        self.assertEqual(
+            wrapped(line, 18),
+            [[('  one two', 'strong'), (' three', '')], [('    ', ''), ('four', '')]],
+        )
+        self.assertEqual(wrapped([('abcdef', '')], 4), [[('abcd', '')], [('ef', '')]])
+        self.assertEqual(wrapped([('abcd  ', '')], 4), [[('abcd', '')]])
+
+    def test_numbers_that_nobody_expects(self):
+        """No word of a node takes the screen away."""
+        numbers = (float('inf'), float('nan'), -1.0, 1e300)
+        for number, name in itertools.product(
+            numbers, ('status', 'cost', 'spectrum', 'steps', 'phases')
+        ):
+            with np.errstate(all='ignore'):
+                shown = view()
+                message = getattr(shown, name)
+                with_all(message, float, number)
+                for size in SIZES:
+                    self.text(shown, size)
+                Progress.parts(
+                    SimpleNamespace(
+                        status=shown.status,
+                        cost=shown.cost,
+                        spectrum=shown.spectrum,
+                        finished=False,
+                        _spent=Progress._spent,
+                        _error=lambda: '',
+                    )
+                )
+
+    def test_kinds_of_another_version(self):
+        for name in ('status', 'cost', 'steps', 'phases'):
+            for number in (0, 77, 255):
+                shown = view()
+                with_all(getattr(shown, name), int, number)
+                for size in SIZES:
+                    self.text(shown, size)
+        shown = view()
+        shown.steps.steps[0].kind = 77
+        self.assertIn('kind 77(1,0)', self.text(shown))
 
     def test_condition_of_the_node(self):
         for fields, text in (
@@ -345,6 +451,45 @@ class OnATerminal(unittest.TestCase):
         terminal.press('q')
         self.assertEqual(terminal.wait(), 0)
         self.assertTrue(harness.wait_until(terminal.is_as_before))
+
+    def test_lines_as_wide_as_the_screen(self):
+        """Keep their last characters, also on its last line."""
+        terminal = self.program(
+            'with Screen() as screen:\n'
+            '    screen.show([[("wide" * 20, "")]] * 24, screen.size)\n'
+            '    screen.key(60)\n'
+            '    screen.show([[("less", "")]] * 2, screen.size)\n'
+            '    screen.key(60)'
+        )
+        self.assertTrue(harness.wait_until(lambda: terminal.screen() == ['wide' * 20] * 24))
+        terminal.press('q')
+        self.assertTrue(harness.wait_until(lambda: terminal.screen()[:2] == ['less'] * 2))
+        self.assertEqual(''.join(terminal.screen()[2:]), '')
+        terminal.press('q')
+        self.assertEqual(terminal.wait(), 0)
+
+    def test_one_line_in_several(self):
+        """On a terminal that is too narrow for it; each overwrites the one before."""
+        terminal = Terminal(
+            [
+                sys.executable,
+                '-c',
+                'from hdlyap.follow.line import Display\n'
+                'display = Display()\n'
+                'display.show(["averaging", "one " * 9 + "end", "two", "last"])\n'
+                'display.show(["averaging", "2 " * 9 + "end", "two", "3 " * 30 + "last"])\n'
+                'display.show(["finished", "two"])\n'
+                'display.close()',
+            ],
+            columns=40,
+        )
+        self.addCleanup(terminal.stop)
+        self.assertEqual(terminal.wait(), 0)
+        self.assertTrue(terminal.wait_for('finished  two'))
+        self.assertEqual([line for line in terminal.screen() if line], ['finished  two'])
+        shown = terminal.output.replace('\r\n', '\n')
+        self.assertIn('averaging\033[K\none one', shown)
+        self.assertIn('one end\033[K\ntwo  last\033[J\r\033[2A', shown)
 
     def test_complaints_do_not_reach_the_screen(self):
         terminal = self.program(
@@ -445,9 +590,31 @@ class Running(unittest.TestCase):
         self.assertRegex(process.text().splitlines()[-1], r'^finished  100\.0 %  t = 81\.0')
 
     def test_no_node(self):
-        terminal = self.follow('--timeout', '0.1')
+        terminal = self.follow('--timeout', '0.5')
+        self.shows(terminal, 'follow: no hdlyap_node that publishes a run_info; waits 0.')
         self.assertEqual(terminal.wait(), 1)
         self.shows(terminal, 'follow: no hdlyap_node is running')
+
+    def test_no_node_of_that_name(self):
+        self.node()
+        terminal = self.follow('--node', 'other', '--timeout', '60')
+        self.shows(terminal, 'follow: no /other that publishes a run_info; there is /hdlyap; waits')
+        terminal.press('\x03')
+        self.assertEqual(terminal.wait(), 130)
+
+    def test_says_what_it_waits_for(self):
+        """At once, and how to start it; then goes on with what came."""
+        port = harness.free_port()
+        uri = 'http://localhost:%d' % port
+        terminal = Terminal([sys.executable, FOLLOW], columns=120, ROS_MASTER_URI=uri)
+        self.addCleanup(terminal.stop)
+        self.shows(terminal, f'follow: no master at {uri}; waits ')
+        self.shows(terminal, 'To start one: roslaunch hdlyap run.launch')
+        self.addCleanup(harness.Master(port).stop)
+        self.shows(terminal, 'follow: no hdlyap_node that publishes a run_info; waits')
+        node = harness.start(PACED, ROS_MASTER_URI=uri)
+        self.addCleanup(node.stop)
+        self.shows(terminal, 'lambda_max')
 
 
 if __name__ == '__main__':
