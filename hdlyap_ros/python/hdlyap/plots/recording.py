@@ -249,16 +249,22 @@ def _read_run(bag, path, topics, number):
 
 def _runs(bag, path, topics):
     """RunInfo of every run, in the order of their beginnings; each file of a bag that was split has
-    it."""
+    the first one. Of several of a run the one that knows of most changes."""
     about = bag.get_type_and_topic_info(topics).topics
     named = [topic for topic in about if about[topic].msg_type == RUN_INFO]
     runs = {}
     for _, packed in _packed(bag, named) if named else ():
-        if packed.run_id not in runs:
-            runs[packed.run_id] = packed.message()
+        info = packed.message()
+        if packed.run_id not in runs or changes(info) > changes(runs[packed.run_id]):
+            runs[packed.run_id] = info
     if not runs:
         raise RecordingError(f'{path}: no run_info in it; record that topic too')
     return list(runs.values())
+
+
+def changes(info):
+    """How many parameters were changed while the run went on; bags of before do not say."""
+    return len(getattr(info, 'changes', ()))
 
 
 def _packed(bag, topics):
