@@ -61,6 +61,9 @@ type_in() {
             ;;
         *rviz:=true*) opens_rviz bash -ec "$1" ;;
         *rviz.launch) beside_a_node opens_rviz bash -ec "$1" ;;
+        rosservice*)
+            beside_a_node bash -ec "until rosservice info /hdlyap/set; do sleep 0.1; done; timeout 60 $1 | tee /dev/stderr | grep -q 'success: True'"
+            ;;
         *follow* | rostopic*) beside_a_node bash -ec "timeout 60 $1" ;;
         *) run bash -ec "$1" ;;
     esac

@@ -86,6 +86,7 @@ static hd_status prepare(hd_run *run, char *message, size_t size)
     run->watch = (hd_watch){.interval = INFINITY, .first = run->vectors};
     run->interval = hd_interval_first(2.0 / per_disk, limit, scene->accuracy);
     run->schedule = hd_schedule_of(scene);
+    run->in_force.target_std_error = scene->target_std_error;
     if (run->vectors == 0) return HD_OK;
     HD_TRY(prepare_frame(run));
     HD_TRY(prepare_windows(run, message, size));
@@ -168,8 +169,8 @@ void hd_run_free(hd_run *run)
 /** True if the exponents nearest to zero are known as well as the scene asks. */
 static bool target_reached(const hd_run *run)
 {
-    return run->scene.target_std_error > 0 && run->spectrum &&
-           hd_run_smallest_error(run) <= run->scene.target_std_error;
+    const double target = run->in_force.target_std_error;
+    return target > 0 && run->spectrum && hd_run_smallest_error(run) <= target;
 }
 
 /** Longest time between two looks at the phases; INFINITY if nobody looks. */
@@ -307,16 +308,32 @@ static hd_status go_back(hd_run *run, bool to_its_end)
 
 hd_status hd_run_settle(hd_run *run) { return go_back(run, true); }
 
+/** At a cut: takes up what has been asked for since, between two samples so that none is of both.
+ * Returns what ends there now. */
+static unsigned take_changes(hd_run *run, unsigned ends)
+{
+    const bool averaging = run->schedule.stage == HD_AVERAGING;
+    if (!run->in_force.changing || (averaging && !(ends & HD_ENDS_SAMPLE))) return ends;
+    run->in_force = (hd_in_force){.target_std_error = run->scene.target_std_error,
+                                  .field_interval = run->field_interval};
+    hd_schedule_change(&run->schedule, &run->scene, hd_run_time(run), sample_longest(run),
+                       phases_due(run));
+    if (!hd_schedule_is_over(&run->schedule, hd_run_time(run)))
+        return ends & ~(unsigned)HD_ENDS_STAGE;
+    run->due.fields = averaging;
+    return ends | HD_ENDS_STAGE | HD_ENDS_REPORT;
+}
+
 /** At the end of a piece: what is measured there, and what ends. */
 static hd_status take_cut(hd_run *run)
 {
     const bool averaging = run->schedule.stage == HD_AVERAGING,
                measuring = hd_run_is_observing(run);
     run->due.fields = averaging &&
-                      hd_schedule_reaches_multiple(&run->schedule, run->field_interval);
+                      hd_schedule_reaches_multiple(&run->schedule, run->in_force.field_interval);
     if (run->frame && hd_run_time(run) < run->interval_end) HD_TRY(look_or_end(run));
     const bool factored = run->frame && hd_run_time(run) == run->interval_end;
-    const unsigned ends = hd_schedule_pass(&run->schedule, phases_due(run));
+    const unsigned ends = take_changes(run, hd_schedule_pass(&run->schedule, phases_due(run)));
     run->due.report = ends & HD_ENDS_REPORT;
     if (averaging && run->spectrum && (ends & HD_ENDS_WHOLE_SAMPLE)) sample_spectrum(run);
     if (measuring && factored) HD_TRY(observe(run, run->due.report));
@@ -377,8 +394,6 @@ void hd_run_observe(hd_run *run, unsigned stages)
     if (begun & HD_OBSERVE_COVARIANT) run->windows.due = true; /* nor this */
     run->observe = now;
 }
-
-void hd_run_fields_every(hd_run *run, double interval) { run->field_interval = interval; }
 
 hd_status hd_run_reset_average(hd_run *run)
 {

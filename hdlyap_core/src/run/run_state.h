@@ -35,6 +35,13 @@ typedef struct hd_clocks {
     double frame_start_time;       /**< simulated time */
 } hd_clocks;
 
+/** What of the scene may change while it runs, as it is now in force: the rest of it is in the
+ * schedule, and what is asked for in the scene. */
+typedef struct hd_in_force {
+    double target_std_error, field_interval;
+    bool changing; /**< something else has been asked for */
+} hd_in_force;
+
 struct hd_run {
     hd_scene_def scene;
     int vectors, threads;
@@ -53,7 +60,9 @@ struct hd_run {
     unsigned observe;    /**< set of HD_OBSERVE_* that is needed now */
     hd_watch watch;
     hd_due due;
-    double field_interval;
+    hd_in_force in_force;
+    double field_interval; /**< asked for */
+    bool fields_said;      /**< by a first call, which holds at once */
     hd_clocks clocks;
     hd_rounding rounding;
     hd_cost cost;

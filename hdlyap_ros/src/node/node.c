@@ -7,6 +7,7 @@
 
 #include "diagnostics.h"
 #include "hdlyap/hdlyap.h"
+#include "parameters.h"
 #include "parameters_text.h"
 #include "report.h"
 #include "services.h"
@@ -108,16 +109,34 @@ static int create_run(app *a)
     return fault_logged(status, message);
 }
 
+/** On the parameter server, which is read at the start. */
+static void on_parameter_set(void *context, const char *name, const char *text)
+{
+    const char *node = hdr_node_name(((const app *)context)->ros);
+    const bool known = parameters_has(name);
+    if (known && parameters_named(name).live)
+        hdr_log(HDR_WARN,
+                "parameter %.40s was set to %.100s, but is read at the start; to change it now: "
+                "rosservice call %s/set \"%.40s=%.100s\"",
+                name, text, node, name, text);
+    else if (known)
+        hdr_log(HDR_WARN, "parameter %.40s was set to %.100s, but is read at the start", name,
+                text);
+    else
+        hdr_log(HDR_WARN, "parameter %.100s was set, but %s", name, parameters_instead(name));
+}
+
 /** From here on the node can be seen by others. */
 static hdr_status advertise(app *a)
 {
     const char *kernel = hd_blas_query().kernel;
     hdr_status status = report_create(&a->rep, a->ros, &a->set, a->run);
     if (status == HDR_OK) status = diagnostics_advertise(&a->diag, a->ros, a->rep, kernel);
-    if (status == HDR_OK) status = report_run_info(a->rep, a->run);
+    if (status == HDR_OK) status = report_run_info(a->rep, a->run, &(changes){.made = 0});
     if (status == HDR_OK && !worker_create(&a->work, a->run, a->rep, &a->set, &a->keep))
         status = HDR_NO_MEMORY;
-    return status == HDR_OK ? services_advertise(a->ros, a->work) : status;
+    if (status == HDR_OK) status = services_advertise(a->ros, a->work);
+    return status == HDR_OK ? hdr_params_watch(a->params, a->ros, on_parameter_set, a) : status;
 }
 
 static void log_start(const app *a)

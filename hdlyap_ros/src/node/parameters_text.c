@@ -57,7 +57,7 @@ static void write_value(char *out, size_t size, const parameter *p)
     parameter_usual(usual, p);
     if (kind == HD_PARAMETER_SEED || p->kind == FILE_PATH)
         snprintf(out, size, "\"%s\"", usual);
-    else if (p->kind == TOPICS_OBSERVED || p->kind == TOPICS_AWAITED)
+    else if (p->kind == TOPICS_OBSERVED || p->kind == TOPICS_AWAITED || p->kind == CHANGES)
         snprintf(out, size, "[%s]", usual);
     else if (kind == HD_PARAMETER_REAL || p->kind == REAL_NUMBER)
         write_real(out, size, atof(usual));
@@ -100,8 +100,8 @@ static void print_cell(const char *text)
 
 int parameters_print_table(void)
 {
-    printf("| parameter | allowed | default | in a resumed run | what |\n"
-           "| --- | --- | --- | --- | --- |\n");
+    printf("| parameter | allowed | default | in a resumed run | while it runs | what |\n"
+           "| --- | --- | --- | --- | --- | --- |\n");
     for (int k = 0; k < parameters_count(); k++) {
         const parameter p = parameters_at(k);
         char allowed[200], value[PARAMETER_TEXT + 8], name[PARAMETER_TEXT];
@@ -112,6 +112,7 @@ int parameters_print_table(void)
         print_cell(allowed);
         print_cell(value);
         print_cell(p.may_differ ? "may differ" : "as before");
+        print_cell(p.live ? "`~set`" : "");
         print_cell(p.text);
         printf("|\n");
     }

@@ -158,9 +158,9 @@ hd_status report_slow(report *rep, const hd_run *run, bool at_rest)
     return status;
 }
 
-hdr_status report_run_info(report *rep, const hd_run *run)
+hdr_status report_run_info(report *rep, const hd_run *run, const changes *all)
 {
-    return run_info_publish(&rep->out, rep->set, run);
+    return run_info_publish(&rep->out, rep->set, run, all);
 }
 
 static void spectrum_gather(report *rep, const hd_run *run)
