@@ -76,6 +76,7 @@ class OnATerminal(unittest.TestCase):
                 'display = Display()\n'
                 'display.show(["averaging", "one " * 9 + "end", "two", "last"])\n'
                 'display.show(["averaging", "2 " * 9 + "end", "two", "3 " * 30 + "last"])\n'
+                'display.close()\n'
                 'display.show(["finished", "two"])\n'
                 'display.close()',
             ],
@@ -84,7 +85,15 @@ class OnATerminal(unittest.TestCase):
         self.addCleanup(terminal.stop)
         self.assertEqual(terminal.wait(), 0)
         self.assertTrue(terminal.wait_for('finished  two'))
-        self.assertEqual([line for line in terminal.screen() if line], ['finished  two'])
+        self.assertEqual(
+            [line.strip() for line in terminal.screen() if line],
+            [
+                'averaging  2 2 2 2 2 2 2 2 2 end  two',
+                ' '.join('3' * 20),
+                ' '.join('3' * 10) + ' last',
+            ]
+            + ['finished  two'],
+        )
         shown = terminal.output.replace('\r\n', '\n')
         self.assertIn('averaging\033[K\none one', shown)
         self.assertIn('one end\033[K\ntwo  last\033[J\r\033[2A', shown)

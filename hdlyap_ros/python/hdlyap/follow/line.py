@@ -105,6 +105,7 @@ class Display:
     def close(self):
         if self._terminal:
             print(flush=True)
+            self._below = 0
 
 
 def follow(node):
