@@ -16,7 +16,8 @@
 extern "C" {
 #endif
 
-/** What the run pays for, since its start unless said otherwise. */
+/** What the run pays for, since its start unless said otherwise. What is not measured (yet) is
+ * NaN. */
 typedef struct hd_cost {
     double wall;     /**< seconds */
     double events;   /**< seconds in the trajectory */
@@ -40,7 +41,8 @@ typedef struct hd_cost {
     /** largest of the exponents nearest to zero, which target_std_error is for; negative if unknown
      */
     double std_error;
-    double progress;  /**< 0 .. 1 of the time asked for, or to the target; 0 if unknown */
+    double progress;  /**< 0 .. 1 of the time asked for, or to the target; negative if
+                          unknown */
     double remaining; /**< predicted wall seconds to the end, or to target_std_error;
                           negative if unknown */
 } hd_cost;

@@ -61,17 +61,23 @@ hd_cost hd_run_cost(const hd_run *run)
     const double now = hd_clock_now(), left = time_left(run);
     cost.covariant = run->windows.seconds;
     cost.wall = now - run->clocks.created;
-    if (run->schedule.stage >= HD_AVERAGING && run->spectrum && hd_spectrum_time(run->spectrum) > 0)
-        cost.error_bound = (HD_ENLARGED * run->rounding.sum + cost.defect * cost.defect) /
-                           hd_spectrum_time(run->spectrum);
+    const double averaged = run->schedule.stage >= HD_AVERAGING && run->spectrum
+                                ? hd_spectrum_time(run->spectrum)
+                                : 0.0;
+    const double rounded = HD_ENLARGED * run->rounding.sum + cost.defect * cost.defect;
+    cost.error_bound = averaged > 0 ? rounded / averaged : NAN;
+    if (cost.orthonormalisations == 0) {
+        cost.interval = cost.condition = cost.defect = NAN;
+        cost.limit = HD_LIMIT_NONE;
+    }
     const double error = run->spectrum ? hd_run_smallest_error(run) : INFINITY;
     cost.std_error = error < INFINITY ? error : -1.0;
     cost.events_per_second = cost.events > 0
                                  ? (double)hd_trajectory_collisions(run->advance.trajectory) /
                                        cost.events
-                                 : 0.0;
+                                 : NAN;
     cost.progress = left < INFINITY ? hd_run_time(run) / fmax(hd_run_time(run) + left, DBL_MIN)
-                                    : 0.0;
+                                    : -1.0;
     if (run->schedule.stage == HD_FINISHED) cost.progress = 1.0;
     const double carried =
         hd_run_time(run) -

@@ -26,6 +26,9 @@ static const double CONDITION_SLOW = 1e4;
 static const double COLLISIONS_MOST = 60.0;
 /** Collisions of each disk that growth remembers: shorter blocks tell no error. */
 static const double COLLISIONS_PER_BLOCK = 8.0;
+/** A rest that could be longer by less than this factor is an equal share; two lengths within this
+ * part are one. */
+static const double DIVIDED = 1.25, ROUGHLY = 1e-3;
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
@@ -83,6 +86,7 @@ static hd_status prepare(hd_run *run, char *message, size_t size)
                             scene->disks;
     const double limit = scene->interval > 0 ? scene->interval : INFINITY;
     run->sample_max = HD_COLLISIONS_PER_SAMPLE / per_disk;
+    run->cost.limit = HD_LIMIT_NONE;
     run->watch = (hd_watch){.interval = INFINITY, .first = run->vectors};
     run->interval = hd_interval_first(2.0 / per_disk, limit, scene->accuracy);
     run->schedule = hd_schedule_of(scene);
@@ -111,16 +115,20 @@ static bool interval_is_learnt(const hd_run *run)
 }
 
 /** Longest sample that one orthonormalisation at its end can serve. */
-static double sample_longest(const hd_run *run)
+static hd_interval_length sample_longest(const hd_run *run)
 {
-    if (!run->frame || !interval_is_learnt(run)) return run->sample_max;
-    return fmin(run->sample_max, hd_interval_usual(&run->interval));
+    const hd_interval_length whole = {run->sample_max, HD_LIMIT_SAMPLE};
+    if (!run->frame || !interval_is_learnt(run)) return whole;
+    const hd_interval_length usual = hd_interval_usual(&run->interval);
+    return usual.length < whole.length ? usual : whole;
 }
 
 static void enter_stage(hd_run *run, hd_stage stage)
 {
+    const hd_interval_length sample = sample_longest(run);
     run->due.stage_end = false;
-    hd_schedule_enter(&run->schedule, stage, hd_run_time(run), sample_longest(run));
+    hd_schedule_enter(&run->schedule, stage, hd_run_time(run), sample.length);
+    run->sample_limit = hd_schedule_sample_limit(&run->schedule, sample.length, sample.limit);
     run->advance.plan.end = hd_run_time(run);
     stage = run->schedule.stage;
     if (run->spectrum && stage == HD_AVERAGING) averages_clear(run);
@@ -327,6 +335,22 @@ static hd_status take_cut(hd_run *run)
     return HD_OK;
 }
 
+/** Why an interval that ends with a sample is no longer than `left`. What is left of a sample that
+ * was divided, or of a stage, is short because of what divided it if that would not allow much
+ * more; of one that was cut, because vectors were wanted. */
+static hd_limit limit_of_rest(const hd_run *run, double left)
+{
+    const hd_schedule *s = &run->schedule;
+    const bool averaging = s->stage == HD_AVERAGING;
+    const bool last = hd_schedule_sample_end(s) >= hd_schedule_stage_end(s);
+    const double whole = (1.0 - ROUGHLY) * s->sample_length;
+    const hd_interval_length longest = hd_interval_longest(&run->interval);
+    if (averaging && left >= whole) return run->sample_limit;
+    if (hd_advance_longest(&run->advance) < DIVIDED * left) return HD_LIMIT_EVENTS;
+    if (longest.length < DIVIDED * left) return longest.limit;
+    return !averaging || last ? HD_LIMIT_STAGE : HD_LIMIT_LOOK;
+}
+
 /** Where the next orthonormalisation falls. */
 static void plan_interval(hd_run *run)
 {
@@ -336,7 +360,7 @@ static void plan_interval(hd_run *run)
     if (next.length > most) next = (hd_interval_length){left / ceil(left / most), HD_LIMIT_EVENTS};
     next.length = fmax(next.length, hd_advance_shortest(&run->advance));
     run->interval_end = next.length >= left ? end : hd_run_time(run) + next.length;
-    run->cost.limit = next.limit;
+    run->cost.limit = next.limit == HD_LIMIT_SCHEDULE ? limit_of_rest(run, left) : next.limit;
 }
 
 /** Moves the disks on, as far as a watcher lets them. */
@@ -352,6 +376,7 @@ static hd_status advance(hd_run *run, hd_event_log *log)
 
 hd_status hd_run_advance(hd_run *run)
 {
+    if (run->due.report && run->spectrum) hd_spectrum_local_restart(run->spectrum);
     run->due.report = run->due.fields = false;
     run->observer.known.count = 0;
     if (run->schedule.stage == HD_FINISHED) return HD_OK;

@@ -48,9 +48,10 @@ struct hd_run {
     hd_windows windows;
     hd_schedule schedule;
     hd_interval interval;
-    double interval_end; /**< simulated time at which the frame is orthonormalised next */
-    double sample_max;   /**< simulated time of COLLISIONS_PER_SAMPLE */
-    unsigned observe;    /**< set of HD_OBSERVE_* that is needed now */
+    double interval_end;   /**< simulated time at which the frame is orthonormalised next */
+    double sample_max;     /**< simulated time of COLLISIONS_PER_SAMPLE */
+    hd_limit sample_limit; /**< why samples of the averaging are no longer */
+    unsigned observe;      /**< set of HD_OBSERVE_* that is needed now */
     hd_watch watch;
     hd_due due;
     double field_interval;

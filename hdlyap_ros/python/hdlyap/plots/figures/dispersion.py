@@ -58,8 +58,9 @@ def _branch(axes, recording, kind, letter, count, end):
     if count:
         c, c2 = getattr(message, 'c_' + letter), getattr(message, f'c_{letter}2')
         k = np.linspace(0, end, 100)
+        bend = 0.0 if np.isnan(c2) else c2  # of one wave number there is none
         axes.plot(
-            k, c * k + c2 * k**2, color=colour, label=_fit_label(message, kind, letter, count)
+            k, c * k + bend * k**2, color=colour, label=_fit_label(message, kind, letter, count)
         )
     published = paper.branches(recording.info).get(kind)
     if published is not None:
