@@ -129,6 +129,22 @@ class Faults(unittest.TestCase):
             self.goes_on(node, cost)
         self.stops(node)
 
+    # ---- threads ----
+
+    def test_threads_that_are_not_granted(self):
+        """OpenBLAS would wait for them for ever."""
+        for limit, granted in (
+            (dict(OMP_THREAD_LIMIT='1'), 1),
+            (dict(OMP_MAX_ACTIVE_LEVELS='0'), 1),
+            (dict(OMP_DYNAMIC='true'), 2),
+        ):
+            with self.subTest(limit=limit):
+                node = self.start(THREADED, **limit)
+                self.assertEqual(node.wait(), 0, node.text())
+                self.assertIn(f'{granted} threads', node.text())
+                said = node.lines('OpenMP grants 1 of 2 threads')
+                self.assertEqual(len(said), 2 - granted, node.text())
+
     # ---- signals ----
 
     def test_hangup(self):

@@ -93,8 +93,9 @@ HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 hd_stage hd_run_stage(const hd_run *run);
 double hd_run_time(const hd_run *run); /**< simulated time since the start */
 const hd_scene_def *hd_run_scene(const hd_run *run);
-int hd_run_vectors(const hd_run *run); /**< n, 0 without exponents */
-int hd_run_threads(const hd_run *run); /**< in use */
+int hd_run_vectors(const hd_run *run);        /**< n, 0 without exponents */
+int hd_run_threads(const hd_run *run);        /**< in use */
+int hd_run_threads_denied(const hd_run *run); /**< wanted, but not granted by OpenMP; 0: none */
 const hd_trajectory *hd_run_trajectory(const hd_run *run);
 const hd_frame *hd_run_frame(const hd_run *run);       /**< NULL without exponents */
 const hd_spectrum *hd_run_spectrum(const hd_run *run); /**< NULL without exponents */

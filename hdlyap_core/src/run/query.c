@@ -12,6 +12,7 @@ double hd_run_time(const hd_run *run) { return hd_advance_now(&run->advance); }
 const hd_scene_def *hd_run_scene(const hd_run *run) { return &run->scene; }
 int hd_run_vectors(const hd_run *run) { return run->vectors; }
 int hd_run_threads(const hd_run *run) { return run->threads; }
+int hd_run_threads_denied(const hd_run *run) { return run->threads_denied; }
 const hd_trajectory *hd_run_trajectory(const hd_run *run) { return run->advance.trajectory; }
 const hd_frame *hd_run_frame(const hd_run *run) { return run->frame; }
 const hd_spectrum *hd_run_spectrum(const hd_run *run) { return run->spectrum; }

@@ -53,18 +53,27 @@ static double block_least(const hd_run *run)
     return fmax(COLLISIONS_PER_BLOCK * collision, hd_scene_sound_crossing(&run->scene));
 }
 
+static hd_status prepare_threads(hd_run *run)
+{
+    const int wanted = run->scene.threads, disks = run->scene.disks, n = run->vectors;
+    const int most = hd_threads_most(wanted, 4 * disks, n);
+    if (most > 1) HD_TRY(hd_blas_room(most)); /* one has its buffer since the start */
+    const int granted = run->threads = hd_blas_threads_granted(most);
+    hd_blas_use_threads(granted);
+    if (wanted == 0) HD_TRY(hd_threads_choose(&run->threads, run->ortho, disks, n, granted));
+    run->threads_denied = run->threads == granted ? most - granted : 0;
+    hd_blas_use_threads(run->threads);
+    return HD_OK;
+}
+
 static hd_status prepare_frame(hd_run *run)
 {
     const int rows = 4 * run->scene.disks, n = run->vectors;
-    run->threads = hd_threads_most(run->scene.threads, rows, n);
-    if (run->threads > 1)
-        HD_TRY(hd_blas_room(run->threads)); /* one has its buffer since the start */
-    hd_blas_use_threads(run->threads);
     HD_TRY(hd_event_log_create(&run->log));
     HD_TRY(hd_ortho_create(&run->ortho, rows, n));
+    HD_TRY(prepare_threads(run));
     HD_TRY(hd_spectrum_create(&run->spectrum, rows, n, block_least(run)));
-    HD_TRY(create_frame(run));
-    return hd_threads_choose(&run->threads, run->ortho, run->frame, run->scene.threads);
+    return create_frame(run);
 }
 
 static hd_status prepare_windows(hd_run *run, char *message, size_t size)

@@ -37,7 +37,7 @@ typedef struct hd_clocks {
 
 struct hd_run {
     hd_scene_def scene;
-    int vectors, threads;
+    int vectors, threads, threads_denied;
     hd_advance advance;
     hd_event_log
         *log; /**< since the last orthonormalisation; NULL without exponents, as the next */

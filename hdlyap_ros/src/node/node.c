@@ -120,6 +120,16 @@ static hdr_status advertise(app *a)
     return status == HDR_OK ? services_advertise(a->ros, a->work) : status;
 }
 
+/** What the user limits by environment variables. */
+static void warn_of_threads(const hd_run *run)
+{
+    const int denied = hd_run_threads_denied(run), granted = hd_run_threads(run);
+    if (denied > 0)
+        hdr_log(HDR_WARN,
+                "OpenMP grants %d of %d threads (OMP_THREAD_LIMIT, OMP_MAX_ACTIVE_LEVELS)", granted,
+                granted + denied);
+}
+
 static void log_start(const app *a)
 {
     const hd_scene_def *def = &a->set.def;
@@ -130,6 +140,7 @@ static void log_start(const app *a)
             "scene %s: %d disks in %.6g x %.6g, %d vectors, %d threads; %s, kernel %s, %d threads",
             a->set.scene, def->disks, box[0], box[1], hd_run_vectors(a->run),
             hd_run_threads(a->run), blas.library, blas.kernel, blas.threads);
+    warn_of_threads(a->run);
     if (*a->set.resume)
         hdr_log(HDR_INFO, "goes on from simulated time %.6g of %s", hd_run_time(a->run),
                 a->set.resume);
