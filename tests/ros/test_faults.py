@@ -113,6 +113,20 @@ class Faults(unittest.TestCase):
             for node in nodes:
                 self.check_out_of_memory(node)
 
+    def test_too_many_disks(self):
+        """Known before the first block is asked for: how much, how much there is, what fits."""
+        for disks in (40000, 1000000):
+            with self.subTest(disks=disks):
+                begin = time.monotonic()
+                node = self.start(dict(disks=disks))
+                self.check_out_of_memory(node)
+                self.assertLess(time.monotonic() - begin, 10.0)
+                self.assertRegex(
+                    node.text(),
+                    rf'out of memory: disks = {disks} with {2 * disks - 3} exponents need \S+ GB, '
+                    r'there are \S+ GB \(\w+\); exponents = \d+ would fit, or disks = \d+',
+                )
+
     def test_limit_in_mid_run(self):
         """Not a byte more than it has. Messages that find no room are named, the run goes on."""
         node, cost = self.running(

@@ -13,6 +13,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "hdlyap/blas.h"
+#include "hdlyap/room.h"
 #include "run/factorise.h"
 #include "run/run_state.h"
 #include "tangent/threads.h"
@@ -152,6 +153,7 @@ hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, si
 {
     *out = NULL;
     HD_TRY(hd_scene_check(def, message, size));
+    HD_TRY(hd_room_check(def, hd_room_available(), message, size));
     hd_run *run = hd_memory_alloc(1, sizeof *run);
     if (!run) return HD_NO_MEMORY;
     run->scene = *def;

@@ -214,11 +214,27 @@ static int run(app *a)
     _exit(status);
 }
 
+/** What needs no master: an exit status, or -1. */
+static int answer(int argc, char **argv)
+{
+    static const struct {
+        const char *argument;
+        int (*print)(void);
+    } answers[] = {{"--help", parameters_print_help},
+                   {"-h", parameters_print_help},
+                   {"--version", parameters_print_version},
+                   {"--parameters", parameters_print_scene},
+                   {"--parameters=table", parameters_print_table}};
+    for (size_t k = 0; k < sizeof answers / sizeof *answers; k++)
+        if (argc == 2 && strcmp(argv[1], answers[k].argument) == 0) return answers[k].print();
+    return -1;
+}
+
 int main(int argc, char **argv)
 {
     app a = {.ros = NULL};
-    if (argc == 2 && strcmp(argv[1], "--parameters") == 0) return parameters_print_scene();
-    if (argc == 2 && strcmp(argv[1], "--parameters=table") == 0) return parameters_print_table();
+    const int answered = answer(argc, argv);
+    if (answered >= 0) return answered;
     hd_blas_restart_if_slow(argv);
     const hdr_status created = hdr_node_create(&a.ros, &argc, argv, "hdlyap", stop_seconds,
                                                fault_status(HD_NO_MEMORY));
