@@ -17,7 +17,8 @@
 extern "C" {
 #endif
 
-/** What the run pays for, since its start unless said otherwise. */
+/** What the run pays for, since its start unless said otherwise. What is not measured (yet) is
+ * NaN. */
 typedef struct hd_cost {
     double wall;     /**< seconds */
     double events;   /**< seconds in the trajectory */
@@ -41,7 +42,8 @@ typedef struct hd_cost {
     /** largest of the exponents nearest to zero, which target_std_error is for; negative if unknown
      */
     double std_error;
-    double progress;  /**< 0 .. 1 of the time asked for, or to the target; 0 if unknown */
+    double progress;  /**< 0 .. 1 of the time asked for, or to the target; negative if
+                          unknown */
     double remaining; /**< predicted wall seconds to the end, or to target_std_error;
                           negative if unknown */
 } hd_cost;
@@ -102,8 +104,9 @@ HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 hd_stage hd_run_stage(const hd_run *run);
 double hd_run_time(const hd_run *run); /**< simulated time since the start */
 const hd_scene_def *hd_run_scene(const hd_run *run);
-int hd_run_vectors(const hd_run *run); /**< n, 0 without exponents */
-int hd_run_threads(const hd_run *run); /**< in use */
+int hd_run_vectors(const hd_run *run);        /**< n, 0 without exponents */
+int hd_run_threads(const hd_run *run);        /**< in use */
+int hd_run_threads_denied(const hd_run *run); /**< wanted, but not granted by OpenMP; 0: none */
 const hd_trajectory *hd_run_trajectory(const hd_run *run);
 const hd_frame *hd_run_frame(const hd_run *run);       /**< NULL without exponents */
 const hd_spectrum *hd_run_spectrum(const hd_run *run); /**< NULL without exponents */

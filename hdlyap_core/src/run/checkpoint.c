@@ -45,7 +45,7 @@ static void cost_archive(hd_run *run, hd_archive *archive)
         hd_archive_next_doubles(archive, numbers[k], 1);
     for (size_t k = 0; k < sizeof counts / sizeof *counts; k++)
         hd_archive_long(archive, "cost count", counts[k], 0, LONG_MAX / 2);
-    hd_archive_int(archive, "cost limit", &limit, HD_LIMIT_SCHEDULE, HD_LIMIT_REPAIR);
+    hd_archive_int(archive, "cost limit", &limit, HD_LIMIT_SCHEDULE, HD_LIMIT_NONE);
     c->limit = (hd_limit)limit;
 }
 
@@ -72,9 +72,13 @@ static void plan_archive(hd_advance_plan *plan, hd_archive *archive)
 
 static void numbers_archive(hd_run *run, hd_archive *archive)
 {
-    int observe = (int)run->observe;
+    int observe = (int)run->observe, reported = run->due.report, limit = (int)run->sample_limit;
     hd_archive_int(archive, "run observe", &observe, 0, (int)run->scene.observe);
     run->observe = (unsigned)observe & run->scene.observe;
+    hd_archive_int(archive, "run reported", &reported, 0, 1);
+    run->due.report = reported;
+    hd_archive_int(archive, "run sample limit", &limit, HD_LIMIT_SCHEDULE, HD_LIMIT_NONE);
+    run->sample_limit = (hd_limit)limit;
     hd_archive_double(archive, "run interval end", &run->interval_end);
     hd_archive_double(archive, "run advance longest", &run->advance.longest);
     plan_archive(&run->advance.plan, archive);

@@ -13,6 +13,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "hdlyap/blas.h"
+#include "hdlyap/room.h"
 #include "run/factorise.h"
 #include "run/run_state.h"
 #include "tangent/threads.h"
@@ -26,6 +27,9 @@ static const double CONDITION_SLOW = 1e4;
 static const double COLLISIONS_MOST = 60.0;
 /** Collisions of each disk that growth remembers: shorter blocks tell no error. */
 static const double COLLISIONS_PER_BLOCK = 8.0;
+/** A rest that could be longer by less than this factor is an equal share; two lengths within this
+ * part are one. */
+static const double DIVIDED = 1.25, ROUGHLY = 1e-3;
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
@@ -50,18 +54,27 @@ static double block_least(const hd_run *run)
     return fmax(COLLISIONS_PER_BLOCK * collision, hd_scene_sound_crossing(&run->scene));
 }
 
+static hd_status prepare_threads(hd_run *run)
+{
+    const int wanted = run->scene.threads, disks = run->scene.disks, n = run->vectors;
+    const int most = hd_threads_most(wanted, 4 * disks, n);
+    if (most > 1) HD_TRY(hd_blas_room(most)); /* one has its buffer since the start */
+    const int granted = run->threads = hd_blas_threads_granted(most);
+    hd_blas_use_threads(granted);
+    if (wanted == 0) HD_TRY(hd_threads_choose(&run->threads, run->ortho, disks, n, granted));
+    run->threads_denied = run->threads == granted ? most - granted : 0;
+    hd_blas_use_threads(run->threads);
+    return HD_OK;
+}
+
 static hd_status prepare_frame(hd_run *run)
 {
     const int rows = 4 * run->scene.disks, n = run->vectors;
-    run->threads = hd_threads_most(run->scene.threads, rows, n);
-    if (run->threads > 1)
-        HD_TRY(hd_blas_room(run->threads)); /* one has its buffer since the start */
-    hd_blas_use_threads(run->threads);
     HD_TRY(hd_event_log_create(&run->log));
     HD_TRY(hd_ortho_create(&run->ortho, rows, n));
+    HD_TRY(prepare_threads(run));
     HD_TRY(hd_spectrum_create(&run->spectrum, rows, n, block_least(run)));
-    HD_TRY(create_frame(run));
-    return hd_threads_choose(&run->threads, run->ortho, run->frame, run->scene.threads);
+    return create_frame(run);
 }
 
 static hd_status prepare_windows(hd_run *run, char *message, size_t size)
@@ -83,6 +96,7 @@ static hd_status prepare(hd_run *run, char *message, size_t size)
                             scene->disks;
     const double limit = scene->interval > 0 ? scene->interval : INFINITY;
     run->sample_max = HD_COLLISIONS_PER_SAMPLE / per_disk;
+    run->cost.limit = HD_LIMIT_NONE;
     run->watch = (hd_watch){.interval = INFINITY, .first = run->vectors};
     run->interval = hd_interval_first(2.0 / per_disk, limit, scene->accuracy);
     run->schedule = hd_schedule_of(scene);
@@ -112,16 +126,20 @@ static bool interval_is_learnt(const hd_run *run)
 }
 
 /** Longest sample that one orthonormalisation at its end can serve. */
-static double sample_longest(const hd_run *run)
+static hd_interval_length sample_longest(const hd_run *run)
 {
-    if (!run->frame || !interval_is_learnt(run)) return run->sample_max;
-    return fmin(run->sample_max, hd_interval_usual(&run->interval));
+    const hd_interval_length whole = {run->sample_max, HD_LIMIT_SAMPLE};
+    if (!run->frame || !interval_is_learnt(run)) return whole;
+    const hd_interval_length usual = hd_interval_usual(&run->interval);
+    return usual.length < whole.length ? usual : whole;
 }
 
 static void enter_stage(hd_run *run, hd_stage stage)
 {
+    const hd_interval_length sample = sample_longest(run);
     run->due.stage_end = false;
-    hd_schedule_enter(&run->schedule, stage, hd_run_time(run), sample_longest(run));
+    hd_schedule_enter(&run->schedule, stage, hd_run_time(run), sample.length);
+    run->sample_limit = hd_schedule_sample_limit(&run->schedule, sample.length, sample.limit);
     run->advance.plan.end = hd_run_time(run);
     stage = run->schedule.stage;
     if (run->spectrum && stage == HD_AVERAGING) averages_clear(run);
@@ -136,6 +154,7 @@ hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, si
 {
     *out = NULL;
     HD_TRY(hd_scene_check(def, message, size));
+    HD_TRY(hd_room_check(def, hd_room_available(), message, size));
     hd_run *run = hd_memory_alloc(1, sizeof *run);
     if (!run) return HD_NO_MEMORY;
     run->scene = *def;
@@ -316,8 +335,10 @@ static unsigned take_changes(hd_run *run, unsigned ends)
     if (!run->in_force.changing || (averaging && !(ends & HD_ENDS_SAMPLE))) return ends;
     run->in_force = (hd_in_force){.target_std_error = run->scene.target_std_error,
                                   .field_interval = run->field_interval};
-    hd_schedule_change(&run->schedule, &run->scene, hd_run_time(run), sample_longest(run),
+    const hd_interval_length sample = sample_longest(run);
+    hd_schedule_change(&run->schedule, &run->scene, hd_run_time(run), sample.length,
                        phases_due(run));
+    run->sample_limit = hd_schedule_sample_limit(&run->schedule, sample.length, sample.limit);
     if (!hd_schedule_is_over(&run->schedule, hd_run_time(run)))
         return ends & ~(unsigned)HD_ENDS_STAGE;
     run->due.fields = averaging;
@@ -344,6 +365,22 @@ static hd_status take_cut(hd_run *run)
     return HD_OK;
 }
 
+/** Why an interval that ends with a sample is no longer than `left`. What is left of a sample that
+ * was divided, or of a stage, is short because of what divided it if that would not allow much
+ * more; of one that was cut, because vectors were wanted. */
+static hd_limit limit_of_rest(const hd_run *run, double left)
+{
+    const hd_schedule *s = &run->schedule;
+    const bool averaging = s->stage == HD_AVERAGING;
+    const bool last = hd_schedule_sample_end(s) >= hd_schedule_stage_end(s);
+    const double whole = (1.0 - ROUGHLY) * s->sample_length;
+    const hd_interval_length longest = hd_interval_longest(&run->interval);
+    if (averaging && left >= whole) return run->sample_limit;
+    if (hd_advance_longest(&run->advance) < DIVIDED * left) return HD_LIMIT_EVENTS;
+    if (longest.length < DIVIDED * left) return longest.limit;
+    return !averaging || last ? HD_LIMIT_STAGE : HD_LIMIT_LOOK;
+}
+
 /** Where the next orthonormalisation falls. */
 static void plan_interval(hd_run *run)
 {
@@ -355,7 +392,7 @@ static void plan_interval(hd_run *run)
     run->interval_end = next.length >= left
                             ? end
                             : hd_schedule_snap(&run->schedule, hd_run_time(run), next.length);
-    run->cost.limit = next.limit;
+    run->cost.limit = next.limit == HD_LIMIT_SCHEDULE ? limit_of_rest(run, left) : next.limit;
 }
 
 /** Moves the disks on, as far as a watcher lets them. */
@@ -371,6 +408,7 @@ static hd_status advance(hd_run *run, hd_event_log *log)
 
 hd_status hd_run_advance(hd_run *run)
 {
+    if (run->due.report && run->spectrum) hd_spectrum_local_restart(run->spectrum);
     run->due.report = run->due.fields = false;
     run->observer.known.count = 0;
     if (run->schedule.stage == HD_FINISHED) return HD_OK;

@@ -44,7 +44,7 @@ typedef struct hd_in_force {
 
 struct hd_run {
     hd_scene_def scene;
-    int vectors, threads;
+    int vectors, threads, threads_denied;
     hd_advance advance;
     hd_event_log
         *log; /**< since the last orthonormalisation; NULL without exponents, as the next */
@@ -55,9 +55,10 @@ struct hd_run {
     hd_windows windows;
     hd_schedule schedule;
     hd_interval interval;
-    double interval_end; /**< simulated time at which the frame is orthonormalised next */
-    double sample_max;   /**< simulated time of COLLISIONS_PER_SAMPLE */
-    unsigned observe;    /**< set of HD_OBSERVE_* that is needed now */
+    double interval_end;   /**< simulated time at which the frame is orthonormalised next */
+    double sample_max;     /**< simulated time of COLLISIONS_PER_SAMPLE */
+    hd_limit sample_limit; /**< why samples of the averaging are no longer */
+    unsigned observe;      /**< set of HD_OBSERVE_* that is needed now */
     hd_watch watch;
     hd_due due;
     hd_in_force in_force;

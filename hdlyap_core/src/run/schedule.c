@@ -16,6 +16,9 @@ static const double SAMPLES_MIN = 32.0;
 /** Ends that are this close, as a part of a sample, are one. */
 static const double CLOSE = 1e-6;
 static const double COUNT_MAX = 1e9;
+/** Samples that could be longer by this factor are cut short by the reports; else what they have to
+ * give way is rounding. */
+static const double CUT_SHORT = 1.25;
 
 hd_schedule hd_schedule_of(const hd_scene_def *scene)
 {
@@ -63,6 +66,16 @@ void hd_schedule_enter(hd_schedule *s, hd_stage stage, double now, double sample
     if (stage == HD_FINISHED) return;
     s->start = s->origin = now;
     samples_lay_out(s, sample_max);
+}
+
+hd_limit hd_schedule_sample_limit(const hd_schedule *s, double sample_max, hd_limit limit)
+{
+    const double for_errors = sample_longest(s, sample_max);
+    const bool of_reports = sample_max >= s->report_interval; /* whole ones make a sample */
+    const double most = of_reports ? for_errors : sample_max;
+    if (s->sample_length * CUT_SHORT < most || s->sample_length > most * (1.0 + CLOSE))
+        return HD_LIMIT_SCHEDULE;
+    return most < sample_max ? HD_LIMIT_SAMPLE : limit;
 }
 
 double hd_schedule_stage_end(const hd_schedule *s)

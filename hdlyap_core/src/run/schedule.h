@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "base/archive.h"
+#include "hdlyap/interval.h"
 #include "hdlyap/scene.h"
 
 /** What ends at a cut. */
@@ -36,6 +37,9 @@ hd_schedule hd_schedule_of(const hd_scene_def *scene);
  * averaging are as long as a multiple or a fraction of the report interval may be without exceeding
  * `sample_max`. */
 void hd_schedule_enter(hd_schedule *schedule, hd_stage stage, double now, double sample_max);
+
+/** Why samples of the averaging are no longer, where `sample_max` was what `limit` allowed. */
+hd_limit hd_schedule_sample_limit(const hd_schedule *schedule, double sample_max, hd_limit limit);
 
 double hd_schedule_stage_end(const hd_schedule *schedule); /**< INFINITY: endless */
 double hd_schedule_sample_end(const hd_schedule *schedule);

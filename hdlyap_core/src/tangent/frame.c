@@ -374,10 +374,10 @@ void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_rat
         double sum[3][BLOCK_WIDTH_MAX];
         const int count = n - col < BLOCK_WIDTH_MAX ? n - col : BLOCK_WIDTH_MAX;
         halves_of_columns(frame, sum, col, count);
-        for (int k = 0; k < count; k++) { /* a half that vanishes has no angle */
-            const bool both = fmin(sum[0][k], sum[1][k]) > SQUARE_MIN;
-            cos_theta[col + k] = both ? sum[2][k] / (sqrt(sum[0][k]) * sqrt(sum[1][k])) : 0.0;
-            dp_dq_ratio[col + k] = sqrt(sum[1][k] / fmax(sum[0][k], DBL_MIN));
+        for (int k = 0; k < count; k++) {
+            const bool dq = sum[0][k] > SQUARE_MIN, dp = sum[1][k] > SQUARE_MIN;
+            cos_theta[col + k] = dq && dp ? sum[2][k] / (sqrt(sum[0][k]) * sqrt(sum[1][k])) : NAN;
+            dp_dq_ratio[col + k] = dq ? sqrt(sum[1][k] / sum[0][k]) : NAN;
         }
     }
 }

@@ -139,6 +139,16 @@ static hdr_status advertise(app *a)
     return status == HDR_OK ? hdr_params_watch(a->params, a->ros, on_parameter_set, a) : status;
 }
 
+/** What the user limits by environment variables. */
+static void warn_of_threads(const hd_run *run)
+{
+    const int denied = hd_run_threads_denied(run), granted = hd_run_threads(run);
+    if (denied > 0)
+        hdr_log(HDR_WARN,
+                "OpenMP grants %d of %d threads (OMP_THREAD_LIMIT, OMP_MAX_ACTIVE_LEVELS)", granted,
+                granted + denied);
+}
+
 static void log_start(const app *a)
 {
     const hd_scene_def *def = &a->set.def;
@@ -149,6 +159,7 @@ static void log_start(const app *a)
             "scene %s: %d disks in %.6g x %.6g, %d vectors, %d threads; %s, kernel %s, %d threads",
             a->set.scene, def->disks, box[0], box[1], hd_run_vectors(a->run),
             hd_run_threads(a->run), blas.library, blas.kernel, blas.threads);
+    warn_of_threads(a->run);
     if (*a->set.resume)
         hdr_log(HDR_INFO, "goes on from simulated time %.6g of %s", hd_run_time(a->run),
                 a->set.resume);
@@ -222,11 +233,27 @@ static int run(app *a)
     _exit(status);
 }
 
+/** What needs no master: an exit status, or -1. */
+static int answer(int argc, char **argv)
+{
+    static const struct {
+        const char *argument;
+        int (*print)(void);
+    } answers[] = {{"--help", parameters_print_help},
+                   {"-h", parameters_print_help},
+                   {"--version", parameters_print_version},
+                   {"--parameters", parameters_print_scene},
+                   {"--parameters=table", parameters_print_table}};
+    for (size_t k = 0; k < sizeof answers / sizeof *answers; k++)
+        if (argc == 2 && strcmp(argv[1], answers[k].argument) == 0) return answers[k].print();
+    return -1;
+}
+
 int main(int argc, char **argv)
 {
     app a = {.ros = NULL};
-    if (argc == 2 && strcmp(argv[1], "--parameters") == 0) return parameters_print_scene();
-    if (argc == 2 && strcmp(argv[1], "--parameters=table") == 0) return parameters_print_table();
+    const int answered = answer(argc, argv);
+    if (answered >= 0) return answered;
     hd_blas_restart_if_slow(argv);
     const hdr_status created = hdr_node_create(&a.ros, &argc, argv, "hdlyap", stop_seconds,
                                                fault_status(HD_NO_MEMORY));

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hdlyap/hdlyap.h"
 #include "parameters.h"
 
 enum { LINE_WIDTH = 100 };
@@ -71,6 +72,27 @@ static void write_allowed(char *out, size_t size, const parameter *p)
     const bool has_unit = *p->unit && !strchr(p->allowed, '[');
     snprintf(out, size, "%s%s%s%s", p->allowed, has_unit ? " [" : "", has_unit ? p->unit : "",
              has_unit ? "]" : "");
+}
+
+int parameters_print_help(void)
+{
+    printf(
+        "Hard disks, their Lyapunov exponents and modes, as ROS topics.\n\n"
+        "  hdlyap_node [_parameter:=value ...] [__name:=NAME]\n"
+        "                         runs the scene that its private parameters say; needs a master\n"
+        "  hdlyap_node --parameters\n"
+        "                         prints a scene file with all parameters and their defaults\n"
+        "  hdlyap_node --version\n\n"
+        "roslaunch hdlyap run.launch scene:=quick runs a scene file with a master of its own.\n"
+        "Exit status: 0 finished or stopped, 2 refused, 3 a numerical fault or no memory, 4 a "
+        "file fault.\n");
+    return fflush(stdout) == 0 ? 0 : 1;
+}
+
+int parameters_print_version(void)
+{
+    printf("hdlyap %s\n", HDLYAP_VERSION);
+    return fflush(stdout) == 0 ? 0 : 1;
 }
 
 int parameters_print_scene(void)

@@ -195,8 +195,10 @@ def _interval(view):
         yield f'interval {cost_now.interval:.3g} ({LIMITS.get(cost_now.interval_limit, "?")})'
         yield f'repairs {cost_now.repairs}'
         yield f'condition {cost_now.condition:.1e}'
-        yield f'error bound {cost_now.error_bound:.1e}'
-    yield f'{cost_now.events_per_second:.2g} events/s'
+        if isfinite(cost_now.error_bound):
+            yield f'error bound {cost_now.error_bound:.1e}'
+    if isfinite(cost_now.events_per_second):
+        yield f'{cost_now.events_per_second:.2g} events/s'
 
 
 def diagnosis(view):
