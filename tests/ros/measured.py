@@ -1,6 +1,8 @@
 """Messages -> the numbers in them that are NaN, and those that the .msg files say are: what was not
 measured. The two are the same in every message of every run."""
 
+import copy
+import io
 import math
 
 from hdlyap.msg import Cost, LpPhase, Mode, RunStatus
@@ -104,6 +106,18 @@ RULES = dict(
     Hydro=_hydro,
     ModeField=_field,
 )
+
+
+def bits(messages):
+    """Of each, without what the clock and the run's name are: NaN is the same as NaN."""
+    return [_bits(message) for message in messages]
+
+
+def _bits(message):
+    message, buffer = copy.copy(message), io.BytesIO()
+    message.header, message.run_id = type(message.header)(), ''
+    message.serialize(buffer)
+    return buffer.getvalue()
 
 
 def check(case, messages):

@@ -10,6 +10,7 @@ import rostest
 from std_srvs.srv import SetBool, Trigger
 
 import harness
+import measured
 from harness import NODE, SHORT
 
 DOCUMENT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/survival.md')
@@ -45,14 +46,6 @@ class Checkpoint(harness.Case):
             listener.close()
         return {topic: listener.messages for topic, listener in listeners.items()}
 
-    @staticmethod
-    def plain(messages):
-        for message in messages:
-            message.header.seq = 0
-            message.header.stamp = rospy.Time()
-            message.run_id = ''
-        return messages
-
     def test_resumed_run_publishes_what_the_uninterrupted_one_does(self):
         whole = self.recorded(RUN)
         first = self.recorded(dict(RUN, checkpoint=self.file, pace=20.0), stop_after=40.0)
@@ -64,9 +57,9 @@ class Checkpoint(harness.Case):
         self.assertEqual(whole['run_info'][0].resumed_time, -1.0)
         for topic in RUN['observables']:
             with self.subTest(topic=topic):
-                both = self.plain(first[topic]) + self.plain(second[topic])
+                both = measured.bits(first[topic]) + measured.bits(second[topic])
                 self.assertGreater(len(second[topic]), 0)
-                self.assertEqual(both, self.plain(whole[topic]))
+                self.assertEqual(both, measured.bits(whole[topic]))
 
     def test_what_is_not_given_is_as_in_the_file(self):
         params = dict(RUN, scene='kept', exponents=7, checkpoint=self.file)

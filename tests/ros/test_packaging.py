@@ -59,6 +59,7 @@ OF_SYSTEM = {
     'python3-numpy': 'python3-numpy',
     'python3-pandas': 'python3-pandas',
     'python3-rospkg': 'python3-rospkg',
+    'yaml': 'libyaml-dev',
     'python3-scipy': 'python3-scipy',
     'python3-setuptools': 'python3-setuptools',
     'python3-yaml': 'python3-yaml',

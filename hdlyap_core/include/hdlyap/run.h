@@ -117,6 +117,8 @@ const hd_covariant *hd_run_covariant(const hd_run *run); /**< NULL unless observ
 int hd_run_samples_per_report(
     const hd_run *run); /**< times that phases are followed at per report */
 hd_cost hd_run_cost(const hd_run *run);
+/** Averaged time from which standard errors are stated [T8]; 0 without exponents. */
+double hd_run_errors_after(const hd_run *run);
 
 #ifdef __cplusplus
 }

@@ -34,6 +34,11 @@ double hd_run_smallest_error(const hd_run *run)
     return hd_spectrum_error_of_last(run->spectrum, SMALLEST_EXPONENTS);
 }
 
+double hd_run_errors_after(const hd_run *run)
+{
+    return run->spectrum ? HD_SPECTRUM_BLOCKS_MIN * hd_run_block_least(run) : 0.0;
+}
+
 /** Simulated time until the target is reached, as errors fall with the root of the time; INFINITY
  * if it is none, or not yet known. */
 static double target_left(const hd_run *run)

@@ -46,9 +46,7 @@ static hd_status create_frame(hd_run *run)
     return hd_ortho_step_stable(run->ortho, run->frame, 1.0 / DBL_EPSILON);
 }
 
-/** Shortest block of the averages: growth follows the waves of density, too, which need that long
- * through the box [T8]. */
-static double block_least(const hd_run *run)
+double hd_run_block_least(const hd_run *run)
 {
     const double collision = run->sample_max / HD_COLLISIONS_PER_SAMPLE;
     return fmax(COLLISIONS_PER_BLOCK * collision, hd_scene_sound_crossing(&run->scene));
@@ -73,7 +71,7 @@ static hd_status prepare_frame(hd_run *run)
     HD_TRY(hd_event_log_create(&run->log));
     HD_TRY(hd_ortho_create(&run->ortho, rows, n));
     HD_TRY(prepare_threads(run));
-    HD_TRY(hd_spectrum_create(&run->spectrum, rows, n, block_least(run)));
+    HD_TRY(hd_spectrum_create(&run->spectrum, rows, n, hd_run_block_least(run)));
     return create_frame(run);
 }
 
@@ -336,9 +334,9 @@ static unsigned take_changes(hd_run *run, unsigned ends)
     run->in_force = (hd_in_force){.target_std_error = run->scene.target_std_error,
                                   .field_interval = run->field_interval};
     const hd_interval_length sample = sample_longest(run);
-    hd_schedule_change(&run->schedule, &run->scene, hd_run_time(run), sample.length,
-                       phases_due(run));
-    run->sample_limit = hd_schedule_sample_limit(&run->schedule, sample.length, sample.limit);
+    if (hd_schedule_change(&run->schedule, &run->scene, hd_run_time(run), sample.length,
+                           phases_due(run)))
+        run->sample_limit = hd_schedule_sample_limit(&run->schedule, sample.length, sample.limit);
     if (!hd_schedule_is_over(&run->schedule, hd_run_time(run)))
         return ends & ~(unsigned)HD_ENDS_STAGE;
     run->due.fields = averaging;
@@ -408,7 +406,8 @@ static hd_status advance(hd_run *run, hd_event_log *log)
 
 hd_status hd_run_advance(hd_run *run)
 {
-    if (run->due.report && run->spectrum) hd_spectrum_local_restart(run->spectrum);
+    const bool told = run->due.report && run->schedule.stage == HD_AVERAGING;
+    if (told && run->spectrum) hd_spectrum_local_restart(run->spectrum);
     run->due.report = run->due.fields = false;
     run->observer.known.count = 0;
     if (run->schedule.stage == HD_FINISHED) return HD_OK;

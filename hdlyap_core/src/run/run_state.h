@@ -77,6 +77,10 @@ enum { SMALLEST_EXPONENTS = 8 };
 /** Ends what a step has begun, so that the run can be kept: half of a way back is none. */
 HD_MUST_CHECK hd_status hd_run_settle(hd_run *run);
 
+/** Shortest block of the averages: growth follows the waves of density, too, which need that long
+ * through the box [T8]. */
+double hd_run_block_least(const hd_run *run);
+
 /** Largest standard error of the exponents nearest to zero; INFINITY while one is unknown. */
 double hd_run_smallest_error(const hd_run *run);
 

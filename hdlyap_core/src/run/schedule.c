@@ -136,15 +136,16 @@ unsigned hd_schedule_pass(hd_schedule *s, double piece_max)
     return s->samples % s->samples_per_report == 0 ? ends | HD_ENDS_REPORT : ends;
 }
 
-void hd_schedule_change(hd_schedule *s, const hd_scene_def *scene, double now, double sample_max,
+bool hd_schedule_change(hd_schedule *s, const hd_scene_def *scene, double now, double sample_max,
                         double piece_max)
 {
     s->length[HD_AVERAGING] = hd_schedule_of(scene).length[HD_AVERAGING];
-    if (s->report_interval == scene->report_interval || s->stage == HD_FINISHED) return;
+    if (s->report_interval == scene->report_interval || s->stage == HD_FINISHED) return false;
     s->report_interval = scene->report_interval;
     s->origin = now;
     samples_lay_out(s, sample_max);
     pieces_lay_out(s, piece_max);
+    return true;
 }
 
 bool hd_schedule_is_over(const hd_schedule *s, double now)

@@ -54,9 +54,9 @@ double hd_schedule_snap(const hd_schedule *schedule, double now, double length);
 unsigned hd_schedule_pass(hd_schedule *schedule, double piece_max);
 
 /** What a scene with another duration or report interval says of it, at a cut: samples and reports
- * begin anew where their interval changes, pieces no longer than piece_max. The time averaged must
- * not exceed the duration. */
-void hd_schedule_change(hd_schedule *schedule, const hd_scene_def *scene, double now,
+ * begin anew where their interval changes (true then), pieces no longer than piece_max. The time
+ * averaged must not exceed the duration. */
+bool hd_schedule_change(hd_schedule *schedule, const hd_scene_def *scene, double now,
                         double sample_max, double piece_max);
 /** True if the end of the stage is not ahead. */
 bool hd_schedule_is_over(const hd_schedule *schedule, double now);

@@ -15,6 +15,10 @@ typedef struct hdr_params hdr_params;
 /** Fetches all private parameters of the node with one call to the master.
  * Fails with HDR_FAULT if the master does not answer, or HDR_NO_MEMORY. */
 HDR_MUST_CHECK hdr_status hdr_params_create(hdr_params **out, const hdr_node *node);
+/** The same from a YAML file, without a master; each of replaced[count] is name:=value and comes
+ * instead of what the file says. HDR_FAULT with a line in hdr_error_text, or HDR_NO_MEMORY. */
+HDR_MUST_CHECK hdr_status hdr_params_read(hdr_params **out, const char *path, int count,
+                                          char *const *replaced);
 void hdr_params_free(hdr_params *params);
 
 /** Of a parameter, with its value for a message to the user. */

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "check.h"
 #include "diagnostics.h"
 #include "hdlyap/hdlyap.h"
 #include "parameters.h"
@@ -255,6 +256,7 @@ int main(int argc, char **argv)
     const int answered = answer(argc, argv);
     if (answered >= 0) return answered;
     hd_blas_restart_if_slow(argv);
+    if (argc > 1 && strcmp(argv[1], "--check") == 0) return check_scene(argc - 2, argv + 2);
     const hdr_status created = hdr_node_create(&a.ros, &argc, argv, "hdlyap", stop_seconds,
                                                fault_status(HD_NO_MEMORY));
     /* roscpp that has started by half does not survive the end of main */
