@@ -60,7 +60,7 @@ class Teller:
             if time.monotonic() < self._told + PERIOD:
                 continue
             view = self._view()
-            if view.is_averaged and self._is_news(view):
+            if view.is_averaged and not view.is_finished and self._is_news(view):
                 self._print(self._head(view), view)
 
     def result(self):
