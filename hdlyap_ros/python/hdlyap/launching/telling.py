@@ -71,11 +71,10 @@ class Teller:
         view = self._view()
         if view.status is None:
             return
-        if not view.is_averaged:
-            lines = [f'{self._node} has ended at simulated time {view.status.sim_time:g}']
-        else:
-            lines = [f'result of {self._node}, {view.info.scene}: {averages(view)}']
-        self._print(lines[0], view, self._where())
+        what = f'no averages at simulated time {view.status.sim_time:g}'
+        if view.is_averaged:
+            what = averages(view)
+        self._print(f'result of {self._node}, {view.info.scene}: {what}', view, self._where())
 
     def _where(self):
         if not self._bag:
@@ -98,6 +97,8 @@ class Teller:
     def _is_news(self, view):
         """Twice the time has been averaged, or a step has been found or has got an error."""
         averaged, found = view.spectrum.averaged_time, known_steps(view)
+        if averaged < self._averaged:  # it was reset
+            self._averaged, self._found = 0.0, set()
         if averaged < 2 * self._averaged and found <= self._found:
             return False
         self._averaged, self._found = averaged, self._found | found
