@@ -321,6 +321,18 @@ class Parameters(unittest.TestCase):
             self.assertEqual(getattr(listener.messages[0], field), value)
         listener.close()
 
+    def test_scene_names(self):
+        """A name alone chooses no system, and the usual one's is nobody else's."""
+        begin = 'scene = '
+        self.check_refused(
+            [
+                (begin, 'quick', dict(scene='quick'), []),
+                (begin, 'given with its disks', dict(scene='quick', duration=5.0), []),
+            ]
+        )
+        self.taken({}, dict(scene='unnamed'))
+        self.taken(dict(scene='mine'), dict(scene='mine'))
+
     def test_defaults(self):
         listener = harness.Listener('run_info')
         self.addCleanup(listener.close)

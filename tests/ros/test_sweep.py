@@ -76,6 +76,7 @@ class Sweep(unittest.TestCase):
         bags."""
         table = self.table(launch.text())
         self.assertEqual(list(table), sorted(DENSITIES), launch.text())
+        self.assertNotIn('has died', launch.text())
         paths = [os.path.join(folder, group + '.bag') for group in GROUPS]
         for path, group, density in zip(paths, GROUPS, DENSITIES):
             self.check_bag(path, '/%s/hdlyap' % group, float(density))

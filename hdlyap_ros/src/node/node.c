@@ -81,8 +81,10 @@ static int read_settings(app *a)
 {
     char message[512] = "";
     const char *resume = "";
+    const char *refused; /* by the launch file, with its line */
     const hdr_status created = hdr_params_create(&a->params, a->ros);
     if (created != HDR_OK) return failed_status(created);
+    if (hdr_param_string(a->params, "refused", &refused) == HDR_OK) return refuse(refused);
     if (!settings_resume(&resume, a->params, message, sizeof message)) return refuse(message);
     if (*resume) {
         const hd_status status = hd_checkpoint_read(&a->kept, resume, message, sizeof message);
@@ -164,7 +166,6 @@ static void log_start(const app *a)
     if (*a->set.resume)
         hdr_log(HDR_INFO, "goes on from simulated time %.6g of %s", hd_run_time(a->run),
                 a->set.resume);
-    if (a->set.awaited) hdr_log(HDR_INFO, "waiting for subscribers");
 }
 
 static void log_end(const worker_state *state)

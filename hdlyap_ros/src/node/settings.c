@@ -35,6 +35,29 @@ static bool read_all(settings *out, reader *r)
     return true;
 }
 
+/** A name chooses no system: it must come with the one that it names, and no system has the name of
+ * the usual one but that itself. */
+static bool check_scene_name(settings *set, reader *r)
+{
+    static const char *const system[] = {"disks", "density", "aspect", "boundary_x", "boundary_y"};
+    const parameter name = parameters_named("scene");
+    bool given = false, usual = true;
+    for (size_t k = 0; k < sizeof system / sizeof *system; k++) {
+        const parameter p = parameters_named(system[k]);
+        if (*hdr_param_text(r->params, system[k])) given = true;
+        if (hd_parameter_value(p.row, &set->def) != p.row->usual) usual = false;
+    }
+    r->name = name.name;
+    if (!*hdr_param_text(r->params, r->name)) {
+        if (!usual) set->scene = "unnamed";
+        return true;
+    }
+    return given || strcmp(set->scene, name.usual) == 0 ||
+           reader_refuse(r,
+                         "given with its disks, density, aspect, boundary_x or boundary_y: a "
+                         "name chooses none of them, roslaunch hdlyap run.launch scene:=.. does");
+}
+
 /** Those that the scene does not know of, where the row says a range. */
 static bool check_ranges(settings *set, reader *r)
 {
@@ -205,6 +228,7 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
     reader r = {.params = params, .message = message, .size = size};
     *out = defaults(kept);
     if (!check_names(&r) || !read_all(out, &r)) return false;
+    if (!kept && !check_scene_name(out, &r)) return false;
     if (!check_ranges(out, &r) || !check_observables(out, &r) || !check_awaited(out, &r) ||
         !check_needs(out, &r))
         return false;

@@ -246,13 +246,17 @@ static bool refuse(const hdr_params *params, const char *name, const char *allow
     return false;
 }
 
+/** A name that does not begin with / is one of the viewer's own namespace. */
 static bool read_node(viewer *v, const hdr_params *params)
 {
-    const hdr_status status = hdr_param_string(params, "node", &v->node);
-    if (status != HDR_MISSING &&
-        (status != HDR_OK || *v->node != '/' || strlen(v->node) > TOPIC_SIZE / 2))
-        return refuse(params, "node", "the name of a node with its namespace, such as /hdlyap");
-    return true;
+    static char name[TOPIC_SIZE / 2];
+    const char *given = "/hdlyap", *own = hdr_node_name(v->ros);
+    const hdr_status status = hdr_param_string(params, "node", &given);
+    const int space = *given == '/' ? 0 : (int)(strrchr(own, '/') - own) + 1;
+    const int length = snprintf(name, sizeof name, "%.*s%s", space, own, given);
+    v->node = name;
+    return (*given && length < (int)sizeof name && (status == HDR_OK || status == HDR_MISSING)) ||
+           refuse(params, "node", "the name of a node, such as /hdlyap");
 }
 
 static bool read_modes(mode_choice *modes, const hdr_params *params)
@@ -274,7 +278,7 @@ static bool read_parameters(viewer *v, const hdr_params *params)
 int main(int argc, char **argv)
 {
     hdr_params *params = NULL;
-    viewer v = {.node = "/hdlyap", .said = {.time = -1.0}};
+    viewer v = {.said = {.time = -1.0}};
     hdr_status status = hdr_node_create(&v.ros, &argc, argv, "viewer", 1.0, EXIT_NO_MEMORY);
     if (status == HDR_OK && !v.ros) return 0; /* stopped before there was a master */
     if (status == HDR_OK) status = hdr_params_create(&params, v.ros);
