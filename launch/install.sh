@@ -8,7 +8,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 message_packages() {
-    echo build-essential cmake python3-setuptools python3-numpy python3-scipy python3-matplotlib python3-yaml python3-rospkg
+    echo build-essential cmake python3-setuptools python3-numpy python3-scipy python3-matplotlib python3-pandas python3-yaml python3-rospkg
     case $1 in
         debian)
             echo catkin ros-message-generation ros-message-runtime libroscpp-dev \

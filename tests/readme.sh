@@ -151,6 +151,7 @@ stop_at_exit
 mkdir -p "$WORK/clone"
 cd "$WORK/clone" # a copy, so that the documents' build folder is not the clone's
 cp -r "$ROOT"/{CMakeLists.txt,package.xml,hdlyap_core,msg,tests} .
+mkdir doc && cp "$ROOT/doc/own_figure.py" doc
 block c hdlyap/hdlyap.h "$CORE" >steps.c
 block c /hdlyap/steps "$WRAPPER" >watch_steps.c
 block python rospy "$ROOT/README.md" >watch.py

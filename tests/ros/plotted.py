@@ -36,8 +36,7 @@ def plot_bag(*arguments):
         try:
             runpy.run_path(PLOT_BAG, run_name='__main__')
         except SystemExit as end:
-            status = 1
-            error.write(f'{end}\n')
+            status = end.code or 0
     return subprocess.CompletedProcess(arguments, status, out.getvalue(), error.getvalue())
 
 

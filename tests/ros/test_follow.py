@@ -103,8 +103,8 @@ class Screens(unittest.TestCase):
                 '1.23 time units/s',
                 'lambda_max 9.000(10)',
                 'h_KS 222.00(37)',
-                'c_T 1.400(12)',
-                'c_L 1.500(20)',
+                'c_T 1.400(12) (c k + c2 k^2',
+                'c_L 1.500(20) (c k + c2 k^2',
                 'v 1.612(23)',
                 'steps resolved 3 of 4',
                 'interval 2.37 (conditioning)',
@@ -118,6 +118,18 @@ class Screens(unittest.TestCase):
             self.assertRegex(text, r'T\(1,0\) +36-37 +1\.98 +2 +0\.99346 +1\.4895\(20\)')
             self.assertRegex(text, r'ortho +█+.? +55 %')
             self.assertRegex(text, r'other +▋ +10 %')
+
+    def test_fits_say_what_they_stand_on(self):
+        """Their forms on every screen, their wave numbers where there is room."""
+        shown = view()
+        shown.steps.l_points = shown.steps.l_terms = 1
+        self.assertIn(
+            'c_T 1.400(12) (c k + c2 k^2)   c_L 1.500(20) (c k)   v 1.612(23)\n', self.text(shown)
+        )
+        self.assertIn(
+            'c_T 1.400(12) (c k + c2 k^2 over 3 wave numbers 0.9935 .. 1.987)\n',
+            self.text(shown, (80, 30)),
+        )
 
     def test_phases(self):
         """At t = 50 since they began, of vector 33: v k t = 1.6 * 0.99346 * 50 = 12.649 turns."""

@@ -29,9 +29,14 @@ class Errors(unittest.TestCase):
         messages = harness.whole_run(dict(scene, wait_for_subscribers=topics), topics)
         cls.spectrum, cls.steps = messages['spectrum'][-1], messages['steps'][-1]
 
-    def check_fit(self, kind, points, c, c_error, c2, c2_error, misfit):
+    def check_fit(self, letter, kind):
         """With weights 1 / error^2. An error is at most that of steps that all move together."""
+        points, c, c_error, c2, c2_error, misfit = (
+            getattr(self.steps, name.replace('*', letter))
+            for name in ('*_points', 'c_*', 'c_*_error', 'c_*2', 'c_*2_error', '*_misfit')
+        )
         fitted = [s for s in self.steps.steps if s.resolved and s.kind == kind and s.ny == 0]
+        self.check_basis(letter, [s.wave_number for s in fitted])
         k, exponent, error = np.array(
             [(s.wave_number, s.exponent, s.std_error) for s in fitted]
         ).transpose()
@@ -51,16 +56,19 @@ class Errors(unittest.TestCase):
         self.assertAlmostEqual(misfit, want, delta=1e-6 * abs(want))
         return freedom
 
+    def check_basis(self, letter, wave_numbers):
+        """What the fit says that it stands on."""
+        self.assertEqual(
+            [getattr(self.steps, f'{letter}_{name}') for name in ('terms', 'k_min', 'k_max')],
+            [min(len(wave_numbers), 2), min(wave_numbers), max(wave_numbers)],
+        )
+
     def test_fits(self):
         m = self.steps
-        of_t = self.check_fit(
-            Mode.T, m.t_points, m.c_t, m.c_t_error, m.c_t2, m.c_t2_error, m.t_misfit
-        )
-        of_l = self.check_fit(
-            Mode.LP, m.l_points, m.c_l, m.c_l_error, m.c_l2, m.c_l2_error, m.l_misfit
-        )
+        of_t, of_l = self.check_fit('t', Mode.T), self.check_fit('l', Mode.LP)
         self.assertGreater(of_t, of_l)  # the one has a misfit, the other has none
         self.assertTrue(0.0 < m.v_error < 0.05 * m.v and m.v_misfit >= 0.0)
+        self.assertEqual((m.v_k_min, m.v_k_max), (m.l_k_min, m.l_k_max))
 
     def test_steps_that_are_alone(self):
         found = [s for s in self.steps.steps if s.resolved]

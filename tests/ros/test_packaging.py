@@ -57,6 +57,7 @@ OF_SYSTEM = {
     'pkg-config': 'pkg-config',
     'python3-matplotlib': 'python3-matplotlib',
     'python3-numpy': 'python3-numpy',
+    'python3-pandas': 'python3-pandas',
     'python3-rospkg': 'python3-rospkg',
     'python3-scipy': 'python3-scipy',
     'python3-setuptools': 'python3-setuptools',

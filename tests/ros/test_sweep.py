@@ -16,7 +16,9 @@ import rospy
 import rostest
 
 import harness
+import made
 from harness import Process
+from made import T
 
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
 DENSITIES = ['0.2', '0.65', '0.4']
@@ -100,6 +102,45 @@ class Sweep(unittest.TestCase):
         self.assertEqual((count[node + '/status'], count[node + '/cost']), (60, 60))
         self.assertEqual({topic.rsplit('/', 1)[0] for topic in count} - {''}, {node})
         self.assertEqual((info.density, info.threads, info.seed), (density, 1, '5'))
+
+    def test_fits_on_different_bases_are_marked(self):
+        """Of one form over the same wave numbers they share their number; a line explains each."""
+        info, rows = made.run_info(), []
+        with tempfile.TemporaryDirectory() as folder:
+            for density, changes in (
+                (0.5, {}),
+                (0.4, {}),
+                (0.6, dict(t_points=1, t_terms=1, t_k_max=0.99346, l_points=0, v_phases=0)),
+            ):
+                message = made.steps([made.step(info, T, 1, 0, 36, 37)])
+                for name, value in changes.items():
+                    setattr(message, name, value)
+                rows.append(os.path.join(folder, f'{density}.bag'))
+                made.write(
+                    rows[-1], [made.run_info(density=density), made.spectrum([9.0], 50.0), message]
+                )
+            table = self.process([roslib.packages.find_node('hdlyap', 'sweep_table')[0], *rows])
+            self.assertEqual(table.wait(), 0, table.text())
+        self.assertEqual(
+            [line.split() for line in table.text().strip().splitlines()[1:4]],
+            [
+                f'{density} 9.000(10) {fits} 50'.split()
+                for density, fits in (
+                    ('0.4', '1.400(12) [1] 1.500(20) [2] 1.612(23) [3]'),
+                    ('0.5', '1.400(12) [1] 1.500(20) [2] 1.612(23) [3]'),
+                    ('0.6', '1.400(12) [4]'),
+                )
+            ],
+        )
+        self.assertEqual(
+            table.text().splitlines()[-4:],
+            [
+                '  [1] c k + c2 k^2 over 3 wave numbers 0.9935 .. 1.987',
+                '  [2] c k + c2 k^2 over 2 wave numbers 0.9935 .. 1.405',
+                '  [3] |omega| / k of the LP phases at 0.9935 .. 1.405',
+                '  [4] c k over 1 wave number 0.9935',
+            ],
+        )
 
     def test_arguments_are_documented(self):
         """As `roslaunch --ros-args` lists them."""

@@ -16,7 +16,7 @@ def lines(view, size, glyphs):
     wanted = {
         'head': panels.head(view),
         'progress': panels.progress(view, width, glyphs),
-        'numbers': panels.numbers(view, width),
+        'numbers': panels.numbers(view, width, height),
         'table': panels.table(view, width),
         'phases': panels.phases(view, glyphs),
         'cost': panels.cost(view, width, glyphs),

@@ -3,7 +3,7 @@
 from math import atan2, hypot, isfinite, pi
 
 from hdlyap.msg import LpPhase
-from hdlyap.plots import paper, steps, step_table, waves
+from hdlyap.plots import fits, paper, steps, step_table, waves
 from hdlyap.plots.numbers import clock, with_error
 from hdlyap.plots.phases import apart
 from hdlyap.plots.report import system
@@ -13,6 +13,7 @@ LEVELS = {0: ('OK', 'ok'), 1: ('WARN', 'warn'), 2: ('ERROR', 'error'), 3: ('STAL
 KIND_STYLES = {steps.T: 'T', steps.LP: 'LP'}
 PAPER_WIDTH = 88  # of a table of steps with the paper's values
 PART_BAR = 6  # columns
+ROOMY = 30  # lines of a screen
 GAP = '   '
 STATES = {LpPhase.WEAK: 'too weak now', LpPhase.COARSE: 'turns too fast'}
 PHASE_ROW = '  {:<9} {:<17} {:>6} {:>7}  {} {:<6}{:<14} {}'
@@ -67,10 +68,10 @@ def _times(view):
         yield f'{view.speed:.3g} time units/s'
 
 
-def numbers(view, width):
-    """Exponents and fits."""
+def numbers(view, width, height):
+    """Exponents, and fits with their forms; where there is room, with their wave numbers too."""
     cells = [f'{name} {value}' for name, value in _numbers(view)]
-    return flow(cells, width) if cells else []
+    return flow(cells, width) + flow(_fits(view, height >= ROOMY), width)
 
 
 def _numbers(view):
@@ -83,16 +84,18 @@ def _numbers(view):
             yield 'pairing error', f'{spectrum.pairing_error:.1e}'
     if message is None or message.averaged_time <= 0:
         return
-    for name, value, points in (
-        ('c_T', 'c_t', 't_points'),
-        ('c_L', 'c_l', 'l_points'),
-        ('v', 'v', 'v_phases'),
-    ):
-        if getattr(message, points):
-            yield name, _measured(getattr(message, value), getattr(message, value + '_error'))
     looked_for = [step for step in message.steps if step.kind != steps.ZERO]
     found = sum(step.resolved for step in looked_for)
     yield 'steps resolved', f'{found} of {len(looked_for)}'
+
+
+def _fits(view, with_waves):
+    message = view.steps if view.steps is not None and view.steps.averaged_time > 0 else None
+    for fit in fits.of(message):
+        if fit.count:
+            _, value, error = fit.values[0]
+            basis = fit.basis if with_waves else fit.form
+            yield f'{fit.symbol} {_measured(value, error)}' + (f' ({basis})' if basis else '')
 
 
 def table(view, width):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .. import paper, steps
+from .. import fits, paper, steps
 from ..numbers import with_error
 from .style import GREY, KIND_COLOURS, bars, plt, scene
 
@@ -14,14 +14,14 @@ PUBLISHED_UP_TO = 0.3  # wave numbers for which slopes without curvature are mea
 
 
 def draw(recording):
-    message = recording.steps
-    points = [(block, step) for block in steps.blocks(message) for step in block.steps]
+    points = [(block, step) for block in steps.blocks(recording.steps) for step in block.steps]
     if not points:
         return None
     figure, axes = plt.subplots(figsize=(5.2, 4.4), constrained_layout=True)
     end = MARGIN * max(step.wave_number for _, step in points)
-    for kind, letter, count in (('LP', 'l', message.l_points), ('T', 't', message.t_points)):
-        _branch(axes, recording, kind, letter, count, end)
+    of_t, of_l, _ = fits.of(recording.steps)
+    for fit in (of_l, of_t):
+        _branch(axes, recording.info, fit, end)
     for block, step in points:
         _point(axes, step, alone=len(block.steps) == 1)
     axes.set_xlim(0, end)
@@ -52,16 +52,15 @@ def _point(axes, step, alone):
     )
 
 
-def _branch(axes, recording, kind, letter, count, end):
+def _branch(axes, info, fit, end):
     """The fit of the run, and thin the paper's where it holds."""
-    message, colour = recording.steps, KIND_COLOURS[kind]
-    if count:
-        c, c2 = getattr(message, 'c_' + letter), getattr(message, f'c_{letter}2')
+    kind = steps.NAMES[fit.kind]
+    colour = KIND_COLOURS[kind]
+    if fit.count:
         k = np.linspace(0, end, 100)
-        axes.plot(
-            k, c * k + c2 * k**2, color=colour, label=_fit_label(message, kind, letter, count)
-        )
-    published = paper.branches(recording.info).get(kind)
+        line = sum(value * k**power for power, (_, value, _) in enumerate(fit.values, start=1))
+        axes.plot(k, line, color=colour, label=f'{kind}: {_fit_label(fit)}')
+    published = paper.branches(info).get(kind)
     if published is not None:
         k = np.linspace(0, end if published.c2 else min(end, PUBLISHED_UP_TO), 100)
         axes.plot(
@@ -74,16 +73,13 @@ def _branch(axes, recording, kind, letter, count, end):
         )
 
 
-def _fit_label(message, kind, letter, count):
-    symbol = kind[0]
-    label = f'$c_{symbol}={_value(message, "c_" + letter)}$'
-    if count > 1:
-        label += f', $c_{{{symbol}2}}={_value(message, f"c_{letter}2")}$'
-    return f'{kind}: ' + label
-
-
-def _value(message, name):
-    return with_error(getattr(message, name), getattr(message, name + '_error'), decimals=3)
+def _fit_label(fit):
+    """Its coefficients; c alone says that it is."""
+    label = ', '.join(
+        f'${name[0]}_{{{name[2:]}}}={with_error(value, error, decimals=3)}$'
+        for name, value, error in fit.values
+    )
+    return label + (', $c\\,k$ alone' if fit.terms == 1 else '')
 
 
 def _wave_axis(axes, points, end):
