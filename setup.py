@@ -14,6 +14,8 @@ PACKAGES = [
     '.plots.figures',
     '.reproduce',
     '.reproduce.parts',
+    '.runs',
+    '.sweep',
 ]
 setup(
     **generate_distutils_setup(
