@@ -33,7 +33,7 @@ def draw(points):
         return None
     x = max(names, key=lambda name: (name != 'boundary', _count(points, name)))
     series = _series(points, [name for name in names if name != x])
-    columns = min(3, len(shown))
+    columns = 2 if len(shown) in (2, 4) else min(3, len(shown))
     rows = -(-len(shown) // columns)
     figure, panels = plt.subplots(
         rows, columns, figsize=(3.1 * columns, 2.7 * rows + 0.9), squeeze=False
@@ -88,14 +88,8 @@ def _panel(axes, name, x, series, marks):
                 place = places[point.system[x]] + shift
                 _point(axes, place, value, number)
                 if marked > 1:
-                    axes.annotate(
-                        marks.of(value.fit).strip(),
-                        (place, value.value),
-                        xytext=(4, 3),
-                        textcoords='offset points',
-                        fontsize=6,
-                        color=GREY,
-                    )
+                    _mark(axes, place, value, marks, number)
+    axes.margins(y=0.12)
     axes.set_xlim(*_limits(list(places.values()), words))
     if words:
         axes.set_xticks(range(len(words)))
@@ -104,8 +98,22 @@ def _panel(axes, name, x, series, marks):
     axes.set_ylabel(NAMES[name])
 
 
+def _mark(axes, place, value, marks, number):
+    """Those of two series on either side."""
+    side = 1 if number % 2 else -1
+    axes.annotate(
+        marks.of(value.fit).strip(),
+        (place, value.value),
+        xytext=(4 * side, 3),
+        textcoords='offset points',
+        ha='left' if number % 2 else 'right',
+        fontsize=6,
+        color=GREY,
+    )
+
+
 def _limits(places, words):
-    margin = 0.5 if words else 0.08 * (max(places) - min(places))
+    margin = 0.5 if words else 0.12 * (max(places) - min(places))
     return min(places) - margin, max(places) + margin
 
 

@@ -80,8 +80,7 @@ class Run(run.Run):
         difference = bag.differs_from(self.parameters)
         if difference:
             raise Refused(
-                f'{bag.path}: {difference}; must be a sweep of the same values, '
-                'or of another folder'
+                f'{bag.path}: {difference}; must be swept with that, or in another folder'
             )
         return True
 

@@ -1,4 +1,5 @@
-"""Bags -> points, one for each system, with means over its seeds. Of one seed, what its run says."""
+"""Bags -> points, one for each system, with means over its seeds; of one seed, what its run
+says."""
 
 from collections import namedtuple
 
