@@ -53,6 +53,10 @@ is_run_elsewhere() {
 # A command as a user would type it, in the folder of the clone's copy.
 type_in() {
     case $1 in
+        'roslaunch hdlyap run.launch') # endless
+            says 'T\(1,0\) .*\([0-9]+\)$' 'LP\(1,0\) .*\([0-9]+\)$' -- roslaunch hdlyap run.launch &&
+                grep -q '^result of /hdlyap, first: ' "$WORK/said.txt" && ! grep -q 'has died' "$WORK/said.txt"
+            ;;
         'rosrun hdlyap hdlyap_node') run timeout --preserve-status -s INT 8 rosrun hdlyap hdlyap_node ;;
         *bench/run.sh*) run bash -ec "$1 --quick" ;; # fifteen minutes otherwise
         *scene:=covariant*) # a minute otherwise
@@ -155,6 +159,7 @@ mkdir doc && cp "$ROOT/doc/own_figure.py" doc
 block c hdlyap/hdlyap.h "$CORE" >steps.c
 block c /hdlyap/steps "$WRAPPER" >watch_steps.c
 block python rospy "$ROOT/README.md" >watch.py
+block yaml disks: "$ROOT/doc/user_guide.md" >strip.yaml
 source_setup "$SETUP"
 start roscore -p "${ROS_MASTER_URI##*:}" >"$WORK/roscore.log" 2>&1
 until rostopic list >/dev/null 2>&1; do sleep 0.2; done

@@ -102,7 +102,7 @@ class Checkpoint(harness.Case):
         found = {}
         exec(program, found)
         arrays = dict(found['arrays'](self.file))
-        self.assertEqual(b''.join(arrays['label']).rstrip(b'\0').decode(), 'paper_periodic')
+        self.assertEqual(b''.join(arrays['label']).rstrip(b'\0').decode(), 'unnamed')
         self.assertEqual(arrays['scene disks'], [60])
         self.assertEqual(arrays['frame vectors'].size, 240 * 117)
         exponents = arrays['spectrum sum'] / arrays['spectrum time']

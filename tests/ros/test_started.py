@@ -127,7 +127,7 @@ class Started(unittest.TestCase):
         self.check(
             BOTH,
             lambda k: [harness.executable(), '__name:=n%d' % k, *quiet],
-            lambda node: node.lines('scene paper_periodic'),
+            lambda node: node.lines('scene unnamed'),
         )
 
     def test_follow(self):
