@@ -113,6 +113,9 @@ class Several(Tools):
 class Export(Tools):
     def setUp(self):
         super().setUp()
+        drawn = mock.patch('hdlyap.plots.figures.draw_all', lambda *_: [])
+        drawn.start()
+        self.addCleanup(drawn.stop)
         self.bag = self.write('run', numbered(made.small_run()))
         self.csv = os.path.join(self.folder, 'csv')
         self.npz = os.path.join(self.folder, 'arrays')
@@ -250,7 +253,7 @@ class Hostile(Tools):
         with open(path, 'rb') as file:
             whole = np.frombuffer(file.read(), dtype=np.uint8)
         outcomes = set()
-        for trial in range(60):
+        for trial in range(40):
             content = whole.copy()
             if trial % 2:
                 place = rng.integers(len(content), size=3)

@@ -1,6 +1,7 @@
 """How a tool that reads bags ends: whatever is wrong with them is one line, and its own exit
 status."""
 
+import logging
 import os
 import sys
 import traceback
@@ -11,6 +12,7 @@ from hdlyap.data.reader import RecordingError, plain
 
 def by(name, main, fault=1):
     """Of the tool of that name. fault: the exit status if something is wrong."""
+    logging.getLogger('rosout').addHandler(logging.NullHandler())  # genpy's, of texts that are none
     warnings.simplefilter('ignore', RuntimeWarning)  # numpy's, of numbers that no node says
     try:
         status = main()

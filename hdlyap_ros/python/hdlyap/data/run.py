@@ -46,7 +46,7 @@ ARRAYS = {
     'momenta': (msg.State, 'px'),
 }
 Averages = namedtuple('Averages', 'times averaged_times exponents std_errors local last')
-# samples that follow each other without overlap: their ends, lengths (NaN if unknown), exponents
+# samples: their ends, lengths (NaN if unknown) and exponents; no time is in two of them
 Local = namedtuple('Local', 'times lengths exponents')
 
 

@@ -5,7 +5,7 @@ said 0 or -1."""
 import numpy as np
 import pandas
 
-from hdlyap.msg import LpPhase, Step
+from hdlyap.msg import LpPhase, Mode, Step
 from hdlyap.plots import stages, steps, waves
 from hdlyap.plots.numbers import known
 
@@ -63,14 +63,18 @@ def _column(values, kind, field):
 
 def _blank(columns):
     """What was not measured is NaN."""
-    if 'resolved' in columns:  # a Step: what stands below it
-        after = list(columns)[list(columns).index('resolved') + 1 :]
-        blank = {name: ~columns['resolved'] for name in after}
-    elif 'tracked_time' in columns:  # a phase
-        unresolved = columns['state'] == LpPhase.UNRESOLVED
-        blank = dict.fromkeys(('a', 'b', 'tracked_time'), unresolved)
-        loose = columns['state'] != LpPhase.TRACKED
-        blank.update(dict.fromkeys(('phase', 'omega', 'omega_error', 'velocity'), loose))
+    if 'resolved' in columns:  # of a Step: all that stands below
+        below = list(columns)[list(columns).index('resolved') + 1 :]
+        blank = dict.fromkeys(below, ~columns['resolved'])
+        if 'gap' in columns:
+            blank['gap'] = columns['gap'] == 0
+    elif 'tracked_time' in columns:  # of an LpPhase
+        blank = dict.fromkeys(('a', 'b'), columns['state'] == LpPhase.UNRESOLVED)
+        tracked = 'phase', 'omega', 'omega_error', 'velocity'
+        blank.update(dict.fromkeys(tracked, columns['state'] != LpPhase.TRACKED))
+    elif 'weight_now' in columns:  # of a Mode
+        blank = dict.fromkeys(('wave_number', 'weight'), columns['kind'] == Mode.NONE)
+        blank.update(dict.fromkeys(('weight_l', 'weight_p'), columns['kind'] != Mode.LP))
     else:
         return
     for name, where in blank.items():
