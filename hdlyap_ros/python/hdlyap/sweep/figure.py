@@ -113,7 +113,7 @@ def _mark(axes, place, value, marks, number):
 
 
 def _limits(places, words):
-    margin = 0.5 if words else 0.12 * (max(places) - min(places))
+    margin = 0.5 if words else 0.15 * (max(places) - min(places))
     return min(places) - margin, max(places) + margin
 
 
