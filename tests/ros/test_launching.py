@@ -3,6 +3,7 @@
 overwritten. Needs no ROS master."""
 
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -11,6 +12,7 @@ import rospkg
 
 from hdlyap.launching import arguments, bags
 
+GUIDE = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/user_guide.md')
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
 
 
@@ -136,6 +138,18 @@ class Parameters(InFolder):
         self.write('run.launch', '<launch/>')
         self.check('run.launch', 'disk:=50')
         arguments.check_names(['rostest', 'run.launch', 'disk:=50'], LAUNCH, self.folder)
+
+
+class Scenes(unittest.TestCase):
+    def test_table_in_the_guide(self):
+        """Has all of them, with their numbers of disks."""
+        with open(GUIDE) as file:
+            stated = dict(re.findall(r'(?m)^\| `(\w+)` \| (\d+) \|', file.read()))
+        disks = {}
+        for name in os.listdir(os.path.join(LAUNCH, 'scenes')):
+            values = arguments.scene_file(name[: -len('.yaml')], LAUNCH, '.')
+            disks[values['scene']] = str(values.get('disks', 780))
+        self.assertEqual(stated, disks)
 
 
 class Bags(InFolder):

@@ -60,7 +60,7 @@ class Teller:
             if time.monotonic() < self._told + PERIOD:
                 continue
             view = self._view()
-            if view.is_averaged and self._is_news(view):
+            if view.is_averaged and not view.is_finished and self._is_news(view):
                 self._print(self._head(view), view)
 
     def result(self):
@@ -71,11 +71,10 @@ class Teller:
         view = self._view()
         if view.status is None:
             return
-        if not view.is_averaged:
-            lines = [f'{self._node} has ended at simulated time {view.status.sim_time:g}']
-        else:
-            lines = [f'result of {self._node}, {view.info.scene}: {averages(view)}']
-        self._print(lines[0], view, self._where())
+        what = f'no averages at simulated time {view.status.sim_time:g}'
+        if view.is_averaged:
+            what = averages(view)
+        self._print(f'result of {self._node}, {view.info.scene}: {what}', view, self._where())
 
     def _where(self):
         if not self._bag:
@@ -98,6 +97,8 @@ class Teller:
     def _is_news(self, view):
         """Twice the time has been averaged, or a step has been found or has got an error."""
         averaged, found = view.spectrum.averaged_time, known_steps(view)
+        if averaged < self._averaged:  # it was reset
+            self._averaged, self._found = 0.0, set()
         if averaged < 2 * self._averaged and found <= self._found:
             return False
         self._averaged, self._found = averaged, self._found | found
