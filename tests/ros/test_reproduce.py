@@ -550,13 +550,12 @@ class Machines(Folder):
             },
         )
         self.assertEqual(
-            {key: value.value for key, value in config.params.items() if key.endswith('/scene')},
-            {f'/{name}/hdlyap/scene': name for name in 'abc'},
+            {key: value.value for key, value in config.params.items() if 'hdlyap' in key},
+            {f'/{name}/hdlyap': dict(scene=name, wait_for_subscribers='all') for name in 'abc'},
         )
         bags = [node.args for node in config.nodes if node.type == 'record']
         for name, args in zip('abc', bags):
-            self.assertIn(f"--output-name='{self.folder}/./{name}.bag'", args)
-            self.assertIn(f' /{name}/hdlyap/spectrum ', args)
+            self.assertIn(f"--node 'hdlyap' --bag '{self.folder}/./{name}.bag' ", args)
         self.assertFalse(any(node.required for node in config.nodes if node.type != 'sweep_table'))
 
     def test_one_and_here(self):
