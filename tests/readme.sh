@@ -47,7 +47,7 @@ check() {
 # Commands that other tests run: demo.sh, reproduce.sh, the suite itself, tests/ros/test_bags.py; the last one is done below,
 # for another folder.
 is_run_elsewhere() {
-    [[ $1 == @(launch/demo.sh*|launch/reproduce.sh*|tests/run.sh*|*again.bag*|*replay*|source*) ]]
+    [[ $1 == @(launch/demo.sh*|launch/reproduce.sh*|tests/run.sh*|*replay*|source*) ]]
 }
 
 # A command as a user would type it, in the folder of the clone's copy.
@@ -65,7 +65,11 @@ type_in() {
             ;;
         *rviz:=true*) opens_rviz bash -ec "$1" ;;
         *rviz.launch) beside_a_node opens_rviz bash -ec "$1" ;;
+        rosservice*)
+            beside_a_node bash -ec "until rosservice info /hdlyap/set; do sleep 0.1; done; timeout 60 $1 | tee /dev/stderr | grep -q 'success: True'"
+            ;;
         *follow* | rostopic*) beside_a_node bash -ec "timeout 60 $1" ;;
+        *'compare run.bag again.bag') run bash -ec "$1 | tee compared.txt" && grep -q identical compared.txt ;;
         *) run bash -ec "$1" ;;
     esac
 }

@@ -41,6 +41,20 @@ NODE = 'hdlyap'
 SHORT = dict(disks=20, density=0.7, aspect=1.0, equilibration=1.0, warmup=1.0, duration=2.0)
 # a box so long that its steps are found within a second
 MODES = dict(disks=60, density=0.8, aspect=0.06, equilibration=10.0, warmup=60.0, duration=20.0)
+# reports come at the same times whatever the speed; nobody's listening changes what is computed
+REPEATABLE = dict(
+    disks=60,
+    density=0.8,
+    aspect=0.06,
+    equilibration=5.0,
+    warmup=20.0,
+    duration=30.0,
+    threads=1,
+    report_interval=0.5,
+    observables=['spectrum', 'modes', 'steps', 'lp_phases', 'fields', 'state'],
+    field_interval=3.0,
+    wait_for_subscribers='all',
+)
 # of a scene that may be short: covariant vectors need long transients
 TYPES = dict(
     run_info=RunInfo,

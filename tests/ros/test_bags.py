@@ -311,7 +311,7 @@ def expected_sizes(disks, vectors, steps, phases):
     and single numbers."""
     begin = 4 + 8 + 8  # seq, stamp, sim_time
     return dict(
-        spectrum=begin + 8 + 8 + 4 * 8 + 4 + 5 * 4 + 40 * vectors,
+        spectrum=begin + 8 + 8 + 5 * 8 + 4 + 5 * 4 + 40 * vectors,
         modes=begin + 8 + 4 + 4 + 89 * vectors,
         steps=begin + 8 + 8 + 4 + 96 * steps + 2 * 44 + 4 + 3 * 8,
         lp_phases=begin + 4 + 4 + 74 * phases,

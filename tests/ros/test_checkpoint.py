@@ -14,20 +14,7 @@ from harness import NODE, SHORT
 
 DOCUMENT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/survival.md')
 LONG = dict(SHORT, duration=0.0, threads=1)
-# reports come at the same times whatever the speed; nobody's listening changes what is computed
-RUN = dict(
-    disks=60,
-    density=0.8,
-    aspect=0.06,
-    equilibration=5.0,
-    warmup=20.0,
-    duration=30.0,
-    threads=1,
-    report_interval=0.5,
-    observables=['spectrum', 'modes', 'steps', 'lp_phases', 'fields', 'state'],
-    field_interval=3.0,
-    wait_for_subscribers='all',
-)
+RUN = harness.REPEATABLE
 
 
 class Checkpoint(harness.Case):

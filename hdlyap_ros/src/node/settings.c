@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "change.h"
 #include "parameters.h"
 #include "reader.h"
 #include "topic.h"
@@ -16,11 +17,8 @@ enum { OF_EXPONENTS = 1u << TOPIC_SPECTRUM | 1u << TOPIC_COVARIANT | TOPICS_OF_M
 static bool check_names(reader *r)
 {
     for (int k = 0; k < hdr_params_count(r->params); k++) {
-        bool known = false;
         r->name = hdr_params_name(r->params, k);
-        for (int n = 0; n < parameters_count() && !known; n++)
-            known = strcmp(parameters_at(n).name, r->name) == 0;
-        if (!known) return reader_refuse(r, parameters_why_not(r->name));
+        if (!parameters_has(r->name)) return reader_refuse(r, parameters_why_not(r->name));
     }
     return true;
 }
@@ -154,6 +152,20 @@ static bool check_slow_vectors(const settings *set, reader *r)
            reader_refuse(r, allowed);
 }
 
+static bool check_changes(const settings *set, char *message, size_t size)
+{
+    char line[256];
+    for (int k = 0; k < set->changes.count; k++) {
+        change each;
+        if (change_parse_timed(&each, set->changes.text[k], line, sizeof line)) continue;
+        snprintf(message, size, "changes = %.60s: must be changes that ~set can make: %s",
+                 set->changes.text[k], line);
+        make_one_line(message);
+        return false;
+    }
+    return true;
+}
+
 static void write_texts(settings *out)
 {
     const parameter p = parameters_named("exponents");
@@ -192,6 +204,7 @@ static void set_default(settings *set, const parameter *p)
     case TOPICS_OBSERVED:
     case TOPICS_AWAITED: *(unsigned *)field = topics_named(p->usual); break;
     case FIELD_CHOICE: *(field_choice *)field = (field_choice){.text = p->usual}; break;
+    case CHANGES: break;
     }
 }
 
@@ -221,5 +234,5 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
         return false;
     write_texts(out);
     return hd_scene_check(&out->def, message, size) == HD_OK && check_field_indices(out, &r) &&
-           check_slow_vectors(out, &r);
+           check_slow_vectors(out, &r) && check_changes(out, message, size);
 }

@@ -27,7 +27,7 @@ typedef struct picture {
     double box[2];             /**< [sigma] */
     bool periodic[2];
     double time, averaged;  /**< [time units] */
-    double progress;        /**< 0 .. 1; 0 if unknown */
+    double progress;        /**< 0 .. 1; negative if unknown */
     hdr_doubles x, y;       /**< [N] positions [sigma] */
     bool has_exponents;     /**< now or later */
     hdr_doubles exponents;  /**< of index 1, 2 ..; count 0 while there are none */

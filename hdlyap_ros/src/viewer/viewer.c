@@ -1,5 +1,6 @@
 /** The pictures of a run from its topics, live or from a bag that is played: <node>/markers.
- * rosrun hdlyap viewer [_node:=/hdlyap] [_modes:="T(1,0) LP(1,0)"] */
+ * rosrun hdlyap viewer [_node:=/hdlyap] [_modes:="T(1,0) LP(1,0)"]
+ * rosservice call /viewer/set "modes=T(1,0)" */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -32,6 +33,25 @@ typedef struct viewer {
     hdr_subscriber *others[2][SUBSCRIBERS_MAX];
     double seen; /**< when somebody looked last */
 } viewer;
+
+/* ---- modes --------------------------------------------------------------------------------- */
+
+static const char *const modes_allowed =
+    "lowest or 1 to 8 names such as T(1,0) LP(1,1), with spaces between";
+
+/** False unless the text is `lowest` or of 1 to PICTURE_MODES_MAX names, with spaces between. */
+static bool parse_modes(mode_choice *modes, const char *text)
+{
+    char name[16];
+    int end = 0;
+    *modes = (mode_choice){.count = 0};
+    if (strcmp(text, "lowest") == 0) return true;
+    for (; sscanf(text, "%15s%n", name, &end) == 1; text += end)
+        if (modes->count == PICTURE_MODES_MAX ||
+            !mode_name_parse(&modes->mode[modes->count++], name))
+            return false;
+    return modes->count > 0;
+}
 
 /* ---- callbacks ----------------------------------------------------------------------------- */
 
@@ -100,6 +120,27 @@ static void on_steps(void *context, const hdr_steps *steps)
 static void on_phases(void *context, const hdr_lp_phases *phases)
 {
     heard_phases(&((viewer *)context)->said, phases);
+}
+
+/** Of the modes alone: "modes=T(1,0) LP(1,1)". */
+static bool on_set(void *context, const char *assignment, char *message, size_t size)
+{
+    viewer *v = context;
+    mode_choice modes;
+    const char *names = assignment + strlen("modes=");
+    if (strncmp(assignment, "modes=", strlen("modes=")) != 0) {
+        snprintf(message, size, "must be modes=NAMES: the rest is read at the start");
+        return false;
+    }
+    if (!parse_modes(&modes, names)) {
+        snprintf(message, size, "modes = %.80s: must be %s", names, modes_allowed);
+        return false;
+    }
+    v->modes = modes;
+    v->said.changed = true;
+    show(v);
+    snprintf(message, size, "modes = %.80s", names);
+    return true;
 }
 
 /** The last message of a report. */
@@ -188,6 +229,7 @@ static hdr_status look_after(viewer *v)
     if (status == HDR_OK) status = hdr_frame_publish(v->ros, "world", "box");
     if (status == HDR_OK)
         status = hdr_run_info_subscribe(&info, v->ros, topic(v, "run_info"), QUEUE, on_run_info, v);
+    if (status == HDR_OK) status = hdr_service_set(v->ros, "~set", on_set, v);
     v->seen = seconds_now();
     while (status == HDR_OK) {
         status = follow(v, seconds_now());
@@ -217,26 +259,12 @@ static bool read_node(viewer *v, const hdr_params *params)
            refuse(params, "node", "the name of a node, such as /hdlyap");
 }
 
-/** False unless the text is of 1 to PICTURE_MODES_MAX names, with spaces between. */
-static bool parse_modes(mode_choice *modes, const char *text)
-{
-    char name[16];
-    int end = 0;
-    for (; sscanf(text, "%15s%n", name, &end) == 1; text += end)
-        if (modes->count == PICTURE_MODES_MAX ||
-            !mode_name_parse(&modes->mode[modes->count++], name))
-            return false;
-    return modes->count > 0;
-}
-
 static bool read_modes(mode_choice *modes, const hdr_params *params)
 {
     const char *text = NULL;
     const hdr_status status = hdr_param_string(params, "modes", &text);
-    if (status == HDR_MISSING || (status == HDR_OK && strcmp(text, "lowest") == 0)) return true;
-    return (status == HDR_OK && parse_modes(modes, text)) ||
-           refuse(params, "modes",
-                  "lowest or 1 to 8 names such as T(1,0) LP(1,1), with spaces between");
+    return status == HDR_MISSING || (status == HDR_OK && parse_modes(modes, text)) ||
+           refuse(params, "modes", modes_allowed);
 }
 
 static bool read_parameters(viewer *v, const hdr_params *params)

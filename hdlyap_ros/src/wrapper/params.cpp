@@ -10,8 +10,18 @@
 #include <ros/ros.h>
 
 #include "guard.hpp"
+#include "params.hpp"
 
 using XmlRpc::XmlRpcValue;
+
+std::string param_text(XmlRpcValue &value)
+{
+    std::ostringstream text;
+    if (value.getType() == XmlRpcValue::TypeString) return value;
+    if (value.getType() != XmlRpcValue::TypeArray) return value.write(text), text.str();
+    for (int k = 0; k < value.size(); k++) text << (k ? ", " : "") << param_text(value[k]);
+    return "[" + text.str() + "]";
+}
 
 namespace
 {
@@ -29,15 +39,6 @@ bool is_list(XmlRpcValue &value, XmlRpcValue::Type type)
     for (int k = 0; k < value.size(); k++)
         if (value[k].getType() != type) return false;
     return true;
-}
-
-std::string text_of(XmlRpcValue &value)
-{
-    std::ostringstream text;
-    if (value.getType() == XmlRpcValue::TypeString) return value;
-    if (value.getType() != XmlRpcValue::TypeArray) return value.write(text), text.str();
-    for (int k = 0; k < value.size(); k++) text << (k ? ", " : "") << text_of(value[k]);
-    return "[" + text.str() + "]";
 }
 
 /** An integer if it is one from end to end, otherwise a string; without the spaces around it. */
@@ -74,7 +75,7 @@ entry make_entry(XmlRpcValue &given)
     XmlRpcValue value = listed(given);
     entry made;
     made.value = value;
-    made.text = text_of(value);
+    made.text = param_text(value);
     if (is_list(value, XmlRpcValue::TypeString))
         for (int k = 0; k < value.size(); k++) made.strings.push_back(value[k]);
     if (is_list(value, XmlRpcValue::TypeInt))

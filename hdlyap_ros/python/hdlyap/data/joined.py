@@ -22,7 +22,8 @@ class Joined:
 
     def __init__(self, parts, runs=1):
         self.parts, self.runs = parts, runs
-        self.info = parts[-1].info
+        last = [part.info for part in parts if part.run_id == parts[-1].run_id]
+        self.info = max(last, key=reader.changes)
         self.paths = list(dict.fromkeys(part.path for part in parts))
 
     @property

@@ -109,16 +109,23 @@ def _check(kind, message):
 
 def run_infos(path, node=None):
     """{run_id: run_info} of every run of the given node, or of the only one in the bag, in their
-    order; each file of a bag that was split has that of the first."""
+    order; each file of a bag that was split has that of the first. It is published again with each
+    change: the one that knows of most."""
     with opened(path) as bag:
         topics = _topics(bag, path, node, (RUN_INFO,))
         runs = {}
         for packed in _packed(bag, topics):
-            if packed.run_id not in runs:
-                runs[packed.run_id] = _cleaned(packed.message())
+            info = _cleaned(packed.message())
+            if packed.run_id not in runs or changes(info) > changes(runs[packed.run_id]):
+                runs[packed.run_id] = info
         if not runs:
             raise RecordingError(f'{path}: no run_info in it; record that topic too')
         return runs
+
+
+def changes(info):
+    """How many parameters were changed while the run went on; bags of before do not say."""
+    return len(getattr(info, 'changes', ()))
 
 
 def _cleaned(info):
@@ -130,6 +137,8 @@ def _cleaned(info):
             setattr(info, name, [plain(text, longest) for text in value[:LIST]])
         elif kind.endswith('[]'):
             setattr(info, name, value[:LIST])
+    for change in getattr(info, 'changes', ()):
+        _cleaned(change)
     return info
 
 

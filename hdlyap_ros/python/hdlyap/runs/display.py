@@ -27,7 +27,7 @@ class Display:
         self._ended = len(self._seen - names)
         shares = [f'{job.run.name} {100 * job.share:.0f} %' for job in under_way]
         rest = f'all {100 * done / total:.0f} %, about {clock(self._left(done, total))} left'
-        self._line.show(_fitting(self._count_of_runs(), shares, rest))
+        self._line.show([_fitting(self._count_of_runs(), shares, rest)])
 
     def _left(self, done, total):
         """Seconds, by the plan's and those that have passed for what is done of it."""
@@ -46,9 +46,8 @@ class Display:
 
     def end(self):
         """The total."""
-        self._line.show(
-            f'{self._count_of_runs()} in {clock(time.monotonic() - self._began)}', last=True
-        )
+        seconds = time.monotonic() - self._began
+        self._line.show([f'{self._count_of_runs()} in {clock(seconds)}'], last=True)
         self._line.close()
 
 

@@ -4,9 +4,9 @@ import numpy as np
 
 from .. import fits, paper, steps
 from ..numbers import with_error
-from .style import GREY, KIND_COLOURS, bars, plt, scene
+from .style import GREY, KIND_COLOURS, bars, kind_colour, plt, scene
 
-MARKERS = {'T': 'o', 'LP': 's'}
+MARKERS = {steps.T: 'o', steps.LP: 's'}
 CLOSE = 0.028  # of the width of the axes: nearer names stand behind one another
 NAMES = 3  # that stand behind one another
 MARGIN = 1.08
@@ -36,13 +36,12 @@ def draw(recording):
 
 def _point(axes, step, alone):
     """Open where the step shares its vectors with another."""
-    kind = steps.NAMES[step.kind]
-    colour = KIND_COLOURS[kind]
+    colour = kind_colour(step.kind)
     axes.errorbar(
         step.wave_number,
         step.exponent,
         bars(step.std_error),
-        fmt=MARKERS[kind],
+        fmt=MARKERS.get(step.kind, 'D'),
         color=colour,
         markerfacecolor=colour if alone else 'white',
         markersize=4.5,
@@ -115,13 +114,13 @@ def _joined(names):
 
 def _legend(axes, blocks):
     handles, labels = axes.get_legend_handles_labels()
-    for kind in ('LP', 'T'):
-        if any(steps.NAMES[step.kind] == kind for block in blocks for step in block.steps):
-            handles.append(_marker(kind, KIND_COLOURS[kind]))
-            labels.append(f'{kind} steps')
+    for kind in (steps.LP, steps.T):
+        if any(step.kind == kind for block in blocks for step in block.steps):
+            handles.append(_marker(kind, kind_colour(kind)))
+            labels.append(f'{steps.kind_name(kind)} steps')
     shared = [block.steps for block in blocks if len(block.steps) > 1]
     if shared:
-        handles.append(_marker(steps.NAMES[shared[0][0].kind], 'white'))
+        handles.append(_marker(shared[0][0].kind, 'white'))
         labels.append('steps that share a set')
     if any(line.get_label() == '_published' for line in axes.get_lines()):
         handles.append(plt.Line2D([], [], color=GREY, linewidth=0.8, dashes=(2, 2)))
@@ -134,8 +133,8 @@ def _marker(kind, face):
         [],
         [],
         linestyle='',
-        marker=MARKERS[kind],
+        marker=MARKERS.get(kind, 'D'),
         markersize=4.5,
-        color=KIND_COLOURS[kind] if face != 'white' else GREY,
+        color=kind_colour(kind) if face != 'white' else GREY,
         markerfacecolor=face,
     )
