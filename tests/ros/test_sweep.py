@@ -289,7 +289,7 @@ class Sweep(InFolder):
     def test_one_fails(self):
         """It is named, the others go on; in a namespace, all topics are in the bags; then it is
         mended."""
-        self.scene(**harness.SHORT)
+        self.scene(**dict(harness.SHORT, warmup='auto'))
         given = 'densities:=2.5 0.3', 'aspects:=1', 'folder:=of mine', 'threads:=1'
         launch = self.launch(*given, 'observables:=[spectrum, state]', ROS_NAMESPACE='/lab')
         launch.wait(LATEST)

@@ -53,9 +53,16 @@ class Bag:
         """In which parameter of the node, in words; '' in none."""
         asked = repetition.parameters(self.info)
         for name, value in parameters.items():
-            if name not in HERE and name in asked and not _same(asked[name], value):
+            if name in HERE or name not in asked or _is_chosen(name, value):
+                continue
+            if not _same(asked[name], value):
                 return f'it was run with {name} = {asked[name]}, not {value}'
         return ''
+
+
+def _is_chosen(name, value):
+    """By the node, and in run_info as it was: not known beforehand."""
+    return name == 'warmup' and value == 'auto'
 
 
 def _same(one, other):

@@ -9,6 +9,8 @@ import yaml
 
 from . import files
 
+AUTO = 'auto'  # what the node chooses itself
+
 
 class Run:
     ABOUT = 'One run of many.'  # first line of its scene file
@@ -17,7 +19,8 @@ class Run:
         """ValueError if it would not end."""
         self.name, self.parameters, self.seconds = name, parameters, seconds
         for needed in ('equilibration', 'warmup', 'duration'):
-            if not is_number(parameters[needed]):
+            is_chosen = needed == 'warmup' and parameters[needed] == AUTO  # by the node
+            if not (is_chosen or is_number(parameters[needed])):
                 raise ValueError(f'{needed} is {parameters[needed]}, must be a number')
         if not parameters['duration'] > 0:
             raise ValueError('duration is 0: it would never end')
@@ -26,6 +29,17 @@ class Run:
     def is_wide(self):
         """Has all cores for itself."""
         return self.parameters['threads'] == 0
+
+    def share_done(self, status):
+        """Of the whole run, 0 .. 1, in simulated time with tangent vectors: without them it goes
+        fast. Of the averaging alone if the warmup is not known. status: its last one, or None."""
+        if status is None:
+            return 0.0
+        warmup = self.parameters['warmup']
+        if warmup == AUTO:
+            return min(1.0, max(0.0, status.progress))
+        spent = status.sim_time - self.parameters['equilibration']
+        return min(1.0, max(0.0, spent / (warmup + self.parameters['duration'])))
 
     def share_of(self, jobs):
         """Seconds of wall time that it adds to the work of so many jobs at a time."""

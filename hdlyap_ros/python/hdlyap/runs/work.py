@@ -69,11 +69,8 @@ class Job:
 
     @property
     def share(self):
-        """Of the whole run, 0 .. 1, in simulated time with tangent vectors: without them it goes
-        fast."""
-        wanted = self.run.parameters
-        spent = self.status.sim_time - wanted['equilibration'] if self.status else 0.0
-        return min(1.0, max(0.0, spent / (wanted['warmup'] + wanted['duration'])))
+        """Of the whole run, 0 .. 1."""
+        return self.run.share_done(self.status)
 
     def has_ended(self):
         return self.tree.has_ended()

@@ -123,9 +123,12 @@ def _run(parameters, chosen):
     for _, values in chosen:
         parameters = {**parameters, **{key: arguments.fitting(v) for key, v in values.items()}}
     parameters['scene'] = '_'.join(scene) or parameters['scene']
-    work = sum(float(parameters[name]) for name in ('equilibration', 'warmup', 'duration'))
-    seconds = BEGIN + STEP * work * (parameters['disks'] / DISKS) ** 2
     try:
-        return Run('_'.join(names), parameters, seconds)
+        found = Run('_'.join(names), parameters, BEGIN)
     except ValueError as error:
         raise Refused(str(error))
+    times = [parameters[name] for name in ('equilibration', 'warmup', 'duration')]
+    time = sum(one for one in times if run.is_number(one))
+    disks = parameters['disks'] if run.is_number(parameters['disks']) else DISKS  # it is refused
+    found.seconds += STEP * time * (disks / DISKS) ** 2
+    return found
