@@ -1,6 +1,8 @@
 """Starts hdlyap_node as a process of its own, as a user would, and sees what it does."""
 
+import contextlib
 import functools
+import glob
 import os
 import shutil
 import signal
@@ -10,6 +12,7 @@ import tempfile
 import threading
 import time
 import unittest
+import uuid
 import weakref
 
 import roslib.packages
@@ -67,6 +70,10 @@ TYPES = dict(
 )
 OBSERVABLES = [topic for topic in TYPES if topic not in ('run_info', 'status', 'cost')]
 PATIENCE = 60.0  # seconds, for what has no bound of its own
+# seconds within which all has ended that was asked to, on a busy machine: roslaunch alone takes up
+# to 17
+SOON = 90.0
+LOOK = 0.1  # seconds between two looks at all processes, each of which takes some ms
 
 
 @functools.lru_cache(maxsize=None)
@@ -255,3 +262,34 @@ class Case(unittest.TestCase):
         listener = Listener(topic)
         self.addCleanup(listener.close)
         return listener
+
+
+class Traced(unittest.TestCase):
+    """Processes that begin others: those are found by what they inherit."""
+
+    def trace(self):
+        self.mark = uuid.uuid4().hex
+        self.addCleanup(self.kill_all)
+
+    def ours(self, word='', variable=''):
+        """Processes of this test whose command line has the word, and whose environment has the
+        variable."""
+        found = []
+        for folder in glob.glob('/proc/[0-9]*'):
+            with contextlib.suppress(OSError), open(folder + '/environ', 'rb') as environ, open(
+                folder + '/cmdline', 'rb'
+            ) as command:
+                has = environ.read().decode(errors='replace').split('\0') + ['']
+                if {'HDLYAP_MARK=' + self.mark, variable} <= set(
+                    has
+                ) and word.encode() in command.read():
+                    found.append(int(os.path.basename(folder)))
+        return found
+
+    def kill_all(self):
+        for pid in self.ours():
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+
+    def assert_none_left(self):
+        self.assertTrue(wait_until(lambda: not self.ours(), SOON, LOOK), self.ours())

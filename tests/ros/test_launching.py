@@ -126,7 +126,7 @@ class Parameters(InFolder):
         for words, says in (
             (['hdlyap', 'run.launch', 'disk:=50'], 'params:="{disk: 50}"'),
             (['hdlyap', 'run.launch', 'ns:=grp'], '__ns:=grp'),
-            (['hdlyap', 'sweep.launch', 'density:=50'], 'sweep.launch has: densities, '),
+            (['hdlyap', 'sweep.launch', 'density:=50'], 'sweep.launch has: disks, densities, '),
             ([os.path.join(LAUNCH, 'record.launch'), 'file:=50'], 'record.launch has: bag, '),
         ):
             with self.assertRaises(arguments.Refused) as caught:

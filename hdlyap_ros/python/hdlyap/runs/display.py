@@ -12,10 +12,11 @@ PLANNED = 60.0  # seconds of work that the plan's own estimate counts for, besid
 
 
 class Display:
-    """For work.work: shows progress through `count` runs; `before`: those that were there
-    before."""
+    """For work.work: shows progress through `count` runs of the tool of that name; `before`: those
+    that were there before."""
 
-    def __init__(self, count, before=0):
+    def __init__(self, name, count, before=0):
+        self._name = name
         self._count, self._before, self._line = count + before, before, Line()
         self._began = time.monotonic()
         self._seen, self._failed, self._ended = set(), 0, 0
@@ -41,7 +42,7 @@ class Display:
         """That a run has failed."""
         self._failed += 1
         self._line.close()
-        print(f'reproduce: {line}', file=sys.stderr, flush=True)
+        print(f'{self._name}: {line}', file=sys.stderr, flush=True)
 
     def end(self):
         """The total."""
