@@ -1,7 +1,7 @@
-/** Pictures for rviz: the bytes of a MarkerArray, what rviz demands of one, what is drawn where,
- * and what of a run is drawn. */
+/** Pictures for rviz: the bytes of a MarkerArray, what rviz demands of one, what is drawn where. */
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -12,8 +12,8 @@
 #include "standard_messages.hpp"
 
 extern "C" {
-#include "compose.h"
 #include "draw.h"
+#include "numbers.h"
 }
 
 namespace
@@ -44,9 +44,11 @@ struct scene {
         std::uniform_real_distribution<double> part(0.0, 1.0);
         p.scene = "a scene";
         p.stage = "averaging";
+        p.note = "";
+        p.disks = static_cast<uint32_t>(disks);
         p.box[0] = width;
         p.box[1] = height;
-        p.time = 12.5;
+        p.time = p.vector_time = 12.5;
         p.progress = 0.25;
         p.modes = modes;
         for (int i = 0; i < disks; i++) {
@@ -62,9 +64,12 @@ struct scene {
         const auto disks = static_cast<uint32_t>(q.size() / 2);
         p.x = {q.data(), disks, 2};
         p.y = {q.data() + 1, disks, 2};
+        p.at_x = p.x, p.at_y = p.y;
         for (int k = 0; k < p.modes; k++) {
             picture_mode &m = p.mode[k];
             std::snprintf(m.name, sizeof m.name, k % 2 ? "LP(%d,1)" : "T(%d,0)", k);
+            std::memcpy(m.box, m.name, sizeof m.box);
+            m.exponent = 0.61252, m.error = 0.00067, m.momentum = k % 2 ? 0.25 : -1.0;
             m.kind = k % 2 ? HDR_MODE_LP : HDR_MODE_T;
             m.found = m.known = true;
             m.index = 7;
@@ -230,7 +235,7 @@ TEST(markers, rviz_takes_every_picture)
                 const MarkerArray array = drawing().of(s.p);
                 expect_shown(array);
                 EXPECT_LE(array.markers.size(), 150u);
-                EXPECT_EQ(1u, in(array, "text", Marker::TEXT_VIEW_FACING).size());
+                EXPECT_EQ(1u, in(array, "caption", Marker::TEXT_VIEW_FACING).size());
                 int names = 0; // of steps
                 for (const Marker &m : in(array, "spectrum", Marker::TEXT_VIEW_FACING))
                     names += m.text.find('(') != std::string::npos;
@@ -291,6 +296,79 @@ TEST(markers, arrows_are_the_field)
     EXPECT_NEAR(1.3 * std::sqrt(20.0 * 15.0 / 60), std::sqrt(square / 60), 1e-9);
 }
 
+namespace
+{
+Marker title(const MarkerArray &array, const std::string &ns)
+{
+    return in(array, ns, Marker::TEXT_VIEW_FACING).at(0);
+}
+} // namespace
+
+/** Between two fields of a bag the disks go on; arrows stay where and when they belong. */
+TEST(markers, vectors_of_before_say_so)
+{
+    scene s(20.0, 15.0, 60, 1, 3);
+    drawing on;
+    EXPECT_EQ("T(0,0)   lambda = 0.61252(67)\nvector 7", title(on.of(s.p), "mode/T(0,0)").text);
+    std::vector<double> before(s.q.rbegin(), s.q.rend());
+    for (size_t k = 0; k < before.size(); k++) before[k] *= k % 2 ? 20.0 / 15.0 : 15.0 / 20.0;
+    s.p.at_x.data = before.data() + 1, s.p.at_y.data = before.data();
+    s.p.vector_time = 10.0;
+    const MarkerArray array = on.of(s.p);
+    EXPECT_EQ("T(0,0)   lambda = 0.61252(67)\nvector 7 of t = 10.0",
+              title(array, "mode/T(0,0)").text);
+    const std::vector<arrow> arrows = arrows_of(
+        in(array, "mode/T(0,0)", Marker::TRIANGLE_LIST).at(0));
+    const Marker disks = in(array, "disks", Marker::SPHERE_LIST).at(0);
+    for (int i = 0; i < 60; i++) {
+        EXPECT_EQ(s.q[2 * i], disks.points[i].x);
+        EXPECT_NEAR(before[2 * i + 1], arrows[i].x, 1e-12);
+        EXPECT_NEAR(before[2 * i], arrows[i].y, 1e-12);
+    }
+}
+
+/** However long, and wherever they are. */
+TEST(markers, no_arrow_crosses_a_text)
+{
+    for (const int disks : {10, 100, 800})
+        for (const double shape : {0.2, 0.867, 3.0}) {
+            scene s(30.0 / std::sqrt(shape), 30.0 * std::sqrt(shape), disks, 6, 11);
+            for (size_t k = 0; k < s.vectors.size(); k += 7) s.vectors[k] *= 20.0; // are cut
+            s.measure(97);
+            const MarkerArray array = drawing().of(s.p);
+            for (const Marker &m : array.markers) {
+                if (m.type != Marker::TEXT_VIEW_FACING) continue;
+                const long lines = 1 + std::count(m.text.begin(), m.text.end(), '\n');
+                const double reach = 0.6 * lines * m.scale.z, y = m.pose.position.y;
+                for (const Marker &a : array.markers) {
+                    if (a.ns.find("mode/") != 0 || a.type != Marker::TRIANGLE_LIST) continue;
+                    for (const auto &point : a.points)
+                        EXPECT_FALSE(std::fabs(point.y - y) < reach &&
+                                     std::fabs(point.x - m.pose.position.x) < reach)
+                            << m.text;
+                }
+            }
+        }
+}
+
+/** As the tables of plot_bag have them. */
+TEST(markers, numbers_with_errors)
+{
+    const struct {
+        double value, error;
+        const char *text;
+    } cases[] = {{0.61252, 0.00067, "0.61252(67)"},   {5.262, 0.0095, "5.2620(95)"},
+                 {5.262, 0.00996, "5.262(10)"},       {12.34, 1.52, "12.3(1.5)"},
+                 {1234.0, 15.2, "1234(15)"},          {0.61252, -1.0, "0.6125"},
+                 {-0.00128, 0.00047, "-0.00128(47)"}, {1.5, 1e-12, "1.5e+00"},
+                 {6.5, 0.099951, "6.50(10)"}};
+    for (const auto &c : cases) {
+        char text[48];
+        number_with_error(text, sizeof text, c.value, c.error);
+        EXPECT_STREQ(c.text, text);
+    }
+}
+
 /** A box too long for arrows: each component against x, in proportion, below the box and above the
  * plots. */
 TEST(markers, the_field_of_a_long_box_is_plotted)
@@ -332,13 +410,15 @@ TEST(markers, an_lp_mode_shows_its_phase)
         EXPECT_NEAR(lp.b[k], (dials[1].points[2 * k + 1].y - dials[1].points[2 * k].y) / radius,
                     1e-9);
     }
-    const auto red = [&](double a, double b) {
-        lp.pairs = 1, lp.a[0] = a, lp.b[0] = b;
+    const auto red = [&](double momentum) {
+        lp.momentum = momentum;
         return in(on.of(s.p), "mode/LP(1,1)", Marker::TRIANGLE_LIST)[0].color.r;
     };
-    EXPECT_FLOAT_EQ(0.902F, red(0.7, 0.0)); // all L
-    EXPECT_FLOAT_EQ(0.40F, red(0.0, -0.7)); // all P
-    EXPECT_FLOAT_EQ(0.651F, red(0.5, 0.5));
+    EXPECT_FLOAT_EQ(0.902F, red(0.0)); // all L
+    EXPECT_FLOAT_EQ(0.40F, red(1.0));  // all P
+    EXPECT_FLOAT_EQ(0.651F, red(0.5));
+    s.p.vector_time = 2.5; // pale: of another time
+    EXPECT_FLOAT_EQ(0.75570F, red(0.5));
 }
 
 namespace
@@ -404,11 +484,12 @@ TEST(markers, curves_are_the_numbers)
     }
 }
 
+/** The check box of a panel stays, whichever mode is in it. */
 TEST(markers, what_is_gone_is_deleted)
 {
     scene s(20.0, 20.0, 10, 2, 6);
     drawing on;
-    EXPECT_EQ(1u, in(on.of(s.p), "mode/T(0,0)", Marker::TRIANGLE_LIST).size());
+    EXPECT_EQ(1u, in(on.of(s.p), "mode/LP(1,1)", Marker::TRIANGLE_LIST).size());
     std::snprintf(s.p.mode[0].name, sizeof s.p.mode[0].name, "T(0,1)");
     s.p.mode[1].found = s.p.mode[1].known = false;
     for (int again = 0; again < 2; again++) { // and stays so for who has missed it
@@ -416,10 +497,11 @@ TEST(markers, what_is_gone_is_deleted)
         std::map<std::string, int> deleted;
         for (const Marker &m : array.markers) deleted[m.ns] += m.action == Marker::DELETE;
         expect_shown(array);
-        EXPECT_EQ(2, deleted["mode/T(0,0)"]); // arrows and title
+        EXPECT_EQ(0, deleted["mode/T(0,0)"]);
+        EXPECT_EQ(0u, title(array, "mode/T(0,0)").text.find("T(0,1) "));
         EXPECT_EQ(2, deleted["phases"]);
-        EXPECT_EQ(1, deleted["mode/LP(1,1)"]);
-        EXPECT_EQ(0, deleted["mode/T(0,1)"]);
+        EXPECT_EQ(1, deleted["mode/LP(1,1)"]); // arrows; its title says that it is not resolved
+        EXPECT_EQ("LP(1,1): not resolved", title(array, "mode/LP(1,1)").text);
     }
 }
 
@@ -434,220 +516,38 @@ TEST(markers, a_mode_without_its_vector_keeps_its_number)
     expect_shown(array);
     EXPECT_TRUE(in(array, "mode/LP(1,1)", Marker::TRIANGLE_LIST).empty());
     EXPECT_TRUE(in(array, "phases", Marker::LINE_LIST).empty());
-    const std::string text = in(array, "mode/LP(1,1)", Marker::TEXT_VIEW_FACING).at(0).text;
-    EXPECT_NE(std::string::npos, text.find("index 7")) << text;
-    EXPECT_NE(std::string::npos, text.find("not known now")) << text;
+    EXPECT_EQ("LP(1,1)   lambda = 0.61252(67)\nvector 7 not known now",
+              title(array, "mode/LP(1,1)").text);
 }
+
+namespace
+{
+std::string caption(const MarkerArray &array)
+{
+    return in(array, "caption", Marker::TEXT_VIEW_FACING).at(0).text;
+}
+} // namespace
 
 TEST(markers, the_caption_says_what_is_known)
 {
     scene s(20.0, 20.0, 10, 0, 7);
     drawing on;
     EXPECT_NE(std::string::npos,
-              in(on.of(s.p), "text", Marker::TEXT_VIEW_FACING).at(0).text.find("t = 12.5"));
+              in(on.of(s.p), "caption", Marker::TEXT_VIEW_FACING).at(0).text.find("t = 12.5"));
     s.measure(40);
-    const std::string text = in(on.of(s.p), "text", Marker::TEXT_VIEW_FACING).at(0).text;
-    EXPECT_NE(std::string::npos, text.find("c_T 3.200 +- 0.100")) << text;
-    EXPECT_NE(std::string::npos, text.find("c_L 4.200 ")) << text;
+    const std::string text = in(on.of(s.p), "caption", Marker::TEXT_VIEW_FACING).at(0).text;
+    EXPECT_NE(std::string::npos, text.find("c_T 3.20(10)")) << text;
+    EXPECT_NE(std::string::npos, text.find("c_L 4.2000 ")) << text;
     EXPECT_NE(std::string::npos, text.find("v unknown")) << text;
     EXPECT_NE(std::string::npos, text.find("a scene: 10 disks")) << text;
     EXPECT_NE(std::string::npos, text.find("25 %")) << text;
-}
-
-/* ---- what is drawn of what was heard ----------------------------------------------------------
- */
-
-namespace
-{
-const uint32_t DISKS = 3;
-
-/** What a viewer has heard, and the arrays of what it hears. */
-struct hearing {
-    heard h = {};
-    std::vector<double> numbers;
-    const char *topics[2] = {"steps", "fields"};
-    const uint32_t nx[2] = {1, 0}, ny[2] = {0, 1};
-    hdr_run_info info = {};
-    std::vector<hdr_step> step;
-    mode_choice lowest = {};
-
-    explicit hearing(const char *boundary = "periodic")
-    {
-        h.time = -1.0;
-        for (int k = 0; k < 100; k++) numbers.push_back(0.01 * k);
-        info.run_id = "run", info.scene = "a scene", info.disks = DISKS;
-        info.box_x = info.box_y = 10.0, info.boundary_x = "periodic", info.boundary_y = boundary;
-        info.vectors = 9;
-        info.observables = {topics, 2};
-        info.wave_nx = {nx, 2}, info.wave_ny = {ny, 2};
-        EXPECT_TRUE(heard_run_info(&h, &info));
-        EXPECT_FALSE(heard_run_info(&h, &info)); // the same
-    }
-    ~hearing() { heard_clear(&h); }
-
-    hdr_doubles array(uint32_t count, uint32_t from = 0) { return {&numbers[from], count, 1}; }
-
-    void steps(bool resolved)
-    {
-        step.assign({{HDR_MODE_T, 1, 0, 0.6, false, resolved, 2, 7, 8, 2, 0, 1, 1.5, -1, 0, 1.0,
-                      1.0, 0.0, 0.0},
-                     {HDR_MODE_LP, 0, 1, 0.6, false, resolved, 2, 5, 6, 2, 1, 1, 1.8, -1, 0, 1.0,
-                      1.0, 0.0, 0.0}});
-        hdr_steps message = {};
-        message.run_id = "run", message.steps = {step.data(), 2};
-        heard_steps(&h, &message);
-    }
-
-    void state(double time)
-    {
-        hdr_state message = {};
-        message.run_id = "run", message.sim_time = time;
-        message.x = array(DISKS), message.y = array(DISKS, 10);
-        heard_state(&h, &message);
-    }
-
-    void field(double time, uint8_t kind, uint32_t x, uint32_t index)
-    {
-        hdr_mode_field message = {};
-        message.run_id = "run", message.sim_time = time, message.kind = kind;
-        message.nx = x, message.ny = !x, message.index = index,
-        message.exponent = 2.0 - 0.1 * index;
-        message.x = array(DISKS, 20), message.y = array(DISKS, 30);
-        message.dqx = array(DISKS, index), message.dqy = array(DISKS, 40);
-        heard_mode_field(&h, &message);
-    }
-
-    picture drawn() { return compose(&h, &lowest); }
-};
-} // namespace
-
-/** Between two fields of a bag, or before the first: a mode that is resolved says so. */
-TEST(heard, a_resolved_mode_is_found_without_its_vector)
-{
-    hearing on;
-    on.state(1.0);
-    on.steps(false);
-    EXPECT_FALSE(on.drawn().mode[0].found || on.drawn().mode[1].found);
-    on.steps(true);
-    const picture p = on.drawn();
-    ASSERT_EQ(2, p.modes);
-    EXPECT_STREQ("T(1,0)", p.mode[0].name);
-    EXPECT_STREQ("LP(0,1)", p.mode[1].name);
-    for (const int k : {0, 1}) {
-        EXPECT_TRUE(p.mode[k].found);
-        EXPECT_FALSE(p.mode[k].known);
-    }
-    EXPECT_EQ(7u, p.mode[0].index);
-    EXPECT_EQ(1.8, p.mode[1].exponent);
-    const MarkerArray array = drawing().of(p);
-    for (const Marker &m : array.markers) EXPECT_EQ(std::string::npos, m.text.find("not resolved"));
-}
-
-/** Fields of one time are drawn where the disks were then. */
-TEST(heard, fields_of_a_bag)
-{
-    hearing on;
-    on.steps(true);
-    on.state(9.0);
-    on.field(10.0, HDR_MODE_T, 1, 7);
-    on.field(10.0, HDR_MODE_LP, 0, 5);
-    on.state(11.0); // is not drawn
-    picture p = on.drawn();
-    EXPECT_EQ(10.0, p.time);
-    EXPECT_EQ(0.20, p.x.data[0]);
-    EXPECT_TRUE(p.mode[0].known && p.mode[1].known);
-    EXPECT_EQ(0.07, p.mode[0].dx.data[0]);
-    EXPECT_EQ(0u, p.mode[1].pairs);
-    hdr_lp_phase phase = {1, 0, 1, 0, 5, HDR_LP_PHASE_TRACKED, 0.5, -0.25, 0, 0, 0, 0, 0};
-    hdr_lp_phases phases = {};
-    phases.run_id = "run", phases.phases = {&phase, 1}, phases.sim_time = 10.0;
-    heard_phases(&on.h, &phases);
-    p = on.drawn();
-    ASSERT_EQ(1u, p.mode[1].pairs);
-    EXPECT_EQ(-0.25, p.mode[1].b[0]);
-    on.field(20.0, HDR_MODE_T, 1, 7); // the other one has not come yet
-    p = on.drawn();
-    EXPECT_EQ(20.0, p.time);
-    EXPECT_TRUE(p.mode[0].known);
-    EXPECT_TRUE(p.mode[1].found && !p.mode[1].known);
-    on.state(3.0); // played again
-    EXPECT_EQ(3.0, on.drawn().time);
-    EXPECT_FALSE(on.drawn().mode[0].known);
-}
-
-TEST(heard, slow_vectors)
-{
-    hearing on;
-    const uint8_t kind[] = {HDR_MODE_LP, HDR_MODE_LP, HDR_MODE_T, HDR_MODE_NONE};
-    const uint8_t pairs[] = {1, 1, 0, 0};
-    const uint32_t nx[] = {0, 0, 1, 0}, ny[] = {1, 1, 0, 0};
-    hdr_slow_vectors m = {};
-    m.run_id = "run", m.sim_time = 2.5, m.x = on.array(DISKS), m.y = on.array(DISKS, 10);
-    m.first_index = 6, m.vectors = 4;
-    m.exponents = on.array(4), m.kind = {kind, 4}, m.pairs = {pairs, 4};
-    m.nx = {nx, 4}, m.ny = {ny, 4};
-    m.a = on.array(16), m.b = on.array(16, 20), m.dqx = on.array(12, 50), m.dqy = on.array(12, 70);
-    heard_slow_vectors(&on.h, &m); // before any message of steps
-    picture p = on.drawn();
-    EXPECT_EQ(2.5, p.time);
-    EXPECT_STREQ("T(1,0)", p.mode[0].name);
-    EXPECT_EQ(8u, p.mode[0].index);
-    EXPECT_EQ(0.56, p.mode[0].dx.data[0]); // the third
-    EXPECT_STREQ("LP(0,1)", p.mode[1].name);
-    EXPECT_EQ(6u, p.mode[1].index); // the first of the two
-    EXPECT_EQ(0.20, p.mode[1].b[0]);
-    on.lowest.count = 2; // by their names
-    ASSERT_TRUE(mode_name_parse(&on.lowest.mode[0], "LP(0,1)"));
-    ASSERT_TRUE(mode_name_parse(&on.lowest.mode[1], "T(0,1)"));
-    p = on.drawn();
-    EXPECT_TRUE(p.mode[0].known);
-    EXPECT_FALSE(p.mode[1].found);
-    EXPECT_STREQ("T(0,1)", p.mode[1].name);
-    m.dqx.count = m.dqy.count = 0; // at rest
-    heard_slow_vectors(&on.h, &m);
-    EXPECT_TRUE(on.drawn().mode[0].found && !on.drawn().mode[0].known);
-    m.sim_time = 3.5, m.nx.count = 3; // arrays that do not fit
-    heard_slow_vectors(&on.h, &m);
-    m.nx.count = 4, m.dqx.count = 12;
-    heard_slow_vectors(&on.h, &m);
-    m.dqy.count = 12, m.run_id = "another";
-    heard_slow_vectors(&on.h, &m);
-    EXPECT_EQ(2.5, on.drawn().time);
-}
-
-/** Of a step whose set it shares, and where no vector is its own: the first of the set. */
-TEST(heard, a_step_without_a_vector_of_its_own)
-{
-    hearing on;
-    on.steps(true);
-    on.field(10.0, HDR_MODE_LP, 0, 7);
-    const picture p = on.drawn();
-    EXPECT_STREQ("T(1,0)", p.mode[0].name);
-    EXPECT_TRUE(p.mode[0].known);
-    EXPECT_EQ(0.07, p.mode[0].dx.data[0]);
-}
-
-TEST(heard, only_modes_that_there_can_be)
-{
-    hearing walls("reflecting");
-    EXPECT_TRUE(walls.h.has_t); // (0,1) has a node between them
-    walls.info.run_id = "narrow", walls.info.wave_nx.count = walls.info.wave_ny.count = 1;
-    EXPECT_TRUE(heard_run_info(&walls.h, &walls.info));
-    EXPECT_FALSE(walls.h.has_t);
-    EXPECT_EQ(1, walls.drawn().modes);
-    walls.info.run_id = "state alone", walls.info.observables.count = 0;
-    EXPECT_TRUE(heard_run_info(&walls.h, &walls.info));
-    EXPECT_EQ(0, walls.drawn().modes);
-}
-
-TEST(heard, names_of_modes)
-{
-    mode_name name = {};
-    EXPECT_TRUE(mode_name_parse(&name, "LP(12,3)"));
-    EXPECT_TRUE(name.kind == HDR_MODE_LP && name.nx == 12 && name.ny == 3);
-    for (const char *text : {"", "T", "T(1)", "T(1,0", "T(1,0)x", "P(1,0)", "T(-1,0)", "T( 1,0)",
-                             "LP(+1,0)", "T(1,0)(", "TT(1,0)"})
-        EXPECT_FALSE(mode_name_parse(&name, text)) << text;
+    s.p.note = "(nothing new since 14:03:27)";
+    EXPECT_NE(std::string::npos, caption(on.of(s.p)).find("   (nothing new since 14:03:27)\n"));
+    s.p.time = -1.0, s.p.x.count = s.p.y.count = 0; // described, and not begun
+    const MarkerArray empty = on.of(s.p);
+    expect_shown(empty);
+    EXPECT_NE(std::string::npos, caption(empty).find("waiting for its first message"));
+    EXPECT_NE(std::string::npos, caption(empty).find("a scene: 10 disks"));
 }
 
 int main(int argc, char **argv)

@@ -164,21 +164,21 @@ class Packed:
 def read(path, node=None, types=TYPES, number=None):
     """The last run of the given node, or of the only node in the bag, or the one of that number,
     from 1; of its messages those of the given types."""
-    with _opened(path) as bag:
+    with opened(path) as bag:
         return _read_run(bag, path, _topics_of_node(bag, path, node, types), number)
 
 
 def run_infos(path, node=None):
     """The run_info of every run of the given node, or of the only one in the bag, in their
     order."""
-    with _opened(path) as bag:
+    with opened(path) as bag:
         return _runs(bag, path, _topics_of_node(bag, path, node, TYPES))
 
 
 def messages(path, kind, node=None):
     """Every message of one type of the last run of the given node, or of the only one in the
     bag."""
-    with _opened(path) as bag:
+    with opened(path) as bag:
         topics = _topics_of_node(bag, path, node, (RUN_INFO, kind))
         run_id = _runs(bag, path, topics)[-1].run_id
         for name, packed in _packed(bag, topics):
@@ -187,7 +187,7 @@ def messages(path, kind, node=None):
 
 
 @contextlib.contextmanager
-def _opened(path):
+def opened(path):
     """The bag; whatever is wrong with it is a RecordingError."""
     try:
         with rosbag.Bag(path) as bag:
