@@ -2,6 +2,7 @@
 scalars and the last of everything else, so a bag may be far larger than the memory."""
 
 import contextlib
+import heapq
 import os
 import struct
 
@@ -18,7 +19,7 @@ from .stages import PARTS
 RUN_INFO, SPECTRUM = 'hdlyap/RunInfo', 'hdlyap/Spectrum'
 STATUS, COST = 'hdlyap/RunStatus', 'hdlyap/Cost'
 STEPS, PHASES, FIELD = 'hdlyap/Steps', 'hdlyap/LpPhases', 'hdlyap/ModeField'
-COVARIANT = 'hdlyap/Covariant'
+COVARIANT, STATE = 'hdlyap/Covariant', 'hdlyap/State'
 TYPES = (RUN_INFO, SPECTRUM, STATUS, COST, STEPS, PHASES, FIELD, COVARIANT)
 SMALLEST = 4  # exponents whose course is kept, counted back from the last positive one
 DAMAGE = (genpy.DeserializationError, struct.error, UnicodeDecodeError, KeyError)
@@ -153,9 +154,17 @@ class Packed:
         (length,) = struct.unpack_from('<I', self._data, at)
         return self._data[at + 4 : at + 4 + length].decode(), at + 4 + length
 
+    def sim_time(self):
+        """Not of run_info."""
+        return struct.unpack_from('<d', self._data, self._after_run_id)[0]
+
     def field_index(self):
         """Lyapunov index of a ModeField: it follows sim_time."""
         return struct.unpack_from('<I', self._data, self._after_run_id + 8)[0]
+
+    def field_wave(self):
+        """kind, nx and ny of a ModeField, which follow the index."""
+        return struct.unpack_from('<BII', self._data, self._after_run_id + 12)
 
     def message(self):
         return self._pytype().deserialize(self._data)
@@ -266,3 +275,23 @@ def _packed(bag, topics):
     messages = bag.read_messages(topics=topics, raw=True)
     for _, raw, _ in Progress('reading').over(messages, bag.get_message_count(topics)):
         yield raw[0], Packed(raw[1], raw[-1])
+
+
+def in_time(path, types, node=None, number=None):
+    """(type, Packed) of these types of one run, as read() chooses it, in the order of simulated
+    time: a recorder mixes topics a little."""
+    with opened(path) as bag:
+        topics = _topics_of_node(bag, path, node, (RUN_INFO, *types))
+        runs = _runs(bag, path, topics)
+        run_id = runs[-1 if number is None else number - 1].run_id
+        kinds = bag.get_type_and_topic_info(topics).topics
+
+        def of(topic):
+            for _, raw, _ in bag.read_messages(topics=[topic], raw=True):
+                packed = Packed(raw[1], raw[-1])
+                if packed.run_id == run_id:
+                    yield packed.sim_time(), raw[0], packed
+
+        wanted = [of(topic) for topic in topics if kinds[topic].msg_type in types]
+        for _, kind, packed in heapq.merge(*wanted, key=lambda item: item[0]):
+            yield kind, packed
