@@ -16,7 +16,8 @@ from .numbers import known, with_error
 from .progress import Progress
 
 WIDTH = {'.mp4': 1280, '.gif': 480}  # pixels, of the kinds of files that there are
-INCHES = 6.5  # of that width
+INCHES = 5.0  # of that width
+TOP, TITLE, GAP = 0.25, 0.45, 0.12  # inches: the film's title, a panel's, and between
 LONG = 2.5  # boxes this much longer than high lie above each other
 ARROW, LONGEST = 1.3, 2.6  # root mean square and longest, in mean distances of disks
 ALL_L, ALL_P = to_rgb('#E69F00'), to_rgb('#661F05')  # an LP mode, as in rviz
@@ -116,7 +117,7 @@ class Panel:
             else f'{field.exponent:.4f}'
         )
         of = f' of $t={field.sim_time:.1f}$' if field.sim_time != frame.time else ''
-        return f'{self._name}   $\\lambda={number}$   vector {field.index}{of}'
+        return f'{self._name}   $\\lambda={number}$\nvector {field.index}{of}'
 
     def _show_dials(self, frame, field, colour):
         """(a, b) of each pair in the unit circle, at the right above the panel."""
@@ -171,20 +172,20 @@ class Picture:
     def __init__(self, film, width):
         info, count = film.info, len(film.names)
         rows, columns = (count, 1) if info.box_x > LONG * info.box_y else (1, count)
-        across = (INCHES - 0.2 * (columns + 1)) / columns
+        across = (INCHES - GAP * (columns + 1)) / columns
         high = across * info.box_y / info.box_x
-        height = 0.45 + rows * (high + 0.45)
+        height = TOP + rows * (high + TITLE)
         self.figure = Figure(
             figsize=(INCHES, height), dpi=(width + 0.5) / INCHES
         )  # cut to a whole number
         self._title = self.figure.text(
-            0.5, 1 - 0.12 / height, '', ha='center', va='top', fontsize=9
+            0.5, 1 - 0.08 / height, '', ha='center', va='top', fontsize=9
         )
         self._film, self._panels = film, []
         for k, name in enumerate(film.names):
             row, column = divmod(k, columns)
-            left = 0.2 + column * (across + 0.2)
-            bottom = height - 0.4 - (row + 1) * (high + 0.45) + 0.1
+            left = GAP + column * (across + GAP)
+            bottom = height - TOP - (row + 1) * (high + TITLE) + GAP
             axes = self.figure.add_axes(
                 [left / INCHES, bottom / height, across / INCHES, high / height]
             )
