@@ -49,6 +49,7 @@ OF_ROS = dict(
 # libopenblas-openmp-dev is the one of libopenblas-dev's alternatives that hdlyap is tested with.
 OF_SYSTEM = {
     'ccache': 'ccache',
+    'ffmpeg': 'ffmpeg',
     'gtest': 'libgtest-dev',
     'imagemagick': 'imagemagick',
     'liblapacke-dev': 'liblapacke-dev',

@@ -2,9 +2,11 @@
 """The program replay: when it says what a bag holds, for whom it waits, and what it refuses."""
 
 import os
+import re
 import tempfile
 import time
 
+import genpy.dynamic
 import rosbag
 import rosgraph
 import rospy
@@ -14,7 +16,7 @@ from visualization_msgs.msg import MarkerArray
 
 import harness
 import made
-from hdlyap.msg import RunInfo, RunStatus, State
+from hdlyap.msg import RunInfo, RunStatus, State, Steps
 
 REPLAY = harness.program('replay')
 REPORTS = 30  # of a run, a time unit apart; recorded within milliseconds
@@ -99,7 +101,7 @@ class Replayed(harness.Case):
         self.listen_to('run_info', 'state', 'status')
         replay = self.replay('--pace', '1000', '--look', '/hdlyap')
         self.assertTrue(harness.wait_until(lambda: self.times('run_info')), replay.text())
-        view = harness.Process(['rostopic', 'echo', '/hdlyap/markers', '__name:=view_1_2'])
+        view = harness.Process([harness.program('view'), '--node', '/hdlyap'])
         self.addCleanup(view.stop)
         self.assertTrue(harness.wait_until(lambda: self.looks('/view_')))
         time.sleep(0.3)  # replay asks every 0.1 s
@@ -113,6 +115,26 @@ class Replayed(harness.Case):
     def looks(self, name):
         topics = dict(rosgraph.Master('/test').getSystemState()[1])
         return any(who.startswith(name) for who in topics.get('/hdlyap/markers', ()))
+
+    def test_of_an_earlier_version(self):
+        """A message that was shorter, with shorter elements: what it lacks is not known."""
+        text = re.sub(r'(?m)^float64 (v_misfit|gap_error) .*\n', '', Steps._full_text)
+        old = genpy.dynamic.generate_dynamic('hdlyap/Steps', text)
+        step = old['hdlyap/Step'](kind=2, nx=1, exponent=0.5)
+        steps = old['hdlyap/Steps'](run_id='one', sim_time=3.0, v=5.25, steps=[step])
+        with rosbag.Bag(self.bag, 'w') as bag:
+            bag.write('/hdlyap/steps', steps, rospy.Time(1))
+        heard = []
+        subscriber = rospy.Subscriber('/hdlyap/steps', Steps, heard.append)
+        self.addCleanup(subscriber.unregister)
+        replay = self.replay('--wait')
+        self.assertEqual(replay.wait(), 0, replay.text())
+        self.assertEqual(replay.text().count('of an earlier version'), 1)
+        self.assertTrue(harness.wait_until(lambda: heard))
+        got = heard[0]
+        self.assertEqual((got.run_id, got.sim_time, got.v, got.v_misfit), ('one', 3.0, 5.25, -1.0))
+        got = got.steps[0]
+        self.assertEqual((got.kind, got.nx, got.exponent, got.gap_error), (2, 1, 0.5, -1.0))
 
     def test_what_is_refused(self):
         """In one line."""
@@ -137,4 +159,4 @@ class Replayed(harness.Case):
 
 if __name__ == '__main__':
     rospy.init_node('test_replay')
-    rostest.rosrun('hdlyap', 'replay', Replayed)
+    rostest.rosrun('hdlyap', 'test_replay', Replayed)
