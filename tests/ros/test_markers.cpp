@@ -1,170 +1,10 @@
 /** Pictures for rviz: the bytes of a MarkerArray, what rviz demands of one, what is drawn where. */
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <random>
-#include <set>
-#include <string>
-#include <vector>
 
-#include "standard_messages.hpp"
+#include "drawn.hpp"
 
-extern "C" {
-#include "draw.h"
-#include "numbers.h"
-}
-
-namespace
-{
-using visualization_msgs::Marker;
-using visualization_msgs::MarkerArray;
-
-/** As rviz gets it. */
-MarkerArray received(const hdr_markers &markers)
-{
-    const hdlyap_ros::sent<hdr_markers> out = {markers};
-    const ros::SerializedMessage bytes = ros::serialization::serializeMessage(out);
-    MarkerArray message;
-    ros::serialization::deserializeMessage(bytes, message);
-    return message;
-}
-
-/** A picture and all that it points to. */
-struct scene {
-    picture p = {};
-    std::vector<double> q, exponents, vectors;
-    std::vector<hdr_step> step;
-    hdr_steps steps = {};
-
-    scene(double width, double height, int disks, int modes, unsigned seed)
-    {
-        std::mt19937_64 random(seed);
-        std::uniform_real_distribution<double> part(0.0, 1.0);
-        p.scene = "a scene";
-        p.stage = "averaging";
-        p.note = "";
-        p.disks = static_cast<uint32_t>(disks);
-        p.box[0] = width;
-        p.box[1] = height;
-        p.time = p.vector_time = 12.5;
-        p.progress = 0.25;
-        p.modes = modes;
-        for (int i = 0; i < disks; i++) {
-            q.push_back(width * part(random));
-            q.push_back(height * part(random));
-        }
-        for (int k = 0; k < 2 * disks * modes; k++) vectors.push_back(part(random) - 0.5);
-        point();
-    }
-
-    void point()
-    {
-        const auto disks = static_cast<uint32_t>(q.size() / 2);
-        p.x = {q.data(), disks, 2};
-        p.y = {q.data() + 1, disks, 2};
-        p.at_x = p.x, p.at_y = p.y;
-        for (int k = 0; k < p.modes; k++) {
-            picture_mode &m = p.mode[k];
-            std::snprintf(m.name, sizeof m.name, k % 2 ? "LP(%d,1)" : "T(%d,0)", k);
-            std::memcpy(m.box, m.name, sizeof m.box);
-            m.exponent = 0.61252, m.error = 0.00067, m.momentum = k % 2 ? 0.25 : -1.0;
-            m.kind = k % 2 ? HDR_MODE_LP : HDR_MODE_T;
-            m.found = m.known = true;
-            m.index = 7;
-            m.pairs = k % 2 ? 2 : 0;
-            m.a[0] = 0.6, m.b[0] = 0.3, m.a[1] = -0.4, m.b[1] = 0.1;
-            m.dx = {vectors.data() + 2 * disks * k, disks, 2};
-            m.dy = {vectors.data() + 2 * disks * k + 1, disks, 2};
-        }
-    }
-
-    void measure(uint32_t n)
-    {
-        for (uint32_t k = 0; k < n; k++) exponents.push_back(6.0 - 5.0 * k / n);
-        p.has_exponents = true;
-        p.exponents = {exponents.data(), n, 1};
-        step.push_back({HDR_MODE_T, 1, 0, 0.2, false, true, 2, n - 1, n, 1.9, 0, 1, 1.05, 0.01, 0,
-                        1.0, 1.0, 0.0, 0.0});
-        step.push_back({HDR_MODE_LP, 1, 0, 0.2, false, true, 4, n - 5, n - 2, 3.5, 1, 1, 1.1, -1, 0,
-                        1.0, 1.0, 0.0, 0.0});
-        step.push_back(
-            {HDR_MODE_LP, 0, 1, 0.3, false, false, 4, 0, 0, 0, -1, 0, 0, 0, 0, 1.0, 1.0, 0.0, 0.0});
-        steps.steps = {step.data(), static_cast<uint32_t>(step.size())};
-        steps.t_points = 2, steps.c_t = 3.2, steps.c_t_error = 0.1, steps.c_t2 = 0.2;
-        steps.l_points = 1, steps.c_l = 4.2, steps.c_l_error = -1;
-        p.steps = &steps;
-    }
-
-    /** Of one vector each, below those of measure. */
-    void more_steps(uint32_t count)
-    {
-        for (uint32_t k = 0; k < count; k++)
-            step.push_back({HDR_MODE_T, 2, k, 0.3, false, true, 1, 90 - k, 90 - k, 1, int(k), 1,
-                            1.2 + 0.05 * k, 0.01, 0, 1.0, 1.0, 0.0, 0.0});
-        steps.steps = {step.data(), static_cast<uint32_t>(step.size())};
-    }
-};
-
-struct drawing {
-    canvas *on = nullptr;
-    drawing() { EXPECT_TRUE(canvas_create(&on)); }
-    ~drawing() { canvas_free(on); }
-    MarkerArray of(const picture &p)
-    {
-        hdr_markers markers;
-        EXPECT_TRUE(draw(on, &markers, &p, "box"));
-        return received(markers);
-    }
-};
-
-std::vector<Marker> in(const MarkerArray &array, const std::string &ns, int type)
-{
-    std::vector<Marker> found;
-    for (const Marker &m : array.markers)
-        if (m.ns == ns && m.type == type && m.action == Marker::ADD) found.push_back(m);
-    return found;
-}
-
-/** What rviz 1.14 refuses, see its marker_utils.cpp. */
-void expect_shown(const MarkerArray &array)
-{
-    std::set<std::pair<std::string, int>> names;
-    for (const Marker &m : array.markers) {
-        EXPECT_TRUE(names.emplace(m.ns, m.id).second) << m.ns << " " << m.id;
-        EXPECT_EQ("box", m.header.frame_id);
-        EXPECT_TRUE(m.header.stamp.isZero());
-        EXPECT_EQ(1.0, m.pose.orientation.w);
-        if (m.action == Marker::DELETE) continue;
-        EXPECT_EQ(int(Marker::ADD), m.action);
-        EXPECT_GT(m.color.a, 0.0f);
-        EXPECT_TRUE(m.scale.x > 0 && m.scale.y > 0 && m.scale.z > 0);
-        EXPECT_TRUE(m.colors.empty() || m.colors.size() == m.points.size());
-        EXPECT_EQ(m.type == Marker::TEXT_VIEW_FACING, m.points.empty());
-        EXPECT_EQ(m.type == Marker::TEXT_VIEW_FACING, !m.text.empty());
-        EXPECT_TRUE(m.type != Marker::LINE_LIST || m.points.size() % 2 == 0);
-        EXPECT_TRUE(m.type != Marker::TRIANGLE_LIST || m.points.size() % 3 == 0);
-        for (const auto &point : m.points) EXPECT_TRUE(std::isfinite(point.x + point.y + point.z));
-        EXPECT_TRUE(std::isfinite(m.pose.position.x + m.pose.position.y));
-    }
-}
-
-/** Middle and difference of the ends of each arrow: of the shaft's tail and of the point. */
-struct arrow {
-    double x, y, dx, dy;
-};
-std::vector<arrow> arrows_of(const Marker &m)
-{
-    std::vector<arrow> found;
-    for (size_t k = 0; k + 9 <= m.points.size(); k += 9) {
-        const auto &a = m.points[k], &b = m.points[k + 5], &tip = m.points[k + 7];
-        const double x = 0.5 * (a.x + b.x), y = 0.5 * (a.y + b.y);
-        found.push_back({0.5 * (x + tip.x), 0.5 * (y + tip.y), tip.x - x, tip.y - y});
-    }
-    return found;
-}
-} // namespace
+using namespace drawn;
 
 TEST(markers, bytes)
 {
@@ -351,24 +191,6 @@ TEST(markers, no_arrow_crosses_a_text)
         }
 }
 
-/** As the tables of plot_bag have them. */
-TEST(markers, numbers_with_errors)
-{
-    const struct {
-        double value, error;
-        const char *text;
-    } cases[] = {{0.61252, 0.00067, "0.61252(67)"},   {5.262, 0.0095, "5.2620(95)"},
-                 {5.262, 0.00996, "5.262(10)"},       {12.34, 1.52, "12.3(1.5)"},
-                 {1234.0, 15.2, "1234(15)"},          {0.61252, -1.0, "0.6125"},
-                 {-0.00128, 0.00047, "-0.00128(47)"}, {1.5, 1e-12, "1.5e+00"},
-                 {6.5, 0.099951, "6.50(10)"}};
-    for (const auto &c : cases) {
-        char text[48];
-        number_with_error(text, sizeof text, c.value, c.error);
-        EXPECT_STREQ(c.text, text);
-    }
-}
-
 /** A box too long for arrows: each component against x, in proportion, below the box and above the
  * plots. */
 TEST(markers, the_field_of_a_long_box_is_plotted)
@@ -421,69 +243,6 @@ TEST(markers, an_lp_mode_shows_its_phase)
     EXPECT_FLOAT_EQ(0.75570F, red(0.5));
 }
 
-namespace
-{
-/** Of an axis, by the first and the last of the numbers beside it: place -> number. */
-struct scale {
-    double place[2], number[2];
-    double of(double at) const
-    {
-        return number[0] + (at - place[0]) / (place[1] - place[0]) * (number[1] - number[0]);
-    }
-};
-scale scale_along(const MarkerArray &array, const std::string &ns, bool along_x, double at,
-                  double low, double high)
-{
-    scale found = {{1e300, -1e300}, {0, 0}};
-    for (const Marker &m : in(array, ns, Marker::TEXT_VIEW_FACING)) {
-        char *end = nullptr;
-        const double number = std::strtod(m.text.c_str(), &end);
-        const double place = along_x ? m.pose.position.x : m.pose.position.y;
-        const double other = along_x ? m.pose.position.y : m.pose.position.x;
-        if (*end || std::fabs(other - at) > 1e-9 || place < low || place > high) continue;
-        if (place < found.place[0]) found.place[0] = place, found.number[0] = number;
-        if (place > found.place[1]) found.place[1] = place, found.number[1] = number;
-    }
-    return found;
-}
-} // namespace
-
-TEST(markers, curves_are_the_numbers)
-{
-    scene s(20.0, 20.0, 50, 2, 5);
-    s.measure(97);
-    const MarkerArray array = drawing().of(s.p);
-    const Marker curve = in(array, "spectrum", Marker::LINE_STRIP).at(0);
-    const Marker frame = in(array, "spectrum", Marker::LINE_LIST).at(0);
-    const double unit = curve.scale.x / 0.2, left = frame.points[0].x, bottom = frame.points[0].y;
-    const scale y = scale_along(array, "spectrum", false, left - 1.3 * unit, bottom - 1,
-                                bottom + 100);
-    const scale x = scale_along(array, "spectrum", true, bottom - 1.3 * unit, left - 1,
-                                frame.points[1].x + 1);
-    ASSERT_EQ(97u, curve.points.size());
-    for (int k = 0; k < 97; k++) {
-        EXPECT_NEAR(k + 1, x.of(curve.points[k].x), 1e-6);
-        EXPECT_NEAR(s.exponents[k], y.of(curve.points[k].y), 1e-9);
-    }
-    const Marker dots = in(array, "dispersion", Marker::POINTS).at(0);
-    const Marker axes = in(array, "dispersion", Marker::LINE_LIST).at(0);
-    const scale k = scale_along(array, "dispersion", true, axes.points[0].y - 1.3 * unit,
-                                axes.points[0].x - 1, 1e9);
-    const scale lambda = scale_along(array, "dispersion", false, axes.points[0].x - 1.3 * unit,
-                                     -1e9, 1e9);
-    ASSERT_EQ(2u, dots.points.size());
-    EXPECT_NEAR(0.2, k.of(dots.points[0].x), 1e-9);
-    EXPECT_NEAR(1.05, lambda.of(dots.points[0].y), 1e-9);
-    EXPECT_NEAR(1.1, lambda.of(dots.points[1].y), 1e-9);
-    EXPECT_GT(dots.colors[0].b, dots.colors[0].r); // T is blue, LP is not
-    EXPECT_LT(dots.colors[1].b, dots.colors[1].r);
-    const Marker fit = in(array, "dispersion", Marker::LINE_LIST).at(1);
-    for (const auto &point : fit.points) {
-        const double at = k.of(point.x);
-        EXPECT_NEAR(3.2 * at + 0.2 * at * at, lambda.of(point.y), 1e-9);
-    }
-}
-
 /** The check box of a panel stays, whichever mode is in it. */
 TEST(markers, what_is_gone_is_deleted)
 {
@@ -518,36 +277,6 @@ TEST(markers, a_mode_without_its_vector_keeps_its_number)
     EXPECT_TRUE(in(array, "phases", Marker::LINE_LIST).empty());
     EXPECT_EQ("LP(1,1)   lambda = 0.61252(67)\nvector 7 not known now",
               title(array, "mode/LP(1,1)").text);
-}
-
-namespace
-{
-std::string caption(const MarkerArray &array)
-{
-    return in(array, "caption", Marker::TEXT_VIEW_FACING).at(0).text;
-}
-} // namespace
-
-TEST(markers, the_caption_says_what_is_known)
-{
-    scene s(20.0, 20.0, 10, 0, 7);
-    drawing on;
-    EXPECT_NE(std::string::npos,
-              in(on.of(s.p), "caption", Marker::TEXT_VIEW_FACING).at(0).text.find("t = 12.5"));
-    s.measure(40);
-    const std::string text = in(on.of(s.p), "caption", Marker::TEXT_VIEW_FACING).at(0).text;
-    EXPECT_NE(std::string::npos, text.find("c_T 3.20(10)")) << text;
-    EXPECT_NE(std::string::npos, text.find("c_L 4.2000 ")) << text;
-    EXPECT_NE(std::string::npos, text.find("v unknown")) << text;
-    EXPECT_NE(std::string::npos, text.find("a scene: 10 disks")) << text;
-    EXPECT_NE(std::string::npos, text.find("25 %")) << text;
-    s.p.note = "(nothing new since 14:03:27)";
-    EXPECT_NE(std::string::npos, caption(on.of(s.p)).find("   (nothing new since 14:03:27)\n"));
-    s.p.time = -1.0, s.p.x.count = s.p.y.count = 0; // described, and not begun
-    const MarkerArray empty = on.of(s.p);
-    expect_shown(empty);
-    EXPECT_NE(std::string::npos, caption(empty).find("waiting for its first message"));
-    EXPECT_NE(std::string::npos, caption(empty).find("a scene: 10 disks"));
 }
 
 int main(int argc, char **argv)
