@@ -143,6 +143,7 @@ class Replayed(harness.Case):
         self.check_refused('not a readable bag')
         self.record('one')
         size = os.path.getsize(self.bag)
+        self.check_refused('nothing from t = 31 on', '--begin', '31')
         os.truncate(self.bag, size // 2)
         self.check_refused('not closed')
         os.remove(self.bag)
@@ -151,8 +152,8 @@ class Replayed(harness.Case):
             replay = self.replay(*args)
             self.assertEqual(replay.wait(), 2, replay.text())
 
-    def check_refused(self, words):
-        replay = self.replay()
+    def check_refused(self, words, *args):
+        replay = self.replay(*args)
         self.assertEqual(replay.wait(), 1, replay.text())
         self.assertRegex(replay.text(), r'\Areplay: %s: .*%s.*\n\Z' % (self.bag, words))
 
