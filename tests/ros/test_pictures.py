@@ -173,9 +173,12 @@ class Markers(unittest.TestCase):
     def replay(self, listeners):
         """What says messages of a topic and a time again; run_info is of all times."""
         publishers = {
-            topic: rospy.Publisher('/hdlyap/' + topic, harness.TYPES[topic], queue_size=1000)
+            topic: rospy.Publisher(
+                '/hdlyap/' + topic, harness.TYPES[topic], latch=topic == 'run_info', queue_size=1000
+            )
             for topic in listeners
         }
+        publishers['run_info'].publish(listeners['run_info'].messages[-1])
         for publisher in publishers.values():
             self.addCleanup(publisher.unregister)
         self.assertTrue(

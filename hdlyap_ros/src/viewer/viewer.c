@@ -229,13 +229,22 @@ static void hear_no_more(hdr_subscriber **group)
     }
 }
 
+static bool has_begun(viewer *v)
+{
+    pthread_mutex_lock(&v->lock);
+    const bool begun = v->said.begun;
+    pthread_mutex_unlock(&v->lock);
+    return begun;
+}
+
 /** Listens while somebody looks: a node works for whoever listens. Of fields in particular, where
- * there are slow_vectors. */
+ * there are slow_vectors. Not before the run is described: what a run that rests says once would
+ * be of a run that is not known. */
 static hdr_status follow(viewer *v, double now)
 {
     hdr_status status = HDR_OK;
     if (hdr_publisher_subscribers(v->markers) > 0) v->seen = now;
-    const bool wanted = now - v->seen < patience_seconds;
+    const bool wanted = now - v->seen < patience_seconds && has_begun(v);
     if (wanted && !v->slow) status = hear_averages(v);
     if (!wanted && v->slow) {
         hear_no_more(v->others[AVERAGES]);
