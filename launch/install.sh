@@ -8,7 +8,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 message_packages() {
-    echo build-essential cmake python3-setuptools python3-numpy python3-scipy python3-matplotlib python3-pandas python3-yaml python3-rospkg
+    echo build-essential cmake python3-setuptools python3-numpy python3-scipy python3-matplotlib python3-pandas python3-yaml python3-rospkg ffmpeg
     case $1 in
         debian)
             echo catkin ros-message-generation ros-message-runtime libroscpp-dev \
@@ -35,7 +35,7 @@ run_packages() {
 }
 
 test_packages() {
-    echo ccache libcmocka-dev libgtest-dev ninja-build shellcheck strace valgrind clang libomp-dev xvfb imagemagick libgl1-mesa-dri \
+    echo ccache libcmocka-dev libgtest-dev ninja-build shellcheck strace valgrind clang libomp-dev xvfb libxtst6 imagemagick libgl1-mesa-dri \
         black flake8 clang-format doxygen
     case $1 in
         debian)

@@ -12,8 +12,9 @@ with_pkg_config() {
     pc=$(find "$prefix" -name hdlyap_core.pc)
     export PKG_CONFIG_PATH=${pc%/*}
     read -r -a flags < <(pkg-config --cflags --libs hdlyap_core)
-    cc -std=c11 -Wall -Wextra -Werror "$here/consumer.c" "${flags[@]}" -o "$work/with_pkg_config"
-    LD_LIBRARY_PATH=$(pkg-config --variable=libdir hdlyap_core) "$work/with_pkg_config"
+    cc -std=c11 -Wall -Wextra -Werror "$here/consumer.c" "${flags[@]}" -o "$work/with_pkg_config" \
+        -Wl,-rpath,"$(pkg-config --variable=libdir hdlyap_core)"
+    env -u LD_LIBRARY_PATH "$work/with_pkg_config"
 }
 
 with_cmake() {

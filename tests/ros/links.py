@@ -24,13 +24,13 @@ def answers(uri, pid):
         return False
 
 
-def node_uri(node, master=None):
+def node_uri(node, master=None, name=harness.NODE):
     """Of a node that has just been started: its name may still belong to the one before."""
     known = rosgraph.Master('/links', master)
 
     def found():
         try:
-            uri = known.lookupNode('/' + harness.NODE)
+            uri = known.lookupNode('/' + name)
         except (OSError, rosgraph.MasterError):
             return None
         return uri if answers(uri, node.process.pid) else None

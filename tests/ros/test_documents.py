@@ -221,7 +221,7 @@ class Text(unittest.TestCase):
     def test_pictures_are_shown(self):
         """No picture of doc/ without a document."""
         shown = ' '.join(read(path) for path in documents())
-        for path in files(r'^doc/.*\.png$'):
+        for path in files(r'^doc/.*\.(png|gif)$'):
             self.assertIn(os.path.basename(path) + ')', shown)
 
     def test_tags(self):

@@ -156,13 +156,16 @@ class Launch(unittest.TestCase):
         return {node.type: node.args for node in config.nodes}
 
     def test_replay_in_rviz_stays(self):
-        self.assertNotIn('--keep-alive', self.replayed()['play'])
+        self.assertNotIn('--keep-alive', self.replayed()['replay'])
         looked_at = self.replayed('rviz:=true', 'node:=/other')
-        self.assertIn('--keep-alive', looked_at['play'])
+        self.assertIn('--keep-alive', looked_at['replay'])
+        self.assertIn('--look=/other', looked_at['replay'])
         self.assertEqual(looked_at['view'], '--node /other')
         self.assertIn('viewer', looked_at)
         self.assertNotIn('viewer', self.replayed('rviz:=true', 'viewer:=false'))
         self.assertNotIn('view', self.replayed('viewer:=true'))
+        self.assertIn('--rate=1.0', self.replayed()['replay'])
+        self.assertIn('--pace=2.5', self.replayed('pace:=2.5')['replay'])
 
     def check_bag(self, path):
         with rosbag.Bag(path) as bag:

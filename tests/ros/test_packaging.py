@@ -49,6 +49,7 @@ OF_ROS = dict(
 # libopenblas-openmp-dev is the one of libopenblas-dev's alternatives that hdlyap is tested with.
 OF_SYSTEM = {
     'ccache': 'ccache',
+    'ffmpeg': 'ffmpeg',
     'gtest': 'libgtest-dev',
     'imagemagick': 'imagemagick',
     'liblapacke-dev': 'liblapacke-dev',
@@ -70,7 +71,7 @@ OF_SYSTEM = {
 # lint, a display
 TOOLS = set(
     'build-essential cmake procps libcmocka-dev shellcheck strace valgrind clang libomp-dev '
-    'libclang-rt-dev catkin-lint python3-catkin-lint xvfb imagemagick libgl1-mesa-dri '
+    'libclang-rt-dev catkin-lint python3-catkin-lint xvfb libxtst6 imagemagick libgl1-mesa-dri '
     'black flake8 clang-format doxygen'.split()
 )
 

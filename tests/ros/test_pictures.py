@@ -14,75 +14,15 @@ import rospy
 import rostest
 from std_srvs.srv import SetBool
 from tf2_msgs.msg import TFMessage
-from visualization_msgs.msg import Marker, MarkerArray
+from visualization_msgs.msg import Marker
 
 import harness
 from harness import MODES, Listener
+from pictured import Pictures, are_alike, arrows, lines, mode_name, modes, of, places, text
 
 ENDLESS = dict(MODES, duration=0.0)
 # of a bag, with status last
 REPLAYED = ('run_info', 'state', 'spectrum', 'steps', 'lp_phases', 'fields', 'status')
-
-
-class Pictures:
-    """All pictures of a node, in the order of their arrival."""
-
-    def __init__(self, node='/hdlyap'):
-        self.all = []
-        self.subscriber = rospy.Subscriber(
-            node + '/markers', MarkerArray, self.all.append, queue_size=None
-        )
-
-    def close(self):
-        self.subscriber.unregister()
-
-
-def of(picture, ns, kind):
-    return [m for m in picture.markers if m.ns == ns and m.type == kind and m.action == Marker.ADD]
-
-
-def modes(picture):
-    """Namespaces of the modes that are drawn."""
-    return [
-        m.ns for m in picture.markers if m.type == Marker.TRIANGLE_LIST and m.action == Marker.ADD
-    ]
-
-
-def text(picture):
-    return of(picture, 'text', Marker.TEXT_VIEW_FACING)[0].text
-
-
-def places(picture):
-    """Of the disks in the first panel."""
-    points = of(picture, 'disks', Marker.SPHERE_LIST)[0].points
-    return np.array([(p.x, p.y) for p in points[: MODES['disks']]])
-
-
-def arrows(marker):
-    """Of each disk: the difference of the ends."""
-    tails = [
-        ((a.x + b.x) / 2, (a.y + b.y) / 2) for a, b in zip(marker.points[0::9], marker.points[5::9])
-    ]
-    return np.array([(tip.x - x, tip.y - y) for (x, y), tip in zip(tails, marker.points[7::9])])
-
-
-def lines(picture):
-    """Points of the arrows of each mode, and of the phases."""
-    return [
-        np.array([(p.x, p.y) for p in marker.points])
-        for ns, kind in [(ns, Marker.TRIANGLE_LIST) for ns in modes(picture)]
-        + [('phases', Marker.LINE_LIST)]
-        for marker in of(picture, ns, kind)
-    ]
-
-
-def are_alike(one, other):
-    a, b = lines(one), lines(other)
-    return (
-        modes(one) == modes(other)
-        and len(a) == len(b)
-        and all(len(x) == len(y) and np.allclose(x, y, atol=1e-9) for x, y in zip(a, b))
-    )
 
 
 def found(steps):
@@ -146,9 +86,9 @@ class Markers(unittest.TestCase):
         by_place = {(s.x[0], s.y[0]): s.sim_time for s in states.messages}
         for picture in pictures.all:
             at = by_place.get(tuple(places(picture)[0]))
-            for name in modes(picture) if at is not None else ():
-                nx, ny = map(int, re.search(r'(\d+),(\d+)', name).groups())
-                kind = 2 if 'T' in name else 3
+            for ns in modes(picture) if at is not None else ():
+                nx, ny = map(int, re.search(r'(\d+),(\d+)', mode_name(picture, ns)).groups())
+                kind = 2 if 'T' in ns else 3
                 field = [
                     f
                     for f in fields.messages
@@ -157,10 +97,10 @@ class Markers(unittest.TestCase):
                 if not field:
                     continue
                 drawn, wanted = (
-                    arrows(of(picture, name, Marker.TRIANGLE_LIST)[0]),
+                    arrows(of(picture, ns, Marker.TRIANGLE_LIST)[0]),
                     np.c_[field[0].dqx, field[0].dqy],
                 )
-                longest = abs(drawn).max(axis=1) < 3.0  # the longest are clipped
+                longest = abs(drawn).max(axis=1) < 2.0  # the longest are clipped
                 factor = (drawn[longest] * wanted[longest]).sum() / (wanted[longest] ** 2).sum()
                 self.assertGreater(factor, 0)
                 np.testing.assert_allclose(drawn[longest], factor * wanted[longest], atol=1e-9)
@@ -233,9 +173,12 @@ class Markers(unittest.TestCase):
     def replay(self, listeners):
         """What says messages of a topic and a time again; run_info is of all times."""
         publishers = {
-            topic: rospy.Publisher('/hdlyap/' + topic, harness.TYPES[topic], queue_size=1000)
+            topic: rospy.Publisher(
+                '/hdlyap/' + topic, harness.TYPES[topic], latch=topic == 'run_info', queue_size=1000
+            )
             for topic in listeners
         }
+        publishers['run_info'].publish(listeners['run_info'].messages[-1])
         for publisher in publishers.values():
             self.addCleanup(publisher.unregister)
         self.assertTrue(
@@ -375,8 +318,8 @@ class Markers(unittest.TestCase):
         pictures = self.look()
         self.start(dict(ENDLESS, aspect=0.05, boundary_y='reflecting', pace=20.0))
         self.assertTrue(harness.wait_until(lambda: pictures.all))
-        titles = {m.ns.split('(')[0] for m in pictures.all[0].markers if m.ns.startswith('mode/')}
-        self.assertEqual(titles, {'mode/LP'})
+        titles = {m.ns for m in pictures.all[0].markers if m.ns.startswith('mode/')}
+        self.assertEqual(titles, {'mode/lowest LP'})
         self.assertEqual(len(of(pictures.all[0], 'box', Marker.LINE_LIST)[0].points), 8)
 
     def test_late_to_a_run_that_rests(self):
@@ -408,7 +351,38 @@ class Markers(unittest.TestCase):
         ]
         self.assertEqual(len(titles), 2)
         for title in titles:
-            self.assertRegex(title, r'index \d+ .*not known now')
+            self.assertRegex(title, r'vector \d+ not known now')
+
+    def test_what_comes_no_more_is_not_shown_as_live(self):
+        """Of a node that rests, and of one that was killed; the picture is repeated for who
+        looks."""
+        pictures = self.look()
+        node = self.start(dict(ENDLESS, pace=10.0))
+
+        def stands():
+            return re.search(r'nothing new since \d\d:\d\d:\d\d', text(pictures.all[-1]))
+
+        self.assertTrue(harness.wait_until(lambda: pictures.all))
+        self.assertFalse(stands())
+        self.pause(True)
+        self.assertTrue(harness.wait_until(stands))
+        count = len(pictures.all)
+        self.assertTrue(harness.wait_until(lambda: len(pictures.all) > count))
+        self.pause(False)
+        self.assertTrue(harness.wait_until(lambda: not stands()))
+        node.stop()
+        self.assertTrue(harness.wait_until(stands))
+
+    def test_of_a_run_that_has_ended(self):
+        """Is finished, and stays so without further words."""
+        pictures = self.look()
+        self.start(dict(MODES, duration=5.0, pace=5.0))
+        self.assertTrue(
+            harness.wait_until(lambda: pictures.all and 'finished' in text(pictures.all[-1]))
+        )
+        count = len(pictures.all)
+        self.assertTrue(harness.wait_until(lambda: len(pictures.all) > count + 4))  # repeated
+        self.assertNotIn('nothing new', text(pictures.all[-1]))
 
     def test_no_memory_for_it(self):
         many = dict(ENDLESS, disks=20000, aspect=1.0, exponents='none', warmup=0.0, pace=1.0)

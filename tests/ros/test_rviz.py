@@ -2,6 +2,7 @@
 """The real rviz, on a screen of its own without a monitor: it shows what ~markers says, where it
 says so, live, to who comes late, and from a bag."""
 
+import ctypes
 import os
 import signal
 import subprocess
@@ -52,6 +53,20 @@ class Screen:
                 env=dict(os.environ, **self.env),
             )
             return np.rint(255 * matplotlib.image.imread(file.name)[:, :, :3]).astype(int)
+
+    def drag(self, number, start, end):
+        """With a button of the mouse that is held, 1 the left one."""
+        x11, test = ctypes.CDLL('libX11.so.6'), ctypes.CDLL('libXtst.so.6')
+        x11.XOpenDisplay.restype = ctypes.c_void_p
+        display = ctypes.c_void_p(x11.XOpenDisplay(self.env['DISPLAY'].encode()))
+        test.XTestFakeMotionEvent(display, -1, *start, 0)
+        test.XTestFakeButtonEvent(display, number, 1, 0)
+        for part in np.linspace(0, 1, 10):
+            x, y = (int(a + part * (b - a)) for a, b in zip(start, end))
+            test.XTestFakeMotionEvent(display, -1, x, y, 20)  # ms
+        test.XTestFakeButtonEvent(display, number, 0, 0)
+        x11.XSync(display, 0)
+        x11.XCloseDisplay(display)
 
     def close(self):
         self.server.terminate()
@@ -208,6 +223,9 @@ class Rviz(unittest.TestCase):
         first = self.rest()
         rviz = self.open_rviz()  # late: nothing more is published
         self.check_shown(first)
+        self.screen.drag(1, (600, 400), (800, 450))
+        time.sleep(0.5)
+        self.check_shown(first)  # not turned
         self.pause(False)  # live
         count = len(self.pictures)
         self.assertTrue(harness.wait_until(lambda: len(self.pictures) > count + 20))

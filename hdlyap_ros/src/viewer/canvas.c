@@ -7,7 +7,7 @@
 #include <string.h>
 
 /** The largest picture has some 110. */
-enum { LAYERS_MAX = 160, SEEN_MAX = 300, NAME_SIZE = 32, TEXT_SIZE = 200 };
+enum { LAYERS_MAX = 160, SEEN_MAX = 300, NAME_SIZE = 32, TEXT_SIZE = 400 };
 
 /** One marker; its points are [begin, begin + count) of the canvas. */
 typedef struct layer {

@@ -61,25 +61,30 @@ static hdr_doubles array_of(const double *data, uint32_t count)
     return (hdr_doubles){.data = data, .count = count, .stride = 1};
 }
 
-/** Coefficients of a vector: with it, or as the phases of the same time have them. */
+static double momentum_of(const heard_vector *v)
+{
+    double l = 0.0, p = 0.0;
+    for (uint32_t k = 0; k < v->pairs; k++) {
+        l += v->a[k] * v->a[k];
+        p += v->b[k] * v->b[k];
+    }
+    return l + p > 0.0 ? p / (l + p) : -1.0;
+}
+
+/** Coefficients of a vector: of the time of the disks, or else of its own. */
 static void fill_pairs(picture_mode *mode, const heard *h, const heard_vector *v)
 {
+    mode->momentum = momentum_of(v);
+    if (h->vector_time != h->time) mode->pairs = heard_pairs(h, h->time, v, mode->a, mode->b);
+    if (mode->pairs > 0) return;
     mode->pairs = v->pairs;
     memcpy(mode->a, v->a, sizeof mode->a);
     memcpy(mode->b, v->b, sizeof mode->b);
-    if (v->pairs > 0 || h->phases.sim_time != h->time) return;
-    for (uint32_t k = 0; k < h->phases.phases.count && mode->pairs < PICTURE_PAIRS_MAX; k++) {
-        const hdr_lp_phase *phase = &h->phases.phases.data[k];
-        if (phase->index != v->index || phase->nx != v->nx || phase->ny != v->ny) continue;
-        mode->a[mode->pairs] = phase->a;
-        mode->b[mode->pairs++] = phase->b;
-    }
 }
 
 static void fill_vector(picture_mode *mode, const heard *h, const heard_vector *v)
 {
     mode->index = v->index;
-    mode->exponent = v->exponent;
     mode->known = v->known;
     if (!v->known) return;
     mode->dx = array_of(v->dx, h->disks);
@@ -87,30 +92,39 @@ static void fill_vector(picture_mode *mode, const heard *h, const heard_vector *
     if (mode->kind == HDR_MODE_LP && v->kind == HDR_MODE_LP) fill_pairs(mode, h, v);
 }
 
-static void write_name(picture_mode *mode, const mode_name *is)
+static void write_name(char *name, size_t size, const mode_name *is)
 {
     const char *kind = is->kind == HDR_MODE_T ? "T" : "LP";
-    const int length = snprintf(mode->name, sizeof mode->name, "%s", kind);
     if (is->nx > 0 || is->ny > 0)
-        snprintf(mode->name + length, sizeof mode->name - (size_t)length, "(%u,%u)",
-                 (unsigned)is->nx, (unsigned)is->ny);
+        snprintf(name, size, "%s(%u,%u)", kind, (unsigned)is->nx, (unsigned)is->ny);
+    else
+        snprintf(name, size, "%s", kind);
 }
 
 /** name: the one asked for; NULL: the lowest of the kind, as the steps say or else the vectors. */
 static picture_mode mode_of(const heard *h, uint8_t kind, const mode_name *name)
 {
-    picture_mode mode = {.kind = kind};
+    picture_mode mode = {.kind = kind, .error = -1.0, .momentum = -1.0};
     const hdr_step *step = step_of(h, kind, name);
     const heard_vector *v = step ? vector_of_step(h, step) : NULL;
     mode_name is = name ? *name : (mode_name){.kind = kind};
+    if (name)
+        write_name(mode.box, sizeof mode.box, name);
+    else
+        snprintf(mode.box, sizeof mode.box, "lowest %s", kind == HDR_MODE_T ? "T" : "LP");
     if (step) {
         is = (mode_name){kind, step->nx, step->ny};
         mode.index = step->first_index;
         mode.exponent = step->exponent;
+        mode.error = step->std_error;
     }
-    if (!v && (v = vector_of(h, kind, name))) is = (mode_name){kind, v->nx, v->ny};
+    if (!v && (v = vector_of(h, kind, name))) { /* the step has not been heard */
+        is = (mode_name){kind, v->nx, v->ny};
+        mode.exponent = v->exponent;
+        mode.error = -1.0;
+    }
     mode.found = step || v;
-    write_name(&mode, &is);
+    write_name(mode.name, sizeof mode.name, &is);
     if (v) fill_vector(&mode, h, v);
     return mode;
 }
@@ -124,20 +138,28 @@ static void fill_modes(picture *p, const heard *h, const mode_choice *asked)
     if (asked->count == 0) p->mode[p->modes++] = mode_of(h, HDR_MODE_LP, NULL);
 }
 
-picture compose(const heard *h, const mode_choice *asked)
+picture compose(const heard *h, const mode_choice *asked, const char *note)
 {
+    const uint32_t disks = h->time >= 0.0 ? h->disks : 0;
     picture p = {
         .scene = h->scene,
         .stage = h->stage < UINT8_MAX ? hdr_stage_name(h->stage) : "stage unknown",
+        .disks = h->disks,
         .box = {h->box[0], h->box[1]},
         .periodic = {h->periodic[0], h->periodic[1]},
-        .time = h->time,
+        .time = h->time >= 0.0 ? h->time : h->status_time,
         .averaged = h->averaged,
         .progress = h->progress,
-        .x = array_of(h->x, h->disks),
-        .y = array_of(h->y, h->disks),
+        .note = note,
+        .x = array_of(h->x, disks),
+        .y = array_of(h->y, disks),
+        .vector_time = h->vector_time,
+        .at_x = array_of(h->at_x, h->disks),
+        .at_y = array_of(h->at_y, h->disks),
         .has_exponents = h->has_exponents,
         .exponents = array_of(h->exponents, h->exponents_count),
+        .lambda_max = h->lambda_max,
+        .lambda_max_error = h->lambda_max_error,
         .steps = h->has_steps ? &h->steps : NULL,
     };
     fill_modes(&p, h, asked);

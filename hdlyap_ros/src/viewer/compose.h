@@ -19,7 +19,7 @@ typedef struct mode_choice {
 /** T(nx,ny) or LP(nx,ny), and nothing else; false otherwise. */
 bool mode_name_parse(mode_name *out, const char *text);
 
-/** Of a run that has begun; points into what was heard. */
-picture compose(const heard *h, const mode_choice *asked);
+/** Of a run that has begun; note: as in the picture. Points into what was heard. */
+picture compose(const heard *h, const mode_choice *asked, const char *note);
 
 #endif

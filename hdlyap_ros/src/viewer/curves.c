@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "numbers.h"
 #include "palette.h"
 #include "plot.h"
 
@@ -71,22 +72,24 @@ static const hdr_step *step_of(const picture *p, uint32_t index)
 }
 
 /** From the lowest upwards, above to the right and below to the left in turn: there is no other
- * exponent. */
+ * exponent. One is at least a line above the one before it on its side. */
 static void step_names(const plot *axes, const picture *p, uint32_t last)
 {
     const hdr_step *before = NULL;
+    double least[2] = {-HUGE_VAL, -HUGE_VAL};
     int names = 0;
     for (uint32_t i = last; i > axes->min[0] && names < NAMES_MAX; i--) {
         const hdr_step *step = step_of(p, i);
         if (!step || step == before) continue;
-        const double side = names % 2 ? -1.0 : 1.0;
-        const double at = plot_x(axes, names % 2 ? step->first_index : step->last_index);
-        canvas_text(axes->on, axes->ns, at + side * 2.2 * axes->unit,
-                    plot_y(axes, step->exponent) + side * 0.9 * axes->unit, 0.8 * axes->unit,
+        const int left = names++ % 2;
+        const double side = left ? -1.0 : 1.0;
+        const double x = plot_x(axes, left ? step->first_index : step->last_index);
+        const double y = fmax(plot_y(axes, step->exponent) + side * 0.9 * axes->unit, least[left]);
+        canvas_text(axes->on, axes->ns, x + side * 2.4 * axes->unit, y, 0.85 * axes->unit,
                     palette_kind(step->kind), "%s(%u,%u)%s", step->kind == HDR_MODE_T ? "T" : "LP",
                     (unsigned)step->nx, (unsigned)step->ny, step->members > 1 ? "+" : "");
+        least[left] = y + axes->unit;
         before = step;
-        names++;
     }
 }
 
@@ -181,36 +184,48 @@ void curves_dispersion(canvas *on, const layout *l, const picture *p)
 
 /* ---- the caption --------------------------------------------------------------------------- */
 
-/** "c_T 3.230 +- 0.004"; without what is not known. */
-static void write_fit(char *text, size_t size, const char *name, bool known, double value,
-                      double error)
+/** "c_T 3.2304(37)    "; without what is not known. */
+static size_t write_number(char *text, size_t size, const char *name, bool known, double value,
+                           double error)
 {
-    if (!known)
-        snprintf(text, size, "%s unknown", name);
-    else if (error < 0.0)
-        snprintf(text, size, "%s %.3f", name, value);
-    else
-        snprintf(text, size, "%s %.3f +- %.3f", name, value, error);
+    char number[48] = "unknown";
+    if (known) number_with_error(number, sizeof number, value, error);
+    return (size_t)snprintf(text, size, "%s %s    ", name, number);
 }
 
-static void write_fits(char *text, size_t size, const hdr_steps *s)
+/** Of exponents and steps, where they are asked for. */
+static void write_results(char *text, size_t size, const picture *p)
 {
-    char c_t[48], c_l[48], v[48];
-    write_fit(c_t, sizeof c_t, "c_T", s->t_points > 0, s->c_t, s->c_t_error);
-    write_fit(c_l, sizeof c_l, "c_L", s->l_points > 0, s->c_l, s->c_l_error);
-    write_fit(v, sizeof v, "v", s->v_phases > 0, s->v, s->v_error);
-    snprintf(text, size, "%s    %s    %s", c_t, c_l, v);
+    const hdr_steps *s = p->steps;
+    size_t n = 0;
+    if (p->has_exponents)
+        n += write_number(text, size, "lambda_max", p->exponents.count > 0, p->lambda_max,
+                          p->lambda_max_error);
+    if (!s) return;
+    n += write_number(text + n, size - n, "c_T", s->t_points > 0, s->c_t, s->c_t_error);
+    n += write_number(text + n, size - n, "c_L", s->l_points > 0, s->c_l, s->c_l_error);
+    write_number(text + n, size - n, "v", s->v_phases > 0, s->v, s->v_error);
+}
+
+/** Where the run is. */
+static void write_time(char *text, size_t size, const picture *p)
+{
+    char done[24] = "";
+    if (p->progress > 0.0) snprintf(done, sizeof done, " (%.0f %%)", 100.0 * p->progress);
+    if (p->time >= 0.0)
+        snprintf(text, size, "t = %.1f, %s%s, averaged %.1f", p->time, p->stage, done, p->averaged);
+    else
+        snprintf(text, size, "waiting for its first message");
 }
 
 void curves_caption(canvas *on, const layout *l, const picture *p)
 {
-    char fits[160] = "";
-    char done[24] = "";
-    if (p->progress > 0.0) snprintf(done, sizeof done, " (%.0f %%)", 100.0 * p->progress);
-    if (p->steps) write_fits(fits, sizeof fits, p->steps);
-    canvas_text(on, "text", l->caption_x, l->caption_y, 1.4 * l->unit, PALETTE_INK,
-                "%.60s: %u disks, x %s, y %s\nt = %.1f, %s%s, averaged %.1f\n%s", p->scene,
-                (unsigned)p->x.count, p->periodic[0] ? "periodic" : "reflecting",
-                p->periodic[1] ? "periodic" : "reflecting", p->time, p->stage, done, p->averaged,
-                fits);
+    char results[300] = "", time[80];
+    write_results(results, sizeof results, p);
+    write_time(time, sizeof time, p);
+    canvas_text(on, "caption", l->caption_x, l->caption_y, 1.3 * l->unit, PALETTE_INK,
+                "%.60s: %u disks, x %s, y %s\n%s%s%s\n%s", p->scene, (unsigned)p->disks,
+                p->periodic[0] ? "periodic" : "reflecting",
+                p->periodic[1] ? "periodic" : "reflecting", time, *p->note ? "   " : "", p->note,
+                results);
 }

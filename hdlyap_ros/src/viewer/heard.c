@@ -12,7 +12,7 @@ void heard_clear(heard *h)
     free(h->exponents);
     free((void *)h->steps.steps.data);
     free((void *)h->phases.phases.data);
-    *h = (heard){.time = -1.0};
+    *h = (heard){.time = -1.0, .status_time = -1.0, .vector_time = -1.0};
 }
 
 /* ---- the run ------------------------------------------------------------------------------- */
@@ -57,10 +57,13 @@ bool heard_run_info(heard *h, const hdr_run_info *info)
 {
     if (h->begun && strcmp(h->run_id, info->run_id) == 0) return false;
     heard_clear(h);
-    h->x = malloc(2 * (size_t)info->disks * sizeof *h->x + 1);
+    h->x = malloc(4 * (size_t)info->disks * sizeof *h->x + 1);
     if (!h->x) return false;
     h->y = h->x + info->disks;
+    h->at_x = h->y + info->disks;
+    h->at_y = h->at_x + info->disks;
     begin(h, info);
+    h->changed = true;
     return true;
 }
 
@@ -86,23 +89,36 @@ static void *replaced(const void *old, const void *from, size_t bytes)
 
 /* ---- disks and vectors of one time ----------------------------------------------------------- */
 
-/** What is heard next is of this time and these places; false if they are not of each disk. */
+/** Disks at a time; false if the places are not of each of them. */
 static bool move(heard *h, double time, const hdr_doubles *x, const hdr_doubles *y)
 {
     if (x->count != h->disks || y->count != h->disks) return false;
     copy(h->x, x);
     copy(h->y, y);
     h->time = time;
-    h->vectors = 0;
     h->changed = true;
+    return true;
+}
+
+/** Vectors that are heard next are of this time and these places. */
+static bool begin_vectors(heard *h, double time, const hdr_doubles *x, const hdr_doubles *y)
+{
+    if (x->count != h->disks || y->count != h->disks) return false;
+    copy(h->at_x, x);
+    copy(h->at_y, y);
+    h->vector_time = time;
+    h->vectors = 0;
     return true;
 }
 
 void heard_state(heard *h, const hdr_state *state)
 {
     if (!is_ours(h, state->run_id)) return;
-    if (h->vectors == 0 || state->sim_time < h->time) /* a bag that is played again */
-        (void)move(h, state->sim_time, &state->x, &state->y);
+    if (state->sim_time < h->vector_time) { /* a bag that is played again */
+        h->vector_time = -1.0;
+        h->vectors = 0;
+    }
+    (void)move(h, state->sim_time, &state->x, &state->y);
 }
 
 /** A vector more, with all but its arrays; NULL without room. */
@@ -127,6 +143,28 @@ static heard_vector *with_index(heard *h, uint32_t index)
     return NULL;
 }
 
+uint32_t heard_pairs(const heard *h, double time, const heard_vector *v, double *a, double *b)
+{
+    uint32_t pairs = 0;
+    if (h->phases.sim_time != time) return 0;
+    for (uint32_t k = 0; k < h->phases.phases.count && pairs < HEARD_PAIRS_MAX; k++) {
+        const hdr_lp_phase *phase = &h->phases.phases.data[k];
+        if (phase->index != v->index || phase->nx != v->nx || phase->ny != v->ny) continue;
+        a[pairs] = phase->a;
+        b[pairs++] = phase->b;
+    }
+    return pairs;
+}
+
+/** Coefficients of vectors that came without, from phases of their time. */
+static void note_pairs(heard *h)
+{
+    for (int k = 0; k < h->vectors; k++) {
+        heard_vector *v = &h->vector[k];
+        if (v->pairs == 0) v->pairs = heard_pairs(h, h->vector_time, v, v->a, v->b);
+    }
+}
+
 void heard_mode_field(heard *h, const hdr_mode_field *field)
 {
     const heard_vector what = {.kind = field->kind,
@@ -137,12 +175,16 @@ void heard_mode_field(heard *h, const hdr_mode_field *field)
                                .known = true};
     if (!is_ours(h, field->run_id)) return;
     if (field->dqx.count != h->disks || field->dqy.count != h->disks) return;
-    if (field->sim_time != h->time && !move(h, field->sim_time, &field->x, &field->y)) return;
+    if (field->sim_time != h->vector_time &&
+        !begin_vectors(h, field->sim_time, &field->x, &field->y))
+        return;
+    if (field->sim_time > h->time) (void)move(h, field->sim_time, &field->x, &field->y);
     heard_vector *v = with_index(h, field->index);
     if (!v) v = add(h, &what);
     if (!v) return;
     copy(v->dx, &field->dqx);
     copy(v->dy, &field->dqy);
+    note_pairs(h);
     h->changed = true;
 }
 
@@ -187,6 +229,7 @@ void heard_slow_vectors(heard *h, const hdr_slow_vectors *slow)
 {
     if (!is_ours(h, slow->run_id) || !is_whole(h, slow)) return;
     if (!move(h, slow->sim_time, &slow->x, &slow->y)) return;
+    (void)begin_vectors(h, slow->sim_time, &slow->x, &slow->y);
     for (uint32_t k = 0; k < slow->vectors; k++) {
         const heard_vector what = vector_of(slow, k);
         heard_vector *v = is_wanted(h, &what) ? add(h, &what) : NULL;
@@ -208,6 +251,8 @@ void heard_spectrum(heard *h, const hdr_spectrum *spectrum)
     h->exponents = exponents;
     h->exponents_count = spectrum->exponents.count;
     h->averaged = spectrum->averaged_time;
+    h->lambda_max = spectrum->lambda_max;
+    h->lambda_max_error = spectrum->std_errors.count > 0 ? spectrum->std_errors.data[0] : -1.0;
 }
 
 void heard_steps(heard *h, const hdr_steps *steps)
@@ -228,13 +273,15 @@ void heard_phases(heard *h, const hdr_lp_phases *phases)
     if (!own) return;
     h->phases = *phases;
     h->phases.phases.data = own;
-    h->changed |= phases->sim_time == h->time;
+    note_pairs(h);
+    h->changed |= phases->sim_time == h->time || phases->sim_time == h->vector_time;
 }
 
 void heard_status(heard *h, const hdr_run_status *status)
 {
     if (!is_ours(h, status->run_id)) return;
-    h->changed |= h->time >= 0.0 && h->stage != status->stage;
+    h->changed |= h->time < 0.0 || h->stage != status->stage;
     h->stage = status->stage;
+    h->status_time = status->sim_time;
     h->progress = status->progress;
 }

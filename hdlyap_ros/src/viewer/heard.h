@@ -15,7 +15,7 @@ typedef struct heard_vector {
     double exponent;
     uint32_t pairs; /**< of which a and b are known with the vector */
     double a[HEARD_PAIRS_MAX], b[HEARD_PAIRS_MAX];
-    bool known;      /**< the vector itself: */
+    bool known;      /**< the vector itself, at its place and time: */
     double *dx, *dy; /**< [N] each, in one block at dx */
 } heard_vector;
 
@@ -29,10 +29,13 @@ typedef struct heard {
     bool has_t, has_lp; /**< modes of these kinds: can be in the box, and are looked for */
     uint8_t stage;      /**< UINT8_MAX before the first status */
     double progress;
-    double time, *x, *y; /**< of the picture; in one block at x; time is -1 before the first */
-    heard_vector vector[HEARD_VECTORS_MAX]; /**< of that time */
+    double status_time;  /**< of the last status; -1 before the first */
+    double time, *x, *y; /**< of the disks; in one block at x; time is -1 before the first */
+    heard_vector vector[HEARD_VECTORS_MAX];
     int vectors;
+    double vector_time, *at_x, *at_y; /**< of the vectors: where the disks were then, behind y */
     double *exponents, averaged;
+    double lambda_max, lambda_max_error; /**< the error is -1 while it is not known */
     uint32_t exponents_count;
     hdr_steps steps; /**< of an own array, as the next */
     hdr_lp_phases phases;
@@ -46,12 +49,17 @@ void heard_clear(heard *h); /**< frees; {0} before the first use */
 /** True if a run begins, or begins again. */
 bool heard_run_info(heard *h, const hdr_run_info *info);
 void heard_slow_vectors(heard *h, const hdr_slow_vectors *slow);
-/** Positions, unless there are vectors: they have positions of their own. */
+/** The disks move; vectors stay those of their time. */
 void heard_state(heard *h, const hdr_state *state);
+/** A vector of its time; the disks are there too, unless they are further already. */
 void heard_mode_field(heard *h, const hdr_mode_field *field);
 void heard_spectrum(heard *h, const hdr_spectrum *spectrum);
 void heard_steps(heard *h, const hdr_steps *steps);
 void heard_phases(heard *h, const hdr_lp_phases *phases);
 void heard_status(heard *h, const hdr_run_status *status);
+
+/** Coefficients of a vector's pairs at a time, HEARD_PAIRS_MAX at most, as phases have them; their
+ * number, 0 if none are known. */
+uint32_t heard_pairs(const heard *h, double time, const heard_vector *v, double *a, double *b);
 
 #endif

@@ -4,11 +4,12 @@
 #include <math.h>
 
 /** In units of the text's height. */
-static const double WIDTH_UNITS = 80.0, GAP = 4.0, TITLE = 4.0, AXIS = 6.0, CAPTION = 6.0;
-static const double LONG = 2.5;        /* boxes this much longer than high lie above each other */
-static const double TOO_LONG = 40.0;   /* arrows of neighbours would cover each other */
-static const double STRIP = 8.0;       /* height */
-static const double PLOT_HEIGHT = 0.8; /* of its width */
+static const double WIDTH_UNITS = 64.0, GAP = 3.0, TITLE = 3.5, AXIS = 6.0, CAPTION = 6.0;
+static const double ARROW = 2.6;        /* the longest, in mean distances of disks */
+static const double LONG = 2.5;         /* boxes this much longer than high lie above each other */
+static const double TOO_LONG = 40.0;    /* arrows of neighbours would cover each other */
+static const double STRIP = 8.0;        /* height */
+static const double PLOT_HEIGHT = 0.65; /* of its width */
 
 /** Columns of a grid of panels that is not much higher than wide. */
 static int columns_of(const picture *p, int panels)
@@ -19,9 +20,9 @@ static int columns_of(const picture *p, int panels)
     return columns < panels ? columns : panels;
 }
 
-static double grid_width(const picture *p, int columns, double unit)
+static double grid_width(const picture *p, const layout *l, int columns, double unit)
 {
-    return columns * p->box[0] + (columns - 1) * GAP * unit;
+    return columns * p->box[0] + (columns - 1) * (GAP * unit + l->arrow);
 }
 
 /** Left to right, then downwards; panel 0 at the origin. */
@@ -30,8 +31,8 @@ static void place_panels(layout *l, const picture *p, int columns)
     const double strip = l->strips ? (STRIP + 1.0) * l->unit : 0.0;
     for (int k = 0; k < l->panels; k++) {
         l->panel[k] = (rect){
-            .x = k % columns * (p->box[0] + GAP * l->unit),
-            .y = -(k / columns) * (p->box[1] + strip + TITLE * l->unit),
+            .x = k % columns * (p->box[0] + GAP * l->unit + l->arrow),
+            .y = -(k / columns) * (p->box[1] + strip + TITLE * l->unit + l->arrow),
             .width = p->box[0],
             .height = p->box[1],
         };
@@ -45,7 +46,7 @@ static void place_plots(layout *l, double width, double bottom)
 {
     const double each = (width - 3 * AXIS * l->unit) / 3.0;
     rect plot = {AXIS * l->unit, 0.0, each, PLOT_HEIGHT * each};
-    plot.y = bottom - TITLE * l->unit - plot.height;
+    plot.y = bottom - TITLE * l->unit - 0.5 * l->arrow - plot.height;
     l->spectrum = l->lowest = l->dispersion = plot;
     l->lowest.x += each + AXIS * l->unit;
     l->dispersion.x += 2.0 * (each + AXIS * l->unit);
@@ -54,15 +55,16 @@ static void place_plots(layout *l, double width, double bottom)
 layout layout_of(const picture *p)
 {
     layout l = {.panels = p->modes > 0 ? p->modes : 1,
-                .strips = p->modes > 0 && p->box[0] > TOO_LONG * p->box[1]};
+                .strips = p->modes > 0 && p->box[0] > TOO_LONG * p->box[1],
+                .arrow = ARROW * sqrt(p->box[0] * p->box[1] / p->disks)};
     const int columns = columns_of(p, l.panels);
     const double least = fmax(p->box[0],
                               0.8 * p->box[1]); /* plots need room beside a high box too */
-    l.unit = fmax(grid_width(p, columns, 0.0), least) / (WIDTH_UNITS - (columns - 1) * GAP);
-    const double width = fmax(grid_width(p, columns, l.unit), WIDTH_UNITS * l.unit);
+    l.unit = fmax(grid_width(p, &l, columns, 0.0), least) / (WIDTH_UNITS - (columns - 1) * GAP);
+    const double width = fmax(grid_width(p, &l, columns, l.unit), WIDTH_UNITS * l.unit);
     place_panels(&l, p, columns);
     place_plots(&l, width, l.strips ? l.strip[l.panels - 1].y : l.panel[l.panels - 1].y);
     l.caption_x = 0.5 * width;
-    l.caption_y = p->box[1] + (TITLE + 0.5 * CAPTION) * l.unit;
+    l.caption_y = p->box[1] + 0.5 * l.arrow + (TITLE + 0.5 * CAPTION) * l.unit;
     return l;
 }

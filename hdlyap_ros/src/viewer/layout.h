@@ -11,6 +11,8 @@ typedef struct rect {
 
 typedef struct layout {
     double unit; /**< height of text */
+    double
+        arrow; /**< length of the longest; half of it may stand out of a panel, where no text is */
     rect panel[PICTURE_MODES_MAX];
     int panels; /**< one per mode, at least one */
     /** The boxes are too long for arrows: their field is plotted below them */

@@ -4,16 +4,17 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "numbers.h"
 #include "palette.h"
 
 static const double DISKS_Z = -1.0; /* below the arrows, which they would hide */
-/** Root mean square length of an arrow, as a part of the mean distance of disks; the longest one
- * may have. */
-static const double ARROW = 1.3, ARROW_MAX = 3.5;
+static const double ARROW = 0.5;    /* root mean square length, as a part of the longest */
 /** Of an arrow, as parts of its length or of the mean distance. */
-static const double HEAD = 0.4, HEAD_WIDTH = 0.16, SHAFT_WIDTH = 0.05;
-static const double LINE = 0.12; /* in units of the text's height */
-static const double DIAL = 1.2;  /* radius, in the same */
+static const double HEAD = 0.4, HEAD_WIDTH = 0.2, SHAFT_WIDTH = 0.07;
+static const double LINE = 0.12;                     /* in units of the text's height */
+static const double DIAL = 1.2, DIAL_STEP = 2.4;     /* radius and, in radii, distance */
+static const double TITLE = 1.8, TITLE_HEIGHT = 1.1; /* above a panel's arrows, in the same */
+static const double PALE = 0.3; /* part of white in what is not of the picture's time */
 enum { DIAL_SIDES = 32 };
 /** Of a strip: part of its half height that the root mean square takes; size of a dot. */
 static const double STRIP_SCALE = 0.3, STRIP_DOT = 0.35;
@@ -74,13 +75,16 @@ static void arrow(canvas *on, double x, double y, double dx, double dy, double w
 /** An LP mode turns from L to P: its hue says so. */
 static hdr_colour colour_of(const picture_mode *m)
 {
-    double l = 0.0, p = 0.0;
     if (m->kind != HDR_MODE_LP) return palette_kind(m->kind);
-    for (uint32_t k = 0; k < m->pairs; k++) {
-        l += m->a[k] * m->a[k];
-        p += m->b[k] * m->b[k];
-    }
-    return l + p > 0.0 ? palette_mix(PALETTE_L, PALETTE_P, p / (l + p)) : PALETTE_LP;
+    return m->momentum >= 0.0 ? palette_mix(PALETTE_L, PALETTE_P, m->momentum) : PALETTE_LP;
+}
+
+static bool is_of_before(const picture *p) { return p->vector_time != p->time; }
+
+static hdr_colour colour_of_field(const picture *p, const picture_mode *m)
+{
+    const hdr_colour white = {1.0F, 1.0F, 1.0F, 1.0F}, colour = colour_of(m);
+    return is_of_before(p) ? palette_mix(colour, white, PALE) : colour;
 }
 
 static double mean_square(const picture_mode *m)
@@ -93,16 +97,15 @@ static double mean_square(const picture_mode *m)
     return m->dx.count > 0 ? sum / m->dx.count : 0.0;
 }
 
-static void arrows(canvas *on, const rect *r, const picture *p, const picture_mode *m)
+static void arrows(canvas *on, const rect *r, const picture *p, const picture_mode *m, double most)
 {
-    const double distance = sqrt(p->box[0] * p->box[1] / fmax(p->x.count, 1.0));
-    const double square = mean_square(m), most = ARROW_MAX * distance;
-    const double scale = square > 0.0 ? ARROW * distance / sqrt(square) : 0.0;
+    const double distance = sqrt(p->box[0] * p->box[1] / p->disks);
+    const double square = mean_square(m), scale = square > 0.0 ? ARROW * most / sqrt(square) : 0.0;
     for (uint32_t i = 0; i < m->dx.count; i++) {
         const double dx = scale * element(&m->dx, i), dy = scale * element(&m->dy, i);
         const double shorter = fmin(1.0, most / fmax(hypot(dx, dy), 1e-300));
-        arrow(on, r->x + element(&p->x, i), r->y + element(&p->y, i), shorter * dx, shorter * dy,
-              distance);
+        arrow(on, r->x + element(&p->at_x, i), r->y + element(&p->at_y, i), shorter * dx,
+              shorter * dy, distance);
     }
 }
 
@@ -112,8 +115,8 @@ static void dots(canvas *on, const rect *strip, const picture *p, const hdr_doub
 {
     for (uint32_t i = 0; i < d->count; i++) {
         const double off = fmax(-1.0, fmin(1.0, scale * element(d, i)));
-        canvas_point(on, strip->x + element(&p->x, i), strip->y + 0.5 * (1.0 + off) * strip->height,
-                     0.0);
+        canvas_point(on, strip->x + element(&p->at_x, i),
+                     strip->y + 0.5 * (1.0 + off) * strip->height, 0.0);
     }
 }
 
@@ -124,7 +127,7 @@ static void components(canvas *on, const layout *l, const picture *p, int k, con
     const double square = mean_square(m), scale = square > 0.0 ? STRIP_SCALE / sqrt(square) : 0.0;
     canvas_layer(on, ns, HDR_MARKER_POINTS, PALETTE_INK, STRIP_DOT * l->unit);
     dots(on, &l->strip[k], p, &m->dy, scale);
-    canvas_layer(on, ns, HDR_MARKER_POINTS, colour_of(m), STRIP_DOT * l->unit);
+    canvas_layer(on, ns, HDR_MARKER_POINTS, colour_of_field(p, m), STRIP_DOT * l->unit);
     dots(on, &l->strip[k], p, &m->dx, scale);
 }
 
@@ -134,7 +137,7 @@ static void dials(canvas *on, double x, double y, double unit, const picture_mod
     const double radius = DIAL * unit;
     canvas_layer(on, "phases", HDR_MARKER_LINE_LIST, PALETTE_INK, LINE * unit);
     for (uint32_t k = 0; k < m->pairs; k++) {
-        const double at = x - (2.4 * (m->pairs - k) - 1.2) * radius;
+        const double at = x - (DIAL_STEP * (m->pairs - k - 0.5)) * radius;
         for (int side = 0; side < DIAL_SIDES; side++) {
             const double from = TURN * side / DIAL_SIDES, to = TURN * (side + 1) / DIAL_SIDES;
             canvas_line(on, at + radius * cos(from), y + radius * sin(from), at + radius * cos(to),
@@ -143,31 +146,54 @@ static void dials(canvas *on, double x, double y, double unit, const picture_mod
     }
     canvas_layer(on, "phases", HDR_MARKER_LINE_LIST, colour_of(m), 3.0 * LINE * unit);
     for (uint32_t k = 0; k < m->pairs; k++) {
-        const double at = x - (2.4 * (m->pairs - k) - 1.2) * radius;
+        const double at = x - (DIAL_STEP * (m->pairs - k - 0.5)) * radius;
         canvas_line(on, at, y, at + radius * m->a[k], y + radius * m->b[k]);
     }
+}
+
+/** Which vector is drawn, and of which time if that is not the picture's. */
+static void write_vector(char *text, size_t size, const layout *l, const picture *p,
+                         const picture_mode *m)
+{
+    const char *strips = l->strips ? "; below: dq along the box, across it grey" : "";
+    if (!m->known)
+        snprintf(text, size, "vector %u not known now", (unsigned)m->index);
+    else if (is_of_before(p))
+        snprintf(text, size, "vector %u of t = %.1f%s", (unsigned)m->index, p->vector_time, strips);
+    else
+        snprintf(text, size, "vector %u%s", (unsigned)m->index, strips);
+}
+
+/** Two lines round (x, y). */
+static void title(canvas *on, const char *ns, double x, double y, const layout *l, const picture *p,
+                  const picture_mode *m)
+{
+    char number[48], vector[96];
+    const double height = TITLE_HEIGHT * l->unit;
+    number_with_error(number, sizeof number, m->exponent, m->error);
+    write_vector(vector, sizeof vector, l, p, m);
+    if (m->found)
+        canvas_text(on, ns, x, y, height, palette_kind(m->kind), "%s   lambda = %s\n%s", m->name,
+                    number, vector);
+    else
+        canvas_text(on, ns, x, y, height, PALETTE_INK, "%s: not resolved", m->name);
 }
 
 void panel_mode(canvas *on, const layout *l, const picture *p, int k)
 {
     const picture_mode *m = &p->mode[k];
     const rect *r = &l->panel[k];
-    const double top = r->y + r->height + 1.8 * l->unit;
+    const double top = r->y + r->height + 0.5 * l->arrow + TITLE * l->unit;
+    const uint32_t pairs = m->known ? m->pairs : 0;
+    const double row = pairs * DIAL_STEP * DIAL * l->unit; /* of dials */
     char ns[32];
-    snprintf(ns, sizeof ns, "mode/%s", m->name);
+    snprintf(ns, sizeof ns, "mode/%s", m->box);
     if (m->known && l->strips) {
         components(on, l, p, k, ns);
     } else if (m->known) {
-        canvas_layer(on, ns, HDR_MARKER_TRIANGLE_LIST, colour_of(m), 1.0);
-        arrows(on, r, p, m);
+        canvas_layer(on, ns, HDR_MARKER_TRIANGLE_LIST, colour_of_field(p, m), 1.0);
+        arrows(on, r, p, m, l->arrow);
     }
-    if (m->known && m->pairs > 0) dials(on, r->x + r->width, top, l->unit, m);
-    if (m->found)
-        canvas_text(on, ns, r->x + 0.5 * r->width, top, 1.2 * l->unit, palette_kind(m->kind),
-                    "%s   index %u   lambda = %.4f%s%s", m->name, (unsigned)m->index, m->exponent,
-                    m->known ? "" : "   (vector not known now)",
-                    l->strips ? "   below: dq along the box, across it grey" : "");
-    else
-        canvas_text(on, ns, r->x + 0.5 * r->width, top, 1.2 * l->unit, PALETTE_INK,
-                    "%s: not resolved", m->name);
+    if (pairs > 0) dials(on, r->x + r->width, top, l->unit, m);
+    title(on, ns, r->x + 0.5 * (r->width - row), top, l, p, m);
 }

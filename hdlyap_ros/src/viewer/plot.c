@@ -63,7 +63,7 @@ static double tidy(double number, double step) { return fabs(number) < 1e-6 * st
 
 static void draw_numbers(const plot *p)
 {
-    const double away = LABEL_DISTANCE * p->unit, height = 0.8 * p->unit;
+    const double away = LABEL_DISTANCE * p->unit, height = 0.85 * p->unit;
     double step;
     for (double x = first_tick(p, 0, &step); x <= p->max[0] + 1e-9 * step; x += step)
         canvas_text(p->on, p->ns, plot_x(p, x), p->area.y - away, height, PALETTE_INK, "%.4g",

@@ -2,6 +2,7 @@
  * rosrun hdlyap viewer [_node:=/hdlyap] [_modes:="T(1,0) LP(1,0)"]
  * rosservice call /viewer/set "modes=T(1,0)" */
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
@@ -17,6 +18,10 @@ static const double poll_seconds = 0.1;
 /** As long as this nobody may look before the topics are left alone: rviz takes its time to open.
  */
 static const double patience_seconds = 10.0;
+/** A picture is sent anew after so long: rviz forgets what is in a box that is not checked. */
+static const double again_seconds = 1.0;
+/** Who has heard nothing new for so long says so in the picture. */
+static const double still_seconds = 3.0;
 
 /** What is listened to, and freed, together. */
 enum { AVERAGES, STAND_INS, SUBSCRIBERS_MAX = 4 };
@@ -25,14 +30,26 @@ typedef struct viewer {
     hdr_node *ros;
     const char *node; /**< whose topics */
     mode_choice modes;
-    heard said; /**< of the callbacks' thread, as the next two */
+    pthread_mutex_t lock; /**< of the callbacks' thread and the main one, for what is next */
+    heard said;
     canvas *on;
     hdr_publisher *markers;
+    double heard_at, sent_at; /**< when something new was heard, and a picture sent */
+    time_t since;             /**< the same as heard_at, by the clock on the wall */
+    char note[48];            /**< of the picture */
+    /* of the main thread: */
     hdr_subscriber *slow;
     /** Of averages; and of state and fields, which a bag has in place of slow_vectors */
     hdr_subscriber *others[2][SUBSCRIBERS_MAX];
     double seen; /**< when somebody looked last */
 } viewer;
+
+static double seconds_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
 
 /* ---- modes --------------------------------------------------------------------------------- */
 
@@ -53,19 +70,56 @@ static bool parse_modes(mode_choice *modes, const char *text)
     return modes->count > 0;
 }
 
-/* ---- callbacks ----------------------------------------------------------------------------- */
+/* ---- pictures ------------------------------------------------------------------------------- */
 
-static void show(viewer *v)
+/** Of a run that has begun. */
+static void send_picture(viewer *v)
 {
     hdr_markers markers;
-    if (!v->said.begun || v->said.time < 0.0 || !v->said.changed) return;
+    const picture p = compose(&v->said, &v->modes, v->note);
     v->said.changed = false;
-    const picture p = compose(&v->said, &v->modes);
+    v->sent_at = seconds_now();
     if (!draw(v->on, &markers, &p, "box"))
         hdr_log(HDR_ERROR, "t = %g not drawn: out of memory", p.time);
     else if (hdr_markers_publish(v->markers, &markers) != HDR_OK)
         hdr_log(HDR_ERROR, "picture not sent: %s", hdr_error_text());
 }
+
+/** What is new. */
+static void show(viewer *v)
+{
+    if (!v->said.begun || !v->said.changed) return;
+    v->heard_at = seconds_now();
+    v->since = time(NULL);
+    v->note[0] = '\0';
+    send_picture(v);
+}
+
+/** Why the picture may not be what is now; "" while the run is heard of, or has ended. */
+static void write_note(char *note, size_t size, const viewer *v)
+{
+    const bool still = seconds_now() - v->heard_at > still_seconds;
+    struct tm at;
+    note[0] = '\0';
+    if (!still || v->said.stage == HDR_RUN_STATUS_FINISHED || !localtime_r(&v->since, &at)) return;
+    strftime(note, size, "(nothing new since %H:%M:%S)", &at);
+}
+
+/** Says so when nothing comes any more, and repeats the last picture for who looks. */
+static void tend(viewer *v)
+{
+    char note[sizeof v->note];
+    pthread_mutex_lock(&v->lock);
+    write_note(note, sizeof note, v);
+    const bool other = strcmp(note, v->note) != 0;
+    memcpy(v->note, note, sizeof note);
+    if (v->said.begun && hdr_publisher_subscribers(v->markers) > 0 &&
+        (other || seconds_now() - v->sent_at > again_seconds))
+        send_picture(v);
+    pthread_mutex_unlock(&v->lock);
+}
+
+/* ---- callbacks ------------------------------------------------------------------------------ */
 
 static bool is_looked_for(const hdr_run_info *info, const mode_name *name)
 {
@@ -77,7 +131,11 @@ static bool is_looked_for(const hdr_run_info *info, const mode_name *name)
 static void on_run_info(void *context, const hdr_run_info *info)
 {
     viewer *v = context;
-    if (!heard_run_info(&v->said, info)) return;
+    pthread_mutex_lock(&v->lock);
+    const bool begins = heard_run_info(&v->said, info);
+    show(v);
+    pthread_mutex_unlock(&v->lock);
+    if (!begins) return;
     for (int k = 0; k < v->modes.count; k++)
         if (!is_looked_for(info, &v->modes.mode[k]))
             hdr_log(HDR_WARN,
@@ -88,38 +146,53 @@ static void on_run_info(void *context, const hdr_run_info *info)
 static void on_slow_vectors(void *context, const hdr_slow_vectors *slow)
 {
     viewer *v = context;
+    pthread_mutex_lock(&v->lock);
     heard_slow_vectors(&v->said, slow);
     show(v);
+    pthread_mutex_unlock(&v->lock);
 }
 
 /** With a message of a later time what was heard is whole, also where a bag has no status. */
 static void on_state(void *context, const hdr_state *state)
 {
     viewer *v = context;
+    pthread_mutex_lock(&v->lock);
     if (state->sim_time != v->said.time) show(v);
     heard_state(&v->said, state);
+    pthread_mutex_unlock(&v->lock);
 }
 
 static void on_field(void *context, const hdr_mode_field *field)
 {
     viewer *v = context;
-    if (field->sim_time != v->said.time) show(v);
+    pthread_mutex_lock(&v->lock);
+    if (field->sim_time > v->said.time) show(v);
     heard_mode_field(&v->said, field);
+    pthread_mutex_unlock(&v->lock);
 }
 
 static void on_spectrum(void *context, const hdr_spectrum *spectrum)
 {
-    heard_spectrum(&((viewer *)context)->said, spectrum);
+    viewer *v = context;
+    pthread_mutex_lock(&v->lock);
+    heard_spectrum(&v->said, spectrum);
+    pthread_mutex_unlock(&v->lock);
 }
 
 static void on_steps(void *context, const hdr_steps *steps)
 {
-    heard_steps(&((viewer *)context)->said, steps);
+    viewer *v = context;
+    pthread_mutex_lock(&v->lock);
+    heard_steps(&v->said, steps);
+    pthread_mutex_unlock(&v->lock);
 }
 
 static void on_phases(void *context, const hdr_lp_phases *phases)
 {
-    heard_phases(&((viewer *)context)->said, phases);
+    viewer *v = context;
+    pthread_mutex_lock(&v->lock);
+    heard_phases(&v->said, phases);
+    pthread_mutex_unlock(&v->lock);
 }
 
 /** Of the modes alone: "modes=T(1,0) LP(1,1)". */
@@ -136,9 +209,10 @@ static bool on_set(void *context, const char *assignment, char *message, size_t 
         snprintf(message, size, "modes = %.80s: must be %s", names, modes_allowed);
         return false;
     }
+    pthread_mutex_lock(&v->lock);
     v->modes = modes;
-    v->said.changed = true;
-    show(v);
+    if (v->said.begun) send_picture(v);
+    pthread_mutex_unlock(&v->lock);
     snprintf(message, size, "modes = %.80s", names);
     return true;
 }
@@ -147,8 +221,10 @@ static bool on_set(void *context, const char *assignment, char *message, size_t 
 static void on_status(void *context, const hdr_run_status *status)
 {
     viewer *v = context;
+    pthread_mutex_lock(&v->lock);
     heard_status(&v->said, status);
     show(v);
+    pthread_mutex_unlock(&v->lock);
 }
 
 /* ---- topics -------------------------------------------------------------------------------- */
@@ -195,13 +271,22 @@ static void hear_no_more(hdr_subscriber **group)
     }
 }
 
+static bool has_begun(viewer *v)
+{
+    pthread_mutex_lock(&v->lock);
+    const bool begun = v->said.begun;
+    pthread_mutex_unlock(&v->lock);
+    return begun;
+}
+
 /** Listens while somebody looks: a node works for whoever listens. Of fields in particular, where
- * there are slow_vectors. */
+ * there are slow_vectors. Not before the run is described: what a run that rests says once would
+ * be of a run that is not known. */
 static hdr_status follow(viewer *v, double now)
 {
     hdr_status status = HDR_OK;
     if (hdr_publisher_subscribers(v->markers) > 0) v->seen = now;
-    const bool wanted = now - v->seen < patience_seconds;
+    const bool wanted = now - v->seen < patience_seconds && has_begun(v);
     if (wanted && !v->slow) status = hear_averages(v);
     if (!wanted && v->slow) {
         hear_no_more(v->others[AVERAGES]);
@@ -215,13 +300,6 @@ static hdr_status follow(viewer *v, double now)
     return status;
 }
 
-static double seconds_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static hdr_status look_after(viewer *v)
 {
     hdr_subscriber *info; /* the node's, until its end */
@@ -233,6 +311,7 @@ static hdr_status look_after(viewer *v)
     v->seen = seconds_now();
     while (status == HDR_OK) {
         status = follow(v, seconds_now());
+        tend(v);
         if (!hdr_node_wait(poll_seconds)) break;
     }
     return status;
@@ -278,7 +357,8 @@ static bool read_parameters(viewer *v, const hdr_params *params)
 int main(int argc, char **argv)
 {
     hdr_params *params = NULL;
-    viewer v = {.said = {.time = -1.0}};
+    viewer v = {.lock = PTHREAD_MUTEX_INITIALIZER};
+    heard_clear(&v.said);
     hdr_status status = hdr_node_create(&v.ros, &argc, argv, "viewer", 1.0, EXIT_NO_MEMORY);
     if (status == HDR_OK && !v.ros) return 0; /* stopped before there was a master */
     if (status == HDR_OK) status = hdr_params_create(&params, v.ros);

@@ -1,9 +1,12 @@
 """bags -> the runs that they hold. Files of a recording that was split, and runs that were resumed
 from a checkpoint, are parts of one run; other seeds are other runs of the same system."""
 
+import heapq
 import math
 import os
 from collections import namedtuple
+
+from hdlyap.plots.progress import Silent
 
 from . import reader
 from .reader import RecordingError
@@ -31,13 +34,13 @@ class Joined:
         """For a message."""
         return ', '.join(self.paths)
 
-    def packed(self, kinds):
+    def packed(self, kinds, progress=None):
         """Messages of these types but run_info, each once: a resumed run says again what the one
         before said after its checkpoint."""
         last = {}  # (run_id, type): the last number of a file before
         for part in self.parts:
             newest = {}
-            for packed in reader.messages(part.path, part.node, kinds):
+            for packed in reader.messages(part.path, part.node, kinds, progress=progress):
                 key = packed.run_id, packed.kind
                 if packed.run_id != part.run_id or packed.kind == reader.RUN_INFO:
                     continue
@@ -45,6 +48,11 @@ class Joined:
                     newest[key] = packed.seq
                     yield packed
             last.update(newest)
+
+    def in_time(self, kinds):
+        """The same in the order of simulated time: a recorder mixes topics a little."""
+        streams = (self.packed((kind,), Silent()) for kind in kinds)
+        return heapq.merge(*streams, key=lambda packed: packed.sim_time)
 
 
 def runs(paths, node=None, number=None):

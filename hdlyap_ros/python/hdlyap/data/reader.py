@@ -77,6 +77,10 @@ class Packed:
         """Lyapunov index of a ModeField: it follows sim_time."""
         return struct.unpack_from('<I', self._data, self._after_run_id + 8)[0]
 
+    def field_wave(self):
+        """kind, nx and ny of a ModeField, which follow the index."""
+        return struct.unpack_from('<BII', self._data, self._after_run_id + 12)
+
     def message(self, numpy=None):
         """Its arrays are lists; with the module numpy they are its arrays, which share memory with
         what is packed."""
@@ -142,11 +146,11 @@ def _cleaned(info):
     return info
 
 
-def messages(path, node=None, kinds=TYPES, at=None):
+def messages(path, node=None, kinds=TYPES, at=None, progress=None):
     """Packed messages of these types of the given node, or of the only one in the bag, in their
     order; or those alone that were recorded at that time."""
     with opened(path) as bag:
-        yield from _packed(bag, _topics(bag, path, node, kinds), at)
+        yield from _packed(bag, _topics(bag, path, node, kinds), at, progress)
 
 
 def start(path):
@@ -208,9 +212,10 @@ def _topics(bag, path, node, kinds):
     return [topic for topic, kind in nodes[wanted].items() if kind in kinds]
 
 
-def _packed(bag, topics, at=None):
+def _packed(bag, topics, at=None, progress=None):
     """Of these topics; none without a topic."""
     if topics:
         found = bag.read_messages(topics=topics, start_time=at, end_time=at, raw=True)
-        for _, raw, time in Progress('reading').over(found, bag.get_message_count(topics)):
+        over = (progress or Progress('reading')).over
+        for _, raw, time in over(found, bag.get_message_count(topics)):
             yield Packed(bag.filename, raw[0], raw[1], raw[-1], time)

@@ -1,5 +1,6 @@
 """Numbers as a physicist prints them."""
 
+import argparse
 from math import floor, isfinite, log10
 
 import numpy as np
@@ -41,3 +42,11 @@ def clock(seconds):
     minutes, seconds = divmod(int(seconds + 0.5), 60)
     hours, minutes = divmod(minutes, 60)
     return f'{hours}:{minutes:02d}:{seconds:02d}' if hours else f'{minutes}:{seconds:02d}'
+
+
+def positive(text):
+    """The type of an argument on the command line."""
+    number = float(text)
+    if not (number > 0 and isfinite(number)):
+        raise argparse.ArgumentTypeError(f'{text}: must be above 0')
+    return number

@@ -1,0 +1,118 @@
+"""bag file -> frames of a movie: disks and the vectors of some modes, one time after the other."""
+
+from math import isfinite
+
+import numpy as np
+
+from hdlyap.data import joined
+from hdlyap.data.reader import FIELD, PHASES, STATE, STEPS, RecordingError
+
+from . import recording, steps
+
+
+class Frame:
+    """What is known at a time. Each has a time of its own: fields come seldom."""
+
+    def __init__(self):
+        self.time, self.x, self.y = None, None, None
+        self.fields = {}  # name of the mode -> ModeField
+        self.phases = None  # LpPhases
+        self.turned = {}  # name of the mode -> pairs (a, b) at the time of its field
+
+    def add(self, kind, message, names):
+        if kind == PHASES:
+            self.phases = message
+        else:
+            self.time, self.x, self.y = message.sim_time, message.x, message.y
+        if kind == FIELD:
+            self._add_field(message, names)
+        self._note_pairs()
+
+    def _add_field(self, field, names):
+        name = wave_name(field.kind, field.nx, field.ny)
+        before = self.fields.get(name)
+        # of several vectors of a step the first
+        if name in names and not (
+            before and before.sim_time == field.sim_time and before.index < field.index
+        ):
+            self.fields[name] = field
+            self.turned.pop(name, None)
+
+    def _note_pairs(self):
+        for name, field in self.fields.items():
+            if field.kind == steps.LP and field.sim_time == getattr(self.phases, 'sim_time', None):
+                self.turned[name] = self.pairs(field)
+
+    def pairs(self, field):
+        """(a, b) of each pair of a vector, as the last phases have them."""
+        return [
+            (phase.a, phase.b)
+            for phase in (self.phases.phases if self.phases else ())
+            if (phase.index, phase.nx, phase.ny) == (field.index, field.nx, field.ny)
+            and isfinite(phase.a + phase.b)
+        ]
+
+
+class Film:
+    """Of the last run of a bag, or of the one of that number."""
+
+    def __init__(self, path, names=None, node=None, number=None):
+        self._run = joined.one(path, node, number)
+        run = recording.of(self._run, (STEPS,))
+        self.info = run.info
+        self.steps = steps.resolved(run.steps)
+        self.names = names or lowest(self.steps)
+        if not self.names:
+            raise RecordingError(f'{path}: no step is resolved in it')
+        places, fields = self._times()
+        if len(places) == 0:
+            raise RecordingError(f'{path}: neither state nor fields in it: there are no disks')
+        # from the first vector on, if there is one
+        self.begin = fields[0] if len(fields) else places[0]
+        self.end = places[-1]
+        self.report = _apart(places[places >= self.begin])
+        self.field_interval = _apart(fields)
+
+    def _times(self):
+        """Of places, and of the fields of these modes, each once."""
+        places, fields = set(), set()
+        for packed in self._run.in_time((STATE, FIELD)):
+            places.add(packed.sim_time)
+            if packed.kind == FIELD and wave_name(*packed.field_wave()) in self.names:
+                fields.add(packed.sim_time)
+        return np.array(sorted(places)), np.array(sorted(fields))
+
+    def count(self, every):
+        """Number of frames that are so much simulated time apart."""
+        return 1 + int((self.end - self.begin) / every + 1e-9)
+
+    def frames(self, every):
+        """What is known at each of those times, in one Frame."""
+        frame, number, count = Frame(), 0, self.count(every)
+        for packed in self._run.in_time((STATE, FIELD, PHASES)):
+            while number < count and packed.sim_time > self.begin + number * every + 1e-9:
+                yield frame
+                number += 1
+            frame.add(packed.kind, packed.message(), self.names)
+        for _ in range(number, count):
+            yield frame
+
+
+def wave_name(kind, nx, ny):
+    """T(1,0); None of a vector that is of no such step."""
+    return f'{steps.NAMES[kind]}({nx},{ny})' if kind in (steps.T, steps.LP) else None
+
+
+def _apart(times):
+    """Median; 0 of a single one."""
+    return float(np.median(np.diff(times))) if len(times) > 1 else 0.0
+
+
+def lowest(resolved):
+    """Names of the T and of the LP step of smallest exponent."""
+    names = []
+    for kind in (steps.T, steps.LP):
+        of_kind = {name: step for name, step in resolved.items() if step.kind == kind}
+        if of_kind:
+            names.append(min(of_kind, key=lambda name: of_kind[name].exponent))
+    return names

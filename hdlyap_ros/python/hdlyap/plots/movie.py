@@ -1,0 +1,222 @@
+"""Frames -> a film of modes with the disks moving: an MP4 or a GIF."""
+
+import os
+import subprocess
+
+import numpy as np
+from matplotlib.animation import FFMpegWriter
+from matplotlib.collections import EllipseCollection, LineCollection
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+
+from . import steps
+from .figures.style import BLUE, GREY, VERMILION, scene
+from .numbers import known, with_error
+from .progress import Progress
+
+WIDTH = {'.mp4': 1280, '.gif': 480}  # pixels, of the kinds of files that there are
+INCHES = 5.0  # of that width
+TOP, TITLE, GAP = 0.25, 0.45, 0.12  # inches: the film's title, a panel's, and between
+LONG = 2.5  # boxes this much longer than high lie above each other
+ARROW, LONGEST = 1.3, 2.6  # root mean square and longest, in mean distances of disks
+ALL_L, ALL_P = to_rgb('#E69F00'), to_rgb('#661F05')  # an LP mode, as in rviz
+DISK = '#DCDCDC'
+PALE = 0.3  # part of white in a vector that is of an earlier time
+CODECS = {
+    '.mp4': (
+        'libx264',
+        ['-pix_fmt', 'yuv420p', '-crf', '20', '-vf', 'pad=ceil(iw/2)*2:ceil(ih/2)*2:0:0:white'],
+    ),
+    '.gif': (
+        'gif',
+        [
+            '-filter_complex',
+            'split [a][b]; [a] palettegen=max_colors=24 [p]; [b][p] paletteuse=dither=none',
+        ],
+    ),
+}
+
+
+class MovieError(Exception):
+    """One line for the user: why there is no film."""
+
+
+class Panel:
+    """The box with the disks, and the vector of one mode."""
+
+    def __init__(self, axes, name, film):
+        info = film.info
+        self._axes, self._name, self._film = axes, name, film
+        self._distance = np.sqrt(info.box_x * info.box_y / info.disks)
+        self._disks = EllipseCollection(
+            [1.0],
+            [1.0],
+            [0.0],
+            units='xy',
+            offsets=np.zeros((1, 2)),
+            facecolors=DISK,
+            antialiaseds=False,
+            **offsets_in(axes),
+        )
+        axes.add_collection(self._disks)
+        self._arrows = None
+        self._colour = BLUE if name.startswith('T') else VERMILION
+        axes.set_aspect('equal')
+        axes.set_xlim(0, info.box_x)
+        axes.set_ylim(0, info.box_y)
+        axes.set_xticks([])
+        axes.set_yticks([])
+        self._title = axes.set_title('', fontsize=7.5, color=self._colour, loc='left')
+        self._dials = []
+
+    def show(self, frame):
+        self._disks.set_offsets(np.c_[frame.x, frame.y])
+        field = frame.fields.get(self._name)
+        self._title.set_text(self._text(frame, field))
+        if field is None:
+            return
+        dq = np.array([field.dqx, field.dqy])
+        dq *= ARROW * self._distance / np.sqrt(np.mean(np.sum(dq**2, axis=0)))
+        dq *= np.minimum(1, LONGEST * self._distance / np.maximum(np.hypot(*dq), 1e-300))
+        if self._arrows is None:
+            self._arrows = self._quiver(len(field.x))
+        self._arrows.set_offsets(np.c_[field.x, field.y] - 0.5 * dq.T)
+        self._arrows.set_UVC(*dq)
+        pale = PALE if field.sim_time != frame.time else 0.0
+        colour = mode_colour(field, frame.turned.get(self._name, ()))
+        self._arrows.set_color(mixed(colour, (1.0, 1.0, 1.0), pale))
+        self._show_dials(frame, field, colour)
+
+    def _quiver(self, count):
+        zeros = np.zeros(count)
+        return self._axes.quiver(
+            zeros,
+            zeros,
+            zeros,
+            zeros,
+            angles='xy',
+            scale_units='xy',
+            scale=1,
+            units='xy',
+            width=0.14 * self._distance,
+            headwidth=3.5,
+            headlength=4,
+            headaxislength=3.5,
+            minlength=0,
+            zorder=3,
+        )
+
+    def _text(self, frame, field):
+        step = self._film.steps.get(self._name)
+        if field is None:
+            return f'{self._name}: not resolved yet'
+        number = (
+            with_error(step.exponent, known(step.std_error))
+            if step is not None
+            else f'{field.exponent:.4f}'
+        )
+        of = f' of $t={field.sim_time:.1f}$' if field.sim_time != frame.time else ''
+        return f'{self._name}   $\\lambda={number}$\nvector {field.index}{of}'
+
+    def _show_dials(self, frame, field, colour):
+        """(a, b) of each pair in the unit circle, at the right above the panel."""
+        pairs = frame.pairs(field) if field.kind == steps.LP else []
+        while len(self._dials) < len(pairs):
+            self._dials.append(dial(self._axes, len(self._dials)))
+        for hand, (a, b) in zip(self._dials, pairs):
+            hand.set_segments([[(0, 0), (a, b)]])
+            hand.set_color([colour])
+
+
+def dial(axes, number):
+    """Its hand."""
+    box = axes.figure.transFigure.inverted().transform_bbox(axes.get_window_extent())
+    size = 0.22 / axes.figure.get_figheight()
+    across = size * axes.figure.get_figheight() / axes.figure.get_figwidth()
+    inset = axes.figure.add_axes(
+        [box.x1 - (number + 1) * 1.15 * across, box.y1 + 0.25 * size, across, size]
+    )
+    inset.set_axis_off()
+    inset.set_xlim(-1.05, 1.05)
+    inset.set_ylim(-1.05, 1.05)
+    inset.add_patch(Circle((0, 0), 1, fill=False, edgecolor=GREY))
+    hand = LineCollection([], linewidths=2.5)
+    inset.add_collection(hand)
+    return hand
+
+
+def offsets_in(axes):
+    """matplotlib 3.6 has given it another name."""
+    new = hasattr(EllipseCollection, 'set_offset_transform')
+    return {'offset_transform' if new else 'transOffset': axes.transData}
+
+
+def mixed(one, other, part):
+    return tuple((1 - part) * a + part * b for a, b in zip(one, other))
+
+
+def mode_colour(field, pairs):
+    """An LP mode turns from L to P: its hue says so."""
+    if field.kind == steps.T:
+        return to_rgb(BLUE)
+    squares = np.sum(np.square(pairs), axis=0) if len(pairs) else np.zeros(2)
+    if squares.sum() <= 0:
+        return to_rgb(VERMILION)
+    return mixed(ALL_L, ALL_P, squares[1] / squares.sum())
+
+
+class Picture:
+    """A figure with a panel for each mode, that shows one frame after the other."""
+
+    def __init__(self, film, width):
+        info, count = film.info, len(film.names)
+        rows, columns = (count, 1) if info.box_x > LONG * info.box_y else (1, count)
+        across = (INCHES - GAP * (columns + 1)) / columns
+        high = across * info.box_y / info.box_x
+        height = TOP + rows * (high + TITLE)
+        self.figure = Figure(
+            figsize=(INCHES, height), dpi=(width + 0.5) / INCHES
+        )  # cut to a whole number
+        self._title = self.figure.text(
+            0.5, 1 - 0.08 / height, '', ha='center', va='top', fontsize=9
+        )
+        self._film, self._panels = film, []
+        for k, name in enumerate(film.names):
+            row, column = divmod(k, columns)
+            left = GAP + column * (across + GAP)
+            bottom = height - TOP - (row + 1) * (high + TITLE) + GAP
+            axes = self.figure.add_axes(
+                [left / INCHES, bottom / height, across / INCHES, high / height]
+            )
+            self._panels.append(Panel(axes, name, film))
+
+    def show(self, frame):
+        self._title.set_text(f'{scene(self._film.info)}   $t={frame.time:.1f}$')
+        for panel in self._panels:
+            panel.show(frame)
+
+
+def write(film, path, pace, fps, progress=None):
+    """The number of frames. Complete films only: an older one is replaced in one step."""
+    folder, name = os.path.split(path)
+    suffix = os.path.splitext(name)[1]
+    codec, options = CODECS[suffix]
+    if not FFMpegWriter.isAvailable():
+        raise MovieError('there is no ffmpeg; install it (Debian and Ubuntu: ffmpeg)')
+    writer = FFMpegWriter(fps=fps, codec=codec, extra_args=options)
+    picture = Picture(film, WIDTH[suffix])
+    unfinished = os.path.join(folder, f'.{os.getpid()}.{name}')
+    total = film.count(pace / fps)
+    try:
+        with writer.saving(picture.figure, unfinished, picture.figure.dpi):
+            for frame in (progress or Progress('drawing')).over(film.frames(pace / fps), total):
+                picture.show(frame)
+                writer.grab_frame()
+        os.replace(unfinished, path)
+    except (subprocess.CalledProcessError, BrokenPipeError) as error:
+        raise MovieError(f'{path}: ffmpeg failed: {error}')
+    finally:
+        if os.path.exists(unfinished):
+            os.remove(unfinished)
+    return total

@@ -1,0 +1,11 @@
+/** Numbers as a physicist prints them. */
+#ifndef HDLYAP_NUMBERS_H
+#define HDLYAP_NUMBERS_H
+
+#include <stddef.h>
+
+/** 0.61252(67): the error in units of the last digits, two of them, as the tables of plot_bag have
+ * it; the value alone, with four decimals, while its error is not known (not above 0). */
+void number_with_error(char *text, size_t size, double value, double error);
+
+#endif

@@ -1,0 +1,170 @@
+/** Pictures made up for tests, and what is in the markers that are drawn of them. */
+#ifndef HDLYAP_DRAWN_HPP
+#define HDLYAP_DRAWN_HPP
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "standard_messages.hpp"
+
+extern "C" {
+#include "draw.h"
+}
+
+namespace drawn
+{
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+/** As rviz gets it. */
+inline MarkerArray received(const hdr_markers &markers)
+{
+    const hdlyap_ros::sent<hdr_markers> out = {markers};
+    const ros::SerializedMessage bytes = ros::serialization::serializeMessage(out);
+    MarkerArray message;
+    ros::serialization::deserializeMessage(bytes, message);
+    return message;
+}
+
+/** A picture and all that it points to. */
+struct scene {
+    picture p = {};
+    std::vector<double> q, exponents, vectors;
+    std::vector<hdr_step> step;
+    hdr_steps steps = {};
+
+    scene(double width, double height, int disks, int modes, unsigned seed)
+    {
+        std::mt19937_64 random(seed);
+        std::uniform_real_distribution<double> part(0.0, 1.0);
+        p.scene = "a scene";
+        p.stage = "averaging";
+        p.note = "";
+        p.disks = static_cast<uint32_t>(disks);
+        p.box[0] = width;
+        p.box[1] = height;
+        p.time = p.vector_time = 12.5;
+        p.progress = 0.25;
+        p.modes = modes;
+        for (int i = 0; i < disks; i++) {
+            q.push_back(width * part(random));
+            q.push_back(height * part(random));
+        }
+        for (int k = 0; k < 2 * disks * modes; k++) vectors.push_back(part(random) - 0.5);
+        point();
+    }
+
+    void point()
+    {
+        const auto disks = static_cast<uint32_t>(q.size() / 2);
+        p.x = {q.data(), disks, 2};
+        p.y = {q.data() + 1, disks, 2};
+        p.at_x = p.x, p.at_y = p.y;
+        for (int k = 0; k < p.modes; k++) {
+            picture_mode &m = p.mode[k];
+            std::snprintf(m.name, sizeof m.name, k % 2 ? "LP(%d,1)" : "T(%d,0)", k);
+            std::memcpy(m.box, m.name, sizeof m.box);
+            m.exponent = 0.61252, m.error = 0.00067, m.momentum = k % 2 ? 0.25 : -1.0;
+            m.kind = k % 2 ? HDR_MODE_LP : HDR_MODE_T;
+            m.found = m.known = true;
+            m.index = 7;
+            m.pairs = k % 2 ? 2 : 0;
+            m.a[0] = 0.6, m.b[0] = 0.3, m.a[1] = -0.4, m.b[1] = 0.1;
+            m.dx = {vectors.data() + 2 * disks * k, disks, 2};
+            m.dy = {vectors.data() + 2 * disks * k + 1, disks, 2};
+        }
+    }
+
+    void measure(uint32_t n)
+    {
+        for (uint32_t k = 0; k < n; k++) exponents.push_back(6.0 - 5.0 * k / n);
+        p.has_exponents = true;
+        p.exponents = {exponents.data(), n, 1};
+        step.push_back({HDR_MODE_T, 1, 0, 0.2, false, true, 2, n - 1, n, 1.9, 0, 1, 1.05, 0.01, 0,
+                        1.0, 1.0, 0.0, 0.0});
+        step.push_back({HDR_MODE_LP, 1, 0, 0.2, false, true, 4, n - 5, n - 2, 3.5, 1, 1, 1.1, -1, 0,
+                        1.0, 1.0, 0.0, 0.0});
+        step.push_back(
+            {HDR_MODE_LP, 0, 1, 0.3, false, false, 4, 0, 0, 0, -1, 0, 0, 0, 0, 1.0, 1.0, 0.0, 0.0});
+        steps.steps = {step.data(), static_cast<uint32_t>(step.size())};
+        steps.t_points = 2, steps.c_t = 3.2, steps.c_t_error = 0.1, steps.c_t2 = 0.2;
+        steps.l_points = 1, steps.c_l = 4.2, steps.c_l_error = -1;
+        p.steps = &steps;
+    }
+
+    /** Of one vector each, below those of measure. */
+    void more_steps(uint32_t count)
+    {
+        for (uint32_t k = 0; k < count; k++)
+            step.push_back({HDR_MODE_T, 2, k, 0.3, false, true, 1, 90 - k, 90 - k, 1, int(k), 1,
+                            1.2 + 0.05 * k, 0.01, 0, 1.0, 1.0, 0.0, 0.0});
+        steps.steps = {step.data(), static_cast<uint32_t>(step.size())};
+    }
+};
+
+struct drawing {
+    canvas *on = nullptr;
+    drawing() { EXPECT_TRUE(canvas_create(&on)); }
+    ~drawing() { canvas_free(on); }
+    MarkerArray of(const picture &p)
+    {
+        hdr_markers markers;
+        EXPECT_TRUE(draw(on, &markers, &p, "box"));
+        return received(markers);
+    }
+};
+
+inline std::vector<Marker> in(const MarkerArray &array, const std::string &ns, int type)
+{
+    std::vector<Marker> found;
+    for (const Marker &m : array.markers)
+        if (m.ns == ns && m.type == type && m.action == Marker::ADD) found.push_back(m);
+    return found;
+}
+
+/** What rviz 1.14 refuses, see its marker_utils.cpp. */
+inline void expect_shown(const MarkerArray &array)
+{
+    std::set<std::pair<std::string, int>> names;
+    for (const Marker &m : array.markers) {
+        EXPECT_TRUE(names.emplace(m.ns, m.id).second) << m.ns << " " << m.id;
+        EXPECT_EQ("box", m.header.frame_id);
+        EXPECT_TRUE(m.header.stamp.isZero());
+        EXPECT_EQ(1.0, m.pose.orientation.w);
+        if (m.action == Marker::DELETE) continue;
+        EXPECT_EQ(int(Marker::ADD), m.action);
+        EXPECT_GT(m.color.a, 0.0f);
+        EXPECT_TRUE(m.scale.x > 0 && m.scale.y > 0 && m.scale.z > 0);
+        EXPECT_TRUE(m.colors.empty() || m.colors.size() == m.points.size());
+        EXPECT_EQ(m.type == Marker::TEXT_VIEW_FACING, m.points.empty());
+        EXPECT_EQ(m.type == Marker::TEXT_VIEW_FACING, !m.text.empty());
+        EXPECT_TRUE(m.type != Marker::LINE_LIST || m.points.size() % 2 == 0);
+        EXPECT_TRUE(m.type != Marker::TRIANGLE_LIST || m.points.size() % 3 == 0);
+        for (const auto &point : m.points) EXPECT_TRUE(std::isfinite(point.x + point.y + point.z));
+        EXPECT_TRUE(std::isfinite(m.pose.position.x + m.pose.position.y));
+    }
+}
+
+/** Middle and difference of the ends of each arrow: of the shaft's tail and of the point. */
+struct arrow {
+    double x, y, dx, dy;
+};
+inline std::vector<arrow> arrows_of(const Marker &m)
+{
+    std::vector<arrow> found;
+    for (size_t k = 0; k + 9 <= m.points.size(); k += 9) {
+        const auto &a = m.points[k], &b = m.points[k + 5], &tip = m.points[k + 7];
+        const double x = 0.5 * (a.x + b.x), y = 0.5 * (a.y + b.y);
+        found.push_back({0.5 * (x + tip.x), 0.5 * (y + tip.y), tip.x - x, tip.y - y});
+    }
+    return found;
+}
+} // namespace drawn
+
+#endif

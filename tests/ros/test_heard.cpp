@@ -1,0 +1,251 @@
+/** What of a run is drawn: messages heard -> a picture. */
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+extern "C" {
+#include "canvas.h"
+#include "compose.h"
+#include "draw.h"
+}
+
+namespace
+{
+const uint32_t DISKS = 3;
+
+/** What a viewer has heard, and the arrays of what it hears. */
+struct hearing {
+    heard h = {};
+    std::vector<double> numbers;
+    const char *topics[2] = {"steps", "fields"};
+    const uint32_t nx[2] = {1, 0}, ny[2] = {0, 1};
+    hdr_run_info info = {};
+    std::vector<hdr_step> step;
+    mode_choice lowest = {};
+
+    explicit hearing(const char *boundary = "periodic")
+    {
+        heard_clear(&h);
+        for (int k = 0; k < 100; k++) numbers.push_back(0.01 * k);
+        info.run_id = "run", info.scene = "a scene", info.disks = DISKS;
+        info.box_x = info.box_y = 10.0, info.boundary_x = "periodic", info.boundary_y = boundary;
+        info.vectors = 9;
+        info.observables = {topics, 2};
+        info.wave_nx = {nx, 2}, info.wave_ny = {ny, 2};
+        EXPECT_TRUE(heard_run_info(&h, &info));
+        EXPECT_FALSE(heard_run_info(&h, &info)); // the same
+    }
+    ~hearing() { heard_clear(&h); }
+
+    hdr_doubles array(uint32_t count, uint32_t from = 0) { return {&numbers[from], count, 1}; }
+
+    void steps(bool resolved)
+    {
+        step.assign({{HDR_MODE_T, 1, 0, 0.6, false, resolved, 2, 7, 8, 2, 0, 1, 1.5, -1, 0, 1.0,
+                      1.0, 0.0, 0.0},
+                     {HDR_MODE_LP, 0, 1, 0.6, false, resolved, 2, 5, 6, 2, 1, 1, 1.8, -1, 0, 1.0,
+                      1.0, 0.0, 0.0}});
+        hdr_steps message = {};
+        message.run_id = "run", message.steps = {step.data(), 2};
+        heard_steps(&h, &message);
+    }
+
+    void state(double time)
+    {
+        hdr_state message = {};
+        message.run_id = "run", message.sim_time = time;
+        message.x = array(DISKS), message.y = array(DISKS, 10);
+        heard_state(&h, &message);
+    }
+
+    void field(double time, uint8_t kind, uint32_t x, uint32_t index)
+    {
+        hdr_mode_field message = {};
+        message.run_id = "run", message.sim_time = time, message.kind = kind;
+        message.nx = x, message.ny = !x, message.index = index,
+        message.exponent = 2.0 - 0.1 * index;
+        message.x = array(DISKS, 20), message.y = array(DISKS, 30);
+        message.dqx = array(DISKS, index), message.dqy = array(DISKS, 40);
+        heard_mode_field(&h, &message);
+    }
+
+    /** Of the vector of LP(0,1). */
+    void phase(double time, double a, double b)
+    {
+        hdr_lp_phase phase = {1, 0, 1, 0, 5, HDR_LP_PHASE_TRACKED, a, b, 0, 0, 0, 0, 0};
+        hdr_lp_phases phases = {};
+        phases.run_id = "run", phases.phases = {&phase, 1}, phases.sim_time = time;
+        heard_phases(&h, &phases);
+    }
+
+    picture drawn() { return compose(&h, &lowest, ""); }
+};
+} // namespace
+
+/** Between two fields of a bag, or before the first: a mode that is resolved says so. */
+TEST(heard, a_resolved_mode_is_found_without_its_vector)
+{
+    hearing on;
+    on.state(1.0);
+    on.steps(false);
+    EXPECT_FALSE(on.drawn().mode[0].found || on.drawn().mode[1].found);
+    on.steps(true);
+    const picture p = on.drawn();
+    ASSERT_EQ(2, p.modes);
+    EXPECT_STREQ("T(1,0)", p.mode[0].name);
+    EXPECT_STREQ("LP(0,1)", p.mode[1].name);
+    for (const int k : {0, 1}) {
+        EXPECT_TRUE(p.mode[k].found);
+        EXPECT_FALSE(p.mode[k].known);
+    }
+    EXPECT_EQ(7u, p.mode[0].index);
+    EXPECT_EQ(1.8, p.mode[1].exponent);
+    canvas *on_it = nullptr;
+    hdr_markers markers;
+    ASSERT_TRUE(canvas_create(&on_it));
+    EXPECT_TRUE(draw(on_it, &markers, &p, "box"));
+    for (uint32_t k = 0; k < markers.count; k++)
+        EXPECT_EQ(nullptr, std::strstr(markers.markers[k].text, "not resolved"));
+    canvas_free(on_it);
+}
+
+/** The run is described, and nothing else is known of it yet. */
+TEST(heard, before_the_first_message)
+{
+    hearing on;
+    EXPECT_TRUE(on.h.changed);
+    picture p = on.drawn();
+    EXPECT_EQ(-1.0, p.time);
+    EXPECT_EQ(0u, p.x.count);
+    EXPECT_EQ(DISKS, p.disks);
+    hdr_run_status status = {};
+    status.run_id = "run", status.sim_time = 2.0; // a bag without places
+    heard_status(&on.h, &status);
+    p = on.drawn();
+    EXPECT_EQ(2.0, p.time);
+    EXPECT_EQ(0u, p.x.count);
+}
+
+/** Fields are drawn where the disks were at their time, until the next ones; the disks go on. */
+TEST(heard, fields_of_a_bag)
+{
+    hearing on;
+    on.steps(true);
+    on.state(9.0);
+    EXPECT_EQ(0.00, on.drawn().x.data[0]);
+    on.field(10.0, HDR_MODE_T, 1, 7);
+    on.field(10.0, HDR_MODE_LP, 0, 5);
+    picture p = on.drawn();
+    EXPECT_TRUE(p.time == 10.0 && p.vector_time == 10.0);
+    EXPECT_TRUE(p.x.data[0] == 0.20 && p.at_x.data[0] == 0.20);
+    EXPECT_TRUE(p.mode[0].known && p.mode[1].known);
+    EXPECT_EQ(0.07, p.mode[0].dx.data[0]);
+    EXPECT_EQ(0u, p.mode[1].pairs);
+    on.phase(10.0, 0.5, -0.25);
+    p = on.drawn();
+    ASSERT_EQ(1u, p.mode[1].pairs);
+    EXPECT_EQ(-0.25, p.mode[1].b[0]);
+    EXPECT_DOUBLE_EQ(0.2, p.mode[1].momentum);
+    on.h.changed = false;
+    on.state(11.0);
+    EXPECT_TRUE(on.h.changed);
+    p = on.drawn();
+    EXPECT_TRUE(p.time == 11.0 && p.vector_time == 10.0);
+    EXPECT_TRUE(p.x.data[0] == 0.00 && p.at_x.data[0] == 0.20);
+    EXPECT_TRUE(p.mode[0].known && p.mode[1].known);
+    EXPECT_EQ(-0.25, p.mode[1].b[0]); // the last that is known
+    on.phase(11.0, 0.25, 0.5);
+    p = on.drawn();
+    EXPECT_EQ(0.5, p.mode[1].b[0]);            // of the time of the disks
+    EXPECT_DOUBLE_EQ(0.2, p.mode[1].momentum); // of the arrows'
+    on.field(20.0, HDR_MODE_T, 1, 7);          // the other one has not come yet
+    p = on.drawn();
+    EXPECT_EQ(20.0, p.time);
+    EXPECT_TRUE(p.mode[0].known);
+    EXPECT_TRUE(p.mode[1].found && !p.mode[1].known);
+    on.state(3.0); // played again
+    EXPECT_EQ(3.0, on.drawn().time);
+    EXPECT_FALSE(on.drawn().mode[0].known);
+}
+
+TEST(heard, slow_vectors)
+{
+    hearing on;
+    const uint8_t kind[] = {HDR_MODE_LP, HDR_MODE_LP, HDR_MODE_T, HDR_MODE_NONE};
+    const uint8_t pairs[] = {1, 1, 0, 0};
+    const uint32_t nx[] = {0, 0, 1, 0}, ny[] = {1, 1, 0, 0};
+    hdr_slow_vectors m = {};
+    m.run_id = "run", m.sim_time = 2.5, m.x = on.array(DISKS), m.y = on.array(DISKS, 10);
+    m.first_index = 6, m.vectors = 4;
+    m.exponents = on.array(4), m.kind = {kind, 4}, m.pairs = {pairs, 4};
+    m.nx = {nx, 4}, m.ny = {ny, 4};
+    m.a = on.array(16), m.b = on.array(16, 20), m.dqx = on.array(12, 50), m.dqy = on.array(12, 70);
+    heard_slow_vectors(&on.h, &m); // before any message of steps
+    picture p = on.drawn();
+    EXPECT_EQ(2.5, p.time);
+    EXPECT_STREQ("T(1,0)", p.mode[0].name);
+    EXPECT_EQ(8u, p.mode[0].index);
+    EXPECT_EQ(0.56, p.mode[0].dx.data[0]); // the third
+    EXPECT_STREQ("LP(0,1)", p.mode[1].name);
+    EXPECT_EQ(6u, p.mode[1].index); // the first of the two
+    EXPECT_EQ(0.20, p.mode[1].b[0]);
+    on.lowest.count = 2; // by their names
+    ASSERT_TRUE(mode_name_parse(&on.lowest.mode[0], "LP(0,1)"));
+    ASSERT_TRUE(mode_name_parse(&on.lowest.mode[1], "T(0,1)"));
+    p = on.drawn();
+    EXPECT_TRUE(p.mode[0].known);
+    EXPECT_FALSE(p.mode[1].found);
+    EXPECT_STREQ("T(0,1)", p.mode[1].name);
+    m.dqx.count = m.dqy.count = 0; // at rest
+    heard_slow_vectors(&on.h, &m);
+    EXPECT_TRUE(on.drawn().mode[0].found && !on.drawn().mode[0].known);
+    m.sim_time = 3.5, m.nx.count = 3; // arrays that do not fit
+    heard_slow_vectors(&on.h, &m);
+    m.nx.count = 4, m.dqx.count = 12;
+    heard_slow_vectors(&on.h, &m);
+    m.dqy.count = 12, m.run_id = "another";
+    heard_slow_vectors(&on.h, &m);
+    EXPECT_EQ(2.5, on.drawn().time);
+}
+
+/** Of a step whose set it shares, and where no vector is its own: the first of the set. */
+TEST(heard, a_step_without_a_vector_of_its_own)
+{
+    hearing on;
+    on.steps(true);
+    on.field(10.0, HDR_MODE_LP, 0, 7);
+    const picture p = on.drawn();
+    EXPECT_STREQ("T(1,0)", p.mode[0].name);
+    EXPECT_TRUE(p.mode[0].known);
+    EXPECT_EQ(0.07, p.mode[0].dx.data[0]);
+}
+
+TEST(heard, only_modes_that_there_can_be)
+{
+    hearing walls("reflecting");
+    EXPECT_TRUE(walls.h.has_t); // (0,1) has a node between them
+    walls.info.run_id = "narrow", walls.info.wave_nx.count = walls.info.wave_ny.count = 1;
+    EXPECT_TRUE(heard_run_info(&walls.h, &walls.info));
+    EXPECT_FALSE(walls.h.has_t);
+    EXPECT_EQ(1, walls.drawn().modes);
+    walls.info.run_id = "state alone", walls.info.observables.count = 0;
+    EXPECT_TRUE(heard_run_info(&walls.h, &walls.info));
+    EXPECT_EQ(0, walls.drawn().modes);
+}
+
+TEST(heard, names_of_modes)
+{
+    mode_name name = {};
+    EXPECT_TRUE(mode_name_parse(&name, "LP(12,3)"));
+    EXPECT_TRUE(name.kind == HDR_MODE_LP && name.nx == 12 && name.ny == 3);
+    for (const char *text : {"", "T", "T(1)", "T(1,0", "T(1,0)x", "P(1,0)", "T(-1,0)", "T( 1,0)",
+                             "LP(+1,0)", "T(1,0)(", "TT(1,0)"})
+        EXPECT_FALSE(mode_name_parse(&name, text)) << text;
+}
+int main(int argc, char **argv)
+{
+    testing::InitGoogleTest(&argc, argv);
+    return RUN_ALL_TESTS();
+}

@@ -1,0 +1,221 @@
+#!/usr/bin/env python3
+"""Films from bags: what a frame knows, what is drawn of it, and the file read back."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import rosbag
+import rospy
+from hdlyap.msg import LpPhase, LpPhases, State
+
+import made
+from hdlyap.plots import frames, movie
+
+SCRIPT = os.path.join(made.SCRIPTS, 'redraw')
+INFO = made.run_info()
+TURN = 8.0  # time units that the LP mode takes
+BEGIN, END, FIELD = 10.0, 18.0, 4.0  # a report each time unit, fields each FIELD
+STEPS = [made.step(INFO, made.T, 1, 0, 36, 37), made.step(INFO, made.LP, 1, 0, 32, 35)]
+
+
+def angle(time):
+    return 2 * np.pi * (time - BEGIN) / TURN
+
+
+def state(time):
+    x, y, px, py = made.disks(INFO)
+    return State(
+        run_id='one', sim_time=time, x=np.mod(x + 0.1 * time, INFO.box_x), y=y, px=px, py=py
+    )
+
+
+def phases(time):
+    pair = LpPhase(
+        step=1, nx=1, ny=0, index=32, a=np.cos(angle(time)), b=np.sin(angle(time)), omega=1.0
+    )
+    return LpPhases(run_id='one', sim_time=time, samples_per_report=1, phases=[pair])
+
+
+def fields(time):
+    """T stands; LP is cos along x, sin along y."""
+    t, lp = (made.mode_field(INFO, step, sim_time=time, index=step.first_index) for step in STEPS)
+    t.x = lp.x = state(time).x
+    t.dqx, t.dqy = np.zeros(20), np.cos(2 * np.pi * np.array(t.x) / INFO.box_x)
+    lp.dqx, lp.dqy = np.full(20, np.cos(angle(time))), np.full(20, np.sin(angle(time)))
+    return [t, lp]
+
+
+def write(path, but=()):
+    """One topic after the other, as a recorder may write what a fast run says."""
+    times = np.arange(BEGIN, END + 0.5)
+    messages = [('run_info', INFO)]
+    messages += [('state', state(time)) for time in times]
+    messages += [('steps', made.steps(STEPS, time)) for time in times]
+    messages += [('lp_phases', phases(time)) for time in times]
+    messages += [('fields', field) for time in times[:: int(FIELD)] for field in fields(time)]
+    with rosbag.Bag(path, 'w') as bag:
+        for number, (topic, message) in enumerate(messages):
+            if topic not in but:
+                bag.write('/hdlyap/' + topic, message, rospy.Time(1, 1000 * number))
+
+
+class Bag(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder, self.bag = folder.name, os.path.join(folder.name, 'run.bag')
+        write(self.bag)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def redraw(self, *args, **env):
+        return subprocess.run(
+            [sys.executable, SCRIPT, self.bag, *args],
+            text=True,
+            capture_output=True,
+            cwd=self.folder,
+            env=dict(os.environ, **env),
+        )
+
+
+class Frames(Bag):
+    def test_what_is_known_at_a_time(self):
+        """Disks of each report; vectors of the last field, and phases of the report."""
+        film = frames.Film(self.bag)
+        self.assertEqual(film.names, ['T(1,0)', 'LP(1,0)'])
+        self.assertEqual((film.begin, film.end), (BEGIN, END))
+        self.assertEqual((film.report, film.field_interval), (1.0, FIELD))
+        self.assertEqual(film.count(1.0), 9)
+        for number, frame in enumerate(film.frames(1.0)):
+            time = BEGIN + number
+            of = BEGIN + FIELD * (number // int(FIELD))
+            self.assertEqual(frame.time, time)
+            np.testing.assert_array_equal(frame.x, state(time).x)
+            for field, wanted in zip(map(frame.fields.get, film.names), fields(of)):
+                self.assertEqual(field.sim_time, of)
+                np.testing.assert_array_equal(field.dqy, wanted.dqy)
+            lp = frame.fields['LP(1,0)']
+            np.testing.assert_allclose(
+                frame.pairs(lp), [(np.cos(angle(time)), np.sin(angle(time)))]
+            )
+            np.testing.assert_allclose(
+                frame.turned['LP(1,0)'], [(np.cos(angle(of)), np.sin(angle(of)))]
+            )
+        self.assertEqual(number, 8)
+
+    def test_between_two_reports(self):
+        """What is known then: the report before."""
+        times = [frame.time for frame in frames.Film(self.bag).frames(0.5)]
+        self.assertEqual(times, [BEGIN + k // 2 for k in range(17)])
+
+    def test_without_states(self):
+        write(self.bag, but=('state',))
+        self.assertEqual(
+            [frame.time for frame in frames.Film(self.bag).frames(FIELD)], [10.0, 14.0, 18.0]
+        )
+
+
+class Drawn(Bag):
+    def arrows(self, panel):
+        return np.c_[panel._arrows.U, panel._arrows.V]
+
+    def test_t_stands_and_lp_turns(self):
+        film = frames.Film(self.bag)
+        picture = movie.Picture(film, 400)
+        t, lp = picture._panels
+        drawn, colours, places = [], [], []
+        for frame in film.frames(FIELD):
+            picture.show(frame)
+            drawn.append((self.arrows(t).copy(), self.arrows(lp).copy()))
+            colours.append(lp._arrows.get_facecolor()[0][:3])
+            places.append(np.array(t._disks.get_offsets()))
+        # half a turn between two of them
+        np.testing.assert_allclose(drawn[1][1], -drawn[0][1], atol=1e-9)
+        np.testing.assert_allclose(drawn[0][1][:, 1], 0, atol=1e-9)
+        np.testing.assert_allclose(colours[0], movie.ALL_L, atol=1e-6)
+        for frame, (arrows, _), place in zip(film.frames(FIELD), drawn, places):
+            wanted = np.cos(2 * np.pi * place[:, 0] / INFO.box_x)
+            self.assertGreater(np.corrcoef(arrows[:, 1], wanted)[0, 1], 0.999)
+        self.assertGreater(abs(places[1] - places[0]).max(), 0.1)
+
+    def test_says_of_which_time_a_vector_is(self):
+        film = frames.Film(self.bag)
+        picture = movie.Picture(film, 400)
+        for frame, words in zip(film.frames(1.0), ('vector 36', 'vector 36 of $t=10.0$')):
+            picture.show(frame)
+            text = picture._panels[0]._title.get_text()
+            self.assertTrue(text.startswith('T(1,0) ') and text.endswith(words), text)
+            self.assertIn('(20)', text)  # the error of made.step
+        self.assertIn('t=11.0', picture._title.get_text())
+
+    def test_of_a_mode_that_is_not_there(self):
+        film = frames.Film(self.bag, ['T(0,3)'])
+        picture = movie.Picture(film, 400)
+        picture.show(next(film.frames(1.0)))
+        self.assertEqual(picture._panels[0]._title.get_text(), 'T(0,3): not resolved yet')
+
+
+class Files(Bag):
+    def probe(self, path):
+        """Number of frames, their size and rate."""
+        found = subprocess.run(
+            ['ffprobe', '-v', 'error', '-count_frames', '-show_streams', '-of', 'json', path],
+            check=True,
+            capture_output=True,
+        )
+        stream = json.loads(found.stdout)['streams'][0]
+        return int(stream['nb_read_frames']), stream['width'], stream['r_frame_rate']
+
+    def pixels(self, path, width):
+        raw = subprocess.run(
+            ['ffmpeg', '-v', 'error', '-i', path, '-f', 'rawvideo', '-pix_fmt', 'rgb24', '-'],
+            check=True,
+            capture_output=True,
+        ).stdout
+        return np.frombuffer(raw, np.uint8)
+
+    def test_read_back(self):
+        for name, width in (('modes.mp4', 1280), ('modes.gif', 480)):
+            done = self.redraw('--movie', name, '--fps', '5', '--pace', '10')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            path = self.path(name)
+            self.assertEqual(self.probe(path), (5, width, '5/1'))
+            self.assertIn(
+                f'{name}: T(1,0) and LP(1,0) from t = 10 to 18 in 1.0 s, 5 frames', done.stdout
+            )
+            shots = self.pixels(path, width).reshape(5, -1).astype(int)
+            self.assertGreater((abs(shots[1] - shots[0]) > 60).mean(), 0.005)  # it moves
+            self.assertLess((shots[0] > 200).mean(), 0.98)  # something is drawn
+        self.assertEqual(sorted(os.listdir(self.folder)), ['modes.gif', 'modes.mp4', 'run.bag'])
+
+    def test_what_is_refused(self):
+        for args, words in (
+            (('--movie', 'modes.avi'), 'modes.avi: must end with .mp4 or .gif'),
+            (('--pace', '0'), 'must be above 0'),
+            (('--modes', 'Q(1,0)'), 'must be lowest or names'),
+        ):
+            done = self.redraw(*args)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(words, done.stderr)
+        done = self.redraw(PATH=self.folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('redraw: there is no ffmpeg', done.stderr)
+        for but, words in (
+            (('state', 'fields'), 'neither state nor fields'),
+            (('steps',), 'no step is resolved'),
+        ):
+            write(self.bag, but=but)
+            done = self.redraw()
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, r'\Aredraw: %s: %s.*\n\Z' % (self.bag, words))
+        self.assertEqual(os.listdir(self.folder), ['run.bag'])
+
+
+if __name__ == '__main__':
+    unittest.main()

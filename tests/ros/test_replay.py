@@ -1,0 +1,163 @@
+#!/usr/bin/env python3
+"""The program replay: when it says what a bag holds, for whom it waits, and what it refuses."""
+
+import os
+import re
+import tempfile
+import time
+
+import genpy.dynamic
+import rosbag
+import rosgraph
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+from visualization_msgs.msg import MarkerArray
+
+import harness
+import made
+from hdlyap.msg import RunInfo, RunStatus, State, Steps
+
+REPLAY = harness.program('replay')
+REPORTS = 30  # of a run, a time unit apart; recorded within milliseconds
+
+
+def run(run_id):
+    """(topic, message) as a recorder meets them that looks into one topic after the other."""
+    info = made.run_info(run_id=run_id, disks=1)
+    states = [State(run_id=run_id, sim_time=t, x=[0.5], y=[0.5]) for t in range(1, REPORTS + 1)]
+    statuses = [made.status(float(t), run_id) for t in range(1, REPORTS + 1)]
+    statuses[-1].stage = RunStatus.FINISHED
+    return [
+        ('/hdlyap/run_info', info),
+        *(('/hdlyap/status', message) for message in statuses[:5]),
+        *(('/hdlyap/state', message) for message in states[:10]),
+        ('/diagnostics', DiagnosticArray()),
+        *(('/hdlyap/status', message) for message in statuses[5:]),
+        *(('/hdlyap/state', message) for message in states[10:]),
+    ]
+
+
+class Replayed(harness.Case):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.bag = os.path.join(folder.name, 'run.bag')
+        self.heard = []  # (wall time, type, simulated time)
+
+    def record(self, *runs):
+        with rosbag.Bag(self.bag, 'w') as bag:
+            for number, run_id in enumerate(runs):
+                for k, (topic, message) in enumerate(run(run_id)):
+                    bag.write(topic, message, rospy.Time(10 * (number + 1), 1000000 * k))
+
+    def listen_to(self, *topics):
+        kinds = dict(run_info=RunInfo, status=RunStatus, state=State)
+        for name in topics:
+            subscriber = rospy.Subscriber(
+                '/hdlyap/' + name, kinds[name], self.keep, name, queue_size=None
+            )
+            self.addCleanup(subscriber.unregister)
+
+    def keep(self, message, name):
+        self.heard.append((time.monotonic(), name, getattr(message, 'sim_time', None)))
+
+    def replay(self, *args):
+        process = harness.Process([REPLAY, self.bag, *args])
+        self.addCleanup(process.stop)
+        return process
+
+    def times(self, name):
+        return [time_ for _, kind, time_ in self.heard if kind == name]
+
+    def test_by_simulated_time(self):
+        """Evenly, however fast the run was and in whatever order its topics were recorded; one run
+        after the other."""
+        self.record('one', 'two')
+        self.listen_to('state', 'status', 'run_info')
+        replay = self.replay('--pace', '20', '--wait')
+        diagnostics = rospy.Subscriber('/diagnostics', DiagnosticArray, lambda message: None)
+        self.addCleanup(diagnostics.unregister)
+        self.assertEqual(replay.wait(), 0, replay.text())
+        self.assertTrue(harness.wait_until(lambda: len(self.heard) == 2 * (1 + 2 * REPORTS)))
+        for name in ('state', 'status'):
+            self.assertEqual(self.times(name), 2 * list(range(1, REPORTS + 1)))
+        walls = [wall for wall, name, _ in self.heard if name == 'state'][:REPORTS]
+        self.assertGreater(walls[-1] - walls[0], 0.95 * (REPORTS - 1) / 20)
+        self.assertGreater(walls[REPORTS // 2] - walls[0], 0.95 * (REPORTS // 2) / 20)
+        self.assertIn('replay: at the end, t = 30', replay.text())
+
+    def test_from_some_time_on(self):
+        self.record('one')
+        self.listen_to('state', 'run_info')
+        replay = self.replay('--pace', '1000', '--begin', '28', '--keep-alive')
+        self.assertTrue(harness.wait_until(lambda: replay.lines('at the end')), replay.text())
+        self.assertTrue(harness.wait_until(lambda: self.times('run_info')))
+        self.assertLessEqual(set(self.times('state')), {28.0, 29.0, 30.0})
+
+    def test_waits_for_who_looks(self):
+        """Not for the program view, which is told what the run is, and opens rviz then."""
+        self.record('one')
+        self.listen_to('run_info', 'state', 'status')
+        replay = self.replay('--pace', '1000', '--look', '/hdlyap')
+        self.assertTrue(harness.wait_until(lambda: self.times('run_info')), replay.text())
+        view = harness.Process([harness.program('view'), '--node', '/hdlyap'])
+        self.addCleanup(view.stop)
+        self.assertTrue(harness.wait_until(lambda: self.looks('/view_')))
+        time.sleep(0.3)  # replay asks every 0.1 s
+        self.assertEqual(self.times('state'), [])
+        look = rospy.Subscriber('/hdlyap/markers', MarkerArray, lambda message: None)
+        self.addCleanup(look.unregister)
+        self.assertEqual(replay.wait(), 0, replay.text())
+        self.assertTrue(harness.wait_until(lambda: len(self.times('state')) == REPORTS))
+        self.assertEqual(self.times('state')[0], 1.0)
+
+    def looks(self, name):
+        topics = dict(rosgraph.Master('/test').getSystemState()[1])
+        return any(who.startswith(name) for who in topics.get('/hdlyap/markers', ()))
+
+    def test_of_an_earlier_version(self):
+        """A message that was shorter, with shorter elements: what it lacks is not known."""
+        text = re.sub(r'(?m)^float64 (v_misfit|gap_error) .*\n', '', Steps._full_text)
+        old = genpy.dynamic.generate_dynamic('hdlyap/Steps', text)
+        step = old['hdlyap/Step'](kind=2, nx=1, exponent=0.5)
+        steps = old['hdlyap/Steps'](run_id='one', sim_time=3.0, v=5.25, steps=[step])
+        with rosbag.Bag(self.bag, 'w') as bag:
+            bag.write('/hdlyap/steps', steps, rospy.Time(1))
+        heard = []
+        subscriber = rospy.Subscriber('/hdlyap/steps', Steps, heard.append)
+        self.addCleanup(subscriber.unregister)
+        replay = self.replay('--wait')
+        self.assertEqual(replay.wait(), 0, replay.text())
+        self.assertEqual(replay.text().count('of an earlier version'), 1)
+        self.assertTrue(harness.wait_until(lambda: heard))
+        got = heard[0]
+        self.assertEqual((got.run_id, got.sim_time, got.v, got.v_misfit), ('one', 3.0, 5.25, -1.0))
+        got = got.steps[0]
+        self.assertEqual((got.kind, got.nx, got.exponent, got.gap_error), (2, 1, 0.5, -1.0))
+
+    def test_what_is_refused(self):
+        """In one line."""
+        with open(self.bag, 'w') as file:
+            file.write('no bag')
+        self.check_refused('not a readable bag')
+        self.record('one')
+        size = os.path.getsize(self.bag)
+        self.check_refused('nothing from t = 31 on', '--begin', '31')
+        os.truncate(self.bag, size // 2)
+        self.check_refused('not closed')
+        os.remove(self.bag)
+        self.check_refused('No such file')
+        for args in (('--pace', '0'), ('--rate', 'nan'), ('--rate', '2', '--pace', '2')):
+            replay = self.replay(*args)
+            self.assertEqual(replay.wait(), 2, replay.text())
+
+    def check_refused(self, words, *args):
+        replay = self.replay(*args)
+        self.assertEqual(replay.wait(), 1, replay.text())
+        self.assertRegex(replay.text(), r'\Areplay: %s: .*%s.*\n\Z' % (self.bag, words))
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_replay')
+    rostest.rosrun('hdlyap', 'test_replay', Replayed)
