@@ -2,6 +2,7 @@
 """Parameters that are changed while a run goes on: when they hold, what is refused, and that a bag
 tells of it all."""
 
+import itertools
 import math
 import os
 import signal
@@ -209,6 +210,31 @@ class Live(harness.Case):
         node.send(signal.SIGINT)
         self.assertEqual(node.wait(), 0)
         self.assertEqual(self.info().pace, 20.0)
+
+    def test_a_node_that_takes_over_is_left_alone(self):
+        """By the one that ends: it has told the master before that it follows parameters."""
+        for seed in ('1', '2', '3'):
+            first = self.started(dict(SHORT, duration=0.0))
+            self.until(3.0)
+            second = self.start(dict(SHORT, duration=0.0, seed=seed))
+            self.assertEqual(first.wait(), 0, first.text())
+            self.assertTrue(harness.wait_until(lambda: second.lines('scene ')))
+            self.until_said(second, 'disks')
+            self.assertEqual(second.lines('asked to shut down'), [])
+            second.send(signal.SIGINT)
+            self.assertEqual(second.wait(), 0)
+            for listener in self.heard.values():
+                listener.close()  # a new one would be told the last word of this run
+
+    def until_said(self, node, name):
+        """Set once more where roscpp was just about to keep the value of before."""
+        values = itertools.count(50)
+
+        def is_said():
+            rospy.set_param('/%s/%s' % (NODE, name), next(values))
+            return harness.wait_until(lambda: node.lines('parameter ' + name), 1.5)
+
+        self.assertTrue(harness.wait_until(is_said, 15), node.text())
 
     def test_recorded_run_is_repeated(self):
         """By its bag alone: changes come again at their times."""
