@@ -26,10 +26,12 @@ texts texts_of(const hdr_params *params)
     return known;
 }
 
+/** The first look tells the master that this node wants to know. */
 void look(const std::string &name, texts &known, hdr_param_callback changed, void *context)
 {
     XmlRpc::XmlRpcValue all;
-    if (!ros::param::getCached(name, all) || all.getType() != XmlRpc::XmlRpcValue::TypeStruct)
+    if (hdr_stop_requested() || !ros::param::getCached(name, all) ||
+        all.getType() != XmlRpc::XmlRpcValue::TypeStruct)
         return;
     for (auto &member : all) {
         const std::string text = param_text(member.second);
@@ -47,6 +49,8 @@ hdr_status hdr_params_watch(const hdr_params *params, hdr_node *node, hdr_param_
     return hdr_guard([&] {
         const auto known = std::make_shared<texts>(texts_of(params));
         const std::string name = node->name;
+        /* now: later, another node of this name may have taken over, which would have to end */
+        look(name, *known, changed, context);
         node->watch = node->handle.createWallTimer(
             ros::WallDuration(look_seconds), [=](const ros::WallTimerEvent &) {
                 const hdr_status status = hdr_guard([&] { look(name, *known, changed, context); });
