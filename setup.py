@@ -5,7 +5,18 @@ from distutils.core import setup  # setuptools: catkin does not quote the path o
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-PACKAGES = ['', '.follow', '.plots', '.plots.figures', '.reproduce', '.reproduce.parts']
+PACKAGES = [
+    '',
+    '.data',
+    '.follow',
+    '.launching',
+    '.plots',
+    '.plots.figures',
+    '.reproduce',
+    '.reproduce.parts',
+    '.runs',
+    '.sweep',
+]
 setup(
     **generate_distutils_setup(
         packages=['hdlyap' + name for name in PACKAGES],

@@ -8,7 +8,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 message_packages() {
-    echo build-essential cmake python3-setuptools python3-numpy python3-scipy python3-matplotlib python3-yaml python3-rospkg ffmpeg
+    echo build-essential cmake python3-setuptools python3-numpy python3-scipy python3-matplotlib python3-pandas python3-yaml python3-rospkg ffmpeg
     case $1 in
         debian)
             echo catkin ros-message-generation ros-message-runtime libroscpp-dev \
@@ -24,7 +24,7 @@ message_packages() {
 
 run_packages() {
     message_packages "$1"
-    echo pkg-config procps libopenblas-openmp-dev liblapacke-dev zlib1g-dev
+    echo pkg-config procps libopenblas-openmp-dev liblapacke-dev libyaml-dev zlib1g-dev
     case $1 in
         debian)
             echo ros-std-srvs libstd-srvs-dev python3-std-srvs ros-diagnostic-msgs libdiagnostic-msgs-dev \

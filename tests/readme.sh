@@ -47,12 +47,16 @@ check() {
 # Commands that other tests run: demo.sh, reproduce.sh, the suite itself, tests/ros/test_bags.py; the last one is done below,
 # for another folder.
 is_run_elsewhere() {
-    [[ $1 == @(launch/demo.sh*|launch/reproduce.sh*|tests/run.sh*|*again.bag*|*replay*|source*) ]]
+    [[ $1 == @(launch/demo.sh*|launch/reproduce.sh*|tests/run.sh*|*replay*|source*) ]]
 }
 
 # A command as a user would type it, in the folder of the clone's copy.
 type_in() {
     case $1 in
+        'roslaunch hdlyap run.launch') # endless
+            says 'T\(1,0\) .*\([0-9]+\)$' 'LP\(1,0\) .*\([0-9]+\)$' -- roslaunch hdlyap run.launch &&
+                grep -q '^result of /hdlyap, first: ' "$WORK/said.txt" && ! grep -q 'has died' "$WORK/said.txt"
+            ;;
         'rosrun hdlyap hdlyap_node') run timeout --preserve-status -s INT 8 rosrun hdlyap hdlyap_node ;;
         *bench/run.sh*) run bash -ec "$1 --quick" ;; # fifteen minutes otherwise
         *scene:=covariant*) # a minute otherwise
@@ -61,7 +65,11 @@ type_in() {
             ;;
         *rviz:=true*) opens_rviz bash -ec "$1" ;;
         *rviz.launch) beside_a_node opens_rviz bash -ec "$1" ;;
+        rosservice*)
+            beside_a_node bash -ec "until rosservice info /hdlyap/set; do sleep 0.1; done; timeout 60 $1 | tee /dev/stderr | grep -q 'success: True'"
+            ;;
         *follow* | rostopic*) beside_a_node bash -ec "timeout 60 $1" ;;
+        *'compare run.bag again.bag') run bash -ec "$1 | tee compared.txt" && grep -q identical compared.txt ;;
         *) run bash -ec "$1" ;;
     esac
 }
@@ -153,9 +161,11 @@ stop_at_exit
 mkdir -p "$WORK/clone"
 cd "$WORK/clone" # a copy, so that the documents' build folder is not the clone's
 cp -r "$ROOT"/{CMakeLists.txt,package.xml,hdlyap_core,msg,tests} .
+mkdir doc && cp "$ROOT/doc/own_figure.py" doc
 block c hdlyap/hdlyap.h "$CORE" >steps.c
 block c /hdlyap/steps "$WRAPPER" >watch_steps.c
 block python rospy "$ROOT/README.md" >watch.py
+block yaml disks: "$ROOT/doc/user_guide.md" >strip.yaml
 source_setup "$SETUP"
 start roscore -p "${ROS_MASTER_URI##*:}" >"$WORK/roscore.log" 2>&1
 until rostopic list >/dev/null 2>&1; do sleep 0.2; done

@@ -62,11 +62,12 @@ static void take_text(source *s, char text[TEXT_MAX])
 /* ---- values -------------------------------------------------------------------------------- */
 
 static const char *const WORDS[] = {
-    "periodic", "reflecting", "positive",  "all",    "none",     "auto",  "steps",
-    "run_info", "spectrum",   "modes",     "fields", "hydro",    "state", "status",
-    "cost",     "lp_phases",  "covariant", "",       "0",        "-1",    "1e-6",
-    "nan",      "inf",        "0x10",      "1e999",  "true",     "[1]",   "a\nb",
-    "%s%n",     "../../x",    "\x1b[2J",   " 1",     "\xff\xfe",
+    "periodic",  "reflecting", "positive",  "all",    "none",     "auto",     "steps",
+    "run_info",  "spectrum",   "modes",     "fields", "hydro",    "state",    "status",
+    "cost",      "lp_phases",  "covariant", "",       "0",        "-1",       "1e-6",
+    "nan",       "inf",        "0x10",      "1e999",  "true",     "[1]",      "a\nb",
+    "%s%n",      "../../x",    "\x1b[2J",   " 1",     "\xff\xfe", "1 pace=2", "1e3 duration=5",
+    "-1 pace=2", "2 disks=5",  "2 pace=",
 };
 static const int INTEGERS_AT[] = {0,    1,    2,       3,  10,      37,     100,
                                   1024, 1025, 1000000, -1, INT_MAX, INT_MIN};
@@ -101,7 +102,8 @@ static double real(source *s)
 
 static kind kind_of(const parameter *p)
 {
-    if (p->kind == TOPICS_OBSERVED || p->kind == TOPICS_AWAITED) return STRINGS;
+    if (p->kind == TOPICS_OBSERVED || p->kind == TOPICS_AWAITED || p->kind == CHANGES)
+        return STRINGS;
     if (p->kind == REAL_NUMBER || (p->row && p->row->kind == HD_PARAMETER_REAL)) return REAL;
     if (p->kind == WHOLE_NUMBER) return INTEGER;
     return p->row && p->row->kind == HD_PARAMETER_INT ? INTEGER : STRING;
@@ -117,7 +119,8 @@ static void value_usual(entry *e, const parameter *p)
     e->real = atof(usual);
     e->count = 1;
     strcpy(e->text, usual);
-    snprintf(e->item[0], TEXT_MAX, "%.*s", (int)strcspn(usual, ","), *usual ? usual : "run_info");
+    const char *item = p->kind == CHANGES ? "1 pace=2" : *usual ? usual : "run_info";
+    snprintf(e->item[0], TEXT_MAX, "%.*s", (int)strcspn(usual, ","), item);
 }
 
 static void value_any(entry *e, source *s)

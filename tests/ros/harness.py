@@ -1,6 +1,8 @@
 """Starts hdlyap_node as a process of its own, as a user would, and sees what it does."""
 
+import contextlib
 import functools
+import glob
 import os
 import shutil
 import signal
@@ -10,6 +12,7 @@ import tempfile
 import threading
 import time
 import unittest
+import uuid
 import weakref
 
 import roslib.packages
@@ -38,6 +41,20 @@ NODE = 'hdlyap'
 SHORT = dict(disks=20, density=0.7, aspect=1.0, equilibration=1.0, warmup=1.0, duration=2.0)
 # a box so long that its steps are found within a second
 MODES = dict(disks=60, density=0.8, aspect=0.06, equilibration=10.0, warmup=60.0, duration=20.0)
+# reports come at the same times whatever the speed; nobody's listening changes what is computed
+REPEATABLE = dict(
+    disks=60,
+    density=0.8,
+    aspect=0.06,
+    equilibration=5.0,
+    warmup=20.0,
+    duration=30.0,
+    threads=1,
+    report_interval=0.5,
+    observables=['spectrum', 'modes', 'steps', 'lp_phases', 'fields', 'state'],
+    field_interval=3.0,
+    wait_for_subscribers='all',
+)
 # of a scene that may be short: covariant vectors need long transients
 TYPES = dict(
     run_info=RunInfo,
@@ -53,6 +70,10 @@ TYPES = dict(
 )
 OBSERVABLES = [topic for topic in TYPES if topic not in ('run_info', 'status', 'cost')]
 PATIENCE = 60.0  # seconds, for what has no bound of its own
+# seconds within which all has ended that was asked to, on a busy machine: roslaunch alone takes up
+# to 17
+SOON = 90.0
+LOOK = 0.1  # seconds between two looks at all processes, each of which takes some ms
 
 
 @functools.lru_cache(maxsize=None)
@@ -241,3 +262,34 @@ class Case(unittest.TestCase):
         listener = Listener(topic)
         self.addCleanup(listener.close)
         return listener
+
+
+class Traced(unittest.TestCase):
+    """Processes that begin others: those are found by what they inherit."""
+
+    def trace(self):
+        self.mark = uuid.uuid4().hex
+        self.addCleanup(self.kill_all)
+
+    def ours(self, word='', variable=''):
+        """Processes of this test whose command line has the word, and whose environment has the
+        variable."""
+        found = []
+        for folder in glob.glob('/proc/[0-9]*'):
+            with contextlib.suppress(OSError), open(folder + '/environ', 'rb') as environ, open(
+                folder + '/cmdline', 'rb'
+            ) as command:
+                has = environ.read().decode(errors='replace').split('\0') + ['']
+                if {'HDLYAP_MARK=' + self.mark, variable} <= set(
+                    has
+                ) and word.encode() in command.read():
+                    found.append(int(os.path.basename(folder)))
+        return found
+
+    def kill_all(self):
+        for pid in self.ours():
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+
+    def assert_none_left(self):
+        self.assertTrue(wait_until(lambda: not self.ours(), SOON, LOOK), self.ours())

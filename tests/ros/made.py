@@ -3,6 +3,7 @@
 import itertools
 import os
 
+import genpy.dynamic
 import numpy as np
 import rosbag
 import rospy
@@ -12,7 +13,6 @@ from hdlyap.msg import (
     Covariant,
     CovariantAngle,
     CovariantWeight,
-    Hydro,
     LpPhase,
     LpPhases,
     ModeField,
@@ -30,24 +30,43 @@ CURVES = {T: (1.4, 0.1), LP: (1.5, 0.5)}  # c, c2
 ERROR = 0.002  # of the exponents of steps
 VELOCITY = 1.6
 TOPICS = {
-    RunInfo: 'run_info',
-    Spectrum: 'spectrum',
-    RunStatus: 'status',
-    Cost: 'cost',
-    Steps: 'steps',
-    LpPhases: 'lp_phases',
-    ModeField: 'fields',
-    Hydro: 'hydro',
-    Covariant: 'covariant',
+    'hdlyap/RunInfo': 'run_info',
+    'hdlyap/Spectrum': 'spectrum',
+    'hdlyap/RunStatus': 'status',
+    'hdlyap/Cost': 'cost',
+    'hdlyap/Modes': 'modes',
+    'hdlyap/Steps': 'steps',
+    'hdlyap/LpPhases': 'lp_phases',
+    'hdlyap/ModeField': 'fields',
+    'hdlyap/Hydro': 'hydro',
+    'hdlyap/Covariant': 'covariant',
+    'hdlyap/State': 'state',
 }
 BINS = 90  # of the histograms of angles
 
 
-def write(path, messages, node='/hdlyap', mode='w'):
+def write(path, messages, node='/hdlyap', mode='w', start=1):
     """A bag with one message a second."""
     with rosbag.Bag(path, mode) as bag:
-        for second, message in enumerate(messages, start=1):
-            bag.write(f'{node}/{TOPICS[type(message)]}', message, rospy.Time(second))
+        for second, message in enumerate(messages, start):
+            bag.write(f'{node}/{TOPICS[message._type]}', message, rospy.Time(second))
+
+
+def defined(message, change):
+    """The same message under another definition: change makes it of the text of this one. What it
+    lacks is left out, what it has on top keeps its default."""
+    kinds = genpy.dynamic.generate_dynamic(message._type, change(message._full_text))
+    return _copied(message, kinds)
+
+
+def _copied(message, kinds):
+    copy = kinds[message._type]()
+    for name in set(copy.__slots__) & set(message.__slots__):
+        value = getattr(message, name)
+        if isinstance(value, list) and value and getattr(value[0], '_type', None) in kinds:
+            value = [_copied(one, kinds) for one in value]
+        setattr(copy, name, value)
+    return copy
 
 
 def run_info(**fields):
@@ -89,6 +108,8 @@ def spectrum(exponents, averaged_time, run_id='one', error=0.01, pairing_error=-
         local_exponents=exponents,
         cos_theta=[1.0] * n,
         dp_dq_ratio=[1.0] * n,
+        # a sample of its own in each message, where messages tell its length
+        **({'local_time': 1.0} if 'local_time' in Spectrum.__slots__ else {}),
     )
 
 
@@ -181,18 +202,26 @@ def steps(made, averaged_time=50.0, run_id='one'):
         threshold=0.5,
         steps=made,
         t_points=3,
+        t_terms=2,
+        t_k_min=0.99346,
+        t_k_max=1.98692,
         c_t=1.4,
         c_t_error=0.012,
         c_t2=0.1,
         c_t2_error=0.034,
         t_misfit=1.25,
         l_points=2,
+        l_terms=2,
+        l_k_min=0.99346,
+        l_k_max=1.40496,
         c_l=1.5,
         c_l_error=0.02,
         c_l2=0.5,
         c_l2_error=0.1,
         l_misfit=-1.0,
         v_phases=8,
+        v_k_min=0.99346,
+        v_k_max=1.40496,
         v=1.612,
         v_error=0.023,
         v_misfit=2.5,

@@ -8,8 +8,9 @@ import sys
 
 import made
 from hdlyap.plots.figures import plt
-from hdlyap.reproduce import parts, work
+from hdlyap.reproduce import parts
 from hdlyap.reproduce.row import Row
+from hdlyap.runs import work
 
 
 class Part:

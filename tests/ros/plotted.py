@@ -3,6 +3,7 @@
 import contextlib
 import io
 import os
+import re
 import runpy
 import subprocess
 import sys
@@ -14,8 +15,16 @@ from made import SCRIPTS
 PLOT_BAG = os.path.join(SCRIPTS, 'plot_bag')
 
 
+def check_title(figure, name):
+    """Scene, disks, density."""
+    title = figure._suptitle.get_text() if figure._suptitle is not None else ''
+    if not re.match(r'\w+: \$N=\d+\$, \$\\rho=[0-9.]+\$', title):
+        raise AssertionError(f'{name}: its title is {title!r}')
+
+
 def draw(figure, folder, name):
-    """Instead of figures.save: its files are empty."""
+    """Instead of figures.save: its files are empty. Every figure names its system."""
+    check_title(figure, name)
     files = [os.path.join(folder, f'{name}.{suffix}') for suffix in ('png', 'svg')]
     figure.canvas.draw()
     for path in files:
@@ -36,8 +45,7 @@ def plot_bag(*arguments):
         try:
             runpy.run_path(PLOT_BAG, run_name='__main__')
         except SystemExit as end:
-            status = 1
-            error.write(f'{end}\n')
+            status = end.code or 0
     return subprocess.CompletedProcess(arguments, status, out.getvalue(), error.getvalue())
 
 

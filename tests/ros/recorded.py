@@ -23,7 +23,7 @@ class Recorded(Run):
 
 
 class Bag:
-    """In place of hdlyap.reproduce.bag.Bag."""
+    """In place of hdlyap.runs.bag.Bag."""
 
     def __init__(self, recording, spectra=()):
         self.recording, self._spectra = recording, spectra

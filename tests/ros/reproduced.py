@@ -6,7 +6,7 @@ import unittest
 
 import made  # also finds the scripts
 from hdlyap.plots.figures.style import STYLE, plt
-from hdlyap.reproduce.bag import Bag
+from hdlyap.runs.bag import Bag
 from hdlyap.reproduce.row import HEADER
 
 

@@ -16,6 +16,7 @@ import tempfile
 import rospy
 from std_srvs.srv import SetBool, Trigger
 
+from hdlyap.srv import Set
 import harness
 from harness import RunStatus
 
@@ -36,6 +37,7 @@ LITTLE = dict(
     duration=16.0,
     pace=4.0,
 )
+PACE = 20.0
 PATIENCE = 100.0  # seconds: some checks slow the node down fifty times
 
 
@@ -59,6 +61,9 @@ def lead(node, listeners):
     call('pause', SetBool, True)
     call('pause', SetBool, False)
     call('reset_average', Trigger)
+    call('set', Set, 'report_interval=0.25')
+    call('set', Set, 'pace=%g' % PACE)
+    rospy.set_param('/%s/disks' % harness.NODE, 7)  # which it looks at now and then
     call('checkpoint', Trigger)
     expect(node, lambda: all(listener.messages for listener in listeners.values()))
     listeners['state'].close()

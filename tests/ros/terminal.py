@@ -46,6 +46,7 @@ class Terminal:
             self.output += decoder.decode(data)
 
     def resize(self, columns, lines):
+        self.columns = columns
         fcntl.ioctl(self.master, termios.TIOCSWINSZ, struct.pack('HHHH', lines, columns, 0, 0))
 
     def press(self, keys):
@@ -53,7 +54,7 @@ class Terminal:
 
     def screen(self):
         """Its lines now."""
-        return Picture(self.output).lines
+        return Picture(self.output, self.columns).lines
 
     def wait_for(self, text, seconds=harness.PATIENCE):
         """Whether it has come to stand on the screen."""
@@ -65,7 +66,7 @@ class Terminal:
 
     def is_as_before(self):
         """Keyboard, cursor, wrapping and screen are those of the shell again."""
-        picture = Picture(self.output)
+        picture = Picture(self.output, self.columns)
         return (
             termios.tcgetattr(self.slave) == self.before
             and picture.modes <= {7, 25}
@@ -83,7 +84,8 @@ class Terminal:
 class Picture:
     """What the bytes that went to a terminal amount to."""
 
-    def __init__(self, output):
+    def __init__(self, output, columns):
+        self.columns = columns
         self.lines, self.modes = [''], {7, 25}  # wraps, shows its cursor
         self._row = self._column = 0
         self._other = None  # what stands on the screen that is not shown
@@ -98,6 +100,16 @@ class Picture:
                 self._write(text)
 
     def _write(self, text):
+        """What is too long goes on below, or without wrapping is lost."""
+        while True:
+            room = self.columns - self._column
+            self._put(text[:room])
+            text = text[room:]
+            if not text or 7 not in self.modes:
+                return
+            self._row, self._column = self._row + 1, 0
+
+    def _put(self, text):
         self.lines += [''] * (self._row + 1 - len(self.lines))
         line = self.lines[self._row].ljust(self._column)
         self.lines[self._row] = line[: self._column] + text + line[self._column + len(text) :]
@@ -108,10 +120,14 @@ class Picture:
             self._switch(int(numbers), command == 'h')
         elif command == 'H':
             self._row = self._column = 0
-        elif command == 'K':
-            self._write('')
-            self.lines[self._row] = self.lines[self._row][: self._column]
-        elif command == 'J':
+        elif command == 'A':
+            self._row = max(0, self._row - int(numbers or 1))
+        elif command == 'K' or (command == 'J' and numbers != '2'):
+            # behind a full line the cursor stands on its last character
+            begin = min(self._column, self.columns - 1)
+            if self._row < len(self.lines):
+                self.lines[self._row] = self.lines[self._row][:begin]
+        if command == 'J':
             del self.lines[0 if numbers == '2' else self._row + 1 :]
 
     def _switch(self, mode, on):

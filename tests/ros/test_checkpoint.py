@@ -10,24 +10,12 @@ import rostest
 from std_srvs.srv import SetBool, Trigger
 
 import harness
+import measured
 from harness import NODE, SHORT
 
 DOCUMENT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/survival.md')
 LONG = dict(SHORT, duration=0.0, threads=1)
-# reports come at the same times whatever the speed; nobody's listening changes what is computed
-RUN = dict(
-    disks=60,
-    density=0.8,
-    aspect=0.06,
-    equilibration=5.0,
-    warmup=20.0,
-    duration=30.0,
-    threads=1,
-    report_interval=0.5,
-    observables=['spectrum', 'modes', 'steps', 'lp_phases', 'fields', 'state'],
-    field_interval=3.0,
-    wait_for_subscribers='all',
-)
+RUN = harness.REPEATABLE
 
 
 class Checkpoint(harness.Case):
@@ -58,14 +46,6 @@ class Checkpoint(harness.Case):
             listener.close()
         return {topic: listener.messages for topic, listener in listeners.items()}
 
-    @staticmethod
-    def plain(messages):
-        for message in messages:
-            message.header.seq = 0
-            message.header.stamp = rospy.Time()
-            message.run_id = ''
-        return messages
-
     def test_resumed_run_publishes_what_the_uninterrupted_one_does(self):
         whole = self.recorded(RUN)
         first = self.recorded(dict(RUN, checkpoint=self.file, pace=20.0), stop_after=40.0)
@@ -77,9 +57,9 @@ class Checkpoint(harness.Case):
         self.assertEqual(whole['run_info'][0].resumed_time, -1.0)
         for topic in RUN['observables']:
             with self.subTest(topic=topic):
-                both = self.plain(first[topic]) + self.plain(second[topic])
+                both = measured.bits(first[topic]) + measured.bits(second[topic])
                 self.assertGreater(len(second[topic]), 0)
-                self.assertEqual(both, self.plain(whole[topic]))
+                self.assertEqual(both, measured.bits(whole[topic]))
 
     def test_what_is_not_given_is_as_in_the_file(self):
         params = dict(RUN, scene='kept', exponents=7, checkpoint=self.file)
@@ -102,7 +82,7 @@ class Checkpoint(harness.Case):
         found = {}
         exec(program, found)
         arrays = dict(found['arrays'](self.file))
-        self.assertEqual(b''.join(arrays['label']).rstrip(b'\0').decode(), 'paper_periodic')
+        self.assertEqual(b''.join(arrays['label']).rstrip(b'\0').decode(), 'unnamed')
         self.assertEqual(arrays['scene disks'], [60])
         self.assertEqual(arrays['frame vectors'].size, 240 * 117)
         exponents = arrays['spectrum sum'] / arrays['spectrum time']

@@ -1,6 +1,7 @@
 """compare against bags that are made here: what it finds, what it says, what it refuses."""
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -15,7 +16,7 @@ from std_msgs.msg import String
 
 import made
 from made import LP, SCRIPTS, T
-from hdlyap.plots import recording, verdict
+from hdlyap.plots import fits, recording, verdict
 from hdlyap.plots.comparison import Comparison
 from hdlyap.plots.deviation import Deviation, chance_of_largest, unlikeliest
 
@@ -149,7 +150,9 @@ class Agreeing(Pairs):
         self.assertNotIn('the same seed', text)
         self.assertRegex(text, fr'\n  lambda_max +9\.000\(10\) .* {z[0]:+.2f}')
         self.assertRegex(text, r'\n  T\(1,0\) .* \+0\.00  36-37: 1\.98 and 1\.98 of 2\n')
-        self.assertRegex(text, r'\n  c_T +1\.400\(12\) .* over 3 and 3 wave numbers\n')
+        self.assertRegex(
+            text, r'\n  c_T +1\.400\(12\) .* over 3 wave numbers 0\.9935 \.\. 1\.987\n'
+        )
         self.assertIn(f'chi^2 / exponent {np.mean(z * z):.2f};', text)
         self.assertIn('exponents: 37 of 37 compared, 0 of unknown error, 0 zero', text)
         self.assertIn('\nagree within their errors: not less than 0.01\n', text)
@@ -225,20 +228,15 @@ class Steps(Pairs):
     def test_of_one_run_alone(self):
         info = made.run_info()
         comparison = self.compared(
-            run(), run(made_steps=[found(info)[1], made.step(info, T, 0, 1, 36, 37)])
+            run(), run(made_steps=[found(info)[1], made.step(info, T, 2, 0, 36, 37)])
         )
-        self.assertEqual(comparison.found_once, (['T(1,0)'], ['T(0,1)']))
+        self.assertEqual(comparison.found_once, (['T(1,0)'], ['T(2,0)']))
         # the T curve is through other points
         self.assertEqual(self.names(comparison), ['LP(1,0)', 'c_L', 'c_L2', 'v'])
-        self.assertEqual(self.names(comparison, judged=False), ['c_T', 'c_T2'])
         text = verdict.report(comparison)
-        self.assertIn('\n  resolved in a alone: T(1,0)\n  resolved in b alone: T(0,1)\n', text)
-        self.assertRegex(text, r'\n  c_T .*\(not judged\)\n')
-
-    def test_fits_with_too_little(self):
-        other = run()
-        other[-1].t_points, other[-1].l_points, other[-1].v_phases = 1, 0, 0
-        self.assertEqual(self.names(self.compared(run(), other)), ['T(1,0)', 'LP(1,0)', 'c_T'])
+        self.assertIn(
+            '\n  resolved in a alone: T(1,0)\n  resolved in b alone: T(2,0)\n  c_T is not', text
+        )
 
     def test_zero_modes_are_not_judged(self):
         half = list(EXPONENTS)
@@ -273,29 +271,81 @@ class Steps(Pairs):
         self.assertTrue(comparison.is_identical)
 
 
-class OtherNumberOfDisks(Pairs):
-    def big(self):
-        info = made.run_info(disks=40, box_x=80**0.5, box_y=80**0.5)
-        return run(np.linspace(9, 3, 77), info, [made.step(info, T, 0, 1, 76, 77)])
+class Fits(Pairs):
+    """Only those of one form over the same wave numbers are compared."""
 
-    def test_only_fits_are_compared(self):
-        comparison = self.compared(run(), self.big())
-        self.assertEqual(
-            [one.name for one in comparison.deviations], ['c_T', 'c_T2', 'c_L', 'c_L2', 'v']
-        )
-        # though not over the same steps
-        self.assertEqual(chance_of_largest(comparison.deviations)[1], 5)
+    def check_apart(self, symbol, reason, a, b):
+        """One line says why; what remains does not differ."""
+        comparison = self.compared(a, b)
+        self.assertEqual([one.symbol for one, _ in comparison.apart], [symbol])
+        self.assertFalse([one for one in comparison.fits if one.name.startswith(symbol)])
+        self.assertEqual(len(comparison.fits) + (1 if symbol == 'v' else 2), 5)
         text = verdict.report(comparison)
-        self.assertIn('only the fits are compared', text)
-        self.assertIn('a  N = 20', text)
-        self.assertIn('b  N = 40', text)
+        self.assertRegex(text, rf'\n  {symbol} is not compared: {reason}(\n|$)')
         self.assertEqual(verdict.verdict(comparison)[1], verdict.AGREE)
 
-    def test_without_fits(self):
-        for missing in (self.big()[:-1], self.big()):
-            if len(missing) == 4:
-                missing[-1].t_points = missing[-1].l_points = 0
-            self.cannot_compare('disks are 20 and 40, and only fits', run(), missing)
+    def test_of_another_form(self):
+        """26 errors apart, which means nothing."""
+        other = run()
+        line = other[-1]
+        line.l_points, line.l_terms, line.l_k_max = 1, 1, line.l_k_min
+        line.c_l, line.c_l2, line.c_l2_error = 5.01, 0.0, -1.0
+        self.check_apart(
+            'c_L',
+            r'a 1\.500\(20\), c k \+ c2 k\^2 over 2 wave numbers 0\.9935 \.\. 1\.405; '
+            r'b 5\.010\(20\), c k over 1 wave number 0\.9935',
+            run(),
+            other,
+        )
+
+    def test_of_another_range(self):
+        for field in ('t_k_min', 't_k_max', 'v_k_min', 'v_k_max'):
+            other = run()
+            setattr(other[-1], field, 1.2)
+            other[-1].c_t, other[-1].v = (2.0, 1.612) if field.startswith('t') else (1.4, 2.0)
+            self.check_apart('c_T' if field.startswith('t') else 'v', '.* 1.2.*', run(), other)
+
+    def test_of_another_wave_between(self):
+        """As many of the same range."""
+        info = made.run_info()
+        others = [
+            [made.step(info, T, n, 0, 38 - 2 * n, 39 - 2 * n) for n in numbers]
+            for numbers in ((1, 2, 4), (1, 3, 4))
+        ]
+        self.check_apart('c_T', '.*', *(run(made_steps=steps) for steps in others))
+
+    def test_one_wave_number_of_a_square_box(self):
+        """Through T(1,0) in one run, through T(0,1) in the other."""
+        info = made.run_info()
+        pair = [run(made_steps=[made.step(info, T, *n, 36, 37)]) for n in ((1, 0), (0, 1))]
+        comparison = self.compared(*pair)
+        self.assertEqual(comparison.apart, [])
+        self.assertEqual(len(comparison.fits), 5)
+
+    def test_of_a_bag_of_before(self):
+        """Its form follows from its wave numbers, and is said not to be recorded."""
+
+        class Before:
+            """What its Steps had."""
+
+            def __init__(self, message):
+                for name in message.__slots__:
+                    if not re.search('_(terms|k_min|k_max)$', name):
+                        setattr(self, name, getattr(message, name))
+
+        info = made.run_info()
+        waves = [made.step(info, T, n, 0, 38 - 2 * n, 39 - 2 * n) for n in (1, 2)]
+        message = made.steps(waves)
+        message.t_points, message.t_k_max, message.l_points = 2, waves[1].wave_number, 0
+        message.t_k_min = waves[0].wave_number
+        (new, *_), (old, *_) = fits.of(message), fits.of(Before(message))
+        self.assertTrue(new.is_like(old) and old.is_like(new))
+        self.assertEqual(old.basis, 'form not recorded, over 2 wave numbers 0.9935 .. 1.987')
+        self.assertEqual(old.values, new.values)
+        message.t_points, message.steps = 1, waves[:1]
+        line = fits.of(Before(message))[0]
+        self.assertEqual([name for name, _, _ in line.values], ['c_T'])
+        self.assertFalse(line.is_like(new))
 
 
 class UnknownErrors(Pairs):
@@ -320,15 +370,19 @@ class UnknownErrors(Pairs):
 class Refusals(Pairs):
     def test_other_systems(self):
         for name, value in (
+            ('disks', 40),
             ('density', 0.51),
             ('aspect', 0.9),
             ('boundary_x', 'reflecting'),
             ('boundary_y', 'reflecting'),
         ):
-            self.cannot_compare(f'{name} is .* and {value}', run(), run(**{name: value}))
+            self.cannot_compare(f'{name} .* and {value}$', run(), run(**{name: value}))
         made.write(self.a, run())
-        made.write(self.b, run(density=0.6))
-        self.refuses('compare: the runs cannot be compared: density is 0.5 and 0.6')
+        made.write(self.b, run(density=0.6, disks=40))
+        self.refuses(
+            'compare: the runs are of different systems and are not compared: '
+            'disks 20 and 40, density 0.5 and 0.6'
+        )
 
     def test_other_exponents(self):
         self.cannot_compare('exponents 1-37 and 1-36', run(), run(EXPONENTS[:-1]))

@@ -21,7 +21,7 @@ from hdlyap.plots.figures import (
     plt,
 )
 from hdlyap.plots.figures.style import save
-from plotted import plot_bag
+from plotted import check_title, plot_bag
 
 FIGURES = (
     covariant_exponents,
@@ -137,6 +137,7 @@ class Bags(unittest.TestCase):
             figure = kind.draw(run)
             if figure is None:
                 continue
+            check_title(figure, kind.__name__)
             yield kind.__name__.rpartition('_')[2]
             if on_paper:
                 figure.canvas.draw()

@@ -81,7 +81,7 @@ def advertised():
 
 
 def services():
-    kinds = dict(set_bool='std_srvs/SetBool', trigger='std_srvs/Trigger')
+    kinds = dict(set_bool='std_srvs/SetBool', trigger='std_srvs/Trigger', set='hdlyap/Set')
     return {
         name: kinds[kind]
         for kind, name in re.findall(r'hdr_service_(\w+)\([^;"]*"(~\w+)"', sources())

@@ -16,7 +16,7 @@ from std_msgs.msg import Float64, String
 import harness
 import links
 from harness import MODES, Process
-from hdlyap.msg import LpPhase, LpPhases, Mode
+from hdlyap.msg import LpPhase, LpPhases, Mode, Steps
 from roslib.packages import find_node
 
 ROUNDING = 1e-6  # of regressions in another order
@@ -96,6 +96,22 @@ class Help(unittest.TestCase):
         self.assertNotIn('Traceback', fit.text())
 
 
+class Waiting(Examples):
+    def test_says_what_it_waits_for(self):
+        """And says it again, as it is by then."""
+        topic = '/some/node/steps'
+        fit = Process([example('fit_dispersion'), '_node:=/some/node'])
+        self.addCleanup(fit.stop)
+        said = f'fit_dispersion waits: nobody publishes {topic}; roslaunch hdlyap run.launch starts'
+        self.wait_for(lambda: fit.lines(said), fit)
+        publisher = rospy.Publisher(topic, Steps, queue_size=1)
+        self.addCleanup(publisher.unregister)
+        self.wait_for(lambda: fit.lines(f'fit_dispersion waits: nothing on {topic}: its node'), fit)
+        publisher.publish(Steps(averaged_time=7.0))
+        self.wait_for(lambda: fit.lines('t = 7: c_T: not yet; c_L: not yet'), fit)
+        self.stop(fit)
+
+
 class Beside(Examples):
     """Both examples and the test hear all of one run."""
 
@@ -162,7 +178,7 @@ class Beside(Examples):
 
     def check_fits(self, messages, fit):
         by_time = {'%.6g' % message.averaged_time: message for message in messages}
-        lines = fit.text().splitlines()
+        lines = [text for text in fit.text().splitlines() if ' waits: ' not in text]
         fitted = 0
         for line in lines:
             message = by_time[re.match(r't = (\S+): ', line).group(1)]
@@ -171,13 +187,18 @@ class Beside(Examples):
                 ('c_L', Mode.LP, message.c_l, message.c_l_error),
             ):
                 own = re.search(
-                    name + r' = (\S+) \+- (\S+), node: (\S+) \+- (\S+) \((\S+) standard', line
+                    name
+                    + r' = (\S+) \+- (\S+), node: (\S+) \+- (\S+) \((\S+) standard errors\), of '
+                    r'(c k|c k \+ c2 k\^2) over (\d+) k',
+                    line,
                 )
                 if own is None:
                     self.assertIn(name + ': not yet', line)
                     continue
                 wanted = self.fit(message.steps, kind)
-                numbers = [float(number) for number in own.groups()]
+                numbers = [float(number) for number in own.groups()[:5]]
+                waves = int(own.group(7))
+                self.assertEqual(own.group(6), 'c k + c2 k^2' if waves > 1 else 'c k')
                 np.testing.assert_allclose(numbers[:4], [*wanted, c, error], rtol=0, atol=PRINTED)
                 self.assertAlmostEqual(numbers[4], (wanted[0] - c) / error, delta=0.0051)
                 fitted += 1

@@ -113,6 +113,20 @@ class Faults(unittest.TestCase):
             for node in nodes:
                 self.check_out_of_memory(node)
 
+    def test_too_many_disks(self):
+        """Known before the first block is asked for: how much, how much there is, what fits."""
+        for disks in (40000, 1000000):
+            with self.subTest(disks=disks):
+                begin = time.monotonic()
+                node = self.start(dict(disks=disks))
+                self.check_out_of_memory(node)
+                self.assertLess(time.monotonic() - begin, 10.0)
+                self.assertRegex(
+                    node.text(),
+                    rf'out of memory: disks = {disks} with {2 * disks - 3} exponents need \S+ GB, '
+                    r'there are \S+ GB \(\w+\); exponents = \d+ would fit, or disks = \d+',
+                )
+
     def test_limit_in_mid_run(self):
         """Not a byte more than it has. Messages that find no room are named, the run goes on."""
         node, cost = self.running(
@@ -128,6 +142,22 @@ class Faults(unittest.TestCase):
         for _ in range(20):
             self.goes_on(node, cost)
         self.stops(node)
+
+    # ---- threads ----
+
+    def test_threads_that_are_not_granted(self):
+        """OpenBLAS would wait for them for ever."""
+        for limit, granted in (
+            (dict(OMP_THREAD_LIMIT='1'), 1),
+            (dict(OMP_MAX_ACTIVE_LEVELS='0'), 1),
+            (dict(OMP_DYNAMIC='true'), 2),
+        ):
+            with self.subTest(limit=limit):
+                node = self.start(THREADED, **limit)
+                self.assertEqual(node.wait(), 0, node.text())
+                self.assertIn(f'{granted} threads', node.text())
+                said = node.lines('OpenMP grants 1 of 2 threads')
+                self.assertEqual(len(said), 2 - granted, node.text())
 
     # ---- signals ----
 

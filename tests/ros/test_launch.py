@@ -2,6 +2,7 @@
 """Scene and launch files: every scene runs as it is written, launching records whole runs."""
 
 import os
+import re
 import signal
 import tempfile
 import unittest
@@ -67,7 +68,10 @@ class Launch(unittest.TestCase):
         return process
 
     def test_record_and_replay(self):
+        """A bag of the same name is kept; the launch ends by itself, with the result of the run."""
         with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, 'q.bag'), 'w') as file:
+                file.write('of a year')
             run = self.roslaunch(
                 folder,
                 'run.launch',
@@ -80,11 +84,69 @@ class Launch(unittest.TestCase):
             self.assertEqual(run.wait(), 0, run.text())
             bag = os.path.join(folder, 'q.bag')
             self.check_bag(bag)
+            self.check_result(run, 30, bag)
+            self.assertEqual(sorted(os.listdir(folder)), ['q.bag', 'q.bag.old'])
+            self.assertEqual(len(run.lines('q.bag was there already')), 1, run.text())
+            with open(bag + '.old') as file:
+                self.assertEqual(file.read(), 'of a year')
             status = harness.Listener('status')
             self.addCleanup(status.close)
             replay = self.roslaunch(folder, 'replay.launch', 'bag:=' + bag, 'rate:=10')
             self.assertTrue(status.wait_for(harness.is_last))
             self.assertEqual(replay.wait(), 0, replay.text())
+
+    def check_result(self, run, averaged, *words):
+        """Is printed last, and nothing is in red."""
+        self.assertNotIn('REQUIRED', run.text())
+        self.assertNotIn('has died', run.text())
+        result = run.text().split('result of /')[-1]
+        self.assertRegex(result, r'averaged %s.* time units, lambda_max [0-9.]+' % averaged)
+        self.assertRegex(result, r'(?m)^ +T\(1,0\) .* [0-9.]+')
+        self.assertRegex(result, r'(?m)^  c_T [0-9.]+')
+        for word in words:
+            self.assertIn(word, result)
+
+    def test_first_scene(self):
+        """It finds T and LP steps with their errors, says so, goes on, and says its result when it
+        is asked to end."""
+        run = self.roslaunch('.', 'run.launch')
+        row = r'(?m)^ +%s\(1,0\) .* [0-9.]+\([0-9.]+\)$'
+        self.assertTrue(
+            harness.wait_until(
+                lambda: all(re.search(row % kind, run.text()) for kind in ('T', 'LP'))
+            ),
+            run.text(),
+        )
+        self.assertEqual(run.lines('result of'), [])
+        self.assertTrue(run.running())
+        run.send(signal.SIGINT)
+        self.assertEqual(run.wait(), 0, run.text())
+        self.check_result(run, '')
+
+    def test_namespace(self):
+        """Node, recorder and who prints meet in it, whatever the node's name is."""
+        with tempfile.TemporaryDirectory() as folder:
+            args = 'record:=true bag:=q.bag scene:=quick duration:=30'.split()
+            run = self.roslaunch(folder, 'run.launch', '__ns:=grp', 'name:=a', *args)
+            self.assertEqual(run.wait(), 0, run.text())
+            self.check_result(run, 30, 'q.bag')
+            with rosbag.Bag(os.path.join(folder, 'q.bag')) as bag:
+                topics = set(bag.get_type_and_topic_info()[1])
+            self.assertIn('/grp/a/steps', topics)
+
+    def test_resumed_alone(self):
+        """With the scene of the checkpoint."""
+        args = ['checkpoint:=q.checkpoint', 'name:=kept', 'table:=false']
+        with tempfile.TemporaryDirectory() as folder:
+            first = self.roslaunch(folder, 'run.launch', 'scene:=quick', 'duration:=5', *args)
+            self.assertEqual(first.wait(), 0, first.text())
+            self.assertEqual(len(first.lines('finished at simulated time 45')), 1, first.text())
+            more = self.roslaunch(
+                folder, 'run.launch', 'resume:=q.checkpoint', 'duration:=10', *args
+            )
+            self.assertEqual(more.wait(), 0, more.text())
+            self.assertEqual(len(more.lines('scene quick: 100 disks')), 1, more.text())
+            self.assertEqual(len(more.lines('finished at simulated time 50')), 1, more.text())
 
     def replayed(self, *args):
         """Type of a node of replay.launch -> its arguments."""
@@ -136,12 +198,45 @@ class Launch(unittest.TestCase):
             (info.seed, info.duration, info.disks), ('18446744073709551615', 30.0, 100)
         )
 
-    def test_refused_scene_ends_the_launch(self):
+    def test_what_is_refused_ends_the_launch(self):
+        """With one line of what is wrong; no bag is touched."""
+        refused = {
+            'duration:=-1': 'duration = -1: must be from 0',
+            'duration:=abc': 'duration = abc: must be a number',
+            'disk:=50': 'argument disk = 50: must be one that run.launch has',
+            'scene:=quik': 'scene = quik: must be one of covariant, ',
+        }
         with tempfile.TemporaryDirectory() as folder:
-            run = self.roslaunch(folder, 'run.launch', 'scene:=quick', 'duration:=-1')
-            run.wait()
-            self.assertEqual(len(run.lines('FATAL')), 1, run.text())
-            self.assertEqual(len(run.lines('exit code 2')), 1, run.text())
+            with open(os.path.join(folder, 'q.bag'), 'w') as file:
+                file.write('of a year')
+            runs = {
+                argument: self.roslaunch(
+                    folder,
+                    'run.launch',
+                    argument,
+                    'name:=refused_%d' % k,
+                    'record:=true',
+                    'bag:=q.bag',
+                )
+                for k, argument in enumerate(refused)
+            }
+            for argument, run in runs.items():
+                with self.subTest(argument=argument):
+                    run.wait()
+                    self.assertEqual(len(run.lines('FATAL')), 1, run.text())
+                    self.assertEqual(len(run.lines(refused[argument])), 1, run.text())
+                    self.assertEqual(len(run.lines('exit code 2')), 1, run.text())
+                    self.assertNotIn('<param', run.text())
+            self.assertEqual(os.listdir(folder), ['q.bag'])
+
+    def test_who_is_waited_for_is_said(self):
+        """At once, and again after ten seconds."""
+        node = harness.start(dict(harness.SHORT, wait_for_subscribers=['steps', 'cost']), 'alone')
+        self.addCleanup(node.stop)
+        missing = 'waiting for subscribers of /alone: steps, cost'
+        self.assertTrue(harness.wait_until(lambda: node.lines(missing)), node.text())
+        self.assertEqual(node.lines('still ' + missing), [])
+        self.assertTrue(harness.wait_until(lambda: node.lines('still ' + missing)), node.text())
 
 
 if __name__ == '__main__':

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Every parameter: what is refused, with which words, and what is taken."""
 
+import os
 import re
+import subprocess
 import unittest
 
 import rosgraph
@@ -75,6 +77,22 @@ BAD = dict(
         [1, 2, 1000000],
     ],
     field_interval=TIME,
+    changes=[
+        '5 pace=1',
+        5,
+        [5],
+        [''],
+        ['pace=1'],
+        ['5pace=1'],
+        ['-5 pace=1'],
+        ['nan pace=1'],
+        ['inf pace=1'],
+        ['5 pace'],
+        ['5 pace=-1'],
+        ['5 pace=nan'],
+        ['5 pace=1', '6 disks=50'],
+        ['5 paces=1'],
+    ],
     checkpoint=[5, True, ['file']],
     checkpoint_interval=[-1, 2e12, 'x', NAN, INFINITY],
     resume=[5, True, ['file']],
@@ -254,6 +272,23 @@ class Parameters(unittest.TestCase):
             [(name + ' = ', '', dict(SHORT, **params), []) for name, params in BAD_TOGETHER]
         )
 
+    def test_without_a_master(self):
+        env = dict(os.environ, ROS_MASTER_URI='http://localhost:1')
+        for argument, said in (
+            ('--help', 'Exit status: 0 finished or stopped, 2 refused'),
+            ('--version', r'^hdlyap \d+\.\d+\.\d+$'),
+            ('--parameters', '(?m)^disks: 780$'),
+        ):
+            done = subprocess.run(
+                [harness.executable(), argument],
+                env=env,
+                timeout=10,
+                text=True,
+                capture_output=True,
+            )
+            self.assertEqual((done.returncode, done.stderr), (0, ''))
+            self.assertRegex(done.stdout.strip(), said)
+
     def test_refused_argument(self):
         self.check_refused([('argument disks=5', '', SHORT, ['disks=5'])])
 
@@ -285,6 +320,18 @@ class Parameters(unittest.TestCase):
         for field, value in shows.items():
             self.assertEqual(getattr(listener.messages[0], field), value)
         listener.close()
+
+    def test_scene_names(self):
+        """A name alone chooses no system, and the usual one's is nobody else's."""
+        begin = 'scene = '
+        self.check_refused(
+            [
+                (begin, 'quick', dict(scene='quick'), []),
+                (begin, 'given with its disks', dict(scene='quick', duration=5.0), []),
+            ]
+        )
+        self.taken({}, dict(scene='unnamed'))
+        self.taken(dict(scene='mine'), dict(scene='mine'))
 
     def test_defaults(self):
         listener = harness.Listener('run_info')

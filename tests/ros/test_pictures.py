@@ -210,7 +210,7 @@ class Markers(unittest.TestCase):
         nine = 'T(1,0) ' * 9
         for name, values in dict(
             modes=('', 'T(1,0', 'T(1,0)x', 'P(1,0)', 'T(1,0),T(2,0)', nine, 3, ['T(1,0)']),
-            node=('hdlyap', '', 3),
+            node=('', 3),
             disks=(10,),
         ).items():
             for value in values:

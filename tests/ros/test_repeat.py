@@ -9,6 +9,7 @@ import unittest
 
 import yaml
 
+from hdlyap.msg import Change
 import made
 from hdlyap.plots import recording, repetition
 
@@ -109,6 +110,31 @@ class Repeat(unittest.TestCase):
         got = self.repeated()
         self.assertEqual((got['checkpoint'], got['resume']), ('', ''))
         self.assertIn('# That run went on from before at simulated time 12.5', self.text())
+
+    def test_changes(self):
+        """What was changed is as it was at the start, and is changed again; each run_info of the
+        run says a little more, and that of a second file of the bag, the first one, nothing."""
+        changes = [
+            Change(sim_time=0.1 + 0.2, name='pace', before=2.0, value=1e-7),
+            Change(sim_time=1e3, name='duration', before=0.0, value=100.0),
+            Change(sim_time=1e3, name='pace', before=1e-7, value=3.0),
+        ]
+        now = dict(pace=3.0, duration=100.0)
+        infos = [
+            made.run_info(pace=2.0),
+            made.run_info(pace=1e-7, changes=changes[:1]),
+            made.run_info(changes=changes, **now),
+            made.run_info(pace=2.0),
+        ]
+        made.write(self.bag, infos)
+        got = self.repeated()
+        self.assertEqual((got['pace'], got['duration']), (2.0, 0.0))
+        self.assertEqual(
+            got['changes'],
+            ['0.30000000000000004 pace=1e-07', '1000.0 duration=100.0', '1000.0 pace=3.0'],
+        )
+        made.write(self.bag, infos[:1])
+        self.assertEqual(self.repeated()['changes'], [])
 
     def test_what_it_ran_on(self):
         """Beside the parameters; texts of a bag cannot add any."""

@@ -22,9 +22,10 @@ import made
 from terminal import Terminal
 from hdlyap.msg import RunStatus
 from hdlyap.plots.figures import plt
-from hdlyap.reproduce import display, files, options, page, parts, plan, row, tree, work
-from hdlyap.reproduce.bag import Bag
+from hdlyap.reproduce import options, page, parts, plan, row
+from hdlyap.runs.bag import Bag
 from hdlyap.reproduce.row import Row
+from hdlyap.runs import display, files, tree, work
 
 ROOT = os.path.realpath(os.path.join(made.SCRIPTS, '../..'))
 LAUNCH = os.path.join(ROOT, 'launch')
@@ -409,7 +410,7 @@ class Shown(unittest.TestCase):
         with mock.patch('time.monotonic', lambda: now[0]), contextlib.redirect_stdout(
             out
         ), contextlib.redirect_stderr(err):
-            show = display.Display(8, before=4)
+            show = display.Display("reproduce", 8, before=4)
             for seconds, under_way, done in (
                 (0, [('a', 0), ('b', 0)], 0),
                 (5, [('a', 0.5)], 100),
@@ -441,8 +442,8 @@ class Shown(unittest.TestCase):
                 '-c',
                 '''
 from types import SimpleNamespace as Made
-from hdlyap.reproduce import display
-show = display.Display(3)
+from hdlyap.runs import display
+show = display.Display("reproduce", 3)
 show([Made(run=Made(name=name), share=0.5) for name in ('first', 'second', 'third')], 30.0, 60.0)
 ''',
             ],
@@ -549,13 +550,12 @@ class Machines(Folder):
             },
         )
         self.assertEqual(
-            {key: value.value for key, value in config.params.items() if key.endswith('/scene')},
-            {f'/{name}/hdlyap/scene': name for name in 'abc'},
+            {key: value.value for key, value in config.params.items() if 'hdlyap' in key},
+            {f'/{name}/hdlyap': dict(scene=name, wait_for_subscribers='all') for name in 'abc'},
         )
         bags = [node.args for node in config.nodes if node.type == 'record']
         for name, args in zip('abc', bags):
-            self.assertIn(f"--output-name='{self.folder}/./{name}.bag'", args)
-            self.assertIn(f' /{name}/hdlyap/spectrum ', args)
+            self.assertIn(f"--node 'hdlyap' --bag '{self.folder}/./{name}.bag' ", args)
         self.assertFalse(any(node.required for node in config.nodes if node.type != 'sweep_table'))
 
     def test_one_and_here(self):

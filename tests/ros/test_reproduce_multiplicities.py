@@ -12,7 +12,7 @@ import numpy as np
 import made
 import recorded
 from made import LP, T
-from hdlyap.reproduce.bag import Bag
+from hdlyap.runs.bag import Bag
 from hdlyap.reproduce.parts import multiplicities as part
 
 PERIODIC, WALLS = 'periodic', 'reflecting'

@@ -2,22 +2,19 @@
 """reproduce and reproduce.launch with runs of a second: what is done, done again, left over, and
 said."""
 
-import contextlib
 import glob
 import os
 import signal
 import sys
 import tempfile
 import time
-import unittest
-import uuid
 
 import rospy
 import rostest
 import yaml
 
 import harness
-from harness import Process, wait_until
+from harness import LOOK, SOON, Process, wait_until
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.realpath(os.path.join(HERE, '../..'))
@@ -33,10 +30,6 @@ TINY = dict(
     seconds=[1, 1],
 )
 LONG = dict(TINY, full=dict(duration=1e6))
-# seconds within which all has ended that was asked to, on a busy machine: roslaunch alone takes up
-# to 17
-SOON = 90.0
-LOOK = 0.1  # seconds between two looks at all processes, each of which takes some ms
 LATEST = 240.0  # that some runs of a second take there
 
 
@@ -44,14 +37,13 @@ def entries(**runs):
     return {name: dict(TINY, **changed) for name, changed in runs.items()}
 
 
-class Reproduce(unittest.TestCase):
+class Reproduce(harness.Traced):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.out = os.path.join(folder.name, 'o u t')
         self.plan = os.path.join(folder.name, 'plan.yaml')
-        self.mark = uuid.uuid4().hex
-        self.addCleanup(self.kill_all)
+        self.trace()
 
     def start(self, runs, *options, **env):
         """All parts of the plan of these runs, under the master of this test unless env names
@@ -94,29 +86,6 @@ class Reproduce(unittest.TestCase):
 
     def times(self, *names):
         return [os.path.getmtime(self.path(name + '.bag')) for name in names]
-
-    def ours(self, word='', variable=''):
-        """Processes of this test whose command line has the word, and whose environment has the
-        variable."""
-        found = []
-        for folder in glob.glob('/proc/[0-9]*'):
-            with contextlib.suppress(OSError), open(folder + '/environ', 'rb') as environ, open(
-                folder + '/cmdline', 'rb'
-            ) as command:
-                has = environ.read().decode(errors='replace').split('\0') + ['']
-                if {'HDLYAP_MARK=' + self.mark, variable} <= set(
-                    has
-                ) and word.encode() in command.read():
-                    found.append(int(os.path.basename(folder)))
-        return found
-
-    def kill_all(self):
-        for pid in self.ours():
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(pid, signal.SIGKILL)
-
-    def assert_none_left(self):
-        self.assertTrue(wait_until(lambda: not self.ours(), SOON, LOOK), self.ours())
 
     def await_averaging(self, process, count=1):
         """So many nodes have said something of their runs."""

@@ -10,6 +10,7 @@ import rostest
 from std_srvs.srv import SetBool, Trigger
 
 import harness
+import measured
 from harness import SHORT, is_last
 
 ENDLESS = dict(SHORT, duration=0.0, pace=20.0, report_interval=0.5)
@@ -90,6 +91,34 @@ class Run(unittest.TestCase):
         self.assertAlmostEqual(kinetic, 20.0, delta=1e-9)
         self.assertAlmostEqual(sum(state.px), 0.0, delta=1e-9)
         self.assertAlmostEqual(sum(state.py), 0.0, delta=1e-9)
+
+    def test_local_exponents(self):
+        """Each sample is in one message, with its time: together they are the mean."""
+        for report_interval, parts in ((0.0625, False), (8.0, True)):
+            with self.subTest(report_interval=report_interval):
+                listeners = {topic: self.listen(topic) for topic in ('spectrum', 'cost', 'status')}
+                params = dict(SHORT, warmup=6.0, duration=40.0, report_interval=report_interval)
+                self.assert_finished(self.start(dict(params, wait_for_subscribers=list(listeners))))
+                self.assertTrue(listeners['status'].wait_for(is_last))
+                for listener in listeners.values():
+                    measured.check(self, listener.messages)
+                self.check_local(listeners['spectrum'].messages, parts)
+
+    def check_local(self, messages, parts):
+        times = [message.local_time for message in messages]
+        self.assertEqual(min(times) > 0, parts, 'a report without a sample')
+        self.assertLessEqual(sum(times), messages[-1].averaged_time + 1e-9)
+        told = total = 0.0
+        sums = 0
+        for message in messages:
+            if message.local_time > 0:
+                told += message.local_time
+                total += message.local_time * message.local_exponents[0]
+                if abs(told - message.averaged_time) < 1e-9:
+                    mean = message.averaged_time * message.exponents[0]
+                    self.assertAlmostEqual(total, mean, delta=1e-9 * abs(mean))
+                    sums += 1
+        self.assertGreater(sums, 3)
 
     def test_same_seed_same_run(self):
         last = []

@@ -170,7 +170,7 @@ class Stop(unittest.TestCase):
         master = harness.Master()
         self.addCleanup(master.stop)
         node = self.start(ENDLESS, ROS_MASTER_URI=master.uri)
-        self.assertTrue(harness.wait_until(lambda: node.lines('scene paper_periodic')))
+        self.assertTrue(harness.wait_until(lambda: node.lines('scene unnamed')))
         time.sleep(0.3)
         master.send(signal.SIGSTOP)
         self.stop(node)

@@ -28,7 +28,12 @@ const char *hd_blas_better_kernel(const char *kernel, int has_avx2_fma, int has_
  * when nothing is to be done, or after a restart. Linux; elsewhere it does nothing. */
 void hd_blas_restart_if_slow(char **argv);
 
+/** In calls from this thread from now on. */
 void hd_blas_use_threads(int threads);
+
+/** Of so many, the threads that OpenMP grants, which are started: fewer where OMP_THREAD_LIMIT or
+ * OMP_MAX_ACTIVE_LEVELS says so. OpenBLAS would wait for the others for ever. */
+int hd_blas_threads_granted(int threads);
 
 /** HD_NO_MEMORY where so many threads would not find the address space for their stacks and
  * buffers: OpenBLAS would ask for it for ever, and OpenMP would end the process. Takes none. */

@@ -45,7 +45,8 @@ HD_MUST_CHECK hd_status hd_frame_replay(hd_frame *frame, const hd_event_log *log
 /** Undoes the last replay (once). */
 void hd_frame_rewind(hd_frame *frame);
 
-/** Per column: cosine of the angle between its dp and dq halves, and |dp| / |dq|; [n] each. */
+/** Per column: cosine of the angle between its dp and dq halves, NaN if one of them vanishes, and
+ * |dp| / |dq|, NaN if dq vanishes; [n] each. */
 void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_ratio);
 
 #ifdef __cplusplus

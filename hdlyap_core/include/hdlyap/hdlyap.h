@@ -29,6 +29,7 @@
 #include "hdlyap/covariant.h"
 /* run */
 #include "hdlyap/run.h"
+#include "hdlyap/room.h"
 #include "hdlyap/checkpoint.h"
 
 #define HDLYAP_VERSION "0.1.0"

@@ -23,8 +23,9 @@ typedef enum hd_parameter_kind {
     HD_PARAMETER_SET        /**< a set of bits; the user says it in another way */
 } hd_parameter_kind;
 
-/** Whether a resumed run may have another value than its checkpoint. */
-enum { HD_AS_BEFORE = 0, HD_MAY_DIFFER = 1 };
+/** Whether a resumed run may have another value than its checkpoint; the last: and a running one
+ * another value than at its start. */
+enum { HD_AS_BEFORE = 0, HD_MAY_DIFFER = 1, HD_LIVE = 2 };
 
 /** A value that has a name. */
 typedef struct hd_parameter_word {
@@ -42,6 +43,7 @@ typedef struct hd_parameter {
     const char *allowed; /**< in words */
     const char *unit;    /**< "" if it has none */
     bool may_differ;     /**< of a resumed run from its checkpoint */
+    bool live;           /**< may change while it runs, see hd_run_change */
     unsigned needs; /**< HD_OBSERVE_* of which one must be there for another value than usual */
     const char *text;
     const char *record; /**< name in a checkpoint */

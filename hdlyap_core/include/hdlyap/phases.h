@@ -45,7 +45,9 @@ const hd_lp_phase *hd_phases_phase(const hd_phases *phases, int index);
 
 /** |omega| / k of the tracked phases, weighted with their errors [sigma/time unit]. */
 typedef struct hd_velocity {
-    int phases;        /**< tracked phases that went into it; 0: nothing known */
+    int phases; /**< tracked phases that went into it; 0: nothing known */
+    double k_min,
+        k_max;         /**< smallest and largest wave number of their steps; 0 without [1/sigma] */
     double v, v_error; /**< error negative if not yet known; it knows how the steps turn together */
     double misfit; /**< root mean square deviation of the steps from v, per degree of freedom, in
                       their standard errors; negative if there is one step. Far above 1: they have

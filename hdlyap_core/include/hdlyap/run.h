@@ -8,6 +8,7 @@
 #include "hdlyap/covariant.h"
 #include "hdlyap/interval.h"
 #include "hdlyap/ortho.h"
+#include "hdlyap/parameters.h"
 #include "hdlyap/phases.h"
 #include "hdlyap/spectrum.h"
 #include "hdlyap/steps.h"
@@ -16,7 +17,8 @@
 extern "C" {
 #endif
 
-/** What the run pays for, since its start unless said otherwise. */
+/** What the run pays for, since its start unless said otherwise. What is not measured (yet) is
+ * NaN. */
 typedef struct hd_cost {
     double wall;     /**< seconds */
     double events;   /**< seconds in the trajectory */
@@ -40,7 +42,8 @@ typedef struct hd_cost {
     /** largest of the exponents nearest to zero, which target_std_error is for; negative if unknown
      */
     double std_error;
-    double progress;  /**< 0 .. 1 of the time asked for, or to the target; 0 if unknown */
+    double progress;  /**< 0 .. 1 of the time asked for, or to the target; negative if
+                          unknown */
     double remaining; /**< predicted wall seconds to the end, or to target_std_error;
                           negative if unknown */
 } hd_cost;
@@ -62,10 +65,20 @@ HD_MUST_CHECK hd_status hd_run_advance(hd_run *run);
  * due. Phases are those of the very time. */
 bool hd_run_report_due(const hd_run *run);
 
-/** Fields are due from now on with the first report at or after each multiple of so many time units
- * since the averaging began, 0 included, and with the last one; with 0 (as at first) at every
- * report. Not kept in a checkpoint. */
+/** Fields are due with the first report at or after each multiple of so many time units since the
+ * averaging began, 0 included, and with the last one; with 0 (as at first) at every report. The
+ * first call holds at once, another one from hd_run_change_time on. Not kept in a checkpoint. */
 void hd_run_fields_every(hd_run *run, double interval);
+
+/** Asks for another value of a parameter of the scene whose row says `live`. It holds from
+ * hd_run_change_time on, and hd_run_scene has it at once. HD_REFUSED with one line in `message`: it
+ * is read at the start, or the value is not allowed; a duration must not be shorter than what will
+ * have been averaged by then. */
+HD_MUST_CHECK hd_status hd_run_change(hd_run *run, const hd_parameter *row, double value,
+                                      char *message, size_t size);
+/** Simulated time from which on a change holds that is asked for now: the end of the present sample
+ * (at most 64 collisions of each disk long), or before the averaging of the present report. */
+double hd_run_change_time(const hd_run *run);
 
 /** True if the last call ended at such a report: if they are looked at (HD_OBSERVE_FIELDS), the
  * frame is orthonormalised at this very time. */
@@ -91,8 +104,9 @@ HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 hd_stage hd_run_stage(const hd_run *run);
 double hd_run_time(const hd_run *run); /**< simulated time since the start */
 const hd_scene_def *hd_run_scene(const hd_run *run);
-int hd_run_vectors(const hd_run *run); /**< n, 0 without exponents */
-int hd_run_threads(const hd_run *run); /**< in use */
+int hd_run_vectors(const hd_run *run);        /**< n, 0 without exponents */
+int hd_run_threads(const hd_run *run);        /**< in use */
+int hd_run_threads_denied(const hd_run *run); /**< wanted, but not granted by OpenMP; 0: none */
 const hd_trajectory *hd_run_trajectory(const hd_run *run);
 const hd_frame *hd_run_frame(const hd_run *run);       /**< NULL without exponents */
 const hd_spectrum *hd_run_spectrum(const hd_run *run); /**< NULL without exponents */
@@ -103,6 +117,8 @@ const hd_covariant *hd_run_covariant(const hd_run *run); /**< NULL unless observ
 int hd_run_samples_per_report(
     const hd_run *run); /**< times that phases are followed at per report */
 hd_cost hd_run_cost(const hd_run *run);
+/** Averaged time from which standard errors are stated [T8]; 0 without exponents. */
+double hd_run_errors_after(const hd_run *run);
 
 #ifdef __cplusplus
 }

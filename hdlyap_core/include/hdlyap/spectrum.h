@@ -41,8 +41,12 @@ double hd_spectrum_error_of_sum(const hd_spectrum *spectrum, const hd_part *part
 /** Largest of the standard errors of the last `count` exponents carried; INFINITY while one is
  * unknown. */
 double hd_spectrum_error_of_last(const hd_spectrum *spectrum, int count);
-double hd_spectrum_local(const hd_spectrum *spectrum, int col); /**< of the last sample */
-double hd_spectrum_lambda_max(const hd_spectrum *spectrum);     /**< exponent of col 0 */
+/** Mean over the samples that have ended since hd_spectrum_local_restart (or since the averaging
+ * began), NaN if none has; and how long they were together, 0 if none has. */
+double hd_spectrum_local(const hd_spectrum *spectrum, int col);
+double hd_spectrum_local_time(const hd_spectrum *spectrum);
+void hd_spectrum_local_restart(hd_spectrum *spectrum);
+double hd_spectrum_lambda_max(const hd_spectrum *spectrum); /**< exponent of col 0 */
 double hd_spectrum_ks_entropy(const hd_spectrum *spectrum); /**< sum of the positive ones carried */
 double hd_spectrum_ks_entropy_error(
     const hd_spectrum *spectrum); /**< its standard error; negative if not yet known */

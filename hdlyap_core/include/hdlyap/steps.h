@@ -49,7 +49,9 @@ typedef struct hd_step {
  * are those of c and c2 as averages: they know how the steps fluctuate together, not whether the
  * relation holds, which the misfit tells. */
 typedef struct hd_dispersion {
-    int points;          /**< distinct wave numbers; below 2 c2 is 0, below 1 also c */
+    int points; /**< distinct wave numbers; below 2 c2 is 0, below 1 also c */
+    int terms;  /**< of the relation: 2, c and c2; 1 from one wave number, c alone; 0 none */
+    double k_min, k_max; /**< smallest and largest wave number; 0 without one [1/sigma] */
     double c, c_error;   /**< error negative if not yet known [sigma/time unit] */
     double c2, c2_error; /**< [sigma^2/time unit] */
     double misfit; /**< root mean square deviation of the steps from the relation, per degree of

@@ -2,6 +2,7 @@
 #include "hdlyap/spectrum.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "averages/archived.h"
@@ -13,15 +14,15 @@ struct hd_spectrum {
     int rows, vectors;
     double *sum;        /**< [vectors], of ln R_ll */
     double *sample_sum; /**< [vectors], since the last sample */
-    double *local;      /**< [vectors], means over the last sample */
+    double *local_sum;  /**< [vectors], over the samples since the last hd_spectrum_local_restart */
     hd_part *parts;     /**< [vectors], workspace */
-    double time, sample_time;
+    double time, sample_time, local_time;
     hd_blocks blocks; /**< of ln R_ll; their weight is time */
 };
 
 static hd_status spectrum_allocate(hd_spectrum *spectrum, double block)
 {
-    double **arrays[] = {&spectrum->sum, &spectrum->sample_sum, &spectrum->local};
+    double **arrays[] = {&spectrum->sum, &spectrum->sample_sum, &spectrum->local_sum};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
         *arrays[k] = hd_memory_alloc((size_t)spectrum->vectors, sizeof(double));
         if (!*arrays[k]) return HD_NO_MEMORY;
@@ -52,7 +53,7 @@ void hd_spectrum_free(hd_spectrum *spectrum)
     if (!spectrum) return;
     hd_memory_free(spectrum->sum);
     hd_memory_free(spectrum->sample_sum);
-    hd_memory_free(spectrum->local);
+    hd_memory_free(spectrum->local_sum);
     hd_memory_free(spectrum->parts);
     hd_blocks_clear(&spectrum->blocks);
     hd_memory_free(spectrum);
@@ -61,8 +62,9 @@ void hd_spectrum_free(hd_spectrum *spectrum)
 void hd_spectrum_clear(hd_spectrum *spectrum)
 {
     for (int col = 0; col < spectrum->vectors; col++)
-        spectrum->sum[col] = spectrum->sample_sum[col] = spectrum->local[col] = 0.0;
+        spectrum->sum[col] = spectrum->sample_sum[col] = 0.0;
     spectrum->time = spectrum->sample_time = 0.0;
+    hd_spectrum_local_restart(spectrum);
     hd_blocks_restart(&spectrum->blocks);
 }
 
@@ -82,10 +84,17 @@ void hd_spectrum_sample(hd_spectrum *spectrum)
     HD_ASSERT(spectrum->sample_time > 0);
     hd_blocks_add(&spectrum->blocks, spectrum->sample_sum, spectrum->sample_time);
     for (int col = 0; col < spectrum->vectors; col++) {
-        spectrum->local[col] = spectrum->sample_sum[col] / spectrum->sample_time;
+        spectrum->local_sum[col] += spectrum->sample_sum[col];
         spectrum->sample_sum[col] = 0.0;
     }
+    spectrum->local_time += spectrum->sample_time;
     spectrum->sample_time = 0.0;
+}
+
+void hd_spectrum_local_restart(hd_spectrum *spectrum)
+{
+    for (int col = 0; col < spectrum->vectors; col++) spectrum->local_sum[col] = 0.0;
+    spectrum->local_time = 0.0;
 }
 
 double hd_spectrum_time(const hd_spectrum *spectrum) { return spectrum->time; }
@@ -121,8 +130,10 @@ double hd_spectrum_error_of_last(const hd_spectrum *spectrum, int count)
 double hd_spectrum_local(const hd_spectrum *spectrum, int col)
 {
     HD_ASSERT(col >= 0 && col < spectrum->vectors);
-    return spectrum->local[col];
+    return spectrum->local_time > 0 ? spectrum->local_sum[col] / spectrum->local_time : NAN;
 }
+
+double hd_spectrum_local_time(const hd_spectrum *spectrum) { return spectrum->local_time; }
 
 double hd_spectrum_lambda_max(const hd_spectrum *spectrum)
 {
@@ -160,10 +171,12 @@ void hd_spectrum_archive(hd_spectrum *spectrum, hd_archive *archive)
     const size_t n = (size_t)spectrum->vectors;
     hd_archive_double(archive, "spectrum time", &spectrum->time);
     hd_archive_double(archive, "spectrum sample time", &spectrum->sample_time);
+    hd_archive_double(archive, "spectrum local time", &spectrum->local_time);
     hd_archive_doubles(archive, "spectrum sum", spectrum->sum, n);
     hd_archive_doubles(archive, "spectrum sample sum", spectrum->sample_sum, n);
-    hd_archive_doubles(archive, "spectrum local", spectrum->local, n);
+    hd_archive_doubles(archive, "spectrum local sum", spectrum->local_sum, n);
     hd_blocks_archive(&spectrum->blocks, archive);
-    hd_archive_expect(archive, spectrum->time >= 0 && spectrum->sample_time >= 0, "spectrum time",
-                      "it is negative");
+    const bool forward = spectrum->time >= 0 && spectrum->sample_time >= 0 &&
+                         spectrum->local_time >= 0;
+    hd_archive_expect(archive, forward, "spectrum time", "it is negative");
 }

@@ -33,9 +33,22 @@ hd_blas hd_blas_query(void)
     return blas;
 }
 
+/** OMP_DYNAMIC would let OpenMP grant fewer threads now and then. */
 void hd_blas_use_threads(int threads)
 {
+    omp_set_dynamic(0);
     if (openblas_set_num_threads) openblas_set_num_threads(threads);
+}
+
+int hd_blas_threads_granted(int threads)
+{
+    int granted = 1;
+    if (threads <= 1) return 1;
+    omp_set_dynamic(0);
+#pragma omp parallel num_threads(threads)
+#pragma omp single
+    granted = omp_get_num_threads();
+    return granted;
 }
 
 hd_status hd_blas_room(int threads)

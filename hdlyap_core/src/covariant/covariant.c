@@ -353,6 +353,7 @@ static void end_growth(hd_covariant *c)
 {
     if (c->grown_time == 0) return;
     hd_splitting_grow(c->splitting, c->grown);
+    hd_spectrum_local_restart(c->spectrum);
     hd_spectrum_sample(c->spectrum);
     memset(c->grown, 0, (size_t)c->vectors * sizeof *c->grown);
     c->grown_time = 0.0;

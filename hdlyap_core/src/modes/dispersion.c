@@ -9,7 +9,8 @@ typedef struct fit {
     double kk, k3, k4; /**< sums of w k^2, w k^3, w k^4 */
     int points;        /**< steps */
     int wave_numbers;  /**< distinct ones */
-    bool weighted;     /**< all errors are known */
+    double k_min, k_max;
+    bool weighted; /**< all errors are known */
 } fit;
 
 static bool counts(const hd_step *step, hd_mode_kind kind)
@@ -45,6 +46,8 @@ static fit sums_of(const hd_steps *steps, hd_mode_kind kind)
         const hd_step *step = hd_steps_step(steps, i);
         if (!counts(step, kind)) continue;
         const double k = step->wave.number, w = weight_of(step, f.weighted);
+        f.k_min = f.points == 0 ? k : fmin(f.k_min, k);
+        f.k_max = fmax(f.k_max, k);
         f.points++;
         f.wave_numbers += is_new(steps, i);
         f.kk += w * k * k;
@@ -53,6 +56,9 @@ static fit sums_of(const hd_steps *steps, hd_mode_kind kind)
     }
     return f;
 }
+
+/** One wave number alone knows no curvature. */
+static int terms_of(const fit *f) { return f->wave_numbers < 2 ? f->wave_numbers : 2; }
 
 /** Of which result, c (power 1) or c2 (power 2), and from which steps. */
 typedef struct result {
@@ -69,7 +75,7 @@ static double share(const hd_step *step, const void *context)
     if (!counts(step, r->kind)) return 0.0;
     const double k = step->wave.number, wk = k * weight_of(step, f->weighted);
     const double det = f->kk * f->k4 - f->k3 * f->k3;
-    if (f->wave_numbers < 2) return wk / f->kk;
+    if (terms_of(f) < 2) return wk / f->kk;
     return r->power == 1 ? wk * (f->k4 - k * f->k3) / det : wk * (k * f->kk - f->k3) / det;
 }
 
@@ -84,7 +90,7 @@ static double value_of(const hd_steps *steps, const result *r)
 static double misfit_of(const hd_steps *steps, hd_mode_kind kind, const fit *f,
                         const hd_dispersion *d)
 {
-    const int freedom = f->points - (f->wave_numbers > 1 ? 2 : 1);
+    const int freedom = f->points - terms_of(f);
     double chi2 = 0.0;
     for (int i = 0; i < hd_steps_count(steps); i++) {
         const hd_step *step = hd_steps_step(steps, i);
@@ -100,12 +106,18 @@ hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spec
                                   hd_mode_kind kind)
 {
     const fit f = sums_of(steps, kind);
-    hd_dispersion d = {.points = f.wave_numbers, .c_error = -1.0, .c2_error = -1.0, .misfit = -1.0};
+    hd_dispersion d = {.points = f.wave_numbers,
+                       .terms = terms_of(&f),
+                       .k_min = f.k_min,
+                       .k_max = f.k_max,
+                       .c_error = -1.0,
+                       .c2_error = -1.0,
+                       .misfit = -1.0};
     if (f.points == 0) return d;
     const result c = {&f, kind, 1}, c2 = {&f, kind, 2};
     d.c = value_of(steps, &c);
     d.c_error = hd_steps_error_of_sum(steps, spectrum, share, &c);
-    if (f.wave_numbers > 1) {
+    if (d.terms > 1) {
         d.c2 = value_of(steps, &c2);
         d.c2_error = hd_steps_error_of_sum(steps, spectrum, share, &c2);
     }

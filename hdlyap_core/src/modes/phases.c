@@ -400,6 +400,8 @@ hd_velocity hd_phases_velocity(const hd_phases *phases)
         const double rate = r->turned / r->turning / r->wave_number;
         const double w = 1.0 / (error * error < VARIANCE_MIN ? VARIANCE_MIN : error * error);
         out.phases += tracked(r);
+        out.k_min = steps == 0 ? r->wave_number : fmin(out.k_min, r->wave_number);
+        out.k_max = fmax(out.k_max, r->wave_number);
         weights += w;
         steps++;
         out.v += w * fabs(rate);

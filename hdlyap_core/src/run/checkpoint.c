@@ -45,7 +45,7 @@ static void cost_archive(hd_run *run, hd_archive *archive)
         hd_archive_next_doubles(archive, numbers[k], 1);
     for (size_t k = 0; k < sizeof counts / sizeof *counts; k++)
         hd_archive_long(archive, "cost count", counts[k], 0, LONG_MAX / 2);
-    hd_archive_int(archive, "cost limit", &limit, HD_LIMIT_SCHEDULE, HD_LIMIT_REPAIR);
+    hd_archive_int(archive, "cost limit", &limit, HD_LIMIT_SCHEDULE, HD_LIMIT_NONE);
     c->limit = (hd_limit)limit;
 }
 
@@ -72,9 +72,13 @@ static void plan_archive(hd_advance_plan *plan, hd_archive *archive)
 
 static void numbers_archive(hd_run *run, hd_archive *archive)
 {
-    int observe = (int)run->observe;
+    int observe = (int)run->observe, reported = run->due.report, limit = (int)run->sample_limit;
     hd_archive_int(archive, "run observe", &observe, 0, (int)run->scene.observe);
     run->observe = (unsigned)observe & run->scene.observe;
+    hd_archive_int(archive, "run reported", &reported, 0, 1);
+    run->due.report = reported;
+    hd_archive_int(archive, "run sample limit", &limit, HD_LIMIT_SCHEDULE, HD_LIMIT_NONE);
+    run->sample_limit = (hd_limit)limit;
     hd_archive_double(archive, "run interval end", &run->interval_end);
     hd_archive_double(archive, "run advance longest", &run->advance.longest);
     plan_archive(&run->advance.plan, archive);
@@ -122,8 +126,8 @@ static void times_expect(const hd_run *run, hd_archive *archive)
     const double now = hd_run_time(run), cut = hd_schedule_cut(s);
     const bool no_more = cut >= now && hd_schedule_stage_end(s) <= now; /* a stage without length */
     const bool ahead = s->stage == HD_FINISHED || cut > now || no_more;
-    hd_archive_expect(archive, s->start >= 0 && s->start <= now && ahead, "schedule",
-                      "it does not go on from this time");
+    hd_archive_expect(archive, s->start >= 0 && s->start <= s->origin && s->origin <= now && ahead,
+                      "schedule", "it does not go on from this time");
     const bool pending = run->log && run->log->duration > 0;
     const double end = fmax(now, s->stage == HD_FINISHED ? now : hd_schedule_sample_end(s));
     hd_archive_expect(archive, run->interval_end <= end && (!pending || run->interval_end >= now),
@@ -245,6 +249,7 @@ static hd_status restore(hd_run *run, hd_archive *archive, double time, char *me
     hd_archive_expect(archive, hd_run_time(run) == time, "time", "it is not that of the disks");
     if (hd_archive_end(archive) != HD_OK) return inconsistent(archive, message, size);
     HD_TRY(reopen(run, message, size));
+    run->in_force.changing = true; /* another report interval is taken up */
     hd_run_save_accuracy(run);
     const double last = fmax(hd_run_time(run), hd_schedule_stage_end(&run->schedule));
     run->interval_end = fmin(run->interval_end, last); /* of a duration that has become shorter */

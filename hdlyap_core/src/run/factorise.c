@@ -101,7 +101,7 @@ static double expected_interval(const hd_run *run)
 {
     const bool at_reports = run->observe & (HD_OBSERVE_HYDRO | HD_OBSERVE_FIELDS);
     const double sample = run->schedule.sample_length;
-    const double left = at_reports ? fmin(sample, run->scene.report_interval) : sample;
+    const double left = at_reports ? fmin(sample, run->schedule.report_interval) : sample;
     return hd_interval_next(&run->interval, left).length;
 }
 

@@ -12,6 +12,7 @@ double hd_run_time(const hd_run *run) { return hd_advance_now(&run->advance); }
 const hd_scene_def *hd_run_scene(const hd_run *run) { return &run->scene; }
 int hd_run_vectors(const hd_run *run) { return run->vectors; }
 int hd_run_threads(const hd_run *run) { return run->threads; }
+int hd_run_threads_denied(const hd_run *run) { return run->threads_denied; }
 const hd_trajectory *hd_run_trajectory(const hd_run *run) { return run->advance.trajectory; }
 const hd_frame *hd_run_frame(const hd_run *run) { return run->frame; }
 const hd_spectrum *hd_run_spectrum(const hd_run *run) { return run->spectrum; }
@@ -31,6 +32,11 @@ int hd_run_samples_per_report(const hd_run *run)
 double hd_run_smallest_error(const hd_run *run)
 {
     return hd_spectrum_error_of_last(run->spectrum, SMALLEST_EXPONENTS);
+}
+
+double hd_run_errors_after(const hd_run *run)
+{
+    return run->spectrum ? HD_SPECTRUM_BLOCKS_MIN * hd_run_block_least(run) : 0.0;
 }
 
 /** Simulated time until the target is reached, as errors fall with the root of the time; INFINITY
@@ -61,17 +67,23 @@ hd_cost hd_run_cost(const hd_run *run)
     const double now = hd_clock_now(), left = time_left(run);
     cost.covariant = run->windows.seconds;
     cost.wall = now - run->clocks.created;
-    if (run->schedule.stage >= HD_AVERAGING && run->spectrum && hd_spectrum_time(run->spectrum) > 0)
-        cost.error_bound = (HD_ENLARGED * run->rounding.sum + cost.defect * cost.defect) /
-                           hd_spectrum_time(run->spectrum);
+    const double averaged = run->schedule.stage >= HD_AVERAGING && run->spectrum
+                                ? hd_spectrum_time(run->spectrum)
+                                : 0.0;
+    const double rounded = HD_ENLARGED * run->rounding.sum + cost.defect * cost.defect;
+    cost.error_bound = averaged > 0 ? rounded / averaged : NAN;
+    if (cost.orthonormalisations == 0) {
+        cost.interval = cost.condition = cost.defect = NAN;
+        cost.limit = HD_LIMIT_NONE;
+    }
     const double error = run->spectrum ? hd_run_smallest_error(run) : INFINITY;
     cost.std_error = error < INFINITY ? error : -1.0;
     cost.events_per_second = cost.events > 0
                                  ? (double)hd_trajectory_collisions(run->advance.trajectory) /
                                        cost.events
-                                 : 0.0;
+                                 : NAN;
     cost.progress = left < INFINITY ? hd_run_time(run) / fmax(hd_run_time(run) + left, DBL_MIN)
-                                    : 0.0;
+                                    : -1.0;
     if (run->schedule.stage == HD_FINISHED) cost.progress = 1.0;
     const double carried =
         hd_run_time(run) -

@@ -13,6 +13,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "hdlyap/blas.h"
+#include "hdlyap/room.h"
 #include "run/factorise.h"
 #include "run/run_state.h"
 #include "tangent/threads.h"
@@ -26,6 +27,9 @@ static const double CONDITION_SLOW = 1e4;
 static const double COLLISIONS_MOST = 60.0;
 /** Collisions of each disk that growth remembers: shorter blocks tell no error. */
 static const double COLLISIONS_PER_BLOCK = 8.0;
+/** A rest that could be longer by less than this factor is an equal share; two lengths within this
+ * part are one. */
+static const double DIVIDED = 1.25, ROUGHLY = 1e-3;
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
@@ -42,26 +46,33 @@ static hd_status create_frame(hd_run *run)
     return hd_ortho_step_stable(run->ortho, run->frame, 1.0 / DBL_EPSILON);
 }
 
-/** Shortest block of the averages: growth follows the waves of density, too, which need that long
- * through the box [T8]. */
-static double block_least(const hd_run *run)
+double hd_run_block_least(const hd_run *run)
 {
     const double collision = run->sample_max / HD_COLLISIONS_PER_SAMPLE;
     return fmax(COLLISIONS_PER_BLOCK * collision, hd_scene_sound_crossing(&run->scene));
 }
 
+static hd_status prepare_threads(hd_run *run)
+{
+    const int wanted = run->scene.threads, disks = run->scene.disks, n = run->vectors;
+    const int most = hd_threads_most(wanted, 4 * disks, n);
+    if (most > 1) HD_TRY(hd_blas_room(most)); /* one has its buffer since the start */
+    const int granted = run->threads = hd_blas_threads_granted(most);
+    hd_blas_use_threads(granted);
+    if (wanted == 0) HD_TRY(hd_threads_choose(&run->threads, run->ortho, disks, n, granted));
+    run->threads_denied = run->threads == granted ? most - granted : 0;
+    hd_blas_use_threads(run->threads);
+    return HD_OK;
+}
+
 static hd_status prepare_frame(hd_run *run)
 {
     const int rows = 4 * run->scene.disks, n = run->vectors;
-    run->threads = hd_threads_most(run->scene.threads, rows, n);
-    if (run->threads > 1)
-        HD_TRY(hd_blas_room(run->threads)); /* one has its buffer since the start */
-    hd_blas_use_threads(run->threads);
     HD_TRY(hd_event_log_create(&run->log));
     HD_TRY(hd_ortho_create(&run->ortho, rows, n));
-    HD_TRY(hd_spectrum_create(&run->spectrum, rows, n, block_least(run)));
-    HD_TRY(create_frame(run));
-    return hd_threads_choose(&run->threads, run->ortho, run->frame, run->scene.threads);
+    HD_TRY(prepare_threads(run));
+    HD_TRY(hd_spectrum_create(&run->spectrum, rows, n, hd_run_block_least(run)));
+    return create_frame(run);
 }
 
 static hd_status prepare_windows(hd_run *run, char *message, size_t size)
@@ -83,9 +94,11 @@ static hd_status prepare(hd_run *run, char *message, size_t size)
                             scene->disks;
     const double limit = scene->interval > 0 ? scene->interval : INFINITY;
     run->sample_max = HD_COLLISIONS_PER_SAMPLE / per_disk;
+    run->cost.limit = HD_LIMIT_NONE;
     run->watch = (hd_watch){.interval = INFINITY, .first = run->vectors};
     run->interval = hd_interval_first(2.0 / per_disk, limit, scene->accuracy);
     run->schedule = hd_schedule_of(scene);
+    run->in_force.target_std_error = scene->target_std_error;
     if (run->vectors == 0) return HD_OK;
     HD_TRY(prepare_frame(run));
     HD_TRY(prepare_windows(run, message, size));
@@ -111,16 +124,20 @@ static bool interval_is_learnt(const hd_run *run)
 }
 
 /** Longest sample that one orthonormalisation at its end can serve. */
-static double sample_longest(const hd_run *run)
+static hd_interval_length sample_longest(const hd_run *run)
 {
-    if (!run->frame || !interval_is_learnt(run)) return run->sample_max;
-    return fmin(run->sample_max, hd_interval_usual(&run->interval));
+    const hd_interval_length whole = {run->sample_max, HD_LIMIT_SAMPLE};
+    if (!run->frame || !interval_is_learnt(run)) return whole;
+    const hd_interval_length usual = hd_interval_usual(&run->interval);
+    return usual.length < whole.length ? usual : whole;
 }
 
 static void enter_stage(hd_run *run, hd_stage stage)
 {
+    const hd_interval_length sample = sample_longest(run);
     run->due.stage_end = false;
-    hd_schedule_enter(&run->schedule, stage, hd_run_time(run), sample_longest(run));
+    hd_schedule_enter(&run->schedule, stage, hd_run_time(run), sample.length);
+    run->sample_limit = hd_schedule_sample_limit(&run->schedule, sample.length, sample.limit);
     run->advance.plan.end = hd_run_time(run);
     stage = run->schedule.stage;
     if (run->spectrum && stage == HD_AVERAGING) averages_clear(run);
@@ -135,6 +152,7 @@ hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, si
 {
     *out = NULL;
     HD_TRY(hd_scene_check(def, message, size));
+    HD_TRY(hd_room_check(def, hd_room_available(), message, size));
     hd_run *run = hd_memory_alloc(1, sizeof *run);
     if (!run) return HD_NO_MEMORY;
     run->scene = *def;
@@ -168,8 +186,8 @@ void hd_run_free(hd_run *run)
 /** True if the exponents nearest to zero are known as well as the scene asks. */
 static bool target_reached(const hd_run *run)
 {
-    return run->scene.target_std_error > 0 && run->spectrum &&
-           hd_run_smallest_error(run) <= run->scene.target_std_error;
+    const double target = run->in_force.target_std_error;
+    return target > 0 && run->spectrum && hd_run_smallest_error(run) <= target;
 }
 
 /** Longest time between two looks at the phases; INFINITY if nobody looks. */
@@ -307,16 +325,34 @@ static hd_status go_back(hd_run *run, bool to_its_end)
 
 hd_status hd_run_settle(hd_run *run) { return go_back(run, true); }
 
+/** At a cut: takes up what has been asked for since, between two samples so that none is of both.
+ * Returns what ends there now. */
+static unsigned take_changes(hd_run *run, unsigned ends)
+{
+    const bool averaging = run->schedule.stage == HD_AVERAGING;
+    if (!run->in_force.changing || (averaging && !(ends & HD_ENDS_SAMPLE))) return ends;
+    run->in_force = (hd_in_force){.target_std_error = run->scene.target_std_error,
+                                  .field_interval = run->field_interval};
+    const hd_interval_length sample = sample_longest(run);
+    if (hd_schedule_change(&run->schedule, &run->scene, hd_run_time(run), sample.length,
+                           phases_due(run)))
+        run->sample_limit = hd_schedule_sample_limit(&run->schedule, sample.length, sample.limit);
+    if (!hd_schedule_is_over(&run->schedule, hd_run_time(run)))
+        return ends & ~(unsigned)HD_ENDS_STAGE;
+    run->due.fields = averaging;
+    return ends | HD_ENDS_STAGE | HD_ENDS_REPORT;
+}
+
 /** At the end of a piece: what is measured there, and what ends. */
 static hd_status take_cut(hd_run *run)
 {
     const bool averaging = run->schedule.stage == HD_AVERAGING,
                measuring = hd_run_is_observing(run);
     run->due.fields = averaging &&
-                      hd_schedule_reaches_multiple(&run->schedule, run->field_interval);
+                      hd_schedule_reaches_multiple(&run->schedule, run->in_force.field_interval);
     if (run->frame && hd_run_time(run) < run->interval_end) HD_TRY(look_or_end(run));
     const bool factored = run->frame && hd_run_time(run) == run->interval_end;
-    const unsigned ends = hd_schedule_pass(&run->schedule, phases_due(run));
+    const unsigned ends = take_changes(run, hd_schedule_pass(&run->schedule, phases_due(run)));
     run->due.report = ends & HD_ENDS_REPORT;
     if (averaging && run->spectrum && (ends & HD_ENDS_WHOLE_SAMPLE)) sample_spectrum(run);
     if (measuring && factored) HD_TRY(observe(run, run->due.report));
@@ -327,6 +363,22 @@ static hd_status take_cut(hd_run *run)
     return HD_OK;
 }
 
+/** Why an interval that ends with a sample is no longer than `left`. What is left of a sample that
+ * was divided, or of a stage, is short because of what divided it if that would not allow much
+ * more; of one that was cut, because vectors were wanted. */
+static hd_limit limit_of_rest(const hd_run *run, double left)
+{
+    const hd_schedule *s = &run->schedule;
+    const bool averaging = s->stage == HD_AVERAGING;
+    const bool last = hd_schedule_sample_end(s) >= hd_schedule_stage_end(s);
+    const double whole = (1.0 - ROUGHLY) * s->sample_length;
+    const hd_interval_length longest = hd_interval_longest(&run->interval);
+    if (averaging && left >= whole) return run->sample_limit;
+    if (hd_advance_longest(&run->advance) < DIVIDED * left) return HD_LIMIT_EVENTS;
+    if (longest.length < DIVIDED * left) return longest.limit;
+    return !averaging || last ? HD_LIMIT_STAGE : HD_LIMIT_LOOK;
+}
+
 /** Where the next orthonormalisation falls. */
 static void plan_interval(hd_run *run)
 {
@@ -335,8 +387,10 @@ static void plan_interval(hd_run *run)
     hd_interval_length next = hd_interval_next(&run->interval, left);
     if (next.length > most) next = (hd_interval_length){left / ceil(left / most), HD_LIMIT_EVENTS};
     next.length = fmax(next.length, hd_advance_shortest(&run->advance));
-    run->interval_end = next.length >= left ? end : hd_run_time(run) + next.length;
-    run->cost.limit = next.limit;
+    run->interval_end = next.length >= left
+                            ? end
+                            : hd_schedule_snap(&run->schedule, hd_run_time(run), next.length);
+    run->cost.limit = next.limit == HD_LIMIT_SCHEDULE ? limit_of_rest(run, left) : next.limit;
 }
 
 /** Moves the disks on, as far as a watcher lets them. */
@@ -352,6 +406,8 @@ static hd_status advance(hd_run *run, hd_event_log *log)
 
 hd_status hd_run_advance(hd_run *run)
 {
+    const bool told = run->due.report && run->schedule.stage == HD_AVERAGING;
+    if (told && run->spectrum) hd_spectrum_local_restart(run->spectrum);
     run->due.report = run->due.fields = false;
     run->observer.known.count = 0;
     if (run->schedule.stage == HD_FINISHED) return HD_OK;
@@ -375,8 +431,6 @@ void hd_run_observe(hd_run *run, unsigned stages)
     if (begun & HD_OBSERVE_COVARIANT) run->windows.due = true; /* nor this */
     run->observe = now;
 }
-
-void hd_run_fields_every(hd_run *run, double interval) { run->field_interval = interval; }
 
 hd_status hd_run_reset_average(hd_run *run)
 {

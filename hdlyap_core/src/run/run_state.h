@@ -35,9 +35,16 @@ typedef struct hd_clocks {
     double frame_start_time;       /**< simulated time */
 } hd_clocks;
 
+/** What of the scene may change while it runs, as it is now in force: the rest of it is in the
+ * schedule, and what is asked for in the scene. */
+typedef struct hd_in_force {
+    double target_std_error, field_interval;
+    bool changing; /**< something else has been asked for */
+} hd_in_force;
+
 struct hd_run {
     hd_scene_def scene;
-    int vectors, threads;
+    int vectors, threads, threads_denied;
     hd_advance advance;
     hd_event_log
         *log; /**< since the last orthonormalisation; NULL without exponents, as the next */
@@ -48,12 +55,15 @@ struct hd_run {
     hd_windows windows;
     hd_schedule schedule;
     hd_interval interval;
-    double interval_end; /**< simulated time at which the frame is orthonormalised next */
-    double sample_max;   /**< simulated time of COLLISIONS_PER_SAMPLE */
-    unsigned observe;    /**< set of HD_OBSERVE_* that is needed now */
+    double interval_end;   /**< simulated time at which the frame is orthonormalised next */
+    double sample_max;     /**< simulated time of COLLISIONS_PER_SAMPLE */
+    hd_limit sample_limit; /**< why samples of the averaging are no longer */
+    unsigned observe;      /**< set of HD_OBSERVE_* that is needed now */
     hd_watch watch;
     hd_due due;
-    double field_interval;
+    hd_in_force in_force;
+    double field_interval; /**< asked for */
+    bool fields_said;      /**< by a first call, which holds at once */
     hd_clocks clocks;
     hd_rounding rounding;
     hd_cost cost;
@@ -66,6 +76,10 @@ enum { SMALLEST_EXPONENTS = 8 };
 
 /** Ends what a step has begun, so that the run can be kept: half of a way back is none. */
 HD_MUST_CHECK hd_status hd_run_settle(hd_run *run);
+
+/** Shortest block of the averages: growth follows the waves of density, too, which need that long
+ * through the box [T8]. */
+double hd_run_block_least(const hd_run *run);
 
 /** Largest standard error of the exponents nearest to zero; INFINITY while one is unknown. */
 double hd_run_smallest_error(const hd_run *run);

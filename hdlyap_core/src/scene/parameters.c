@@ -14,10 +14,20 @@ static const hd_parameter_word hd_interval_words[] = {{"auto", 0}, {NULL, 0}};
 static const hd_parameter_word hd_storage_words[] = {
     {"memory", HD_STORAGE_MEMORY}, {"recompute", HD_STORAGE_RECOMPUTE}, {NULL, 0}};
 
-#define ROW(name, member, kind, words, usual, least, most, allowed, unit, may_differ, needs, text) \
-    {#name,         kind,       words, offsetof(hd_scene_def, member),                             \
-     usual,         least,      most,  allowed,                                                    \
-     unit,          may_differ, needs, text,                                                       \
+#define ROW(name, member, kind, words, usual, least, most, allowed, unit, changes, needs, text)    \
+    {#name,                                                                                        \
+     kind,                                                                                         \
+     words,                                                                                        \
+     offsetof(hd_scene_def, member),                                                               \
+     usual,                                                                                        \
+     least,                                                                                        \
+     most,                                                                                         \
+     allowed,                                                                                      \
+     unit,                                                                                         \
+     changes != HD_AS_BEFORE,                                                                      \
+     changes == HD_LIVE,                                                                           \
+     needs,                                                                                        \
+     text,                                                                                         \
      "scene " #name},
 static const hd_parameter rows[] = {
 #define HD_INT(name, ...) ROW(name, name, HD_PARAMETER_INT, NULL, __VA_ARGS__)

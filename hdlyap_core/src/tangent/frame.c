@@ -23,6 +23,8 @@
 /** Sums of squares below are no longer known to rounding: such a half counts as none. */
 static const double SQUARE_MIN = DBL_MIN / DBL_EPSILON;
 enum { BLOCK_BYTES = 512 * 1024, BLOCK_WIDTH_MAX = 64 };
+/** Events that are fetched ahead, where the disks of a block outgrow the cache. */
+enum { FETCH_AHEAD = 12, LINE = 64 / sizeof(double) };
 
 /** Tangent map of one event: free flights of its disks since their last events, then the collision.
  */
@@ -230,11 +232,32 @@ static inline __attribute__((always_inline)) void reflect(double *restrict v,
     }
 }
 
-static inline __attribute__((always_inline)) void
-replay_width(double *buffer, const tangent_map *map, size_t count, bool walls, int width)
+typedef struct maps {
+    const tangent_map *map; /**< [count] */
+    size_t count;
+    size_t fetching; /**< at the first ones of them, those FETCH_AHEAD later are fetched */
+} maps;
+
+/** The rows of both disks, into the cache. A wall fetches those of i alone. */
+static inline __attribute__((always_inline)) void fetch(const double *buffer,
+                                                        const tangent_map *map, int width)
 {
     const size_t disk = 4 * (size_t)width;
-    for (size_t e = 0; e < count; e++) {
+    const double *vi = buffer + disk * (size_t)map->i;
+    const double *vj = map->j >= 0 ? buffer + disk * (size_t)map->j : vi;
+    for (size_t k = 0; k < disk; k += LINE) {
+        __builtin_prefetch(vi + k, 1);
+        __builtin_prefetch(vj + k, 1);
+    }
+}
+
+static inline __attribute__((always_inline)) void replay_width(double *buffer, maps m, bool walls,
+                                                               int width)
+{
+    const size_t disk = 4 * (size_t)width;
+    const tangent_map *map = m.map;
+    for (size_t e = 0; e < m.count; e++) {
+        if (e < m.fetching) fetch(buffer, &map[e + FETCH_AHEAD], width);
         double *vi = buffer + disk * (size_t)map[e].i;
         if (!walls || map[e].j >= 0)
             collide(vi, buffer + disk * (size_t)map[e].j, &map[e], width);
@@ -244,31 +267,28 @@ replay_width(double *buffer, const tangent_map *map, size_t count, bool walls, i
 }
 
 /** The widths are spelled out so that the compiler unrolls and vectorises each. */
-static inline __attribute__((always_inline)) void replay_any(double *buffer, const tangent_map *map,
-                                                             size_t count, bool walls, int width)
+static inline __attribute__((always_inline)) void replay_any(double *buffer, maps m, bool walls,
+                                                             int width)
 {
     switch (width) {
-    case 1: replay_width(buffer, map, count, walls, 1); break;
-    case 2: replay_width(buffer, map, count, walls, 2); break;
-    case 4: replay_width(buffer, map, count, walls, 4); break;
-    case 8: replay_width(buffer, map, count, walls, 8); break;
-    case 16: replay_width(buffer, map, count, walls, 16); break;
-    case 32: replay_width(buffer, map, count, walls, 32); break;
-    default: replay_width(buffer, map, count, walls, BLOCK_WIDTH_MAX); break;
+    case 1: replay_width(buffer, m, walls, 1); break;
+    case 2: replay_width(buffer, m, walls, 2); break;
+    case 4: replay_width(buffer, m, walls, 4); break;
+    case 8: replay_width(buffer, m, walls, 8); break;
+    case 16: replay_width(buffer, m, walls, 16); break;
+    case 32: replay_width(buffer, m, walls, 32); break;
+    default: replay_width(buffer, m, walls, BLOCK_WIDTH_MAX); break;
     }
 }
 
 HD_MULTIVERSION
-static void replay_block(double *buffer, const tangent_map *map, size_t count, int width)
-{
-    replay_any(buffer, map, count, false, width);
-}
+static void replay_block(double *buffer, maps m, int width) { replay_any(buffer, m, false, width); }
 
 /** The same for a log that holds wall events. */
 HD_MULTIVERSION
-static void replay_block_with_walls(double *buffer, const tangent_map *map, size_t count, int width)
+static void replay_block_with_walls(double *buffer, maps m, int width)
 {
-    replay_any(buffer, map, count, true, width);
+    replay_any(buffer, m, true, width);
 }
 
 /** Columns [col, col + used) of V into the buffer, or back. */
@@ -288,15 +308,23 @@ static void block_store(const hd_frame *frame, const double *buffer, int col, in
                (size_t)used * sizeof *v);
 }
 
+static maps maps_of(const hd_frame *frame, size_t count)
+{
+    const size_t bytes = (size_t)frame->rows * (size_t)frame->width * sizeof(double);
+    const bool is_far = bytes > BLOCK_BYTES && count > FETCH_AHEAD;
+    return (maps){frame->map, count, is_far ? count - FETCH_AHEAD : 0};
+}
+
 static void block_replay(const hd_frame *frame, double *buffer, size_t count, int block)
 {
+    const maps m = maps_of(frame, count);
     const int width = frame->width, col = block * width;
     const int used = col + width <= frame->stride ? width : frame->stride - col;
     block_load(frame, buffer, col, used);
     if (frame->walls)
-        replay_block_with_walls(buffer, frame->map, count, width);
+        replay_block_with_walls(buffer, m, width);
     else
-        replay_block(buffer, frame->map, count, width);
+        replay_block(buffer, m, width);
     for (int i = 0; i < frame->disks; i++)
         fly(buffer + 4 * (size_t)width * (size_t)i, frame->since[i], width);
     block_store(frame, buffer, col, used);
@@ -346,10 +374,10 @@ void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_rat
         double sum[3][BLOCK_WIDTH_MAX];
         const int count = n - col < BLOCK_WIDTH_MAX ? n - col : BLOCK_WIDTH_MAX;
         halves_of_columns(frame, sum, col, count);
-        for (int k = 0; k < count; k++) { /* a half that vanishes has no angle */
-            const bool both = fmin(sum[0][k], sum[1][k]) > SQUARE_MIN;
-            cos_theta[col + k] = both ? sum[2][k] / (sqrt(sum[0][k]) * sqrt(sum[1][k])) : 0.0;
-            dp_dq_ratio[col + k] = sqrt(sum[1][k] / fmax(sum[0][k], DBL_MIN));
+        for (int k = 0; k < count; k++) {
+            const bool dq = sum[0][k] > SQUARE_MIN, dp = sum[1][k] > SQUARE_MIN;
+            cos_theta[col + k] = dq && dp ? sum[2][k] / (sqrt(sum[0][k]) * sqrt(sum[1][k])) : NAN;
+            dp_dq_ratio[col + k] = dq ? sqrt(sum[1][k] / sum[0][k]) : NAN;
         }
     }
 }

@@ -114,12 +114,12 @@ hd_interval_length hd_interval_longest(const hd_interval *interval)
 
 /** The mean of a condition that scatters like a lognormal variable is exp(variance / 2) above its
  * median. */
-double hd_interval_usual(const hd_interval *interval)
+hd_interval_length hd_interval_usual(const hd_interval *interval)
 {
     const double share = log(condition_of(interval, interval->last)),
                  most = condition_of(interval, SHARES_MAX * interval->last);
     const double aim = fmin(share - 0.5 * interval->variance, aim_below(interval, most));
-    return within(interval, STRAIN * aim).length;
+    return within(interval, STRAIN * aim);
 }
 
 hd_interval_length hd_interval_next(const hd_interval *interval, double remaining)

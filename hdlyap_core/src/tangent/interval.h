@@ -60,9 +60,10 @@ typedef struct hd_interval_length {
 hd_interval_length hd_interval_longest(const hd_interval *interval);
 
 /** What it allows on average: as long as intervals of this length use what they are given. */
-double hd_interval_usual(const hd_interval *interval);
+hd_interval_length hd_interval_usual(const hd_interval *interval);
 
-/** The next interval: an equal share of `remaining`, as few shares as the conditioning allows. */
+/** The next interval: an equal share of `remaining`, as few shares as the conditioning allows; all
+ * of it (HD_LIMIT_SCHEDULE) if it can. */
 hd_interval_length hd_interval_next(const hd_interval *interval, double remaining);
 
 #endif

@@ -41,16 +41,24 @@ static hd_status seconds_of(double *seconds, hd_ortho *ortho, hd_frame *frame, i
     return HD_OK;
 }
 
-hd_status hd_threads_choose(int *threads, hd_ortho *ortho, hd_frame *frame, int wanted)
+/** Seconds with `most` threads and with one, of an orthonormal frame that is nobody's. */
+static hd_status try_both(double *all, double *one, hd_ortho *ortho, hd_frame *frame, int most)
 {
-    const int most = hd_frame_threads(frame);
-    const double entries = (double)hd_frame_rows(frame) * hd_frame_vectors(frame);
-    double one, all;
+    HD_TRY(hd_ortho_step(ortho, frame, (hd_ortho_limits){1e7, 1.0}));
+    HD_TRY(seconds_of(all, ortho, frame, most));
+    return seconds_of(one, ortho, frame, 1);
+}
+
+hd_status hd_threads_choose(int *threads, hd_ortho *ortho, int disks, int vectors, int most)
+{
+    double all = 0.0, one = 0.0;
+    hd_frame *frame;
     *threads = most;
-    if (wanted > 0 || most == 1 || entries > ENTRIES_MANY) return HD_OK;
-    HD_TRY(seconds_of(&all, ortho, frame, most));
-    HD_TRY(seconds_of(&one, ortho, frame, 1));
-    *threads = one < WORTH * all ? 1 : most;
-    use(frame, *threads);
-    return HD_OK;
+    if (most == 1 || 4.0 * disks * vectors > ENTRIES_MANY) return HD_OK;
+    HD_TRY(hd_frame_create(&frame, disks, vectors, 1, most));
+    const hd_status status = try_both(&all, &one, ortho, frame, most);
+    hd_frame_free(frame);
+    if (status == HD_ILL_CONDITIONED) return HD_OK; /* random vectors hardly ever are */
+    if (status == HD_OK && one < WORTH * all) *threads = 1;
+    return status;
 }

@@ -7,10 +7,10 @@
 /** The most that a frame of this size may use: `wanted` if that is not 0, else 1 or all cores. */
 int hd_threads_most(int wanted, int rows, int vectors);
 
-/** Where neither one thread nor all of them are faster by far, tries both on this orthonormal
- * frame, which stays as it is but for rounding, and tells BLAS and frame to use the better number.
- * `wanted` as above is not doubted. The number in use. Fails as hd_ortho_step does. */
-HD_MUST_CHECK hd_status hd_threads_choose(int *threads, hd_ortho *ortho, hd_frame *frame,
-                                          int wanted);
+/** Threads to use, at most `most`, for frames of this size. Where neither one nor all of them are
+ * faster by far, tries both on a frame of its own: nothing but the number depends on the trial.
+ * Fails as hd_frame_create and hd_ortho_step do. */
+HD_MUST_CHECK hd_status hd_threads_choose(int *threads, hd_ortho *ortho, int disks, int vectors,
+                                          int most);
 
 #endif

@@ -15,7 +15,19 @@ typedef struct hdr_params hdr_params;
 /** Fetches all private parameters of the node with one call to the master.
  * Fails with HDR_FAULT if the master does not answer, or HDR_NO_MEMORY. */
 HDR_MUST_CHECK hdr_status hdr_params_create(hdr_params **out, const hdr_node *node);
+/** The same from a YAML file, without a master; each of replaced[count] is name:=value and comes
+ * instead of what the file says. HDR_FAULT with a line in hdr_error_text, or HDR_NO_MEMORY. */
+HDR_MUST_CHECK hdr_status hdr_params_read(hdr_params **out, const char *path, int count,
+                                          char *const *replaced);
 void hdr_params_free(hdr_params *params);
+
+/** Of a parameter, with its value for a message to the user. */
+typedef void (*hdr_param_callback)(void *context, const char *name, const char *text);
+/** From now on `changed` is called, on the callbacks' thread and within about a second, for each
+ * private parameter that is set to another value than in params or than it was called with. Asks
+ * the master only when something has changed. Once for a node; params may be freed. */
+HDR_MUST_CHECK hdr_status hdr_params_watch(const hdr_params *params, hdr_node *node,
+                                           hdr_param_callback changed, void *context);
 
 int hdr_params_count(const hdr_params *params);
 /** Name of parameter k, 0 .. count - 1, in alphabetic order; NULL otherwise. */

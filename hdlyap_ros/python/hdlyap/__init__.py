@@ -1,2 +1,10 @@
-"""Beside the messages (hdlyap.msg): figures and tables of bags (plots), a terminal screen (follow),
-the paper measured again (reproduce)."""
+"""Beside the messages (hdlyap.msg): recorded runs as arrays and frames (load, data), figures and
+tables of bags (plots), a terminal screen (follow), the paper measured again (reproduce)."""
+
+
+def load(*bags, node=None, run=None):
+    """What was recorded in a bag, or in several that belong together: see hdlyap.data.run.Run and
+    hdlyap.data.seeds.Seeds."""
+    from hdlyap.data import seeds  # only here: pandas takes a while
+
+    return seeds.load(*bags, node=node, run=run)

@@ -67,11 +67,17 @@ static double collision_rate(diagnostics *d, const progress *last, double now)
 
 static const char *limit_name(hd_limit limit)
 {
-    static const char *const names[] = {
-        [HD_LIMIT_SCHEDULE] = "report interval", [HD_LIMIT_CONDITION] = "conditioning",
-        [HD_LIMIT_GROWTH] = "doubling",          [HD_LIMIT_OVERFLOW] = "overflow",
-        [HD_LIMIT_SCENE] = "parameter interval", [HD_LIMIT_EVENTS] = "memory of the events",
-        [HD_LIMIT_LOOK] = "vectors wanted",      [HD_LIMIT_REPAIR] = "repair"};
+    static const char *const names[] = {[HD_LIMIT_SCHEDULE] = "report interval",
+                                        [HD_LIMIT_CONDITION] = "conditioning",
+                                        [HD_LIMIT_GROWTH] = "doubling",
+                                        [HD_LIMIT_OVERFLOW] = "overflow",
+                                        [HD_LIMIT_SCENE] = "parameter interval",
+                                        [HD_LIMIT_EVENTS] = "memory of the events",
+                                        [HD_LIMIT_LOOK] = "vectors wanted",
+                                        [HD_LIMIT_REPAIR] = "repair",
+                                        [HD_LIMIT_STAGE] = "end of the stage",
+                                        [HD_LIMIT_SAMPLE] = "samples for errors",
+                                        [HD_LIMIT_NONE] = "none yet"};
     return names[limit];
 }
 

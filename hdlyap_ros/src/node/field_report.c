@@ -101,6 +101,7 @@ static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, siz
 
 static void fill_step(hdr_mode_field *message, const hd_step *step)
 {
+    message->wave_number = NAN;
     if (!step) return;
     message->kind = (uint8_t)step->kind;
     message->nx = (uint32_t)step->wave.n[0];
@@ -123,7 +124,7 @@ static void fill_pairs(hdr_mode_field *message, const pair_fields *pairs, size_t
     message->modulation = (hdr_bytes){.data = pairs->modulation, .count = pairs->count};
     message->residual_l = message_array(pairs->residual_l, pairs->count, 1);
     message->residual_p = message_array(pairs->residual_p, pairs->count, 1);
-    message->rotation_distance = pairs->rotation_distance;
+    message->rotation_distance = pairs->count ? pairs->rotation_distance : NAN;
     message->l_x = message_array(pairs->l, count, 2);
     message->l_y = message_array(pairs->l + 1, count, 2);
     message->p_x = message_array(pairs->p, count, 2);
@@ -137,7 +138,7 @@ static bool is_finite(const hdr_mode_field *v)
     const hdr_doubles arrays[] = {v->x,   v->y,   v->px,         v->py,         v->dqx, v->dqy,
                                   v->dpx, v->dpy, v->residual_l, v->residual_p, v->l_x, v->l_y,
                                   v->p_x, v->p_y, v->p_over_px,  v->p_over_py};
-    double sum = v->exponent + v->rotation_distance;
+    double sum = v->exponent + (v->pairs ? v->rotation_distance : 0.0);
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
         for (size_t k = 0; k < arrays[a].count; k++) sum += arrays[a].data[k * arrays[a].stride];
     return isfinite(sum); /* what is not finite stays so in a sum */

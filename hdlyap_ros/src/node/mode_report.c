@@ -85,18 +85,28 @@ static void fill_kind(hdr_mode *mode, const hd_modes *modes, const hd_step *step
     mode->wave_number = step->wave.number;
     if (step->kind == HD_MODE_ZERO) {
         mode->weight = mode->null_x + mode->null_y + mode->null_p;
+        mode->weight_now = 0.0;
         for (int k = 0; k < HD_NULLS; k++)
             mode->weight_now += hd_modes_null_snapshot(modes, k)[col];
         return;
     }
     mode->weight = hd_modes_average(modes, step->subspace, HD_WEIGHT)[col];
     mode->weight_now = hd_modes_snapshot(modes, step->subspace, HD_WEIGHT)[col];
-    if (step->kind != HD_MODE_LP) return;
+    if (step->kind != HD_MODE_LP) return; /* the two are NaN */
     mode->weight_l = hd_modes_average(modes, step->subspace, HD_WEIGHT_L)[col];
     mode->weight_p = hd_modes_average(modes, step->subspace, HD_WEIGHT_P)[col];
 }
 
-/* What is not finite stays so in a sum: these return false then. */
+/* What is not measured is NaN. What is, and is not finite, stays so in a sum: these return false
+ * then. */
+
+static bool weights_finite(const hdr_mode *mode)
+{
+    const double of_any = mode->exponent + mode->null_x + mode->null_y + mode->null_p;
+    const double of_step = mode->kind == HD_MODE_NONE ? 0.0 : mode->weight + mode->weight_now;
+    const double of_lp = mode->kind == HD_MODE_LP ? mode->weight_l + mode->weight_p : 0.0;
+    return isfinite(of_any + of_step + of_lp);
+}
 
 static bool fill_mode(hdr_mode *mode, const hd_run *run, int col)
 {
@@ -104,6 +114,11 @@ static bool fill_mode(hdr_mode *mode, const hd_run *run, int col)
     const int s = hd_steps_of_vector(hd_run_steps(run), col);
     *mode = (hdr_mode){
         .index = (uint32_t)col + 1,
+        .wave_number = NAN,
+        .weight = NAN,
+        .weight_l = NAN,
+        .weight_p = NAN,
+        .weight_now = NAN,
         .exponent = hd_spectrum_exponent(hd_run_spectrum(run), col),
         .null_x = hd_modes_null_average(modes, HD_NULL_X)[col],
         .null_y = hd_modes_null_average(modes, HD_NULL_Y)[col],
@@ -111,8 +126,7 @@ static bool fill_mode(hdr_mode *mode, const hd_run *run, int col)
         .step = s,
     };
     if (s >= 0) fill_kind(mode, modes, hd_steps_step(hd_run_steps(run), s));
-    return isfinite(mode->exponent + mode->weight + mode->weight_l + mode->weight_p +
-                    mode->weight_now + mode->null_x + mode->null_y + mode->null_p);
+    return weights_finite(mode);
 }
 
 static bool fill_step(hdr_step *out, const hd_step *step)
@@ -125,7 +139,14 @@ static bool fill_step(hdr_step *out, const hd_step *step)
         .conjugate = step->conjugate,
         .resolved = step->resolved,
         .expected = (uint32_t)step->expected,
+        .multiplicity = NAN,
         .set = -1,
+        .exponent = NAN,
+        .std_error = -1.0,
+        .set_time = NAN,
+        .own_part = NAN,
+        .gap = NAN,
+        .gap_error = -1.0,
     };
     if (!step->resolved) return true;
     out->first_index = (uint32_t)step->col + 1;
@@ -138,8 +159,10 @@ static bool fill_step(hdr_step *out, const hd_step *step)
     out->sharing = (uint8_t)step->sharing;
     out->set_time = step->set_time;
     out->own_part = step->own_part;
-    out->gap = step->gap;
-    out->gap_error = error_of(step->gap_error);
+    if (step->sharing != HD_SHARING_ALONE) {
+        out->gap = step->gap;
+        out->gap_error = error_of(step->gap_error);
+    }
     return isfinite(step->multiplicity + step->exponent + step->std_error + step->own_part +
                     step->gap + step->gap_error);
 }
@@ -153,18 +176,26 @@ static bool fill_phase(hdr_lp_phase *out, const hd_lp_phase *phase, const hd_ste
         .ny = (uint32_t)step->wave.n[1],
         .modulation = phase->modulation,
         .state = (uint8_t)phase->state,
+        .a = NAN,
+        .b = NAN,
+        .phase = NAN,
+        .omega = NAN,
+        .omega_error = -1.0,
+        .velocity = NAN,
     };
     if (phase->state == HD_LP_UNRESOLVED) return true;
     out->index = (uint32_t)phase->col + 1;
     out->a = phase->a;
     out->b = phase->b;
-    out->phase = phase->phase;
-    out->omega = phase->omega;
     out->omega_error = error_of(phase->omega_error);
-    out->velocity = fabs(phase->omega) / step->wave.number;
     out->tracked_time = phase->time;
-    return isfinite(out->a + out->b + out->phase + out->omega + out->omega_error + out->velocity +
-                    out->tracked_time);
+    if (phase->state == HD_LP_TRACKED || phase->time > 0) out->phase = phase->phase;
+    if (phase->time > 0) {
+        out->omega = phase->omega;
+        out->velocity = fabs(phase->omega) / step->wave.number;
+    }
+    return isfinite(phase->a + phase->b + phase->phase + phase->omega + phase->omega_error +
+                    phase->time);
 }
 
 static bool fill_response(hdr_hydro_mode *out, const hd_hydro_response *response,
@@ -183,7 +214,8 @@ static bool fill_response(hdr_hydro_mode *out, const hd_hydro_response *response
         .across = response->across,
         .energy = response->energy,
     };
-    return isfinite(out->density + out->along + out->across + out->energy);
+    if (response->col < 0) out->density = out->along = out->across = out->energy = NAN;
+    return response->col < 0 || isfinite(out->density + out->along + out->across + out->energy);
 }
 
 static bool is_finite(const hd_dispersion *fit)
@@ -207,6 +239,12 @@ static hd_status publish_modes(mode_report *m, const snapshot *now)
     return publishers_sent(hdr_modes_publish(m->to->publisher[TOPIC_MODES], &message), TOPIC_MODES);
 }
 
+/** What a fit says, NaN where there was none. */
+static double fitted(double value, int points, int needed)
+{
+    return points >= needed ? value : NAN;
+}
+
 static bool fill_steps(mode_report *m, hdr_steps *message, const hd_run *run)
 {
     const hd_steps *steps = hd_run_steps(run);
@@ -223,20 +261,28 @@ static bool fill_steps(mode_report *m, hdr_steps *message, const hd_run *run)
         .threshold = hd_steps_threshold(),
         .steps = {m->step, m->steps},
         .t_points = (uint32_t)t.points,
-        .c_t = t.c,
-        .c_t_error = error_of(t.c_error),
-        .c_t2 = t.c2,
-        .c_t2_error = error_of(t.c2_error),
+        .t_terms = (uint32_t)t.terms,
+        .t_k_min = fitted(t.k_min, t.points, 1),
+        .t_k_max = fitted(t.k_max, t.points, 1),
+        .c_t = fitted(t.c, t.points, 1),
+        .c_t_error = t.points >= 1 ? error_of(t.c_error) : -1.0,
+        .c_t2 = fitted(t.c2, t.points, 2),
+        .c_t2_error = t.points >= 2 ? error_of(t.c2_error) : -1.0,
         .t_misfit = error_of(t.misfit),
         .l_points = (uint32_t)l.points,
-        .c_l = l.c,
-        .c_l_error = error_of(l.c_error),
-        .c_l2 = l.c2,
-        .c_l2_error = error_of(l.c2_error),
+        .l_terms = (uint32_t)l.terms,
+        .l_k_min = fitted(l.k_min, l.points, 1),
+        .l_k_max = fitted(l.k_max, l.points, 1),
+        .c_l = fitted(l.c, l.points, 1),
+        .c_l_error = l.points >= 1 ? error_of(l.c_error) : -1.0,
+        .c_l2 = fitted(l.c2, l.points, 2),
+        .c_l2_error = l.points >= 2 ? error_of(l.c2_error) : -1.0,
         .l_misfit = error_of(l.misfit),
         .v_phases = (uint32_t)v.phases,
-        .v = v.v,
-        .v_error = error_of(v.v_error),
+        .v_k_min = fitted(v.k_min, v.phases, 1),
+        .v_k_max = fitted(v.k_max, v.phases, 1),
+        .v = fitted(v.v, v.phases, 1),
+        .v_error = v.phases >= 1 ? error_of(v.v_error) : -1.0,
         .v_misfit = error_of(v.misfit),
     };
     bool finite = isfinite(v.v + v.v_error + v.misfit) && is_finite(&t) && is_finite(&l);

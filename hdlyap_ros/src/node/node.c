@@ -5,8 +5,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "check.h"
 #include "diagnostics.h"
 #include "hdlyap/hdlyap.h"
+#include "parameters.h"
 #include "parameters_text.h"
 #include "report.h"
 #include "services.h"
@@ -79,8 +81,10 @@ static int read_settings(app *a)
 {
     char message[512] = "";
     const char *resume = "";
+    const char *refused; /* by the launch file, with its line */
     const hdr_status created = hdr_params_create(&a->params, a->ros);
     if (created != HDR_OK) return failed_status(created);
+    if (hdr_param_string(a->params, "refused", &refused) == HDR_OK) return refuse(refused);
     if (!settings_resume(&resume, a->params, message, sizeof message)) return refuse(message);
     if (*resume) {
         const hd_status status = hd_checkpoint_read(&a->kept, resume, message, sizeof message);
@@ -108,16 +112,44 @@ static int create_run(app *a)
     return fault_logged(status, message);
 }
 
+/** On the parameter server, which is read at the start. */
+static void on_parameter_set(void *context, const char *name, const char *text)
+{
+    const char *node = hdr_node_name(((const app *)context)->ros);
+    const bool known = parameters_has(name);
+    if (known && parameters_named(name).live)
+        hdr_log(HDR_WARN,
+                "parameter %.40s was set to %.100s, but is read at the start; to change it now: "
+                "rosservice call %s/set \"%.40s=%.100s\"",
+                name, text, node, name, text);
+    else if (known)
+        hdr_log(HDR_WARN, "parameter %.40s was set to %.100s, but is read at the start", name,
+                text);
+    else
+        hdr_log(HDR_WARN, "parameter %.100s was set, but %s", name, parameters_instead(name));
+}
+
 /** From here on the node can be seen by others. */
 static hdr_status advertise(app *a)
 {
     const char *kernel = hd_blas_query().kernel;
     hdr_status status = report_create(&a->rep, a->ros, &a->set, a->run);
     if (status == HDR_OK) status = diagnostics_advertise(&a->diag, a->ros, a->rep, kernel);
-    if (status == HDR_OK) status = report_run_info(a->rep, a->run);
+    if (status == HDR_OK) status = report_run_info(a->rep, a->run, &(changes){.made = 0});
     if (status == HDR_OK && !worker_create(&a->work, a->run, a->rep, &a->set, &a->keep))
         status = HDR_NO_MEMORY;
-    return status == HDR_OK ? services_advertise(a->ros, a->work) : status;
+    if (status == HDR_OK) status = services_advertise(a->ros, a->work);
+    return status == HDR_OK ? hdr_params_watch(a->params, a->ros, on_parameter_set, a) : status;
+}
+
+/** What the user limits by environment variables. */
+static void warn_of_threads(const hd_run *run)
+{
+    const int denied = hd_run_threads_denied(run), granted = hd_run_threads(run);
+    if (denied > 0)
+        hdr_log(HDR_WARN,
+                "OpenMP grants %d of %d threads (OMP_THREAD_LIMIT, OMP_MAX_ACTIVE_LEVELS)", granted,
+                granted + denied);
 }
 
 static void log_start(const app *a)
@@ -130,10 +162,10 @@ static void log_start(const app *a)
             "scene %s: %d disks in %.6g x %.6g, %d vectors, %d threads; %s, kernel %s, %d threads",
             a->set.scene, def->disks, box[0], box[1], hd_run_vectors(a->run),
             hd_run_threads(a->run), blas.library, blas.kernel, blas.threads);
+    warn_of_threads(a->run);
     if (*a->set.resume)
         hdr_log(HDR_INFO, "goes on from simulated time %.6g of %s", hd_run_time(a->run),
                 a->set.resume);
-    if (a->set.awaited) hdr_log(HDR_INFO, "waiting for subscribers");
 }
 
 static void log_end(const worker_state *state)
@@ -203,12 +235,29 @@ static int run(app *a)
     _exit(status);
 }
 
+/** What needs no master: an exit status, or -1. */
+static int answer(int argc, char **argv)
+{
+    static const struct {
+        const char *argument;
+        int (*print)(void);
+    } answers[] = {{"--help", parameters_print_help},
+                   {"-h", parameters_print_help},
+                   {"--version", parameters_print_version},
+                   {"--parameters", parameters_print_scene},
+                   {"--parameters=table", parameters_print_table}};
+    for (size_t k = 0; k < sizeof answers / sizeof *answers; k++)
+        if (argc == 2 && strcmp(argv[1], answers[k].argument) == 0) return answers[k].print();
+    return -1;
+}
+
 int main(int argc, char **argv)
 {
     app a = {.ros = NULL};
-    if (argc == 2 && strcmp(argv[1], "--parameters") == 0) return parameters_print_scene();
-    if (argc == 2 && strcmp(argv[1], "--parameters=table") == 0) return parameters_print_table();
+    const int answered = answer(argc, argv);
+    if (answered >= 0) return answered;
     hd_blas_restart_if_slow(argv);
+    if (argc > 1 && strcmp(argv[1], "--check") == 0) return check_scene(argc - 2, argv + 2);
     const hdr_status created = hdr_node_create(&a.ros, &argc, argv, "hdlyap", stop_seconds,
                                                fault_status(HD_NO_MEMORY));
     /* roscpp that has started by half does not survive the end of main */

@@ -17,7 +17,9 @@ static const parameter name_row = {
     .allowed = "a line that is not empty",
     .unit = "",
     .may_differ = true,
-    .text = "Name of the scene, copied into run_info.",
+    .text =
+        "Name of the scene, copied into run_info. It must come with disks, density, aspect or a "
+        "boundary: a name chooses no system. One without a name is unnamed.",
 };
 
 static const parameter rows[] = {
@@ -80,6 +82,7 @@ static const parameter rows[] = {
         .allowed = "from 0 (with every report) to 1e12",
         .unit = "time units",
         .may_differ = true,
+        .live = true,
         .text =
             "Simulated time between fields. They come with the first report of the averaging, "
             "with the first one at or after each multiple of this, and with the last. The vectors "
@@ -105,8 +108,21 @@ static const parameter rows[] = {
         .allowed = "from 0 (as fast as it goes) to 1e12",
         .unit = "time units/s",
         .may_differ = true,
+        .live = true,
+        .at_once = true,
         .text = "Limit of the averaging's simulated time per wall second. What comes before the "
                 "averaging has no limit.",
+    },
+    {
+        .name = "changes",
+        .kind = CHANGES,
+        .offset = offsetof(settings, changes),
+        .usual = "",
+        .allowed = "a list of texts \"TIME NAME=VALUE\"",
+        .unit = "",
+        .may_differ = true,
+        .text = "What ~set changed in a run that is repeated: parameters that are set anew at "
+                "these simulated times.",
     },
     {
         .name = "checkpoint",
@@ -144,14 +160,15 @@ static const parameter rows[] = {
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 
+#define REMOVED "removed: "
 /** What were parameters once. */
 static const struct {
     const char *name, *now;
 } gone[] = {
-    {"max_node", "removed: it is max_mode_number now"},
-    {"marker_rate", "removed: it is slow_vectors_rate now"},
-    {"marker_modes", "removed: it is modes of the viewer now (rviz.launch modes:=..)"},
-    {"covariant_folder", "removed: covariant_storage is memory or recompute now"},
+    {"max_node", REMOVED "it is max_mode_number now"},
+    {"marker_rate", REMOVED "it is slow_vectors_rate now"},
+    {"marker_modes", REMOVED "it is modes of the viewer now (rviz.launch modes:=..)"},
+    {"covariant_folder", REMOVED "covariant_storage is memory or recompute now"},
 };
 
 static int scene_count(void)
@@ -172,6 +189,7 @@ static parameter of_scene(int k)
                        .allowed = row->allowed,
                        .unit = row->unit,
                        .may_differ = row->may_differ,
+                       .live = row->live,
                        .needs = topics_of_stages(row->needs),
                        .text = row->text,
                        .row = row};
@@ -184,6 +202,13 @@ parameter parameters_at(int k)
     const int own = k - 1 - scene_count();
     if (k == 0) return name_row;
     return own < 0 ? of_scene(k - 1) : rows[own];
+}
+
+bool parameters_has(const char *name)
+{
+    for (int k = 0; k < parameters_count(); k++)
+        if (strcmp(parameters_at(k).name, name) == 0) return true;
+    return false;
 }
 
 parameter parameters_named(const char *name)
@@ -206,5 +231,10 @@ const char *parameters_why_not(const char *name)
 {
     for (size_t k = 0; k < sizeof gone / sizeof *gone; k++)
         if (strcmp(gone[k].name, name) == 0) return gone[k].now;
-    return "removed: there is no parameter of this name";
+    return REMOVED "there is no parameter of this name";
+}
+
+const char *parameters_instead(const char *name)
+{
+    return parameters_why_not(name) + strlen(REMOVED);
 }

@@ -17,7 +17,8 @@ typedef enum parameter_kind {
     FILE_PATH,       /**< const char *: a line, "" for none */
     TOPICS_OBSERVED, /**< unsigned: a set of topics */
     TOPICS_AWAITED,  /**< the same, or all */
-    FIELD_CHOICE     /**< field_choice */
+    FIELD_CHOICE,    /**< field_choice */
+    CHANGES          /**< change_list */
 } parameter_kind;
 
 typedef struct parameter {
@@ -29,7 +30,9 @@ typedef struct parameter {
     const char *allowed; /**< in words */
     const char *unit;    /**< "" if it has none */
     bool may_differ;     /**< of a run that goes on from its checkpoint */
-    unsigned needs;      /**< topics of which one must be observed for another value; 0: none */
+    bool live;           /**< may change while the run goes on */
+    bool at_once;   /**< and does so before the next step, as it makes no difference to results */
+    unsigned needs; /**< topics of which one must be observed for another value; 0: none */
     const char *text;
     const hd_parameter *row; /**< NULL unless it is the scene's */
 } parameter;
@@ -37,6 +40,9 @@ typedef struct parameter {
 /** In the order in which they are read. */
 int parameters_count(void);
 parameter parameters_at(int k);
+
+/** True if there is one of this name. */
+bool parameters_has(const char *name);
 
 /** The row of a name, which there must be. */
 parameter parameters_named(const char *name);
@@ -48,5 +54,7 @@ void parameter_usual(char text[PARAMETER_TEXT], const parameter *p);
 
 /** What to say of a name that is none; names that were some are told what they are now. */
 const char *parameters_why_not(const char *name);
+/** The same, not as what must be done. */
+const char *parameters_instead(const char *name);
 
 #endif

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hdlyap/hdlyap.h"
 #include "parameters.h"
 
 enum { LINE_WIDTH = 100 };
@@ -57,7 +58,7 @@ static void write_value(char *out, size_t size, const parameter *p)
     parameter_usual(usual, p);
     if (kind == HD_PARAMETER_SEED || p->kind == FILE_PATH)
         snprintf(out, size, "\"%s\"", usual);
-    else if (p->kind == TOPICS_OBSERVED || p->kind == TOPICS_AWAITED)
+    else if (p->kind == TOPICS_OBSERVED || p->kind == TOPICS_AWAITED || p->kind == CHANGES)
         snprintf(out, size, "[%s]", usual);
     else if (kind == HD_PARAMETER_REAL || p->kind == REAL_NUMBER)
         write_real(out, size, atof(usual));
@@ -71,6 +72,31 @@ static void write_allowed(char *out, size_t size, const parameter *p)
     const bool has_unit = *p->unit && !strchr(p->allowed, '[');
     snprintf(out, size, "%s%s%s%s", p->allowed, has_unit ? " [" : "", has_unit ? p->unit : "",
              has_unit ? "]" : "");
+}
+
+int parameters_print_help(void)
+{
+    printf(
+        "Hard disks, their Lyapunov exponents and modes, as ROS topics.\n\n"
+        "  hdlyap_node [_parameter:=value ...] [__name:=NAME]\n"
+        "                         runs the scene that its private parameters say; needs a master\n"
+        "  hdlyap_node --check scene.yaml [parameter:=value ...]\n"
+        "                         says, without a run, whether it is valid, what memory and time "
+        "it\n"
+        "                         takes, how large its bag becomes and which waves are looked for\n"
+        "  hdlyap_node --parameters\n"
+        "                         prints a scene file with all parameters and their defaults\n"
+        "  hdlyap_node --version\n\n"
+        "roslaunch hdlyap run.launch scene:=quick runs a scene file with a master of its own.\n"
+        "Exit status: 0 finished or stopped, 2 refused, 3 a numerical fault or no memory, 4 a "
+        "file fault.\n");
+    return fflush(stdout) == 0 ? 0 : 1;
+}
+
+int parameters_print_version(void)
+{
+    printf("hdlyap %s\n", HDLYAP_VERSION);
+    return fflush(stdout) == 0 ? 0 : 1;
 }
 
 int parameters_print_scene(void)
@@ -100,8 +126,8 @@ static void print_cell(const char *text)
 
 int parameters_print_table(void)
 {
-    printf("| parameter | allowed | default | in a resumed run | what |\n"
-           "| --- | --- | --- | --- | --- |\n");
+    printf("| parameter | allowed | default | in a resumed run | while it runs | what |\n"
+           "| --- | --- | --- | --- | --- | --- |\n");
     for (int k = 0; k < parameters_count(); k++) {
         const parameter p = parameters_at(k);
         char allowed[200], value[PARAMETER_TEXT + 8], name[PARAMETER_TEXT];
@@ -112,6 +138,7 @@ int parameters_print_table(void)
         print_cell(allowed);
         print_cell(value);
         print_cell(p.may_differ ? "may differ" : "as before");
+        print_cell(p.live ? "`~set`" : "");
         print_cell(p.text);
         printf("|\n");
     }

@@ -49,7 +49,7 @@ hdr_status publishers_advertise(publishers *out, hdr_node *ros, unsigned set,
                                 const double doubles[TOPICS], const char *seed)
 {
     hdr_status status = HDR_OK;
-    *out = (publishers){.publisher = {NULL}};
+    *out = (publishers){.node = hdr_node_name(ros)};
     run_id_write(out->run_id, sizeof out->run_id, seed);
     for (topic t = 0; t < TOPICS && status == HDR_OK; t++) {
         char name[32];

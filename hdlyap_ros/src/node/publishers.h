@@ -12,6 +12,7 @@
 
 typedef struct publishers {
     hdr_publisher *publisher[TOPICS]; /**< NULL if not asked for */
+    const char *node;                 /**< name, the node's own */
     char run_id[96];
 } publishers;
 

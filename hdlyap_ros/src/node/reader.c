@@ -17,14 +17,19 @@ bool is_one_line(const char *text)
     return !*text;
 }
 
+void make_one_line(char *text)
+{
+    for (; *text; text++)
+        if (is_control(*text)) *text = '?';
+}
+
 /** In one line whatever it shows: names and values are anybody's, and may hold line ends. */
 bool reader_refuse(const reader *r, const char *allowed)
 {
     if (r->size == 0) return false;
     snprintf(r->message, r->size, "%.100s = %.150s: must be %s", r->name,
              hdr_param_text(r->params, r->name), allowed);
-    for (char *c = r->message; *c; c++)
-        if (is_control(*c)) *c = '?';
+    make_one_line(r->message);
     return false;
 }
 
@@ -156,6 +161,14 @@ static bool read_topics(const reader *r, const parameter *p, unsigned *set)
     return true;
 }
 
+/** What they say is looked at with all else. */
+static bool read_changes(const reader *r, const parameter *p, change_list *changes)
+{
+    const hdr_status status = hdr_param_string_list(r->params, r->name, &changes->text,
+                                                    &changes->count);
+    return accepts(r, status, p->allowed);
+}
+
 /** The range is known only with the scene. */
 static bool read_fields(const reader *r, const parameter *p, field_choice *choice)
 {
@@ -178,6 +191,7 @@ bool reader_read(const reader *r, const parameter *p, void *field)
     case TOPICS_OBSERVED:
     case TOPICS_AWAITED: return read_topics(r, p, field);
     case FIELD_CHOICE: return read_fields(r, p, field);
+    case CHANGES: return read_changes(r, p, field);
     }
     return false;
 }

@@ -18,7 +18,10 @@ typedef struct reader {
 /** Writes the line: the parameter, its value, what is allowed. Always false. */
 bool reader_refuse(const reader *r, const char *allowed);
 
-/** Without line ends and other control characters. */
+/** With question marks in place of line ends and other control characters. */
+void make_one_line(char *text);
+
+/** Without them. */
 bool is_one_line(const char *text);
 
 /** Into the variable at field (for one of the scene: the whole of it), which stays as it is where

@@ -13,7 +13,7 @@
 #include "slow_vectors_report.h"
 #include "subscriber_wait.h"
 
-_Static_assert((int)HD_LIMIT_REPAIR == (int)HDR_COST_LIMIT_REPAIR, "limits as in the core");
+_Static_assert((int)HD_LIMIT_NONE == (int)HDR_COST_LIMIT_NONE, "limits as in the core");
 _Static_assert((int)HD_FINISHED == (int)HDR_RUN_STATUS_FINISHED, "stages as in the core");
 
 /** Topics whose messages are made of positions and momenta. */
@@ -158,9 +158,9 @@ hd_status report_slow(report *rep, const hd_run *run, bool at_rest)
     return status;
 }
 
-hdr_status report_run_info(report *rep, const hd_run *run)
+hdr_status report_run_info(report *rep, const hd_run *run, const changes *all)
 {
-    return run_info_publish(&rep->out, rep->set, run);
+    return run_info_publish(&rep->out, rep->set, run, all);
 }
 
 static void spectrum_gather(report *rep, const hd_run *run)
@@ -174,6 +174,18 @@ static void spectrum_gather(report *rep, const hd_run *run)
         a->local_exponents[k] = hd_spectrum_local(spectrum, (int)k);
     }
     hd_frame_halves(hd_run_frame(run), a->cos_theta, a->dp_dq_ratio);
+}
+
+/** True if what must be measured is finite: not the halves of a vector, nor local exponents without
+ * a sample. */
+static bool spectrum_finite(const report *rep, const hd_spectrum *spectrum)
+{
+    const spectrum_arrays *a = &rep->spectrum;
+    bool finite = message_finite(a->exponents, rep->n) && message_finite(a->std_errors, rep->n);
+    for (uint32_t k = 0; k < rep->n; k++)
+        finite &= !isinf(a->cos_theta[k]) && !isinf(a->dp_dq_ratio[k]);
+    return finite &&
+           (hd_spectrum_local_time(spectrum) == 0 || message_finite(a->local_exponents, rep->n));
 }
 
 static hd_status publish_spectrum(report *rep, const hd_run *run)
@@ -196,6 +208,7 @@ static hd_status publish_spectrum(report *rep, const hd_run *run)
         .first_index = 1,
         .exponents = message_array(a->exponents, rep->n, 1),
         .std_errors = message_array(a->std_errors, rep->n, 1),
+        .local_time = hd_spectrum_local_time(spectrum),
         .local_exponents = message_array(a->local_exponents, rep->n, 1),
         .cos_theta = message_array(a->cos_theta, rep->n, 1),
         .dp_dq_ratio = message_array(a->dp_dq_ratio, rep->n, 1),
@@ -203,7 +216,7 @@ static hd_status publish_spectrum(report *rep, const hd_run *run)
     const double scalars[] = {message.averaged_time, message.lambda_max, message.ks_entropy,
                               entropy_error, pairing};
     if (!message_finite(scalars, sizeof scalars / sizeof *scalars)) return HD_NOT_FINITE;
-    if (!message_finite(a->exponents, 5 * (size_t)rep->n)) return HD_NOT_FINITE;
+    if (!spectrum_finite(rep, spectrum)) return HD_NOT_FINITE;
     return publishers_sent(hdr_spectrum_publish(rep->out.publisher[TOPIC_SPECTRUM], &message),
                            TOPIC_SPECTRUM);
 }
@@ -236,7 +249,7 @@ static hd_status publish_status(report *rep, const progress *now, hd_stage stage
         .run_id = rep->out.run_id,
         .sim_time = now->time,
         .stage = (uint8_t)stage,
-        .progress = cost->progress,
+        .progress = cost->progress < 0.0 ? -1.0 : cost->progress,
         .remaining_seconds = cost->remaining < 0.0 ? -1.0 : cost->remaining,
         .std_error = cost->std_error < 0.0 ? -1.0 : cost->std_error,
     };
@@ -272,12 +285,12 @@ static hd_status publish_cost(report *rep, const progress *now)
         .slow_vector_samples = (uint64_t)cost->slow_vector_samples,
         .repairs = (uint64_t)cost->repairs,
     };
-    const double numbers[] = {now->time,        cost->wall,      cost->events,
-                              cost->replay,     cost->ortho,     cost->spectrum,
-                              cost->modes,      cost->covariant, cost->events_per_second,
-                              cost->interval,   cost->condition, cost->defect,
-                              cost->error_bound};
+    const double numbers[] = {now->time,   cost->wall,     cost->events, cost->replay,
+                              cost->ortho, cost->spectrum, cost->modes,  cost->covariant};
+    const double measured[] = {cost->interval, cost->condition, cost->defect};
     if (!message_finite(numbers, sizeof numbers / sizeof *numbers)) return HD_NOT_FINITE;
+    if (cost->orthonormalisations > 0 && !message_finite(measured, 3)) return HD_NOT_FINITE;
+    if (isinf(cost->error_bound) || isinf(cost->events_per_second)) return HD_NOT_FINITE;
     return publishers_sent(hdr_cost_publish(rep->out.publisher[TOPIC_COST], &message), TOPIC_COST);
 }
 

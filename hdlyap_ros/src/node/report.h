@@ -3,6 +3,7 @@
 #ifndef HDLYAP_REPORT_H
 #define HDLYAP_REPORT_H
 
+#include "changes.h"
 #include "hdlyap/run.h"
 #include "hdlyap_ros/publisher.h"
 #include "settings.h"
@@ -36,7 +37,7 @@ hdr_lag report_lag(const report *rep);
 bool report_awaited_here(report *rep);
 
 /** Publishes everything needed to repeat the run; latched. */
-HDR_MUST_CHECK hdr_status report_run_info(report *rep, const hd_run *run);
+HDR_MUST_CHECK hdr_status report_run_info(report *rep, const hd_run *run, const changes *all);
 
 /** Stages of the core (HD_OBSERVE_*) that somebody listens to now: of the modes, what the next step
  * does not measure is not published after it. */

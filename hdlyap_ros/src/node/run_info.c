@@ -47,6 +47,18 @@ static bool waves_create(wave_list *list, const hd_scene_def *def)
     return created;
 }
 
+/** Those that have been made; NULL without memory. */
+static hdr_change *changes_listed(const changes *all)
+{
+    hdr_change *list = malloc(((size_t)all->made + 1) * sizeof *list);
+    for (int k = 0; list && k < all->made; k++) {
+        const change *c = &all->list[k];
+        list[k] = (hdr_change){
+            .sim_time = c->time, .name = c->name, .before = c->before, .value = c->value};
+    }
+    return list;
+}
+
 /** What the scene says. A parameter of it without a field in RunInfo.msg does not compile. */
 static void fill_scene(hdr_run_info *info, const settings *set)
 {
@@ -83,11 +95,14 @@ static void fill_machine(hdr_run_info *info, const hd_run *run)
     info->blas_threading = blas.threading;
 }
 
-hdr_status run_info_publish(const publishers *out, const settings *set, const hd_run *run)
+hdr_status run_info_publish(const publishers *out, const settings *set, const hd_run *run,
+                            const changes *all)
 {
     const char *names[TOPICS], *awaited[TOPICS];
     wave_list waves;
-    hdr_status status = waves_create(&waves, &set->def) ? HDR_OK : HDR_NO_MEMORY;
+    hdr_change *changed = changes_listed(all);
+    const bool created = waves_create(&waves, &set->def) && changed;
+    hdr_status status = created ? HDR_OK : HDR_NO_MEMORY;
     hdr_run_info info = {
         .header = message_header(),
         .run_id = out->run_id,
@@ -102,6 +117,7 @@ hdr_status run_info_publish(const publishers *out, const settings *set, const hd
         .slow_vectors_count = (uint32_t)set->slow_vectors_count,
         .checkpoint = set->checkpoint,
         .checkpoint_interval = set->checkpoint_interval,
+        .changes = {.data = changed, .count = (uint32_t)all->made},
         .resume = set->resume,
         .resumed_time = *set->resume ? hd_run_time(run) : -1.0,
     };
@@ -109,5 +125,6 @@ hdr_status run_info_publish(const publishers *out, const settings *set, const hd
     fill_machine(&info, run);
     if (status == HDR_OK) status = hdr_run_info_publish(out->publisher[TOPIC_RUN_INFO], &info);
     free(waves.nx);
+    free(changed);
     return status;
 }

@@ -31,12 +31,18 @@ static bool on_reset_average(void *context, char *message, size_t size)
 }
 
 /** Long enough for a step and for a large file. */
-static const double checkpoint_seconds = 30.0;
+static const double answer_seconds = 30.0;
 
 static bool on_checkpoint(void *context, char *message, size_t size)
 {
     worker *w = context;
-    return worker_checkpoint(w, checkpoint_seconds, message, size);
+    return worker_checkpoint(w, answer_seconds, message, size);
+}
+
+static bool on_set(void *context, const char *assignment, char *message, size_t size)
+{
+    worker *w = context;
+    return worker_set(w, answer_seconds, assignment, message, size);
 }
 
 hdr_status services_advertise(hdr_node *ros, worker *w)
@@ -45,5 +51,7 @@ hdr_status services_advertise(hdr_node *ros, worker *w)
     if (status != HDR_OK) return status;
     const hdr_status reset = hdr_service_trigger(ros, "~reset_average", on_reset_average, w);
     if (reset != HDR_OK) return reset;
-    return hdr_service_trigger(ros, "~checkpoint", on_checkpoint, w);
+    const hdr_status keep = hdr_service_trigger(ros, "~checkpoint", on_checkpoint, w);
+    if (keep != HDR_OK) return keep;
+    return hdr_service_set(ros, "~set", on_set, w);
 }

@@ -1,4 +1,4 @@
-/** Services in: ~pause, ~reset_average and ~checkpoint -> requests to the worker. */
+/** Services in: ~pause, ~reset_average, ~checkpoint and ~set -> requests to the worker. */
 #ifndef HDLYAP_SERVICES_H
 #define HDLYAP_SERVICES_H
 

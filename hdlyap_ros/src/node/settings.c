@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "change.h"
 #include "parameters.h"
 #include "reader.h"
 #include "topic.h"
@@ -16,11 +17,8 @@ enum { OF_EXPONENTS = 1u << TOPIC_SPECTRUM | 1u << TOPIC_COVARIANT | TOPICS_OF_M
 static bool check_names(reader *r)
 {
     for (int k = 0; k < hdr_params_count(r->params); k++) {
-        bool known = false;
         r->name = hdr_params_name(r->params, k);
-        for (int n = 0; n < parameters_count() && !known; n++)
-            known = strcmp(parameters_at(n).name, r->name) == 0;
-        if (!known) return reader_refuse(r, parameters_why_not(r->name));
+        if (!parameters_has(r->name)) return reader_refuse(r, parameters_why_not(r->name));
     }
     return true;
 }
@@ -35,6 +33,29 @@ static bool read_all(settings *out, reader *r)
         if (!reader_read(r, &p, field_of(out, &p))) return false;
     }
     return true;
+}
+
+/** A name chooses no system: it must come with the one that it names, and no system has the name of
+ * the usual one but that itself. */
+static bool check_scene_name(settings *set, reader *r)
+{
+    static const char *const system[] = {"disks", "density", "aspect", "boundary_x", "boundary_y"};
+    const parameter name = parameters_named("scene");
+    bool given = false, usual = true;
+    for (size_t k = 0; k < sizeof system / sizeof *system; k++) {
+        const parameter p = parameters_named(system[k]);
+        if (*hdr_param_text(r->params, system[k])) given = true;
+        if (hd_parameter_value(p.row, &set->def) != p.row->usual) usual = false;
+    }
+    r->name = name.name;
+    if (!*hdr_param_text(r->params, r->name)) {
+        if (!usual) set->scene = "unnamed";
+        return true;
+    }
+    return given || strcmp(set->scene, name.usual) == 0 ||
+           reader_refuse(r,
+                         "given with its disks, density, aspect, boundary_x or boundary_y: a "
+                         "name chooses none of them, roslaunch hdlyap run.launch scene:=.. does");
 }
 
 /** Those that the scene does not know of, where the row says a range. */
@@ -131,6 +152,20 @@ static bool check_slow_vectors(const settings *set, reader *r)
            reader_refuse(r, allowed);
 }
 
+static bool check_changes(const settings *set, char *message, size_t size)
+{
+    char line[256];
+    for (int k = 0; k < set->changes.count; k++) {
+        change each;
+        if (change_parse_timed(&each, set->changes.text[k], line, sizeof line)) continue;
+        snprintf(message, size, "changes = %.60s: must be changes that ~set can make: %s",
+                 set->changes.text[k], line);
+        make_one_line(message);
+        return false;
+    }
+    return true;
+}
+
 static void write_texts(settings *out)
 {
     const parameter p = parameters_named("exponents");
@@ -169,6 +204,7 @@ static void set_default(settings *set, const parameter *p)
     case TOPICS_OBSERVED:
     case TOPICS_AWAITED: *(unsigned *)field = topics_named(p->usual); break;
     case FIELD_CHOICE: *(field_choice *)field = (field_choice){.text = p->usual}; break;
+    case CHANGES: break;
     }
 }
 
@@ -192,10 +228,11 @@ bool settings_read(settings *out, const hdr_params *params, const hd_checkpoint 
     reader r = {.params = params, .message = message, .size = size};
     *out = defaults(kept);
     if (!check_names(&r) || !read_all(out, &r)) return false;
+    if (!kept && !check_scene_name(out, &r)) return false;
     if (!check_ranges(out, &r) || !check_observables(out, &r) || !check_awaited(out, &r) ||
         !check_needs(out, &r))
         return false;
     write_texts(out);
     return hd_scene_check(&out->def, message, size) == HD_OK && check_field_indices(out, &r) &&
-           check_slow_vectors(out, &r);
+           check_slow_vectors(out, &r) && check_changes(out, message, size);
 }

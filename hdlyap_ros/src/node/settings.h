@@ -16,6 +16,12 @@ typedef struct field_choice {
     int count;        /**< 0: one of each step */
 } field_choice;
 
+/** What is to change while the run goes on. */
+typedef struct change_list {
+    const char *const *text; /**< [count], as asked for; in the params */
+    int count;
+} change_list;
+
 typedef struct settings {
     hd_scene_def def;
     const char *scene;    /**< name; in the params, or in the checkpoint */
@@ -25,10 +31,11 @@ typedef struct settings {
     field_choice fields;
     double slow_vectors_rate; /**< messages of slow_vectors per wall second, at most */
     int slow_vectors_count;   /**< vectors in each; 0: down to the lowest T and LP step */
-    double field_interval;  /**< time units between publications of fields; 0: with every report */
-    unsigned awaited;       /**< set of topics that must have a subscriber before the run starts */
-    double pace;            /**< time units per wall second, 0 = as fast as it goes */
-    const char *checkpoint; /**< file, or ""; in the params, as the next but one */
+    double field_interval; /**< time units between publications of fields; 0: with every report */
+    unsigned awaited;      /**< set of topics that must have a subscriber before the run starts */
+    double pace;           /**< time units per wall second, 0 = as fast as it goes */
+    change_list changes;
+    const char *checkpoint;     /**< file, or ""; in the params, as the next but one */
     double checkpoint_interval; /**< wall seconds; 0: only at the end and when asked */
     const char *resume;         /**< file to go on from, or "" */
 } settings;

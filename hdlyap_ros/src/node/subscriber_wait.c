@@ -11,6 +11,8 @@ static const double patience_seconds = 3.0;
 /** Between two questions to the master [s]: who subscribes to several topics has done so meanwhile.
  */
 static const double ask_seconds = 0.1;
+/** Between two lines that say who is waited for [s]. */
+static const double say_seconds = 10.0;
 
 static bool is_missed(const publishers *out, topic t, const int registered[TOPICS])
 {
@@ -55,12 +57,25 @@ static bool all_connected(subscriber_wait *a, const publishers *out, unsigned aw
     return late || (was_complete && a->complete);
 }
 
+/** Each by its full name: who listens to another node is seen at once. */
+static void say(subscriber_wait *a, const publishers *out, unsigned missing, double now)
+{
+    char names[256] = "";
+    if (now < a->say) return;
+    topic_names(names, sizeof names, missing);
+    hdr_log(a->say > 0.0 ? HDR_WARN : HDR_INFO, "%swaiting for subscribers of %s: %s",
+            a->say > 0.0 ? "still " : "", out->node, names);
+    a->say = now + say_seconds;
+}
+
 bool subscriber_wait_over(subscriber_wait *a, const publishers *out, unsigned awaited)
 {
     const double now = clock_seconds();
     if (!awaited) return true;
-    if (awaited & ~publishers_subscribed(out)) {
-        *a = (subscriber_wait){.next = a->next};
+    const unsigned missing = awaited & ~publishers_subscribed(out);
+    if (missing) {
+        *a = (subscriber_wait){.next = a->next, .say = a->say};
+        say(a, out, missing, now);
         return false;
     }
     if (!(a->until > 0.0)) a->until = now + patience_seconds;

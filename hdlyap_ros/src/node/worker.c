@@ -10,6 +10,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "changes.h"
 #include "clock.h"
 #include "hdlyap/blas.h"
 
@@ -20,18 +21,28 @@ static const double end_of_time = 1e15;
 /** Of the time, at most, for examining disks. */
 static const double examination_share = 0.01;
 
+/** A change that is asked for, and what the worker says to it. */
+typedef struct set_request {
+    bool waits, made;
+    const char *assignment; /**< the asker's, as the next */
+    char *message;
+    size_t size;
+} set_request;
+
 struct worker {
     hd_run *run;
     report *rep;
-    const settings *set;
+    settings *set;
     pthread_t thread;
     double due;        /**< wall time before which pace allows no further step; the thread's own */
     double examinable; /**< the same of the next examination; the thread's own */
     checkpoint_writer keep; /**< the thread's own */
+    changes changes;        /**< the same */
 
     pthread_mutex_t lock;
     pthread_cond_t changed;
     bool stop, pause, reset, save, examine; /**< asked for */
+    set_request set_asked;
     worker_state state;
 
     pthread_mutex_t publishing;
@@ -64,11 +75,37 @@ static bool awaited_here(worker *w)
     return here;
 }
 
+/** Lock held, but not while it is published. */
+static void publish_changes(worker *w)
+{
+    pthread_mutex_unlock(&w->lock);
+    pthread_mutex_lock(&w->publishing);
+    if (!w->closed && report_run_info(w->rep, w->run, &w->changes) != HDR_OK)
+        hdr_log(HDR_WARN, "no run_info of the change: %s", hdr_error_text());
+    pthread_mutex_unlock(&w->publishing);
+    pthread_mutex_lock(&w->lock);
+}
+
+/** Changes what is asked for. Lock held. */
+static void answer_set(worker *w)
+{
+    set_request *r = &w->set_asked;
+    r->made = changes_ask(&w->changes, w->set, w->run, r->assignment, r->message, r->size);
+    r->waits = false;
+    w->due = 0.0; /* of another pace */
+    if (r->made) hdr_log(HDR_INFO, "set: %s", r->message);
+    pthread_cond_broadcast(&w->changed);
+    if (r->made) publish_changes(w);
+}
+
 /** False if asked to stop. */
 static bool wait_for_subscribers(worker *w)
 {
     pthread_mutex_lock(&w->lock);
-    while (!w->stop && !awaited_here(w)) wait_until(w, clock_seconds() + look_seconds);
+    while (!w->stop && !awaited_here(w)) {
+        if (w->set_asked.waits) answer_set(w);
+        wait_until(w, clock_seconds() + look_seconds);
+    }
     const bool go_on = !w->stop;
     enter(w, go_on ? WORKER_RUNNING : WORKER_ENDED);
     pthread_mutex_unlock(&w->lock);
@@ -107,8 +144,10 @@ static bool obey(worker *w)
 {
     pthread_mutex_lock(&w->lock);
     if (checkpoint_writer_due(&w->keep)) save(w);
+    if (w->set_asked.waits) answer_set(w);
     if (w->pause && !w->stop) publish_at_rest(w);
-    while (!w->stop && (w->save || w->pause || too_early(w))) {
+    while (!w->stop && (w->save || w->set_asked.waits || w->pause || too_early(w))) {
+        if (w->set_asked.waits) answer_set(w);
         if (w->save || checkpoint_writer_due(&w->keep)) {
             save(w);
             continue;
@@ -135,6 +174,15 @@ static bool asked(worker *w, bool *request)
 static hd_status reset_if_asked(worker *w)
 {
     return asked(w, &w->reset) ? hd_run_reset_average(w->run) : HD_OK;
+}
+
+static void change_if_due(worker *w)
+{
+    if (!changes_take(&w->changes, w->set, w->run)) return;
+    w->due = 0.0;
+    pthread_mutex_lock(&w->lock);
+    publish_changes(w);
+    pthread_mutex_unlock(&w->lock);
 }
 
 static void examine_if_asked(worker *w)
@@ -177,6 +225,7 @@ static hd_status step(worker *w)
     hd_run_observe(w->run, report_demand(w->rep));
     report_demand_slow(w->rep, w->run);
     hd_status status = reset_if_asked(w);
+    change_if_due(w);
     checkpoint_writer_touch(&w->keep);
     if (status == HD_OK) status = w->set->pace > 0.0 ? paced_step(w) : hd_run_advance(w->run);
     if (status != HD_OK) return status;
@@ -248,7 +297,7 @@ static void locks_free(worker *w)
     pthread_mutex_destroy(&w->publishing);
 }
 
-bool worker_create(worker **out, hd_run *run, report *rep, const settings *set,
+bool worker_create(worker **out, hd_run *run, report *rep, settings *set,
                    const checkpoint_writer *keep)
 {
     worker *w = *out = calloc(1, sizeof *w);
@@ -260,9 +309,9 @@ bool worker_create(worker **out, hd_run *run, report *rep, const settings *set,
     w->keep = *keep;
     w->state.checkpoint = w->keep.state;
     locks_create(w);
-    if (pthread_create(&w->thread, NULL, work, w) == 0) return true;
-    locks_free(w);
-    free(w);
+    if (changes_create(&w->changes, set) && pthread_create(&w->thread, NULL, work, w) == 0)
+        return true;
+    worker_free(w);
     *out = NULL;
     return false;
 }
@@ -278,6 +327,7 @@ void worker_free(worker *w)
 {
     if (!w) return;
     locks_free(w);
+    changes_clear(&w->changes);
     free(w);
 }
 
@@ -337,6 +387,25 @@ bool worker_checkpoint(worker *w, double seconds, char *message, size_t size)
     const bool done = saved(w, until, message, size);
     pthread_mutex_unlock(&w->lock);
     return done;
+}
+
+bool worker_set(worker *w, double seconds, const char *assignment, char *message, size_t size)
+{
+    const double until = clock_seconds() + seconds;
+    pthread_mutex_lock(&w->lock);
+    w->set_asked = (set_request){
+        .waits = true, .assignment = assignment, .message = message, .size = size};
+    pthread_cond_broadcast(&w->changed);
+    while (w->set_asked.waits && !w->stop && w->state.stage != WORKER_ENDED && wait_until(w, until))
+        continue;
+    if (w->set_asked.waits)
+        snprintf(message, size, "%s",
+                 w->stop || w->state.stage == WORKER_ENDED ? "the run has ended"
+                                                           : "the step under way takes too long");
+    w->set_asked.waits = false;
+    const bool made = w->set_asked.made;
+    pthread_mutex_unlock(&w->lock);
+    return made;
 }
 
 void worker_stop(worker *w) { ask(w, &w->stop, true); }

@@ -28,9 +28,9 @@ typedef struct worker_state {
 
 typedef struct worker worker;
 
-/** Starts the thread, which alone uses run and rep until worker_state says WORKER_ENDED.
- * False if the system has no thread for it. */
-bool worker_create(worker **out, hd_run *run, report *rep, const settings *set,
+/** Starts the thread, which alone uses run and rep, and what may change of set, until worker_state
+ * says WORKER_ENDED. False if the system has no thread for it. */
+bool worker_create(worker **out, hd_run *run, report *rep, settings *set,
                    const checkpoint_writer *keep);
 /** Asks the thread to end and waits for the step that it is in. NULL is allowed. */
 void worker_end(worker *w);
@@ -50,6 +50,10 @@ void worker_examine(worker *w);
 /** Writes a checkpoint before the next step, and waits for it at most that long. False if it was
  * not written, with the reason in message. */
 bool worker_checkpoint(worker *w, double seconds, char *message, size_t size);
+
+/** Changes a parameter before the next step, as changes_ask does, and waits for it at most that
+ * long. False with the reason in message: nothing has changed then, nor will. */
+bool worker_set(worker *w, double seconds, const char *assignment, char *message, size_t size);
 
 /** Waits at most that long for the end; true if it has come. */
 bool worker_wait(worker *w, double seconds);

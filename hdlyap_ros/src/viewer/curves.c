@@ -130,15 +130,16 @@ static void dispersion_range(plot *axes, const picture *p)
     for (int d = 0; d < 2; d++) axes->max[d] = plot_round_up(1.05 * most[d]);
 }
 
-/** lambda = c k + c2 k^2 */
+/** lambda = c k + c2 k^2; c2 is NaN where it was not fitted. */
 static void fit_curve(const plot *axes, double c, double c2, int kind)
 {
     enum { PIECES = 40 };
+    const double bend = isnan(c2) ? 0.0 : c2;
     canvas_layer(axes->on, axes->ns, HDR_MARKER_LINE_LIST, palette_kind(kind),
                  FIT_LINE * axes->unit);
     for (int piece = 0; piece < PIECES; piece++) {
         const double k0 = axes->max[0] * piece / PIECES, k1 = axes->max[0] * (piece + 1) / PIECES;
-        const double y0 = c * k0 + c2 * k0 * k0, y1 = c * k1 + c2 * k1 * k1;
+        const double y0 = c * k0 + bend * k0 * k0, y1 = c * k1 + bend * k1 * k1;
         if (plot_contains(axes, k0, y0) && plot_contains(axes, k1, y1))
             canvas_line(axes->on, plot_x(axes, k0), plot_y(axes, y0), plot_x(axes, k1),
                         plot_y(axes, y1));

@@ -31,7 +31,7 @@ typedef struct picture {
     double box[2];             /**< [sigma] */
     bool periodic[2];
     double time, averaged;               /**< [time units]; time is -1 before the first message */
-    double progress;                     /**< 0 .. 1; 0 if unknown */
+    double progress;                     /**< 0 .. 1; negative if unknown */
     const char *note;                    /**< why it may not be what is now; "" otherwise */
     hdr_doubles x, y;                    /**< [N] positions [sigma]; count 0 while there are none */
     double vector_time;                  /**< of the vectors of all modes */

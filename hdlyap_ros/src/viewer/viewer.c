@@ -1,5 +1,6 @@
 /** The pictures of a run from its topics, live or from a bag that is played: <node>/markers.
- * rosrun hdlyap viewer [_node:=/hdlyap] [_modes:="T(1,0) LP(1,0)"] */
+ * rosrun hdlyap viewer [_node:=/hdlyap] [_modes:="T(1,0) LP(1,0)"]
+ * rosservice call /viewer/set "modes=T(1,0)" */
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -27,9 +28,9 @@ enum { AVERAGES, STAND_INS, SUBSCRIBERS_MAX = 4 };
 
 typedef struct viewer {
     hdr_node *ros;
-    const char *node; /**< whose topics */
-    mode_choice modes;
+    const char *node;     /**< whose topics */
     pthread_mutex_t lock; /**< of the callbacks' thread and the main one, for what is next */
+    mode_choice modes;
     heard said;
     canvas *on;
     hdr_publisher *markers;
@@ -42,6 +43,25 @@ typedef struct viewer {
     hdr_subscriber *others[2][SUBSCRIBERS_MAX];
     double seen; /**< when somebody looked last */
 } viewer;
+
+/* ---- modes --------------------------------------------------------------------------------- */
+
+static const char *const modes_allowed =
+    "lowest or 1 to 8 names such as T(1,0) LP(1,1), with spaces between";
+
+/** False unless the text is `lowest` or of 1 to PICTURE_MODES_MAX names, with spaces between. */
+static bool parse_modes(mode_choice *modes, const char *text)
+{
+    char name[16];
+    int end = 0;
+    *modes = (mode_choice){.count = 0};
+    if (strcmp(text, "lowest") == 0) return true;
+    for (; sscanf(text, "%15s%n", name, &end) == 1; text += end)
+        if (modes->count == PICTURE_MODES_MAX ||
+            !mode_name_parse(&modes->mode[modes->count++], name))
+            return false;
+    return modes->count > 0;
+}
 
 static double seconds_now(void)
 {
@@ -175,6 +195,28 @@ static void on_phases(void *context, const hdr_lp_phases *phases)
     pthread_mutex_unlock(&v->lock);
 }
 
+/** Of the modes alone: "modes=T(1,0) LP(1,1)". */
+static bool on_set(void *context, const char *assignment, char *message, size_t size)
+{
+    viewer *v = context;
+    mode_choice modes;
+    const char *names = assignment + strlen("modes=");
+    if (strncmp(assignment, "modes=", strlen("modes=")) != 0) {
+        snprintf(message, size, "must be modes=NAMES: the rest is read at the start");
+        return false;
+    }
+    if (!parse_modes(&modes, names)) {
+        snprintf(message, size, "modes = %.80s: must be %s", names, modes_allowed);
+        return false;
+    }
+    pthread_mutex_lock(&v->lock);
+    v->modes = modes;
+    if (v->said.begun) send_picture(v);
+    pthread_mutex_unlock(&v->lock);
+    snprintf(message, size, "modes = %.80s", names);
+    return true;
+}
+
 /** The last message of a report. */
 static void on_status(void *context, const hdr_run_status *status)
 {
@@ -265,6 +307,7 @@ static hdr_status look_after(viewer *v)
     if (status == HDR_OK) status = hdr_frame_publish(v->ros, "world", "box");
     if (status == HDR_OK)
         status = hdr_run_info_subscribe(&info, v->ros, topic(v, "run_info"), QUEUE, on_run_info, v);
+    if (status == HDR_OK) status = hdr_service_set(v->ros, "~set", on_set, v);
     v->seen = seconds_now();
     while (status == HDR_OK) {
         status = follow(v, seconds_now());
@@ -282,35 +325,25 @@ static bool refuse(const hdr_params *params, const char *name, const char *allow
     return false;
 }
 
+/** A name that does not begin with / is one of the viewer's own namespace. */
 static bool read_node(viewer *v, const hdr_params *params)
 {
-    const hdr_status status = hdr_param_string(params, "node", &v->node);
-    if (status != HDR_MISSING &&
-        (status != HDR_OK || *v->node != '/' || strlen(v->node) > TOPIC_SIZE / 2))
-        return refuse(params, "node", "the name of a node with its namespace, such as /hdlyap");
-    return true;
-}
-
-/** False unless the text is of 1 to PICTURE_MODES_MAX names, with spaces between. */
-static bool parse_modes(mode_choice *modes, const char *text)
-{
-    char name[16];
-    int end = 0;
-    for (; sscanf(text, "%15s%n", name, &end) == 1; text += end)
-        if (modes->count == PICTURE_MODES_MAX ||
-            !mode_name_parse(&modes->mode[modes->count++], name))
-            return false;
-    return modes->count > 0;
+    static char name[TOPIC_SIZE / 2];
+    const char *given = "/hdlyap", *own = hdr_node_name(v->ros);
+    const hdr_status status = hdr_param_string(params, "node", &given);
+    const int space = *given == '/' ? 0 : (int)(strrchr(own, '/') - own) + 1;
+    const int length = snprintf(name, sizeof name, "%.*s%s", space, own, given);
+    v->node = name;
+    return (*given && length < (int)sizeof name && (status == HDR_OK || status == HDR_MISSING)) ||
+           refuse(params, "node", "the name of a node, such as /hdlyap");
 }
 
 static bool read_modes(mode_choice *modes, const hdr_params *params)
 {
     const char *text = NULL;
     const hdr_status status = hdr_param_string(params, "modes", &text);
-    if (status == HDR_MISSING || (status == HDR_OK && strcmp(text, "lowest") == 0)) return true;
-    return (status == HDR_OK && parse_modes(modes, text)) ||
-           refuse(params, "modes",
-                  "lowest or 1 to 8 names such as T(1,0) LP(1,1), with spaces between");
+    return status == HDR_MISSING || (status == HDR_OK && parse_modes(modes, text)) ||
+           refuse(params, "modes", modes_allowed);
 }
 
 static bool read_parameters(viewer *v, const hdr_params *params)
@@ -324,7 +357,7 @@ static bool read_parameters(viewer *v, const hdr_params *params)
 int main(int argc, char **argv)
 {
     hdr_params *params = NULL;
-    viewer v = {.node = "/hdlyap", .lock = PTHREAD_MUTEX_INITIALIZER};
+    viewer v = {.lock = PTHREAD_MUTEX_INITIALIZER};
     heard_clear(&v.said);
     hdr_status status = hdr_node_create(&v.ros, &argc, argv, "viewer", 1.0, EXIT_NO_MEMORY);
     if (status == HDR_OK && !v.ros) return 0; /* stopped before there was a master */

@@ -45,6 +45,7 @@ struct hdr_node {
     ros::Publisher frame; /**< of /tf_static */
     std::vector<std::unique_ptr<hdr_subscriber>> subscribers;
     ros::WallTimer lookout; /**< for subscribers that cannot be connected */
+    ros::WallTimer watch;   /**< for parameters that are set */
     std::mutex mutex;       /**< of subscribers, which callbacks may free, and of lookout */
 };
 

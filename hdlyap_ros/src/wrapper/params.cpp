@@ -10,8 +10,19 @@
 #include <ros/ros.h>
 
 #include "guard.hpp"
+#include "params.hpp"
+#include "scene_file.hpp"
 
 using XmlRpc::XmlRpcValue;
+
+std::string param_text(XmlRpcValue &value)
+{
+    std::ostringstream text;
+    if (value.getType() == XmlRpcValue::TypeString) return value;
+    if (value.getType() != XmlRpcValue::TypeArray) return value.write(text), text.str();
+    for (int k = 0; k < value.size(); k++) text << (k ? ", " : "") << param_text(value[k]);
+    return "[" + text.str() + "]";
+}
 
 namespace
 {
@@ -29,15 +40,6 @@ bool is_list(XmlRpcValue &value, XmlRpcValue::Type type)
     for (int k = 0; k < value.size(); k++)
         if (value[k].getType() != type) return false;
     return true;
-}
-
-std::string text_of(XmlRpcValue &value)
-{
-    std::ostringstream text;
-    if (value.getType() == XmlRpcValue::TypeString) return value;
-    if (value.getType() != XmlRpcValue::TypeArray) return value.write(text), text.str();
-    for (int k = 0; k < value.size(); k++) text << (k ? ", " : "") << text_of(value[k]);
-    return "[" + text.str() + "]";
 }
 
 /** An integer if it is one from end to end, otherwise a string; without the spaces around it. */
@@ -74,7 +76,7 @@ entry make_entry(XmlRpcValue &given)
     XmlRpcValue value = listed(given);
     entry made;
     made.value = value;
-    made.text = text_of(value);
+    made.text = param_text(value);
     if (is_list(value, XmlRpcValue::TypeString))
         for (int k = 0; k < value.size(); k++) made.strings.push_back(value[k]);
     if (is_list(value, XmlRpcValue::TypeInt))
@@ -128,23 +130,47 @@ template <class Item> hdr_status read_list(const hdr_params *params, const char 
     return HDR_OK;
 }
 
-std::unique_ptr<hdr_params> fetch(const std::string &name)
+std::unique_ptr<hdr_params> made_of(XmlRpcValue &all)
 {
     std::unique_ptr<hdr_params> params(new hdr_params);
-    XmlRpcValue all;
-    if (!ros::param::get(name, all)) {
-        if (!ros::master::check()) throw std::runtime_error("the master went away");
-        return params;
-    }
-    if (all.getType() != XmlRpcValue::TypeStruct)
-        throw std::runtime_error("parameter " + name + " is not a namespace");
     for (auto &member : all) params->entries[member.first] = make_entry(member.second);
     for (auto &member : params->entries)
         for (const std::string &item : member.second.strings)
             member.second.list.push_back(item.c_str());
     return params;
 }
+
+/** name:=value or _name:=value. */
+void replace(XmlRpcValue &all, const std::string &argument)
+{
+    const size_t first = argument.compare(0, 1, "_") == 0, sign = argument.find(":=");
+    if (sign == std::string::npos || sign == first)
+        throw std::runtime_error("argument " + argument + ": must be parameter:=value");
+    all[argument.substr(first, sign - first)] = scene_file_scalar(argument.substr(sign + 2));
+}
+
+std::unique_ptr<hdr_params> fetch(const std::string &name)
+{
+    XmlRpcValue all;
+    if (!ros::param::get(name, all)) {
+        if (!ros::master::check()) throw std::runtime_error("the master went away");
+        return std::unique_ptr<hdr_params>(new hdr_params);
+    }
+    if (all.getType() != XmlRpcValue::TypeStruct)
+        throw std::runtime_error("parameter " + name + " is not a namespace");
+    return made_of(all);
+}
 } // namespace
+
+hdr_status hdr_params_read(hdr_params **out, const char *path, int count, char *const *replaced)
+{
+    *out = nullptr;
+    return hdr_guard([&] {
+        XmlRpcValue all = scene_file_read(path);
+        for (int k = 0; k < count; k++) replace(all, replaced[k]);
+        *out = made_of(all).release();
+    });
+}
 
 hdr_status hdr_params_create(hdr_params **out, const hdr_node *node)
 {

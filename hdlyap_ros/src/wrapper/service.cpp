@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include <hdlyap/Set.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
@@ -45,5 +46,14 @@ hdr_status hdr_service_trigger(hdr_node *node, const char *name, hdr_trigger_cal
     return advertise<std_srvs::Trigger>(
         node, name, [=](const std_srvs::Trigger::Request &, char *message, size_t size) {
             return callback(context, message, size);
+        });
+}
+
+hdr_status hdr_service_set(hdr_node *node, const char *name, hdr_set_callback callback,
+                           void *context)
+{
+    return advertise<hdlyap::Set>(
+        node, name, [=](const hdlyap::Set::Request &in, char *message, size_t size) {
+            return callback(context, in.assignment.c_str(), message, size);
         });
 }

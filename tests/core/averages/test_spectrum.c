@@ -20,13 +20,40 @@ static void means_are_weighted_by_time(void **state)
     assert_true(hd_spectrum_std_error(s, 0) < 0);
     hd_spectrum_sample(s);
     hd_spectrum_add(s, (const double[]){1.0, 1.0}, 2.0);
-    CHECK_CLOSE(hd_spectrum_local(s, 0), 3.0, 0.0);
-    hd_spectrum_sample(s);
-    CHECK_CLOSE(hd_spectrum_local(s, 0), 0.5, 0.0);
     CHECK_CLOSE(hd_spectrum_exponent(s, 0), 7.0 / 4.0, 0.0);
     hd_spectrum_clear(s);
-    CHECK_CLOSE(hd_spectrum_time(s) + hd_spectrum_exponent(s, 0) + hd_spectrum_local(s, 0), 0.0,
-                0.0);
+    CHECK_CLOSE(hd_spectrum_time(s) + hd_spectrum_exponent(s, 0), 0.0, 0.0);
+    hd_spectrum_free(s);
+}
+
+static void expect_no_local(const hd_spectrum *s)
+{
+    CHECK_CLOSE(hd_spectrum_local_time(s), 0.0, 0.0);
+    for (int col = 0; col < 2; col++) assert_true(isnan(hd_spectrum_local(s, col)));
+}
+
+/** Each sample is told once, together with those that have ended since the last time. */
+static void local_exponents_are_of_the_samples_since(void **state)
+{
+    (void)state;
+    hd_spectrum *s;
+    CHECK_OK(hd_spectrum_create(&s, 4, 2, 0.0));
+    hd_spectrum_add(s, (const double[]){6.0, -1.0}, 2.0);
+    expect_no_local(s); /* no sample has ended */
+    hd_spectrum_sample(s);
+    CHECK_CLOSE(hd_spectrum_local(s, 0), 3.0, 0.0);
+    CHECK_CLOSE(hd_spectrum_local(s, 1), -0.5, 0.0);
+    CHECK_CLOSE(hd_spectrum_local_time(s), 2.0, 0.0);
+    hd_spectrum_local_restart(s);
+    hd_spectrum_add(s, (const double[]){1.0, 1.0}, 2.0);
+    expect_no_local(s);
+    hd_spectrum_sample(s);
+    hd_spectrum_add(s, (const double[]){4.0, 1.0}, 0.5);
+    hd_spectrum_sample(s);
+    CHECK_CLOSE(hd_spectrum_local(s, 0), 2.0, 0.0);
+    CHECK_CLOSE(hd_spectrum_local_time(s), 2.5, 0.0);
+    hd_spectrum_clear(s);
+    expect_no_local(s);
     hd_spectrum_free(s);
 }
 
@@ -61,6 +88,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(means_are_weighted_by_time),
+        cmocka_unit_test(local_exponents_are_of_the_samples_since),
         cmocka_unit_test(all_exponents_show_the_pairing_error),
         cmocka_unit_test(the_error_is_that_of_the_samples),
     };

@@ -82,12 +82,17 @@ static void one_point_gives_c_alone(void **state)
     const double k = world_step(&w, HD_MODE_T, 1, 0)->wave.number;
     hd_dispersion d = hd_steps_dispersion(w.steps, w.spectrum, HD_MODE_T); /* none yet */
     assert_int_equal(d.points, 0);
+    assert_int_equal(d.terms, 0);
+    CHECK_CLOSE(d.k_max, 0.0, 0.0);
     CHECK_CLOSE(d.c, 0.0, 0.0);
     CHECK_CLOSE(d.c_error, -1.0, 0.0);
     CHECK_CLOSE(d.c2_error, -1.0, 0.0);
     feed(&w, exponents, 0.0, 1);
     d = hd_steps_dispersion(w.steps, w.spectrum, HD_MODE_T);
     assert_int_equal(d.points, 1);
+    assert_int_equal(d.terms, 1);
+    CHECK_CLOSE(d.k_min, k, 0.0);
+    CHECK_CLOSE(d.k_max, k, 0.0);
     CHECK_CLOSE(d.c, lambda(0, k) / k, ALGEBRA);
     CHECK_CLOSE(d.c2, 0.0, 0.0);
     CHECK_CLOSE(d.c_error, -1.0, 0.0);
@@ -138,6 +143,19 @@ static double solve(const data *d, double out[2])
     return chi2;
 }
 
+/** What the fit says that it stands on. */
+static void check_basis(const hd_dispersion *got, const data *d)
+{
+    double k_min = d->k[0], k_max = d->k[0];
+    for (int i = 1; i < d->points; i++) {
+        k_min = fmin(k_min, d->k[i]);
+        k_max = fmax(k_max, d->k[i]);
+    }
+    assert_int_equal(got->terms, d->parameters);
+    CHECK_CLOSE(got->k_min, k_min, 0.0);
+    CHECK_CLOSE(got->k_max, k_max, 0.0);
+}
+
 static void check_against_twin(const world *w, hd_mode_kind kind, int parameters)
 {
     const data d = data_of(w, kind, parameters);
@@ -145,6 +163,7 @@ static void check_against_twin(const world *w, hd_mode_kind kind, int parameters
     const int freedom = d.points - parameters;
     double best[2];
     const double chi2 = solve(&d, best), misfit = freedom > 0 ? sqrt(chi2 / freedom) : -1.0;
+    check_basis(&got, &d);
     CHECK_CLOSE(got.c, best[0], ALGEBRA * fabs(best[0]));
     CHECK_CLOSE(got.c2, best[1], ALGEBRA);
     CHECK_CLOSE(got.misfit, misfit, 1e-6 * fabs(misfit) + 1e-10); /* of exact points: rounding */
@@ -230,6 +249,8 @@ static void unresolved_steps_do_not_count(void **state)
     const hd_dispersion d = hd_steps_dispersion(w.steps, w.spectrum, HD_MODE_LP);
     assert_int_equal(d.points, 3);
     CHECK_CLOSE(d.c, truth[1][0], ALGEBRA);
+    const data left = data_of(&w, HD_MODE_LP, 2);
+    check_basis(&d, &left);
     assert_int_equal(hd_steps_dispersion(w.steps, w.spectrum, HD_MODE_T).points, 4);
     world_free(&w);
 }

@@ -59,9 +59,13 @@ static void check_weights(const world *w, const weights *got, const weights *wan
             CHECK_CLOSE(got->of[s][col], small ? 0.0 : want->of[s][col], ALGEBRA);
         }
     for (int col = 0; col < VECTORS; col++) {
+        if (!isnan(got->ratio[col])) check_normal(got->ratio[col]);
+        if (small) {
+            assert_true(isnan(got->cosine[col]));
+            continue;
+        }
         check_normal(got->cosine[col]);
-        check_normal(got->ratio[col]);
-        CHECK_CLOSE(got->cosine[col], small ? 0.0 : want->cosine[col], ALGEBRA);
+        CHECK_CLOSE(got->cosine[col], want->cosine[col], ALGEBRA);
     }
 }
 
@@ -108,6 +112,10 @@ static void a_tiny_dp_half_changes_no_weight(void **state)
         for (int col = 0; col < VECTORS; col++) {
             for (int s = 0; s < hd_fields_subspaces(w.fields); s++)
                 CHECK_CLOSE(got.of[s][col], want.of[s][col], 0.0);
+            if (isnan(got.cosine[col])) {
+                assert_true(digits > 140);
+                continue;
+            }
             assert_true(fabs(got.cosine[col]) <= 1.0 + ALGEBRA);
             check_normal(got.cosine[col]);
             check_normal(got.ratio[col]);

@@ -85,6 +85,7 @@ static void phases_lie_in_order(void **state)
     }
     assert_int_equal(hd_phases_count(phases), index);
     assert_int_equal(hd_phases_velocity(phases).phases, 0);
+    CHECK_CLOSE(hd_phases_velocity(phases).k_max, 0.0, 0.0);
     assert_true(hd_phases_velocity(phases).v_error < 0);
     hd_phases_free(phases);
     world_free(&w);
@@ -300,6 +301,8 @@ static void contradictions_are_a_misfit(void **state)
     assert_true(v.v > 3.0 && v.v < 3.5);
     assert_true(v.v_error > 0 && v.v_error < 0.001);
     assert_true(v.misfit > 1000.0);
+    CHECK_CLOSE(v.k_min, ch.k[0], 0.0);
+    CHECK_CLOSE(v.k_max, ch.k[1], 0.0);
     channel_free(&ch);
 }
 

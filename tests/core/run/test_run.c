@@ -146,6 +146,30 @@ static void the_bound_keeps_to_the_accuracy(void **state)
     }
 }
 
+/** No interval of the averaging is shorter than the reports are apart: where its end and a report
+ * were the same but for rounding (of 20 + 0.05 + 0.1, say), a crumb was left, and some 28 intervals
+ * to grow from it. */
+static void no_crumbs_are_left_at_reports(void **state)
+{
+    (void)state;
+    const double reports[] = {0.05, 0.1, 0.5};
+    for (int k = 0; k < 30; k++) {
+        hd_scene_def scene = scene_of(12, HD_EXPONENTS_POSITIVE);
+        scene.report_interval = reports[k % 3];
+        scene.warmup = 2.0 * (k + 1);
+        scene.duration = 80.0;
+        scene.observe = 0;
+        hd_run *run = until(created(&scene), HD_AVERAGING);
+        double shortest = INFINITY;
+        while (hd_run_stage(run) != HD_FINISHED) {
+            CHECK_OK(hd_run_advance(run));
+            shortest = fmin(shortest, hd_run_cost(run).interval);
+        }
+        CHECK_CLOSE(shortest, fmax(shortest, scene.report_interval), 1e-9);
+        hd_run_free(run);
+    }
+}
+
 /** Forced behind the controller's back: noticed, taken back, replayed in pieces. */
 static void an_interval_too_long_is_repaired(void **state)
 {
@@ -310,6 +334,7 @@ int main(void)
         cmocka_unit_test(without_exponents_there_is_no_frame),
         cmocka_unit_test(any_interval_gives_the_same_spectrum),
         cmocka_unit_test(the_bound_keeps_to_the_accuracy),
+        cmocka_unit_test(no_crumbs_are_left_at_reports),
         cmocka_unit_test(an_interval_too_long_is_repaired),
         cmocka_unit_test(threads_do_not_change_the_physics),
         cmocka_unit_test(the_loop_allocates_nothing),

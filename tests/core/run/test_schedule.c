@@ -1,4 +1,6 @@
 /** Ends of phases, samples and reports. */
+#include <float.h>
+
 #include "testing.h"
 
 #include "run/schedule.h"
@@ -112,6 +114,42 @@ static void pieces_are_short_enough_for_the_phases(void **state)
     }
 }
 
+/** A cut or the end of a sample; never a time that has passed. */
+static void an_end_that_falls_on_a_cut_is_the_cut(void **state)
+{
+    (void)state;
+    hd_schedule s = schedule_of(0.0, 100.0, 0.05);
+    hd_schedule_enter(&s, HD_AVERAGING, 30.0, 2.3);
+    const double cut = hd_schedule_cut(&s), rounding = 32.0 * DBL_EPSILON * cut;
+    assert_true(hd_schedule_snap(&s, 30.0, 0.05 * (1.0 - rounding)) == cut);
+    assert_true(hd_schedule_snap(&s, 30.0, 0.05 * (1.0 + rounding)) == cut);
+    const double third = hd_schedule_snap(&s, cut, 0.1 - rounding);
+    CHECK_CLOSE(third, 30.15, 1e-13);
+    assert_true(hd_schedule_snap(&s, 30.0, 0.15 + rounding) == third);
+    assert_true(hd_schedule_snap(&s, 30.0, 0.049) == 30.0 + 0.049);
+    assert_true(hd_schedule_snap(&s, 30.0, 1e-11) > 30.0);
+    assert_true(hd_schedule_snap(&s, 30.0, s.sample_length - rounding) ==
+                hd_schedule_sample_end(&s));
+}
+
+/** Also where reports are counted from later than the averaging. */
+static void an_end_falls_on_a_cut_of_another_interval(void **state)
+{
+    (void)state;
+    hd_scene_def scene = hd_scene_def_default();
+    hd_schedule s = schedule_of(0.0, 100.0, 1.0);
+    hd_schedule_enter(&s, HD_AVERAGING, 30.0, 2.3);
+    (void)hd_schedule_pass(&s, INFINITY);
+    (void)hd_schedule_pass(&s, INFINITY);
+    scene.duration = 100.0;
+    scene.report_interval = 0.07;
+    hd_schedule_change(&s, &scene, 32.0, 2.3, INFINITY);
+    CHECK_CLOSE(hd_schedule_cut(&s), 32.07, 1e-13);
+    const double rounding = 32.0 * DBL_EPSILON * 32.0;
+    assert_true(hd_schedule_snap(&s, 32.0, 0.07 - rounding) == hd_schedule_cut(&s));
+    assert_true(hd_schedule_snap(&s, 32.0, 0.07 + rounding) == hd_schedule_cut(&s));
+}
+
 /** Of the reports every `report` time units in an averaging of 50, with cuts as short as piece_max.
  */
 static void expect_multiples(double report, double sample_max, double piece_max, double interval)
@@ -155,6 +193,8 @@ int main(void)
         cmocka_unit_test(samples_are_as_long_as_allowed),
         cmocka_unit_test(a_short_averaging_has_samples_all_the_same),
         cmocka_unit_test(pieces_are_short_enough_for_the_phases),
+        cmocka_unit_test(an_end_that_falls_on_a_cut_is_the_cut),
+        cmocka_unit_test(an_end_falls_on_a_cut_of_another_interval),
         cmocka_unit_test(multiples_are_reached_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -58,8 +58,39 @@ static void two_threads_give_what_one_gives(void **state)
     for (int k = 0; k < 2; k++) hd_run_free(run[k]);
 }
 
+/** The bits of a run depend on how many threads were chosen for it, not on how. */
+static void expect_repeatable(int disks)
+{
+    hd_run *run[2];
+    hd_scene_def scene = scene_of(disks, 0.8, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
+    scene.equilibration = 0.0;
+    scene.warmup = 0.0;
+    scene.duration = scene.report_interval = 0.2;
+    for (int k = 0; k < 2; k++) {
+        if (k == 1) scene.threads = hd_run_threads(run[0]);
+        CHECK_OK(hd_run_create(&run[k], &scene, NULL, 0));
+        while (hd_run_stage(run[k]) != HD_FINISHED) CHECK_OK(hd_run_advance(run[k]));
+    }
+    const size_t size = (size_t)hd_frame_rows(hd_run_frame(run[0])) *
+                        (size_t)hd_frame_stride(hd_run_frame(run[0]));
+    assert_memory_equal(hd_frame_read(hd_run_frame(run[0])), hd_frame_read(hd_run_frame(run[1])),
+                        size * sizeof(double));
+    for (int k = 0; k < 2; k++) hd_run_free(run[k]);
+}
+
+/** Of frames that are worth a trial, and one that is not. */
+static void what_was_tried_does_not_show(void **state)
+{
+    static const int disks[] = {60, 120, 150, 300};
+    (void)state;
+    for (int k = 0; k < 4; k++) expect_repeatable(disks[k]);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(two_threads_give_what_one_gives)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(two_threads_give_what_one_gives),
+        cmocka_unit_test(what_was_tried_does_not_show),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

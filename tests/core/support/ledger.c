@@ -56,6 +56,8 @@ void hd_memory_free(void *block)
 
 ledger ledger_now(void) { return book; }
 
+void ledger_reset_peak(void) { book.peak = book.live; }
+
 void ledger_refuse(size_t first, size_t how_many)
 {
     refused_from = asked + first;

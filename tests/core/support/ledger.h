@@ -11,6 +11,9 @@ typedef struct ledger {
 
 ledger ledger_now(void);
 
+/** The peak begins anew, at what is live. */
+void ledger_reset_peak(void);
+
 /** Memory is out for so many allocations, after `first` more of them; none for how_many = 0. */
 void ledger_refuse(size_t first, size_t how_many);
 

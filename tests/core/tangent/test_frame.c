@@ -280,6 +280,23 @@ static void rewind_brings_the_vectors_back(void **state)
     hd_event_log_free(s.log);
 }
 
+/** Neither an angle to nothing, nor a ratio to it. */
+static void a_half_that_vanishes_has_no_angle(void **state)
+{
+    enum { DISKS = 2, VECTORS = 2 };
+    (void)state;
+    hd_frame *frame;
+    double cosine[VECTORS], ratio[VECTORS];
+    CHECK_OK(hd_frame_create(&frame, DISKS, VECTORS, 9, 1));
+    for (int row = 0; row < 4 * DISKS; row++)
+        for (int col = 0; col < VECTORS; col++) /* column 0: dp = 0, column 1: dq = 0 */
+            hd_frame_data(frame)[row * hd_frame_stride(frame) + col] = (row % 4 < 2) == (col == 0);
+    hd_frame_halves(frame, cosine, ratio);
+    assert_true(isnan(cosine[0]) && isnan(cosine[1]) && isnan(ratio[1]));
+    CHECK_CLOSE(ratio[0], 0.0, 0.0);
+    hd_frame_free(frame);
+}
+
 static void halves_are_measured_per_column(void **state)
 {
     enum { DISKS = 5, VECTORS = 20 };
@@ -316,6 +333,7 @@ int main(void)
         cmocka_unit_test(pieces_make_the_whole),
         cmocka_unit_test(rewind_brings_the_vectors_back),
         cmocka_unit_test(halves_are_measured_per_column),
+        cmocka_unit_test(a_half_that_vanishes_has_no_angle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -182,7 +182,7 @@ static void the_bound_is_kept_and_used(void **state)
         averaged += k >= FIRST;
         if (k >= FIRST) time += length;
     }
-    const double mean = time / averaged, usual = hd_interval_usual(&interval);
+    const double mean = time / averaged, usual = hd_interval_usual(&interval).length;
     const double ideal = (log(accuracy * mean / (40.0 * DBL_EPSILON)) - 0.5 * scatter) / rate;
     print_message("mean length %.3f, foreseen %.3f, ideal %.3f; %.1f %% repaired, %.1f saved\n",
                   mean, usual, ideal, 100.0 * repaired / INTERVALS, interval.saved);

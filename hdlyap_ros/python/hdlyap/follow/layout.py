@@ -2,6 +2,7 @@
 share what is left."""
 
 from . import panels
+from .wrap import length, wrapped
 
 ORDER = ('head', 'progress', 'numbers', 'table', 'phases', 'cost', 'diagnosis', 'keys')
 TABLES = ('table', 'phases')
@@ -14,18 +15,22 @@ def lines(view, size, glyphs):
     """At most as many as the screen has."""
     width, height = size
     wanted = {
-        'head': panels.head(view),
+        'head': panels.head(view, width),
         'progress': panels.progress(view, width, glyphs),
-        'numbers': panels.numbers(view, width),
+        'numbers': panels.numbers(view, width, height),
         'table': panels.table(view, width),
         'phases': panels.phases(view, glyphs),
         'cost': panels.cost(view, width, glyphs),
         'diagnosis': panels.diagnosis(view),
         'keys': panels.keys(view),
     }
+    wanted = {
+        name: [piece for line in panel for piece in wrapped(line, width)]
+        for name, panel in wanted.items()
+    }
     room = allotted({name: len(panel) for name, panel in wanted.items()}, height)
     shown = {name: wanted[name][: room[name]] for name in FIRST}
-    shown.update((name, shortened(wanted[name], room[name])) for name in TABLES)
+    shown.update((name, shortened(wanted[name], room[name], width)) for name in TABLES)
     spare = height - sum(map(len, shown.values()))
     spaced = [name for name in SPACED if shown[name]][: max(0, spare)]
     return [line for name in ORDER for line in ([[]] if name in spaced else []) + shown[name]]
@@ -43,11 +48,12 @@ def allotted(wanted, height):
     return room
 
 
-def shortened(panel, room):
+def shortened(panel, room, width):
     """A table that is cut says so in its heading, and is nothing without a row."""
     if len(panel) <= room:
         return panel
     if room < 2:
         return panel[:room] if len(panel) == 1 else []
-    heading = panel[0] + [(f'   {len(panel) - room} more', 'faint')]
+    more = panels.MORE.format(len(panel) - room)
+    heading = panel[0] + [(more, 'faint')] if length(panel[0]) + len(more) <= width else panel[0]
     return [heading] + panel[1:room]

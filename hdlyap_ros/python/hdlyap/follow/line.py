@@ -1,9 +1,11 @@
-"""Progress in one line, until the run has ended: for pipes, logs and scripts."""
+"""Progress in one line, on a narrow terminal in several, until the run has ended: for pipes, logs
+and scripts."""
 
 import os
 import sys
 import threading
 import time
+from math import inf
 
 import rospy
 
@@ -12,6 +14,7 @@ from hdlyap.plots.numbers import clock
 from hdlyap.plots.stages import LIMITS, STAGES
 
 from .nodes import is_alive
+from .wrap import flow, wrapped
 
 LINE_PERIOD = 10.0  # seconds between lines where there is no terminal
 SILENCE = 2.0  # seconds without a message after which the node is asked
@@ -44,16 +47,17 @@ class Progress:
     def finished(self):
         return self.status is not None and self.status.stage == RunStatus.FINISHED
 
-    def line(self):
+    def parts(self):
+        """Of the line."""
         status = self.status
         parts = [STAGES.get(status.stage, '?'), f't = {status.sim_time:.1f}']
         if status.progress > 0:
             parts.insert(1, f'{100 * status.progress:.1f} %')
-        if status.remaining_seconds >= 0 and not self.finished:
+        if 0 <= status.remaining_seconds < inf and not self.finished:
             parts.append(f'{clock(status.remaining_seconds)} left')
         if self.spectrum is not None and self.spectrum.averaged_time > 0:
             parts.append(f'lambda_max {self.spectrum.lambda_max:.4f}' + self._error())
-        return '  '.join(parts + (self._spent(self.cost) if self.cost is not None else []))
+        return parts + (self._spent(self.cost) if self.cost is not None else [])
 
     @staticmethod
     def _spent(cost):
@@ -74,23 +78,34 @@ class Progress:
 
 
 class Display:
-    """A line that is overwritten on a terminal; elsewhere one now and then."""
+    """Overwritten on a terminal; elsewhere a line now and then."""
 
     def __init__(self):
         self._terminal = sys.stdout.isatty()
         self._next = 0.0
+        self._below = 0  # lines of the last one below its first
 
-    def show(self, line, last=False):
+    def show(self, parts, last=False):
         if self._terminal:
-            width = os.get_terminal_size(sys.stdout.fileno()).columns
-            print('\r' + line[: max(0, width - 1)] + '\033[K', end='', flush=True)
+            self._overwrite(parts)
         elif last or time.monotonic() >= self._next:
-            print(line, flush=True)
+            print('  '.join(parts), flush=True)
             self._next = time.monotonic() + LINE_PERIOD
+
+    def _overwrite(self, parts):
+        """On as many lines as it needs. The last column stays free, or what clears behind the text
+        would clear its end."""
+        width = max(1, os.get_terminal_size(sys.stdout.fileno()).columns - 1)
+        lines = [piece for line in flow(parts, width, '  ') for piece in wrapped(line, width)]
+        text = '\033[K\n'.join(''.join(text for text, _ in line) for line in lines)
+        up = f'\033[{self._below}A' if self._below else ''
+        print(f'\r{up}{text}\033[J', end='', flush=True)
+        self._below = len(lines) - 1
 
     def close(self):
         if self._terminal:
             print(flush=True)
+            self._below = 0
 
 
 def follow(node):
@@ -101,10 +116,10 @@ def follow(node):
         while not rospy.is_shutdown():
             if progress.news.wait(timeout=0.5):
                 progress.news.clear()
-                display.show(progress.line())
+                display.show(progress.parts())
             if progress.finished:
                 time.sleep(LAST_WORDS)
-                display.show(progress.line(), last=True)
+                display.show(progress.parts(), last=True)
                 return 0
             if time.monotonic() - progress.last_heard > SILENCE and not is_alive(node):
                 return 3

@@ -1,8 +1,10 @@
 """Which nodes there are and whether they live: questions to the master and to the nodes."""
 
+import http.client
 import sys
 import time
 import xmlrpc.client
+from xml.parsers import expat
 
 import rosgraph
 import rospy
@@ -10,31 +12,70 @@ import rospy
 from hdlyap.msg import RunStatus
 
 ANSWER = 5.0  # seconds that a master or a node may take to answer
+SOON = 1.0  # the same while nothing is known of a master
+HOW = 'To start one: roslaunch hdlyap run.launch'
 # a question that could not be asked, or whose answer is none
-UNANSWERED = (rosgraph.MasterException, OSError, xmlrpc.client.Error, ValueError, TypeError)
+UNANSWERED = (
+    rosgraph.MasterException,
+    OSError,
+    xmlrpc.client.Error,
+    http.client.HTTPException,
+    expat.ExpatError,
+    ValueError,
+    TypeError,
+)
 
 
 def wait_for_master(deadline):
-    while not rosgraph.is_master_online():
-        if time.monotonic() > deadline:
-            sys.exit(f'follow: no master at {rosgraph.get_master_uri()}')
-        time.sleep(0.2)
+    """Says at once that there is none."""
+    uri = rosgraph.get_master_uri()
+    missing = f'follow: no master at {uri}'
+    if not _wait(lambda: answers(uri, SOON), deadline, lambda: missing):
+        sys.exit(missing)
 
 
 def wait_for_node(name, deadline):
-    """Name of the node that publishes hdlyap/RunStatus; None after the deadline."""
-    while time.monotonic() < deadline and not rospy.is_shutdown():
-        nodes = {
-            topic.rpartition('/')[0]
-            for topic, kind in _published_topics()
-            if kind == RunStatus._type
-        }
-        if name in nodes or (name is None and len(nodes) == 1):
-            return name or nodes.pop()
-        if name is None and nodes:
-            sys.exit(f'follow: several nodes, choose one with --node: {", ".join(sorted(nodes))}')
+    """Name of the node that publishes hdlyap/RunStatus; None after the deadline. Says at once that
+    there is none."""
+    found = set()
+
+    def look():
+        found.clear()
+        found.update(_nodes())
+        return name in found if name else bool(found)
+
+    def missing():
+        others = f'; there is {", ".join(sorted(found))}' if found else ''
+        return f'follow: no {name or "hdlyap_node"} that publishes a run_info{others}'
+
+    if not _wait(look, deadline, missing):
+        return None
+    if name is None and len(found) > 1:
+        sys.exit(f'follow: several nodes, choose one with --node: {", ".join(sorted(found))}')
+    return name or found.pop()
+
+
+def _wait(is_there, deadline, missing):
+    """Whether it came in time."""
+    has_said = False
+    while not rospy.is_shutdown():
+        if is_there():
+            return True
+        left = deadline - time.monotonic()
+        if left <= 0:
+            return False
+        if not has_said:
+            print(f'{missing()}; waits {left:.3g} s. {HOW}', file=sys.stderr, flush=True)
+            has_said = True
         time.sleep(0.2)
-    return None
+    return False
+
+
+def _nodes():
+    """That publish hdlyap/RunStatus."""
+    return {
+        topic.rpartition('/')[0] for topic, kind in _published_topics() if kind == RunStatus._type
+    }
 
 
 def _published_topics():
@@ -58,10 +99,10 @@ def address(node):
     return ask_master('lookupNode', node)
 
 
-def answers(uri):
-    """Whether a node is there."""
+def answers(uri, patience=ANSWER):
+    """Whether a node, or a master, is there."""
     try:
-        with _server(uri) as node:
+        with _server(uri, patience) as node:
             node.getPid(rospy.get_name())
         return True
     except UNANSWERED:
@@ -77,11 +118,15 @@ def is_alive(node):
 
 
 class _ImpatientTransport(xmlrpc.client.Transport):
+    def __init__(self, patience):
+        super().__init__()
+        self._patience = patience
+
     def make_connection(self, host):
         connection = super().make_connection(host)
-        connection.timeout = ANSWER
+        connection.timeout = self._patience
         return connection
 
 
-def _server(uri):
-    return xmlrpc.client.ServerProxy(uri, transport=_ImpatientTransport())
+def _server(uri, patience=ANSWER):
+    return xmlrpc.client.ServerProxy(uri, transport=_ImpatientTransport(patience))

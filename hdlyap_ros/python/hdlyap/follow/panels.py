@@ -1,33 +1,33 @@
 """View -> panels: each a list of lines, a line a list of (text, style)."""
 
-from math import atan2, hypot, isfinite, pi
+from math import atan2, hypot, inf, isfinite, pi
 
 from hdlyap.msg import LpPhase
-from hdlyap.plots import paper, steps, step_table, waves
+from hdlyap.plots import fits, paper, steps, step_table, waves
 from hdlyap.plots.numbers import clock, with_error
 from hdlyap.plots.phases import apart
 from hdlyap.plots.report import system
 from hdlyap.plots.stages import LIMITS, STAGES, seconds
 
+from .wrap import flow, joined
+
 LEVELS = {0: ('OK', 'ok'), 1: ('WARN', 'warn'), 2: ('ERROR', 'error'), 3: ('STALE', 'warn')}
 KIND_STYLES = {steps.T: 'T', steps.LP: 'LP'}
-PAPER_WIDTH = 88  # of a table of steps with the paper's values
 PART_BAR = 6  # columns
-GAP = '   '
+ROOMY = 30  # lines of a screen
+MORE = '  {} more'  # in the heading of a table that is cut
 STATES = {LpPhase.WEAK: 'too weak now', LpPhase.COARSE: 'turns too fast'}
 PHASE_ROW = '  {:<9} {:<17} {:>6} {:>7}  {} {:<6}{:<14} {}'
 PHASE_HEAD = PHASE_ROW.format('LP phases', 'A', 'index', '|(a,b)|', ' ', '/2 pi', 'omega', 'v')
 
 
-def head(view):
+def head(view, width):
     """What runs."""
     info = view.info
     if info is None:
         return [[(view.node, 'strong')]]
-    return [
-        [(f'{view.node}  {info.scene}', 'strong'), (f'  seed {info.seed}  run {info.run_id}', '')],
-        [(system(info), '')],
-    ]
+    names = [(f'{view.node}  {info.scene}', 'strong'), f'seed {info.seed}', f'run {info.run_id}']
+    return [*flow(names, width, '  '), [(system(info), '')]]
 
 
 def progress(view, width, glyphs):
@@ -36,7 +36,7 @@ def progress(view, width, glyphs):
         return [[(_stage(view), 'strong')]]
     text = _stage(view)
     right = f' {100 * status.progress:5.1f} %' if status.progress > 0 else ''
-    if status.remaining_seconds >= 0 and not view.is_finished:
+    if 0 <= status.remaining_seconds < inf and not view.is_finished:
         right += f'  {clock(status.remaining_seconds)} left'
     room = width - len(text) - len(right) - 2
     line = [(text, 'strong'), ('  ', '')]
@@ -67,10 +67,10 @@ def _times(view):
         yield f'{view.speed:.3g} time units/s'
 
 
-def numbers(view, width):
-    """Exponents and fits."""
+def numbers(view, width, height):
+    """Exponents, and fits with their forms; where there is room, with their wave numbers too."""
     cells = [f'{name} {value}' for name, value in _numbers(view)]
-    return flow(cells, width) if cells else []
+    return flow(cells, width) + flow(_fits(view, height >= ROOMY), width)
 
 
 def _numbers(view):
@@ -83,16 +83,18 @@ def _numbers(view):
             yield 'pairing error', f'{spectrum.pairing_error:.1e}'
     if message is None or message.averaged_time <= 0:
         return
-    for name, value, points in (
-        ('c_T', 'c_t', 't_points'),
-        ('c_L', 'c_l', 'l_points'),
-        ('v', 'v', 'v_phases'),
-    ):
-        if getattr(message, points):
-            yield name, _measured(getattr(message, value), getattr(message, value + '_error'))
     looked_for = [step for step in message.steps if step.kind != steps.ZERO]
     found = sum(step.resolved for step in looked_for)
     yield 'steps resolved', f'{found} of {len(looked_for)}'
+
+
+def _fits(view, with_waves):
+    message = view.steps if view.steps is not None and view.steps.averaged_time > 0 else None
+    for fit in fits.of(message):
+        if fit.count:
+            _, value, error = fit.values[0]
+            basis = fit.basis if with_waves else fit.form
+            yield f'{fit.symbol} {_measured(value, error)}' + (f' ({basis})' if basis else '')
 
 
 def table(view, width):
@@ -100,20 +102,29 @@ def table(view, width):
     message = view.steps
     if message is None or message.averaged_time <= 0:
         return _without(view, 'steps')
-    fitted = (
-        {step.name: step.fitted for step in paper.steps(view.info)}
-        if view.info and width >= PAPER_WIDTH
-        else {}
-    )
+    fitted = {step.name: step.fitted for step in paper.steps(view.info)} if view.info else {}
     found = list(step_table.block_rows(message, fitted))
     if view.info and view.is_averaged and view.last_index > view.positive_end:
         found.insert(0, (step_table.zero_cells(view), None))
     if not found:
         return _note('steps', 'none resolved yet')
-    first, *rest = step_table.layout([row for row, _ in found], bool(fitted))
+    first, *rest = _table_lines([row for row, _ in found], bool(fitted), width)
     return [[(first, 'faint')]] + [
         [(text, KIND_STYLES.get(kind, ''))] for text, (_, kind) in zip(rest, found)
     ]
+
+
+def _table_lines(rows, beside_paper, width):
+    """The paper's values stand beside where there is room; of steps that share a set not all names
+    in one line, as each has a line of its own."""
+    for beside in (True, False) if beside_paper else (False,):
+        lines = list(step_table.layout(rows, beside))
+        room = width - len(MORE.format(999)) - len(lines[0])
+        if room >= 0:
+            return lines
+    longest = max(len(row[0]) for row in rows) + room
+    names = [joined(row[0].split('+'), max(longest, 0)) for row in rows]
+    return list(step_table.layout([[name, *row[1:]] for name, row in zip(names, rows)]))
 
 
 def phases(view, glyphs):
@@ -184,8 +195,10 @@ def _interval(view):
         yield f'interval {cost_now.interval:.3g} ({LIMITS.get(cost_now.interval_limit, "?")})'
         yield f'repairs {cost_now.repairs}'
         yield f'condition {cost_now.condition:.1e}'
-        yield f'error bound {cost_now.error_bound:.1e}'
-    yield f'{cost_now.events_per_second:.2g} events/s'
+        if isfinite(cost_now.error_bound):
+            yield f'error bound {cost_now.error_bound:.1e}'
+    if isfinite(cost_now.events_per_second):
+        yield f'{cost_now.events_per_second:.2g} events/s'
 
 
 def diagnosis(view):
@@ -212,24 +225,13 @@ def diagnosis(view):
 
 def keys(view):
     asked = 'no more steps and phases' if view.wanted else 'compute steps and phases'
-    return [[('q quit', 'faint')] + ([(f'{GAP}m {asked}', 'faint')] if _may_ask(view) else [])]
+    return [[('q quit', 'faint')] + ([(f'   m {asked}', 'faint')] if _may_ask(view) else [])]
 
 
 def _may_ask(view):
     known = view.info.observables if view.info else ()
     topics = [topic for topic in ('steps', 'lp_phases') if topic in known]
     return bool(topics) and not set(topics) <= set(view.others)
-
-
-def flow(cells, width, gap=GAP):
-    """Lines of as many cells as fit side by side."""
-    lines = []
-    for cell in cells:
-        if lines and len(lines[-1]) + len(gap) + len(cell) <= width:
-            lines[-1] += gap + cell
-        else:
-            lines.append(cell)
-    return [[(line, '')] for line in lines]
 
 
 def _without(view, topic):

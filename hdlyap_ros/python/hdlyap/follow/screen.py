@@ -8,6 +8,8 @@ import tempfile
 import termios
 import tty
 
+from .wrap import length, spans
+
 ENTER = '\033[?1049h\033[?25l\033[?7l'  # another screen, no cursor, no wrapping at the edge
 LEAVE = '\033[0m\033[?7h\033[?25h\033[?1049l'
 HOME, TO_LINE_END, TO_END, CLEAR = '\033[H', '\033[K', '\033[J', '\033[2J'
@@ -68,12 +70,11 @@ class Screen:
     def show(self, lines, size):
         """As many lines as the screen has, each cut to its width; nothing is sent if they stand
         there already."""
-        text = (TO_LINE_END + '\r\n').join(
-            self._painted(cut(line, size[0])) for line in lines[: size[1]]
-        )
+        text = '\r\n'.join(self._cleared(cut(line, size[0]), size[0]) for line in lines[: size[1]])
+        if len(lines) < size[1]:
+            text += '\r\n' + TO_END
         if self._shown != (size, text):
-            begin = HOME if self._shown and self._shown[0] == size else CLEAR + HOME
-            _write(begin + text + TO_LINE_END + TO_END)
+            _write((HOME if self._shown and self._shown[0] == size else CLEAR + HOME) + text)
             self._shown = (size, text)
 
     def leave_behind(self, lines):
@@ -90,6 +91,11 @@ class Screen:
         if not pressed:
             raise EOFError  # the terminal has gone
         return pressed.decode('ascii', 'replace')
+
+    def _cleared(self, line, width):
+        """With nothing left behind it. Behind a line as wide as the screen the cursor still stands
+        on its last character."""
+        return self._painted(line) + (TO_LINE_END if length(line) < width else '')
 
     def _painted(self, line):
         return ''.join(
@@ -144,11 +150,7 @@ class Complaints:
 
 def cut(line, width):
     """The line's first columns."""
-    kept = []
-    for text, style in line:
-        kept.append((text[:width], style))
-        width -= len(kept[-1][0])
-    return [span for span in kept if span[0]]
+    return spans(line, 0, width)
 
 
 def clean(text):

@@ -3,35 +3,29 @@
 import copy
 import io
 
-from . import steps
+from . import fits, steps
 from .deviation import Deviation
 from .recording import RecordingError
 
 SAME = 1e-9  # relative: parameters that were given as the same decimal number
-SYSTEM = ('density', 'aspect', 'boundary_x', 'boundary_y')
+SYSTEM = ('disks', 'density', 'aspect', 'boundary_x', 'boundary_y')
 OWN = ('header', 'run_id')  # of every message, also of bit-identical runs
-FITS = (
-    ('c_t', steps.T, 't_points'),
-    ('c_t2', steps.T, 't_points'),
-    ('c_l', steps.LP, 'l_points'),
-    ('c_l2', steps.LP, 'l_points'),
-    ('v', None, 'v_phases'),
-)
 
 
 class Comparison:
-    """Of the runs a and b. With as many disks in both: exponents, h_KS, steps, fits; else the fits
-    alone, since exponents belong to wave numbers that depend on N."""
+    """Of the runs a and b of one system: exponents, h_KS, steps, fits. `apart`: (fit of a, fit of
+    b) where they have not the same form and wave numbers."""
 
     def __init__(self, a, b):
         self.runs = a, b
-        self.same_disks = a.info.disks == b.info.disks
         _refuse_other_systems(a.info, b.info)
-        (_refuse_without_exponents if self.same_disks else _refuse_without_steps)(a, b)
-        self.exponents = _exponents(a, b) if self.same_disks else []
-        self.sums = [_sum(a, b)] if self.same_disks and len(self.exponents) > 1 else []
-        self.steps = _steps(a, b) if self.same_disks else []
-        self.fits = _fits(a, b, self.same_disks)
+        _refuse_without_exponents(a, b)
+        self.exponents = _exponents(a, b)
+        self.sums = [_sum(a, b)] if len(self.exponents) > 1 else []
+        self.steps = _steps(a, b)
+        pairs = _pairs_of_fits(a, b)
+        self.fits = [one for pair in pairs if pair[0].is_like(pair[1]) for one in _fits(pair)]
+        self.apart = [pair for pair in pairs if not pair[0].is_like(pair[1])]
 
     @property
     def deviations(self):
@@ -74,17 +68,19 @@ def _bits(message):
 
 
 def _refuse_other_systems(a, b):
-    for name in SYSTEM:
-        values = getattr(a, name), getattr(b, name)
-        same = (
-            values[0] == values[1]
-            if isinstance(values[0], str)
-            else abs(values[0] - values[1]) <= SAME * abs(values[0])
+    others = [
+        f'{name} {getattr(a, name)} and {getattr(b, name)}'
+        for name in SYSTEM
+        if not _is_same(getattr(a, name), getattr(b, name))
+    ]
+    if others:
+        raise RecordingError(
+            'the runs are of different systems and are not compared: ' + ', '.join(others)
         )
-        if not same:
-            raise RecordingError(
-                'the runs cannot be compared: ' f'{name} is {values[0]} and {values[1]}'
-            )
+
+
+def _is_same(one, other):
+    return one == other or (isinstance(one, float) and abs(one - other) <= SAME * abs(one))
 
 
 def _refuse_without_exponents(a, b):
@@ -97,15 +93,6 @@ def _refuse_without_exponents(a, b):
             'the runs cannot be compared: exponents {}-{} and {}-{}'.format(
                 *carried[0], *carried[1]
             )
-        )
-
-
-def _refuse_without_steps(a, b):
-    if not all(run.steps and (run.steps.t_points or run.steps.l_points) for run in (a, b)):
-        raise RecordingError(
-            f'the runs cannot be compared: disks are {a.info.disks} and '
-            f'{b.info.disks}, and only fits over steps could be; not both bags '
-            'have one'
         )
 
 
@@ -162,30 +149,15 @@ def _steps(a, b):
     ]
 
 
-def _fits(a, b, same_disks):
-    """Deviations of the fits that both runs have; their origins are the numbers of points. A curve
-    through other points need not be the same: with as many disks only fits over the same steps are
-    judged. (v is no curve and of no kind of step.)"""
-    if a.steps is None or b.steps is None:
-        return []
-    deviations = []
-    for name, kind, points in FITS:
-        counts = [getattr(run.steps, points) for run in (a, b)]
-        if min(counts) < (2 if name.endswith('2') else 1):
-            continue
-        judged = not same_disks or _waves(a, kind) == _waves(b, kind)
-        deviations.append(
-            Deviation(
-                name[0] + name[1:].upper(),
-                [getattr(run.steps, name) for run in (a, b)],
-                [getattr(run.steps, name + '_error') for run in (a, b)],
-                judged,
-                counts,
-            )
-        )
-    return deviations
+def _pairs_of_fits(a, b):
+    """(fit of a, fit of b) of each kind that both runs have."""
+    return [pair for pair in zip(fits.of(a.steps), fits.of(b.steps)) if all(f.count for f in pair)]
 
 
-def _waves(run, kind):
-    """What a fit goes through."""
-    return {key for key in _resolved(run) if key[0] == kind and not key[3]}
+def _fits(pair):
+    """Deviations of what two fits of one form over the same wave numbers say; the fits are their
+    origins."""
+    return [
+        Deviation(name, (value, other), (error, others), origins=pair)
+        for (name, value, error), (_, other, others) in zip(*(fit.values for fit in pair))
+    ]

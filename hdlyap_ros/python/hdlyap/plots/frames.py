@@ -1,9 +1,13 @@
-"""bag file -> frames of a movie: disks and the vectors of some modes, one time after the other."""
+"""bag files -> frames of a movie: disks and the vectors of some modes, one time after the other."""
+
+import heapq
 
 import numpy as np
 
-from . import steps
-from .recording import FIELD, PHASES, RUN_INFO, STATE, STEPS, RecordingError, in_time, read
+from hdlyap.data import joined
+from hdlyap.data.reader import FIELD, PHASES, STATE, STEPS, RecordingError
+
+from . import recording, steps
 
 
 class Frame:
@@ -49,32 +53,38 @@ class Frame:
 
 
 class Film:
-    """Of the last run of a bag, or of the one of that number."""
+    """Of the last run of a bag, or of the one of that number; of several that belong to one run."""
 
-    def __init__(self, path, names=None, node=None, number=None):
-        self._path, self._node, self._number = path, node, number
-        run = read(path, node, (RUN_INFO, STEPS), number)
-        self.info = run.info
-        self.steps = steps.resolved(run.steps)
+    def __init__(self, paths, names=None, node=None, number=None):
+        self._run = joined.one(paths, node, number)
+        self.info = self._run.info
+        self.steps = steps.resolved(recording.of(self._run, (STEPS,)).steps)
         self.names = names or lowest(self.steps)
         if not self.names:
-            raise RecordingError(f'{path}: no step is resolved in it')
+            raise RecordingError(f'{self._run.name}: no step is resolved in it')
         places, fields = self._times()
         if len(places) == 0:
-            raise RecordingError(f'{path}: neither state nor fields in it: there are no disks')
+            raise RecordingError(
+                f'{self._run.name}: neither state nor fields in it: there are no disks'
+            )
         # from the first vector on, if there is one
         self.begin = fields[0] if len(fields) else places[0]
         self.end = places[-1]
         self.report = _apart(places[places >= self.begin])
         self.field_interval = _apart(fields)
 
+    def _in_time(self, *kinds):
+        """Messages in the order of their simulated time: a recorder mixes topics a little."""
+        courses = [self._run.packed((kind,)) for kind in kinds]
+        return heapq.merge(*courses, key=lambda packed: packed.sim_time)
+
     def _times(self):
         """Of places, and of the fields of these modes, each once."""
         places, fields = set(), set()
-        for kind, packed in in_time(self._path, (STATE, FIELD), self._node, self._number):
-            places.add(packed.sim_time())
-            if kind == FIELD and wave_name(*packed.field_wave()) in self.names:
-                fields.add(packed.sim_time())
+        for packed in self._in_time(STATE, FIELD):
+            places.add(packed.sim_time)
+            if packed.kind == FIELD and wave_name(*packed.field_wave()) in self.names:
+                fields.add(packed.sim_time)
         return np.array(sorted(places)), np.array(sorted(fields))
 
     def count(self, every):
@@ -84,12 +94,11 @@ class Film:
     def frames(self, every):
         """What is known at each of those times, in one Frame."""
         frame, number, count = Frame(), 0, self.count(every)
-        messages = in_time(self._path, (STATE, FIELD, PHASES), self._node, self._number)
-        for kind, packed in messages:
-            while number < count and packed.sim_time() > self.begin + number * every + 1e-9:
+        for packed in self._in_time(STATE, FIELD, PHASES):
+            while number < count and packed.sim_time > self.begin + number * every + 1e-9:
                 yield frame
                 number += 1
-            frame.add(kind, packed.message(), self.names)
+            frame.add(packed.kind, packed.message(), self.names)
         for _ in range(number, count):
             yield frame
 

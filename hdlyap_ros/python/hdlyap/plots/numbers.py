@@ -36,7 +36,9 @@ def known(errors):
 
 
 def clock(seconds):
-    """1:05, 2:00:10"""
+    """1:05, 2:00:10; ? of what is no time"""
+    if not isfinite(seconds):
+        return '?'
     minutes, seconds = divmod(int(seconds + 0.5), 60)
     hours, minutes = divmod(minutes, 60)
     return f'{hours}:{minutes:02d}:{seconds:02d}' if hours else f'{minutes}:{seconds:02d}'

@@ -60,6 +60,7 @@ def mean_omega(phases):
     omega = np.array(
         [[abs(phase.omega), phase.omega_error] for phase in phases if phase.state == phase.TRACKED]
     ).reshape(-1, 2)
+    omega = omega[np.isfinite(omega[:, 0])]  # not of those whose tracking has only begun
     if not len(omega):
         return np.nan, np.nan, 0
     errors = known(omega[:, 1])

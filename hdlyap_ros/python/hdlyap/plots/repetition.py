@@ -28,7 +28,7 @@ RESULTS = (
 # a word, or a list of numbers as text
 LISTS = ('field_indices',)
 # bags of before these parameters
-OLDER = dict(field_interval=0.0, wait_for_subscribers=[])
+OLDER = dict(field_interval=0.0, wait_for_subscribers=[], changes=[])
 
 
 def chosen(path, node=None, number=None):
@@ -60,7 +60,15 @@ def parameters(info):
         checkpoint='',
         resume='',
     )
+    changes = asked.get('changes', [])
+    asked.update({change.name: change.before for change in reversed(changes)})  # as it began
+    asked.update(changes=[_change(change) for change in changes])
     return {**asked, **{name: value for name, value in OLDER.items() if name not in asked}}
+
+
+def _change(change):
+    """As the parameter changes has it, to the last bit."""
+    return f'{change.sim_time!r} {change.name}={change.value!r}'
 
 
 def _list_of(text):
@@ -86,7 +94,7 @@ def _remarks(info):
     if info.resume:
         yield (
             f'That run went on from {info.resume} at simulated time {info.resumed_time:g}; '
-            'this one begins anew.'
+            'this one begins anew. What was changed before that time is in the bag of before.'
         )
 
 

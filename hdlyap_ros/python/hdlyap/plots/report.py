@@ -21,6 +21,14 @@ def report(recording):
     return '\n\n'.join(blocks)
 
 
+def of_means(means):
+    """The same of plots.means.Means."""
+    blocks = [_head(means), means.table(), _tail(means)]
+    if means.steps is not None:
+        blocks.append(next(step_table.blocks(means)))
+    return '\n\n'.join(blocks)
+
+
 def _head(recording):
     head = f'scene {recording.info.scene}: {system(recording.info)}\n{origin(recording.info)}'
     if recording.runs > 1:
@@ -37,7 +45,8 @@ def system(info):
 
 
 def origin(info):
-    return f'seed {info.seed}, hdlyap {info.version}, run {info.run_id}'
+    run = f'run {info.run_id}' if info.run_id else 'means over seeds'
+    return f'seed {info.seed}, hdlyap {info.version}, {run}'
 
 
 def _sums(recording):

@@ -30,6 +30,9 @@ LIMITS = {
     Cost.LIMIT_EVENTS: 'memory of the events',
     Cost.LIMIT_LOOK: 'vectors wanted',
     Cost.LIMIT_REPAIR: 'repair',
+    Cost.LIMIT_STAGE: 'end of the stage',
+    Cost.LIMIT_SAMPLE: 'samples for errors',
+    Cost.LIMIT_NONE: 'none yet',
 }
 
 

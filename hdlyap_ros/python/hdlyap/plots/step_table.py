@@ -2,7 +2,7 @@
 
 from hdlyap.msg import Step
 
-from . import paper, steps
+from . import fits, paper, steps
 from .numbers import stated, with_error
 from .phases import mean_omega
 
@@ -20,7 +20,6 @@ SHARING = {
     Step.SHARING_BLENDED: 'blended',
     Step.SHARING_COINCIDENT: 'coincide',
 }
-FITS = (('T', 't', 't_points'), ('LP', 'l', 'l_points'))
 
 
 def blocks(recording):
@@ -145,45 +144,31 @@ def _conjugates(message, half):
 
 
 def _fits(recording):
-    message = recording.steps
-    lines = [
-        'fits lambda = c k + c2 k^2 over the resolved steps [sigma/time unit, ' 'sigma^2/time unit]'
-    ]
-    for kind, letter, points in FITS:
-        lines += _fit_lines(
-            message, letter, getattr(message, points), paper.branches(recording.info).get(kind)
-        )
-    velocity = with_error(message.v, message.v_error) if message.v_phases else 'not known'
-    of_phases = f'|omega| / k of {message.v_phases} LP phases' + _misfit(
-        stated(message, 'v_misfit')
-    )
-    lines.append(f'  v     {velocity:<15}' + (of_phases if message.v_phases else ''))
+    lines = ['fits over the resolved steps [sigma/time unit, sigma^2/time unit], k [1/sigma]']
+    branches = paper.branches(recording.info)
+    for fit in fits.of(recording.steps):
+        lines += _fit_lines(fit, branches.get(steps.NAMES[fit.kind]))
     return '\n'.join(line.rstrip() for line in lines)
 
 
-def _fit_lines(message, letter, points, branch):
-    """c and c2 of one branch, as far as there are wave numbers for them."""
-    if not points:
-        return [f'  c_{letter.upper()}   not known: no step resolved']
-    waves = f'{points} wave number' + ('s' if points > 1 else '')
-    waves += _misfit(stated(message, letter + '_misfit'))
+def _fit_lines(fit, branch):
+    """What it stands on, and beside each coefficient the paper's."""
+    if not fit.count:
+        why = '' if fit.symbol == 'v' else ': no step resolved'
+        return [f'  {fit.symbol:<5} not known{why}']
+    basis = (
+        f'{fit.basis}, {fit.count} of them'
+        if fit.symbol == 'v'
+        else f'{steps.NAMES[fit.kind]} steps: {fit.basis}'
+    )
+    misfit = f', misfit {fit.misfit:.1f}' if fit.misfit >= 0 else ''
     lines = []
-    for suffix, published in (('', branch and branch.c), ('2', branch and branch.c2)):
-        if suffix and points < 2:
-            continue
-        name = f'c_{letter}{suffix}'
-        value = with_error(getattr(message, name), getattr(message, name + '_error'))
-        lines.append(
-            f'  {"c_" + letter.upper() + suffix:<5} {value:<15}{waves:<29}'
-            + _published(published, branch)
-        )
-        waves = ''
-    return lines
-
-
-def _misfit(value):
-    """How far the steps are from the relation, in their errors."""
-    return f', misfit {value:.1f}' if value >= 0 else ''
+    for (name, value, error), published in zip(
+        fit.values, (branch and branch.c, branch and branch.c2)
+    ):
+        beside = '' if fit.symbol == 'v' else _published(published, branch)
+        lines.append(f'  {name:<5} {with_error(value, error):<15}{beside}')
+    return [f'  {basis}{misfit}', *lines]
 
 
 def _published(value, branch):

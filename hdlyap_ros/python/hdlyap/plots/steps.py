@@ -8,7 +8,12 @@ ZERO, T, LP = NAMES
 
 def name(step):
     """Of a Step, or of anything else with kind, nx and ny."""
-    return NAMES[step.kind] if step.kind == ZERO else wave_name(NAMES[step.kind], step)
+    return NAMES[step.kind] if step.kind == ZERO else wave_name(kind_name(step.kind), step)
+
+
+def kind_name(kind):
+    """Also of one that another version may know."""
+    return NAMES.get(kind, f'kind {kind}')
 
 
 def wave_name(kind, wave):

@@ -79,15 +79,7 @@ def report(comparison):
 def _head(comparison):
     a, b = comparison.runs
     lines = [f'{letter}  {origin(run.info)}' + _length(run) for letter, run in zip('ab', (a, b))]
-    systems = dict.fromkeys(system(run.info) for run in (a, b))
-    return '\n'.join(
-        lines
-        + (
-            [f'both  {one}' for one in systems]
-            if len(systems) == 1
-            else [f'{letter}  {one}' for letter, one in zip('ab', systems)]
-        )
-    )
+    return '\n'.join([*lines, f'both  {system(a.info)}'])
 
 
 def _length(run):
@@ -112,12 +104,7 @@ def _short(value):
 def _remarks(comparison):
     a, b = comparison.runs
     lines = []
-    if not comparison.same_disks:
-        lines.append(
-            'other N: exponents belong to other wave numbers; only the fits are '
-            'compared,\nwhich do not depend on N as far as the boxes are large'
-        )
-    if comparison.same_disks and a.info.seed == b.info.seed:
+    if set(a.info.seed.split(', ')) & set(b.info.seed.split(', ')):  # of means: several
         lines.append(
             'the same seed: where the runs share their trajectory their errors are no '
             'measure of their difference'
@@ -136,7 +123,11 @@ def _quantities(comparison):
         for letter, names in zip('ab', comparison.found_once)
         if names
     ]
-    yield '\n'.join([HEAD.format('').rstrip(), *rows, *once])
+    apart = [
+        f'  {a.symbol} is not compared: a {a.measured}, {a.basis}; b {b.measured}, {b.basis}'
+        for a, b in comparison.apart
+    ]
+    yield '\n'.join([HEAD.format('').rstrip(), *rows, *once, *apart])
 
 
 def _row(one, remark=''):
@@ -158,8 +149,8 @@ def _of_step(one):
 
 
 def _of_fit(one):
-    points = 'phases' if one.name == 'v' else 'wave numbers'
-    return 'over {} and {} '.format(*one.origins) + points
+    a, b = one.origins
+    return ' and '.join(dict.fromkeys((a.basis, b.basis)))
 
 
 def _exponents(comparison):

@@ -7,8 +7,10 @@ from hdlyap.plots.figures.style import STYLE, plt, save
 from hdlyap.plots.numbers import clock
 from hdlyap.plots.progress import Progress
 
-from . import files, parts, row
-from .bag import Bag
+from hdlyap.runs import files
+from hdlyap.runs.bag import Bag
+
+from . import parts, row
 
 DPI = 130  # of PNG files small enough to be kept
 COLUMNS = ('quantity', 'published', 'measured', 'unit', 'verdict', 'remark')

@@ -1,13 +1,13 @@
 """launch/reproduce.yaml -> the runs that the parts of the paper need, as scene files."""
 
 import json
-from math import isfinite
 import os
 import re
 
 import yaml
 
-from . import files
+from hdlyap.runs import files, run
+from hdlyap.runs.run import usual
 
 # of an entry, what is no parameter of the node
 OWN = ('base', 'quick', 'full', 'seconds')
@@ -17,59 +17,25 @@ class PlanError(Exception):
     """One line for the user."""
 
 
-class Run:
-    """One run: its name, the parameters of its node, and about how many seconds it takes:
-    on all of two cores if it is wide, else on one."""
+class Run(run.Run):
+    ABOUT = 'A run of the reproduction of the paper: launch/reproduce.yaml.'
 
     def __init__(self, name, entry, scenes, quick):
         which = 'quick' if quick else 'full'
-        self.name = name
-        self.seconds = entry['seconds'][0 if quick else 1]
+        seconds = entry['seconds'][0 if quick else 1]
         base = _load(os.path.join(scenes, entry['base'] + '.yaml'))
         asked = {key: value for key, value in entry.items() if key not in OWN}
-        self.parameters = {**usual(scenes), **base, 'threads': 1, **asked}
-        self.parameters.update(entry.get(which, {}), scene=name)
+        parameters = {**usual(scenes), **base, 'threads': 1, **asked}
+        parameters.update(entry.get(which, {}), scene=name)
+        super().__init__(name, parameters, seconds)
         if (
-            not all(is_number(seconds) and seconds > 0 for seconds in entry['seconds'])
+            not all(run.is_number(seconds) and seconds > 0 for seconds in entry['seconds'])
             or len(entry['seconds']) != 2
         ):
             raise ValueError(f'seconds is {entry["seconds"]}, must be two positive numbers')
-        for name in ('equilibration', 'warmup', 'duration'):
-            if not is_number(self.parameters[name]):
-                raise ValueError(f'{name} is {self.parameters[name]}, must be a number')
-        if not self.parameters['duration'] > 0:
-            raise ValueError('duration is 0: it would never end')
-
-    @property
-    def is_wide(self):
-        """Has all cores for itself."""
-        return self.parameters['threads'] == 0
-
-    def share_of(self, jobs):
-        """Seconds of wall time that it adds to the work of so many jobs at a time."""
-        return self.seconds / (1 if self.is_wide else jobs)
-
-    @property
-    def node(self):
-        return f'/{self.name}/hdlyap'
-
-    def scene_file(self, folder):
-        return os.path.join(folder, self.name + '.yaml')
-
-    def bag(self, folder):
-        return os.path.join(folder, self.name + '.bag')
 
     def record(self, folder):
         return os.path.join(folder, self.name + '.json')
-
-    def write(self, folder):
-        """The scene file, if it is not there with these very parameters."""
-        text = (
-            '# A run of the reproduction of the paper: launch/reproduce.yaml.\n'
-            + yaml.safe_dump(self.parameters, sort_keys=False, default_flow_style=None)
-        )
-        if files.read(self.scene_file(folder)) != text:
-            files.write(self.scene_file(folder), text)
 
     def noted(self, folder):
         """What was noted when it was last done with these parameters, of this bag or another; {} if
@@ -99,19 +65,6 @@ class Run:
             self.record(folder),
             json.dumps({**facts, 'parameters': self.parameters}, indent=1) + '\n',
         )
-
-
-def usual(scenes):
-    """The default of every parameter, as the complete one of the scenes says in its comments."""
-    path = os.path.join(scenes, 'paper_periodic.yaml')
-    text = _read(path).replace('\n# ', ' ')
-    return {
-        name: yaml.safe_load(value) for value, name in re.findall(r'Default: (.*)\.\n(\w+):', text)
-    }
-
-
-def is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and isfinite(value)
 
 
 def runs(package, quick, path=None):

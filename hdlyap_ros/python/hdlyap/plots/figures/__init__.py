@@ -33,13 +33,14 @@ FIGURES = (
     covariant_vectors,
     cost,
 )
+OF_MEANS = (spectrum, steps, dispersion)  # the others are of one run
 
 
-def draw_all(recording, folder, progress):
+def draw_all(recording, folder, progress, kinds=FIGURES):
     """Every figure that the recording has data for; the names of the files written."""
     files = []
     with plt.rc_context(STYLE):
-        for kind in progress.over(FIGURES, len(FIGURES)):
+        for kind in progress.over(kinds, len(kinds)):
             figure = kind.draw(recording)
             if figure is not None:
                 files += save(figure, folder, kind.__name__.rpartition('.')[2])

@@ -3,7 +3,7 @@
 from matplotlib import ticker
 import numpy as np
 
-from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, plt, thinned
+from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, plt, scene, thinned
 
 
 def draw(recording):
@@ -36,6 +36,7 @@ def draw(recording):
     bottom.set_xscale('log')
     for axes, name in zip((top, middle, bottom), 'abc'):
         axes.set_title(f'({name})', loc='left')
+    figure.suptitle(scene(recording.info), fontsize=9)
     return figure
 
 

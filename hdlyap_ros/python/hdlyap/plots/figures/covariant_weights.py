@@ -1,9 +1,9 @@
 """Weights of the lowest waves' fields in the vectors round the zero modes: Gram-Schmidt beside
 covariant ones."""
 
-from .. import covariant, steps
+from .. import covariant
 from .over_index import level, near_zero, shade
-from .style import GREY, INK, KIND_COLOURS, plt, scene
+from .style import GREY, INK, kind_colour, plt, scene
 
 PANELS = 4
 
@@ -49,7 +49,7 @@ def _panel(axes, run, weight, indices):
         indices,
         weight.dq,
         'o',
-        color=KIND_COLOURS[steps.NAMES[weight.kind]],
+        color=kind_colour(weight.kind),
         markersize=3,
         label=r'covariant, $\delta q$',
     )

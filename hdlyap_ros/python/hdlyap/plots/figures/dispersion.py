@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from .. import paper, steps
+from .. import fits, paper, steps
 from ..numbers import with_error
-from .style import GREY, KIND_COLOURS, bars, plt, scene
+from .style import GREY, KIND_COLOURS, bars, kind_colour, plt, scene
 
-MARKERS = {'T': 'o', 'LP': 's'}
+MARKERS = {steps.T: 'o', steps.LP: 's'}
 CLOSE = 0.028  # of the width of the axes: nearer names stand behind one another
 NAMES = 3  # that stand behind one another
 MARGIN = 1.08
@@ -14,14 +14,14 @@ PUBLISHED_UP_TO = 0.3  # wave numbers for which slopes without curvature are mea
 
 
 def draw(recording):
-    message = recording.steps
-    points = [(block, step) for block in steps.blocks(message) for step in block.steps]
+    points = [(block, step) for block in steps.blocks(recording.steps) for step in block.steps]
     if not points:
         return None
     figure, axes = plt.subplots(figsize=(5.2, 4.4), constrained_layout=True)
     end = MARGIN * max(step.wave_number for _, step in points)
-    for kind, letter, count in (('LP', 'l', message.l_points), ('T', 't', message.t_points)):
-        _branch(axes, recording, kind, letter, count, end)
+    of_t, of_l, _ = fits.of(recording.steps)
+    for fit in (of_l, of_t):
+        _branch(axes, recording.info, fit, end)
     for block, step in points:
         _point(axes, step, alone=len(block.steps) == 1)
     axes.set_xlim(0, end)
@@ -36,13 +36,12 @@ def draw(recording):
 
 def _point(axes, step, alone):
     """Open where the step shares its vectors with another."""
-    kind = steps.NAMES[step.kind]
-    colour = KIND_COLOURS[kind]
+    colour = kind_colour(step.kind)
     axes.errorbar(
         step.wave_number,
         step.exponent,
         bars(step.std_error),
-        fmt=MARKERS[kind],
+        fmt=MARKERS.get(step.kind, 'D'),
         color=colour,
         markerfacecolor=colour if alone else 'white',
         markersize=4.5,
@@ -52,16 +51,15 @@ def _point(axes, step, alone):
     )
 
 
-def _branch(axes, recording, kind, letter, count, end):
+def _branch(axes, info, fit, end):
     """The fit of the run, and thin the paper's where it holds."""
-    message, colour = recording.steps, KIND_COLOURS[kind]
-    if count:
-        c, c2 = getattr(message, 'c_' + letter), getattr(message, f'c_{letter}2')
+    kind = steps.NAMES[fit.kind]
+    colour = KIND_COLOURS[kind]
+    if fit.count:
         k = np.linspace(0, end, 100)
-        axes.plot(
-            k, c * k + c2 * k**2, color=colour, label=_fit_label(message, kind, letter, count)
-        )
-    published = paper.branches(recording.info).get(kind)
+        line = sum(value * k**power for power, (_, value, _) in enumerate(fit.values, start=1))
+        axes.plot(k, line, color=colour, label=f'{kind}: {_fit_label(fit)}')
+    published = paper.branches(info).get(kind)
     if published is not None:
         k = np.linspace(0, end if published.c2 else min(end, PUBLISHED_UP_TO), 100)
         axes.plot(
@@ -74,16 +72,13 @@ def _branch(axes, recording, kind, letter, count, end):
         )
 
 
-def _fit_label(message, kind, letter, count):
-    symbol = kind[0]
-    label = f'$c_{symbol}={_value(message, "c_" + letter)}$'
-    if count > 1:
-        label += f', $c_{{{symbol}2}}={_value(message, f"c_{letter}2")}$'
-    return f'{kind}: ' + label
-
-
-def _value(message, name):
-    return with_error(getattr(message, name), getattr(message, name + '_error'), decimals=3)
+def _fit_label(fit):
+    """Its coefficients; c alone says that it is."""
+    label = ', '.join(
+        f'${name[0]}_{{{name[2:]}}}={with_error(value, error, decimals=3)}$'
+        for name, value, error in fit.values
+    )
+    return label + (', $c\\,k$ alone' if fit.terms == 1 else '')
 
 
 def _wave_axis(axes, points, end):
@@ -119,13 +114,13 @@ def _joined(names):
 
 def _legend(axes, blocks):
     handles, labels = axes.get_legend_handles_labels()
-    for kind in ('LP', 'T'):
-        if any(steps.NAMES[step.kind] == kind for block in blocks for step in block.steps):
-            handles.append(_marker(kind, KIND_COLOURS[kind]))
-            labels.append(f'{kind} steps')
+    for kind in (steps.LP, steps.T):
+        if any(step.kind == kind for block in blocks for step in block.steps):
+            handles.append(_marker(kind, kind_colour(kind)))
+            labels.append(f'{steps.kind_name(kind)} steps')
     shared = [block.steps for block in blocks if len(block.steps) > 1]
     if shared:
-        handles.append(_marker(steps.NAMES[shared[0][0].kind], 'white'))
+        handles.append(_marker(shared[0][0].kind, 'white'))
         labels.append('steps that share a set')
     if any(line.get_label() == '_published' for line in axes.get_lines()):
         handles.append(plt.Line2D([], [], color=GREY, linewidth=0.8, dashes=(2, 2)))
@@ -138,8 +133,8 @@ def _marker(kind, face):
         [],
         [],
         linestyle='',
-        marker=MARKERS[kind],
+        marker=MARKERS.get(kind, 'D'),
         markersize=4.5,
-        color=KIND_COLOURS[kind] if face != 'white' else GREY,
+        color=kind_colour(kind) if face != 'white' else GREY,
         markerfacecolor=face,
     )

@@ -66,9 +66,8 @@ def save(figure, folder, name, dpi=250):
 
 
 def scene(info):
-    return (
-        f'{info.scene}: $N={info.disks}$, $\\rho={info.density:g}$, ' f'$L_y/L_x={info.aspect:g}$'
-    )
+    name = info.scene.replace('$', r'\$')  # which would begin a formula
+    return f'{name}: $N={info.disks}$, $\\rho={info.density:g}$, $L_y/L_x={info.aspect:g}$'
 
 
 def bars(std_errors):

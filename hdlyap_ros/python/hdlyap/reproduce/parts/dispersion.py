@@ -1,6 +1,6 @@
 """Part 2: the dispersion relation of 780 disks, both branches, to second order."""
 
-from hdlyap.plots import comparison, paper, steps
+from hdlyap.plots import fits, paper, steps
 from hdlyap.plots.figures import dispersion as figure_of_dispersion
 
 from ..row import Row
@@ -21,8 +21,9 @@ def rows(bags):
     for published in paper.steps(recording.info):
         if published.name in SMALLEST:
             yield _slope(published, found.get(published.name))
-    for name, _, points in comparison.FITS[:-1]:
-        yield _fit(recording.steps, name, points)
+    for symbol, fit in zip(('c_T', 'c_L'), fits.of(recording.steps) or (None, None)):
+        for name in (symbol, symbol + '2'):
+            yield _fit(fit, name)
 
 
 def _slope(published, step):
@@ -40,19 +41,21 @@ def _slope(published, step):
     )
 
 
-def _fit(message, name, points):
-    """Ours of lambda = c k + c2 k^2."""
+def _fit(fit, name):
+    """A coefficient of ours."""
+    values = {name: (value, error) for name, value, error in fit.values} if fit else {}
+    measured, error = values.get(name, (None, 0.0))
     curved = name.endswith('2')
-    count = getattr(message, points) if message else 0
-    known = count > (1 if curved else 0)
-    waves = f'{count} wave number' + ('s' if count != 1 else '')
+    # asked for is the curve; c alone is what one wave number gives
+    relation = fits.RELATIONS[fit.terms if name in values else 2]
+    count = fit.count if fit else 0
     return Row(
-        f'{name[0]}{name[1:].upper()} of lambda = c k + c2 k^2',
+        f'{name} of lambda = {relation}',
         None,
-        getattr(message, name) if known else None,
-        max(getattr(message, name + '_error'), 0.0) if known else 0.0,
+        measured,
+        max(error, 0.0),
         unit=UNITS[curved],
-        remark=f'over {waves}',
+        remark=f'over {count} wave number' + ('s' if count != 1 else ''),
     )
 
 

@@ -12,10 +12,11 @@ PLANNED = 60.0  # seconds of work that the plan's own estimate counts for, besid
 
 
 class Display:
-    """For work.work: shows progress through `count` runs; `before`: those that were there
-    before."""
+    """For work.work: shows progress through `count` runs of the tool of that name; `before`: those
+    that were there before."""
 
-    def __init__(self, count, before=0):
+    def __init__(self, name, count, before=0):
+        self._name = name
         self._count, self._before, self._line = count + before, before, Line()
         self._began = time.monotonic()
         self._seen, self._failed, self._ended = set(), 0, 0
@@ -26,7 +27,7 @@ class Display:
         self._ended = len(self._seen - names)
         shares = [f'{job.run.name} {100 * job.share:.0f} %' for job in under_way]
         rest = f'all {100 * done / total:.0f} %, about {clock(self._left(done, total))} left'
-        self._line.show(_fitting(self._count_of_runs(), shares, rest))
+        self._line.show([_fitting(self._count_of_runs(), shares, rest)])
 
     def _left(self, done, total):
         """Seconds, by the plan's and those that have passed for what is done of it."""
@@ -41,13 +42,12 @@ class Display:
         """That a run has failed."""
         self._failed += 1
         self._line.close()
-        print(f'reproduce: {line}', file=sys.stderr, flush=True)
+        print(f'{self._name}: {line}', file=sys.stderr, flush=True)
 
     def end(self):
         """The total."""
-        self._line.show(
-            f'{self._count_of_runs()} in {clock(time.monotonic() - self._began)}', last=True
-        )
+        seconds = time.monotonic() - self._began
+        self._line.show([f'{self._count_of_runs()} in {clock(seconds)}'], last=True)
         self._line.close()
 
 

@@ -2,6 +2,7 @@
 side."""
 
 import contextlib
+import fcntl
 import os
 import re
 import shutil
@@ -13,6 +14,7 @@ from hdlyap import signals
 from hdlyap.msg import RunStatus
 
 from .bag import Bag
+from .display import Display
 from .master import Master, MasterError
 from .tree import Tree, end
 
@@ -67,11 +69,8 @@ class Job:
 
     @property
     def share(self):
-        """Of the whole run, 0 .. 1, in simulated time with tangent vectors: without them it goes
-        fast."""
-        wanted = self.run.parameters
-        spent = self.status.sim_time - wanted['equilibration'] if self.status else 0.0
-        return min(1.0, max(0.0, spent / (wanted['warmup'] + wanted['duration'])))
+        """Of the whole run, 0 .. 1."""
+        return self.run.share_done(self.status)
 
     def has_ended(self):
         return self.tree.has_ended()
@@ -82,10 +81,8 @@ class Job:
     def close(self, commit):
         """After its end: notes it. WorkError if the run did not go to its end."""
         made = Bag(self.run.bag(self._new))
-        if not (made.is_complete() and made.was_run_with(self.run.parameters)):
-            why = 'the run has not come to its end'
-            if self.is_silent():
-                why = f'no word of its node within {SILENCE:.0f} s'
+        why = self._failure(made)
+        if why:
             raise WorkError(
                 f'{self.run.name}: {why}; {last_words(self.log)}all that it said is in {self.log}'
             )
@@ -96,6 +93,14 @@ class Job:
             commit=commit,
             run_id=Bag(self.run.bag(self._folder)).info.run_id,
         )
+
+    def _failure(self, made):
+        """None of a bag that is whole."""
+        if not made.is_complete():
+            if self.is_silent():
+                return f'no word of its node within {SILENCE:.0f} s'
+            return 'the run has not come to its end'
+        return made.differs_from(self.run.parameters)
 
     def leave(self):
         """No trace but the log, and the bag if it is whole."""
@@ -173,19 +178,39 @@ class Work:
         end([job.tree for job in jobs], PATIENCE, is_pressed)
 
 
-def work(runs, folder, logs, jobs, commit, show):
+def do(name, needed, missing, folder, jobs, commit=''):
+    """Those of the runs needed that missing() then returns, by the tool of this name; a line for
+    each that has failed. Nobody else may do so in this folder meanwhile: WorkError."""
+    logs = os.path.join(folder, 'log')
+    os.makedirs(logs, exist_ok=True)
+    with open(os.path.join(logs, '.lock'), 'w') as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise WorkError(f'another {name} does the runs of {folder}')
+        except OSError:
+            pass  # a file system without locks
+        todo = missing()
+        show = Display(name, len(todo), len(needed) - len(todo))
+        try:
+            work(name, Work(todo, folder, logs, jobs, commit), show)
+        except WorkError as error:
+            return str(error).splitlines()
+    return []
+
+
+def work(name, all_of_it, show):
     """Does the runs. show(jobs under way, seconds of work done, of all) is called some times a
     second, show.say(line) when a run has failed, which stops none of the others; WorkError at the
     end names all that did.
     """
-    if not runs:
+    if not all_of_it.waiting:
         return
     with signals.held() as came:
         try:
             master = Master()
-            all_of_it = Work(runs, folder, logs, jobs, commit)
             try:
-                rospy.init_node('reproduce', anonymous=True, disable_signals=True)
+                rospy.init_node(name, anonymous=True, disable_signals=True)
                 _go_on(all_of_it, master, came, show)
             finally:
                 all_of_it.stop(came)

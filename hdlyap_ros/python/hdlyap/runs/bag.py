@@ -47,12 +47,22 @@ class Bag:
 
     def was_run_with(self, parameters):
         """Whether its run had these parameters of the node."""
+        return not self.differs_from(parameters)
+
+    def differs_from(self, parameters):
+        """In which parameter of the node, in words; '' in none."""
         asked = repetition.parameters(self.info)
-        return all(
-            _same(asked[name], value)
-            for name, value in parameters.items()
-            if name not in HERE and name in asked
-        )
+        for name, value in parameters.items():
+            if name in HERE or name not in asked or _is_chosen(name, value):
+                continue
+            if not _same(asked[name], value):
+                return f'it was run with {name} = {asked[name]}, not {value}'
+        return ''
+
+
+def _is_chosen(name, value):
+    """By the node, and in run_info as it was: not known beforehand."""
+    return name == 'warmup' and value == 'auto'
 
 
 def _same(one, other):

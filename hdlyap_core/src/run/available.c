@@ -1,0 +1,98 @@
+/** What the machine, a control group and the process's own limits leave. Linux. */
+#define _DEFAULT_SOURCE
+#include "hdlyap/room.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+enum { LINE = 512, PATH = 1024 };
+
+static void keep_least(hd_room *room, double bytes, const char *limit)
+{
+    if (bytes >= room->bytes) return;
+    *room = (hd_room){fmax(bytes, 0.0), limit};
+}
+
+/** Number after a name, at the start of a line of a file; the first number of all if the name is
+ * empty; `otherwise` if there is none. */
+static double number_in(const char *path, const char *name, double otherwise)
+{
+    char line[LINE];
+    double number = otherwise;
+    FILE *file = fopen(path, "re");
+    if (!file) return otherwise;
+    while (number == otherwise && fgets(line, sizeof line, file))
+        if (strncmp(line, name, strlen(name)) == 0 &&
+            sscanf(line + strlen(name), " %lf", &number) != 1)
+            number = otherwise;
+    (void)fclose(file);
+    return number;
+}
+
+static double of_group(const char *folder, const char *name, const char *key, double otherwise)
+{
+    char path[PATH];
+    if (snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path) return otherwise;
+    return number_in(path, key, otherwise);
+}
+
+/** Of a group and those above it, down to `root` characters of its folder. Pages of files that are
+ * not in use give way. */
+static void see_groups(hd_room *room, char *folder, size_t root, int version)
+{
+    static const char *const limit[] = {"memory.limit_in_bytes", "memory.max"};
+    static const char *const used[] = {"memory.usage_in_bytes", "memory.current"};
+    static const char *const idle[] = {"total_inactive_file", "inactive_file"};
+    for (;;) {
+        const double most = of_group(folder, limit[version], "", INFINITY);
+        const double now = of_group(folder, used[version], "", 0.0);
+        const double given = of_group(folder, "memory.stat", idle[version], 0.0);
+        keep_least(room, most - now + given, "cgroup");
+        char *slash = strrchr(folder, '/');
+        if (!slash || (size_t)(slash - folder) < root) return;
+        *slash = '\0';
+    }
+}
+
+/** Its line is 0::/path of version 2, or 4:memory:/path of version 1. */
+static void see_group(hd_room *room, char *line)
+{
+    static const char *const root[] = {"/sys/fs/cgroup/memory", "/sys/fs/cgroup"};
+    char folder[PATH], *path = strrchr(line, ':');
+    line[strcspn(line, "\n")] = '\0';
+    const int version = strncmp(line, "0::", 3) == 0;
+    if (!path || (!version && !strstr(line, ":memory:"))) return;
+    if (snprintf(folder, sizeof folder, "%s%s", root[version], path + 1) >= (int)sizeof folder)
+        return;
+    see_groups(room, folder, strlen(root[version]), version);
+}
+
+static void see_all_groups(hd_room *room)
+{
+    char line[LINE];
+    FILE *file = fopen("/proc/self/cgroup", "re");
+    if (!file) return;
+    while (fgets(line, sizeof line, file)) see_group(room, line);
+    (void)fclose(file);
+}
+
+static void see_own_limit(hd_room *room)
+{
+    struct rlimit limit;
+    const double now = number_in("/proc/self/statm", "", 0.0) * (double)sysconf(_SC_PAGESIZE);
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+        keep_least(room, (double)limit.rlim_cur - now, "ulimit");
+}
+
+hd_room hd_room_available(void)
+{
+    hd_room room = {INFINITY, "machine"};
+    const double kilobytes = number_in("/proc/meminfo", "MemAvailable:", INFINITY);
+    keep_least(&room, 1024.0 * kilobytes, "machine");
+    see_all_groups(&room);
+    see_own_limit(&room);
+    return room;
+}

@@ -1,0 +1,50 @@
+/** What may change while a run goes on: value -> what is asked for, until run.c takes it up between
+ * two samples. */
+#include <math.h>
+
+#include "base/check.h"
+#include "hdlyap/parameters.h"
+#include "run/run_state.h"
+
+double hd_run_change_time(const hd_run *run)
+{
+    switch (run->schedule.stage) {
+    case HD_FINISHED: return hd_run_time(run);
+    case HD_AVERAGING: return hd_schedule_sample_end(&run->schedule);
+    default: return hd_schedule_cut(&run->schedule);
+    }
+}
+
+/** Of a run that does not stand at its end: until it holds, time goes on. */
+static hd_status check_duration(const hd_run *run, double duration, char *message, size_t size)
+{
+    const double least = hd_run_change_time(run) - run->schedule.start;
+    if (run->schedule.stage != HD_AVERAGING || duration == 0 || duration >= least) return HD_OK;
+    return hd_refuse(message, size,
+                     "duration = %.15g: must be 0 or at least %.15g, averaged before it can change",
+                     duration, least);
+}
+
+hd_status hd_run_change(hd_run *run, const hd_parameter *row, double value, char *message,
+                        size_t size)
+{
+    hd_scene_def asked = run->scene;
+    if (!row->live)
+        return hd_refuse(message, size, "%s = %.15g: is read at the start", row->name, value);
+    if (run->schedule.stage == HD_FINISHED || run->due.stage_end)
+        return hd_refuse(message, size, "%s = %.15g: the run has ended", row->name, value);
+    hd_parameter_assign(row, &asked, value);
+    HD_TRY(hd_scene_check(&asked, message, size));
+    HD_TRY(check_duration(run, asked.duration, message, size));
+    run->scene = asked;
+    run->in_force.changing = true;
+    return HD_OK;
+}
+
+void hd_run_fields_every(hd_run *run, double interval)
+{
+    run->field_interval = interval;
+    if (!run->fields_said) run->in_force.field_interval = interval;
+    run->in_force.changing |= run->fields_said;
+    run->fields_said = true;
+}

@@ -1,0 +1,2 @@
+"""Recorded bags -> arrays and frames: reader (the one place that opens a bag), joined (which bags
+belong to one run), run (what load gives of one run), seeds (of several), export (CSV, npz)."""

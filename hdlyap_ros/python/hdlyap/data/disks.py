@@ -1,0 +1,49 @@
+"""The topic ~state of a run -> positions and momenta of the disks, one message at a time."""
+
+import numpy as np
+
+from . import reader
+
+
+class Disks:
+    """`times` of the messages; what is said of a time is of the message nearest to it. Iterates
+    over (time, positions, momenta), arrays of N rows."""
+
+    def __init__(self, joined):
+        self._joined = joined
+        found = [
+            (packed.sim_time, packed.path, packed.recorded, packed.run_id)
+            for packed in joined.packed((reader.STATE,))
+        ]
+        self.times = np.array([time for time, *_ in found])
+        self._places = [place for _, *place in found]
+
+    def __len__(self):
+        return len(self.times)
+
+    def __iter__(self):
+        for packed in self._joined.packed((reader.STATE,)):
+            message = packed.message(np)
+            yield message.sim_time, _pairs(message.x, message.y), _pairs(message.px, message.py)
+
+    def positions(self, time):
+        message = self._nearest(time)
+        return _pairs(message.x, message.y)
+
+    def momenta(self, time):
+        message = self._nearest(time)
+        return _pairs(message.px, message.py)
+
+    def _nearest(self, time):
+        number = int(np.argmin(abs(self.times - time)))
+        path, recorded, run_id = self._places[number]
+        node = self._joined.parts[0].node
+        return next(
+            packed.message(np)
+            for packed in reader.messages(path, node, (reader.STATE,), recorded)
+            if packed.run_id == run_id and packed.sim_time == self.times[number]
+        )
+
+
+def _pairs(x, y):
+    return np.stack([x, y], axis=1)

@@ -1,0 +1,82 @@
+"""A run, or seeds -> files for other programs: CSV, one for each table, or one npz of all."""
+
+import json
+import os
+
+import numpy as np
+
+from .reader import Missing
+
+FRAMES = ('results', 'spectrum', 'steps', 'modes', 'phases', 'covariant', 'cost', 'status')
+OVER_TIME = '1/time unit'  # unit of what stands below Lyapunov indices
+
+
+def tables(run):
+    """{name: frame} of all that was recorded; of Seeds there are results, spectrum and steps."""
+    found = {}
+    for name in FRAMES:
+        try:
+            found[name] = getattr(run, name, None)
+        except Missing:
+            pass
+    found = {name: frame for name, frame in found.items() if frame is not None}
+    return {**found, **(run.over_time() if 'spectrum' in found and hasattr(run, 'times') else {})}
+
+
+def csv(run, folder):
+    """Writes them; their names. Two lines in front begin with #: the run, and the units."""
+    os.makedirs(folder, exist_ok=True)
+    paths = []
+    for name, frame in tables(run).items():
+        paths.append(os.path.join(folder, name + '.csv'))
+        with open(paths[-1], 'w', encoding='utf-8') as file:
+            file.write(f'# {_origin(run)}\n# units: {_units(frame)}\n')
+            frame.to_csv(file)
+    return paths
+
+
+def npz(run, path):
+    """Writes them, a column of a frame as 'steps.exponent', and run_info and the units as JSON; its
+    name."""
+    arrays = {'info': json.dumps(_plain(run.info)), 'units': {}}
+    for name, frame in tables(run).items():
+        plain = frame.reset_index()
+        if name in ('exponents', 'std_errors', 'local_exponents'):
+            arrays[name] = frame.to_numpy()
+            arrays['units'][name] = OVER_TIME
+            plain = frame.index.to_frame()
+        for column, values in plain.items():
+            values = values.to_numpy()
+            key = f'{name}.{column}'
+            arrays[key] = values.astype(str) if values.dtype == object else values
+            unit = getattr(frame, 'attrs', {}).get('units', {}).get(column)
+            if unit:
+                arrays['units'][key] = unit
+    arrays['units'] = json.dumps(arrays['units'])
+    with open(path, 'wb') as file:  # savez would add .npz to a name without it
+        np.savez_compressed(file, **arrays)
+    return path
+
+
+def _origin(run):
+    info = run.info
+    seeds = ' '.join(getattr(run, 'seeds', [info.seed]))
+    return (
+        f'hdlyap {info.version}, scene {info.scene}, N = {info.disks}, density {info.density:g}, '
+        f'box {info.box_x:.6g} x {info.box_y:.6g}, seed {seeds}'
+    )
+
+
+def _units(frame):
+    units = getattr(frame, 'attrs', {}).get('units')
+    if units is None or 'unit' in frame:
+        return 'in the column unit' if 'unit' in frame else OVER_TIME
+    return '; '.join(f'{name} [{unit}]' for name, unit in units.items() if unit)
+
+
+def _plain(info):
+    return {
+        name: list(value) if isinstance(value := getattr(info, name), (list, tuple)) else value
+        for name in info.__slots__
+        if name != 'header'
+    }

@@ -1,0 +1,126 @@
+"""bags -> the runs that they hold. Files of a recording that was split, and runs that were resumed
+from a checkpoint, are parts of one run; other seeds are other runs of the same system."""
+
+import math
+import os
+from collections import namedtuple
+
+from . import reader
+from .reader import RecordingError
+
+# what bags that belong together have in common: all that decides what is measured
+SYSTEM = ('disks', 'density', 'aspect', 'boundary_x', 'boundary_y')
+MEASURED = SYSTEM + ('vectors', 'wave_nx', 'wave_ny')
+SAME = 1e-9  # relative: parameters that were given as the same decimal number
+
+# one run in one file, up to a simulated time
+Part = namedtuple('Part', 'path node run_id info until')
+
+
+class Joined:
+    """Parts of one run, in their order; how many runs are in the last one's bag."""
+
+    def __init__(self, parts, runs=1):
+        self.parts, self.runs = parts, runs
+        last = [part.info for part in parts if part.run_id == parts[-1].run_id]
+        self.info = max(last, key=reader.changes)
+        self.paths = list(dict.fromkeys(part.path for part in parts))
+
+    @property
+    def name(self):
+        """For a message."""
+        return ', '.join(self.paths)
+
+    def packed(self, kinds):
+        """Messages of these types but run_info, each once: a resumed run says again what the one
+        before said after its checkpoint."""
+        last = {}  # (run_id, type): the last number of a file before
+        for part in self.parts:
+            newest = {}
+            for packed in reader.messages(part.path, part.node, kinds):
+                key = packed.run_id, packed.kind
+                if packed.run_id != part.run_id or packed.kind == reader.RUN_INFO:
+                    continue
+                if packed.sim_time <= part.until and packed.seq > last.get(key, -1):
+                    newest[key] = packed.seq
+                    yield packed
+            last.update(newest)
+
+
+def runs(paths, node=None, number=None):
+    """[Joined] of one bag or several, one for each seed: of each bag its last run, or the one of
+    that number, from 1."""
+    paths = [
+        os.fspath(path) for path in ([paths] if isinstance(paths, (str, os.PathLike)) else paths)
+    ]
+    paths = list({os.path.realpath(path): path for path in paths}.values())
+    chosen = [_chosen(path, node, number) for path in paths]
+    if len(chosen) == 1:
+        return [Joined([chosen[0][0]], chosen[0][1])]
+    parts = [part for part, _ in chosen]
+    for part in parts[1:]:
+        refuse_other(parts[0], part)
+    seeds = {}
+    for part in parts:
+        seeds.setdefault(part.info.seed, []).append(part)
+    return [Joined(_in_order(of_seed)) for of_seed in seeds.values()]
+
+
+def one(paths, node=None, number=None):
+    """The only one of them."""
+    found = runs(paths, node, number)
+    if len(found) > 1:
+        seeds = ', '.join(joined.info.seed for joined in found)
+        raise RecordingError(f'{found[0].name} ...: of several runs, with the seeds {seeds}')
+    return found[0]
+
+
+def _chosen(path, node, number):
+    """(Part, number of runs in the bag)"""
+    infos = list(reader.run_infos(path, node).items())
+    wanted = len(infos) if number is None else number
+    if not 1 <= wanted <= len(infos):
+        raise RecordingError(f'{path}: no run {number} in it, only 1 .. {len(infos)}')
+    return Part(path, node, *infos[wanted - 1], math.inf), len(infos)
+
+
+def different(a, b, names):
+    """(name, value of a, value of b) of the first of them in which two run_infos differ; None."""
+    for name in names:
+        values = [getattr(info, name, None) for info in (a, b)]
+        if None in values:  # bags of another version
+            continue
+        both = all(isinstance(value, float) for value in values)
+        same = math.isclose(*values, rel_tol=SAME) if both else values[0] == values[1]
+        if not same:
+            return (name, *values)
+    return None
+
+
+def refuse_other(a, b):
+    found = different(a.info, b.info, MEASURED)
+    if found is not None:
+        name, one, other = found
+        raise RecordingError(
+            f'{a.path} and {b.path} do not belong together: {name} is {one} and {other}'
+        )
+
+
+def _in_order(parts):
+    """Of one seed: each up to the checkpoint that the next one was resumed from."""
+    begun = {part.run_id: getattr(part.info, 'resumed_time', -1.0) for part in parts}
+    anew = [part for part in parts if begun[part.run_id] < 0]
+    if len({part.run_id for part in anew}) > 1:
+        raise RecordingError(
+            f'{anew[0].path} and {anew[1].path} both begin with seed {anew[0].info.seed}: '
+            'one trajectory twice, no two samples'
+        )
+    parts = sorted(parts, key=lambda part: (begun[part.run_id], reader.start(part.path)))
+    for a, b in zip(parts, parts[1:]):
+        if a.run_id != b.run_id and begun[a.run_id] == begun[b.run_id]:
+            raise RecordingError(
+                f'{a.path} and {b.path} were both resumed at time {begun[a.run_id]:g}: '
+                'leave one out'
+            )
+    later = sorted(set(begun.values())) + [math.inf]
+    return [part._replace(until=next(t for t in later if t > begun[part.run_id])) for part in parts]

@@ -1,0 +1,220 @@
+"""bag file -> what one node said, message by message: the one place that opens a bag. Streams, so a
+bag may be far larger than the memory. Whatever is wrong with a bag is a RecordingError; its texts
+come without control characters and cut, because they are anybody's."""
+
+import contextlib
+import math
+import os
+import struct
+
+import rosbag
+
+from hdlyap.plots.progress import Progress
+
+RUN_INFO, SPECTRUM = 'hdlyap/RunInfo', 'hdlyap/Spectrum'
+STATUS, COST = 'hdlyap/RunStatus', 'hdlyap/Cost'
+MODES, STEPS, PHASES = 'hdlyap/Modes', 'hdlyap/Steps', 'hdlyap/LpPhases'
+FIELD, STATE = 'hdlyap/ModeField', 'hdlyap/State'
+COVARIANT, HYDRO = 'hdlyap/Covariant', 'hdlyap/Hydro'
+TYPES = (RUN_INFO, SPECTRUM, STATUS, COST, MODES, STEPS) + (PHASES, FIELD, STATE, COVARIANT, HYDRO)
+NAME, PATH, LINE, LIST = 200, 4096, 8192, 4096  # longest text, path, error; most elements of a list
+PATHS = ('checkpoint', 'resume')
+# arrays of as many elements as the first of them
+ALIKE = {
+    SPECTRUM: ('exponents', 'std_errors', 'local_exponents', 'cos_theta', 'dp_dq_ratio'),
+    STATE: ('x', 'y', 'px', 'py'),
+    FIELD: ('x', 'y', 'px', 'py', 'dqx', 'dqy', 'dpx', 'dpy'),
+    COVARIANT: ('exponents', 'std_errors', 'start_mismatch', 'widths', 'cos_theta'),
+}
+
+
+class RecordingError(Exception):
+    """One line for the user: what is wrong with which bag."""
+
+    def __init__(self, text):
+        super().__init__(plain(text, LINE))
+
+
+class Missing(RecordingError):
+    """Was not recorded, or not measured."""
+
+
+class Damaged(Exception):
+    """What a message says that none of a node's says."""
+
+
+def plain(text, longest=NAME):
+    """What does nothing to a terminal but stand there, in one line."""
+    text = text if len(text) <= longest else text[: longest - 3] + '...'
+    return ''.join(
+        letter if letter.isprintable() else ' ' if letter.isspace() else '?' for letter in text
+    )
+
+
+class Packed:
+    """A serialised message of ours. To unpack a field of every mode only to throw it away would
+    cost more than all else; header, run_id and sim_time begin every message but run_info."""
+
+    def __init__(self, path, kind, data, pytype, recorded):
+        self.path, self.kind, self.recorded = path, kind, recorded  # its type, its time in the bag
+        self._data, self._pytype = data, pytype
+        _, after_frame = self._string(12)  # seq and stamp
+        self.run_id, self._after_run_id = self._string(after_frame)
+
+    def _string(self, at):
+        (length,) = struct.unpack_from('<I', self._data, at)
+        return self._data[at + 4 : at + 4 + length].decode(), at + 4 + length
+
+    @property
+    def seq(self):
+        return struct.unpack_from('<I', self._data)[0]
+
+    @property
+    def sim_time(self):
+        return struct.unpack_from('<d', self._data, self._after_run_id)[0]
+
+    def field_index(self):
+        """Lyapunov index of a ModeField: it follows sim_time."""
+        return struct.unpack_from('<I', self._data, self._after_run_id + 8)[0]
+
+    def field_wave(self):
+        """kind, nx and ny of a ModeField, which follow the index."""
+        return struct.unpack_from('<BII', self._data, self._after_run_id + 12)
+
+    def message(self, numpy=None):
+        """Its arrays are lists; with the module numpy they are its arrays, which share memory with
+        what is packed."""
+        blank = self._pytype()
+        try:
+            if numpy:
+                blank.deserialize_numpy(self._data, numpy)
+            else:
+                blank.deserialize(self._data)
+            _check(self.kind, blank)
+        except Exception as error:  # whatever a damaged byte makes of genpy
+            raise _damaged(self.path, error)
+        return blank
+
+
+def _check(kind, message):
+    """What all that reads a message relies on."""
+    lengths = {
+        len(getattr(message, name, ())) for name in ALIKE.get(kind, ()) if hasattr(message, name)
+    }
+    if len(lengths) > 1:
+        raise Damaged(f'{kind}: its arrays have {sorted(lengths)} elements')
+    if kind == SPECTRUM and not len(message.exponents):
+        raise Damaged(f'{kind}: no exponents')
+    if kind == RUN_INFO:
+        sizes = message.density, message.aspect, message.box_x, message.box_y
+        if not (message.disks and all(math.isfinite(size) and size > 0 for size in sizes)):
+            raise Damaged(f'{kind}: {message.disks} disks, density, aspect and box {sizes}')
+
+
+def run_infos(path, node=None):
+    """{run_id: run_info} of every run of the given node, or of the only one in the bag, in their
+    order; each file of a bag that was split has that of the first. It is published again with each
+    change: the one that knows of most."""
+    with opened(path) as bag:
+        topics = _topics(bag, path, node, (RUN_INFO,))
+        runs = {}
+        for packed in _packed(bag, topics):
+            info = _cleaned(packed.message())
+            if packed.run_id not in runs or changes(info) > changes(runs[packed.run_id]):
+                runs[packed.run_id] = info
+        if not runs:
+            raise RecordingError(f'{path}: no run_info in it; record that topic too')
+        return runs
+
+
+def changes(info):
+    """How many parameters were changed while the run went on; bags of before do not say."""
+    return len(getattr(info, 'changes', ()))
+
+
+def _cleaned(info):
+    for name, kind in zip(info.__slots__, info._slot_types):
+        value, longest = getattr(info, name), PATH if name in PATHS else NAME
+        if kind == 'string':
+            setattr(info, name, plain(value, longest))
+        elif kind == 'string[]':
+            setattr(info, name, [plain(text, longest) for text in value[:LIST]])
+        elif kind.endswith('[]'):
+            setattr(info, name, value[:LIST])
+    for change in getattr(info, 'changes', ()):
+        _cleaned(change)
+    return info
+
+
+def messages(path, node=None, kinds=TYPES, at=None):
+    """Packed messages of these types of the given node, or of the only one in the bag, in their
+    order; or those alone that were recorded at that time."""
+    with opened(path) as bag:
+        yield from _packed(bag, _topics(bag, path, node, kinds), at)
+
+
+def start(path):
+    """Time of its first message."""
+    with opened(path) as bag:
+        return bag.get_start_time()
+
+
+@contextlib.contextmanager
+def opened(path):
+    """The rosbag.Bag."""
+    try:
+        with rosbag.Bag(path) as bag:
+            yield bag
+    except RecordingError:
+        raise
+    except rosbag.ROSBagUnindexedException:
+        raise RecordingError(
+            f'{path}: not closed, as of a recording that goes on or was cut off; '
+            f'if it was: rosbag reindex {path}'
+        )
+    except rosbag.ROSBagException as error:
+        raise RecordingError(f'{path}: not a readable bag: {error}')
+    except OSError as error:
+        raise RecordingError(f'{path}: {error.strerror or error}{_unfinished(path)}')
+    except Exception as error:  # whatever a damaged byte makes of rosbag and genpy
+        raise _damaged(path, error)
+
+
+def _damaged(path, error):
+    return RecordingError(f'{path}: damaged: {error or type(error).__name__}')
+
+
+def _unfinished(path):
+    """rosbag record gives a bag its name when it is whole."""
+    active = path + '.active'
+    return (
+        f'; {active} is there: it is still recorded, or was cut off, and then needs '
+        f'rosbag reindex {active}'
+        if os.path.exists(active)
+        else ''
+    )
+
+
+def _topics(bag, path, node, kinds):
+    """Topics with messages of these types, below one node's name."""
+    nodes = {}
+    for topic, entry in bag.get_type_and_topic_info().topics.items():
+        if entry.msg_type in TYPES:
+            nodes.setdefault(topic.rpartition('/')[0], {})[topic] = entry.msg_type
+    if not nodes:
+        raise RecordingError(f'{path}: nothing in it was published by hdlyap_node')
+    names = ', '.join(sorted(nodes))
+    if node is None and len(nodes) > 1:
+        raise RecordingError(f'{path}: several nodes, choose one with --node: {names}')
+    wanted = next(iter(nodes)) if node is None else '/' + node.strip('/')
+    if wanted not in nodes:
+        raise RecordingError(f'{path}: no node {node} in it, only {names}')
+    return [topic for topic, kind in nodes[wanted].items() if kind in kinds]
+
+
+def _packed(bag, topics, at=None):
+    """Of these topics; none without a topic."""
+    if topics:
+        found = bag.read_messages(topics=topics, start_time=at, end_time=at, raw=True)
+        for _, raw, time in Progress('reading').over(found, bag.get_message_count(topics)):
+            yield Packed(bag.filename, raw[0], raw[1], raw[-1], time)

@@ -1,0 +1,260 @@
+"""One run as it was recorded -> numpy arrays and pandas frames, read from the bag when they are
+first asked for."""
+
+from collections import namedtuple
+from functools import cached_property
+
+import numpy as np
+import pandas
+
+from hdlyap import msg
+from hdlyap.plots import fits, run as common
+from hdlyap.plots.numbers import known
+
+from . import fields, reader, tables
+from .disks import Disks
+from .reader import Missing
+
+TOPICS = {
+    'spectrum': reader.SPECTRUM,
+    'modes': reader.MODES,
+    'steps': reader.STEPS,
+    'lp_phases': reader.PHASES,
+    'fields': reader.FIELD,
+    'hydro': reader.HYDRO,
+    'covariant': reader.COVARIANT,
+    'state': reader.STATE,
+    'status': reader.STATUS,
+    'cost': reader.COST,
+}
+FRAMES = {
+    'spectrum': tables.arrays,
+    'modes': tables.of_modes,
+    'steps': tables.of_steps,
+    'lp_phases': tables.of_phases,
+    'covariant': tables.arrays,
+}
+# name of an array: where its unit is said
+ARRAYS = {
+    'times': (msg.Spectrum, 'sim_time'),
+    'averaged_times': (msg.Spectrum, 'averaged_time'),
+    'exponents': (msg.Spectrum, 'exponents'),
+    'std_errors': (msg.Spectrum, 'std_errors'),
+    'local.lengths': (msg.Spectrum, 'averaged_time'),
+    'local.exponents': (msg.Spectrum, 'local_exponents'),
+    'positions': (msg.State, 'x'),
+    'momenta': (msg.State, 'px'),
+}
+Averages = namedtuple('Averages', 'times averaged_times exponents std_errors local last')
+# samples: their ends, lengths (NaN if unknown) and exponents; no time is in two of them
+Local = namedtuple('Local', 'times lengths exponents')
+
+
+class Run:
+    """`info` is its run_info. Arrays have a row for each message: `times` (simulated),
+    `averaged_times`, `exponents` and `std_errors` of the running means; `local` the samples. Frames
+    are of the last message: `spectrum`, `modes`, `steps`, `phases`, `covariant`, `results`; or of
+    all: `cost`, `status`, `course(topic)`. `state` has positions and momenta, `fields` the last
+    field of each vector. What was averaged before ~reset_average does not count."""
+
+    def __init__(self, joined):
+        self._joined = joined
+        self.info, self.paths = joined.info, joined.paths
+
+    def __repr__(self):
+        info = self.info
+        return f'<hdlyap run {info.run_id}: {info.scene}, {info.disks} disks, seed {info.seed}>'
+
+    @property
+    def units(self):
+        """Of the arrays; those of a frame are in its attrs."""
+        return {name: fields.of(kind)[field].unit for name, (kind, field) in ARRAYS.items()}
+
+    def messages(self, topic):
+        """Those of a topic ('spectrum', 'fields' ..) one after the other, with numpy arrays."""
+        for packed in self._joined.packed((TOPICS[topic],)):
+            yield packed.message(np)
+
+    # ---- running means and samples ----------------------------------------------------------
+
+    @property
+    def times(self):
+        return self._averages.times
+
+    @property
+    def averaged_times(self):
+        return self._averages.averaged_times
+
+    @property
+    def exponents(self):
+        return self._averages.exponents
+
+    @property
+    def std_errors(self):
+        return self._averages.std_errors
+
+    @property
+    def local(self):
+        return self._averages.local
+
+    @cached_property
+    def _averages(self):
+        rows, samples, before = [], [], None
+        for message in self.messages('spectrum'):
+            if message.averaged_time > 0:
+                if rows and message.averaged_time < rows[-1].averaged_time:
+                    rows, samples = [], []  # the averages were reset
+                rows.append(message)
+                length = _new_length(message, before)
+                if length != 0:
+                    samples.append((message.sim_time, length, message.local_exponents))
+            before = message.local_exponents
+        if not rows:
+            raise self._missing('spectrum')
+        return Averages(
+            np.array([row.sim_time for row in rows]),
+            np.array([row.averaged_time for row in rows]),
+            np.array([row.exponents for row in rows]),
+            known([row.std_errors for row in rows]),
+            Local(*map(np.array, zip(*samples))) if samples else _no_samples(rows[-1]),
+            rows[-1],
+        )
+
+    # ---- frames -----------------------------------------------------------------------------
+
+    @cached_property
+    def spectrum(self):
+        return tables.arrays(self._averages.last, without=('local_exponents',))
+
+    @cached_property
+    def modes(self):
+        return tables.of_modes(self.last('modes'))
+
+    @cached_property
+    def steps(self):
+        return tables.of_steps(self.last('steps'))
+
+    @cached_property
+    def phases(self):
+        return tables.of_phases(self.last('lp_phases'))
+
+    @cached_property
+    def covariant(self):
+        return tables.arrays(self.last('covariant'))
+
+    @cached_property
+    def results(self):
+        """lambda_max, the sum of the positive exponents, and the fits over steps if there were
+        any, with what they stand on."""
+        last = self._averages.last
+        about = common.Run()
+        about.info, about.spectrum = self.info, last
+        rate, none = fields.of(last)['lambda_max'].unit, ''
+        rows = [
+            ('lambda_max', last.lambda_max, last.std_errors[0], rate, none),
+            (about.sum_name, last.ks_entropy, about.sum_error, rate, none),
+        ]
+        units = fields.of(msg.Steps)
+        rows += [
+            (*of_value, units[of_value[0].lower()].unit, fit.basis)
+            for fit in self.fits
+            for of_value in fit.values
+        ]
+        made = pandas.DataFrame(rows, columns=['quantity', 'value', 'std_error', 'unit', 'basis'])
+        made['std_error'] = known(made['std_error'])
+        return made.set_index('quantity')
+
+    @cached_property
+    def fits(self):
+        """plots.fits.Fit of each kind that there is."""
+        found = fits.of(self.last('steps')) if self.has('steps') else []
+        return [fit for fit in found if fit.count]
+
+    def over_time(self):
+        """{name: frame} of the running means, their errors and the samples: a column for each
+        Lyapunov index."""
+        index = pandas.Index(self.spectrum.index, name='index')
+        rows = pandas.MultiIndex.from_arrays(
+            [self.times, self.averaged_times], names=['sim_time', 'averaged_time']
+        )
+        samples = pandas.MultiIndex.from_arrays(
+            [self.local.times, self.local.lengths], names=['sim_time', 'length']
+        )
+        return {
+            'exponents': pandas.DataFrame(self.exponents, rows, index),
+            'std_errors': pandas.DataFrame(self.std_errors, rows, index),
+            'local_exponents': pandas.DataFrame(self.local.exponents, samples, index),
+        }
+
+    @cached_property
+    def cost(self):
+        return tables.scalars(self._all('cost'))
+
+    @cached_property
+    def status(self):
+        return tables.scalars(self._all('status'))
+
+    def course(self, topic):
+        """Frame of all messages of 'spectrum', 'modes', 'steps', 'lp_phases' or 'covariant', by
+        simulated time: course('lp_phases')['phase'].unstack() has a column for each phase."""
+        return tables.over_time(self._all(topic), FRAMES[topic])
+
+    # ---- disks and vectors ------------------------------------------------------------------
+
+    @cached_property
+    def state(self):
+        found = Disks(self._joined)
+        if not len(found.times):
+            raise self._missing('state')
+        return found
+
+    @cached_property
+    def fields(self):
+        """{Lyapunov index: ModeField}, the last one of each vector."""
+        last = {packed.field_index(): packed for packed in self._joined.packed((reader.FIELD,))}
+        return {index: packed.message(np) for index, packed in sorted(last.items())}
+
+    # ---- messages ---------------------------------------------------------------------------
+
+    @cached_property
+    def _lasts(self):
+        """{type: Packed} of those that are small, so that the bag is read once for all."""
+        kinds = reader.MODES, reader.STEPS, reader.PHASES, reader.COVARIANT
+        return {packed.kind: packed for packed in self._joined.packed(kinds)}
+
+    def has(self, topic):
+        """Whether there is a message of 'modes', 'steps', 'lp_phases' or 'covariant'."""
+        return TOPICS[topic] in self._lasts
+
+    def last(self, topic):
+        """The last message of one of them, or of 'spectrum'."""
+        if topic == 'spectrum':
+            return self._averages.last
+        if not self.has(topic):
+            raise self._missing(topic)
+        return self._lasts[TOPICS[topic]].message(np)
+
+    def _all(self, topic):
+        found = list(self.messages(topic))
+        if not found:
+            raise self._missing(topic)
+        return found
+
+    def _missing(self, topic):
+        what = 'averaged spectrum' if topic == 'spectrum' else f'message of {topic}'
+        return Missing(f'{self._joined.name}: no {what} in it')
+
+
+def _new_length(message, before):
+    """Of the sample in it; 0 if there is none that was not in the message before. In bags of
+    before the length is not known, and a sample that is not new is like the one before."""
+    length = getattr(message, 'local_time', None)
+    if length is not None:
+        return length
+    local = message.local_exponents
+    is_new = np.any(local != 0) and (before is None or not np.array_equal(local, before))
+    return np.nan if is_new else 0.0
+
+
+def _no_samples(message):
+    return Local(np.empty(0), np.empty(0), np.empty((0, len(message.exponents))))

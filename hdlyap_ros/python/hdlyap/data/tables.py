@@ -1,0 +1,137 @@
+"""Messages -> pandas frames. Columns have the names of the fields (of an array: in the singular),
+attrs['units'] their units. What is not known or not measured is NaN, also in bags whose messages
+said 0 or -1."""
+
+import numpy as np
+import pandas
+
+from hdlyap.msg import LpPhase, Mode, Step
+from hdlyap.plots import stages, steps, waves
+from hdlyap.plots.numbers import known
+
+from . import fields
+
+NUMBERS = {'bool': bool, 'float64': float}  # others are integers
+KINDS = {0: 'none', **steps.NAMES}
+
+
+def _names(kind, names, prefix=''):
+    return {getattr(kind, prefix + name.upper()): name for name in names.split()}
+
+
+# columns whose numbers have names
+NAMES = {
+    'kind': KINDS,
+    'sharing': _names(Step, 'alone unknown mixing blended coincident', 'SHARING_'),
+    'state': _names(LpPhase, 'unresolved weak coarse tracked'),
+    'stage': stages.STAGES,
+    'interval_limit': stages.LIMITS,
+}
+
+
+def frame(columns, units, index=None):
+    """With units in attrs."""
+    made = pandas.DataFrame(columns, index=index)
+    # not assigned: pandas of before 1.0 has no such attribute
+    object.__setattr__(made, 'attrs', {'units': {name: units.get(name, '') for name in columns}})
+    return made
+
+
+def elements(parts, index=None, without=()):
+    """A row for each of these messages, of one type: their numbers."""
+    if not parts:
+        return frame({}, {}, index)
+    described = fields.of(parts[0])
+    columns = {
+        slot: _column([getattr(part, slot) for part in parts], kind, described.get(slot))
+        for slot, kind in zip(parts[0].__slots__, parts[0]._slot_types)
+        if not kind.endswith('[]') and kind != 'std_msgs/Header' and kind != 'string'
+    }
+    _blank(columns)
+    for name in NAMES.keys() & columns.keys():
+        columns[name] = [NAMES[name].get(value, str(value)) for value in columns[name]]
+    for name in without:
+        del columns[name]
+    units = {name: field.unit for name, field in described.items()}
+    return frame(columns, units, index)
+
+
+def _column(values, kind, field):
+    column = np.array(values, dtype=NUMBERS.get(kind, int))
+    return known(column) if kind == 'float64' and field and field.unknown else column
+
+
+def _blank(columns):
+    """What was not measured is NaN."""
+    if 'resolved' in columns:  # of a Step: all that stands below
+        below = list(columns)[list(columns).index('resolved') + 1 :]
+        blank = dict.fromkeys(below, ~columns['resolved'])
+        if 'gap' in columns:
+            blank['gap'] = columns['gap'] == 0
+    elif 'tracked_time' in columns:  # of an LpPhase
+        blank = dict.fromkeys(('a', 'b'), columns['state'] == LpPhase.UNRESOLVED)
+        tracked = 'phase', 'omega', 'omega_error', 'velocity'
+        blank.update(dict.fromkeys(tracked, columns['state'] != LpPhase.TRACKED))
+    elif 'weight_now' in columns:  # of a Mode
+        blank = dict.fromkeys(('wave_number', 'weight'), columns['kind'] == Mode.NONE)
+        blank.update(dict.fromkeys(('weight_l', 'weight_p'), columns['kind'] != Mode.LP))
+    else:
+        return
+    for name, where in blank.items():
+        if columns[name].dtype == float:
+            columns[name] = np.where(where, np.nan, columns[name])
+
+
+def arrays(message, without=()):
+    """Of a message that says something of each Lyapunov index from first_index on; what it says of
+    an index and the next one has no last element."""
+    described = fields.of(message)
+    size = len(message.exponents)
+    columns, units = {}, {}
+    for slot, kind in zip(message.__slots__, message._slot_types):
+        if kind == 'float64[]' and slot not in without:
+            name = slot[:-1] if slot.endswith('s') else slot
+            values = np.full(size, np.nan)
+            values[: len(getattr(message, slot))] = getattr(message, slot)
+            unknown = slot in described and described[slot].unknown
+            columns[name] = known(values) if unknown else values
+            units[name] = described[slot].unit if slot in described else ''
+    index = pandas.RangeIndex(message.first_index, message.first_index + size, name='index')
+    return frame(columns, units, index)
+
+
+def of_steps(message):
+    """By name; * stands behind those of the negative half."""
+    names = [steps.name(step) + ('*' if step.conjugate else '') for step in message.steps]
+    return elements(message.steps, pandas.Index(names, name='step'))
+
+
+def of_modes(message):
+    index = pandas.Index([mode.index for mode in message.modes], name='index', dtype=int)
+    return elements(message.modes, index, without=('index', 'step'))
+
+
+def of_phases(message):
+    """By their number; the modulation as a formula."""
+    phases = message.phases
+    made = elements(phases, pandas.RangeIndex(len(phases), name='number'))
+    if phases:
+        made['step'] = [steps.wave_name('LP', phase) for phase in phases]
+        made['modulation'] = [
+            waves.plain_formula(phase.nx, phase.ny, phase.modulation) for phase in phases
+        ]
+    return made
+
+
+def over_time(messages, of):
+    """The frames of many messages below each other, by simulated time."""
+    frames, times = zip(*((of(message), message.sim_time) for message in messages))
+    joined = pandas.concat(frames, keys=times, names=['sim_time'])
+    object.__setattr__(joined, 'attrs', frames[-1].attrs)
+    return joined
+
+
+def scalars(messages):
+    """A row for each message, by simulated time."""
+    times = pandas.Index([message.sim_time for message in messages], name='sim_time')
+    return elements(messages, times, without=('sim_time',))

@@ -1,0 +1,166 @@
+"""Points -> a figure: what was measured against what was swept."""
+
+import itertools
+
+from hdlyap.plots.figures.style import GREY, MEMBER_COLOURS, plt
+import numpy as np
+
+from .points import FITTED, QUANTITIES, varied
+from .table import Marks
+
+LABELS = {
+    'disks': 'number of disks $N$',
+    'density': r'density $\rho$  [1/$\sigma^2$]',
+    'aspect': 'aspect ratio $L_y/L_x$',
+    'boundary': 'boundary',
+}
+NAMES = {
+    'lambda_max': r'$\lambda_{max}$  [1/time unit]',
+    'h_KS/N': r'$h_{KS}/N$  [1/time unit]',
+    'c_T': r'$c_T$  [$\sigma$/time unit]',
+    'c_L': r'$c_L$  [$\sigma$/time unit]',
+    'v': r'$v$  [$\sigma$/time unit]',
+}
+MARKERS = 'os^Dv<>p'
+APART = 0.012  # between series, of the width of a panel: error bars would hide each other
+
+
+def draw(points):
+    """None of a single point, nor without anything measured."""
+    names, fixed = varied(points)
+    shown = [name for name in QUANTITIES if any(name in point.values for point in points)]
+    if not names or not shown:
+        return None
+    x = max(names, key=lambda name: (name != 'boundary', _count(points, name)))
+    series = _series(points, [name for name in names if name != x])
+    columns = 2 if len(shown) in (2, 4) else min(3, len(shown))
+    rows = -(-len(shown) // columns)
+    figure, panels = plt.subplots(
+        rows, columns, figsize=(3.1 * columns, 2.7 * rows + 0.9), squeeze=False
+    )
+    marks = Marks(points)
+    for name, axes in zip(shown, panels.flat):
+        _panel(axes, name, x, series, marks)
+    for axes in panels.flat[len(shown) :]:
+        axes.remove()
+    figure.suptitle(', '.join(_said(name, value) for name, value in fixed.items()), fontsize=9)
+    bottom = _explain(figure, panels, series, points)
+    figure.tight_layout(rect=(0, bottom, 1, 1))
+    return figure
+
+
+def _count(points, name):
+    return len({point.system[name] for point in points})
+
+
+def _said(name, value):
+    short = {'disks': '$N$', 'density': r'$\rho$', 'aspect': '$L_y/L_x$', 'boundary': ''}
+    return f'{short[name]} = {value:g}' if short[name] else value
+
+
+def _series(points, names):
+    """{label: points} by all that is swept but what the panels are drawn against."""
+    found = {}
+    for point in points:
+        label = ', '.join(_said(name, point.system[name]) for name in names)
+        found.setdefault(label, []).append(point)
+    return found
+
+
+def _places(points, x):
+    """Of values on an axis; words stand beside each other."""
+    values = sorted({point.system[x] for point in points})
+    if x == 'boundary':
+        return {value: place for place, value in enumerate(values)}, values
+    return {value: value for value in values}, None
+
+
+def _panel(axes, name, x, series, marks):
+    every = list(itertools.chain(*series.values()))
+    places, words = _places(every, x)
+    width = max(places.values()) - min(places.values())
+    marked = len({p.values[name].fit.basis for p in every if name in p.values and name in FITTED})
+    for number, points in enumerate(series.values()):
+        shift = APART * width * (number - (len(series) - 1) / 2)
+        for point in points:
+            if name in point.values:
+                value = point.values[name]
+                place = places[point.system[x]] + shift
+                _point(axes, place, value, number)
+                if marked > 1:
+                    _mark(axes, place, value, marks, number)
+    axes.margins(y=0.12)
+    axes.set_xlim(*_limits(list(places.values()), words))
+    if words:
+        axes.set_xticks(range(len(words)))
+        axes.set_xticklabels(words)
+    axes.set_xlabel(LABELS[x])
+    axes.set_ylabel(NAMES[name])
+
+
+def _mark(axes, place, value, marks, number):
+    """Those of two series on either side."""
+    side = 1 if number % 2 else -1
+    axes.annotate(
+        marks.of(value.fit).strip(),
+        (place, value.value),
+        xytext=(4 * side, 3),
+        textcoords='offset points',
+        ha='left' if number % 2 else 'right',
+        fontsize=6,
+        color=GREY,
+    )
+
+
+def _limits(places, words):
+    margin = 0.5 if words else 0.15 * (max(places) - min(places))
+    return min(places) - margin, max(places) + margin
+
+
+def _point(axes, place, value, number):
+    """Open if the fit is c k alone, which has the curvature in c."""
+    colour, marker = _look(number)
+    axes.errorbar(
+        place,
+        value.value,
+        value.error if np.isfinite(value.error) else None,
+        fmt=marker,
+        color=colour,
+        markerfacecolor='white' if _is_open(value) else colour,
+        markersize=4.5,
+        elinewidth=0.9,
+        capsize=2,
+    )
+
+
+def _is_open(value):
+    return value.fit is not None and value.fit.symbol != 'v' and value.fit.terms < 2
+
+
+def _look(number):
+    return MEMBER_COLOURS[number % len(MEMBER_COLOURS)], MARKERS[number % len(MARKERS)]
+
+
+def _explain(figure, panels, series, points):
+    """The legend below the panels, and what the looks of points say; the height that it takes."""
+    lines = ['error bars: one standard error, over seeds the larger one of stated and scatter']
+    values = [point.values[name] for point in points for name in FITTED if name in point.values]
+    if any(map(_is_open, values)):
+        lines.append('open: fit of c k alone; filled: of c k + c2 k^2')
+    if len({value.fit.basis for value in values}) > 1:
+        lines.append('[1], [2] ..: fits of different form or wave numbers, as in sweep.txt')
+    handles = []
+    if len(series) > 1:
+        for number, label in enumerate(series):
+            colour, marker = _look(number)
+            handles.append(
+                plt.Line2D([], [], linestyle='', marker=marker, color=colour, label=label)
+            )
+    columns = min(4, len(handles))
+    rows = -(-len(handles) // columns) if handles else 0
+    height = figure.get_figheight()
+    text = 0.16 * len(lines) / height
+    if handles:
+        figure.legend(handles=handles, loc='lower center', ncol=columns, bbox_to_anchor=(0.5, text))
+    figure.text(0.01, 0.04 / height, '\n'.join(lines), fontsize=7, color=GREY, va='bottom')
+    return text + (0.05 + 0.2 * rows) / height

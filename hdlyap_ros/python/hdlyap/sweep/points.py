@@ -1,0 +1,123 @@
+"""Bags -> points, one for each system, with means over its seeds; of one seed, what its run
+says."""
+
+from collections import namedtuple
+
+import numpy as np
+
+from hdlyap.data import reader, seeds
+from hdlyap.data.joined import MEASURED
+from hdlyap.data.reader import RecordingError
+
+# name in a frame of results -> its unit; as the columns of a table
+QUANTITIES = {
+    'lambda_max': '1/time unit',
+    'h_KS/N': '1/time unit',
+    'c_T': 'sigma/time unit',
+    'c_L': 'sigma/time unit',
+    'v': 'sigma/time unit',
+}
+FITTED = ('c_T', 'c_L', 'v')
+NAN = float('nan')
+
+
+class Value(namedtuple('Value', 'value std_error scatter chi2 runs fit')):
+    """A mean over so many runs. Errors: from those that the runs state, from the scatter of the
+    runs; NaN while not known. fit: plots.fits.Fit that it comes from, or None."""
+
+    @property
+    def error(self):
+        """The larger one of both; the only one if the other is not known."""
+        return float(np.fmax(self.std_error, self.scatter))
+
+
+class Point:
+    """The runs of one system."""
+
+    def __init__(self, paths):
+        """RecordingError if they have no averages, or do not belong together."""
+        self._system = seeds.load(*paths)
+        self.info = self._system.info
+        self.runs = getattr(self._system, 'runs', [self._system])
+        self.values = self._values()  # {quantity: Value} of those that were measured
+
+    @property
+    def seeds(self):
+        return [run.info.seed for run in self.runs]
+
+    @property
+    def averaged_time(self):
+        """Of all together."""
+        return float(sum(run.averaged_times[-1] for run in self.runs))
+
+    @property
+    def system(self):
+        """{name: value} of SYSTEM, with both boundaries as one."""
+        return system(self.info)
+
+    def _values(self):
+        """The sum of a part of the positive exponents is none."""
+        frame = self._system.results
+        found = {'lambda_max': self._value(frame.loc['lambda_max'])}
+        if 'h_KS' in frame.index:
+            found['h_KS/N'] = self._value(frame.loc['h_KS'], 1 / self.info.disks)
+        for fit in self.runs[0].fits:
+            if fit.symbol in frame.index:
+                found[fit.symbol] = self._value(frame.loc[fit.symbol], fit=fit)
+        return found
+
+    @staticmethod
+    def _value(row, factor=1.0, fit=None):
+        of_one = {'scatter': NAN, 'chi2': NAN, 'runs': 1}
+        several = {name: row.get(name, of_one[name]) for name in of_one}
+        return Value(
+            float(row['value']) * factor,
+            float(row['std_error']) * factor,
+            float(several['scatter']) * factor,
+            float(several['chi2']),
+            int(several['runs']),
+            fit,
+        )
+
+    @property
+    def unlike(self):
+        """Of which the seeds have fits that are not of one form over the same wave numbers."""
+        found = {fit.symbol for run in self.runs for fit in run.fits}
+        return [name for name in FITTED if name in found and name not in self.values]
+
+
+def system(info):
+    walls = dict.fromkeys((info.boundary_x, info.boundary_y))
+    return {
+        'disks': info.disks,
+        'density': info.density,
+        'aspect': info.aspect,
+        'boundary': ','.join(walls),
+    }
+
+
+def varied(points):
+    """Names of what is not the same in all of them; and {name: value} of what is."""
+    values = {name: {point.system[name] for point in points} for name in points[0].system}
+    fixed = {name: found.pop() for name, found in values.items() if len(found) == 1}
+    return [name for name in values if name not in fixed], fixed
+
+
+def read(paths):
+    """([Point] in the order of their systems, a line for each bag or system that cannot be
+    read)"""
+    systems, wrong = {}, []
+    for path in paths:
+        try:
+            info = list(reader.run_infos(path).values())[-1]
+            same = [str(getattr(info, name, None)) for name in MEASURED]
+            systems.setdefault((*system(info).values(), *same), []).append(path)
+        except RecordingError as error:
+            wrong.append(str(error))
+    points = []
+    for _, of_one in sorted(systems.items()):
+        try:
+            points.append(Point(of_one))
+        except RecordingError as error:
+            wrong.append(str(error))
+    return points, wrong

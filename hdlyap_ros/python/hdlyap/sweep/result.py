@@ -1,0 +1,29 @@
+"""Bags -> printed table; files sweep.txt, sweep.csv, sweep.png and sweep.svg."""
+
+import os
+
+from hdlyap.plots.figures.style import STYLE, plt, save
+from hdlyap.runs import files
+
+from . import figure, points, table
+
+NAME = 'sweep'
+
+
+def write(paths, folder=None):
+    """Of these bags, files only into a folder. A line for each that cannot be used."""
+    found, wrong = points.read(paths)
+    if not found:
+        return wrong
+    lines = '\n'.join(table.text(found))
+    print('\n' + lines, flush=True)
+    if not folder:
+        return wrong
+    made = [os.path.join(folder, f'{NAME}.{ending}') for ending in ('txt', 'csv')]
+    files.write(made[0], lines + '\n')
+    table.csv(found, made[1])
+    with plt.rc_context(STYLE):
+        drawn = figure.draw(found)
+        made += save(drawn, folder, NAME) if drawn else []
+    print('written: ' + ', '.join(made), flush=True)
+    return wrong

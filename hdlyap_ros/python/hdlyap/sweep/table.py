@@ -1,0 +1,124 @@
+"""Points -> a table as text, and as CSV."""
+
+from math import isfinite
+
+from hdlyap.plots.numbers import with_error
+from hdlyap.runs import files
+
+from .points import FITTED, QUANTITIES, varied
+
+
+class Marks:
+    """A number for each form and range of wave numbers that a fit stands on, as they appear."""
+
+    def __init__(self, points):
+        self._numbers = {}
+        for point in points:
+            for name in FITTED:
+                if name in point.values:
+                    basis = point.values[name].fit.basis
+                    self._numbers.setdefault(basis, len(self._numbers) + 1)
+
+    def of(self, fit):
+        """' [1]'; empty for what is no fit."""
+        return f' [{self._numbers[fit.basis]}]' if fit else ''
+
+    def explained(self):
+        """Lines; none without a fit."""
+        if self._numbers:
+            yield 'fits of different numbers have not the same form or wave numbers k [1/sigma]:'
+        for basis, number in self._numbers.items():
+            yield f'  [{number}] {basis}'
+
+
+def text(points):
+    """Lines."""
+    names, fixed = varied(points)
+    marks = Marks(points)
+    has_seeds = any(len(point.runs) > 1 for point in points)
+    yield 'the same in all: ' + ', '.join(f'{name} {_plain(x)}' for name, x in fixed.items())
+    yield from _table(
+        [*names, *QUANTITIES, 'seeds', 'averaged time'],
+        [
+            [
+                *_of_system(point, names),
+                *(_cell(point, name, marks) for name in QUANTITIES),
+                str(len(point.runs)),
+                f'{point.averaged_time:g}',
+            ]
+            for point in points
+        ],
+    )
+    yield from marks.explained()
+    if any(point.unlike for point in points):
+        yield 'unlike: fits of the seeds have not the same form or wave numbers'
+    if has_seeds:
+        yield (
+            'errors over the seeds, of which the larger one is above: from those stated, from the '
+            'scatter; chi^2/(seeds - 1)'
+        )
+        yield from _table(
+            [*names, *QUANTITIES],
+            [
+                [*_of_system(point, names), *(_errors(point, name) for name in QUANTITIES)]
+                for point in points
+                if len(point.runs) > 1
+            ],
+        )
+
+
+def _plain(value):
+    return value if isinstance(value, str) else f'{value:.10g}'
+
+
+def _of_system(point, names):
+    return [_plain(point.system[name]) for name in names]
+
+
+def _cell(point, name, marks):
+    if name in point.unlike:
+        return 'unlike'
+    if name not in point.values:
+        return ''
+    value = point.values[name]
+    return with_error(value.value, value.error) + marks.of(value.fit)
+
+
+def _errors(point, name):
+    value = point.values.get(name)
+    if value is None:
+        return ''
+    chi2 = _digits(value.chi2 / (value.runs - 1)) if value.runs > 1 else '-'
+    return ' '.join([*map(_digits, (value.std_error, value.scatter)), chi2])
+
+
+def _digits(error):
+    return f'{error:.2g}' if isfinite(error) else '-'
+
+
+def _table(head, rows):
+    rows = [head, *rows]
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    for cells in rows:
+        yield '  '.join(f'{cell:<{width}}' for cell, width in zip(cells, widths)).rstrip()
+
+
+def csv(points, path):
+    """All digits; nothing where something is not known. The units stand in the head."""
+    head = ['disks', 'density [1/sigma^2]', 'aspect', 'boundary', 'seeds']
+    head.append('averaged time [time units]')
+    for name, unit in QUANTITIES.items():
+        head += [f'{name} [{unit}]', f'{name} std_error', f'{name} scatter', f'{name} chi2']
+        head += [f'{name} basis'] if name in FITTED else []
+    files.write_csv(path, head, map(_row, points))
+
+
+def _row(point):
+    row = [*map(_plain, point.system.values()), ' '.join(point.seeds), f'{point.averaged_time:g}']
+    for name in QUANTITIES:
+        value = point.values.get(name)
+        numbers = (value.value, value.std_error, value.scatter, value.chi2) if value else [''] * 4
+        row += [repr(x) if x != '' and isfinite(x) else '' for x in numbers]
+        if name in FITTED:
+            row.append(value.fit.basis if value else '')
+    return row

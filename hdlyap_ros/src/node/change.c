@@ -1,0 +1,56 @@
+/** Text -> a change. */
+#include "change.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "parameters.h"
+#include "reader.h"
+
+enum { NAME_MAX_LENGTH = 40 };
+
+bool change_refuse(char *message, size_t size, const char *what, const char *why)
+{
+    snprintf(message, size, "%.150s: %s", what, why);
+    make_one_line(message);
+    return false;
+}
+
+/** A number from end to end and in the row's range. */
+static bool parse_value(double *value, const char *text, const parameter *p)
+{
+    char *end;
+    const double least = p->row ? p->row->least : p->least, most = p->row ? p->row->most : p->most;
+    *value = strtod(text, &end);
+    return end != text && !end[strspn(end, " ")] && *value >= least && *value <= most;
+}
+
+bool change_parse(change *out, const char *assignment, char *message, size_t size)
+{
+    char name[NAME_MAX_LENGTH] = "", why[200];
+    const size_t length = strcspn(assignment, "= ");
+    const char *sign = assignment + length + strspn(assignment + length, " ");
+    if (length == 0 || *sign != '=')
+        return change_refuse(message, size, assignment, "must be NAME=VALUE, such as pace=1.5");
+    snprintf(name, sizeof name, "%.*s", (int)length, assignment);
+    if (!parameters_has(name))
+        return change_refuse(message, size, assignment, parameters_instead(name));
+    const parameter p = parameters_named(name);
+    out->name = p.name;
+    if (!p.live) return change_refuse(message, size, assignment, "is read at the start");
+    snprintf(why, sizeof why, "must be %s", p.allowed);
+    return parse_value(&out->value, sign + 1, &p) || change_refuse(message, size, assignment, why);
+}
+
+bool change_parse_timed(change *out, const char *text, char *message, size_t size)
+{
+    char *end;
+    out->time = strtod(text, &end);
+    if (end == text || *end != ' ' || !(out->time >= 0.0 && out->time < HUGE_VAL))
+        return change_refuse(
+            message, size, text,
+            "must be a simulated time and NAME=VALUE, such as 120 report_interval=5");
+    return change_parse(out, end + strspn(end, " "), message, size);
+}

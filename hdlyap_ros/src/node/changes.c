@@ -1,0 +1,107 @@
+/** Changes -> another value in the run and in the settings. Called by the thread that steps it. */
+#include "changes.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hdlyap_ros/node.h"
+#include "parameters.h"
+
+/** Times are equal to rounding: a repetition may differ in their last digits. */
+static const double CLOSE = 1e-9;
+
+/* ---- list ---------------------------------------------------------------------------------- */
+
+bool changes_create(changes *out, const settings *set)
+{
+    char message[256];
+    const int count = set->changes.count;
+    *out = (changes){.list = calloc((size_t)count + 1, sizeof *out->list)};
+    if (!out->list) return false;
+    for (; out->count < count; out->count++)
+        (void)change_parse_timed(&out->list[out->count], set->changes.text[out->count], message,
+                                 sizeof message);
+    return true;
+}
+
+void changes_clear(changes *all) { free(all->list); }
+
+/** Moves one that waits to the end of those that are made. */
+static void put_to_made(changes *all, int k)
+{
+    const change made = all->list[k];
+    memmove(all->list + all->made + 1, all->list + all->made,
+            (size_t)(k - all->made) * sizeof made);
+    all->list[all->made++] = made;
+}
+
+/* ---- made ---------------------------------------------------------------------------------- */
+
+/** Of a live parameter, all of which are real numbers. */
+static double *value_of(settings *set, const parameter *p)
+{
+    return (double *)((char *)set + p->offset + (p->row ? p->row->offset : 0));
+}
+
+static bool is_ended(const hd_run *run, char *message, size_t size, const char *name)
+{
+    return hd_run_stage(run) == HD_FINISHED &&
+           !change_refuse(message, size, name, "the run has ended");
+}
+
+/** Lets the run know; time and value before are filled in. */
+static bool make(change *c, settings *set, hd_run *run, char *message, size_t size)
+{
+    const parameter p = parameters_named(c->name);
+    double *value = value_of(set, &p);
+    if (is_ended(run, message, size, c->name)) return false;
+    c->time = p.at_once ? hd_run_time(run) : hd_run_change_time(run);
+    if (p.row && hd_run_change(run, p.row, c->value, message, size) != HD_OK) return false;
+    c->before = *value;
+    *value = c->value;
+    if (value == &set->field_interval) hd_run_fields_every(run, *value);
+    snprintf(message, size, "%s = %.15g from simulated time %.6g on, was %.15g", c->name, c->value,
+             c->time, c->before);
+    return true;
+}
+
+bool changes_ask(changes *all, settings *set, hd_run *run, const char *assignment, char *message,
+                 size_t size)
+{
+    change asked;
+    if (!change_parse(&asked, assignment, message, size)) return false;
+    change *longer = realloc(all->list, ((size_t)all->count + 1) * sizeof *longer);
+    if (!longer) return change_refuse(message, size, assignment, "out of memory");
+    all->list = longer;
+    if (!make(&asked, set, run, message, size)) return false;
+    all->list[all->count++] = asked;
+    put_to_made(all, all->count - 1);
+    return true;
+}
+
+static bool is_due(const change *c, const hd_run *run)
+{
+    const parameter p = parameters_named(c->name);
+    const double now = p.at_once ? hd_run_time(run) : hd_run_change_time(run);
+    return c->time <= now * (1.0 + CLOSE);
+}
+
+bool changes_take(changes *all, settings *set, hd_run *run)
+{
+    const int made = all->made;
+    for (int k = all->made; k < all->count;) {
+        char message[256];
+        if (!is_due(&all->list[k], run)) {
+            k++;
+        } else if (make(&all->list[k], set, run, message, sizeof message)) {
+            hdr_log(HDR_INFO, "changes: %s", message);
+            put_to_made(all, k++);
+        } else {
+            hdr_log(HDR_WARN, "changes: %s", message);
+            memmove(all->list + k, all->list + k + 1,
+                    (size_t)(--all->count - k) * sizeof *all->list);
+        }
+    }
+    return all->made > made;
+}

@@ -1,0 +1,262 @@
+/** What is changed while a run goes on: when it holds, what is refused, and that the same change at
+ * the same time gives the same bits. */
+#include "kept.h"
+#include "testing.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PATH "change.checkpoint"
+
+static const hd_parameter *row_of(const char *name)
+{
+    int count;
+    const hd_parameter *row = hd_scene_parameters(&count);
+    while (strcmp(row->name, name) != 0) row++;
+    return row;
+}
+
+static void change(hd_run *run, const char *name, double value)
+{
+    char message[256] = "";
+    if (hd_run_change(run, row_of(name), value, message, sizeof message) != HD_OK)
+        fail_msg("%s", message);
+}
+
+static void expect_refused(hd_run *run, const char *name, double value, const char *line)
+{
+    char message[256] = "";
+    const hd_scene_def before = *hd_run_scene(run);
+    assert_int_equal(hd_run_change(run, row_of(name), value, message, sizeof message), HD_REFUSED);
+    if (!strstr(message, line)) fail_msg("%s: not in: %s", line, message);
+    CHECK_CLOSE(hd_parameter_value(row_of(name), hd_run_scene(run)),
+                hd_parameter_value(row_of(name), &before), 0.0);
+}
+
+/** In the averaging, in the middle of a sample. */
+static hd_run *averaging(double report_interval, double duration)
+{
+    hd_scene_def def = kept_scene(30, 0.7, 1.0, 5, KEPT_ALL);
+    def.report_interval = report_interval;
+    def.duration = duration;
+    hd_run *run = kept_run(&def);
+    while (hd_run_stage(run) != HD_AVERAGING || hd_run_time(run) < 26.0) kept_steps(run, 1);
+    while (hd_run_time(run) >= hd_run_change_time(run)) kept_steps(run, 1);
+    return run;
+}
+
+/** The time of the next report; that of the end where there is none. */
+static double next_report(hd_run *run)
+{
+    do kept_steps(run, 1);
+    while (!hd_run_report_due(run) && hd_run_stage(run) != HD_FINISHED);
+    return hd_run_time(run);
+}
+
+/** Reports come as before until then, and as asked for after it, until the end that was. */
+static void expect_reports(double before, double after)
+{
+    hd_run *run = averaging(before, 20.0);
+    const double from = hd_run_change_time(run), start = 23.0;
+    change(run, "report_interval", after);
+    CHECK_CLOSE(hd_run_scene(run)->report_interval, after, 0.0);
+    double now = next_report(run);
+    for (; now < from - 1e-9; now = next_report(run)) {
+        const double reports = (now - start) / before;
+        CHECK_CLOSE(reports, floor(reports + 0.5), 1e-9);
+    }
+    for (int k = fabs(now - from) < 1e-9 ? 0 : 1; hd_run_stage(run) != HD_FINISHED; k++) {
+        CHECK_CLOSE(now, fmin(from + k * after, 43.0), 1e-9);
+        now = next_report(run);
+    }
+    CHECK_CLOSE(now, 43.0, 0.0);
+    hd_run_free(run);
+}
+
+static void reports_come_in_another_interval(void **state)
+{
+    (void)state;
+    const double intervals[] = {0.1, 0.7, 1.0, 7.0};
+    for (int k = 0; k < 4; k++)
+        for (int l = 0; l < 4; l++)
+            if (k != l) expect_reports(intervals[k], intervals[l]);
+}
+
+static void before_the_averaging_it_holds_from_the_next_report_on(void **state)
+{
+    (void)state;
+    hd_scene_def def = kept_scene(30, 0.7, 1.0, 5, 0);
+    hd_run *run = kept_run(&def);
+    while (hd_run_time(run) < 5.0) kept_steps(run, 1);
+    const double from = hd_run_change_time(run);
+    assert_true(from <= hd_run_time(run) + 1.0);
+    change(run, "report_interval", 0.25);
+    while (hd_run_time(run) < from) kept_steps(run, 1);
+    for (int k = 1; hd_run_stage(run) == HD_WARMING_UP; k++)
+        CHECK_CLOSE(next_report(run), fmin(from + 0.25 * k, 23.0), 1e-9);
+    CHECK_CLOSE(hd_run_time(run), 23.0, 0.0);
+    hd_run_free(run);
+}
+
+static double ended(hd_run *run)
+{
+    while (kept_steps(run, 1)) continue;
+    const double end = hd_run_time(run);
+    hd_run_free(run);
+    return end;
+}
+
+static void the_duration_changes(void **state)
+{
+    (void)state;
+    hd_run *run = averaging(1.0, 20.0);
+    expect_refused(run, "duration", -1.0, "duration = -1: must be from 0");
+    expect_refused(run, "duration", 1.0, "duration = 1: must be 0 or at least");
+    const double least = hd_run_change_time(run) - 23.0;
+    change(run, "duration", least); /* as soon as it can */
+    CHECK_CLOSE(ended(run), 23.0 + least, 1e-9);
+    run = averaging(1.0, 20.0);
+    change(run, "duration", 31.5);
+    CHECK_CLOSE(ended(run), 54.5, 1e-9);
+    run = averaging(1.0, 0.0);
+    change(run, "duration", 10.0);
+    CHECK_CLOSE(ended(run), 33.0, 1e-9);
+    run = averaging(1.0, 20.0);
+    change(run, "duration", 0.0);
+    while (hd_run_time(run) < 60.0) kept_steps(run, 1);
+    assert_int_equal(hd_run_stage(run), HD_AVERAGING);
+    hd_run_free(run);
+}
+
+/** In the sample at whose end the run would have ended: there it says what it has to say. */
+static void at_the_end_it_becomes_longer(void **state)
+{
+    (void)state;
+    hd_run *run = averaging(1.0, 3.9);
+    while (hd_run_change_time(run) < 26.9 || hd_run_time(run) >= 26.9) kept_steps(run, 1);
+    assert_true(hd_run_time(run) < 26.9);
+    change(run, "duration", 10.0);
+    double now = next_report(run);
+    while (now < 26.9) now = next_report(run);
+    CHECK_CLOSE(now, 26.9, 0.0);
+    assert_int_equal(hd_run_stage(run), HD_AVERAGING);
+    CHECK_CLOSE(ended(run), 33.0, 1e-9);
+}
+
+static void the_target_changes(void **state)
+{
+    (void)state;
+    hd_scene_def def = kept_scene(30, 0.7, 1.0, 5, 0);
+    def.duration = 400.0;
+    hd_run *run = kept_run(&def);
+    while (hd_run_cost(run).std_error < 0) kept_steps(run, 1);
+    const double from = hd_run_change_time(run);
+    change(run, "target_std_error", 1e3); /* was reached long ago */
+    CHECK_CLOSE(ended(run), from, 1e-9);
+}
+
+/** Before and after any change of the reports the first of them at or after each multiple. */
+static void expect_fields(double report_interval)
+{
+    hd_scene_def def = kept_scene(30, 0.7, 1.0, 5, KEPT_ALL | HD_OBSERVE_FIELDS);
+    hd_run *run = kept_run(&def);
+    hd_run_fields_every(run, 1000.0);
+    while (hd_run_time(run) < 30.0) kept_steps(run, 1);
+    const double from = hd_run_change_time(run);
+    int due = 0;
+    hd_run_fields_every(run, 2.0);
+    change(run, "report_interval", report_interval);
+    for (double now, before = hd_run_time(run); hd_run_stage(run) != HD_FINISHED; before = now) {
+        now = next_report(run);
+        const double multiple = floor((now - 23.0) / 2.0 + 1e-9);
+        const bool reached = now > from + 1e-9 && multiple > floor((before - 23.0) / 2.0 + 1e-9);
+        assert_int_equal(hd_run_fields_due(run), reached || hd_run_stage(run) == HD_FINISHED);
+        due += reached;
+    }
+    assert_true(due >= 5);
+    hd_run_free(run);
+}
+
+static void the_fields_interval_changes(void **state)
+{
+    (void)state;
+    const double intervals[] = {1.0, 0.3, 1.3};
+    for (int k = 0; k < 3; k++) expect_fields(intervals[k]);
+}
+
+static void the_rest_is_read_at_the_start(void **state)
+{
+    (void)state;
+    int count, live = 0;
+    const hd_parameter *rows = hd_scene_parameters(&count);
+    hd_run *run = averaging(1.0, 20.0);
+    for (int k = 0; k < count; k++) {
+        live += rows[k].live;
+        assert_true(!rows[k].live || rows[k].may_differ);
+        if (!rows[k].live) expect_refused(run, rows[k].name, 2.0, "is read at the start");
+    }
+    assert_int_equal(live, 3);
+    expect_refused(run, "report_interval", 0.0, "report_interval = 0: must be from 1e-6");
+    while (kept_steps(run, 1)) continue;
+    expect_refused(run, "duration", 100.0, "the run has ended");
+    hd_run_free(run);
+}
+
+static void expect_same(hd_run *a, hd_run *b)
+{
+    assert_true(hd_run_time(a) == hd_run_time(b));
+    for (int col = 0; col < 5; col++) {
+        const hd_spectrum *of_a = hd_run_spectrum(a), *of_b = hd_run_spectrum(b);
+        assert_true(hd_spectrum_exponent(of_a, col) == hd_spectrum_exponent(of_b, col));
+        assert_true(hd_spectrum_std_error(of_a, col) == hd_spectrum_std_error(of_b, col));
+    }
+}
+
+/** Wherever in the sample it was asked for; and what was asked for is in a checkpoint, before and
+ * after it holds. */
+static void the_same_change_gives_the_same_bits(void **state)
+{
+    (void)state;
+    hd_run *late = averaging(1.0, 200.0), *early = averaging(1.0, 200.0);
+    change(early, "report_interval", 0.3);
+    const double from = hd_run_change_time(early);
+    hd_run *kept = kept_and_resumed(early, PATH, NULL);
+    for (double before = hd_run_time(late); hd_run_time(late) + 1e-9 < from;) {
+        hd_run *tried = kept_and_resumed(late, PATH, NULL);
+        kept_steps(tried, 1);
+        const bool is_last = hd_run_time(tried) + 1e-9 >= from;
+        hd_run_free(tried);
+        if (is_last) break;
+        kept_steps(late, 1);
+        assert_true(hd_run_time(late) > before);
+    }
+    assert_true(hd_run_time(late) < from);
+    CHECK_CLOSE(hd_run_change_time(late), from, 0.0);
+    change(late, "report_interval", 0.3);
+    while (hd_run_time(early) < from + 1.0) kept_steps(early, 1);
+    hd_run *after = kept_and_resumed(early, PATH, NULL);
+    hd_run *all[] = {early, late, kept, after};
+    for (int k = 0; k < 4; k++) {
+        while (kept_steps(all[k], 1)) continue;
+        expect_same(early, all[k]);
+    }
+    assert_true(hd_spectrum_std_error(hd_run_spectrum(early), 0) > 0);
+    for (int k = 0; k < 4; k++) hd_run_free(all[k]);
+    remove(PATH);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reports_come_in_another_interval),
+        cmocka_unit_test(before_the_averaging_it_holds_from_the_next_report_on),
+        cmocka_unit_test(the_duration_changes),
+        cmocka_unit_test(at_the_end_it_becomes_longer),
+        cmocka_unit_test(the_target_changes),
+        cmocka_unit_test(the_fields_interval_changes),
+        cmocka_unit_test(the_rest_is_read_at_the_start),
+        cmocka_unit_test(the_same_change_gives_the_same_bits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

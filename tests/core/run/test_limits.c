@@ -1,0 +1,152 @@
+/** What is said to limit the interval between orthonormalisations is what does: each case is one in
+ * which only that can. */
+#include "run/run_state.h"
+#include "runs.h"
+#include "scenes.h"
+
+static hd_scene_def scene_of_disks(int disks, double report_interval)
+{
+    hd_scene_def scene = scene_of(disks, 0.8, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
+    scene.equilibration = 2.0;
+    scene.warmup = 40.0;
+    scene.duration = 0.0;
+    scene.observe = 0;
+    scene.report_interval = report_interval;
+    return scene;
+}
+
+typedef struct seen {
+    double interval;
+    hd_limit limit;
+} seen;
+
+static seen seen_of(const hd_run *run)
+{
+    const hd_cost cost = hd_run_cost(run);
+    return (seen){cost.interval, cost.limit};
+}
+
+/** Some samples after the averaging began. */
+static seen settled(const hd_scene_def *scene)
+{
+    hd_run *run = created(scene);
+    while (hd_run_stage(run) < HD_AVERAGING) CHECK_OK(hd_run_advance(run));
+    const double from = run->schedule.start, sample = run->schedule.sample_length;
+    while (hd_run_time(run) < from + 3.5 * fmax(sample, scene->report_interval))
+        CHECK_OK(hd_run_advance(run));
+    const seen last = seen_of(run);
+    hd_run_free(run);
+    return last;
+}
+
+/** What the conditioning allows where nothing else limits: reports are far apart, and far from a
+ * multiple of it. */
+static seen alone(int disks)
+{
+    const hd_scene_def scene = scene_of_disks(disks, 20.0);
+    return settled(&scene);
+}
+
+static void the_conditioning_is_not_called_a_report(void **state)
+{
+    (void)state;
+    const seen last = alone(24);
+    print_message("interval %g\n", last.interval);
+    assert_int_equal(last.limit, HD_LIMIT_CONDITION);
+    assert_true(last.interval < 10.0);
+}
+
+static void reports_limit_where_they_cut_short(void **state)
+{
+    (void)state;
+    const double free = alone(24).interval;
+    hd_scene_def scene = scene_of_disks(24, 0.7 * free); /* two would not fit */
+    seen last = settled(&scene);
+    assert_int_equal(last.limit, HD_LIMIT_SCHEDULE);
+    CHECK_CLOSE(last.interval, scene.report_interval, 1e-9);
+    scene.report_interval = 0.02 * free; /* some fifty fit: there is next to nothing to gain */
+    last = settled(&scene);
+    assert_int_equal(last.limit, HD_LIMIT_CONDITION);
+}
+
+static void the_parameter_limits(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_of_disks(24, 20.0);
+    scene.interval = 0.3;
+    assert_int_equal(settled(&scene).limit, HD_LIMIT_SCENE);
+    scene.report_interval = 0.3;
+    assert_int_equal(settled(&scene).limit, HD_LIMIT_SCENE);
+}
+
+static void samples_for_errors_limit(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_of_disks(24, 0.05);
+    scene.duration = 16.0; /* 32 of half a time unit */
+    const seen last = settled(&scene);
+    assert_int_equal(last.limit, HD_LIMIT_SAMPLE);
+    CHECK_CLOSE(last.interval, 0.5, 1e-9);
+    scene = scene_of_disks(24, 20.0); /* of one vector, nothing else is known */
+    scene.exponents = 1;
+    const seen one = settled(&scene);
+    print_message("one vector: interval %g\n", one.interval);
+    assert_int_equal(one.limit, HD_LIMIT_SAMPLE);
+}
+
+static void vectors_that_are_wanted_limit(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_of_disks(24, 0.5);
+    scene.observe = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_HYDRO;
+    scene.max_mode_number = 1;
+    hd_run *run = created(&scene);
+    int looks = 0;
+    while (hd_run_time(run) < 50.0) {
+        CHECK_OK(hd_run_advance(run));
+        if (!hd_run_report_due(run) || hd_spectrum_time(run->spectrum) == 0) continue;
+        const seen last = seen_of(run);
+        CHECK_CLOSE(last.interval, 0.5, 1e-9);
+        looks += last.limit == HD_LIMIT_LOOK;
+        /* the rest of a sample that was cut for a look, too */
+        assert_true(last.limit == HD_LIMIT_LOOK || last.interval == run->schedule.sample_length);
+    }
+    assert_true(looks > 10);
+    hd_run_free(run);
+}
+
+/** Learnt by doubling; then the stage ends. */
+static void the_warmup_is_learnt_and_ends(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_of_disks(24, 0.5);
+    scene.warmup = 0.5;
+    hd_run *run = created(&scene);
+    assert_int_equal(seen_of(run).limit, HD_LIMIT_NONE);
+    assert_true(isnan(seen_of(run).interval));
+    bool learns = false;
+    while (hd_run_stage(run) < HD_AVERAGING) {
+        CHECK_OK(hd_run_advance(run));
+        learns |= seen_of(run).limit == HD_LIMIT_GROWTH;
+    }
+    assert_true(learns);
+    hd_run_free(run);
+    scene.warmup = 1e-3;
+    run = created(&scene);
+    while (hd_run_stage(run) < HD_AVERAGING) CHECK_OK(hd_run_advance(run));
+    assert_int_equal(seen_of(run).limit, HD_LIMIT_STAGE);
+    hd_run_free(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_conditioning_is_not_called_a_report),
+        cmocka_unit_test(reports_limit_where_they_cut_short),
+        cmocka_unit_test(the_parameter_limits),
+        cmocka_unit_test(samples_for_errors_limit),
+        cmocka_unit_test(vectors_that_are_wanted_limit),
+        cmocka_unit_test(the_warmup_is_learnt_and_ends),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

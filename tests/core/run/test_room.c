@@ -1,0 +1,118 @@
+/** The estimate of a run's memory against what the core asks for, and what is said where it is too
+ * little. */
+#include <stdio.h>
+#include <string.h>
+
+#include "ledger.h"
+#include "runs.h"
+#include "scenes.h"
+
+#include "hdlyap/room.h"
+
+static double asked_for(const hd_scene_def *scene)
+{
+    const size_t before = ledger_now().live;
+    hd_run *run = created(scene);
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+    hd_run_free(run);
+    assert_int_equal(ledger_now().live, before);
+    return (double)ledger_now().peak;
+}
+
+static void compare(const char *what, const hd_scene_def *scene, double least, double most)
+{
+    ledger_reset_peak();
+    const double asked = asked_for(scene), threads = scene->threads;
+    const double needed = hd_room_needed(scene, (int)threads);
+    print_message("%s: asked for %.2f MB, estimated %.3f times that\n", what, 1e-6 * asked,
+                  needed / asked);
+    assert_true(needed >= least * asked && needed <= most * asked);
+}
+
+static hd_scene_def short_run(int disks, int exponents, unsigned observe)
+{
+    hd_scene_def scene = scene_of(disks, 0.8, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
+    scene.equilibration = 0.1;
+    scene.warmup = 3.0; /* intervals as long as they become */
+    scene.duration = scene.report_interval = 3.0;
+    scene.exponents = exponents;
+    scene.observe = observe;
+    scene.threads = 2;
+    return scene;
+}
+
+static void the_estimate_is_what_is_asked_for(void **state)
+{
+    (void)state;
+    enum { MODES = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES };
+    hd_scene_def scene = short_run(300, HD_EXPONENTS_POSITIVE, 0);
+    compare("positive half", &scene, 0.93, 1.07);
+    scene = short_run(300, HD_EXPONENTS_POSITIVE, MODES);
+    compare("with modes", &scene, 0.93, 1.07);
+    scene = short_run(200, HD_EXPONENTS_ALL, MODES);
+    compare("all exponents", &scene, 0.93, 1.07);
+    scene = short_run(2000, 60, 0);
+    compare("2000 disks, 60 exponents", &scene, 0.93, 1.07);
+    scene = short_run(20000, HD_EXPONENTS_NONE, 0);
+    scene.warmup = scene.equilibration = 0.0;
+    scene.duration = 0.5;
+    compare("disks alone", &scene, 0.93, 1.07);
+}
+
+static void what_is_too_much_is_said(void **state)
+{
+    (void)state;
+    char line[256] = "";
+    const hd_room room = {8e9, "machine"};
+    const hd_scene_def large = short_run(20000, HD_EXPONENTS_POSITIVE, HD_OBSERVE_ALL & 31);
+    int exponents = 0, disks = 0;
+    assert_int_equal(hd_room_check(&large, room, line, sizeof line), HD_NO_MEMORY);
+    print_message("%s\n", line);
+    assert_true(strncmp(line, "out of memory: disks = 20000 with 39997 exponents need 5", 56) == 0);
+    assert_non_null(strstr(line, "there are 8 GB (machine)"));
+    const char *fits = strstr(line, "exponents = ");
+    assert_non_null(fits);
+    assert_int_equal(sscanf(fits, "exponents = %d would fit, or disks = %d", &exponents, &disks),
+                     2);
+    hd_scene_def one = large;
+    one.exponents = exponents;
+    CHECK_OK(hd_room_check(&one, room, NULL, 0));
+    assert_true(hd_room_needed(&one, 2) > 0.9 * room.bytes * 0.9);
+    one = large;
+    one.disks = disks;
+    CHECK_OK(hd_room_check(&one, room, NULL, 0));
+    assert_true(hd_room_needed(&one, 2) > 0.7 * room.bytes);
+}
+
+static void nothing_is_allocated_for_it(void **state)
+{
+    (void)state;
+    hd_run *run;
+    char line[256] = "";
+    const hd_scene_def large = short_run(1000000, HD_EXPONENTS_POSITIVE, HD_OBSERVE_ALL & 31);
+    const size_t before = ledger_now().allocations;
+    assert_int_equal(hd_run_create(&run, &large, line, sizeof line), HD_NO_MEMORY);
+    assert_null(run);
+    print_message("%s\n", line);
+    assert_int_equal(ledger_now().allocations, before);
+    assert_non_null(strstr(line, "would fit"));
+}
+
+static void there_is_some(void **state)
+{
+    (void)state;
+    const hd_room room = hd_room_available();
+    print_message("%.3g GB (%s)\n", 1e-9 * room.bytes, room.limit);
+    assert_true(room.bytes > 1e7 && room.bytes < 1e15);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_estimate_is_what_is_asked_for),
+        cmocka_unit_test(what_is_too_much_is_said),
+        cmocka_unit_test(nothing_is_allocated_for_it),
+        cmocka_unit_test(there_is_some),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

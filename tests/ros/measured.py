@@ -1,0 +1,129 @@
+"""Messages -> the numbers in them that are NaN, and those that the .msg files say are: what was not
+measured. The two are the same in every message of every run."""
+
+import copy
+import io
+import math
+
+from hdlyap.msg import Cost, LpPhase, Mode, RunStatus
+
+OF_STEPS = ('multiplicity', 'exponent', 'set_time', 'own_part', 'gap')
+OF_RESPONSES = ('density', 'along', 'across', 'energy')
+OF_LP = ('weight_l', 'weight_p')
+
+
+def nans(message, path=''):
+    """Names of the fields that are not a number: modes[3].weight."""
+    found = set()
+    for name in message.__slots__:
+        found |= _of_value(getattr(message, name), path + name)
+    return found
+
+
+def _of_value(value, path):
+    if isinstance(value, float):
+        return {path} if math.isnan(value) else set()
+    if isinstance(value, (list, tuple)):
+        items = (_of_value(item, f'{path}[{k}]') for k, item in enumerate(value))
+        return set().union(*items)
+    return nans(value, path + '.') if hasattr(value, '__slots__') else set()
+
+
+def unmeasured(message):
+    """The same as the documents of the messages say it, from what else is in the message."""
+    return set(RULES.get(type(message).__name__, lambda message: ())(message))
+
+
+def _spectrum(message):
+    if message.local_time == 0:
+        for k in range(len(message.local_exponents)):
+            yield f'local_exponents[{k}]'
+    for k, (cosine, ratio) in enumerate(zip(message.cos_theta, message.dp_dq_ratio)):
+        if math.isnan(cosine) and (math.isnan(ratio) or ratio < 1e-140):  # a half vanishes
+            yield f'cos_theta[{k}]'
+            yield from [f'dp_dq_ratio[{k}]'] if math.isnan(ratio) else []
+
+
+def _cost(message):
+    if message.orthonormalisations == 0:
+        yield from ('interval', 'condition', 'orthogonality_defect')
+    assert (message.interval_limit == Cost.LIMIT_NONE) == (message.orthonormalisations == 0)
+    if message.events_seconds == 0:
+        yield 'events_per_second'
+    if message.orthonormalisations == 0 or math.isnan(message.error_bound):
+        yield 'error_bound'
+
+
+def _modes(message):
+    for k, mode in enumerate(message.modes):
+        names = ('wave_number', 'weight', 'weight_now') if mode.kind == Mode.NONE else ()
+        for name in names + (() if mode.kind == Mode.LP else OF_LP):
+            yield f'modes[{k}].{name}'
+
+
+def _steps(message):
+    for k, step in enumerate(message.steps):
+        alone = ('gap',) if step.sharing == step.SHARING_ALONE else ()
+        for name in alone if step.resolved else OF_STEPS:
+            yield f'steps[{k}].{name}'
+    for letter, points in (('t', message.t_points), ('l', message.l_points)):
+        yield from [f'c_{letter}'] if points < 1 else []
+        yield from [f'c_{letter}2'] if points < 2 else []
+    if message.v_phases == 0:
+        yield 'v'
+
+
+def _phases(message):
+    for k, phase in enumerate(message.phases):
+        unknown = ['a', 'b'] if phase.state == LpPhase.UNRESOLVED else []
+        if phase.tracked_time == 0:
+            unknown += ['omega', 'velocity']
+            unknown += [] if phase.state == LpPhase.TRACKED else ['phase']
+        for name in unknown:
+            yield f'phases[{k}].{name}'
+
+
+def _hydro(message):
+    for k, response in enumerate(message.responses):
+        if response.index == 0:
+            for name in OF_RESPONSES:
+                yield f'responses[{k}].{name}'
+
+
+def _field(message):
+    if message.kind == Mode.NONE:
+        yield 'wave_number'
+    if message.pairs == 0:
+        yield 'rotation_distance'
+
+
+RULES = dict(
+    Spectrum=_spectrum,
+    Cost=_cost,
+    Modes=_modes,
+    Steps=_steps,
+    LpPhases=_phases,
+    Hydro=_hydro,
+    ModeField=_field,
+)
+
+
+def bits(messages):
+    """Of each, without what the clock and the run's name are: NaN is the same as NaN."""
+    return [_bits(message) for message in messages]
+
+
+def _bits(message):
+    message, buffer = copy.copy(message), io.BytesIO()
+    message.header, message.run_id = type(message.header)(), ''
+    message.serialize(buffer)
+    return buffer.getvalue()
+
+
+def check(case, messages):
+    """Of a unittest case: each is NaN exactly where it says so; predictions and errors that are not
+    known are -1."""
+    for message in messages:
+        case.assertEqual(nans(message), unmeasured(message), f'in a {type(message).__name__}')
+        if isinstance(message, RunStatus):
+            case.assertTrue(message.progress == -1 or 0 <= message.progress <= 1)

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""hdlyap_node --check: what it says of a scene file is what the node makes of it, in the same words
+where it is refused."""
+
+import io
+import os
+import re
+import subprocess
+import tempfile
+
+import rospy
+import rostest
+import yaml
+
+import harness
+from harness import MODES, OBSERVABLES
+
+SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../launch/scenes')
+TOPICS = [topic for topic in OBSERVABLES if topic not in ('hydro', 'fields', 'covariant')]
+REPORT = [*TOPICS, 'cost', 'status']
+NO_MASTER = dict(os.environ, ROS_MASTER_URI='http://localhost:1')
+
+
+def checked(path, *replaced):
+    return subprocess.run(
+        [harness.executable(), '--check', path, *replaced],
+        env=NO_MASTER,
+        text=True,
+        capture_output=True,
+        timeout=harness.PATIENCE,
+    )
+
+
+def said_by_node(node):
+    return re.sub(r'^.*?\]: ', '', re.sub(r'\x1b\[\d*m', '', node.text().strip()))
+
+
+def size_of(message):
+    buffer = io.BytesIO()
+    message.serialize(buffer)
+    return len(buffer.getvalue())
+
+
+class Check(harness.Case):
+    def file_of(self, params):
+        with tempfile.NamedTemporaryFile('w', suffix='.yaml', delete=False) as file:
+            self.addCleanup(os.unlink, file.name)
+            file.write(params if isinstance(params, str) else yaml.safe_dump(params))
+        return file.name
+
+    def test_scenes(self):
+        """With all kinds of stages; those that are large are made small."""
+        for name in ('covariant', 'narrow', 'quick', 'trajectory_only'):
+            with self.subTest(scene=name):
+                done = checked(
+                    os.path.join(SCENES, name + '.yaml'),
+                    *(['disks:=40'] if name != 'narrow' else []),
+                )
+                self.assertEqual((done.returncode, done.stderr), (0, ''))
+                self.assertIn(f'scene     {name} is valid: ', done.stdout)
+                for word in ('memory', 'speed', 'bag'):
+                    self.assertRegex(done.stdout, rf'(?m)^{word} ')
+                of_exponents = name != 'trajectory_only'
+                self.assertEqual('errors ' in done.stdout, of_exponents)
+                self.assertEqual('waves ' in done.stdout, of_exponents)
+
+    def test_bag(self):
+        """Bytes of a report are those of the messages that a run publishes."""
+        params = dict(MODES, observables=TOPICS, wait_for_subscribers=REPORT)
+        last = {topic: got[-1] for topic, got in harness.whole_run(params, REPORT).items()}
+        want = sum(size_of(message) for message in last.values())
+        said = checked(self.file_of(params)).stdout
+        got = 1e3 * float(re.search(r'(\S+) kB a report', said).group(1))
+        self.assertAlmostEqual(got / want, 1.0, delta=0.02)
+        waves = re.search(r'(?m)^waves (.*)$', said).group(1).split()
+        steps = {(s.nx, s.ny) for s in last['steps'].steps if s.nx + s.ny > 0}
+        self.assertEqual(
+            {tuple(map(int, re.search(r'\((\d+),(\d+)\)', wave).groups())) for wave in waves}, steps
+        )
+
+    def test_speed(self):
+        """Of the same order as a run's: the machine may be busy with one of the two."""
+        params = dict(MODES, observables=['spectrum'], warmup=300.0, duration=200.0)
+        said = checked(self.file_of(params)).stdout
+        seconds = float(re.search(r'(\S+) s per time unit', said).group(1))
+        cost = harness.whole_run(dict(params, wait_for_subscribers=['cost']), ['cost'])['cost'][-1]
+        taken = cost.wall_seconds / cost.sim_time
+        self.assertTrue(0.1 < seconds / taken < 10.0, (seconds, taken))
+
+    def test_refused_as_by_the_node(self):
+        for params in (
+            dict(disks=-1),
+            dict(density=2.0, aspect='x'),
+            dict(no_such=1),
+            dict(observables=['spectrum', 'x']),
+            dict(seed=1.5),
+            dict(disks=1000000),
+        ):
+            with self.subTest(params=params):
+                done = checked(self.file_of(params))
+                node = self.start(params)
+                self.assertEqual(done.returncode, node.wait())
+                self.assertEqual(done.stdout, '')
+                numbers = re.compile(r'there are .*')  # memory goes up and down
+                self.assertEqual(
+                    numbers.sub('', done.stderr.strip()), numbers.sub('', said_by_node(node))
+                )
+
+    def test_refused_files(self):
+        for text, said in (
+            ('disks: [1, {a: 2}]', 'line 1: a parameter is a number, a word or a list'),
+            ('- disks', 'must be a list of parameters, name: value'),
+            ('disks: [1', 'line 2'),
+        ):
+            done = checked(self.file_of(text))
+            self.assertEqual((done.returncode, done.stdout), (2, ''))
+            self.assertIn(said, done.stderr)
+        self.assertIn('there is no such file', checked('/no/such.yaml').stderr)
+        done = checked(self.file_of(''), 'disks=40')
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('disks=40: must be parameter:=value', done.stderr)
+
+    def test_types_are_those_of_yaml(self):
+        """A whole number is no text, nor is what is in quotes a number of a list."""
+        for value, good in (('"40"', False), ('40', True), ('4e1', False), ('40.0', False)):
+            done = checked(self.file_of(f'disks: {value}\nobservables: [spectrum]'))
+            self.assertEqual(done.returncode, 0 if good else 2, (value, done.stderr))
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_check')
+    rostest.rosrun('hdlyap', 'check', Check)

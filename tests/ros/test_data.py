@@ -1,0 +1,311 @@
+"""hdlyap.load against bags that are made here: each array is read from the messages a second
+time."""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import rosbag
+
+import hdlyap
+import made
+from hdlyap.data import fields
+from hdlyap.data.reader import RecordingError
+from hdlyap.msg import LpPhase, Mode, Modes, Spectrum, State
+from made import T
+
+DISKS = 20
+DOC = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc')
+
+
+def modes(sim_time):
+    kinds = [Mode.T, Mode.LP, Mode.NONE]
+    made_modes = [
+        Mode(index=k, exponent=4.0 - k + 0.01 * sim_time, kind=kind, weight=0.25 * k)
+        for k, kind in enumerate(kinds, start=1)
+    ]
+    return Modes(run_id='one', sim_time=sim_time, averaged_time=sim_time - 100, modes=made_modes)
+
+
+def state(sim_time, run_id='one'):
+    x, y, px, py = made.disks(made.run_info(), seed=int(sim_time))
+    return State(run_id=run_id, sim_time=sim_time, x=x, y=y, px=px, py=py)
+
+
+class Bags(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name='run'):
+        return os.path.join(self.folder, name + '.bag')
+
+    def load(self, messages):
+        made.write(self.path(), messages)
+        return hdlyap.load(self.path())
+
+    def refuses(self, reason, *paths):
+        with self.assertRaisesRegex(RecordingError, reason):
+            hdlyap.load(*paths)
+
+
+class Arrays(Bags):
+    """Beside what rosbag reads."""
+
+    def setUp(self):
+        super().setUp()
+        rng = np.random.default_rng(1)
+        messages = made.small_run()
+        for message in messages:
+            if isinstance(message, Spectrum):
+                shape = len(message.exponents)
+                message.exponents, message.local_exponents = rng.normal(size=(2, shape))
+                message.std_errors = rng.choice([-1.0, 0.5, 0.25], shape)
+        messages += [each(t) for t in (101.0, 102.5, 104.0) for each in (modes, state)]
+        self.run_ = self.load(messages)
+        self.messages = {}
+        with rosbag.Bag(self.path()) as bag:
+            for topic, message, _ in bag.read_messages():
+                self.messages.setdefault(topic.split('/')[-1], []).append(message)
+
+    def column(self, topic, name):
+        return np.array([getattr(message, name) for message in self.messages[topic]])
+
+    def equal(self, ours, messages):
+        np.testing.assert_array_equal(np.array(ours, dtype=float), np.array(messages, dtype=float))
+
+    def test_running_means(self):
+        run = self.run_
+        self.assertEqual(run.info.disks, DISKS)
+        self.equal(run.times, self.column('spectrum', 'sim_time'))
+        self.equal(run.averaged_times, self.column('spectrum', 'averaged_time'))
+        self.equal(run.exponents, self.column('spectrum', 'exponents'))
+        errors = self.column('spectrum', 'std_errors')
+        self.assertTrue((errors == -1).any())
+        self.equal(run.std_errors, np.where(errors == -1, np.nan, errors))
+        self.equal(run.local.exponents, self.column('spectrum', 'local_exponents'))
+        self.assertEqual(run.units['exponents'], '1/time unit')
+        self.assertEqual(run.units['times'], 'time units')
+
+    def test_spectrum(self):
+        last, frame = self.messages['spectrum'][-1], self.run_.spectrum
+        self.equal(frame.index, np.arange(1, 38))
+        self.equal(frame.exponent, last.exponents)
+        self.equal(frame.std_error, self.run_.std_errors[-1])
+        self.equal(frame.cos_theta, last.cos_theta)
+        units = {'exponent': '1/time unit', 'std_error': '1/time unit', 'cos_theta': ''}
+        self.assertEqual(frame.attrs['units'], {**units, 'dp_dq_ratio': '1/time unit'})
+
+    def test_tables_of_elements(self):
+        for frame, elements in (
+            (self.run_.steps, self.messages['steps'][-1].steps),
+            (self.run_.phases, self.messages['lp_phases'][-1].phases),
+            (self.run_.modes, self.messages['modes'][-1].modes),
+        ):
+            self.assertEqual(len(frame), len(elements))
+            names = set(frame.columns) & set(elements[0].__slots__)
+            names -= {'kind', 'sharing', 'state', 'modulation', 'step'}
+            self.assertGreater(len(names), 5)
+            for name in names:
+                there = ~np.isnan(frame[name].astype(float))
+                values = np.array([getattr(one, name) for one in elements], dtype=float)
+                self.equal(frame[name][there], values[there.to_numpy()])
+                self.assertEqual(frame.attrs['units'][name], fields.of(elements[0])[name].unit)
+        steps = self.run_.steps
+        self.assertEqual(list(steps.index), ['T(1,0)', 'LP(1,0)', 'T(0,1)', 'LP(0,1)', 'zero'])
+        self.assertEqual(list(steps.kind), ['T', 'LP', 'T', 'LP', 'zero'])
+        self.assertTrue(steps.exponent[:4].notna().all())
+        self.assertTrue(steps.loc['zero', ['exponent', 'std_error', 'gap']].isna().all())
+        self.assertEqual(list(self.run_.modes.kind), ['T', 'LP', 'none'])
+        phases = self.run_.phases
+        self.assertEqual(set(phases.step), {'LP(1,0)', 'LP(0,1)'})
+        self.assertEqual(set(phases.modulation), {'cos kx x', 'sin kx x', 'cos ky y'})
+        self.assertEqual(set(phases.state), {'tracked'})
+
+    def test_course(self):
+        turned = self.run_.course('lp_phases')['phase'].unstack()
+        messages = self.messages['lp_phases']
+        self.equal(turned.index, [message.sim_time for message in messages])
+        self.equal(turned, [[one.phase for one in message.phases] for message in messages])
+        weights = self.run_.course('modes')['weight'].unstack()
+        self.equal(
+            weights,
+            [
+                [np.nan if one.kind == Mode.NONE else one.weight for one in each.modes]
+                for each in self.messages['modes']
+            ],
+        )
+
+    def test_over_time(self):
+        self.equal(self.run_.cost.index, self.column('cost', 'sim_time'))
+        self.equal(self.run_.cost.ortho_seconds, self.column('cost', 'ortho_seconds'))
+        self.assertEqual(self.run_.cost.attrs['units']['wall_seconds'], 's')
+        self.assertEqual(set(self.run_.status.stage), {'averaging'})
+
+    def test_disks_at_any_time(self):
+        disks = self.run_.state
+        self.equal(disks.times, [101.0, 102.5, 104.0])
+        for time, number in ((0.0, 0), (102.4, 1), (102.5, 1), (1e9, 2)):
+            message = self.messages['state'][number]
+            self.equal(disks.positions(time), np.transpose([message.x, message.y]))
+            self.equal(disks.momenta(time), np.transpose([message.px, message.py]))
+        for (time, positions, momenta), message in zip(disks, self.messages['state']):
+            self.assertEqual(time, message.sim_time)
+            self.equal(
+                np.hstack([positions, momenta]).T, [message.x, message.y, message.px, message.py]
+            )
+
+    def test_fields(self):
+        self.assertEqual(list(self.run_.fields), [29, 31, 35, 37])
+        for message in self.messages['fields']:
+            self.equal(self.run_.fields[message.index].p_over_px, message.p_over_px)
+
+    def test_results(self):
+        last, found = self.messages['steps'][-1], self.run_.results
+        self.equal(found.value[['c_T', 'c_L2', 'v']], [last.c_t, last.c_l2, last.v])
+        self.equal(
+            found.std_error[['c_T', 'c_L2', 'v']], [last.c_t_error, last.c_l2_error, last.v_error]
+        )
+        spectrum = self.messages['spectrum'][-1]
+        self.equal(found.value[['lambda_max', 'h_KS']], [spectrum.lambda_max, spectrum.ks_entropy])
+        self.assertEqual(found.unit['c_T2'], 'sigma^2/time unit')
+
+    def test_what_was_not_recorded(self):
+        with self.assertRaisesRegex(RecordingError, 'run.bag: no message of covariant in it'):
+            self.run_.covariant
+        with self.assertRaisesRegex(RecordingError, 'no averaged spectrum'):
+            self.load([made.run_info()]).exponents
+
+    def test_resets(self):
+        run = self.load([made.run_info(), *(made.spectrum([3.0], t) for t in (0, 5, 6, 1, 2))])
+        self.equal(run.averaged_times, [1, 2])
+
+
+class NotMeasured(Bags):
+    def test_unresolved(self):
+        info = made.run_info()
+        step = made.unresolved(info, T, 1, 0, 2)
+        phase = LpPhase(state=LpPhase.WEAK, a=0.1, phase=2.0, omega=1.0, tracked_time=4.0)
+        lost = LpPhase(state=LpPhase.UNRESOLVED)
+        phases = made.LpPhases(run_id='one', phases=[phase, lost])
+        run = self.load([info, made.steps([step]), phases])
+        self.assertTrue(
+            run.steps.loc['T(1,0)', ['exponent', 'std_error', 'multiplicity']].isna().all()
+        )
+        self.assertEqual(run.steps.wave_number['T(1,0)'], step.wave_number)
+        self.assertEqual(list(run.phases.a.isna()), [False, True])
+        self.assertEqual(list(run.phases.omega.isna()), [True, True])
+
+    def test_fits_without_points(self):
+        steps = made.steps([])
+        steps.t_points, steps.l_points, steps.v_phases = 1, 0, 0
+        run = self.load([made.run_info(), made.spectrum([3.0], 5.0), steps])
+        self.assertEqual(list(run.results.index), ['lambda_max', 'sum of exponents', 'c_T'])
+
+    def test_fields_that_are_minus_one_while_unknown(self):
+        unknown = {
+            name
+            for kind in (
+                hdlyap.msg.Spectrum,
+                hdlyap.msg.Step,
+                hdlyap.msg.LpPhase,
+                hdlyap.msg.RunStatus,
+            )
+            for name, field in fields.of(kind).items()
+            if field.unknown
+        }
+        self.assertLessEqual({'remaining_seconds', 'std_error', 'omega_error'}, unknown)
+        self.assertFalse(unknown & {'cos_theta', 'a', 'exponents', 'averaged_time'})
+
+
+class Samples(Bags):
+    """Each once, with its length."""
+
+    def spectra(self, local, **extra):
+        first = [made.spectrum([3.0, 1.0], t) for t in range(1, len(local) + 1)]
+        for message, one in zip(first, local):
+            message.local_exponents = one
+        return first
+
+    local = [(0.0, 0.0), (1.0, 2.0), (1.0, 2.0), (3.0, 4.0), (3.0, 4.0)]
+
+    def test_of_before(self):
+        """The first message has none, others repeat."""
+        older = [
+            made.defined(one, lambda text: re.sub('(?m)^float64 local_time.*\n', '', text))
+            for one in self.spectra(self.local)
+        ]
+        run = self.load([made.run_info(), *older])
+        np.testing.assert_array_equal(run.local.exponents, [(1.0, 2.0), (3.0, 4.0)])
+        np.testing.assert_array_equal(run.local.times, [102, 104])
+        self.assertTrue(np.isnan(run.local.lengths).all())
+
+    def test_with_lengths(self):
+        """A sample that equals the one before is a sample."""
+
+        def longer(text):
+            return (
+                text
+                if ' local_time ' in text
+                else text.replace(
+                    'uint32 first_index', 'float64 local_time # [time units]\nuint32 first_index', 1
+                )
+            )
+
+        newer = [made.defined(one, longer) for one in self.spectra(self.local)]
+        for message, length in zip(newer, (0.0, 0.5, 0.75, 0.0, 0.5)):
+            message.local_time = length
+        run = self.load([made.run_info(), *newer])
+        np.testing.assert_array_equal(run.local.exponents, [(1.0, 2.0), (1.0, 2.0), (3.0, 4.0)])
+        np.testing.assert_array_equal(run.local.lengths, [0.5, 0.75, 0.5])
+
+    def test_none(self):
+        message = self.spectra(self.local[:1])[0]
+        if hasattr(message, 'local_time'):
+            message.local_time = 0.0
+        run = self.load([made.run_info(), message])
+        self.assertEqual((len(run.local.times), run.local.exponents.shape), (0, (0, 2)))
+
+
+class Example(Bags):
+    """What the user guide shows is in doc/own_figure.py, and makes a figure."""
+
+    def test_figure(self):
+        made.write(self.path(), made.small_run())
+        figure = os.path.join(self.folder, 'own.png')
+        program = os.path.join(DOC, 'own_figure.py')
+        subprocess.run(
+            [sys.executable, program, figure, self.path()],
+            env={**os.environ, 'MPLBACKEND': 'Agg'},
+            check=True,
+        )
+        self.assertGreater(os.path.getsize(figure), 5000)
+        with open(program) as file, open(os.path.join(DOC, 'user_guide.md')) as guide:
+            (shown,) = re.findall('(?s)```python\n(.*?)```', guide.read())
+            self.assertTrue(file.read().endswith('\n' + shown))
+        self.assertEqual(shown.count('\n'), 10)
+
+
+class Older(Bags):
+    def test_messages_of_before(self):
+        """They lack what came later."""
+        later = (
+            r'^(float64|uint8) (ks_entropy_error|\w_misfit|sharing|set_time|own_part|gap\w*) .*\n'
+        )
+        info = made.run_info()
+        new = [made.spectrum([3.0, 1.0], 5.0), made.steps([made.step(info, T, 1, 0, 1, 2)])]
+        old = [made.defined(one, lambda text: re.sub(later, '', text, flags=re.M)) for one in new]
+        run = self.load([info, *old])
+        self.assertNotIn('gap', run.steps)
+        self.assertEqual(run.steps.exponent['T(1,0)'], new[1].steps[0].exponent)
+        self.assertEqual(run.spectrum.exponent[2], 1.0)
+        self.assertTrue(np.isnan(run.results.std_error['sum of exponents']))
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,212 @@
+"""hdlyap.load of several bags: parts of one run, runs of several seeds, and what does not belong
+together."""
+
+import re
+import shutil
+import unittest
+
+import numpy as np
+
+import hdlyap
+import made
+from hdlyap.data.seeds import Seeds, mean
+from made import LP, T
+from test_data import Bags, state
+
+HALF = np.linspace(3, 1, 37)
+
+
+def numbered(messages):
+    """As a node numbers the messages of each topic."""
+    counts = {}
+    for message in messages:
+        message.header.seq = counts[message._type] = counts.get(message._type, 0) + 1
+    return messages
+
+
+def run(times, run_id='one', **info):
+    """Messages of a run that averages since 100, each of them known by its time."""
+    messages = [made.run_info(run_id=run_id, resumed_time=-1.0, disks=20)]
+    for name, value in info.items():
+        setattr(messages[0], name, value)
+    for time in times:
+        messages += [
+            made.spectrum(HALF + 0.01 * time, time, run_id=run_id),
+            made.cost(100.0 + time, run_id=run_id),
+            state(100.0 + time, run_id=run_id),
+        ]
+    return numbered(messages)
+
+
+class OneRun(Bags):
+    def write(self, name, messages):
+        made.write(self.path(name), messages)
+        return self.path(name)
+
+    def check(self, loaded, times):
+        """Each message once, in its order; the averages are those of the last message."""
+        self.assertEqual(list(loaded.averaged_times), list(times))
+        np.testing.assert_array_equal(loaded.exponents[:, 0], 3 + 0.01 * np.array(times))
+        self.assertEqual(list(loaded.cost.index), [100 + time for time in times])
+        self.assertEqual(loaded.spectrum.exponent[1], 3 + 0.01 * times[-1])
+        self.assertEqual(list(loaded.state.times), [100 + time for time in times])
+        for time, positions, _ in loaded.state:
+            np.testing.assert_array_equal(loaded.state.positions(time), positions)
+
+    def test_split_by_rosbag(self):
+        """run_info is in each file, whatever their order; a copy of one adds nothing."""
+        messages = run(range(1, 9))
+        a = self.write('a', messages[:10])
+        made.write(self.path('b'), [messages[0], *messages[10:]], start=60)
+        for paths in ((a, self.path('b')), (self.path('b'), a)):
+            self.check(hdlyap.load(*paths), range(1, 9))
+        shutil.copy(a, self.path('copy'))
+        self.check(hdlyap.load(a, self.path('copy'), self.path('b'), a), range(1, 9))
+
+    def test_resumed(self):
+        """The first went on beyond its last checkpoint."""
+        a = self.write('a', run(range(1, 7)))
+        b = self.write('b', run(range(5, 9), 'two', resumed_time=104.0))
+        c = self.write('c', run(range(9, 12), 'three', resumed_time=108.5))
+        for paths in ((a, b, c), (c, a, b)):
+            loaded = hdlyap.load(*paths)
+            self.assertEqual(loaded.info.run_id, 'three')
+            self.check(loaded, range(1, 12))
+        self.check(hdlyap.load(b), range(5, 9))
+
+    def test_the_same_trajectory_twice(self):
+        a = self.write('a', run(range(1, 7)))
+        b = self.write('b', run(range(1, 7), 'two'))
+        self.refuses('a.bag and .*b.bag both begin with seed 1: one trajectory twice', a, b)
+        c = self.write('c', run([5], 'three', resumed_time=104.0))
+        d = self.write('d', run([5], 'four', resumed_time=104.0))
+        self.refuses('c.bag and .*d.bag were both resumed at time 104: leave one out', a, c, d)
+
+    def test_others(self):
+        a = self.write('a', run([1, 2]))
+        for name, value, said in (
+            ('density', 0.6, 'density is 0.5 and 0.6'),
+            ('disks', 30, 'disks is 20 and 30'),
+            ('boundary_y', 'reflecting', 'boundary_y is periodic and reflecting'),
+            ('wave_nx', [1, 2], r'wave_nx is \(\) and \(1, 2\)'),
+        ):
+            b = self.write('b', run([1, 2], 'two', seed='2', **{name: value}))
+            self.refuses(f'a.bag and .*b.bag do not belong together: {said}', a, b)
+        b = self.write('b', run([1, 2], 'two', seed='2', density=0.5 * (1 + 1e-12)))
+        self.assertEqual(len(hdlyap.load(a, b).runs), 2)
+
+    def test_several_runs_in_a_bag(self):
+        path = self.write('a', [*run([1, 2]), *run([1, 2, 3], 'two', seed='2')])
+        self.assertEqual(hdlyap.load(path).info.run_id, 'two')
+        self.assertEqual(hdlyap.load(path, run=1).info.run_id, 'one')
+        self.refuses_run(path)
+
+    def refuses_run(self, path):
+        with self.assertRaisesRegex(hdlyap.data.reader.RecordingError, 'no run 3 in it'):
+            hdlyap.load(path, run=3)
+
+    def test_resumed_bags_of_before(self):
+        """run_info did not say what it was resumed from: then they are one trajectory twice."""
+
+        def older(text):
+            return re.sub('(?m)^float64 resumed_time.*\n', '', text)
+
+        paths = []
+        for name in ('one', 'two'):
+            messages = run([1, 2], name)
+            paths.append(self.write(name, [made.defined(messages[0], older), *messages[1:]]))
+        self.refuses('one trajectory twice', *paths)
+
+
+class SeveralSeeds(Bags):
+    def seeds(self, *runs):
+        paths = []
+        for number, messages in enumerate(runs, start=1):
+            messages[0].seed = str(number)
+            paths.append(self.path(str(number)))
+            made.write(paths[-1], messages)
+        return hdlyap.load(*paths)
+
+    def messages(self, number, shift, time=50.0, **steps):
+        info = made.run_info(run_id=str(number))
+        of_run = {'run_id': str(number)}
+        found = [
+            made.step(info, T, 1, 0, 36, 37, exponent=1 + shift, std_error=0.2),
+            made.step(info, LP, 1, 0, 32, 35, exponent=2 + shift, std_error=0.1, **steps),
+        ]
+        return [
+            info,
+            made.spectrum(HALF + shift, time, error=0.1, **of_run),
+            made.steps(found, time, **of_run),
+        ]
+
+    def test_means(self):
+        """Twice the time counts twice."""
+        seeds = self.seeds(
+            self.messages(1, 0.0), self.messages(2, 0.3), self.messages(3, 0.6, time=100.0)
+        )
+        self.assertIsInstance(seeds, Seeds)
+        self.assertEqual((seeds.seeds, seeds.averaged_time), (['1', '2', '3'], 200.0))
+        found = seeds.spectrum.loc[37]
+        self.assertAlmostEqual(found.exponent, 1 + (0.3 + 2 * 0.6) / 4)
+        self.assertAlmostEqual(found.std_error, 0.1 * np.sqrt(1 + 1 + 4) / 4)
+        squares = np.array([0.375, 0.075, 0.225]) ** 2
+        self.assertAlmostEqual(found.scatter, np.sqrt(squares @ [1, 1, 2] / (4 * 2)))
+        self.assertAlmostEqual(found.chi2, squares.sum() / 0.1**2)
+        self.assertEqual(found.runs, 3)
+        self.assertAlmostEqual(seeds.steps.exponent['LP(1,0)'], 2.375)
+        self.assertAlmostEqual(seeds.steps.std_error['T(1,0)'], 0.2 * np.sqrt(6) / 4)
+        self.assertAlmostEqual(seeds.results.value['lambda_max'], 3.375)
+        self.assertAlmostEqual(seeds.results.value['c_T'], 1.4)
+        self.assertEqual(seeds.results.unit['c_T'], 'sigma/time unit')
+        self.assertEqual(seeds.spectrum.attrs['units']['exponent'], '1/time unit')
+
+    def test_a_step_that_one_run_lacks(self):
+        """Its mean is over the others, and the fits are of different steps."""
+        seeds = self.seeds(
+            self.messages(1, 0.0), self.messages(2, 0.4), self.messages(3, 0.8, resolved=False)
+        )
+        self.assertEqual(list(seeds.steps.runs), [3, 2])
+        self.assertAlmostEqual(seeds.steps.exponent['LP(1,0)'], 2.2)
+        self.assertIn('c_T', seeds.results.index)
+        self.assertNotIn('c_L', seeds.results.index)
+
+    def test_errors_are_not_known(self):
+        values, errors = [[1.0], [2.0]], [[0.1], [np.nan]]
+        found = mean(np.array(values), np.array(errors), [1, 1])
+        self.assertEqual((found[0], found[2]), (1.5, 0.5))
+        self.assertTrue(np.isnan([found[1], found[3]]).all())
+
+    def test_one_run(self):
+        found = mean(np.array([[1.0], [np.nan]]), np.array([[0.1], [np.nan]]), [1, 3])
+        self.assertEqual((found[0], found[4]), (1.0, 1))
+        self.assertAlmostEqual(found[1][0], 0.1)
+        self.assertTrue(np.isnan(found[2]))
+
+    def test_coverage(self):
+        """Runs of 8 and of 16 blocks whose means and errors are known: how often the mean is within
+        one and two of its errors of the truth. Weights of 1 / error^2 would make both too
+        small."""
+        rng = np.random.default_rng(6)
+        trials, lengths = 20000, (8, 8, 8, 16, 16, 16)
+        blocks = [rng.normal(size=(length, trials)) for length in lengths]
+        values = np.array([one.mean(axis=0) for one in blocks])
+        errors = np.array([one.std(axis=0, ddof=1) / len(one) ** 0.5 for one in blocks])
+        of_all, stated, scatter, chi2, count = mean(values, errors, lengths)
+        self.assertEqual(set(count), {6})
+        # the error of the mean is that of all blocks together
+        expected = sum(lengths) ** -0.5
+        self.assertLess(abs(of_all.std() / expected - 1), 4 / np.sqrt(2 * trials))
+        for error, within in (
+            (stated, (0.676, 0.949)),  # about 60 degrees of freedom
+            (scatter, (0.637, 0.898)),  # Student's t with 5
+        ):
+            for width, share in zip((1, 2), within):
+                inside = np.mean(abs(of_all) < width * error)
+                self.assertLess(abs(inside - share), 0.015, (width, share))
+        # of errors with 7 and 15 degrees of freedom: 5 times about 1.27
+        self.assertTrue(5.0 < chi2.mean() < 5 * 7 / 5, chi2.mean())
+
+
+if __name__ == '__main__':
+    unittest.main()

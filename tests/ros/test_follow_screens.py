@@ -1,0 +1,412 @@
+"""follow: what its screen shows of made messages."""
+
+import itertools
+import unittest
+from types import SimpleNamespace
+
+import numpy as np
+
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+
+import made
+from hdlyap.msg import Cost, LpPhase, RunStatus
+from made import LP, T
+from hdlyap.follow import layout, panels
+from hdlyap.follow.line import Progress
+from hdlyap.follow.screen import clean, cut
+from hdlyap.follow.watch import Speed, View, fill, lazy
+from hdlyap.follow.wrap import joined, length, wrapped
+from hdlyap.plots.glyphs import Glyphs
+
+SIZES = (80, 24), (120, 40), (200, 60), (60, 15), (30, 5), (7, 2), (1, 1)
+OBSERVED = ['spectrum', 'steps', 'lp_phases']
+
+
+def cost(**fields):
+    message = made.cost(150.0)
+    message.interval, message.interval_limit = 2.37, Cost.LIMIT_CONDITION
+    message.orthonormalisations, message.repairs = 60, 4
+    message.condition, message.error_bound = 2.8e5, 1.2e-10
+    for name, value in fields.items():
+        setattr(message, name, value)
+    return message
+
+
+def status(**fields):
+    values = dict(remaining_seconds=65.0, progress=0.5, std_error=-1.0)
+    return made.status(150.0, **{**values, **fields})
+
+
+def diagnosis(level=0, text='averaging', stage='averaging'):
+    return DiagnosticStatus(
+        level=level, name='/hdlyap', message=text, values=[KeyValue('stage', stage)]
+    )
+
+
+def view(**fields):
+    """Of a run of 20 disks with four steps."""
+    info = fields.pop('info', None) or made.run_info(observables=OBSERVED, duration=200.0)
+    found = [
+        made.step(info, T, 1, 0, 36, 37),
+        made.step(info, LP, 1, 0, 32, 35),
+        made.step(info, T, 0, 1, 30, 31),
+        made.unresolved(info, LP, 0, 1, 4),
+    ]
+    shown = View()
+    values = dict(
+        node='/hdlyap',
+        info=info,
+        status=status(),
+        cost=cost(),
+        speed=1.234,
+        spectrum=made.spectrum(np.linspace(9, 3, 37), 50.0),
+        steps=made.steps([*found, made.zero_modes()]),
+        phases=made.lp_phases(info, found, 150.0, began=100.0),
+        diagnosis=diagnosis(),
+        others=set(OBSERVED),
+    )
+    for name, value in {**values, **fields}.items():
+        setattr(shown, name, value)
+    return shown
+
+
+def drawn(shown, size=(80, 24), plain=False):
+    return [
+        ''.join(text for text, _ in cut(line, size[0]))
+        for line in layout.lines(shown, size, Glyphs(plain))
+    ]
+
+
+def with_all(message, kind, number):
+    """Every field of this type, of the parts of the message too, becomes the number."""
+    for name in message.__slots__:
+        value = getattr(message, name)
+        if isinstance(value, (list, tuple)):
+            for part in value:
+                if hasattr(part, '__slots__'):
+                    with_all(part, kind, number)
+        elif type(value) is kind:
+            setattr(message, name, number)
+
+
+class Screens(unittest.TestCase):
+    def text(self, shown, size=(80, 24), **options):
+        lines = drawn(shown, size, **options)
+        self.assertLessEqual(len(lines), size[1])
+        return '\n'.join(lines)
+
+    def test_everything_is_there(self):
+        for size in ((80, 24), (120, 40)):
+            text = self.text(view(), size)
+            for part in (
+                '/hdlyap  made  seed 1  run one',
+                'N = 20, density 0.5',
+                'averaging  ██',
+                ' 50.0 %  1:05 left',
+                'simulated 150.0',
+                'averaged 50.0 of 200',
+                '1.23 time units/s',
+                'lambda_max 9.000(10)',
+                'h_KS 222.00(37)',
+                'c_T 1.400(12) (c k + c2 k^2',
+                'c_L 1.500(20) (c k + c2 k^2',
+                'v 1.612(23)',
+                'steps resolved 3 of 4',
+                'interval 2.37 (conditioning)',
+                'repairs 4',
+                'condition 2.8e+05',
+                'error bound 1.2e-10',
+                'OK  averaging',
+                'q quit',
+            ):
+                self.assertIn(part, text)
+            self.assertRegex(text, r'T\(1,0\) +36-37 +1\.98 +2 +0\.99346 +1\.4895\(20\)')
+            self.assertRegex(text, r'ortho +█+.? +55 %')
+            self.assertRegex(text, r'other +▋ +10 %')
+
+    def test_fits_say_what_they_stand_on(self):
+        """Their forms on every screen, their wave numbers where there is room."""
+        shown = view()
+        shown.steps.l_points = shown.steps.l_terms = 1
+        self.assertIn(
+            'c_T 1.400(12) (c k + c2 k^2)   c_L 1.500(20) (c k)   v 1.612(23)\n', self.text(shown)
+        )
+        self.assertIn(
+            'c_T 1.400(12) (c k + c2 k^2 over 3 wave numbers 0.9935 .. 1.987)\n',
+            self.text(shown, (80, 30)),
+        )
+
+    def test_phases(self):
+        """At t = 50 since they began, of vector 33: v k t = 1.6 * 0.99346 * 50 = 12.649 turns."""
+        info = made.run_info(observables=OBSERVED)
+        step = made.step(info, LP, 1, 0, 33, 33)
+        message = made.lp_phases(info, [step], 150.0, began=100.0, modulations=(1,))
+        self.assertRegex(
+            self.text(view(info=info, phases=message)),
+            r'LP\(1,0\) +sin kx x +33 +1\.00  ↙ 0\.65  1\.590\(16\) +1\.600\(16\)',
+        )
+        message.phases[0].state = LpPhase.WEAK
+        self.assertIn('too weak now', self.text(view(phases=message)))
+
+    def test_dial(self):
+        hands = [Glyphs().dial(turn) for turn in (0, 0.125, 0.25, 0.5, 0.75, 0.94, 0.99)]
+        self.assertEqual(''.join(hands), '→↗↑←↓→→')
+
+    def test_bar(self):
+        for share, bar in (
+            (0, '    '),
+            (0.5, '██  '),
+            (0.53125, '██▏ '),
+            (1, '████'),
+            (7, '████'),
+            (-1, '    '),
+            (float('nan'), '    '),
+        ):
+            self.assertEqual(Glyphs().bar(share, 4), bar)
+        self.assertEqual(Glyphs(plain=True).bar(0.6, 4, rest=True), '##..')
+
+    def test_ascii(self):
+        self.assertTrue(self.text(view(), plain=True).isascii())
+
+    def test_phases_take_turns(self):
+        """Of two steps one each, then one each; of a step first another vector and pair."""
+        info = made.run_info()
+        both = [made.step(info, LP, 1, 0, 34, 35), made.step(info, LP, 0, 1, 30, 31)]
+        message = made.lp_phases(info, both, 150.0)
+        self.assertEqual(
+            [(phase.ny, phase.index, phase.modulation) for phase in panels.ranked(message.phases)][
+                :5
+            ],
+            [(0, 34, 0), (1, 30, 0), (0, 35, 1), (1, 31, 1), (0, 34, 1)],
+        )
+        for phase in message.phases[:4]:
+            phase.state = LpPhase.UNRESOLVED
+        self.assertEqual({phase.ny for phase in panels.ranked(message.phases)}, {1})
+
+    def test_errors_that_are_not_known(self):
+        shown = view(spectrum=made.spectrum([9.0, 3.0], 1.0, error=-1.0))
+        shown.steps.c_t_error = -1.0
+        shown.steps.c_l = shown.cost.condition = float('nan')
+        shown.phases.phases[0].a = shown.phases.phases[1].omega_error = float('nan')
+        text = self.text(shown)
+        for part in (
+            'lambda_max 9.00000 ',
+            'sum of exponents 12.00000 ',
+            'c_T 1.40000 ',
+            'c_L -',
+            'condition nan',
+        ):
+            self.assertIn(part, text)
+        self.assertNotIn('-1.0', text)
+
+    def test_what_is_not_there(self):
+        nothing = dict(
+            status=None,
+            cost=None,
+            spectrum=None,
+            steps=None,
+            phases=None,
+            diagnosis=None,
+            speed=None,
+        )
+        self.assertIn('waiting for its first word', self.text(view(**nothing)))
+        self.assertIn('/hdlyap', self.text(view(**nothing, info=None)))
+        unheard = view(steps=None, phases=None, others=set())
+        self.assertIn('steps: computed only if somebody listens; m:', self.text(unheard))
+        self.assertIn('m compute steps and phases', self.text(unheard))
+        alone = view(
+            info=made.run_info(observables=['spectrum']), steps=None, phases=None, others=set()
+        )
+        self.assertNotIn('steps', self.text(alone))
+        self.assertNotIn('LP phases', self.text(alone))
+        none_yet = view(
+            steps=made.steps([made.unresolved(made.run_info(), T, 1, 0, 2)]),
+            phases=made.lp_phases(made.run_info(), [], 100.0),
+        )
+        self.assertIn('steps: none resolved yet', self.text(none_yet))
+        self.assertIn('no LP step resolved yet', self.text(none_yet))
+
+    def test_shapes_of_scenes(self):
+        half = np.linspace(3, 1, 37)
+        whole = view(
+            spectrum=made.spectrum([*half, *[0.0] * 6, *-half[::-1]], 50.0, pairing_error=2e-5)
+        )
+        whole.steps.steps[-1] = made.zero_modes(38)
+        text = self.text(whole, (120, 40))
+        self.assertRegex(text, r'zero modes +38-43 +6\.00')
+        self.assertIn('pairing error 2.0e-05', text)
+        paper = view(info=made.paper_info(), spectrum=made.spectrum(np.linspace(6, 1, 1557), 50.0))
+        self.assertIn('deviation', self.text(paper, (120, 40)))
+        self.assertNotIn('deviation', self.text(paper))
+        one = self.text(view(spectrum=made.spectrum([9.0], 50.0), steps=None, phases=None))
+        self.assertIn('lambda_max', one)
+        self.assertNotIn('sum', one)
+        endless = self.text(view(status=status(progress=0.0, remaining_seconds=-1.0)))
+        self.assertNotIn('left', endless)
+        self.assertIn(
+            'std error ? of 0.01',
+            self.text(view(info=made.run_info(observables=OBSERVED, target_std_error=0.01))),
+        )
+
+    def test_every_size(self):
+        info = made.run_info(observables=OBSERVED)
+        many = view(
+            steps=made.steps([made.step(info, T, n, 1, 2 * n, 2 * n + 1) for n in range(1, 40)])
+        )
+        for size in SIZES:
+            for shown in (many, view(), view(is_gone=True, is_master_gone=True, status=None)):
+                lines = drawn(shown, size)
+                self.assertLessEqual(len(lines), size[1])
+                self.assertLessEqual(max(map(len, lines)), size[0])
+            self.assertIn('averag'[: size[0]], '\n'.join(drawn(many, size)))
+        self.assertIn('  36 more\n', self.text(many, (80, 18)))
+        self.assertNotIn('more\n', self.text(many, (200, 80)))
+
+    def test_nothing_is_cut(self):
+        """From 80 columns on: long lines go on below, names of a shared set are those of the rows
+        below it, the paper's values stand where there is room."""
+        info = made.paper_info()
+        info.run_id, info.observables = '20261122T194504.100733Z-17630-1', OBSERVED
+        shared = dict(set=1, first_index=1500, last_index=1549, members=12, sharing=2)
+        shown = view(
+            node='/laboratory_two/of_a_long_name/hdlyap',
+            info=info,
+            status=status(remaining_seconds=96961.0),
+            spectrum=made.spectrum(np.linspace(6, 1, 1557), 50.0),
+            steps=made.steps(
+                [made.step(info, T, 1, 0, 1556, 1557)]
+                + [made.step(info, T, 10, n, 1, 2, **shared) for n in range(10, 22)]
+            ),
+            phases=made.lp_phases(
+                info, [made.step(info, LP, 10, n, 1200, 1203) for n in range(10, 40)], 150.0
+            ),
+            diagnosis=diagnosis(
+                1,
+                'errors of the smallest exponents do not fall: 0.0034 after 1e+03 '
+                'averaged, 0.0035 after 9e+02; a subscriber of /hdlyap/spectrum is 3 s behind',
+            ),
+        )
+        whole = ' '.join(self.text(shown, (400, 400)).split())
+        for width in range(80, 131):
+            for height in (24, 40, 400):
+                lines = layout.lines(shown, (width, height), Glyphs())
+                self.assertLessEqual(max(map(length, lines)), width)
+            text = ' '.join(self.text(shown, (width, 400)).split())
+            said = ' '.join(text.split())
+            for part in (
+                'seed 1 run 20261122T194504.100733Z-17630-1',
+                ' 50.0 % 26:56:01 left',
+                'WARN ' + shown.diagnosis.message,
+                'T(10,21)',
+                'mixing',
+            ):
+                self.assertIn(part, said, width)
+                self.assertIn(part, whole)
+
+    def test_shared_names(self):
+        self.assertEqual(joined(['T(1,0)', 'T(0,1)'], 13), 'T(1,0)+T(0,1)')
+        self.assertEqual(joined(['T(1,0)', 'T(0,1)', 'T(1,1)'], 13), 'T(1,0)+2 more')
+        self.assertEqual(joined(['T(1,0)', 'T(0,1)'], 2), 'T(1,0)')
+
+    def test_wrapping(self):
+        line = [('  one two', 'strong'), (' three  four', '')]
+        self.assertEqual(wrapped(line, 21), [line])
+        self.assertEqual(
+            wrapped(line, 18),
+            [[('  one two', 'strong'), (' three', '')], [('    ', ''), ('four', '')]],
+        )
+        self.assertEqual(wrapped([('abcdef', '')], 4), [[('abcd', '')], [('ef', '')]])
+        self.assertEqual(wrapped([('abcd  ', '')], 4), [[('abcd', '')]])
+
+    def test_numbers_that_nobody_expects(self):
+        """No word of a node takes the screen away."""
+        numbers = (float('inf'), float('nan'), -1.0, 1e300)
+        for number, name in itertools.product(
+            numbers, ('status', 'cost', 'spectrum', 'steps', 'phases')
+        ):
+            with np.errstate(all='ignore'):
+                shown = view()
+                message = getattr(shown, name)
+                with_all(message, float, number)
+                for size in SIZES:
+                    self.text(shown, size)
+                Progress.parts(
+                    SimpleNamespace(
+                        status=shown.status,
+                        cost=shown.cost,
+                        spectrum=shown.spectrum,
+                        finished=False,
+                        _spent=Progress._spent,
+                        _error=lambda: '',
+                    )
+                )
+
+    def test_kinds_of_another_version(self):
+        for name in ('status', 'cost', 'steps', 'phases'):
+            for number in (0, 77, 255):
+                shown = view()
+                with_all(getattr(shown, name), int, number)
+                for size in SIZES:
+                    self.text(shown, size)
+        shown = view()
+        shown.steps.steps[0].kind = 77
+        self.assertIn('kind 77(1,0)', self.text(shown))
+
+    def test_condition_of_the_node(self):
+        for fields, text in (
+            (dict(diagnosis=diagnosis(1, 'overlap')), 'WARN  overlap'),
+            (dict(diagnosis=diagnosis(2, 'disk full')), 'ERROR  disk full'),
+            (dict(diagnosis=diagnosis(stage='paused')), 'paused  █'),
+            (dict(is_gone=True), 'GONE  /hdlyap does not answer'),
+            (dict(silence=63.0), 'no message for 1:03'),
+            (dict(is_master_gone=True), 'no master'),
+            (dict(status=status(stage=RunStatus.FINISHED), is_gone=True), 'the run has finished'),
+        ):
+            self.assertIn(text, self.text(view(**fields)))
+
+    def test_speed(self):
+        speed = Speed()
+        seen = [
+            speed.add(made.Cost(wall_seconds=wall, sim_time=time))
+            for wall, time in ((1, 10), (2, 30), (12, 130), (22, 130), (1, 5), (3, 15))
+        ]
+        self.assertEqual(seen, [None, 20.0, 10.0, 0.0, None, 5.0])
+
+    def test_a_run_before_is_not_shown(self):
+        shown = View()
+        fill(
+            shown,
+            {
+                'steps': made.steps([]),
+                'run_info': made.run_info(run_id='two'),
+                'spectrum': made.spectrum([3.0], 1.0),
+                'status': status(run_id='two'),
+                'cost': cost(run_id='one'),
+            },
+        )
+        self.assertEqual((shown.info.run_id, shown.status.run_id), ('two', 'two'))
+        self.assertEqual((shown.steps, shown.spectrum, shown.cost), (None, None, None))
+
+    def test_messages_are_unpacked_when_asked(self):
+        class Counted(made.Spectrum):
+            unpacked = 0
+
+            def deserialize(self, data):
+                Counted.unpacked += 1
+                return super().deserialize(data)
+
+        import io
+
+        buffer = io.BytesIO()
+        made.spectrum([3.0], 1.0).serialize(buffer)
+        message = lazy(Counted)().deserialize(buffer.getvalue())
+        self.assertEqual(Counted.unpacked, 0)
+        self.assertEqual([message.unpacked().lambda_max for _ in range(2)], [3.0, 3.0])
+        self.assertEqual(Counted.unpacked, 1)
+
+    def test_a_name_is_no_command(self):
+        self.assertEqual(clean('a\033[2Jb\r\x9bc'), 'a?[2Jb??c')
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,279 @@
+#!/usr/bin/env python3
+"""Parameters that are changed while a run goes on: when they hold, what is refused, and that a bag
+tells of it all."""
+
+import math
+import os
+import signal
+import subprocess
+import tempfile
+
+import rosbag
+import rospy
+import rostest
+from std_srvs.srv import SetBool
+import yaml
+
+from hdlyap.srv import Set
+import harness
+from harness import NODE, SHORT
+
+RUN = dict(harness.REPEATABLE, duration=0.0, report_interval=1.0, field_interval=1000.0)
+TOPICS = RUN['observables']
+BEGIN = 25.0  # of its averaging
+SLOW = 40.0  # a pace at which a call hits the middle of it
+CLOSE = 1e-9  # of simulated times
+
+
+def is_multiple(time, interval):
+    return abs(time / interval - round(time / interval)) < CLOSE * 1e3
+
+
+class Live(harness.Case):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.heard = {}
+
+    def started(self, params, **how):
+        """A node that is listened to as a recorder would."""
+        self.heard = {
+            topic: self.listen(topic) for topic in ['run_info', 'status', 'cost', *TOPICS]
+        }
+        return self.start(params, **how)
+
+    def until(self, time):
+        self.assertTrue(self.heard['status'].wait_for(lambda message: message.sim_time >= time))
+
+    def call(self, assignment, node=NODE):
+        rospy.wait_for_service('/%s/set' % node, harness.PATIENCE)
+        return rospy.ServiceProxy('/%s/set' % node, Set)(assignment)
+
+    def changed(self, assignment):
+        """What run_info says of it."""
+        before = len(self.changes())
+        answer = self.call(assignment)
+        self.assertTrue(answer.success, answer.message)
+        name, value = assignment.split('=')
+        self.assertIn('%s = %s from simulated time ' % (name, value), answer.message)
+        self.assertTrue(harness.wait_until(lambda: len(self.changes()) > before))
+        change = self.changes()[-1]
+        self.assertEqual((change.name, change.value), (name, float(value)))
+        self.assertEqual(getattr(self.info(), name), float(value))
+        return change
+
+    def info(self):
+        return self.heard['run_info'].messages[-1]
+
+    def changes(self):
+        return self.info().changes if self.heard['run_info'].messages else []
+
+    def ends(self, node):
+        """All of its messages, in which the clock and the run's name are not told."""
+        self.assertEqual(node.wait(), 0, node.text())
+        listener = self.heard['status']
+        self.assertTrue(listener.wait_for(harness.is_last))
+        for listener in self.heard.values():
+            listener.close()
+        heard = {topic: listener.messages for topic, listener in self.heard.items()}
+        for topic in TOPICS:
+            for message in heard[topic]:
+                message.header.seq, message.header.stamp, message.run_id = 0, rospy.Time(), ''
+        return heard
+
+    def times(self, topic):
+        return sorted({message.sim_time for message in self.heard[topic].messages})
+
+    def same(self, one, other):
+        for topic in TOPICS:
+            with self.subTest(topic=topic):
+                self.assertGreater(len(one[topic]), 0)
+                self.assertEqual(one[topic], other[topic])
+
+    def test_reports_fields_and_duration(self):
+        node = self.started(dict(RUN, pace=SLOW))
+        self.until(BEGIN + 2.0)
+        reports = self.changed('report_interval=0.25')
+        self.assertEqual(reports.before, 1.0)
+        self.until(reports.sim_time)
+        fields = self.changed('field_interval=2')
+        self.until(fields.sim_time + 3.0)
+        end = math.ceil(fields.sim_time) + 60.0
+        duration = self.changed('duration=%g' % (end - BEGIN))
+        self.changed('pace=0')
+        self.ends(node)
+        times = self.times('state')
+        self.assertEqual(times[-1], end)
+        since = [time - reports.sim_time for time in times if time >= reports.sim_time - CLOSE]
+        for k, time in enumerate(since[:-1]):
+            self.assertAlmostEqual(time, 0.25 * k, delta=CLOSE)
+        for time in times:
+            self.assertTrue(time > reports.sim_time or is_multiple(time - BEGIN, 1.0))
+        shown = [time for time in self.times('fields') if fields.sim_time < time < end]
+        self.assertGreater(len(shown), 10)
+        for one, next_one in zip(shown, shown[1:]):  # the first report after each multiple
+            self.assertEqual((next_one - BEGIN) // 2.0, (one - BEGIN) // 2.0 + 1)
+        self.assertEqual(
+            [change.name for change in self.changes()],
+            ['report_interval', 'field_interval', 'duration', 'pace'],
+        )
+        self.assertEqual(duration.before, 0.0)
+        runs = {info.run_id for info in self.heard['run_info'].messages}
+        self.assertEqual(len(runs), 1)
+
+    def test_pace(self):
+        """Also while it waits for a pace that is too slow, or is paused."""
+        node = self.started(dict(RUN, pace=1.0e-4, duration=60.0))
+        self.until(BEGIN + 1.0)
+        self.changed('pace=20')
+        self.until(BEGIN + 3.0)
+        pause = rospy.ServiceProxy('/%s/pause' % NODE, SetBool)
+        self.assertTrue(pause(True).success)
+        self.changed('pace=0')
+        change = self.changed('duration=80')
+        self.assertTrue(pause(False).success)
+        self.ends(node)
+        self.assertEqual(self.times('status')[-1], BEGIN + 80.0)
+        self.assertLess(change.sim_time, BEGIN + 60.0)
+
+    def test_before_the_averaging(self):
+        node = self.started(dict(RUN, warmup=2000.0, duration=1.0))
+        change = self.changed('report_interval=7')
+        self.assertLess(change.sim_time, 2000.0)
+        self.until(change.sim_time + 20.0)
+        node.send(signal.SIGINT)
+        self.ends(node)
+        since = [time for time in self.times('state') if time >= change.sim_time - CLOSE]
+        self.assertAlmostEqual(since[2] - since[1], 7.0, delta=CLOSE)  # beyond the equilibration
+
+    def test_target(self):
+        node = self.started(dict(SHORT, observables=['spectrum'], threads=1, duration=0.0))
+        self.assertTrue(self.heard['cost'].wait_for(lambda cost: cost.sim_time > 10.0))
+        self.assertTrue(self.heard['status'].wait_for(lambda status: status.std_error > 0.0))
+        change = self.changed('target_std_error=1000')
+        self.assertEqual(node.wait(), 0, node.text())
+        self.assertIn('finished at simulated time', node.text())
+        self.assertGreaterEqual(self.times('status')[-1], change.sim_time - CLOSE)
+
+    def test_refused(self):
+        node = self.started(dict(RUN, observables=['state'], wait_for_subscribers=['state']))
+        self.until(BEGIN + 10.0)
+        for assignment, why in {
+            'disks=50': 'disks=50: is read at the start',
+            'boundary_x=reflecting': 'is read at the start',
+            'observables=[state]': 'is read at the start',
+            'pace=fast': 'pace=fast: must be from 0',
+            'pace=nan': 'must be from 0',
+            'pace=-1': 'must be from 0',
+            'pace=': 'must be from 0',
+            'pace=1 2': 'must be from 0',
+            'report_interval=0': 'must be from 1e-6',
+            'target_std_error=-1': 'must be from 0',
+            'duration=5': 'duration = 5: must be 0 or at least',
+            'field_interval=-5': 'must be from 0',
+            'marker_rate=5': 'it is slow_vectors_rate now',
+            'paces=5': 'paces=5: there is no parameter of this name',
+            'pace': 'must be NAME=VALUE',
+            '': 'must be NAME=VALUE',
+            'x\n' * 300: 'x?x?x',
+        }.items():
+            with self.subTest(assignment=assignment):
+                answer = self.call(assignment)
+                self.assertFalse(answer.success)
+                self.assertIn(why, answer.message)
+        self.assertEqual(len(self.heard['run_info'].messages), 1)
+        self.assertEqual(len(self.changes()), 0)
+        node.send(signal.SIGINT)
+        self.assertEqual(node.wait(), 0, node.text())
+        self.assertEqual(node.lines('set: '), [])
+
+    def test_the_parameter_server_is_read_at_the_start(self):
+        """Once for each that is set, with what to do instead."""
+        node = self.started(dict(SHORT, duration=0.0, pace=20.0))
+        self.until(3.0)
+        for name, value in dict(disks=50, pace=1.5, scene='other', nonsense=1, max_node=1).items():
+            rospy.set_param('/%s/%s' % (NODE, name), value)
+        self.assertTrue(harness.wait_until(lambda: len(node.lines('parameter ')) == 5))
+        rospy.set_param('/%s/density' % NODE, 0.1)
+        self.assertTrue(harness.wait_until(lambda: node.lines('density')))
+        for line in (
+            'parameter disks was set to 50, but is read at the start',
+            'parameter scene was set to other, but is read at the start',
+            'to change it now: rosservice call /hdlyap/set "pace=1.5"',
+            'parameter nonsense was set, but there is no parameter of this name',
+            'parameter max_node was set, but it is max_mode_number now',
+            'parameter density was set to 0.1, but is read at the start',
+        ):
+            self.assertEqual(len(node.lines(line)), 1, node.text())
+        node.send(signal.SIGINT)
+        self.assertEqual(node.wait(), 0)
+        self.assertEqual(self.info().pace, 20.0)
+
+    def test_recorded_run_is_repeated(self):
+        """By its bag alone: changes come again at their times."""
+        node = self.started(dict(RUN, pace=SLOW))
+        self.until(BEGIN + 2.0)
+        self.changed('report_interval=0.3')
+        self.until(BEGIN + 8.0)
+        self.changed('field_interval=2')
+        self.changed('report_interval=0.7')
+        self.changed('duration=60')
+        self.changed('pace=0')
+        first = self.ends(node)
+        bag = os.path.join(self.folder, 'run.bag')
+        with rosbag.Bag(bag, 'w') as file:
+            for second, info in enumerate(first['run_info'], start=1):
+                file.write('/hdlyap/run_info', info, rospy.Time(second))
+        scene = subprocess.check_output([harness.program('repeat'), bag], text=True)
+        params = yaml.safe_load(scene)
+        self.assertEqual(
+            (params['pace'], params['report_interval'], params['duration']), (SLOW, 1.0, 0.0)
+        )
+        self.assertEqual(len(params['changes']), 5)
+        second = self.ends(self.started(params))
+        self.same(first, second)
+        self.assertEqual(
+            [(c.sim_time, c.name, c.value) for c in first['run_info'][-1].changes[:4]],
+            [(c.sim_time, c.name, c.value) for c in second['run_info'][-1].changes[:4]],
+        )
+
+    def test_resumed_after_a_change(self):
+        """A run that is taken up goes on as the one that was not ended."""
+        kept = os.path.join(self.folder, 'run.checkpoint')
+        params = dict(RUN, duration=90.0, field_interval=3.0)
+        node = self.started(dict(params, pace=SLOW, checkpoint=kept))
+        self.until(BEGIN + 2.0)
+        change = self.changed('report_interval=0.3')
+        self.changed('duration=60')
+        self.until(change.sim_time + 2.0)
+        node.send(signal.SIGINT)
+        first = self.ends(node)
+        del params['duration'], params['report_interval']
+        second = self.ends(self.started(dict(params, resume=kept)))
+        info = second['run_info'][0]
+        self.assertEqual((info.report_interval, info.duration), (0.3, 60.0))
+        self.assertEqual(len(info.changes), 0)
+        texts = ['%r %s=%r' % (c.sim_time, c.name, c.value) for c in first['run_info'][-1].changes]
+        params.update(duration=90.0, report_interval=1.0, changes=texts)
+        whole = self.ends(self.started(params))
+        self.same({topic: first[topic] + second[topic] for topic in TOPICS}, whole)
+
+    def test_modes_of_the_viewer(self):
+        viewer = harness.start_viewer()
+        self.addCleanup(viewer.stop)
+        for assignment, success, words in (
+            ('modes=T(1,0) LP(1,1)', True, 'modes = T(1,0) LP(1,1)'),
+            ('modes=lowest', True, 'modes = lowest'),
+            ('modes=T(1,0', False, 'modes = T(1,0: must be lowest or 1 to 8 names'),
+            ('node=/other', False, 'the rest is read at the start'),
+        ):
+            answer = self.call(assignment, 'viewer')
+            self.assertEqual((answer.success, words in answer.message), (success, True), answer)
+        viewer.send(signal.SIGINT)
+        self.assertEqual(viewer.wait(), 0)
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_live')
+    rostest.rosrun('hdlyap', 'live', Live)
