@@ -6,8 +6,6 @@ import math
 import os
 from collections import namedtuple
 
-from hdlyap.plots.progress import Silent
-
 from . import reader
 from .reader import RecordingError
 
@@ -34,13 +32,13 @@ class Joined:
         """For a message."""
         return ', '.join(self.paths)
 
-    def packed(self, kinds, progress=None):
+    def packed(self, kinds):
         """Messages of these types but run_info, each once: a resumed run says again what the one
         before said after its checkpoint."""
         last = {}  # (run_id, type): the last number of a file before
         for part in self.parts:
             newest = {}
-            for packed in reader.messages(part.path, part.node, kinds, progress=progress):
+            for packed in reader.messages(part.path, part.node, kinds):
                 key = packed.run_id, packed.kind
                 if packed.run_id != part.run_id or packed.kind == reader.RUN_INFO:
                     continue
@@ -51,7 +49,7 @@ class Joined:
 
     def in_time(self, kinds):
         """The same in the order of simulated time: a recorder mixes topics a little."""
-        streams = (self.packed((kind,), Silent()) for kind in kinds)
+        streams = (self.packed((kind,)) for kind in kinds)
         return heapq.merge(*streams, key=lambda packed: packed.sim_time)
 
 

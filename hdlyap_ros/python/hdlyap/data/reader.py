@@ -146,11 +146,11 @@ def _cleaned(info):
     return info
 
 
-def messages(path, node=None, kinds=TYPES, at=None, progress=None):
+def messages(path, node=None, kinds=TYPES, at=None):
     """Packed messages of these types of the given node, or of the only one in the bag, in their
     order; or those alone that were recorded at that time."""
     with opened(path) as bag:
-        yield from _packed(bag, _topics(bag, path, node, kinds), at, progress)
+        yield from _packed(bag, _topics(bag, path, node, kinds), at)
 
 
 def start(path):
@@ -212,10 +212,9 @@ def _topics(bag, path, node, kinds):
     return [topic for topic, kind in nodes[wanted].items() if kind in kinds]
 
 
-def _packed(bag, topics, at=None, progress=None):
+def _packed(bag, topics, at=None):
     """Of these topics; none without a topic."""
     if topics:
         found = bag.read_messages(topics=topics, start_time=at, end_time=at, raw=True)
-        over = (progress or Progress('reading')).over
-        for _, raw, time in over(found, bag.get_message_count(topics)):
+        for _, raw, time in Progress('reading').over(found, bag.get_message_count(topics)):
             yield Packed(bag.filename, raw[0], raw[1], raw[-1], time)

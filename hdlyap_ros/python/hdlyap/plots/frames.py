@@ -1,4 +1,4 @@
-"""bag file -> frames of a movie: disks and the vectors of some modes, one time after the other."""
+"""bag files -> frames of a movie: disks and the vectors of some modes, one time after the other."""
 
 from math import isfinite
 
@@ -54,19 +54,20 @@ class Frame:
 
 
 class Film:
-    """Of the last run of a bag, or of the one of that number."""
+    """Of the last run of a bag, or of the one of that number; of several that belong to one run."""
 
-    def __init__(self, path, names=None, node=None, number=None):
-        self._run = joined.one(path, node, number)
-        run = recording.of(self._run, (STEPS,))
-        self.info = run.info
-        self.steps = steps.resolved(run.steps)
+    def __init__(self, paths, names=None, node=None, number=None):
+        self._run = joined.one(paths, node, number)
+        self.info = self._run.info
+        self.steps = steps.resolved(recording.of(self._run, (STEPS,)).steps)
         self.names = names or lowest(self.steps)
         if not self.names:
-            raise RecordingError(f'{path}: no step is resolved in it')
+            raise RecordingError(f'{self._run.name}: no step is resolved in it')
         places, fields = self._times()
         if len(places) == 0:
-            raise RecordingError(f'{path}: neither state nor fields in it: there are no disks')
+            raise RecordingError(
+                f'{self._run.name}: neither state nor fields in it: there are no disks'
+            )
         # from the first vector on, if there is one
         self.begin = fields[0] if len(fields) else places[0]
         self.end = places[-1]

@@ -12,7 +12,9 @@ COLUMNS = 30
 
 
 class Progress:
-    """Only on a terminal."""
+    """Only on a terminal, and only one at a time: it includes what is read for it."""
+
+    _busy = False
 
     def __init__(self, what, stream=sys.stderr):
         self._what, self._stream = what, stream
@@ -21,9 +23,10 @@ class Progress:
 
     def over(self, things, total):
         """Passes them on; total: how many there will be."""
-        if not self._stream.isatty():
+        if not self._stream.isatty() or Progress._busy:
             yield from things
             return
+        Progress._busy = True
         began = time.monotonic()
         due = began + SILENT
         try:
@@ -34,6 +37,7 @@ class Progress:
                     self._show(count / total, now - began)
                 yield thing
         finally:
+            Progress._busy = False
             self._clear()
 
     def _show(self, share, seconds):
@@ -48,11 +52,3 @@ class Progress:
 
     def _write(self, text):
         print(text, end='', file=self._stream, flush=True)
-
-
-class Silent:
-    """Of what is read beside something that shows its own."""
-
-    @staticmethod
-    def over(things, total):
-        return things
