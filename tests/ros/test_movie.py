@@ -50,14 +50,16 @@ def fields(time):
     return [t, lp]
 
 
-def write(path, but=()):
-    """One topic after the other, as a recorder may write what a fast run says."""
+def write(path, but=(), lp_from=BEGIN):
+    """One topic after the other, as a recorder may write what a fast run says. The LP mode is found
+    at that time."""
     times = np.arange(BEGIN, END + 0.5)
     messages = [('run_info', INFO)]
     messages += [('state', state(time)) for time in times]
     messages += [('steps', made.steps(STEPS, time)) for time in times]
     messages += [('lp_phases', phases(time)) for time in times]
-    messages += [('fields', field) for time in times[:: int(FIELD)] for field in fields(time)]
+    found = [field for time in times[:: int(FIELD)] for field in fields(time)]
+    messages += [('fields', f) for f in found if f.kind == made.T or f.sim_time >= lp_from]
     with rosbag.Bag(path, 'w') as bag:
         for number, (topic, message) in enumerate(messages):
             if topic not in but:
@@ -85,6 +87,12 @@ class Bag(unittest.TestCase):
 
 
 class Frames(Bag):
+    def test_begins_when_all_modes_are_found(self):
+        write(self.bag, lp_from=BEGIN + FIELD)
+        film = frames.Film(self.bag)
+        self.assertEqual((film.begin, film.end), (BEGIN + FIELD, END))
+        self.assertEqual(set(next(film.frames(1.0)).fields), {'T(1,0)', 'LP(1,0)'})
+
     def test_what_is_known_at_a_time(self):
         """Disks of each report; vectors of the last field, and phases of the report."""
         film = frames.Film(self.bag)

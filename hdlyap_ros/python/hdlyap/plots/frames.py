@@ -63,25 +63,28 @@ class Film:
         self.names = names or lowest(self.steps)
         if not self.names:
             raise RecordingError(f'{self._run.name}: no step is resolved in it')
-        places, fields = self._times()
+        places, fields, begin = self._times()
         if len(places) == 0:
             raise RecordingError(
                 f'{self._run.name}: neither state nor fields in it: there are no disks'
             )
-        # from the first vector on, if there is one
-        self.begin = fields[0] if len(fields) else places[0]
+        self.begin = begin if begin is not None else places[0]
         self.end = places[-1]
         self.report = _apart(places[places >= self.begin])
         self.field_interval = _apart(fields)
 
     def _times(self):
-        """Of places, and of the fields of these modes, each once."""
-        places, fields = set(), set()
+        """Of places, and of the fields of these modes, each once; and the first time from which on
+        each mode that has a vector at all has one, None if none has."""
+        places, fields, first = set(), set(), {}
         for packed in self._run.in_time((STATE, FIELD)):
             places.add(packed.sim_time)
-            if packed.kind == FIELD and wave_name(*packed.field_wave()) in self.names:
+            name = wave_name(*packed.field_wave()) if packed.kind == FIELD else None
+            if name in self.names:
                 fields.add(packed.sim_time)
-        return np.array(sorted(places)), np.array(sorted(fields))
+                first.setdefault(name, packed.sim_time)
+        begin = max(first.values(), default=None)
+        return np.array(sorted(places)), np.array(sorted(fields)), begin
 
     def count(self, every):
         """Number of frames that are so much simulated time apart."""
