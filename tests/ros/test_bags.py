@@ -307,7 +307,7 @@ def expected_sizes(disks, vectors, steps, phases):
     return dict(
         spectrum=begin + 8 + 8 + 5 * 8 + 4 + 5 * 4 + 40 * vectors,
         modes=begin + 8 + 4 + 4 + 89 * vectors,
-        steps=begin + 8 + 8 + 4 + 96 * steps + 2 * 44 + 4 + 3 * 8,
+        steps=begin + 8 + 8 + 4 + 96 * steps + 2 * 64 + 4 + 5 * 8,
         lp_phases=begin + 4 + 4 + 74 * phases,
         fields=begin + 29 + 8 * 4 + 64 * disks + 4 + 3 * 4 + 8 + 6 * 4,
         state=begin + 8 + 4 * 4 + 32 * disks,

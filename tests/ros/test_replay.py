@@ -136,6 +136,14 @@ class Replayed(harness.Case):
         got = got.steps[0]
         self.assertEqual((got.kind, got.nx, got.exponent, got.gap_error), (2, 1, 0.5, -1.0))
 
+    def test_nothing_is_lost_at_the_start(self):
+        """For who has subscribed; the whole bag takes a moment."""
+        self.record('one')
+        self.listen_to('state', 'status')
+        replay = self.replay('--rate', '1000')
+        self.assertEqual(replay.wait(), 0, replay.text())
+        self.assertTrue(harness.wait_until(lambda: len(self.heard) == 2 * REPORTS), self.heard)
+
     def test_what_is_refused(self):
         """In one line."""
         with open(self.bag, 'w') as file:

@@ -126,11 +126,12 @@ def middles(marker):
 
 def part_seen(paper, marker):
     """Of what a marker draws, the part that has its colour on the screen."""
-    if marker.type == Marker.TEXT_VIEW_FACING:
-        place = marker.pose.position
-        return float(
-            paper.is_inked(place.x, place.y, int(0.6 * marker.scale.z * paper.view['Scale']) + 1)
-        )
+    if (
+        marker.type == Marker.TEXT_VIEW_FACING
+    ):  # lines begin together: some may end before its middle
+        place, lines = marker.pose.position, 1 + marker.text.count('\n')
+        around = 0.6 * lines * marker.scale.z * paper.view['Scale']
+        return float(paper.is_inked(place.x, place.y, int(around) + 1))
     places = middles(marker)
     colours = marker.colors or [marker.color] * len(places)
     if marker.type == Marker.SPHERE_LIST:  # shaded, and an arrow lies on their middle
