@@ -32,6 +32,7 @@ source_setup() {
 # ROS, python or matplotlib writes under DIR.
 own_environment() {
     unset PYTHONPATH PYTHONHOME ROS_IP ROS_IPV6 ROS_NAMESPACE ROS_PACKAGE_PATH CMAKE_PREFIX_PATH
+    unset LD_LIBRARY_PATH PKG_CONFIG_PATH # of a workspace that the shell has sourced
     export PATH=/usr/bin:/bin:$PATH
     [[ ! -f $NOETIC/setup.bash ]] || source_setup "$NOETIC/setup.bash"
     export ROS_HOSTNAME=localhost

@@ -153,7 +153,7 @@ tools_alone() {
     in_alone python3 -c 'import importlib, pkgutil, hdlyap
 for one in pkgutil.walk_packages(hdlyap.__path__, "hdlyap."):
     print(importlib.import_module(one.name).__file__)' >"$ALONE/modules" &&
-        diff <(sed -n '/\/hdlyap\/msg\//d; s|.*/dist-packages/||p' "$ALONE/modules" | sort) \
+        diff <(sed -n '/\/hdlyap\/\(msg\|srv\)\//d; s|.*/dist-packages/||p' "$ALONE/modules" | sort) \
             <(cd "$ROOT/hdlyap_ros/python" && find hdlyap -name '*.py' ! -path hdlyap/__init__.py | sort) || return 1
     in_alone env --chdir="$ROOT/tests/ros" python3 -c 'import sys, made, test_compare
 made.write(sys.argv[1], test_compare.run())' "$bag" &&

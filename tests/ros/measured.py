@@ -67,10 +67,10 @@ def _steps(message):
         for name in alone if step.resolved else OF_STEPS:
             yield f'steps[{k}].{name}'
     for letter, points in (('t', message.t_points), ('l', message.l_points)):
-        yield from [f'c_{letter}'] if points < 1 else []
+        yield from [f'c_{letter}', f'{letter}_k_min', f'{letter}_k_max'] if points < 1 else []
         yield from [f'c_{letter}2'] if points < 2 else []
     if message.v_phases == 0:
-        yield 'v'
+        yield from ('v', 'v_k_min', 'v_k_max')
 
 
 def _phases(message):

@@ -18,7 +18,7 @@ PLOT_BAG = os.path.join(SCRIPTS, 'plot_bag')
 def check_title(figure, name):
     """Scene, disks, density."""
     title = figure._suptitle.get_text() if figure._suptitle is not None else ''
-    if not re.match(r'\w+: \$N=\d+\$, \$\\rho=[0-9.]+\$', title):
+    if not re.match(r'.+: \$N=\d+\$, \$\\rho=[0-9.]+\$', title):
         raise AssertionError(f'{name}: its title is {title!r}')
 
 

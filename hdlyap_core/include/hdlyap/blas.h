@@ -31,7 +31,7 @@ void hd_blas_restart_if_slow(char **argv);
 /** In calls from this thread from now on. */
 void hd_blas_use_threads(int threads);
 
-/** Of so many, the threads that OpenMP grants, which are started: fewer where OMP_THREAD_LIMIT or
+/** Of so many, the threads that OpenMP grants: fewer where OMP_THREAD_LIMIT or
  * OMP_MAX_ACTIVE_LEVELS says so. OpenBLAS would wait for the others for ever. */
 int hd_blas_threads_granted(int threads);
 

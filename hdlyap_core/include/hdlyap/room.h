@@ -22,8 +22,8 @@ typedef struct hd_room {
 /** Linux; INFINITY elsewhere. Swap is no room. */
 hd_room hd_room_available(void);
 
-/** HD_NO_MEMORY if a checked scene needs more than there is, with a line in `message` (which may be
- * NULL): what needs how much, how much there is, and what would fit. */
+/** HD_NO_MEMORY if a checked scene needs more than there is, with a line in `message` unless that
+ * is NULL: what needs how much, how much there is, and what would fit. */
 HD_MUST_CHECK hd_status hd_room_check(const hd_scene_def *def, hd_room room, char *message,
                                       size_t size);
 

@@ -70,7 +70,7 @@ bool hd_run_report_due(const hd_run *run);
  * first call holds at once, another one from hd_run_change_time on. Not kept in a checkpoint. */
 void hd_run_fields_every(hd_run *run, double interval);
 
-/** Asks for another value of a parameter of the scene whose row says `live`. It holds from
+/** Asks for another value of a parameter of the scene whose row is a live one. It holds from
  * hd_run_change_time on, and hd_run_scene has it at once. HD_REFUSED with one line in `message`: it
  * is read at the start, or the value is not allowed; a duration must not be shorter than what will
  * have been averaged by then. */

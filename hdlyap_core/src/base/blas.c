@@ -40,23 +40,20 @@ void hd_blas_use_threads(int threads)
     if (openblas_set_num_threads) openblas_set_num_threads(threads);
 }
 
+/** Asks rather than tries: threads that are begun for a trial take the room of those to come. */
 int hd_blas_threads_granted(int threads)
 {
-    int granted = 1;
-    if (threads <= 1) return 1;
     omp_set_dynamic(0);
-#pragma omp parallel num_threads(threads)
-#pragma omp single
-    granted = omp_get_num_threads();
-    return granted;
+    const int limit = omp_get_max_active_levels() > 0 ? omp_get_thread_limit() : 1;
+    return threads < limit ? threads : limit;
 }
 
 hd_status hd_blas_room(int threads)
 {
 #if defined(__linux__)
     const size_t buffer = (size_t)128 << 20; /* the largest of any version */
-    const size_t stacks = (size_t)32
-                          << 20; /* of two pools, the caller's and the run's, with what they take */
+    /* of two pools, the caller's and the run's: stacks, and the arena that malloc gives a thread */
+    const size_t stacks = (size_t)96 << 20;
     const size_t bytes = (size_t)threads * (buffer + stacks);
     void *room = mmap(NULL, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (room == MAP_FAILED) return HD_NO_MEMORY;
