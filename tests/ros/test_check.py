@@ -64,6 +64,14 @@ class Check(harness.Case):
                 self.assertEqual('errors ' in done.stdout, of_exponents)
                 self.assertEqual('waves ' in done.stdout, of_exponents)
 
+    def test_large(self):
+        """An interval of the scene itself would take minutes."""
+        done = checked(os.path.join(SCENES, 'quick.yaml'), 'disks:=4000', 'max_wave_number:=0.12')
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        self.assertIn('4000 disks', done.stdout)
+        self.assertIn('by a trial of a second of 800 disks', done.stdout)
+        self.assertRegex(done.stdout, r'(?m)^waves +T,LP\(1,0\) T,LP\(0,1\) T,LP\(1,1\)$')
+
     def test_bag(self):
         """Bytes of a report are those of the messages that a run publishes."""
         params = dict(MODES, observables=TOPICS, wait_for_subscribers=REPORT)

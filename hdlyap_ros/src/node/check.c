@@ -1,6 +1,6 @@
 /** Scene file -> is it valid, its memory, speed, bag and waves. Speed is that of a second's trial
- * on this machine: the same scene, warmed up until intervals are as long as they become. Bytes of
- * messages are those of tests/ros/test_bags.py. */
+ * on this machine: the same scene, warmed up until intervals are as long as they become, or one of
+ * fewer disks in a box of the same shape. Bytes of messages are those of tests/ros/test_bags.py. */
 #include "check.h"
 
 #include <math.h>
@@ -19,11 +19,14 @@ static const double trial_seconds = 1.0;
 static const double warmup_collisions = 120.0;
 /** The recorder is sent no more reports a second. */
 static const double reports_per_second = 960.0;
+/** Disks x vectors^2 of a trial: beyond, an interval alone takes longer than a trial may. */
+static const double trial_work = 800.0 * 1600.0 * 1600.0;
 /** Averaged time of 1 % in c_T, in units of that from which errors are stated: as measured with 780
  * disks, doc/performance.md. */
 static const double of_slopes = 2.0;
 
 typedef struct trial {
+    int disks;
     double seconds;              /**< per time unit */
     double interval;             /**< between orthonormalisations; NaN without exponents */
     double errors_after;         /**< averaged time */
@@ -78,6 +81,33 @@ static void count_messages(trial *out, const hd_run *run)
     }
 }
 
+/** A scene of the same shape and waves whose trial is short; false if it is itself one, or there is
+ * none. */
+static bool make_smaller(hd_scene_def *def)
+{
+    const double vectors = hd_scene_vectors(def), work = def->disks * vectors * vectors;
+    const double part = cbrt(trial_work / fmax(work, trial_work));
+    hd_scene_def smaller = *def;
+    char message[200];
+    if (part >= 1.0) return false;
+    smaller.disks = (int)(part * def->disks);
+    if (def->exponents > 0) smaller.exponents = (int)(part * vectors); /* a number of them */
+    smaller.max_wave_number /= sqrt(part);
+    if (hd_scene_check(&smaller, message, sizeof message) != HD_OK) return false;
+    *def = smaller;
+    return true;
+}
+
+/** What a trial of fewer disks says of all of them: a frame takes N^3, an error the time of sound
+ * through the box. */
+static void enlarge(trial *t, const hd_scene_def *tried, const hd_scene_def *def)
+{
+    t->disks = tried->disks;
+    if (tried->disks == def->disks) return;
+    t->seconds *= pow((double)def->disks / tried->disks, 3.0);
+    t->errors_after *= hd_scene_sound_crossing(def) / hd_scene_sound_crossing(tried);
+}
+
 static hd_status try_scene(trial *out, const settings *set, char *message, size_t size)
 {
     hd_scene_def def = set->def;
@@ -89,11 +119,13 @@ static hd_status try_scene(trial *out, const settings *set, char *message, size_
     def.warmup = warmup_collisions * collision;
     def.duration = def.target_std_error = 0.0;
     def.observe &= ~(unsigned)HD_OBSERVE_COVARIANT; /* a window is longer than a trial */
+    make_smaller(&def);
     status = hd_run_create(&run, &def, message, size);
     if (status != HD_OK) return status;
     hd_run_fields_every(run, set->field_interval);
     status = measure(out, run);
     out->errors_after = hd_run_errors_after(run);
+    enlarge(out, &def, &set->def);
     count_messages(out, run);
     hd_run_free(run);
     return status;
@@ -149,6 +181,7 @@ static void print_speed(const settings *set, const trial *t)
     const hd_scene_def *def = &set->def;
     const double before = def->equilibration + hd_scene_warmup(def);
     printf("speed     %.3g s per time unit, by a trial of a second", t->seconds);
+    if (t->disks < def->disks) printf(" of %d disks, and the cube of N", t->disks);
     if (!isnan(t->interval)) printf("; interval %.3g", t->interval);
     if (def->observe & HD_OBSERVE_COVARIANT) printf("; without covariant vectors");
     printf("\n");
