@@ -160,6 +160,12 @@ class SeveralSeeds(Bags):
         self.assertAlmostEqual(seeds.results.value['c_T'], 1.4)
         self.assertEqual(seeds.results.unit['c_T'], 'sigma/time unit')
         self.assertEqual(seeds.spectrum.attrs['units']['exponent'], '1/time unit')
+        with self.assertRaisesRegex(
+            AttributeError, r'^times is of one run, these are 3: runs\[0\]'
+        ):
+            seeds.times
+        with self.assertRaisesRegex(AttributeError, '^time$'):
+            seeds.time
 
     def test_a_step_that_one_run_lacks(self):
         """Its mean is over the others, and the fits are of different steps."""

@@ -94,6 +94,19 @@ class Launch(unittest.TestCase):
             replay = self.roslaunch(folder, 'replay.launch', 'bag:=' + bag, 'rate:=10')
             self.assertTrue(status.wait_for(harness.is_last))
             self.assertEqual(replay.wait(), 0, replay.text())
+            self.assertNotIn('has died', replay.text())
+
+    def test_misspelt_replay(self):
+        replay = self.roslaunch('.', 'replay.launch', 'bag:=q.bag', 'pause:=true')
+        replay.wait()
+        wanted = 'argument pause = true: must be one that replay.launch has: bag, rate,'
+        self.assertEqual(len(replay.lines(wanted)), 1, replay.text())
+
+    def test_no_folder_for_a_bag(self):
+        run = self.roslaunch('.', 'run.launch', 'record:=true', 'bag:=nowhere/q.bag')
+        run.wait()
+        self.assertEqual(len(run.lines('must be in a folder that is there')), 1, run.text())
+        self.assertNotIn('recorded in', run.text())
 
     def check_result(self, run, averaged, *words):
         """Is printed last, and nothing is in red."""

@@ -172,8 +172,9 @@ class Live(harness.Case):
             'field_interval=-5': 'must be from 0',
             'marker_rate=5': 'it is slow_vectors_rate now',
             'paces=5': 'paces=5: there is no parameter of this name',
-            'pace': 'must be NAME=VALUE',
-            '': 'must be NAME=VALUE',
+            'pace': 'must be one NAME=VALUE',
+            '': 'must be one NAME=VALUE',
+            'pace=30 duration=2': 'must be one NAME=VALUE',
             'x\n' * 300: 'x?x?x',
         }.items():
             with self.subTest(assignment=assignment):

@@ -14,6 +14,7 @@ import rospy
 from hdlyap.msg import LpPhase, LpPhases, State
 
 import made
+from hdlyap.data.reader import RecordingError
 from hdlyap.plots import frames, movie
 
 SCRIPT = os.path.join(made.SCRIPTS, 'redraw')
@@ -87,6 +88,12 @@ class Bag(unittest.TestCase):
 
 
 class Frames(Bag):
+    def test_unknown_mode(self):
+        with self.assertRaisesRegex(
+            RecordingError, r'T\(9,9\) is not resolved in it, only T\(1,0\), LP\(1,0\)'
+        ):
+            frames.Film(self.bag, ['T(9,9)'])
+
     def test_begins_when_all_modes_are_found(self):
         write(self.bag, lp_from=BEGIN + FIELD)
         film = frames.Film(self.bag)
@@ -162,11 +169,12 @@ class Drawn(Bag):
             self.assertIn('(20)', text)  # the error of made.step
         self.assertIn('t=11.0', picture._title.get_text())
 
-    def test_of_a_mode_that_is_not_there(self):
-        film = frames.Film(self.bag, ['T(0,3)'])
+    def test_of_a_mode_without_a_vector(self):
+        write(self.bag, but=('fields',))
+        film = frames.Film(self.bag, ['T(1,0)'])
         picture = movie.Picture(film, 400)
         picture.show(next(film.frames(1.0)))
-        self.assertEqual(picture._panels[0]._title.get_text(), 'T(0,3): not resolved yet')
+        self.assertEqual(picture._panels[0]._title.get_text(), 'T(1,0): not resolved yet')
 
 
 class Files(Bag):

@@ -32,8 +32,8 @@ bool change_parse(change *out, const char *assignment, char *message, size_t siz
     char name[NAME_MAX_LENGTH] = "", why[200];
     const size_t length = strcspn(assignment, "= ");
     const char *sign = assignment + length + strspn(assignment + length, " ");
-    if (length == 0 || *sign != '=')
-        return change_refuse(message, size, assignment, "must be NAME=VALUE, such as pace=1.5");
+    if (length == 0 || *sign != '=' || strchr(sign + 1, '='))
+        return change_refuse(message, size, assignment, "must be one NAME=VALUE, such as pace=1.5");
     snprintf(name, sizeof name, "%.*s", (int)length, assignment);
     if (!parameters_has(name))
         return change_refuse(message, size, assignment, parameters_instead(name));

@@ -33,6 +33,13 @@ class Seeds:
     def __repr__(self):
         return f'<hdlyap runs of {self.info.disks} disks, seeds {", ".join(self.seeds)}>'
 
+    def __getattr__(self, name):
+        if not name.startswith('_') and hasattr(Run, name):
+            raise AttributeError(
+                f'{name} is of one run, these are {len(self.runs)}: runs[0].{name}'
+            )
+        raise AttributeError(name)
+
     @property
     def averaged_time(self):
         """Of all together."""

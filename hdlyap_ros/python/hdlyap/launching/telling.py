@@ -11,6 +11,8 @@ from hdlyap.msg import RunInfo, RunStatus, Spectrum, Steps
 from hdlyap.plots import step_table, steps
 from hdlyap.plots.numbers import clock, with_error
 
+from . import bags
+
 KINDS = {'spectrum': Spectrum, 'steps': Steps}
 POLL = 0.1  # seconds
 PERIOD = 3.0  # seconds between two tables, at least
@@ -77,7 +79,7 @@ class Teller:
         self._print(f'result of {self._node}, {view.info.scene}: {what}', view, self._where())
 
     def _where(self):
-        if not self._bag:
+        if not self._bag or not bags.in_the_way(self._bag):
             return []
         return [f'  recorded in {self._bag}', f'  rosrun hdlyap plot_bag {self._bag}']
 

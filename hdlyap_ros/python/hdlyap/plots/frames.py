@@ -63,6 +63,12 @@ class Film:
         self.names = names or lowest(self.steps)
         if not self.names:
             raise RecordingError(f'{self._run.name}: no step is resolved in it')
+        missing = [name for name in self.names if name not in self.steps]
+        if missing:
+            raise RecordingError(
+                f'{self._run.name}: {missing[0]} is not resolved in it, only '
+                + ', '.join(self.steps)
+            )
         places, fields, begin = self._times()
         if len(places) == 0:
             raise RecordingError(

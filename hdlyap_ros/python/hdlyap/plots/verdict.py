@@ -97,8 +97,15 @@ def _parameters(comparison):
 
 
 def _short(value):
-    text = ' '.join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
+    text = ' '.join(map(_word, value)) if isinstance(value, (list, tuple)) else str(value)
     return textwrap.shorten(text, WIDTH, placeholder=' ...') or '""'
+
+
+def _word(element):
+    """Of a list; of changes when, what, and to which value."""
+    if hasattr(element, 'sim_time'):
+        return f'{element.sim_time:g} {element.name}={element.value:g}'
+    return str(element)
 
 
 def _remarks(comparison):
