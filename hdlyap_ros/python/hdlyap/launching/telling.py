@@ -8,7 +8,7 @@ import rospy
 
 from hdlyap.follow.watch import View, fill, lazy
 from hdlyap.msg import RunInfo, RunStatus, Spectrum, Steps
-from hdlyap.plots import step_table, steps
+from hdlyap.plots import fits, step_table, steps
 from hdlyap.plots.numbers import clock, with_error
 
 from . import bags
@@ -17,11 +17,6 @@ KINDS = {'spectrum': Spectrum, 'steps': Steps}
 POLL = 0.1  # seconds
 PERIOD = 3.0  # seconds between two tables, at least
 LAST_WORDS = 2.0  # seconds that the last messages of a run that has ended may take
-FITS = (
-    ('c_T', 'c_t', 't_points', 'wave number'),
-    ('c_L', 'c_l', 'l_points', 'wave number'),
-    ('v', 'v', 'v_phases', 'LP phase'),
-)
 
 
 class Teller:
@@ -137,18 +132,17 @@ def table(view):
         return
     yield from step_table.layout(rows)
     missing = steps.unresolved(message)
-    fits = [fit for fit in (fitted(message, *row) for row in FITS) if fit]
+    found = [fitted(fit) for fit in fits.of(message) if fit.count]
     if missing:
-        fits.append(f'{len(missing)} steps not resolved')
-    yield '  ' + '   '.join(fits)
+        found.append(f'{len(missing)} steps not resolved')
+    yield '  ' + '   '.join(found)
 
 
-def fitted(message, name, field, points, of_what):
-    count = getattr(message, points)
-    if not count:
-        return None
-    value = with_error(getattr(message, field), getattr(message, field + '_error'))
-    return f'{name} {value} ({count} {of_what}{"s" if count > 1 else ""})'
+def fitted(fit):
+    """With its form, and how much it stands on."""
+    of_what = 'LP phase' if fit.symbol == 'v' else 'wave number'
+    basis = f'{fit.count} {of_what}{"s" if fit.count > 1 else ""}'
+    return f'{fit.symbol} {fit.measured} (' + (f'{fit.form}, ' if fit.form else '') + f'{basis})'
 
 
 def start(node, bag, ended):
