@@ -14,10 +14,13 @@ typedef struct hd_ortho hd_ortho;
 HD_MUST_CHECK hd_status hd_ortho_create(hd_ortho **out, int rows, int vectors);
 void hd_ortho_free(hd_ortho *ortho);
 
+typedef enum hd_norm { HD_NORM_FULL, HD_NORM_DQ } hd_norm;
+
 /** What a step may accept. */
 typedef struct hd_ortho_limits {
     double condition; /**< largest hd_ortho_condition, > 1 */
     double defect;    /**< above this predicted loss of orthogonality a second pass is made, > 0 */
+    hd_norm norm;
 } hd_ortho_limits;
 
 /** Replaces the frame's vectors by Q; ln diag R is then in hd_ortho_log_stretch. Spans and the sum

@@ -59,10 +59,10 @@ void hd_run_free(hd_run *run);
  * interrupted between two calls. Does nothing once HD_FINISHED. */
 HD_MUST_CHECK hd_status hd_run_advance(hd_run *run);
 
-/** True if the last call ended at a multiple of the report interval. Spectrum, modes, steps and the
- * frame are then those of the last orthonormalisation, hd_spectrum_time after the averaging began:
- * at most an interval ago, at once if the hydrodynamic response is looked at, or fields that are
- * due. Phases are those of the very time. */
+/** True if the last call ended at a multiple of the report interval. Spectrum, modes and steps are
+ * then those of the last measured state, hd_spectrum_time after the averaging began: at most about
+ * 64 collisions of each disk ago, at once if the hydrodynamic response is looked at, or fields that
+ * are due. Phases are those of hd_run_followed. */
 bool hd_run_report_due(const hd_run *run);
 
 /** Fields are due with the first report at or after each multiple of so many time units since the
@@ -76,8 +76,8 @@ void hd_run_fields_every(hd_run *run, double interval);
  * have been averaged by then. */
 HD_MUST_CHECK hd_status hd_run_change(hd_run *run, const hd_parameter *row, double value,
                                       char *message, size_t size);
-/** Simulated time from which on a change holds that is asked for now: the end of the present sample
- * (at most 64 collisions of each disk long), or before the averaging of the present report. */
+/** Simulated time from which on a change holds that is asked for now: while averages are taken the
+ * end of the present interval between orthonormalisations, else at once. */
 double hd_run_change_time(const hd_run *run);
 
 /** True if the last call ended at such a report: if they are looked at (HD_OBSERVE_FIELDS), the
@@ -113,9 +113,9 @@ const hd_spectrum *hd_run_spectrum(const hd_run *run); /**< NULL without exponen
 const hd_modes *hd_run_modes(const hd_run *run); /**< NULL unless observed, as the two below */
 const hd_steps *hd_run_steps(const hd_run *run);
 const hd_phases *hd_run_phases(const hd_run *run);
+/** Simulated time of the phases; -INFINITY while none have been followed. */
+double hd_run_followed(const hd_run *run);
 const hd_covariant *hd_run_covariant(const hd_run *run); /**< NULL unless observed */
-int hd_run_samples_per_report(
-    const hd_run *run); /**< times that phases are followed at per report */
 hd_cost hd_run_cost(const hd_run *run);
 /** Averaged time from which standard errors are stated [T8]; 0 without exponents. */
 double hd_run_errors_after(const hd_run *run);

@@ -22,12 +22,17 @@ HD_MUST_CHECK hd_status hd_spectrum_create(hd_spectrum **out, int rows, int vect
 void hd_spectrum_free(hd_spectrum *spectrum);
 void hd_spectrum_clear(hd_spectrum *spectrum);
 
-/** Adds ln diag R of one orthonormalisation, dt after the one before; log_stretch[n]. */
+/** Adds ln diag R of one orthonormalisation, dt >= 0 after the one before, to the sample that has
+ * begun; log_stretch[n]. What is read below is of whole samples. */
 void hd_spectrum_add(hd_spectrum *spectrum, const double *log_stretch, double dt);
-/** Ends a sample: all that was added since the last call. */
+/** Ends a sample: all that was added since the last call. Where it begins and ends the frame must
+ * be orthonormal in the same norm: then those in between do not matter [T5]. Samples may be of any
+ * length. */
 void hd_spectrum_sample(hd_spectrum *spectrum);
 
 double hd_spectrum_time(const hd_spectrum *spectrum); /**< averaged time */
+/** Of the sample that has begun. */
+double hd_spectrum_sample_time(const hd_spectrum *spectrum);
 double hd_spectrum_exponent(const hd_spectrum *spectrum,
                             int col); /**< running mean of ln R_ll / t */
 /** Standard error of the mean, from blocks that are joined while they remember each other [T8];

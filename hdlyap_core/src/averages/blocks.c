@@ -60,6 +60,13 @@ static void add(hd_blocks *blocks, int k, const double *sum, double weight)
     blocks->weight[k] += weight;
 }
 
+static double whole_weight(const hd_blocks *blocks)
+{
+    double sum = 0.0;
+    for (int k = 0; k < blocks->count; k++) sum += blocks->weight[k];
+    return sum;
+}
+
 /** Two become one: a block is never longer than that needs. */
 static void join(hd_blocks *blocks)
 {
@@ -70,15 +77,17 @@ static void join(hd_blocks *blocks)
         add(blocks, k, row(blocks, 2 * k + 1), second);
     }
     blocks->count = HD_BLOCKS_MAX / 2;
-    blocks->length *= 2.0;
+    blocks->length = whole_weight(blocks) / blocks->count;
     begin(blocks, blocks->count);
 }
 
+/** A block ends where no later end of a sample like this one would be nearer to its length. */
 void hd_blocks_add(hd_blocks *blocks, const double *sum, double weight)
 {
     HD_ASSERT(weight > 0);
     add(blocks, blocks->count, sum, weight);
-    if (blocks->weight[blocks->count] < blocks->length * (1.0 - CLOSE)) return;
+    const double enough = fmax(blocks->least, blocks->length - 0.5 * weight);
+    if (blocks->weight[blocks->count] < enough * (1.0 - CLOSE)) return;
     if (blocks->count == 0) blocks->length = blocks->weight[0];
     blocks->count++;
     if (blocks->count == HD_BLOCKS_MAX)
@@ -168,13 +177,6 @@ static double deviations_of(const hd_blocks *blocks, const hd_part *parts, int c
     }
     for (int k = 0; k < blocks->count; k++) deviation[k] -= sum / weight * blocks->weight[k];
     return HD_BLOCKS_ROUNDING * size;
-}
-
-static double whole_weight(const hd_blocks *blocks)
-{
-    double sum = 0.0;
-    for (int k = 0; k < blocks->count; k++) sum += blocks->weight[k];
-    return sum;
 }
 
 double hd_blocks_error(const hd_blocks *blocks, const hd_part *parts, int count)

@@ -1,6 +1,6 @@
-/** The history of additive quantities in at most 96 blocks of equal length, from which the standard
- * error of anything that is linear in their means follows, however its parts fluctuate together
- * [T8]. */
+/** The history of additive quantities in at most 96 blocks of about equal length, from which the
+ * standard error of anything that is linear in their means follows, however its parts fluctuate
+ * together [T8]. */
 #ifndef HD_BLOCKS_H
 #define HD_BLOCKS_H
 
@@ -12,8 +12,8 @@ enum { HD_BLOCKS_MAX = 96 };
 typedef struct hd_blocks {
     int series;
     int count;     /**< whole blocks */
-    double length; /**< least weight of a block: that of the first; doubles when two become one */
-    double least;  /**< that the first one has */
+    double length; /**< of a block, about: that of the first; their mean when two become one */
+    double least;  /**< that none falls below */
     double weight[HD_BLOCKS_MAX + 1]; /**< of the whole ones, and of the one that is being filled */
     double *sum;                      /**< [HD_BLOCKS_MAX + 1][series] */
 } hd_blocks;

@@ -12,7 +12,7 @@
 
 struct hd_spectrum {
     int rows, vectors;
-    double *sum;        /**< [vectors], of ln R_ll */
+    double *sum;        /**< [vectors], of ln R_ll over all whole samples */
     double *sample_sum; /**< [vectors], since the last sample */
     double *local_sum;  /**< [vectors], over the samples since the last hd_spectrum_local_restart */
     hd_part *parts;     /**< [vectors], workspace */
@@ -70,12 +70,8 @@ void hd_spectrum_clear(hd_spectrum *spectrum)
 
 void hd_spectrum_add(hd_spectrum *spectrum, const double *log_stretch, double dt)
 {
-    HD_ASSERT(dt > 0);
-    for (int col = 0; col < spectrum->vectors; col++) {
-        spectrum->sum[col] += log_stretch[col];
-        spectrum->sample_sum[col] += log_stretch[col];
-    }
-    spectrum->time += dt;
+    HD_ASSERT(dt >= 0);
+    for (int col = 0; col < spectrum->vectors; col++) spectrum->sample_sum[col] += log_stretch[col];
     spectrum->sample_time += dt;
 }
 
@@ -84,9 +80,11 @@ void hd_spectrum_sample(hd_spectrum *spectrum)
     HD_ASSERT(spectrum->sample_time > 0);
     hd_blocks_add(&spectrum->blocks, spectrum->sample_sum, spectrum->sample_time);
     for (int col = 0; col < spectrum->vectors; col++) {
+        spectrum->sum[col] += spectrum->sample_sum[col];
         spectrum->local_sum[col] += spectrum->sample_sum[col];
         spectrum->sample_sum[col] = 0.0;
     }
+    spectrum->time += spectrum->sample_time;
     spectrum->local_time += spectrum->sample_time;
     spectrum->sample_time = 0.0;
 }
@@ -98,6 +96,7 @@ void hd_spectrum_local_restart(hd_spectrum *spectrum)
 }
 
 double hd_spectrum_time(const hd_spectrum *spectrum) { return spectrum->time; }
+double hd_spectrum_sample_time(const hd_spectrum *spectrum) { return spectrum->sample_time; }
 
 double hd_spectrum_exponent(const hd_spectrum *spectrum, int col)
 {

@@ -6,13 +6,14 @@
 #include "hdlyap/parameters.h"
 #include "run/run_state.h"
 
+static bool is_averaging(const hd_run *run)
+{
+    return run->schedule.stage == HD_AVERAGING && run->frame;
+}
+
 double hd_run_change_time(const hd_run *run)
 {
-    switch (run->schedule.stage) {
-    case HD_FINISHED: return hd_run_time(run);
-    case HD_AVERAGING: return hd_schedule_sample_end(&run->schedule);
-    default: return hd_schedule_cut(&run->schedule);
-    }
+    return is_averaging(run) ? fmax(hd_run_time(run), run->interval_end) : hd_run_time(run);
 }
 
 /** Of a run that does not stand at its end: until it holds, time goes on. */
@@ -38,6 +39,7 @@ hd_status hd_run_change(hd_run *run, const hd_parameter *row, double value, char
     HD_TRY(check_duration(run, asked.duration, message, size));
     run->scene = asked;
     run->in_force.changing = true;
+    run->sample.ends |= is_averaging(run);
     return HD_OK;
 }
 
@@ -46,5 +48,6 @@ void hd_run_fields_every(hd_run *run, double interval)
     run->field_interval = interval;
     if (!run->fields_said) run->in_force.field_interval = interval;
     run->in_force.changing |= run->fields_said;
+    run->sample.ends |= run->fields_said && is_averaging(run);
     run->fields_said = true;
 }

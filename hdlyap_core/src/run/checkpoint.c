@@ -72,13 +72,18 @@ static void plan_archive(hd_advance_plan *plan, hd_archive *archive)
 
 static void numbers_archive(hd_run *run, hd_archive *archive)
 {
-    int observe = (int)run->observe, reported = run->due.report, limit = (int)run->sample_limit;
+    int observe = (int)run->observe, reported = run->due.report, ends = run->sample.ends,
+        whole = run->whole;
     hd_archive_int(archive, "run observe", &observe, 0, (int)run->scene.observe);
     run->observe = (unsigned)observe & run->scene.observe;
     hd_archive_int(archive, "run reported", &reported, 0, 1);
     run->due.report = reported;
-    hd_archive_int(archive, "run sample limit", &limit, HD_LIMIT_SCHEDULE, HD_LIMIT_NONE);
-    run->sample_limit = (hd_limit)limit;
+    hd_archive_double(archive, "run sample begin", &run->sample.begin);
+    hd_archive_int(archive, "run sample ends", &ends, 0, 1);
+    run->sample.ends = ends;
+    hd_archive_int(archive, "run whole", &whole, 0, 1);
+    run->whole = whole;
+    hd_archive_double(archive, "run followed", &run->followed);
     hd_archive_double(archive, "run interval end", &run->interval_end);
     hd_archive_double(archive, "run advance longest", &run->advance.longest);
     plan_archive(&run->advance.plan, archive);
@@ -129,7 +134,9 @@ static void times_expect(const hd_run *run, hd_archive *archive)
     hd_archive_expect(archive, s->start >= 0 && s->start <= s->origin && s->origin <= now && ahead,
                       "schedule", "it does not go on from this time");
     const bool pending = run->log && run->log->duration > 0;
-    const double end = fmax(now, s->stage == HD_FINISHED ? now : hd_schedule_sample_end(s));
+    const double end = fmax(now, s->stage == HD_FINISHED ? now : hd_schedule_stage_end(s));
+    hd_archive_expect(archive, run->sample.begin <= now && run->followed <= now, "run sample begin",
+                      "it does not fit the time");
     hd_archive_expect(archive, run->interval_end <= end && (!pending || run->interval_end >= now),
                       "run interval end", "it does not fit the time");
     hd_archive_expect(archive, !run->log || (run->log->duration >= 0 && run->log->duration <= now),

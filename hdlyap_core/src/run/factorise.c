@@ -14,11 +14,16 @@
 static const double DEFECT_LOOSE = 1e-4;
 /** The same where somebody does. */
 static const double DEFECT_MEASURED = 1e-6;
+/** Of a frame that is orthonormal in the norm of dq, at most: few collisions are that sharp. */
+static const double CONDITION_COMPLETE = 1e12;
 /** Part of an interval's share of the accuracy that its square may be, as it too bounds a mean. */
 static const double DEFECT_SHARE = 0.1;
 /** Of an interval, beyond which dividing costs more than it saves [T6]; and beyond which what even
  * reflections cannot factor is given up. */
 enum { PIECES_MAX = 8, PIECES_LAST = 512 };
+/** Vectors from which on the norm of dq is worth while; and orthonormalisations after which the
+ * vectors of a random start have dq halves as independent as the vectors themselves. */
+enum { HALVES_MANY = 64, HALVES_ALIGNED = 8 };
 
 hd_status hd_run_replay(hd_run *run, double t_begin, double t_end)
 {
@@ -36,14 +41,21 @@ static double shortest_piece(const hd_run *run)
     return fmin(run->log->duration / PIECES_MAX, run->sample_max / HD_COLLISIONS_PER_SAMPLE);
 }
 
+hd_norm hd_run_norm(const hd_run *run, bool measured)
+{
+    const int positive = (4 * run->scene.disks - hd_scene_zero_exponents(&run->scene)) / 2;
+    const bool many = run->vectors >= HALVES_MANY && run->vectors <= positive;
+    const bool aligned = run->cost.orthonormalisations >= HALVES_ALIGNED;
+    return !many || !aligned || measured || hd_run_is_windowing(run) ? HD_NORM_FULL : HD_NORM_DQ;
+}
+
 /** Carries the frame from t_begin to t_end of the log and orthonormalises it. */
-static hd_status frame_piece(hd_run *run, double t_begin, double t_end, double defect)
+static hd_status frame_piece(hd_run *run, double t_begin, double t_end, hd_ortho_limits limits)
 {
     const double start = hd_clock_now(), length = t_end - t_begin;
     HD_TRY(hd_run_replay(run, t_begin, t_end));
     const double replayed = hd_clock_now();
-    const double allowed = hd_interval_piece_max(&run->interval, length, run->log->duration);
-    const hd_ortho_limits limits = {allowed, defect};
+    limits.condition = hd_interval_piece_max(&run->interval, length, run->log->duration);
     const hd_status status = length > shortest_piece(run)
                                  ? hd_ortho_step(run->ortho, run->frame, limits)
                                  : hd_ortho_step_stable(run->ortho, run->frame,
@@ -58,21 +70,22 @@ void hd_run_save_accuracy(hd_run *run)
 {
     const bool averaging = run->spectrum && run->schedule.stage == HD_AVERAGING;
     const double used = HD_ENLARGED * run->rounding.sum / run->scene.accuracy;
-    run->interval.saved = averaging ? hd_spectrum_time(run->spectrum) - used : INFINITY;
+    run->interval.saved = averaging ? hd_run_averaged(run) - used : INFINITY;
 }
 
 /** What an accepted orthonormalisation says about spectrum, interval and cost. */
-static void piece_accepted(hd_run *run, double length)
+static void piece_accepted(hd_run *run, double length, hd_norm norm)
 {
     const double start = hd_clock_now();
     const double *stretch = hd_ortho_log_stretch(run->ortho);
     const double condition = hd_ortho_condition(run->ortho);
     double most = 0.0;
     for (int col = 0; col < run->vectors; col++) most = fmax(most, fabs(stretch[col]));
-    hd_interval_learn(&run->interval, length, condition, most);
+    run->interval.norm = norm;
+    if (length > 0) hd_interval_learn(&run->interval, length, condition, most);
     if (run->schedule.stage == HD_AVERAGING) hd_spectrum_add(run->spectrum, stretch, length);
     hd_cost *cost = &run->cost;
-    cost->interval = length;
+    if (length > 0) cost->interval = length;
     cost->condition = condition;
     cost->defect = hd_ortho_defect(run->ortho);
     run->rounding.condition_max = fmax(run->rounding.condition_max, condition);
@@ -95,14 +108,13 @@ bool hd_run_is_windowing(const hd_run *run)
            run->schedule.stage == HD_AVERAGING;
 }
 
-/** What the next intervals are expected to be: equal shares of a sample, or of a report that needs
- * all vectors. */
+/** What the next intervals are expected to be: a report that needs all vectors ends one. */
 static double expected_interval(const hd_run *run)
 {
     const bool at_reports = run->observe & (HD_OBSERVE_HYDRO | HD_OBSERVE_FIELDS);
-    const double sample = run->schedule.sample_length;
-    const double left = at_reports ? fmin(sample, run->schedule.report_interval) : sample;
-    return hd_interval_next(&run->interval, left).length;
+    const double sample = hd_run_sample_longest(run);
+    const double most = at_reports ? fmin(sample, run->schedule.report_interval) : sample;
+    return fmin(hd_interval_longest(&run->interval).length, most);
 }
 
 /** Before its first orthonormalisation. */
@@ -126,20 +138,41 @@ static hd_status window_ends(hd_run *run)
     return hd_windows_end(&run->windows, hd_frame_columns(run->frame), run->advance.trajectory);
 }
 
-hd_status hd_run_factorise(hd_run *run)
+/** The frame is orthonormal in the norm of dq: in the whole norm, too, at the same time. */
+static hd_status complete(hd_run *run)
+{
+    const double start = hd_clock_now();
+    const hd_ortho_limits limits = {.condition = CONDITION_COMPLETE, .defect = DEFECT_MEASURED};
+    if (run->whole) return HD_OK;
+    HD_TRY(hd_ortho_step(run->ortho, run->frame, limits));
+    run->cost.ortho += hd_clock_now() - start;
+    run->whole = true;
+    piece_accepted(run, 0.0, HD_NORM_FULL);
+    return HD_OK;
+}
+
+/** Of the frame after `duration`, in that norm; the condition is set for each piece. */
+static hd_ortho_limits limits_of(const hd_run *run, double duration, hd_norm norm)
+{
+    const bool looked_at = hd_run_is_observing(run) || hd_run_is_windowing(run);
+    const double defect = looked_at && norm == HD_NORM_FULL ? DEFECT_MEASURED : DEFECT_LOOSE;
+    return (hd_ortho_limits){
+        .defect = fmin(defect, sqrt(DEFECT_SHARE * run->scene.accuracy * duration)), .norm = norm};
+}
+
+static hd_status factorise_log(hd_run *run, bool measured)
 {
     const double duration = run->log->duration;
-    const bool looked_at = hd_run_is_observing(run) || hd_run_is_windowing(run);
-    const double defect = fmin(looked_at ? DEFECT_MEASURED : DEFECT_LOOSE,
-                               sqrt(DEFECT_SHARE * run->scene.accuracy * duration));
     double begin = 0.0, end = duration;
     HD_TRY(window_starts(run));
     while (begin < duration) {
         const double piece = end - begin;
-        const hd_status status = frame_piece(run, begin, end, defect);
+        const hd_norm norm = hd_run_norm(run, measured && end >= duration);
+        const hd_status status = frame_piece(run, begin, end, limits_of(run, duration, norm));
         if (status != HD_OK && status != HD_ILL_CONDITIONED) return status;
         if (status == HD_OK) {
-            piece_accepted(run, piece);
+            piece_accepted(run, piece, norm);
+            run->whole = norm == HD_NORM_FULL;
             HD_TRY(window_adds(run, begin, end));
             begin = end;
             end = duration - end < 1.5 * piece ? duration
@@ -149,6 +182,7 @@ hd_status hd_run_factorise(hd_run *run)
         if (piece <= duration / PIECES_LAST) return HD_ILL_CONDITIONED;
         run->cost.repairs += piece >= duration;
         run->cost.limit = HD_LIMIT_REPAIR;
+        run->interval.norm = norm;
         hd_interval_failed(&run->interval, piece);
         hd_frame_rewind(run->frame);
         end = begin + 0.5 * piece;
@@ -156,4 +190,10 @@ hd_status hd_run_factorise(hd_run *run)
     hd_event_log_clear(run->log);
     run->interval_end = run->advance.plan.end = hd_run_time(run);
     return window_ends(run);
+}
+
+hd_status hd_run_factorise(hd_run *run, bool measured)
+{
+    if (run->log->duration > 0) return factorise_log(run, measured);
+    return measured ? complete(run) : HD_OK;
 }

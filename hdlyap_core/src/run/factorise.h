@@ -18,9 +18,12 @@ bool hd_run_is_windowing(const hd_run *run);
 /** Carries the frame from t_begin to t_end of the log. Fails as hd_frame_replay. */
 HD_MUST_CHECK hd_status hd_run_replay(hd_run *run, double t_begin, double t_end);
 
-/** Carries the frame through the whole log and orthonormalises it: now. HD_ILL_CONDITIONED if no
- * piece is short enough. */
-HD_MUST_CHECK hd_status hd_run_factorise(hd_run *run);
+/** The norm in which the frame is orthonormalised; measured: somebody wants the vectors. */
+hd_norm hd_run_norm(const hd_run *run, bool measured);
+
+/** Carries the frame through the whole log and orthonormalises it: now, in the norm of hd_run_norm.
+ * HD_ILL_CONDITIONED if no piece is short enough. */
+HD_MUST_CHECK hd_status hd_run_factorise(hd_run *run, bool measured);
 
 /** Tells the interval how much of the accuracy the averaging has not used up: at its start, and
  * after each orthonormalisation. */

@@ -21,17 +21,18 @@ const hd_steps *hd_run_steps(const hd_run *run) { return run->observer.steps; }
 const hd_phases *hd_run_phases(const hd_run *run) { return run->observer.phases; }
 const hd_covariant *hd_run_covariant(const hd_run *run) { return run->windows.covariant; }
 
+double hd_run_followed(const hd_run *run) { return run->followed; }
 hd_columns hd_run_columns(const hd_run *run) { return run->observer.known; }
-
-int hd_run_samples_per_report(const hd_run *run)
-{
-    const bool followed = run->observe & HD_OBSERVE_PHASES;
-    return followed ? hd_schedule_cuts_per_report(&run->schedule) : 1;
-}
 
 double hd_run_smallest_error(const hd_run *run)
 {
     return hd_spectrum_error_of_last(run->spectrum, SMALLEST_EXPONENTS);
+}
+
+/** With the sample that has begun. */
+double hd_run_averaged(const hd_run *run)
+{
+    return hd_spectrum_time(run->spectrum) + hd_spectrum_sample_time(run->spectrum);
 }
 
 double hd_run_errors_after(const hd_run *run)
@@ -68,7 +69,7 @@ hd_cost hd_run_cost(const hd_run *run)
     cost.covariant = run->windows.seconds;
     cost.wall = now - run->clocks.created;
     const double averaged = run->schedule.stage >= HD_AVERAGING && run->spectrum
-                                ? hd_spectrum_time(run->spectrum)
+                                ? hd_run_averaged(run)
                                 : 0.0;
     const double rounded = HD_ENLARGED * run->rounding.sum + cost.defect * cost.defect;
     cost.error_bound = averaged > 0 ? rounded / averaged : NAN;

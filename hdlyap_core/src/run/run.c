@@ -1,9 +1,10 @@
 /** Scene -> spectrum, one interval at a time.
  *
- * The schedule says where samples and reports end. The frame goes from one orthonormalisation to
- * the next, as far apart as the conditioning allows; the log of the events since the last one waits
- * until then. A report in between states exponents and modes as of the last one, unless somebody
- * looks at the vectors: then the frame is orthonormalised for it. */
+ * The schedule says where stages and reports end. The frame goes from one orthonormalisation to the
+ * next, as far apart as the conditioning allows; the log of the events since the last one waits
+ * until then. A sample is one or several such intervals. It ends with a measured state: the frame
+ * is orthonormal, and averages, modes and phases take it up. A report in between states them as of
+ * the last one, unless somebody looks at the vectors: then the sample ends with it. */
 #include "hdlyap/run.h"
 
 #include <float.h>
@@ -27,9 +28,10 @@ static const double CONDITION_SLOW = 1e4;
 static const double COLLISIONS_MOST = 60.0;
 /** Collisions of each disk that growth remembers: shorter blocks tell no error. */
 static const double COLLISIONS_PER_BLOCK = 8.0;
-/** A rest that could be longer by less than this factor is an equal share; two lengths within this
- * part are one. */
-static const double DIVIDED = 1.25, ROUGHLY = 1e-3;
+/** A rest that could be longer by less than this factor is an equal share. */
+static const double DIVIDED = 1.25;
+/** Of samples, for standard errors: fewer in an averaging would make them late and rough. */
+static const double SAMPLES_MIN = 32.0;
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
@@ -72,6 +74,7 @@ static hd_status prepare_frame(hd_run *run)
     HD_TRY(hd_ortho_create(&run->ortho, rows, n));
     HD_TRY(prepare_threads(run));
     HD_TRY(hd_spectrum_create(&run->spectrum, rows, n, hd_run_block_least(run)));
+    run->whole = true;
     return create_frame(run);
 }
 
@@ -114,38 +117,21 @@ static void averages_clear(hd_run *run)
     if (run->windows.covariant) hd_windows_clear(&run->windows);
 }
 
-/** Intervals shorter than a collision of each disk, because the warm-up was, have taught nothing
- * yet. */
-static bool interval_is_learnt(const hd_run *run)
-{
-    const double collision = run->sample_max / HD_COLLISIONS_PER_SAMPLE;
-    return run->cost.orthonormalisations > 0 &&
-           run->interval.last >= fmin(collision, run->interval.limit);
-}
-
-/** Longest sample that one orthonormalisation at its end can serve. */
-static hd_interval_length sample_longest(const hd_run *run)
-{
-    const hd_interval_length whole = {run->sample_max, HD_LIMIT_SAMPLE};
-    if (!run->frame || !interval_is_learnt(run)) return whole;
-    const hd_interval_length usual = hd_interval_usual(&run->interval);
-    return usual.length < whole.length ? usual : whole;
-}
-
 static void enter_stage(hd_run *run, hd_stage stage)
 {
-    const hd_interval_length sample = sample_longest(run);
+    const double now = hd_run_time(run);
     run->due.stage_end = false;
-    hd_schedule_enter(&run->schedule, stage, hd_run_time(run), sample.length);
-    run->sample_limit = hd_schedule_sample_limit(&run->schedule, sample.length, sample.limit);
-    run->advance.plan.end = hd_run_time(run);
+    hd_schedule_enter(&run->schedule, stage, now);
+    run->sample = (hd_sample){.begin = now};
+    run->followed = -INFINITY;
+    run->advance.plan.end = now;
     stage = run->schedule.stage;
     if (run->spectrum && stage == HD_AVERAGING) averages_clear(run);
     if (stage == HD_AVERAGING) run->rounding.sum = HD_ROUNDING * run->rounding.condition_max;
     hd_run_save_accuracy(run);
     if (stage == HD_EQUILIBRATING || run->clocks.frame_started != 0) return;
     run->clocks.frame_started = hd_clock_now();
-    run->clocks.frame_start_time = hd_run_time(run);
+    run->clocks.frame_start_time = now;
 }
 
 hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, size_t size)
@@ -190,10 +176,11 @@ static bool target_reached(const hd_run *run)
     return target > 0 && run->spectrum && hd_run_smallest_error(run) <= target;
 }
 
-/** Longest time between two looks at the phases; INFINITY if nobody looks. */
-static double phases_due(const hd_run *run)
+/** Longest time from one look at the phases to the next; INFINITY if nobody looks. */
+static double phases_sampling(const hd_run *run)
 {
-    return run->observe & HD_OBSERVE_PHASES ? hd_phases_sampling(run->observer.steps) : INFINITY;
+    const bool followed = hd_run_is_observing(run) && (run->observe & HD_OBSERVE_PHASES);
+    return followed ? hd_phases_sampling(run->observer.steps) : INFINITY;
 }
 
 /** The modes of an orthonormal frame. */
@@ -208,23 +195,20 @@ static hd_status measure(hd_run *run)
 static void follow_phases(hd_run *run)
 {
     hd_phases_add(run->observer.phases, run->observer.steps, hd_run_time(run));
+    run->followed = hd_run_time(run);
 }
 
 /** Modes, steps and phases of a measured state; what is asked for is enough for each. */
-static hd_status observe(hd_run *run, bool report)
+static hd_status observe(hd_run *run)
 {
     HD_TRY(measure(run));
     const double start = hd_clock_now();
-    if (report) {
-        hd_modes_add(run->observer.modes);
-        hd_steps_find(run->observer.steps, run->spectrum);
-    }
+    hd_modes_add(run->observer.modes);
+    hd_steps_find(run->observer.steps, run->spectrum);
     if (run->observe & HD_OBSERVE_PHASES) follow_phases(run);
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
 }
-
-static void sample_spectrum(hd_run *run) { hd_spectrum_sample(run->spectrum); }
 
 /** True where somebody wants all of the vectors of this very time. */
 static bool vectors_wanted(const hd_run *run)
@@ -232,6 +216,125 @@ static bool vectors_wanted(const hd_run *run)
     const unsigned due = HD_OBSERVE_HYDRO | (run->due.fields ? HD_OBSERVE_FIELDS : 0u);
     return hd_run_is_observing(run) && (run->observe & due);
 }
+
+/** Takes up what has been asked for since. The averaging may end with it. */
+static void take_changes(hd_run *run)
+{
+    const double now = hd_run_time(run);
+    if (!run->in_force.changing) return;
+    run->in_force = (hd_in_force){.target_std_error = run->scene.target_std_error,
+                                  .field_interval = run->field_interval};
+    hd_schedule_change(&run->schedule, &run->scene, now);
+    run->advance.plan.end = fmin(run->advance.plan.end, hd_schedule_cut(&run->schedule));
+    if (run->schedule.stage == HD_AVERAGING && hd_schedule_is_over(&run->schedule, now))
+        run->due.report = run->due.fields = run->due.stage_end = true;
+}
+
+/* ---- from one orthonormalisation to the next ----------------------------------------------- */
+
+/** True where a sample has ended. */
+static bool is_measured(const hd_run *run) { return hd_run_time(run) == run->sample.begin; }
+
+/** Number of slowest vectors that a watcher wants now. */
+static int watched(const hd_run *run)
+{
+    return hd_run_is_observing(run) && run->watch.first < run->vectors
+               ? run->vectors - run->watch.first
+               : 0;
+}
+
+/** Ends the interval here, and with it the sample: the frame becomes orthonormal in the whole norm.
+ */
+static hd_status end_sample(hd_run *run)
+{
+    HD_TRY(hd_run_factorise(run, true));
+    run->sample = (hd_sample){.begin = hd_run_time(run)};
+    if (run->schedule.stage != HD_AVERAGING) return HD_OK;
+    hd_spectrum_sample(run->spectrum);
+    return hd_run_is_observing(run) ? observe(run) : HD_OK;
+}
+
+/** The sample also ends if that alone makes known what a watcher wants. */
+static hd_status end_interval(hd_run *run)
+{
+    const bool shown = hd_observer_reaches(&run->observer, watched(run));
+    return run->sample.ends || !shown ? end_sample(run) : hd_run_factorise(run, false);
+}
+
+static hd_status end_early(hd_run *run)
+{
+    run->cost.limit = HD_LIMIT_LOOK;
+    return end_sample(run);
+}
+
+double hd_run_sample_longest(const hd_run *run)
+{
+    const hd_schedule *s = &run->schedule;
+    if (s->stage != HD_AVERAGING) return INFINITY;
+    return fmin(run->sample_max, s->length[HD_AVERAGING] / SAMPLES_MIN);
+}
+
+/** The next time at which all vectors must be known: the end of the stage, or a report for which
+ * somebody wants them; the first one has something to say, too. */
+static double next_stop(const hd_run *run)
+{
+    const hd_schedule *s = &run->schedule;
+    const bool averaging = s->stage == HD_AVERAGING, observing = hd_run_is_observing(run);
+    double stop = hd_schedule_stage_end(s);
+    if (averaging && hd_spectrum_time(run->spectrum) == 0) stop = hd_schedule_cut(s);
+    if (observing && (run->observe & HD_OBSERVE_HYDRO)) stop = hd_schedule_cut(s);
+    if (observing && (run->observe & HD_OBSERVE_FIELDS))
+        stop = fmin(stop, hd_schedule_next_multiple(s, run->in_force.field_interval));
+    return stop;
+}
+
+/** The next interval, up to `left` long; why not longer. */
+static hd_interval_length next_interval(const hd_run *run, double left)
+{
+    const double sample = hd_run_sample_longest(run), most = hd_advance_longest(&run->advance);
+    hd_interval_length next = hd_interval_next(&run->interval, left);
+    if (next.length > sample) next = (hd_interval_length){sample, HD_LIMIT_SAMPLE};
+    if (next.length > most) next = (hd_interval_length){left / ceil(left / most), HD_LIMIT_EVENTS};
+    next.length = fmax(next.length, hd_advance_shortest(&run->advance));
+    return next;
+}
+
+/** True if the sample should end with an interval of this length: no other end would come closer to
+ * what it should be, or the phases cannot wait. */
+static bool is_last(const hd_run *run, double length)
+{
+    const double gone = hd_run_time(run) + length - run->sample.begin;
+    return gone + 0.5 * length >= hd_run_sample_longest(run) ||
+           gone + length > phases_sampling(run);
+}
+
+/** Why an interval that takes all of what is left is no longer. */
+static hd_limit limit_of_rest(const hd_run *run, double left)
+{
+    const hd_interval_length longest = hd_interval_longest(&run->interval);
+    if (longest.length < DIVIDED * left) return longest.limit;
+    return hd_run_time(run) + left < hd_schedule_stage_end(&run->schedule) ? HD_LIMIT_SCHEDULE
+                                                                           : HD_LIMIT_STAGE;
+}
+
+/** Where the next orthonormalisation falls, and whether the sample ends there. Between two samples
+ * the norm of dq will do [T5]. */
+static void plan_interval(hd_run *run)
+{
+    const double now = hd_run_time(run), stop = next_stop(run), left = stop - now;
+    run->interval.norm = hd_run_norm(run, false);
+    hd_interval_length next = next_interval(run, left);
+    run->sample.ends = next.length >= left || is_last(run, next.length);
+    if (run->sample.ends) {
+        run->interval.norm = HD_NORM_FULL;
+        next = next_interval(run, left);
+    }
+    run->interval_end = next.length >= left ? stop
+                                            : hd_schedule_snap(&run->schedule, now, next.length);
+    run->cost.limit = next.limit == HD_LIMIT_SCHEDULE ? limit_of_rest(run, left) : next.limit;
+}
+
+/* ---- in the middle of an interval ---------------------------------------------------------- */
 
 /** True if a look will do for `count` vectors at this time. */
 static bool look_suffices(const hd_run *run, int count)
@@ -255,12 +358,6 @@ static hd_status look(hd_run *run, int count)
     return status;
 }
 
-static hd_status end_early(hd_run *run)
-{
-    run->cost.limit = HD_LIMIT_LOOK;
-    return hd_run_factorise(run);
-}
-
 /** The slowest vectors, by a look or else by an early end of the interval. */
 static hd_status find_slowest(hd_run *run, int count)
 {
@@ -268,36 +365,26 @@ static hd_status find_slowest(hd_run *run, int count)
     return status == HD_ILL_CONDITIONED ? end_early(run) : status;
 }
 
-/** Number of slowest vectors that a watcher wants now. */
-static int watched(const hd_run *run)
+/** When the phases must be looked at before the interval ends, as they could not be told apart by
+ * then; in equal shares. INFINITY: not at all, as they are known at its end or begin anew there. */
+static double look_due(const hd_run *run)
 {
-    return hd_run_is_observing(run) && run->watch.first < run->vectors
-               ? run->vectors - run->watch.first
-               : 0;
+    const double sampling = phases_sampling(run), since = run->followed;
+    const double left = run->interval_end - since;
+    if (left <= sampling || since + sampling <= hd_run_time(run)) return INFINITY;
+    return since + left / ceil(left / sampling);
 }
 
-/** In the middle of an interval: what is wanted there. What a look cannot give, an early end does;
- * the first report has something to say that way. */
-static hd_status look_or_end(hd_run *run)
+/** The slowest vectors, if they are wanted and not known. */
+static hd_status look_around(hd_run *run, bool at_phases)
 {
-    const bool averaging = run->schedule.stage == HD_AVERAGING;
-    if (vectors_wanted(run) || (averaging && hd_spectrum_time(run->spectrum) == 0))
-        return end_early(run);
-    const bool follows = hd_run_is_observing(run) && (run->observe & HD_OBSERVE_PHASES);
-    const int count = follows ? hd_phases_vectors(run->observer.steps) : 0;
-    const int most = count > watched(run) ? count : watched(run);
-    if (most == 0) return HD_OK;
+    const int phases = at_phases ? hd_phases_vectors(run->observer.steps) : 0;
+    const int most = phases > watched(run) ? phases : watched(run);
+    if (most == 0 || run->observer.known.count > 0) return HD_OK;
+    if (is_measured(run)) return measure(run);
     HD_TRY(find_slowest(run, most));
-    if (count > 0 && hd_run_time(run) < run->interval_end) follow_phases(run);
+    if (phases > 0 && !is_measured(run)) follow_phases(run);
     return HD_OK;
-}
-
-/** Between two cuts: what a watcher wants. */
-static hd_status show(hd_run *run)
-{
-    if (watched(run) == 0) return HD_OK;
-    if (hd_run_time(run) < run->interval_end) HD_TRY(find_slowest(run, watched(run)));
-    return hd_run_time(run) == run->interval_end ? measure(run) : HD_OK;
 }
 
 /* ---- from one cut to the next -------------------------------------------------------------- */
@@ -325,72 +412,19 @@ static hd_status go_back(hd_run *run, bool to_its_end)
 
 hd_status hd_run_settle(hd_run *run) { return go_back(run, true); }
 
-/** At a cut: takes up what has been asked for since, between two samples so that none is of both.
- * Returns what ends there now. */
-static unsigned take_changes(hd_run *run, unsigned ends)
-{
-    const bool averaging = run->schedule.stage == HD_AVERAGING;
-    if (!run->in_force.changing || (averaging && !(ends & HD_ENDS_SAMPLE))) return ends;
-    run->in_force = (hd_in_force){.target_std_error = run->scene.target_std_error,
-                                  .field_interval = run->field_interval};
-    const hd_interval_length sample = sample_longest(run);
-    if (hd_schedule_change(&run->schedule, &run->scene, hd_run_time(run), sample.length,
-                           phases_due(run)))
-        run->sample_limit = hd_schedule_sample_limit(&run->schedule, sample.length, sample.limit);
-    if (!hd_schedule_is_over(&run->schedule, hd_run_time(run)))
-        return ends & ~(unsigned)HD_ENDS_STAGE;
-    run->due.fields = averaging;
-    return ends | HD_ENDS_STAGE | HD_ENDS_REPORT;
-}
-
-/** At the end of a piece: what is measured there, and what ends. */
+/** At a cut a report is due. */
 static hd_status take_cut(hd_run *run)
 {
-    const bool averaging = run->schedule.stage == HD_AVERAGING,
-               measuring = hd_run_is_observing(run);
-    run->due.fields = averaging &&
-                      hd_schedule_reaches_multiple(&run->schedule, run->in_force.field_interval);
-    if (run->frame && hd_run_time(run) < run->interval_end) HD_TRY(look_or_end(run));
-    const bool factored = run->frame && hd_run_time(run) == run->interval_end;
-    const unsigned ends = take_changes(run, hd_schedule_pass(&run->schedule, phases_due(run)));
-    run->due.report = ends & HD_ENDS_REPORT;
-    if (averaging && run->spectrum && (ends & HD_ENDS_WHOLE_SAMPLE)) sample_spectrum(run);
-    if (measuring && factored) HD_TRY(observe(run, run->due.report));
-    const bool reached = averaging && run->due.report && factored && target_reached(run);
-    run->due.fields |= reached;
-    run->due.stage_end = ends & HD_ENDS_STAGE || reached;
-    leave_stage(run);
-    return HD_OK;
-}
-
-/** Why an interval that ends with a sample is no longer than `left`. What is left of a sample that
- * was divided, or of a stage, is short because of what divided it if that would not allow much
- * more; of one that was cut, because vectors were wanted. */
-static hd_limit limit_of_rest(const hd_run *run, double left)
-{
-    const hd_schedule *s = &run->schedule;
-    const bool averaging = s->stage == HD_AVERAGING;
-    const bool last = hd_schedule_sample_end(s) >= hd_schedule_stage_end(s);
-    const double whole = (1.0 - ROUGHLY) * s->sample_length;
-    const hd_interval_length longest = hd_interval_longest(&run->interval);
-    if (averaging && left >= whole) return run->sample_limit;
-    if (hd_advance_longest(&run->advance) < DIVIDED * left) return HD_LIMIT_EVENTS;
-    if (longest.length < DIVIDED * left) return longest.limit;
-    return !averaging || last ? HD_LIMIT_STAGE : HD_LIMIT_LOOK;
-}
-
-/** Where the next orthonormalisation falls. */
-static void plan_interval(hd_run *run)
-{
-    const double end = hd_schedule_sample_end(&run->schedule), left = end - hd_run_time(run);
-    const double most = hd_advance_longest(&run->advance);
-    hd_interval_length next = hd_interval_next(&run->interval, left);
-    if (next.length > most) next = (hd_interval_length){left / ceil(left / most), HD_LIMIT_EVENTS};
-    next.length = fmax(next.length, hd_advance_shortest(&run->advance));
-    run->interval_end = next.length >= left
-                            ? end
-                            : hd_schedule_snap(&run->schedule, hd_run_time(run), next.length);
-    run->cost.limit = next.limit == HD_LIMIT_SCHEDULE ? limit_of_rest(run, left) : next.limit;
+    const bool averaging = run->schedule.stage == HD_AVERAGING;
+    const bool reached = averaging && target_reached(run);
+    const double multiple = hd_schedule_next_multiple(&run->schedule, run->in_force.field_interval);
+    run->due.report = true;
+    run->due.fields = averaging && (reached || multiple <= hd_schedule_cut(&run->schedule));
+    run->due.stage_end = hd_schedule_pass(&run->schedule) & HD_ENDS_STAGE || reached;
+    const bool first = averaging && run->spectrum && hd_spectrum_time(run->spectrum) == 0;
+    const bool ends = run->due.stage_end || first || vectors_wanted(run);
+    const bool carried = run->frame && run->schedule.stage != HD_EQUILIBRATING;
+    return carried && ends && !is_measured(run) ? end_early(run) : HD_OK;
 }
 
 /** Moves the disks on, as far as a watcher lets them. */
@@ -404,6 +438,39 @@ static hd_status advance(hd_run *run, hd_event_log *log)
     return HD_OK;
 }
 
+/** The disks alone, up to a report. */
+static hd_status advance_disks(hd_run *run)
+{
+    take_changes(run);
+    if (run->due.stage_end) return go_back(run, false);
+    const double cut = hd_schedule_cut(&run->schedule);
+    if (hd_advance_is_done(&run->advance)) hd_advance_make_plan(&run->advance, cut);
+    HD_TRY(advance(run, NULL));
+    if (hd_run_time(run) >= cut) HD_TRY(take_cut(run));
+    leave_stage(run);
+    return HD_OK;
+}
+
+/** Disks and frame, up to the first of a report, the end of an interval, and a look. */
+static hd_status advance_frame(hd_run *run)
+{
+    const bool averaging = run->schedule.stage == HD_AVERAGING;
+    if (!averaging || hd_run_time(run) >= run->interval_end) take_changes(run);
+    if (run->due.stage_end) return go_back(run, false);
+    if (hd_run_time(run) >= run->interval_end) plan_interval(run);
+    const double cut = hd_schedule_cut(&run->schedule), due = look_due(run);
+    if (hd_advance_is_done(&run->advance))
+        hd_advance_make_plan(&run->advance, fmin(fmin(cut, due), run->interval_end));
+    HD_TRY(advance(run, run->log));
+    if (hd_run_time(run) >= run->interval_end) HD_TRY(end_interval(run));
+    if (hd_run_time(run) >= cut) HD_TRY(take_cut(run));
+    HD_TRY(look_around(run, hd_run_time(run) >= due));
+    if (averaging && is_measured(run)) take_changes(run);
+    if (!run->due.stage_end && hd_run_time(run) >= run->interval_end) plan_interval(run);
+    leave_stage(run);
+    return HD_OK;
+}
+
 hd_status hd_run_advance(hd_run *run)
 {
     const bool told = run->due.report && run->schedule.stage == HD_AVERAGING;
@@ -414,13 +481,7 @@ hd_status hd_run_advance(hd_run *run)
     const bool with_frame = run->frame && run->schedule.stage != HD_EQUILIBRATING;
     if (with_frame) hd_blas_use_threads(run->threads); /* with OpenMP: of the calling thread */
     if (is_going_back(run) || run->due.stage_end) return go_back(run, false);
-    const double cut = hd_schedule_cut(&run->schedule);
-    if (with_frame && hd_run_time(run) >= run->interval_end) plan_interval(run);
-    if (hd_advance_is_done(&run->advance))
-        hd_advance_make_plan(&run->advance, with_frame ? fmin(cut, run->interval_end) : cut);
-    HD_TRY(advance(run, with_frame ? run->log : NULL));
-    if (with_frame && hd_run_time(run) >= run->interval_end) HD_TRY(hd_run_factorise(run));
-    return hd_run_time(run) >= cut ? take_cut(run) : show(run);
+    return with_frame ? advance_frame(run) : advance_disks(run);
 }
 
 void hd_run_observe(hd_run *run, unsigned stages)
@@ -436,7 +497,7 @@ hd_status hd_run_reset_average(hd_run *run)
 {
     if (run->schedule.stage != HD_AVERAGING) return HD_OK;
     if (run->frame) hd_blas_use_threads(run->threads);
-    if (run->frame && hd_run_time(run) < run->interval_end) HD_TRY(hd_run_factorise(run));
+    if (run->frame) HD_TRY(hd_run_factorise(run, true));
     enter_stage(run, HD_AVERAGING);
     return HD_OK;
 }

@@ -42,6 +42,12 @@ typedef struct hd_in_force {
     bool changing; /**< something else has been asked for */
 } hd_in_force;
 
+/** One or several intervals, from one measured state to the next. */
+typedef struct hd_sample {
+    double begin; /**< simulated time */
+    bool ends;    /**< with the interval under way */
+} hd_sample;
+
 struct hd_run {
     hd_scene_def scene;
     int vectors, threads, threads_denied;
@@ -55,10 +61,12 @@ struct hd_run {
     hd_windows windows;
     hd_schedule schedule;
     hd_interval interval;
-    double interval_end;   /**< simulated time at which the frame is orthonormalised next */
-    double sample_max;     /**< simulated time of COLLISIONS_PER_SAMPLE */
-    hd_limit sample_limit; /**< why samples of the averaging are no longer */
-    unsigned observe;      /**< set of HD_OBSERVE_* that is needed now */
+    double interval_end; /**< simulated time at which the frame is orthonormalised next */
+    double sample_max;   /**< simulated time of HD_COLLISIONS_PER_SAMPLE */
+    hd_sample sample;
+    bool whole; /**< the frame was orthonormalised in the whole norm, not in that of dq alone */
+    double followed;  /**< simulated time at which the phases were known last; -INFINITY: never */
+    unsigned observe; /**< set of HD_OBSERVE_* that is needed now */
     hd_watch watch;
     hd_due due;
     hd_in_force in_force;
@@ -76,6 +84,12 @@ enum { SMALLEST_EXPONENTS = 8 };
 
 /** Ends what a step has begun, so that the run can be kept: half of a way back is none. */
 HD_MUST_CHECK hd_status hd_run_settle(hd_run *run);
+
+/** Averaged time, that of the sample under way included. */
+double hd_run_averaged(const hd_run *run);
+
+/** What a sample should last at most. */
+double hd_run_sample_longest(const hd_run *run);
 
 /** Shortest block of the averages: growth follows the waves of density, too, which need that long
  * through the box [T8]. */

@@ -31,8 +31,15 @@ hd_interval hd_interval_first(double first, double limit, double accuracy)
     return (hd_interval){.limit = limit,
                          .accuracy = accuracy,
                          .last = fmin(first, limit),
-                         .variance = VARIANCE_FIRST,
+                         .growth = {{.variance = VARIANCE_FIRST}, {.variance = VARIANCE_FIRST}},
                          .saved = INFINITY};
+}
+
+/** In a norm that has shown nothing yet it is as in the other. */
+static hd_growth growth_of(const hd_interval *interval, hd_norm norm)
+{
+    const hd_norm other = norm == HD_NORM_FULL ? HD_NORM_DQ : HD_NORM_FULL;
+    return interval->growth[interval->growth[norm].slope > 0 ? norm : other];
 }
 
 /** That uses up the accuracy's share of so many time units. */
@@ -64,10 +71,12 @@ static double follow(double old, double seen) { return fmax(seen, old + FORGET *
 void hd_interval_learn(hd_interval *interval, double length, double condition, double stretch)
 {
     const double seen = log(condition), slope = seen / length;
-    const bool afresh = interval->slope == 0 || length > 1.5 * interval->last;
-    const double off = afresh ? 0.0 : seen - interval->slope * length;
-    interval->slope = afresh ? slope : interval->slope + FORGET * off / length;
-    interval->variance += FORGET * (off * off - interval->variance);
+    hd_growth growth = growth_of(interval, interval->norm);
+    const bool afresh = growth.slope == 0 || length > 1.5 * interval->last;
+    const double off = afresh ? 0.0 : seen - growth.slope * length;
+    growth.slope = afresh ? slope : growth.slope + FORGET * off / length;
+    growth.variance += FORGET * (off * off - growth.variance);
+    interval->growth[interval->norm] = growth;
     interval->stretch = follow(interval->stretch, stretch / length);
     interval->last = length;
 }
@@ -75,13 +84,15 @@ void hd_interval_learn(hd_interval *interval, double length, double condition, d
 /** As if it had been seen at the maximum. */
 void hd_interval_failed(hd_interval *interval, double length)
 {
-    const double off = log(hd_interval_condition_max(interval, length)) - interval->slope * length;
-    if (off > 0) interval->slope += FORGET * off / length;
+    hd_growth growth = growth_of(interval, interval->norm);
+    const double off = log(hd_interval_condition_max(interval, length)) - growth.slope * length;
+    if (off > 0) growth.slope += FORGET * off / length;
+    interval->growth[interval->norm] = growth;
 }
 
 double hd_interval_condition(const hd_interval *interval, double length)
 {
-    return exp(interval->slope * length);
+    return exp(growth_of(interval, HD_NORM_FULL).slope * length);
 }
 
 static void shorten(hd_interval_length *chosen, double length, hd_limit limit)
@@ -89,37 +100,17 @@ static void shorten(hd_interval_length *chosen, double length, hd_limit limit)
     if (length < chosen->length) *chosen = (hd_interval_length){length, limit};
 }
 
-/** Mean of ln(condition) with which few intervals exceed a condition. */
-static double aim_below(const hd_interval *interval, double condition)
-{
-    return log(condition) - fmax(MARGIN * sqrt(interval->variance), HEADROOM_MIN);
-}
-
-/** Longest interval with this mean of ln(condition), and what else limits it. */
-static hd_interval_length within(const hd_interval *interval, double aim)
-{
-    hd_interval_length chosen = {GROW_MAX * interval->last, HD_LIMIT_GROWTH};
-    shorten(&chosen, interval->limit, HD_LIMIT_SCENE);
-    if (interval->slope > 0)
-        shorten(&chosen, fmax(aim, AIM_MIN) / interval->slope, HD_LIMIT_CONDITION);
-    if (interval->stretch > 0) shorten(&chosen, STRETCH_MAX / interval->stretch, HD_LIMIT_OVERFLOW);
-    return chosen;
-}
-
+/** Longest interval of which few exceed the condition that is allowed, and what else limits it. */
 hd_interval_length hd_interval_longest(const hd_interval *interval)
 {
-    const double most = hd_interval_condition_max(interval, interval->last);
-    return within(interval, aim_below(interval, most));
-}
-
-/** The mean of a condition that scatters like a lognormal variable is exp(variance / 2) above its
- * median. */
-hd_interval_length hd_interval_usual(const hd_interval *interval)
-{
-    const double share = log(condition_of(interval, interval->last)),
-                 most = condition_of(interval, SHARES_MAX * interval->last);
-    const double aim = fmin(share - 0.5 * interval->variance, aim_below(interval, most));
-    return within(interval, STRAIN * aim);
+    const hd_growth growth = growth_of(interval, interval->norm);
+    const double most = log(hd_interval_condition_max(interval, interval->last));
+    const double aim = most - fmax(MARGIN * sqrt(growth.variance), HEADROOM_MIN);
+    hd_interval_length chosen = {GROW_MAX * interval->last, HD_LIMIT_GROWTH};
+    shorten(&chosen, interval->limit, HD_LIMIT_SCENE);
+    if (growth.slope > 0) shorten(&chosen, fmax(aim, AIM_MIN) / growth.slope, HD_LIMIT_CONDITION);
+    if (interval->stretch > 0) shorten(&chosen, STRETCH_MAX / interval->stretch, HD_LIMIT_OVERFLOW);
+    return chosen;
 }
 
 hd_interval_length hd_interval_next(const hd_interval *interval, double remaining)
@@ -127,15 +118,20 @@ hd_interval_length hd_interval_next(const hd_interval *interval, double remainin
     const hd_interval_length longest = hd_interval_longest(interval);
     const double strained = fmin(STRAIN * longest.length, interval->limit);
     if (strained >= remaining) return (hd_interval_length){remaining, HD_LIMIT_SCHEDULE};
+    if (remaining == INFINITY) return longest;
     return (hd_interval_length){remaining / ceil(remaining / longest.length), longest.limit};
 }
 
 void hd_interval_archive(hd_interval *interval, hd_archive *archive)
 {
-    hd_archive_double(archive, "interval slope", &interval->slope);
-    hd_archive_double(archive, "interval variance", &interval->variance);
+    bool learnt = true;
+    for (int norm = 0; norm < 2; norm++) {
+        hd_archive_double(archive, "interval slope", &interval->growth[norm].slope);
+        hd_archive_double(archive, "interval variance", &interval->growth[norm].variance);
+        learnt &= interval->growth[norm].slope >= 0 && interval->growth[norm].variance >= 0;
+    }
     hd_archive_double(archive, "interval stretch", &interval->stretch);
     hd_archive_double(archive, "interval last", &interval->last);
-    const bool learnt = interval->slope >= 0 && interval->variance >= 0 && interval->stretch >= 0;
+    learnt &= interval->stretch >= 0;
     hd_archive_expect(archive, learnt && interval->last > 0, "interval", "it is negative");
 }

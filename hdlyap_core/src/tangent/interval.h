@@ -6,6 +6,7 @@
 #include <float.h>
 
 #include "hdlyap/interval.h"
+#include "hdlyap/ortho.h"
 
 /** The rounding of V enters the sum of one interval's logarithms as at most this times its
  * condition; seen: up to 1.4 eps [T6]. */
@@ -18,14 +19,20 @@
  * interval, once. */
 #define HD_CONDITION_STABLE 1e13
 
+/** Of ln(condition), in one norm. */
+typedef struct hd_growth {
+    double slope;    /**< per time unit, mean of the last ones */
+    double variance; /**< about slope * length, likewise */
+} hd_growth;
+
 /** Adapts to ln(condition) per time unit as it is measured [T6]. */
 typedef struct hd_interval {
-    double limit;    /**< never longer [time units] */
-    double accuracy; /**< of an exponent that rounding may spoil [1/time unit] */
-    double slope;    /**< ln(condition) per time unit, mean of the last ones */
-    double variance; /**< of ln(condition) about slope * length, likewise */
-    double stretch;  /**< largest |ln R_ll| per time unit: rises at once, falls slowly */
-    double last;     /**< last interval measured, or the first guess */
+    double limit;        /**< never longer [time units] */
+    double accuracy;     /**< of an exponent that rounding may spoil [1/time unit] */
+    hd_norm norm;        /**< of the next step, and of what is learnt */
+    hd_growth growth[2]; /**< in each norm */
+    double stretch;      /**< largest |ln R_ll| per time unit: rises at once, falls slowly */
+    double last;         /**< last interval measured, or the first guess */
     /** Averaged time whose share of the accuracy is not used up; negative: used in advance;
      * INFINITY before the averaging */
     double saved;
@@ -48,7 +55,7 @@ void hd_interval_learn(hd_interval *interval, double length, double condition, d
 /** An interval of `length` turned out too long: its condition was not even measured. */
 void hd_interval_failed(hd_interval *interval, double length);
 
-/** Condition to be expected after `length`. */
+/** Condition to be expected after `length`, in the whole norm. */
 double hd_interval_condition(const hd_interval *interval, double length);
 
 typedef struct hd_interval_length {
@@ -58,9 +65,6 @@ typedef struct hd_interval_length {
 
 /** What the conditioning allows the next interval to be. */
 hd_interval_length hd_interval_longest(const hd_interval *interval);
-
-/** What it allows on average: as long as intervals of this length use what they are given. */
-hd_interval_length hd_interval_usual(const hd_interval *interval);
 
 /** The next interval: an equal share of `remaining`, as few shares as the conditioning allows; all
  * of it (HD_LIMIT_SCHEDULE) if it can. */
