@@ -43,7 +43,7 @@ static hd_status frame_piece(hd_run *run, double t_begin, double t_end, double d
     HD_TRY(hd_run_replay(run, t_begin, t_end));
     const double replayed = hd_clock_now();
     const double allowed = hd_interval_piece_max(&run->interval, length, run->log->duration);
-    const hd_ortho_limits limits = {allowed, defect};
+    const hd_ortho_limits limits = {allowed, defect, HD_NORM_FULL};
     const hd_status status = length > shortest_piece(run)
                                  ? hd_ortho_step(run->ortho, run->frame, limits)
                                  : hd_ortho_step_stable(run->ortho, run->frame,
