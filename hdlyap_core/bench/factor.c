@@ -134,7 +134,7 @@ static hd_status step_ours(factor *f, hd_frame *frame, double interval, int last
 {
     const hd_interval loosest = {.accuracy = 1.0, .last = interval};
     const hd_ortho_limits limits = {hd_interval_condition_max(&loosest, interval),
-                                    last ? DBL_EPSILON : DEFECT_LOOSE};
+                                    last ? DBL_EPSILON : DEFECT_LOOSE, HD_NORM_FULL};
     HD_TRY(hd_ortho_step(f->ortho, frame, limits));
     for (int l = 0; l < f->n; l++) f->log_stretch[l] = hd_ortho_log_stretch(f->ortho)[l];
     return HD_OK;

@@ -14,23 +14,27 @@ typedef struct hd_ortho hd_ortho;
 HD_MUST_CHECK hd_status hd_ortho_create(hd_ortho **out, int rows, int vectors);
 void hd_ortho_free(hd_ortho *ortho);
 
-typedef enum hd_norm { HD_NORM_FULL, HD_NORM_DQ } hd_norm;
+/** In which the vectors become orthonormal: of all rows, or of their dq halves, which at most 2N
+ * vectors can be. Sums of ln R between two states that are orthonormal in the full norm do not
+ * depend on the norms in between [T5]. */
+typedef enum hd_norm { HD_NORM_FULL = 0, HD_NORM_DQ } hd_norm;
 
 /** What a step may accept. */
 typedef struct hd_ortho_limits {
     double condition; /**< largest hd_ortho_condition, > 1 */
     double defect;    /**< above this predicted loss of orthogonality a second pass is made, > 0 */
-    hd_norm norm;
+    hd_norm norm;     /**< of lengths, condition, defect */
 } hd_ortho_limits;
 
 /** Replaces the frame's vectors by Q; ln diag R is then in hd_ortho_log_stretch. Spans and the sum
  * of logarithms are right to rounding whatever the defect of Q: it cancels with the next step's
  * [T5]. HD_ILL_CONDITIONED (frame's contents undefined: rewind it) when the condition is above the
  * limit, the Gram matrix of a panel is numerically not positive definite, or an entry overflowed.
- * Cost per pass: 2 m n^2 flops for m rows and n vectors, nearly all in dgemm. */
+ * Cost per pass: 2 m n^2 flops for m rows and n vectors, in the norm of dq 1.5 m n^2, nearly all in
+ * dgemm. */
 HD_MUST_CHECK hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits);
 
-/** The same by Householder reflections: orthonormal whatever the conditioning, several times
+/** The same by Householder reflections, in the full norm: orthonormal whatever the conditioning, several times
  * slower. For the single event (a grazing collision) that no shorter interval can tame.
  * HD_ILL_CONDITIONED when the condition is above the limit, which may go to 1 / DBL_EPSILON. */
 HD_MUST_CHECK hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame,
@@ -49,12 +53,13 @@ const double *hd_ortho_factor(const hd_ortho *ortho);
  * exponent as about eps * condition / interval [T6] and the orthogonality of Q in proportion to
  * eps * condition [T7]. Of the last step's first pass. */
 double hd_ortho_condition(const hd_ortho *ortho);
-/** Predicted |Q^T Q - 1| after the last step [T7]. */
+/** Predicted |Q^T Q - 1| after the last step, in its norm [T7]. */
 double hd_ortho_defect(const hd_ortho *ortho);
-int hd_ortho_passes(const hd_ortho *ortho); /**< of the last step */
+int hd_ortho_passes(const hd_ortho *ortho);   /**< of the last step */
+hd_norm hd_ortho_norm(const hd_ortho *ortho); /**< of the last step */
 
-/** Measured max |Q^T Q - 1|; costs a dsyrk. For tests and verification. */
-double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame);
+/** Measured max |Q^T Q - 1| in a norm; costs a dsyrk. For tests and verification. */
+double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame, hd_norm norm);
 
 #ifdef __cplusplus
 }

@@ -16,7 +16,7 @@
 #include "events/event_log.h"
 #include "hdlyap/ortho.h"
 
-static const hd_ortho_limits LIMITS = {1e7, 1e-6};
+static const hd_ortho_limits LIMITS = {1e7, 1e-6, HD_NORM_FULL};
 
 struct hd_recompute {
     hd_recompute_def def;

@@ -39,7 +39,7 @@ static const double SAMPLES_MIN = 32.0;
 static hd_status create_frame(hd_run *run)
 {
     const hd_scene_def *scene = &run->scene;
-    const hd_ortho_limits twice = {1e7, DBL_EPSILON};
+    const hd_ortho_limits twice = {1e7, DBL_EPSILON, HD_NORM_FULL};
     HD_TRY(hd_frame_create(&run->frame, scene->disks, run->vectors, scene->seed, run->threads));
     if (hd_ortho_step(run->ortho, run->frame, twice) == HD_OK) return HD_OK;
     hd_frame_free(run->frame);

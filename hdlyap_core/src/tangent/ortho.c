@@ -7,8 +7,9 @@
  * modified Gram-Schmidt process, each panel meets vectors that the earlier ones have cleaned: it
  * loses orthogonality in proportion to the condition, where one Cholesky factorisation of all loses
  * its square. diag(L) > 0, so Q and R = L^T are unique; R is used up on the way unless somebody
- * keeps it. The stable step factors A = L Q by reflections instead (dgelqf, dorglq). Equations
- * [T5]-[T7]. */
+ * keeps it. In the norm of dq the inner products G and S are those of the dq halves, which for BLAS
+ * are two matrices with a leading dimension of four strides; that is 1.5 m n^2 flops. The stable
+ * step factors A = L Q by reflections instead (dgelqf, dorglq). Equations [T5]-[T7]. */
 #include "hdlyap/ortho.h"
 
 #include <cblas.h>
@@ -49,6 +50,7 @@ struct hd_ortho {
     double *factor[2];
     int lwork; /**< of projection */
     double condition, defect;
+    hd_norm norm; /**< of the present or last step */
     /** Largest of the panels as they were accepted, at least PANEL_CONDITION_LEAST */
     double panel_condition;
     int passes;
@@ -161,6 +163,18 @@ static double condition_of(const hd_ortho *ortho)
 
 /* ---- a panel ------------------------------------------------------------------------------- */
 
+/** The columns of A that a norm sees: all of them; or two parts of every fourth, the dq_x and the
+ * dq_y of the disks. */
+typedef struct seen {
+    int parts, columns; /**< of a part */
+    int lda;            /**< from one of them to the next */
+} seen;
+
+static seen seen_by(hd_norm norm, int rows, int lda)
+{
+    return norm == HD_NORM_DQ ? (seen){2, rows / 4, 4 * lda} : (seen){1, rows, lda};
+}
+
 typedef struct panel {
     double *a; /**< its rows of A */
     int lda, first, width;
@@ -198,11 +212,13 @@ static void keep_projection(const hd_ortho *ortho, panel x, int next, int count)
                ortho->projection + (size_t)col * (size_t)count, (size_t)count * sizeof(double));
 }
 
-/** gram <- A_p A_p^T. */
+/** gram <- A_p A_p^T in the norm. */
 static hd_status panel_gram(hd_ortho *ortho, panel x)
 {
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, x.width, ortho->rows, 1.0, x.a, x.lda, 0.0,
-                ortho->gram, x.width);
+    const seen y = seen_by(ortho->norm, ortho->rows, x.lda);
+    for (int part = 0; part < y.parts; part++)
+        cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, x.width, y.columns, 1.0,
+                    x.a + part * x.lda, y.lda, part > 0, ortho->gram, x.width);
     for (int k = 0; k < x.width; k++) {
         ortho->scale[k] = ortho->gram[k * (x.width + 1)];
         if (!is_square(ortho->scale[k])) return HD_ILL_CONDITIONED; /* keeps NaN out of LAPACK */
@@ -272,12 +288,22 @@ static hd_status panel_orthonormalise(hd_ortho *ortho, panel x)
     return HD_OK;
 }
 
+/** projection <- S = A_later A_p^T in the norm, `count` rows from vector `next` on. */
+static void inner_products(const hd_ortho *ortho, panel x, int next, int count)
+{
+    const seen y = seen_by(ortho->norm, ortho->rows, x.lda);
+    for (int part = 0; part < y.parts; part++) {
+        const double *own = x.a + part * x.lda;
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, count, x.width, y.columns, 1.0,
+                    own + (next - x.first), y.lda, own, y.lda, part > 0, ortho->projection, count);
+    }
+}
+
 /** Takes the panel out of `count` later vectors from `next` on, and out of their probes. */
 static void panel_project(hd_ortho *ortho, panel x, int next, int count)
 {
     double *later = x.a + (next - x.first), *s = ortho->projection;
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, count, x.width, ortho->rows, 1.0, later,
-                x.lda, x.a, x.lda, 0.0, s, count);
+    inner_products(ortho, x, next, count);
     keep_projection(ortho, x, next, count);
     for (int col = 0; col < x.width; col++)
         for (int row = 0; row < count; row++) {
@@ -322,9 +348,11 @@ static hd_status pass(hd_ortho *ortho, hd_frame *frame, double condition_max)
     return ortho->condition <= condition_max ? HD_OK : HD_ILL_CONDITIONED;
 }
 
-static void step_start(hd_ortho *ortho, const hd_frame *frame)
+static void step_start(hd_ortho *ortho, const hd_frame *frame, hd_norm norm)
 {
     HD_ASSERT(hd_frame_rows(frame) == ortho->rows && hd_frame_vectors(frame) == ortho->vectors);
+    HD_ASSERT(norm == HD_NORM_FULL || 2 * ortho->vectors <= ortho->rows);
+    ortho->norm = norm;
     for (int col = 0; col < ortho->vectors; col++) ortho->log_stretch[col] = 0.0;
     ortho->passes = 0;
 }
@@ -345,9 +373,20 @@ static double defect_foreseen(const hd_ortho *ortho)
     return DBL_EPSILON * ortho->condition * ortho->panel_condition * ortho->panel_condition;
 }
 
+/** What is no number in dp halves, which the norm of dq does not see, has gone on to the last
+ * vector: each is added to all later ones. */
+static hd_status unseen_check(const hd_ortho *ortho, const hd_frame *frame)
+{
+    const double *last = hd_frame_read(frame) + ortho->vectors - 1;
+    bool finite = true;
+    for (int row = 0; row < ortho->rows; row++)
+        finite = finite && isfinite(last[(size_t)row * (size_t)hd_frame_stride(frame)]);
+    return finite ? HD_OK : HD_ILL_CONDITIONED;
+}
+
 hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits)
 {
-    step_start(ortho, frame);
+    step_start(ortho, frame, limits.norm);
     HD_TRY(pass(ortho, frame, limits.condition));
     const double condition = ortho->condition;
     ortho->defect = defect_foreseen(ortho);
@@ -357,7 +396,7 @@ hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits
         ortho->condition = condition;
         factors_multiply(ortho);
     }
-    return HD_OK;
+    return limits.norm == HD_NORM_DQ ? unseen_check(ortho, frame) : HD_OK;
 }
 
 /* ---- by reflections ------------------------------------------------------------------------ */
@@ -407,7 +446,7 @@ hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame, double conditio
 {
     const int n = ortho->vectors, stride = hd_frame_stride(frame);
     double *a = hd_frame_data(frame), *sign = ortho->norm2;
-    step_start(ortho, frame);
+    step_start(ortho, frame, HD_NORM_FULL);
     if (LAPACKE_dgelqf_work(LAPACK_COL_MAJOR, n, ortho->rows, a, stride, ortho->reflector,
                             ortho->projection, ortho->lwork) != 0)
         return HD_ILL_CONDITIONED;
@@ -439,14 +478,14 @@ const double *hd_ortho_log_stretch(const hd_ortho *ortho) { return ortho->log_st
 double hd_ortho_condition(const hd_ortho *ortho) { return ortho->condition; }
 double hd_ortho_defect(const hd_ortho *ortho) { return ortho->defect; }
 int hd_ortho_passes(const hd_ortho *ortho) { return ortho->passes; }
+hd_norm hd_ortho_norm(const hd_ortho *ortho) { return ortho->norm; }
 
 /** max(worst, |x^T y - diagonal|) over all pairs of columns x of the panel and y from `next` on;
  * NaN stays. */
 static double panel_defect(hd_ortho *ortho, panel x, int next, int count, double worst)
 {
-    double *s = ortho->projection;
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, count, x.width, ortho->rows, 1.0,
-                x.a + (next - x.first), x.lda, x.a, x.lda, 0.0, s, count);
+    const double *s = ortho->projection;
+    inner_products(ortho, x, next, count);
     for (int col = 0; col < x.width; col++)
         for (int row = 0; row < count; row++) {
             const bool same = x.first + col == next + row;
@@ -457,9 +496,11 @@ static double panel_defect(hd_ortho *ortho, panel x, int next, int count, double
     return worst;
 }
 
-double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame)
+double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame, hd_norm norm)
 {
+    const hd_norm of_the_step = ortho->norm;
     double worst = 0.0;
+    ortho->norm = norm;
     for (int first = 0; first < ortho->vectors; first += ortho->width)
         for (int next = first; next < ortho->vectors; next += LATER_MAX) {
             const int rest = ortho->vectors - first, left = ortho->vectors - next;
@@ -467,5 +508,6 @@ double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame)
                              rest < ortho->width ? rest : ortho->width};
             worst = panel_defect(ortho, x, next, left < LATER_MAX ? left : LATER_MAX, worst);
         }
+    ortho->norm = of_the_step;
     return worst;
 }

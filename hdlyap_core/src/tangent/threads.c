@@ -30,7 +30,7 @@ static void use(hd_frame *frame, int threads)
 /** Shortest of some orthonormalisations. */
 static hd_status seconds_of(double *seconds, hd_ortho *ortho, hd_frame *frame, int threads)
 {
-    const hd_ortho_limits limits = {1e7, 1.0};
+    const hd_ortho_limits limits = {1e7, 1.0, HD_NORM_FULL};
     *seconds = INFINITY;
     use(frame, threads);
     for (int trial = 0; trial < TRIALS; trial++) {
@@ -44,7 +44,7 @@ static hd_status seconds_of(double *seconds, hd_ortho *ortho, hd_frame *frame, i
 /** Seconds with `most` threads and with one, of an orthonormal frame that is nobody's. */
 static hd_status try_both(double *all, double *one, hd_ortho *ortho, hd_frame *frame, int most)
 {
-    HD_TRY(hd_ortho_step(ortho, frame, (hd_ortho_limits){1e7, 1.0}));
+    HD_TRY(hd_ortho_step(ortho, frame, (hd_ortho_limits){1e7, 1.0, HD_NORM_FULL}));
     HD_TRY(seconds_of(all, ortho, frame, most));
     return seconds_of(one, ortho, frame, 1);
 }

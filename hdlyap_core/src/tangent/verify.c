@@ -100,8 +100,9 @@ void hd_verify_ortho(hd_ortho *ortho, hd_frame *frame)
 {
     const double n = hd_frame_vectors(frame), defect = hd_ortho_defect(ortho);
     const double least = 64.0 * DBL_EPSILON;
-    expect_at_most(hd_ortho_defect_measured(ortho, frame), fmax(defect, least), "orthogonality");
-    if (hd_frame_vectors(frame) < hd_frame_rows(frame)) return;
+    expect_at_most(hd_ortho_defect_measured(ortho, frame, hd_ortho_norm(ortho)),
+                   fmax(defect, least), "orthogonality");
+    if (hd_frame_vectors(frame) < hd_frame_rows(frame)) return; /* so with the norm of dq */
     double sum = 0.0;
     for (int col = 0; col < hd_frame_vectors(frame); col++) sum += hd_ortho_log_stretch(ortho)[col];
     expect_at_most(fabs(sum),

@@ -18,7 +18,7 @@ typedef struct forward_pass {
     double worst; /**< largest condition so far */
 } forward_pass;
 
-static const hd_ortho_limits FORWARD_LIMITS = {1e7, 1e-6};
+static const hd_ortho_limits FORWARD_LIMITS = {1e7, 1e-6, HD_NORM_FULL};
 
 /** The frame is orthonormal, and what the log says must have been replayed. */
 static inline void forward_factor(forward_pass *f)

@@ -182,7 +182,7 @@ typedef struct scaled {
  * the bit of the last vector is known to eps / 1e-6. Returns 1 if it is factored. */
 static int check_scaled(const scaled *s)
 {
-    const hd_ortho_limits twice = {1e9, DBL_EPSILON};
+    const hd_ortho_limits twice = {1e9, DBL_EPSILON, HD_NORM_FULL};
     const double known = s->how == INDEPENDENT ? 1e-12 : 1e-8;
     double before[ROWS], after[ROWS];
     hd_frame *frame;

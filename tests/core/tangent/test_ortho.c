@@ -10,7 +10,8 @@
 #include "hdlyap/ortho.h"
 #include "base/random.h"
 
-static const hd_ortho_limits LOOSE = {1e7, 0.5}, TIGHT = {1e7, DBL_EPSILON};
+static const hd_ortho_limits LOOSE = {1e7, 0.5, HD_NORM_FULL},
+                             TIGHT = {1e7, DBL_EPSILON, HD_NORM_FULL};
 
 /** m x n row-major copy of the frame's vectors, without padding. */
 static double *copied(hd_frame *frame)
@@ -143,7 +144,7 @@ static void check_step(int disks, int n, double spread, int stable)
     const double rounding = 32 * DBL_EPSILON * hd_ortho_condition(ortho);
     for (int col = 0; col < n; col++)
         CHECK_CLOSE(hd_ortho_log_stretch(ortho)[col], log(diagonal[col]), rounding);
-    assert_true(hd_ortho_defect_measured(ortho, frame) < 32 * DBL_EPSILON);
+    assert_true(hd_ortho_defect_measured(ortho, frame, HD_NORM_FULL) < 32 * DBL_EPSILON);
     check_factors(v, q, rows, n, 64 * DBL_EPSILON);
     free(v);
     free(q);
@@ -225,7 +226,7 @@ static void the_defect_is_foreseen(void **state)
         make_ill_conditioned(frame, spread);
         CHECK_OK(hd_ortho_step(ortho, frame, LOOSE));
         assert_int_equal(hd_ortho_passes(ortho), 1);
-        const double measured = hd_ortho_defect_measured(ortho, frame);
+        const double measured = hd_ortho_defect_measured(ortho, frame, HD_NORM_FULL);
         print_message("condition %.1e: defect %.1e, foreseen %.1e\n", hd_ortho_condition(ortho),
                       measured, hd_ortho_defect(ortho));
         assert_true(measured <= hd_ortho_defect(ortho) + 16 * DBL_EPSILON);
@@ -262,7 +263,7 @@ static void logarithms_telescope(void **state)
         make_ill_conditioned(tight, 12.0);
         CHECK_OK(hd_ortho_step(ortho, loose, limits));
         if (step < 5) loosen(loose);
-        if (step < 5) defect = fmax(defect, hd_ortho_defect_measured(ortho, loose));
+        if (step < 5) defect = fmax(defect, hd_ortho_defect_measured(ortho, loose, HD_NORM_FULL));
         for (int col = 0; col < N; col++) sum[0][col] += hd_ortho_log_stretch(ortho)[col];
         CHECK_OK(hd_ortho_step_stable(ortho, tight, 1e13));
         for (int col = 0; col < N; col++) sum[1][col] += hd_ortho_log_stretch(ortho)[col];
@@ -286,7 +287,7 @@ static void a_measured_defect_keeps_nan(void **state)
         CHECK_OK(hd_ortho_create(&ortho, 40, 30));
         CHECK_OK(hd_ortho_step(ortho, frame, TIGHT));
         hd_frame_data(frame)[5 * hd_frame_stride(frame) + col] = NAN;
-        assert_true(isnan(hd_ortho_defect_measured(ortho, frame)));
+        assert_true(isnan(hd_ortho_defect_measured(ortho, frame, HD_NORM_FULL)));
         hd_ortho_free(ortho);
         hd_frame_free(frame);
     }
@@ -303,7 +304,7 @@ static hd_status step_with_entry(double value, double condition, int twin)
     if (twin)
         for (int row = 0; row < 40; row++)
             v[row * hd_frame_stride(frame) + 9] = v[row * hd_frame_stride(frame) + 2];
-    const hd_ortho_limits limits = {condition, 0.5};
+    const hd_ortho_limits limits = {condition, 0.5, HD_NORM_FULL};
     const hd_status status = hd_ortho_step(ortho, frame, limits);
     hd_ortho_free(ortho);
     hd_frame_free(frame);

@@ -36,7 +36,7 @@ static hd_scene_def scene_of(int disks, double density, hd_boundary x, hd_bounda
 static world settled(hd_scene_def scene)
 {
     world w = {.scene = scene};
-    const hd_ortho_limits limits = {1e7, DBL_EPSILON};
+    const hd_ortho_limits limits = {1e7, DBL_EPSILON, HD_NORM_FULL};
     const int n = hd_scene_vectors(&scene);
     CHECK_OK(hd_trajectory_create(&w.trajectory, &scene));
     CHECK_OK(hd_event_log_create(&w.log));
@@ -118,7 +118,7 @@ static void check_against_orthonormalisation(hd_scene_def scene, double collisio
     check_orthonormal(&w);
     hd_frame_rewind(w.frame);
     CHECK_OK(hd_frame_replay(w.frame, w.log, 0.0, w.log->duration)); /* nothing was lost */
-    CHECK_OK(hd_ortho_step(w.ortho, w.frame, (hd_ortho_limits){1e9, 1e-6}));
+    CHECK_OK(hd_ortho_step(w.ortho, w.frame, (hd_ortho_limits){1e9, 1e-6, HD_NORM_FULL}));
     const double off = distance(&w);
     print_message("%d disks, density %.1f, boundaries %d %d: off by %.1e at condition %.0f\n",
                   scene.disks, scene.density, scene.boundary[0], scene.boundary[1], off,
