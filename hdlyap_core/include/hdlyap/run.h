@@ -60,8 +60,8 @@ void hd_run_free(hd_run *run);
 HD_MUST_CHECK hd_status hd_run_advance(hd_run *run);
 
 /** True if the last call ended at a multiple of the report interval. Spectrum, modes and steps are
- * then those of the last measured state, hd_spectrum_time after the averaging began: at most about
- * 64 collisions of each disk ago, at once if the hydrodynamic response is looked at, or fields that
+ * then those of the last measured state, hd_spectrum_time after the averaging began: some
+ * 80 collisions of each disk ago, at once if the hydrodynamic response is looked at, or fields that
  * are due. Phases are those of hd_run_followed. */
 bool hd_run_report_due(const hd_run *run);
 

@@ -257,8 +257,9 @@ static hd_status end_sample(hd_run *run)
 /** The sample also ends if that alone makes known what a watcher wants. */
 static hd_status end_interval(hd_run *run)
 {
-    const bool shown = hd_observer_reaches(&run->observer, watched(run));
-    return run->sample.ends || !shown ? end_sample(run) : hd_run_factorise(run, false);
+    const int count = watched(run);
+    const bool hidden = count > 0 && !hd_observer_reaches(&run->observer, count);
+    return run->sample.ends || hidden ? end_sample(run) : hd_run_factorise(run, false);
 }
 
 static hd_status end_early(hd_run *run)
@@ -288,13 +289,19 @@ static double next_stop(const hd_run *run)
     return stop;
 }
 
+/** An equal part of what is left, none longer than `most`. */
+static double share(double left, double most)
+{
+    return left < INFINITY ? left / ceil(left / most) : most;
+}
+
 /** The next interval, up to `left` long; why not longer. */
 static hd_interval_length next_interval(const hd_run *run, double left)
 {
     const double sample = hd_run_sample_longest(run), most = hd_advance_longest(&run->advance);
     hd_interval_length next = hd_interval_next(&run->interval, left);
-    if (next.length > sample) next = (hd_interval_length){sample, HD_LIMIT_SAMPLE};
-    if (next.length > most) next = (hd_interval_length){left / ceil(left / most), HD_LIMIT_EVENTS};
+    if (next.length > sample) next = (hd_interval_length){share(left, sample), HD_LIMIT_SAMPLE};
+    if (next.length > most) next = (hd_interval_length){share(left, most), HD_LIMIT_EVENTS};
     next.length = fmax(next.length, hd_advance_shortest(&run->advance));
     return next;
 }

@@ -80,7 +80,7 @@ struct hd_run {
 enum { SMALLEST_EXPONENTS = 8 };
 
 /** Of one disk, at most. */
-#define HD_COLLISIONS_PER_SAMPLE 64.0
+#define HD_COLLISIONS_PER_SAMPLE 80.0
 
 /** Ends what a step has begun, so that the run can be kept: half of a way back is none. */
 HD_MUST_CHECK hd_status hd_run_settle(hd_run *run);

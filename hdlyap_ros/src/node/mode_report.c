@@ -304,8 +304,7 @@ static hd_status publish_phases(mode_report *m, const snapshot *now)
     const hdr_lp_phases message = {
         .header = message_header(),
         .run_id = m->to->run_id,
-        .sim_time = hd_run_time(run),
-        .samples_per_report = (uint32_t)hd_run_samples_per_report(run),
+        .sim_time = hd_run_followed(run),
         .phases = {m->phase, m->phases},
     };
     for (uint32_t k = 0; k < m->phases; k++) {

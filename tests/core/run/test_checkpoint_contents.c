@@ -119,18 +119,18 @@ static void contents_that_no_run_has_are_refused(void **state)
     hd_run_free(run);
 }
 
-/** At the end of a sample, where nothing is pending: found by tests/fuzz. */
-static void ends_of_samples_are_not_passed_twice(void **state)
+/** Where nothing is pending: found by tests/fuzz. */
+static void reports_are_not_passed_twice(void **state)
 {
     (void)state;
     const hd_scene_def def = kept_scene(4, 0.3, 0.3, HD_EXPONENTS_ALL, 0);
     hd_run *run = kept_run(&def), *again = NULL;
     char message[512] = "";
-    while (hd_run_stage(run) < HD_AVERAGING || run->schedule.samples == 0 || run->log->duration > 0)
+    while (hd_run_stage(run) < HD_AVERAGING || run->schedule.reports == 0 || run->log->duration > 0)
         kept_steps(run, 1);
     const bytes b = kept_bytes(run);
     const nonsense_case backwards = {"log duration", 0, -1.0, 0, "log duration"};
-    const nonsense_case twice = {"schedule samples", 0, 0, run->schedule.samples - 1, "schedule"};
+    const nonsense_case twice = {"schedule reports", 0, 0, run->schedule.reports - 1, "schedule"};
     expect_nonsense_refused(&b, &backwards);
     expect_nonsense_refused(&b, &twice);
     const double endless = 1e300;
@@ -185,7 +185,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contents_that_no_run_has_are_refused),
-        cmocka_unit_test(ends_of_samples_are_not_passed_twice),
+        cmocka_unit_test(reports_are_not_passed_twice),
         cmocka_unit_test(nonsense_is_survived),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -35,23 +35,13 @@ static hd_scene_def small_scene(int disks, int exponents, uint64_t seed)
     return scene;
 }
 
-/** The controller is made to believe that twice `forced` / 2 is right; 0: it is left alone. */
-static void force(hd_run *run, double forced)
-{
-    if (forced == 0.0) return;
-    run->interval.slope = run->interval.stretch = 0.0;
-    run->interval.last = 0.5 * forced;
-    run->schedule.reports_per_sample = run->schedule.samples_per_report = 1;
-    run->schedule.sample_length = run->scene.duration;
-}
-
 /** Every step goes on in time. */
 static hd_status finish(hd_run *run, double forced)
 {
     hd_status status = HD_OK;
     while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) {
         const double before = hd_run_time(run);
-        force(run, forced);
+        if (forced > 0.0 && hd_run_stage(run) > HD_EQUILIBRATING) force_interval(run, forced);
         status = hd_run_advance(run);
         assert_true(hd_run_time(run) > before);
     }

@@ -180,10 +180,7 @@ static void an_interval_too_long_is_repaired(void **state)
     for (double forced = 4.0; forced <= 64.0; forced *= 2.0) {
         scene.report_interval = 20.0;
         hd_run *run = until(created(&scene), HD_AVERAGING);
-        run->interval.slope = run->interval.stretch = 0.0;
-        run->interval.last = forced;
-        run->schedule.reports_per_sample = run->schedule.samples_per_report = 1;
-        run->schedule.sample_length = 20.0;
+        force_interval(run, forced);
         until(run, HD_FINISHED);
         print_message("forced %.0f: %ld repaired, deviation %.1e\n", forced, run->cost.repairs,
                       deviation(run, exact));
