@@ -193,7 +193,9 @@ static bool target_reached(const hd_run *run)
 /** Longest time between two looks at the phases; INFINITY if nobody looks. */
 static double phases_due(const hd_run *run)
 {
-    return run->observe & HD_OBSERVE_PHASES ? hd_phases_sampling(run->observer.steps) : INFINITY;
+    const hd_observer *observer = &run->observer;
+    return run->observe & HD_OBSERVE_PHASES ? hd_phases_sampling(observer->phases, observer->steps)
+                                            : INFINITY;
 }
 
 /** The modes of an orthonormal frame. */
