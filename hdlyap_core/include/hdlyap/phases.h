@@ -12,8 +12,8 @@ extern "C" {
 typedef enum hd_lp_state {
     HD_LP_UNRESOLVED, /**< the step is not resolved: nothing else is known */
     HD_LP_WEAK,       /**< a^2 + b^2 too small for a phase at this time */
-    HD_LP_COARSE, /**< turns by more than about 3 rad between samples: the phase is not unwrapped */
-    HD_LP_TRACKED /**< all is known */
+    HD_LP_COARSE,     /**< the sample came too late to unwrap the phase: it begins anew */
+    HD_LP_TRACKED     /**< all is known */
 } hd_lp_state;
 
 /** One pair (L, P) of one modulation, and one vector of its step. */
@@ -58,8 +58,10 @@ hd_velocity hd_phases_velocity(const hd_phases *phases);
 /** Number of slowest vectors among which all are whose phases are followed. */
 int hd_phases_vectors(const hd_steps *steps);
 
-/** Longest time between samples that unwraps every resolved step safely; INFINITY without one. */
-double hd_phases_sampling(const hd_steps *steps);
+/** Longest time from the last sample to the next that unwraps every resolved step safely; INFINITY
+ * without one. Grows as the rates become known, by at most 2 from one sample to the next, and
+ * falls when phases scatter more. */
+double hd_phases_sampling(const hd_phases *phases, const hd_steps *steps);
 
 #ifdef __cplusplus
 }

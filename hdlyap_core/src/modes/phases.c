@@ -16,16 +16,26 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "modes/archived.h"
+#include "modes/foresight.h"
 #include "modes/sets.h"
 #include "modes/track.h"
 
 static const double PI = 3.14159265358979323846;
 /** |omega| / lambda is at most about this: v / c_L is 1.14 at density 0.8, near 1 below 0.6. */
 static const double RATE_PER_EXPONENT = 1.25;
-/** Sampling is refined when a step may turn by more than this part of pi. */
+/** Sampling is refined when a step may turn by more than this part of pi, unless it is foreseen. */
 static const double SAFE = 0.75;
-/** Weak for more samples than this: the phase is begun anew. */
-static const double GAP_MAX = 16.0;
+/** Foreseen as far as phases are expected to be off by this: pi is five times as much [rad]. */
+static const double OFF = 0.2 * 3.14159265358979323846;
+/** Off by this, omega is not the rate any more [rad]. */
+static const double LOST = 0.4 * 3.14159265358979323846;
+/** The next samples are at most so many times as far apart as those that have shown how phases
+ * miss.
+ */
+static const double GROWTH = 2.0;
+/** In times that a turn by pi may take: longest between samples, and of a phase that is weak, which
+ * is then begun anew. */
+static const double MOST = 8.0, GAP_MAX = 16.0;
 
 /** Of a velocity: rotation without any noise has a weight, too. */
 static const double VARIANCE_MIN = 1e-100;
@@ -42,9 +52,8 @@ typedef struct rotor {
     int slot_col[SLOTS_MAX];
     double sign[SLOTS_MAX]; /**< of the vector in a slot against the one it began with */
     double complex z[SLOTS_MAX][PAIRS_MAX]; /**< at the last sample, times sign */
-    double time, dt;
-    double omega; /**< mean turn of the whole step per time: what phases are unwrapped by */
-    long turns;   /**< in that mean */
+    double time;
+    hd_foresight ahead;     /**< what phases are unwrapped by */
     double turned, turning; /**< by the mean rate of the tracks, and for how long */
     hd_blocks *blocks;      /**< of all rotors */
     double *sample;         /**< [2], at column 2 number of their rows: turned and turning */
@@ -55,7 +64,7 @@ struct hd_phases {
     int rotors, tracks, vectors;
     rotor *rotor;
     hd_track *track;
-    hd_blocks blocks; /**< two series of each rotor; their weight is the number of samples */
+    hd_blocks blocks; /**< two series of each rotor; their weight is time */
     double *sample;   /**< [2 * rotors] */
 };
 
@@ -144,7 +153,7 @@ static void rotor_restart(rotor *r, hd_lp_state state)
 {
     r->col = -1;
     r->samples = 0;
-    r->turns = 0;
+    hd_foresight_clear(&r->ahead);
     r->turned = r->turning = 0.0;
     for (int k = 0; k < 2; k++) {
         r->sample[k] = 0.0;
@@ -191,7 +200,7 @@ static void slots_fill(rotor *r, const hd_step *step, const hd_modes *modes)
 /** How well column col continues slot v: 1 for exactly, -1 for exactly with the other sign. */
 static double continuation(const rotor *r, const hd_modes *modes, int v, int col, double dt)
 {
-    const double complex turn = cexp(-I * r->omega * dt);
+    const double complex turn = cexp(-I * r->ahead.omega * dt);
     double product = 0.0, before = 0.0, now = 0.0;
     for (int c = 0; c < r->pairs; c++) {
         const double complex z = coefficient(r, modes, col, c);
@@ -232,8 +241,7 @@ static void slots_match(rotor *r, const hd_step *step, const hd_modes *modes, do
     }
 }
 
-/** Turn of the whole step since the last sample, and from it the mean rate; from the vectors that
- * are there. */
+/** Turn of the whole step since the last sample; from the vectors that are there. */
 static void rotor_turn(rotor *r, const hd_modes *modes, double dt)
 {
     double complex sum = 0.0;
@@ -243,20 +251,55 @@ static void rotor_turn(rotor *r, const hd_modes *modes, double dt)
             sum += conj(r->z[v][c]) * r->sign[v] * coefficient(r, modes, r->slot_col[v], c);
     }
     if (sum == 0.0) return;
-    double rate = carg(sum) / dt;
-    if (r->samples > LEARN) rate = hd_track_unwrapped(carg(sum), r->omega * dt) / dt;
-    if (r->turns++ == 0) r->omega = 0.0;
-    r->omega += (rate - r->omega) / (double)r->turns;
+    const double turn = carg(sum), predicted = r->ahead.omega * dt;
+    hd_foresight_turn(&r->ahead, r->samples > LEARN ? hd_track_unwrapped(turn, predicted) : turn,
+                      dt);
 }
 
-/** Takes over the snapshot as the last sample. A vector that is something else for a while goes on
- * as predicted: it is recognised when it comes back. The velocity is the mean rate of the tracks:
- * unlike the turn of the whole, where longer vectors weigh more, it has no bias if |z| depends on
- * the phase. */
-static void rotor_store(rotor *r, const hd_modes *modes, double time)
+/** Longest time that unwraps a step whose rate is not known. */
+static double sampling_unseen(const hd_step *step)
 {
-    const double complex turn = cexp(I * r->omega * (time - r->time));
-    double sum = 0.0, count = 0.0;
+    return SAFE * PI / (RATE_PER_EXPONENT * fabs(step->exponent));
+}
+
+/** Longest time between samples of a rotor that is at work. */
+static double rotor_sampling(const rotor *r, const hd_step *step)
+{
+    const double unseen = sampling_unseen(step);
+    const double shown = GROWTH * hd_foresight_span(&r->ahead);
+    const double seen = fmin(hd_foresight_reach(&r->ahead, OFF), shown);
+    return fmax(unseen, fmin(seen, MOST / SAFE * unseen));
+}
+
+/** Longest time that a phase may be weak. */
+static double rotor_gap(const rotor *r, const hd_step *step)
+{
+    const double most = GAP_MAX / SAFE * sampling_unseen(step);
+    const double reach = hd_foresight_reach(&r->ahead, LOST);
+    return reach > 0 ? fmin(most, fmax(reach, most / MOST)) : most;
+}
+
+/** Mean rate of the tracks: unlike the turn of the whole, where longer vectors weigh more, it has
+ * no bias if |z| depends on the phase. */
+static void rotor_rate(rotor *r, double sum, int count, double dt)
+{
+    if (count == 0) return;
+    r->sample[1] = dt;
+    r->sample[0] = sum / count * dt;
+    r->turned += r->sample[0];
+    r->turning += dt;
+}
+
+/** Takes over the snapshot as the last sample; `foreseen` was its rate. A vector that is something
+ * else for a while goes on as predicted: it is recognised when it comes back. */
+static void rotor_store(rotor *r, const hd_modes *modes, double time, double foreseen, double gap)
+{
+    const double dt = time - r->time, omega = r->ahead.omega;
+    const bool judged = r->samples > LEARN;
+    const double complex turn = cexp(I * omega * dt);
+    double sum = 0.0;
+    int count = 0;
+    if (judged) hd_foresight_sample(&r->ahead, dt);
     for (int v = 0; v < r->slots; v++) {
         const int col = r->slot_col[v];
         const bool away = r->samples > 0 && strength_of(r, modes, col) < HD_TRACK_WEAK;
@@ -264,26 +307,19 @@ static void rotor_store(rotor *r, const hd_modes *modes, double time)
             hd_track *t = &r->track[v * r->pairs + c];
             const double complex z = coefficient(r, modes, col, c);
             r->z[v][c] = away ? r->z[v][c] * turn : r->sign[v] * z;
-            if (hd_track_add(t, r->sign[v] * z, time, r->omega, GAP_MAX * r->dt))
+            if (hd_track_add(t, r->sign[v] * z, time, omega, gap)) {
                 sum += t->rate_now, count++;
+                if (judged)
+                    hd_foresight_miss(&r->ahead, (t->rate_now - foreseen) * t->dt_now, t->dt_now);
+            }
             t->out.col = col;
             t->out.a = creal(z);
             t->out.b = cimag(z);
         }
     }
-    if (count > 0) {
-        r->sample[1] = time - r->time;
-        r->sample[0] = sum / count * r->sample[1];
-        r->turned += r->sample[0];
-        r->turning += r->sample[1];
-    }
+    rotor_rate(r, sum, count, dt);
     r->time = time;
     r->samples++;
-}
-
-static double safe_sampling(const hd_step *step)
-{
-    return SAFE * PI / (RATE_PER_EXPONENT * fabs(step->exponent));
 }
 
 /** Follows the vectors of the step from here on. */
@@ -295,39 +331,46 @@ static void rotor_take_up(rotor *r, const hd_step *step, const hd_modes *modes)
     slots_fill(r, step, modes);
 }
 
-/** Samples may come at other distances than before, as pieces of the schedule do: only one that is
- * too far away for the step's own rate begins anew. */
+/** True if omega does not tell any more how a step turns that depends on it. */
+static bool is_lost(const rotor *r, const hd_step *step)
+{
+    return hd_foresight_scatter(&r->ahead) > LOST &&
+           hd_foresight_span(&r->ahead) * SAFE > sampling_unseen(step);
+}
+
+/** Samples may come at any distance: only one that is too far away for the step's rate, or for how
+ * well it is foreseen, begins anew. */
 static void rotor_add(rotor *r, const hd_step *step, const hd_modes *modes, double time)
 {
-    const double dt = time - r->time;
+    const double dt = time - r->time, foreseen = r->ahead.omega;
     if (!step->resolved) {
         if (r->col >= 0) rotor_restart(r, HD_LP_UNRESOLVED);
         return;
     }
     const bool same = r->col == step->col && r->count == step->count;
-    if (same && r->samples > 1 && dt < 0.5 * r->dt)
-        return; /* the end of the averaging cuts a piece short */
-    const bool coarse = same && dt * SAFE > safe_sampling(step);
+    if (same && !(dt > 0)) return;
+    const bool coarse = same && (dt * SAFE > rotor_sampling(r, step) || is_lost(r, step));
     if (!same || coarse) {
         rotor_take_up(r, step, modes);
     } else {
         if (r->samples > LEARN) slots_match(r, step, modes, dt);
         rotor_turn(r, modes, dt);
-        r->dt = dt;
     }
-    rotor_store(r, modes, time);
+    rotor_store(r, modes, time, foreseen, rotor_gap(r, step));
     for (int t = 0; coarse && t < r->slots * r->pairs; t++) r->track[t].out.state = HD_LP_COARSE;
 }
 
 void hd_phases_add(hd_phases *phases, const hd_steps *steps, double time)
 {
     const hd_modes *modes = hd_steps_modes(steps);
+    double dt = 0.0;
     for (int k = 0; k < phases->rotors; k++) {
         rotor *r = &phases->rotor[k];
         r->sample[0] = r->sample[1] = 0.0;
         rotor_add(r, hd_steps_step(steps, r->step), modes, time);
+        dt = fmax(dt, r->sample[1]);
     }
-    hd_blocks_add(&phases->blocks, phases->sample, 1.0);
+    if (dt > 0) hd_blocks_add(&phases->blocks, phases->sample, dt);
 }
 
 void hd_phases_clear(hd_phases *phases)
@@ -429,13 +472,12 @@ int hd_phases_vectors(const hd_steps *steps)
     return vectors - first;
 }
 
-double hd_phases_sampling(const hd_steps *steps)
+double hd_phases_sampling(const hd_phases *phases, const hd_steps *steps)
 {
     double sampling = INFINITY;
-    for (int k = 0; k < hd_steps_count(steps); k++) {
-        const hd_step *step = hd_steps_step(steps, k);
-        if (step->kind == HD_MODE_LP && step->resolved)
-            sampling = fmin(sampling, safe_sampling(step));
+    for (int k = 0; k < phases->rotors; k++) {
+        const hd_step *step = hd_steps_step(steps, phases->rotor[k].step);
+        if (step->resolved) sampling = fmin(sampling, rotor_sampling(&phases->rotor[k], step));
     }
     return sampling;
 }
@@ -457,9 +499,7 @@ static void rotor_archive(rotor *r, hd_archive *archive, int vectors)
     for (int v = 0; v < r->slots; v++)
         hd_archive_doubles(archive, "rotor z", (double *)r->z[v], 2 * (size_t)r->pairs);
     hd_archive_double(archive, "rotor time", &r->time);
-    hd_archive_double(archive, "rotor dt", &r->dt);
-    hd_archive_double(archive, "rotor omega", &r->omega);
-    hd_archive_long(archive, "rotor turns", &r->turns, 0, LONG_MAX / 2);
+    hd_foresight_archive(&r->ahead, archive);
     hd_archive_double(archive, "rotor turned", &r->turned);
     hd_archive_double(archive, "rotor turning", &r->turning);
 }

@@ -63,6 +63,7 @@ bool hd_track_add(hd_track *t, double complex z, double time, double omega, doub
     const double dt = time - t->last;
     const double phase = hd_track_unwrapped(carg(z), t->out.phase + omega * dt);
     t->rate_now = (phase - t->out.phase) / dt;
+    t->dt_now = dt;
     hd_blocks_add(&t->turns, &(double){phase - t->out.phase}, dt);
     regress(t, time, phase);
     t->out.phase = phase;

@@ -17,8 +17,8 @@ typedef struct hd_track {
     double begin; /**< of the tracking */
     long count;
     double mean_t, mean_phase, square_t, product;
-    double rate_now; /**< last increment of the phase per time */
-    hd_blocks turns; /**< one series: the increments; their weight is time */
+    double rate_now, dt_now; /**< last increment of the phase per time, and its time */
+    hd_blocks turns;         /**< one series: the increments; their weight is time */
 } hd_track;
 
 /** Begins anew with the next coefficients; `state` is said until then. */

@@ -180,7 +180,7 @@ static bool target_reached(const hd_run *run)
 static double phases_sampling(const hd_run *run)
 {
     const bool followed = hd_run_is_observing(run) && (run->observe & HD_OBSERVE_PHASES);
-    return followed ? hd_phases_sampling(run->observer.steps) : INFINITY;
+    return followed ? hd_phases_sampling(run->observer.phases, run->observer.steps) : INFINITY;
 }
 
 /** The modes of an orthonormal frame. */

@@ -310,13 +310,13 @@ static void sampling_follows_the_largest_exponent(void **state)
 {
     (void)state;
     channel ch = channel_create();
-    CHECK_CLOSE(hd_phases_sampling(ch.w.steps), 0.75 * PI / (1.25 * 1.6), ROUNDING);
+    CHECK_CLOSE(hd_phases_sampling(ch.phases, ch.w.steps), 0.75 * PI / (1.25 * 1.6), ROUNDING);
     hd_spectrum_clear(ch.w.spectrum);
     world_stretch(&ch.w, (const double[]){1.6, 1.6, 2.0, 2.0});
     hd_steps_find(ch.w.steps, ch.w.spectrum);
-    CHECK_CLOSE(hd_phases_sampling(ch.w.steps), 0.75 * PI / (1.25 * 2.0), ROUNDING);
+    CHECK_CLOSE(hd_phases_sampling(ch.phases, ch.w.steps), 0.75 * PI / (1.25 * 2.0), ROUNDING);
     hd_steps_clear(ch.w.steps);
-    assert_true(isinf(hd_phases_sampling(ch.w.steps)));
+    assert_true(isinf(hd_phases_sampling(ch.phases, ch.w.steps)));
     channel_free(&ch);
 }
 

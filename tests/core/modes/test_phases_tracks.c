@@ -192,12 +192,13 @@ static void another_set_is_followed_anew(void **state)
 }
 
 /** Samples at other distances, as pieces of a schedule that changes: a slow step, for which 12.5
- * time units would do, goes on. The end of an averaging in the middle of a piece, and its going on
- * later, are such too. */
+ * time units would do without any knowledge of its rate, goes on; known, twice the mean distance
+ * and a third more will. Far shorter ones count, too: what came before them is not forgotten. */
 static void pieces_of_any_length_go_on(void **state)
 {
     (void)state;
-    const double lengths[] = {1.0, 2.0, 4.0, 8.0, 12.5, 7.0, 0.6 * 7.0, 0.4 * 7.0, 7.0, 5.0, 2.5};
+    const double lengths[] = {1.0,       2.0, 4.0, 8.0, 12.5, 7.0,  0.6 * 7.0,
+                              0.4 * 7.0, 7.0, 5.0, 2.5, 0.1,  0.01, 12.5};
     rotating r = pairs(1);
     double time = 0.0;
     find(&r, 0.2);
@@ -211,7 +212,8 @@ static void pieces_of_any_length_go_on(void **state)
     assert_int_equal(check_tracks(&r, 0.2 * time, time, time * ROUNDING), 2);
     CHECK_CLOSE(phase_of(&r, 0, 0)->omega, 0.2, ROUNDING);
     CHECK_CLOSE(hd_phases_velocity(r.phases).v, 0.2 / r.step->wave.number, ROUNDING);
-    r.dt = 12.6;
+    r.dt = 1.01 / 0.75 * hd_phases_sampling(r.phases, r.w.steps);
+    assert_true(r.dt > 12.6);
     turn(&r, 0.2);
     check_all(&r, HD_LP_COARSE, 0.0);
     r.dt = 1.0;
@@ -233,12 +235,12 @@ static void clear_begins_anew(void **state)
 }
 
 /** 1.25 lambda dt above pi: no phase, at no sample, until the samples are close enough; a and b are
- * known. */
+ * known. Three samples do not tell the rate. */
 static void coarse_samples_are_said_to_be(void **state)
 {
     (void)state;
     rotating r = pairs(1);
-    for (int t = 0; t < 20; t++) turn(&r, 0.5);
+    for (int t = 0; t < 3; t++) turn(&r, 0.5);
     find(&r, 1.01 * PI / 1.25);
     for (int t = 0; t < 6; t++) {
         turn(&r, 0.5);

@@ -279,19 +279,6 @@ static void a_look_away_begins_the_phases_anew(void **state)
     hd_run_free(run);
 }
 
-/** Longest that a phase of a step has been tracked for. */
-static double tracked_for(const hd_run *run, const hd_step *step)
-{
-    const hd_phases *phases = hd_run_phases(run);
-    double longest = 0.0;
-    for (int k = 0; k < hd_phases_count(phases); k++) {
-        const hd_lp_phase *phase = hd_phases_phase(phases, k);
-        if (hd_steps_step(hd_run_steps(run), phase->step) == step)
-            longest = fmax(longest, phase->time);
-    }
-    return longest;
-}
-
 static void nothing_is_allocated_while_looking(void **state)
 {
     (void)state;
