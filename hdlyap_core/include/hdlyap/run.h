@@ -113,7 +113,7 @@ const hd_spectrum *hd_run_spectrum(const hd_run *run); /**< NULL without exponen
 const hd_modes *hd_run_modes(const hd_run *run); /**< NULL unless observed, as the two below */
 const hd_steps *hd_run_steps(const hd_run *run);
 const hd_phases *hd_run_phases(const hd_run *run);
-/** Simulated time of the phases; -INFINITY while none have been followed. */
+/** Simulated time of the phases; negative while none have been followed. */
 double hd_run_followed(const hd_run *run);
 const hd_covariant *hd_run_covariant(const hd_run *run); /**< NULL unless observed */
 hd_cost hd_run_cost(const hd_run *run);

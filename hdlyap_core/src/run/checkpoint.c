@@ -73,7 +73,7 @@ static void plan_archive(hd_advance_plan *plan, hd_archive *archive)
 static void numbers_archive(hd_run *run, hd_archive *archive)
 {
     int observe = (int)run->observe, reported = run->due.report, ends = run->sample.ends,
-        whole = run->whole;
+        whole = run->whole, limit = (int)run->limit;
     hd_archive_int(archive, "run observe", &observe, 0, (int)run->scene.observe);
     run->observe = (unsigned)observe & run->scene.observe;
     hd_archive_int(archive, "run reported", &reported, 0, 1);
@@ -85,6 +85,8 @@ static void numbers_archive(hd_run *run, hd_archive *archive)
     run->whole = whole;
     hd_archive_double(archive, "run followed", &run->followed);
     hd_archive_double(archive, "run interval end", &run->interval_end);
+    hd_archive_int(archive, "run limit", &limit, HD_LIMIT_SCHEDULE, HD_LIMIT_NONE);
+    run->limit = (hd_limit)limit;
     hd_archive_double(archive, "run advance longest", &run->advance.longest);
     plan_archive(&run->advance.plan, archive);
     hd_archive_double(archive, "run frame start", &run->clocks.frame_start_time);

@@ -30,6 +30,10 @@ static const double COLLISIONS_MOST = 60.0;
 static const double COLLISIONS_PER_BLOCK = 8.0;
 /** A rest that could be longer by less than this factor is an equal share. */
 static const double DIVIDED = 1.25;
+/** Orthonormalisations that come earlier by this factor are cheaper than measured states. */
+static const double WORTH = 0.8;
+/** Times that are this close, as a part of an interval, are one. */
+static const double CLOSE = 1e-6;
 /** Of samples, for standard errors: fewer in an averaging would make them late and rough. */
 static const double SAMPLES_MIN = 32.0;
 
@@ -123,7 +127,7 @@ static void enter_stage(hd_run *run, hd_stage stage)
     run->due.stage_end = false;
     hd_schedule_enter(&run->schedule, stage, now);
     run->sample = (hd_sample){.begin = now};
-    run->followed = -INFINITY;
+    run->followed = -1.0;
     run->advance.plan.end = now;
     stage = run->schedule.stage;
     if (run->spectrum && stage == HD_AVERAGING) averages_clear(run);
@@ -226,8 +230,9 @@ static void take_changes(hd_run *run)
                                   .field_interval = run->field_interval};
     hd_schedule_change(&run->schedule, &run->scene, now);
     run->advance.plan.end = fmin(run->advance.plan.end, hd_schedule_cut(&run->schedule));
-    if (run->schedule.stage == HD_AVERAGING && hd_schedule_is_over(&run->schedule, now))
-        run->due.report = run->due.fields = run->due.stage_end = true;
+    if (run->schedule.stage != HD_AVERAGING) return;
+    run->due.stage_end = hd_schedule_is_over(&run->schedule, now) || target_reached(run);
+    if (run->due.stage_end) run->due.report = run->due.fields = true;
 }
 
 /* ---- from one orthonormalisation to the next ----------------------------------------------- */
@@ -247,6 +252,7 @@ static int watched(const hd_run *run)
  */
 static hd_status end_sample(hd_run *run)
 {
+    if (is_measured(run)) return HD_OK; /* an averaging can be too short for time to move */
     HD_TRY(hd_run_factorise(run, true));
     run->sample = (hd_sample){.begin = hd_run_time(run)};
     if (run->schedule.stage != HD_AVERAGING) return HD_OK;
@@ -258,6 +264,7 @@ static hd_status end_sample(hd_run *run)
 static hd_status end_interval(hd_run *run)
 {
     const int count = watched(run);
+    run->cost.limit = run->limit;
     const bool hidden = count > 0 && !hd_observer_reaches(&run->observer, count);
     return run->sample.ends || hidden ? end_sample(run) : hd_run_factorise(run, false);
 }
@@ -310,9 +317,17 @@ static hd_interval_length next_interval(const hd_run *run, double left)
  * what it should be, or the phases cannot wait. */
 static bool is_last(const hd_run *run, double length)
 {
-    const double gone = hd_run_time(run) + length - run->sample.begin;
+    const double gone = hd_run_time(run) + length - run->sample.begin, close = CLOSE * length;
     return gone + 0.5 * length >= hd_run_sample_longest(run) ||
-           gone + length > phases_sampling(run);
+           gone + length > phases_sampling(run) + close;
+}
+
+/** A little shorter, if one more of them goes into the sample before the phases must be known. */
+static double rounded_down(const hd_run *run, double length)
+{
+    const double left = run->sample.begin + phases_sampling(run) - hd_run_time(run);
+    const double part = left < INFINITY ? left / ceil(left / length * (1.0 - CLOSE)) : length;
+    return part < length && part > WORTH * length ? part : length;
 }
 
 /** Why an interval that takes all of what is left is no longer. */
@@ -331,6 +346,7 @@ static void plan_interval(hd_run *run)
     const double now = hd_run_time(run), stop = next_stop(run), left = stop - now;
     run->interval.norm = hd_run_norm(run, false);
     hd_interval_length next = next_interval(run, left);
+    next.length = rounded_down(run, next.length);
     run->sample.ends = next.length >= left || is_last(run, next.length);
     if (run->sample.ends) {
         run->interval.norm = HD_NORM_FULL;
@@ -338,7 +354,7 @@ static void plan_interval(hd_run *run)
     }
     run->interval_end = next.length >= left ? stop
                                             : hd_schedule_snap(&run->schedule, now, next.length);
-    run->cost.limit = next.limit == HD_LIMIT_SCHEDULE ? limit_of_rest(run, left) : next.limit;
+    run->limit = next.limit == HD_LIMIT_SCHEDULE ? limit_of_rest(run, left) : next.limit;
 }
 
 /* ---- in the middle of an interval ---------------------------------------------------------- */
@@ -378,8 +394,9 @@ static double look_due(const hd_run *run)
 {
     const double sampling = phases_sampling(run), since = run->followed;
     const double left = run->interval_end - since;
-    if (left <= sampling || since + sampling <= hd_run_time(run)) return INFINITY;
-    return since + left / ceil(left / sampling);
+    if (since < 0 || left <= sampling || since + sampling <= hd_run_time(run)) return INFINITY;
+    const double share = since + left / ceil(left / sampling);
+    return share > hd_run_time(run) ? share : since + sampling;
 }
 
 /** The slowest vectors, if they are wanted and not known. */

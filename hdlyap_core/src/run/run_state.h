@@ -62,10 +62,11 @@ struct hd_run {
     hd_schedule schedule;
     hd_interval interval;
     double interval_end; /**< simulated time at which the frame is orthonormalised next */
+    hd_limit limit;      /**< why not later */
     double sample_max;   /**< simulated time of HD_COLLISIONS_PER_SAMPLE */
     hd_sample sample;
     bool whole; /**< the frame was orthonormalised in the whole norm, not in that of dq alone */
-    double followed;  /**< simulated time at which the phases were known last; -INFINITY: never */
+    double followed;  /**< simulated time at which the phases were known last; negative: never */
     unsigned observe; /**< set of HD_OBSERVE_* that is needed now */
     hd_watch watch;
     hd_due due;

@@ -78,7 +78,7 @@ void hd_interval_learn(hd_interval *interval, double length, double condition, d
     growth.variance += FORGET * (off * off - growth.variance);
     interval->growth[interval->norm] = growth;
     interval->stretch = follow(interval->stretch, stretch / length);
-    interval->last = length;
+    interval->last = follow(interval->last, length);
 }
 
 /** As if it had been seen at the maximum. */

@@ -32,7 +32,7 @@ typedef struct hd_interval {
     hd_norm norm;        /**< of the next step, and of what is learnt */
     hd_growth growth[2]; /**< in each norm */
     double stretch;      /**< largest |ln R_ll| per time unit: rises at once, falls slowly */
-    double last;         /**< last interval measured, or the first guess */
+    double last;         /**< longest of the last intervals, or the first guess; falls slowly */
     /** Averaged time whose share of the accuracy is not used up; negative: used in advance;
      * INFINITY before the averaging */
     double saved;

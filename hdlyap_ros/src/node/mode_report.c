@@ -301,10 +301,11 @@ static hd_status publish_steps(mode_report *m, const snapshot *now)
 static hd_status publish_phases(mode_report *m, const snapshot *now)
 {
     const hd_run *run = now->run;
+    const double followed = hd_run_followed(run);
     const hdr_lp_phases message = {
         .header = message_header(),
         .run_id = m->to->run_id,
-        .sim_time = hd_run_followed(run),
+        .sim_time = followed >= 0 ? followed : hd_run_time(run),
         .phases = {m->phase, m->phases},
     };
     for (uint32_t k = 0; k < m->phases; k++) {

@@ -11,15 +11,20 @@ static void means_are_weighted_by_time(void **state)
     CHECK_CLOSE(hd_spectrum_exponent(s, 0), 0.0, 0.0);
     hd_spectrum_add(s, (const double[]){2.0, -1.0}, 0.5);
     hd_spectrum_add(s, (const double[]){4.0, 0.0}, 1.5);
+    CHECK_CLOSE(hd_spectrum_time(s), 0.0, 0.0); /* the sample has not ended */
+    CHECK_CLOSE(hd_spectrum_sample_time(s), 2.0, 0.0);
+    hd_spectrum_sample(s);
     CHECK_CLOSE(hd_spectrum_time(s), 2.0, 0.0);
+    CHECK_CLOSE(hd_spectrum_sample_time(s), 0.0, 0.0);
     CHECK_CLOSE(hd_spectrum_exponent(s, 0), 3.0, 0.0);
     CHECK_CLOSE(hd_spectrum_exponent(s, 1), -0.5, 0.0);
     CHECK_CLOSE(hd_spectrum_lambda_max(s), 3.0, 0.0);
     CHECK_CLOSE(hd_spectrum_ks_entropy(s), 3.0, 0.0); /* the positive ones only */
     CHECK_CLOSE(hd_spectrum_pairing_error(s), -1.0, 0.0);
     assert_true(hd_spectrum_std_error(s, 0) < 0);
+    hd_spectrum_add(s, (const double[]){0.5, 1.0}, 2.0);
+    hd_spectrum_add(s, (const double[]){0.5, 0.0}, 0.0); /* another norm at the same time */
     hd_spectrum_sample(s);
-    hd_spectrum_add(s, (const double[]){1.0, 1.0}, 2.0);
     CHECK_CLOSE(hd_spectrum_exponent(s, 0), 7.0 / 4.0, 0.0);
     hd_spectrum_clear(s);
     CHECK_CLOSE(hd_spectrum_time(s) + hd_spectrum_exponent(s, 0), 0.0, 0.0);
@@ -63,6 +68,7 @@ static void all_exponents_show_the_pairing_error(void **state)
     hd_spectrum *s;
     CHECK_OK(hd_spectrum_create(&s, 4, 4, 0.0));
     hd_spectrum_add(s, (const double[]){3.0, 1.0, -1.25, -3.0}, 1.0);
+    hd_spectrum_sample(s);
     CHECK_CLOSE(hd_spectrum_pairing_error(s), 0.25, 0.0);
     CHECK_CLOSE(hd_spectrum_ks_entropy(s), 4.0, 0.0);
     hd_spectrum_free(s);

@@ -138,7 +138,7 @@ static void a_long_run_allocates_nothing(void **state)
         scene.boundary[0] = scene.boundary[1] = k % 2 ? HD_REFLECTING : HD_PERIODIC;
         scene.disks = 40;
         hd_run *run = created(&scene);
-        until(run, 30.0);
+        until(run, 60.0);
         const size_t before = ledger_now().allocations;
         until(run, HUGE_VAL);
         assert_int_equal(ledger_now().allocations, before);

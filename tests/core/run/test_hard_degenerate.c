@@ -89,7 +89,7 @@ typedef struct watch {
     history step[STEPS_MAX];
     int resolved;
     double time[TRACKS_MAX], phase[TRACKS_MAX];
-    double largest; /**< turn of any phase between two reports [rad] */
+    double largest; /**< miss of what its rate foresaw, of any phase between two reports [rad] */
     long turns;
 } watch;
 
@@ -127,7 +127,8 @@ static void watch_phases(watch *w, const hd_phases *phases)
         const hd_lp_phase *phase = hd_phases_phase(phases, t);
         const bool known = phase->state == HD_LP_TRACKED;
         if (known && w->time[t] >= 0 && phase->time > w->time[t]) {
-            w->largest = fmax(w->largest, fabs(phase->phase - w->phase[t]));
+            const double foreseen = phase->omega * (phase->time - w->time[t]);
+            w->largest = fmax(w->largest, fabs(phase->phase - w->phase[t] - foreseen));
             w->turns++;
         }
         w->time[t] = known ? phase->time : -1.0;

@@ -52,6 +52,7 @@ static void the_estimate_is_what_is_asked_for(void **state)
     scene = short_run(200, HD_EXPONENTS_ALL, MODES);
     compare("all exponents", &scene, 0.93, 1.07);
     scene = short_run(2000, 60, 0);
+    scene.warmup = 10.0;
     compare("2000 disks, 60 exponents", &scene, 0.93, 1.07);
     scene = short_run(20000, HD_EXPONENTS_NONE, 0);
     scene.warmup = scene.equilibration = 0.0;

@@ -22,6 +22,7 @@ static hd_run *run_with(int threads)
     def.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
     def.threads = threads;
     CHECK_OK(hd_run_create(&run, &def, NULL, 0));
+    hd_run_watch(run, 0.5, VECTORS - 8); /* looks */
     while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
     assert_int_equal(hd_run_vectors(run), VECTORS);
     return run;
