@@ -1,35 +1,42 @@
-/** How far ahead the turns of one LP step are foreseen: its mean rate, and by how much its phases
- * have missed it [T13]. */
+/** How far ahead the turns of one LP step are foreseen: its mean rate, and by how much the step and
+ * its phases have missed it [T13]. `unseen` is the longest time between samples without any
+ * foresight. */
 #ifndef HD_FORESIGHT_H
 #define HD_FORESIGHT_H
 
 #include "base/archive.h"
 
+/** Misses; older ones are forgotten. */
+typedef struct hd_misses {
+    double time, times, squares; /**< sums of dt, dt^2, dt miss^2 */
+} hd_misses;
+
 typedef struct hd_foresight {
     double omega;    /**< mean turn of the whole step per time */
     double averaged; /**< over so long */
-    /** Sums over phases, of which older ones are forgotten: dt, dt^2, dt miss^2. */
-    double time, spans, misses;
+    hd_misses whole, phases;
     long samples; /**< that have been held against omega */
+    int far_off;  /**< last turns of the whole that were far from what had been foreseen */
 } hd_foresight;
 
 /** Knows nothing. */
 void hd_foresight_clear(hd_foresight *f);
 
-/** The whole step has turned by `turn` in dt > 0. */
-void hd_foresight_turn(hd_foresight *f, double turn, double dt);
-
-/** A sample after dt > 0 is to be held against omega: forgets as much of the older ones. */
+/** After dt > 0 there is a sample that is to be held against omega: forgets as much of the older
+ * ones. */
 void hd_foresight_sample(hd_foresight *f, double dt);
-/** One phase of it was off by `miss` from what omega had foreseen for its dt. */
+/** The whole step has turned by `turn` in dt > 0. If that is far off, the next sample is to come as
+ * early as if nothing were foreseen. */
+void hd_foresight_turn(hd_foresight *f, double turn, double dt);
+/** One phase was off by `miss` from what omega had foreseen for dt > 0. */
 void hd_foresight_miss(hd_foresight *f, double miss, double dt);
 
-/** Time ahead at which phases are expected to be off by `error` (rms); 0 if not yet known. */
-double hd_foresight_reach(const hd_foresight *f, double error);
-/** Mean time that the misses are of, longer ones counting more; 0 if there is none. */
-double hd_foresight_span(const hd_foresight *f);
-/** Root mean square of the misses; 0 if there is none. */
-double hd_foresight_scatter(const hd_foresight *f);
+/** Longest time to the next sample; at least `unseen`. */
+double hd_foresight_sampling(const hd_foresight *f, double unseen);
+/** Longest time that a phase may be weak before it is begun anew. */
+double hd_foresight_gap(const hd_foresight *f, double unseen);
+/** True if the whole was far off, and once more when it was asked again: omega is not its rate. */
+bool hd_foresight_is_lost(const hd_foresight *f);
 
 void hd_foresight_archive(hd_foresight *f, hd_archive *archive);
 

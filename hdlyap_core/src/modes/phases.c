@@ -25,18 +25,6 @@ static const double PI = 3.14159265358979323846;
 static const double RATE_PER_EXPONENT = 1.25;
 /** Sampling is refined when a step may turn by more than this part of pi, unless it is foreseen. */
 static const double SAFE = 0.75;
-/** Foreseen as far as phases are expected to be off by this: pi is five times as much [rad]. */
-static const double OFF = 0.2 * 3.14159265358979323846;
-/** Off by this, omega is not the rate any more [rad]. */
-static const double LOST = 0.4 * 3.14159265358979323846;
-/** The next samples are at most so many times as far apart as those that have shown how phases
- * miss.
- */
-static const double GROWTH = 2.0;
-/** In times that a turn by pi may take: longest between samples, and of a phase that is weak, which
- * is then begun anew. */
-static const double MOST = 8.0, GAP_MAX = 16.0;
-
 /** Of a velocity: rotation without any noise has a weight, too. */
 static const double VARIANCE_MIN = 1e-100;
 
@@ -257,26 +245,9 @@ static void rotor_turn(rotor *r, const hd_modes *modes, double dt)
 }
 
 /** Longest time that unwraps a step whose rate is not known. */
-static double sampling_unseen(const hd_step *step)
+static double unseen(const hd_step *step)
 {
     return SAFE * PI / (RATE_PER_EXPONENT * fabs(step->exponent));
-}
-
-/** Longest time between samples of a rotor that is at work. */
-static double rotor_sampling(const rotor *r, const hd_step *step)
-{
-    const double unseen = sampling_unseen(step);
-    const double shown = GROWTH * hd_foresight_span(&r->ahead);
-    const double seen = fmin(hd_foresight_reach(&r->ahead, OFF), shown);
-    return fmax(unseen, fmin(seen, MOST / SAFE * unseen));
-}
-
-/** Longest time that a phase may be weak. */
-static double rotor_gap(const rotor *r, const hd_step *step)
-{
-    const double most = GAP_MAX / SAFE * sampling_unseen(step);
-    const double reach = hd_foresight_reach(&r->ahead, LOST);
-    return reach > 0 ? fmin(most, fmax(reach, most / MOST)) : most;
 }
 
 /** Mean rate of the tracks: unlike the turn of the whole, where longer vectors weigh more, it has
@@ -299,7 +270,6 @@ static void rotor_store(rotor *r, const hd_modes *modes, double time, double for
     const double complex turn = cexp(I * omega * dt);
     double sum = 0.0;
     int count = 0;
-    if (judged) hd_foresight_sample(&r->ahead, dt);
     for (int v = 0; v < r->slots; v++) {
         const int col = r->slot_col[v];
         const bool away = r->samples > 0 && strength_of(r, modes, col) < HD_TRACK_WEAK;
@@ -331,13 +301,6 @@ static void rotor_take_up(rotor *r, const hd_step *step, const hd_modes *modes)
     slots_fill(r, step, modes);
 }
 
-/** True if omega does not tell any more how a step turns that depends on it. */
-static bool is_lost(const rotor *r, const hd_step *step)
-{
-    return hd_foresight_scatter(&r->ahead) > LOST &&
-           hd_foresight_span(&r->ahead) * SAFE > sampling_unseen(step);
-}
-
 /** Samples may come at any distance: only one that is too far away for the step's rate, or for how
  * well it is foreseen, begins anew. */
 static void rotor_add(rotor *r, const hd_step *step, const hd_modes *modes, double time)
@@ -349,14 +312,16 @@ static void rotor_add(rotor *r, const hd_step *step, const hd_modes *modes, doub
     }
     const bool same = r->col == step->col && r->count == step->count;
     if (same && !(dt > 0)) return;
-    const bool coarse = same && (dt * SAFE > rotor_sampling(r, step) || is_lost(r, step));
-    if (!same || coarse) {
-        rotor_take_up(r, step, modes);
-    } else {
+    const double gap = hd_foresight_gap(&r->ahead, unseen(step));
+    bool coarse = same && dt * SAFE > hd_foresight_sampling(&r->ahead, unseen(step));
+    if (same && !coarse) {
         if (r->samples > LEARN) slots_match(r, step, modes, dt);
+        if (r->samples > LEARN) hd_foresight_sample(&r->ahead, dt);
         rotor_turn(r, modes, dt);
+        coarse = hd_foresight_is_lost(&r->ahead);
     }
-    rotor_store(r, modes, time, foreseen, rotor_gap(r, step));
+    if (!same || coarse) rotor_take_up(r, step, modes);
+    rotor_store(r, modes, time, foreseen, gap);
     for (int t = 0; coarse && t < r->slots * r->pairs; t++) r->track[t].out.state = HD_LP_COARSE;
 }
 
@@ -477,7 +442,8 @@ double hd_phases_sampling(const hd_phases *phases, const hd_steps *steps)
     double sampling = INFINITY;
     for (int k = 0; k < phases->rotors; k++) {
         const hd_step *step = hd_steps_step(steps, phases->rotor[k].step);
-        if (step->resolved) sampling = fmin(sampling, rotor_sampling(&phases->rotor[k], step));
+        if (!step->resolved) continue;
+        sampling = fmin(sampling, hd_foresight_sampling(&phases->rotor[k].ahead, unseen(step)));
     }
     return sampling;
 }
