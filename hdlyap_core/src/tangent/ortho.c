@@ -32,17 +32,18 @@ static const double PANEL_CONDITION_GOOD = 30.0;
 static const double PANEL_CONDITION_MAX = 1e7;
 
 /** PANELS of them if there are that many vectors: the last half of the flops then falls into wide
- * products. */
-enum { PANELS = 8, PANEL_MIN = 8, PANEL_MAX = 160, LATER_MAX = 640, PROBES = 8 };
+ * products. A panel wider than LEAF_MAX is orthonormalised by halves. */
+enum { PANELS = 8, PANEL_MIN = 8, PANEL_MAX = 192, LEAF_MAX = 48, PROBES = 8 };
 
 struct hd_ortho {
     int rows, vectors;
     int width;          /**< of a panel */
-    double *gram;       /**< [width * width], column-major, lower triangle */
-    double *projection; /**< [later * width], column-major: S; LAPACK's workspace */
+    double *gram;       /**< [width * width], column-major, lower triangle: G, then L */
+    double *inverse;    /**< the same: L^-1 */
+    double *projection; /**< [vectors * width], column-major: S; LAPACK's workspace */
     /** [vectors], |V e_k|^2, of a panel complete when its turn comes */
     double *norm2;
-    double *scale;       /**< [width], diagonal of gram before it is factored */
+    double *scale;       /**< [width], diagonal of G */
     double *probe;       /**< [PROBES][vectors]: R^-T D x, see condition_of */
     double *log_stretch; /**< [vectors] */
     double *reflector;   /**< [vectors], of the stable step */
@@ -70,12 +71,13 @@ static hd_status ortho_allocate(hd_ortho *ortho)
 {
     const size_t n = (size_t)ortho->vectors, width = (size_t)ortho->width;
     const int wanted_by_lapack = stable_workspace(ortho->rows, ortho->vectors);
-    ortho->lwork = (ortho->vectors < LATER_MAX ? ortho->vectors : LATER_MAX) * ortho->width;
+    ortho->lwork = ortho->vectors * ortho->width;
     if (ortho->lwork < wanted_by_lapack) ortho->lwork = wanted_by_lapack;
     const struct {
         double **array;
         size_t size;
     } wanted[] = {{&ortho->gram, width * width},
+                  {&ortho->inverse, width * width},
                   {&ortho->projection, (size_t)ortho->lwork},
                   {&ortho->norm2, n},
                   {&ortho->scale, width},
@@ -116,6 +118,7 @@ void hd_ortho_free(hd_ortho *ortho)
 {
     if (!ortho) return;
     hd_memory_free(ortho->gram);
+    hd_memory_free(ortho->inverse);
     hd_memory_free(ortho->projection);
     hd_memory_free(ortho->norm2);
     hd_memory_free(ortho->scale);
@@ -163,22 +166,48 @@ static double condition_of(const hd_ortho *ortho)
 
 /* ---- a panel ------------------------------------------------------------------------------- */
 
-/** The columns of A that a norm sees: all of them; or two parts of every fourth, the dq_x and the
- * dq_y of the disks. */
-typedef struct seen {
-    int parts, columns; /**< of a part */
-    int lda;            /**< from one of them to the next */
-} seen;
-
-static seen seen_by(hd_norm norm, int rows, int lda)
-{
-    return norm == HD_NORM_DQ ? (seen){2, rows / 4, 4 * lda} : (seen){1, rows, lda};
-}
-
+/** Some neighbouring vectors: the panel whose turn it is, a part of it, or later ones. */
 typedef struct panel {
     double *a; /**< its rows of A */
     int lda, first, width;
 } panel;
+
+static panel panel_of(const hd_ortho *ortho, hd_frame *frame, int first)
+{
+    const int left = ortho->vectors - first;
+    return (panel){hd_frame_data(frame) + first, hd_frame_stride(frame), first,
+                   left < ortho->width ? left : ortho->width};
+}
+
+static panel later_than(const hd_ortho *ortho, panel x)
+{
+    const int next = x.first + x.width;
+    return (panel){x.a + x.width, x.lda, next, ortho->vectors - next};
+}
+
+/** A square of a panel's triangle, its diagonal that of the panel's vectors `from` on. */
+static double *triangle_at(double *triangle, panel whole, panel part)
+{
+    return triangle + (size_t)(part.first - whole.first) * (size_t)(whole.width + 1);
+}
+
+/** s <- A_y A_x^T in the norm, column-major. That of dq sees two parts of every fourth column of A:
+ * dq_x and dq_y of the disks. */
+static void inner_products(const hd_ortho *ortho, double *s, int lds, panel y, panel x)
+{
+    const int parts = ortho->norm == HD_NORM_DQ ? 2 : 1, step = parts * parts;
+    for (int part = 0; part < parts; part++)
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, y.width, x.width, ortho->rows / step,
+                    1.0, y.a + part * y.lda, step * y.lda, x.a + part * x.lda, step * x.lda,
+                    part > 0, s, lds);
+}
+
+/** A_y <- A_y - S A_x. */
+static void take_out(const hd_ortho *ortho, const double *s, int lds, panel y, panel x)
+{
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, y.width, ortho->rows, x.width, -1.0, s,
+                lds, x.a, x.lda, 1.0, y.a, y.lda);
+}
 
 /** Entry of L of the present pass at a row and the panel's first column. */
 static double *factor_at(const hd_ortho *ortho, panel x, int row)
@@ -186,7 +215,7 @@ static double *factor_at(const hd_ortho *ortho, panel x, int row)
     return ortho->factor[ortho->passes] + (size_t)x.first * (size_t)ortho->vectors + row;
 }
 
-/** The panel's own triangle in gram, of its first or second Cholesky pass: L = L_1 L_2. */
+/** The panel's own triangle in gram, of its first or second time: L = L_1 L_2. */
 static void keep_panel(const hd_ortho *ortho, panel x, bool again)
 {
     if (!ortho->factor[0]) return;
@@ -203,63 +232,95 @@ static void keep_panel(const hd_ortho *ortho, panel x, bool again)
         }
 }
 
-/** S, `count` rows of L from row `next` on. */
-static void keep_projection(const hd_ortho *ortho, panel x, int next, int count)
+/** S, the rows of L of all later vectors. */
+static void keep_projection(const hd_ortho *ortho, panel x, panel later)
 {
     if (!ortho->factor[0]) return;
     for (int col = 0; col < x.width; col++)
-        memcpy(factor_at(ortho, x, next) + (size_t)col * (size_t)ortho->vectors,
-               ortho->projection + (size_t)col * (size_t)count, (size_t)count * sizeof(double));
+        memcpy(factor_at(ortho, x, later.first) + (size_t)col * (size_t)ortho->vectors,
+               ortho->projection + (size_t)col * (size_t)later.width,
+               (size_t)later.width * sizeof(double));
 }
 
-/** gram <- A_p A_p^T in the norm. */
-static hd_status panel_gram(hd_ortho *ortho, panel x)
+/** A narrow part of a panel: gram <- L of G = A_p A_p^T, inverse <- L^-1, A_p <- L^-1 A_p. */
+static hd_status cholesky(hd_ortho *ortho, panel whole, panel x)
 {
-    const seen y = seen_by(ortho->norm, ortho->rows, x.lda);
-    for (int part = 0; part < y.parts; part++)
-        cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, x.width, y.columns, 1.0,
-                    x.a + part * x.lda, y.lda, part > 0, ortho->gram, x.width);
-    for (int k = 0; k < x.width; k++) {
-        ortho->scale[k] = ortho->gram[k * (x.width + 1)];
-        if (!is_square(ortho->scale[k])) return HD_ILL_CONDITIONED; /* keeps NaN out of LAPACK */
-    }
+    double *l = triangle_at(ortho->gram, whole, x),
+           *inverse = triangle_at(ortho->inverse, whole, x);
+    const int ld = whole.width;
+    inner_products(ortho, l, ld, x, x);
+    for (int k = 0; k < x.width; k++) /* keeps NaN out of LAPACK */
+        if (!is_square(l[k * (ld + 1)])) return HD_ILL_CONDITIONED;
+    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', x.width, l, ld) != 0) return HD_ILL_CONDITIONED;
+    for (int col = 0; col < x.width; col++)
+        memcpy(inverse + col * (ld + 1), l + col * (ld + 1),
+               (size_t)(x.width - col) * sizeof *inverse);
+    if (LAPACKE_dtrtri_work(LAPACK_COL_MAJOR, 'L', 'N', x.width, inverse, ld) != 0)
+        return HD_ILL_CONDITIONED;
+    cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, x.width,
+                ortho->rows, 1.0, inverse, ld, x.a, x.lda);
     return HD_OK;
 }
 
-/** Condition of the panel by itself; gram holds L^-1. INFINITY if not finite. */
+/** With both halves in their squares: L^-1 below the first is -L_2^-1 S L_1^-1. */
+static void invert_corner(hd_ortho *ortho, panel whole, panel first, panel second)
+{
+    const double *one = triangle_at(ortho->inverse, whole, first);
+    const double *two = triangle_at(ortho->inverse, whole, second);
+    const int ld = whole.width;
+    const size_t corner = (size_t)(one - ortho->inverse) + (size_t)first.width;
+    double *inverse = ortho->inverse + corner;
+    for (int col = 0; col < first.width; col++)
+        memcpy(inverse + col * ld, ortho->gram + corner + col * ld,
+               (size_t)second.width * sizeof *inverse);
+    cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, second.width,
+                first.width, -1.0, two, ld, inverse, ld);
+    cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, second.width,
+                first.width, 1.0, one, ld, inverse, ld);
+}
+
+/** The same as cholesky of a part of any width: the first half, which is then taken out of the
+ * second. Most of the work is thus in dgemm. */
+static hd_status by_halves(hd_ortho *ortho, panel whole, panel x)
+{
+    if (x.width <= LEAF_MAX) return cholesky(ortho, whole, x);
+    const int half = (x.width / 2 + 7) / 8 * 8;
+    const panel first = {x.a, x.lda, x.first, half};
+    const panel second = {x.a + half, x.lda, x.first + half, x.width - half};
+    double *s = triangle_at(ortho->gram, whole, first) + half;
+    HD_TRY(by_halves(ortho, whole, first));
+    inner_products(ortho, s, whole.width, second, first);
+    take_out(ortho, s, whole.width, second, first);
+    HD_TRY(by_halves(ortho, whole, second));
+    invert_corner(ortho, whole, first, second);
+    return HD_OK;
+}
+
+/** scale <- diagonal of G = L L^T. */
+static void panel_scale(hd_ortho *ortho, int width)
+{
+    memset(ortho->scale, 0, (size_t)width * sizeof *ortho->scale);
+    for (int col = 0; col < width; col++)
+        for (int row = col; row < width; row++) {
+            const double entry = ortho->gram[col * width + row];
+            ortho->scale[row] += entry * entry;
+        }
+}
+
+/** Condition of the panel by itself. INFINITY if not finite. */
 static double panel_condition(const hd_ortho *ortho, int width)
 {
     double worst = 0.0;
     for (int row = 0; row < width; row++) {
         double sum = 0.0;
         for (int col = 0; col <= row; col++) {
-            const double entry = ortho->gram[col * width + row];
+            const double entry = ortho->inverse[col * width + row];
             sum += entry * entry * ortho->scale[col];
         }
         if (!(sum < INFINITY)) return INFINITY;
         worst = fmax(worst, sum);
     }
     return sqrt(worst);
-}
-
-/** gram <- L^-1; adds ln L_kk. */
-static hd_status panel_factor(hd_ortho *ortho, panel x, bool again)
-{
-    const int w = x.width;
-    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', w, ortho->gram, w) != 0)
-        return HD_ILL_CONDITIONED;
-    for (int k = 0; k < w; k++) ortho->log_stretch[x.first + k] += log(ortho->gram[k * (w + 1)]);
-    keep_panel(ortho, x, again);
-    return LAPACKE_dtrtri_work(LAPACK_COL_MAJOR, 'L', 'N', w, ortho->gram, w) == 0
-               ? HD_OK
-               : HD_ILL_CONDITIONED;
-}
-
-/** x <- L^-1 x for a column-major x with `columns` columns. */
-static void panel_solve(const hd_ortho *ortho, panel x, double *right, int ld, int columns)
-{
-    cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, x.width, columns,
-                1.0, ortho->gram, x.width, right, ld);
 }
 
 /** The probes' rows of this panel are complete but for D x itself. */
@@ -275,53 +336,38 @@ static hd_status panel_orthonormalise(hd_ortho *ortho, panel x)
 {
     bool good = false;
     for (int pass = 0; pass < 2 && !good; pass++) {
-        HD_TRY(panel_gram(ortho, x));
-        if (pass == 0) probe_panel(ortho, x);
-        HD_TRY(panel_factor(ortho, x, pass > 0));
+        HD_TRY(by_halves(ortho, x, x));
+        panel_scale(ortho, x.width);
+        for (int k = 0; k < x.width; k++)
+            ortho->log_stretch[x.first + k] += log(ortho->gram[k * (x.width + 1)]);
+        keep_panel(ortho, x, pass > 0);
         const double condition = panel_condition(ortho, x.width);
         if (!(condition <= PANEL_CONDITION_MAX)) return HD_ILL_CONDITIONED;
-        panel_solve(ortho, x, ortho->probe + x.first, ortho->vectors, PROBES);
-        panel_solve(ortho, x, x.a, x.lda, ortho->rows);
+        if (pass == 0) probe_panel(ortho, x);
+        cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, x.width,
+                    PROBES, 1.0, ortho->inverse, x.width, ortho->probe + x.first, ortho->vectors);
         good = condition <= PANEL_CONDITION_GOOD;
         if (good) ortho->panel_condition = fmax(ortho->panel_condition, condition);
     }
     return HD_OK;
 }
 
-/** projection <- S = A_later A_p^T in the norm, `count` rows from vector `next` on. */
-static void inner_products(const hd_ortho *ortho, panel x, int next, int count)
+/** Takes the panel out of all later vectors, and out of their probes. */
+static void panel_project(hd_ortho *ortho, panel x, panel later)
 {
-    const seen y = seen_by(ortho->norm, ortho->rows, x.lda);
-    for (int part = 0; part < y.parts; part++) {
-        const double *own = x.a + part * x.lda;
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, count, x.width, y.columns, 1.0,
-                    own + (next - x.first), y.lda, own, y.lda, part > 0, ortho->projection, count);
-    }
-}
-
-/** Takes the panel out of `count` later vectors from `next` on, and out of their probes. */
-static void panel_project(hd_ortho *ortho, panel x, int next, int count)
-{
-    double *later = x.a + (next - x.first), *s = ortho->projection;
-    inner_products(ortho, x, next, count);
-    keep_projection(ortho, x, next, count);
+    double *s = ortho->projection;
+    const int count = later.width;
+    inner_products(ortho, s, count, later, x);
+    keep_projection(ortho, x, later);
     for (int col = 0; col < x.width; col++)
         for (int row = 0; row < count; row++) {
             const double entry = s[(size_t)col * (size_t)count + (size_t)row];
-            ortho->norm2[next + row] += entry * entry;
+            ortho->norm2[later.first + row] += entry * entry;
         }
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, PROBES, x.width, -1.0, s, count,
-                ortho->probe + x.first, ortho->vectors, 1.0, ortho->probe + next, ortho->vectors);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, ortho->rows, x.width, -1.0, s,
-                count, x.a, x.lda, 1.0, later, x.lda);
-}
-
-static void panel_project_out(hd_ortho *ortho, panel x)
-{
-    for (int next = x.first + x.width; next < ortho->vectors; next += LATER_MAX) {
-        const int left = ortho->vectors - next;
-        panel_project(ortho, x, next, left < LATER_MAX ? left : LATER_MAX);
-    }
+                ortho->probe + x.first, ortho->vectors, 1.0, ortho->probe + later.first,
+                ortho->vectors);
+    take_out(ortho, s, count, later, x);
 }
 
 /* ---- a step -------------------------------------------------------------------------------- */
@@ -337,11 +383,9 @@ static hd_status pass(hd_ortho *ortho, hd_frame *frame, double condition_max)
     probes_clear(ortho);
     ortho->panel_condition = PANEL_CONDITION_LEAST;
     for (int first = 0; first < ortho->vectors; first += ortho->width) {
-        const int left = ortho->vectors - first;
-        const panel x = {hd_frame_data(frame) + first, hd_frame_stride(frame), first,
-                         left < ortho->width ? left : ortho->width};
+        const panel x = panel_of(ortho, frame, first), later = later_than(ortho, x);
         HD_TRY(panel_orthonormalise(ortho, x));
-        panel_project_out(ortho, x);
+        if (later.width > 0) panel_project(ortho, x, later);
     }
     ortho->condition = condition_of(ortho);
     ortho->passes++;
@@ -480,16 +524,16 @@ double hd_ortho_defect(const hd_ortho *ortho) { return ortho->defect; }
 int hd_ortho_passes(const hd_ortho *ortho) { return ortho->passes; }
 hd_norm hd_ortho_norm(const hd_ortho *ortho) { return ortho->norm; }
 
-/** max(worst, |x^T y - diagonal|) over all pairs of columns x of the panel and y from `next` on;
+/** max(worst, |x^T y - diagonal|) over all pairs of columns x of the panel and y from its first on;
  * NaN stays. */
-static double panel_defect(hd_ortho *ortho, panel x, int next, int count, double worst)
+static double panel_defect(hd_ortho *ortho, panel x, double worst)
 {
     const double *s = ortho->projection;
-    inner_products(ortho, x, next, count);
+    const int count = ortho->vectors - x.first;
+    inner_products(ortho, ortho->projection, count, (panel){x.a, x.lda, x.first, count}, x);
     for (int col = 0; col < x.width; col++)
         for (int row = 0; row < count; row++) {
-            const bool same = x.first + col == next + row;
-            const double off = fabs(s[(size_t)col * (size_t)count + (size_t)row] - same);
+            const double off = fabs(s[(size_t)col * (size_t)count + (size_t)row] - (col == row));
             if (isnan(worst)) return worst;
             if (!(off <= worst)) worst = off;
         }
@@ -502,12 +546,7 @@ double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame, hd_norm norm)
     double worst = 0.0;
     ortho->norm = norm;
     for (int first = 0; first < ortho->vectors; first += ortho->width)
-        for (int next = first; next < ortho->vectors; next += LATER_MAX) {
-            const int rest = ortho->vectors - first, left = ortho->vectors - next;
-            const panel x = {hd_frame_data(frame) + first, hd_frame_stride(frame), first,
-                             rest < ortho->width ? rest : ortho->width};
-            worst = panel_defect(ortho, x, next, left < LATER_MAX ? left : LATER_MAX, worst);
-        }
+        worst = panel_defect(ortho, panel_of(ortho, frame, first), worst);
     ortho->norm = of_the_step;
     return worst;
 }
