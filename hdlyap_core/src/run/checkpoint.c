@@ -136,7 +136,8 @@ static void times_expect(const hd_run *run, hd_archive *archive)
     hd_archive_expect(archive, s->start >= 0 && s->start <= s->origin && s->origin <= now && ahead,
                       "schedule", "it does not go on from this time");
     const bool pending = run->log && run->log->duration > 0;
-    const double end = fmax(now, s->stage == HD_FINISHED ? now : hd_schedule_stage_end(s));
+    const double last = s->stage == HD_FINISHED ? now : hd_schedule_stage_end(s);
+    const double end = fmax(now, fmin(last, now + hd_advance_bound(&run->advance, &run->scene)));
     hd_archive_expect(archive, run->sample.begin <= now && run->followed <= now, "run sample begin",
                       "it does not fit the time");
     hd_archive_expect(archive, run->interval_end <= end && (!pending || run->interval_end >= now),

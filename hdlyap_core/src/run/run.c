@@ -330,6 +330,9 @@ static double rounded_down(const hd_run *run, double length)
     return part < length && part > WORTH * length ? part : length;
 }
 
+/** True if nothing but rounding would be left of it. */
+static bool is_rest(double length, double left) { return length >= left * (1.0 - CLOSE); }
+
 /** Why an interval that takes all of what is left is no longer. */
 static hd_limit limit_of_rest(const hd_run *run, double left)
 {
@@ -346,14 +349,15 @@ static void plan_interval(hd_run *run)
     const double now = hd_run_time(run), stop = next_stop(run), left = stop - now;
     run->interval.norm = hd_run_norm(run, false);
     hd_interval_length next = next_interval(run, left);
-    next.length = rounded_down(run, next.length);
-    run->sample.ends = next.length >= left || is_last(run, next.length);
+    if (next.length < left) next.length = rounded_down(run, next.length);
+    run->sample.ends = is_rest(next.length, left) || is_last(run, next.length);
     if (run->sample.ends) {
         run->interval.norm = HD_NORM_FULL;
         next = next_interval(run, left);
     }
-    run->interval_end = next.length >= left ? stop
-                                            : hd_schedule_snap(&run->schedule, now, next.length);
+    run->interval_end = is_rest(next.length, left)
+                            ? stop
+                            : hd_schedule_snap(&run->schedule, now, next.length);
     run->limit = next.limit == HD_LIMIT_SCHEDULE ? limit_of_rest(run, left) : next.limit;
 }
 

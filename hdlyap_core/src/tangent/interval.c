@@ -67,17 +67,18 @@ static double follow(double old, double seen) { return fmax(seen, old + FORGET *
 
 /** The condition grows exponentially but for a factor that grazing collisions make: that scatters
  * alike at all lengths, so it is kept apart. The first interval, and a much longer one, start the
- * mean anew. */
+ * mean anew; what a much shorter one shows says little of usual ones. */
 void hd_interval_learn(hd_interval *interval, double length, double condition, double stretch)
 {
     const double seen = log(condition), slope = seen / length;
     hd_growth growth = growth_of(interval, interval->norm);
     const bool afresh = growth.slope == 0 || length > 1.5 * interval->last;
     const double off = afresh ? 0.0 : seen - growth.slope * length;
-    growth.slope = afresh ? slope : growth.slope + FORGET * off / length;
-    growth.variance += FORGET * (off * off - growth.variance);
+    const double usual = fmax(length, interval->last), weight = FORGET * length / usual;
+    growth.slope = afresh ? slope : growth.slope + weight * off / usual;
+    growth.variance += weight * (off * off - growth.variance);
     interval->growth[interval->norm] = growth;
-    interval->stretch = follow(interval->stretch, stretch / length);
+    interval->stretch = follow(interval->stretch, stretch / usual);
     interval->last = follow(interval->last, length);
 }
 

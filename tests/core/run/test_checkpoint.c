@@ -333,7 +333,7 @@ static void what_the_target_has_ended_stays_ended(void **state)
     hd_run *again = kept_and_resumed(run, PATH, &def);
     assert_int_equal(hd_run_stage(again), HD_FINISHED);
     hd_run_free(again);
-    def.target_std_error = 0.04;
+    def.target_std_error = 0.02;
     again = kept_and_resumed(run, PATH, &def);
     assert_int_equal(hd_run_stage(again), HD_AVERAGING);
     hd_run_free(again);
