@@ -1,15 +1,16 @@
 /** Tangent frame -> (Q, ln diag R), by block Gram-Schmidt.
  *
  * V (rows m, vectors n, row-major) is for BLAS the column-major n x m matrix A = V^T. The vectors
- * are taken in panels: a panel is orthonormalised by Cholesky of its Gram matrix, G = A_p A_p^T = L
- * L^T, A_p <- L^-1 A_p (dsyrk, dpotrf, dtrtri, dtrmm), and then taken out of all later ones: S =
- * A_rest A_p^T, A_rest -= S A_p (dgemm). That is 2 m n^2 flops nearly all in dgemm, and, as in the
- * modified Gram-Schmidt process, each panel meets vectors that the earlier ones have cleaned: it
- * loses orthogonality in proportion to the condition, where one Cholesky factorisation of all loses
- * its square. diag(L) > 0, so Q and R = L^T are unique; R is used up on the way unless somebody
- * keeps it. In the norm of dq the inner products G and S are those of the dq halves, which for BLAS
- * are two matrices with a leading dimension of four strides; that is 1.5 m n^2 flops. The stable
- * step factors A = L Q by reflections instead (dgelqf, dorglq). Equations [T5]-[T7]. */
+ * are taken in panels: a panel is orthonormalised, and then taken out of all later ones: S = A_rest
+ * A_p^T, A_rest -= S A_p (dgemm). By itself it is dealt with in the same way by halves, down to
+ * narrow parts, which are orthonormalised by Cholesky of their Gram matrix: G = A_p A_p^T = L L^T,
+ * A_p <- L^-1 A_p (dgemm, dpotrf, dtrtri, dtrmm). That is 2 m n^2 flops nearly all in dgemm, and,
+ * as in the modified Gram-Schmidt process, each panel meets vectors that the earlier ones have
+ * cleaned: it loses orthogonality in proportion to the condition, where one Cholesky factorisation
+ * of all loses its square. diag(L) > 0, so Q and R = L^T are unique; R is used up on the way unless
+ * somebody keeps it. In the norm of dq the inner products G and S are those of the dq halves, which
+ * for BLAS are two matrices with a leading dimension of four strides; that is 1.5 m n^2 flops. The
+ * stable step factors A = L Q by reflections instead (dgelqf, dorglq). Equations [T5]-[T7]. */
 #include "hdlyap/ortho.h"
 
 #include <cblas.h>
@@ -185,7 +186,7 @@ static panel later_than(const hd_ortho *ortho, panel x)
     return (panel){x.a + x.width, x.lda, next, ortho->vectors - next};
 }
 
-/** A square of a panel's triangle, its diagonal that of the panel's vectors `from` on. */
+/** The square of a panel's triangle that belongs to a part of it. */
 static double *triangle_at(double *triangle, panel whole, panel part)
 {
     return triangle + (size_t)(part.first - whole.first) * (size_t)(whole.width + 1);
@@ -195,7 +196,8 @@ static double *triangle_at(double *triangle, panel whole, panel part)
  * dq_x and dq_y of the disks. */
 static void inner_products(const hd_ortho *ortho, double *s, int lds, panel y, panel x)
 {
-    const int parts = ortho->norm == HD_NORM_DQ ? 2 : 1, step = parts * parts;
+    const bool dq = ortho->norm == HD_NORM_DQ;
+    const int parts = dq ? 2 : 1, step = dq ? 4 : 1;
     for (int part = 0; part < parts; part++)
         cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, y.width, x.width, ortho->rows / step,
                     1.0, y.a + part * y.lda, step * y.lda, x.a + part * x.lda, step * x.lda,
