@@ -43,6 +43,7 @@ STYLE = {
 }
 METHODS = {  # name in the table: label, colour, marker
     'ours': ('hdlyap (hd_ortho_step)', VERMILION, 'o'),
+    'ours_dq': ('hdlyap, norm of dq', INK, 'p'),
     'cholesky': ('Cholesky, one pass', SKY, 's'),
     'cholesky_twice': ('Cholesky, two passes', BLUE, 'D'),
     'mixed': ('Cholesky, triangle in single', GREEN, '^'),

@@ -1,4 +1,4 @@
-/** Frame -> (Q, ln diag R), seven ways.
+/** Frame -> (Q, ln diag R), eight ways.
  *
  * For BLAS the row-major frame V (m x n) is the column-major n x m matrix A = V^T:
  * G = A A^T = L L^T, Q^T = L^-1 A. */
@@ -29,8 +29,9 @@ struct factor {
     double seconds;
 };
 
-static const char *const NAMES[FACTOR_METHODS] = {
-    "ours", "cholesky", "cholesky_twice", "mixed", "single", "householder", "gram_schmidt"};
+static const char *const NAMES[FACTOR_METHODS] = {"ours",           "ours_dq",     "cholesky",
+                                                  "cholesky_twice", "mixed",       "single",
+                                                  "householder",    "gram_schmidt"};
 
 const char *factor_name(factor_method method) { return NAMES[method]; }
 
@@ -42,7 +43,8 @@ factor *factor_create(factor_method method, int rows, int vectors)
     f->m = rows;
     f->n = vectors;
     f->log_stretch = room(n, sizeof(double));
-    if (method == FACTOR_OURS) require(hd_ortho_create(&f->ortho, rows, vectors), "factorisation");
+    if (method <= FACTOR_OURS_DQ)
+        require(hd_ortho_create(&f->ortho, rows, vectors), "factorisation");
     if (method >= FACTOR_HOUSEHOLDER) f->x = columns_create(rows, vectors);
     if (method >= FACTOR_CHOLESKY && method <= FACTOR_SINGLE) f->gram = room(n * n, sizeof(double));
     if (method == FACTOR_MIXED || method == FACTOR_SINGLE) {
@@ -133,8 +135,9 @@ static hd_status pass_single(factor *f, hd_frame *frame)
 static hd_status step_ours(factor *f, hd_frame *frame, double interval, int last)
 {
     const hd_interval loosest = {.accuracy = 1.0, .last = interval};
-    const hd_ortho_limits limits = {hd_interval_condition_max(&loosest, interval),
-                                    last ? DBL_EPSILON : DEFECT_LOOSE, HD_NORM_FULL};
+    const hd_ortho_limits limits = {
+        hd_interval_condition_max(&loosest, interval), last ? DBL_EPSILON : DEFECT_LOOSE,
+        f->method == FACTOR_OURS_DQ && !last ? HD_NORM_DQ : HD_NORM_FULL};
     HD_TRY(hd_ortho_step(f->ortho, frame, limits));
     for (int l = 0; l < f->n; l++) f->log_stretch[l] = hd_ortho_log_stretch(f->ortho)[l];
     return HD_OK;
@@ -170,7 +173,8 @@ static hd_status step_columns(factor *f, hd_frame *frame)
 static hd_status step_on_frame(factor *f, hd_frame *frame, double interval, int last)
 {
     switch (f->method) {
-    case FACTOR_OURS: return step_ours(f, frame, interval, last);
+    case FACTOR_OURS:
+    case FACTOR_OURS_DQ: return step_ours(f, frame, interval, last);
     case FACTOR_CHOLESKY: return pass_double(f, frame);
     case FACTOR_MIXED: HD_TRY(pass_mixed(f, frame)); break;
     case FACTOR_SINGLE: HD_TRY(pass_single(f, frame)); break;

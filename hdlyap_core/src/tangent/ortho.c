@@ -1,15 +1,16 @@
 /** Tangent frame -> (Q, ln diag R), by block Gram-Schmidt.
  *
  * V (rows m, vectors n, row-major) is for BLAS the column-major n x m matrix A = V^T. The vectors
- * are taken in panels: a panel is orthonormalised by Cholesky of its Gram matrix, G = A_p A_p^T = L
- * L^T, A_p <- L^-1 A_p (dsyrk, dpotrf, dtrtri, dtrmm), and then taken out of all later ones: S =
- * A_rest A_p^T, A_rest -= S A_p (dgemm). That is 2 m n^2 flops nearly all in dgemm, and, as in the
- * modified Gram-Schmidt process, each panel meets vectors that the earlier ones have cleaned: it
- * loses orthogonality in proportion to the condition, where one Cholesky factorisation of all loses
- * its square. diag(L) > 0, so Q and R = L^T are unique; R is used up on the way unless somebody
- * keeps it. In the norm of dq the inner products G and S are those of the dq halves, which for BLAS
- * are two matrices with a leading dimension of four strides; that is 1.5 m n^2 flops. The stable
- * step factors A = L Q by reflections instead (dgelqf, dorglq). Equations [T5]-[T7]. */
+ * are taken in panels: a panel is orthonormalised, and then taken out of all later ones: S = A_rest
+ * A_p^T, A_rest -= S A_p (dgemm). By itself it is dealt with in the same way by halves, down to
+ * narrow parts, which are orthonormalised by Cholesky of their Gram matrix: G = A_p A_p^T = L L^T,
+ * A_p <- L^-1 A_p (dgemm, dpotrf, dtrtri, dtrmm). That is 2 m n^2 flops nearly all in dgemm, and,
+ * as in the modified Gram-Schmidt process, each panel meets vectors that the earlier ones have
+ * cleaned: it loses orthogonality in proportion to the condition, where one Cholesky factorisation
+ * of all loses its square. diag(L) > 0, so Q and R = L^T are unique; R is used up on the way unless
+ * somebody keeps it. In the norm of dq the inner products G and S are those of the dq halves, which
+ * for BLAS are two matrices with a leading dimension of four strides; that is 1.5 m n^2 flops. The
+ * stable step factors A = L Q by reflections instead (dgelqf, dorglq). Equations [T5]-[T7]. */
 #include "hdlyap/ortho.h"
 
 #include <cblas.h>
@@ -32,15 +33,16 @@ static const double PANEL_CONDITION_GOOD = 30.0;
 static const double PANEL_CONDITION_MAX = 1e7;
 
 /** PANELS of them if there are that many vectors: the last half of the flops then falls into wide
- * products. A panel wider than LEAF_MAX is orthonormalised by halves. */
-enum { PANELS = 8, PANEL_MIN = 8, PANEL_MAX = 192, LEAF_MAX = 48, PROBES = 8 };
+ * products. A panel wider than LEAF_MAX is orthonormalised by halves. S is of LATER_MAX vectors at
+ * most, for the sake of its room. */
+enum { PANELS = 8, PANEL_MIN = 8, PANEL_MAX = 160, LEAF_MAX = 48, LATER_MAX = 704, PROBES = 8 };
 
 struct hd_ortho {
     int rows, vectors;
     int width;          /**< of a panel */
     double *gram;       /**< [width * width], column-major, lower triangle: G, then L */
-    double *inverse;    /**< the same: L^-1 */
-    double *projection; /**< [vectors * width], column-major: S; LAPACK's workspace */
+    double *projection; /**< [later * width], column-major: S; LAPACK's workspace */
+    double *inverse;    /**< L^-1, as gram; in the room of S, which comes later */
     /** [vectors], |V e_k|^2, of a panel complete when its turn comes */
     double *norm2;
     double *scale;       /**< [width], diagonal of G */
@@ -71,13 +73,12 @@ static hd_status ortho_allocate(hd_ortho *ortho)
 {
     const size_t n = (size_t)ortho->vectors, width = (size_t)ortho->width;
     const int wanted_by_lapack = stable_workspace(ortho->rows, ortho->vectors);
-    ortho->lwork = ortho->vectors * ortho->width;
+    ortho->lwork = (ortho->vectors < LATER_MAX ? ortho->vectors : LATER_MAX) * ortho->width;
     if (ortho->lwork < wanted_by_lapack) ortho->lwork = wanted_by_lapack;
     const struct {
         double **array;
         size_t size;
     } wanted[] = {{&ortho->gram, width * width},
-                  {&ortho->inverse, width * width},
                   {&ortho->projection, (size_t)ortho->lwork},
                   {&ortho->norm2, n},
                   {&ortho->scale, width},
@@ -87,6 +88,7 @@ static hd_status ortho_allocate(hd_ortho *ortho)
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
         if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
             return HD_NO_MEMORY;
+    ortho->inverse = ortho->projection;
     return HD_OK;
 }
 
@@ -118,7 +120,6 @@ void hd_ortho_free(hd_ortho *ortho)
 {
     if (!ortho) return;
     hd_memory_free(ortho->gram);
-    hd_memory_free(ortho->inverse);
     hd_memory_free(ortho->projection);
     hd_memory_free(ortho->norm2);
     hd_memory_free(ortho->scale);
@@ -179,13 +180,21 @@ static panel panel_of(const hd_ortho *ortho, hd_frame *frame, int first)
                    left < ortho->width ? left : ortho->width};
 }
 
-static panel later_than(const hd_ortho *ortho, panel x)
+/** Of the equal pieces, of LATER_MAX vectors at most, that so many later ones are dealt with in. */
+static int piece_width(int later)
 {
-    const int next = x.first + x.width;
-    return (panel){x.a + x.width, x.lda, next, ortho->vectors - next};
+    const int pieces = (later + LATER_MAX - 1) / LATER_MAX;
+    return pieces > 1 ? ((later + pieces - 1) / pieces + 7) / 8 * 8 : later;
 }
 
-/** A square of a panel's triangle, its diagonal that of the panel's vectors `from` on. */
+/** The piece that begins at a vector. */
+static panel piece_at(const hd_ortho *ortho, panel x, int next, int width)
+{
+    const int left = ortho->vectors - next;
+    return (panel){x.a + (next - x.first), x.lda, next, left < width ? left : width};
+}
+
+/** The square of a panel's triangle that belongs to a part of it. */
 static double *triangle_at(double *triangle, panel whole, panel part)
 {
     return triangle + (size_t)(part.first - whole.first) * (size_t)(whole.width + 1);
@@ -195,7 +204,8 @@ static double *triangle_at(double *triangle, panel whole, panel part)
  * dq_x and dq_y of the disks. */
 static void inner_products(const hd_ortho *ortho, double *s, int lds, panel y, panel x)
 {
-    const int parts = ortho->norm == HD_NORM_DQ ? 2 : 1, step = parts * parts;
+    const bool dq = ortho->norm == HD_NORM_DQ;
+    const int parts = dq ? 2 : 1, step = dq ? 4 : 1;
     for (int part = 0; part < parts; part++)
         cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, y.width, x.width, ortho->rows / step,
                     1.0, y.a + part * y.lda, step * y.lda, x.a + part * x.lda, step * x.lda,
@@ -232,7 +242,7 @@ static void keep_panel(const hd_ortho *ortho, panel x, bool again)
         }
 }
 
-/** S, the rows of L of all later vectors. */
+/** S, the rows of L of some later vectors. */
 static void keep_projection(const hd_ortho *ortho, panel x, panel later)
 {
     if (!ortho->factor[0]) return;
@@ -352,7 +362,7 @@ static hd_status panel_orthonormalise(hd_ortho *ortho, panel x)
     return HD_OK;
 }
 
-/** Takes the panel out of all later vectors, and out of their probes. */
+/** Takes the panel out of later vectors, and out of their probes. */
 static void panel_project(hd_ortho *ortho, panel x, panel later)
 {
     double *s = ortho->projection;
@@ -370,6 +380,13 @@ static void panel_project(hd_ortho *ortho, panel x, panel later)
     take_out(ortho, s, count, later, x);
 }
 
+static void panel_project_out(hd_ortho *ortho, panel x)
+{
+    const int first = x.first + x.width, width = piece_width(ortho->vectors - first);
+    for (int next = first; next < ortho->vectors; next += width)
+        panel_project(ortho, x, piece_at(ortho, x, next, width));
+}
+
 /* ---- a step -------------------------------------------------------------------------------- */
 
 static void probes_clear(hd_ortho *ortho)
@@ -383,9 +400,9 @@ static hd_status pass(hd_ortho *ortho, hd_frame *frame, double condition_max)
     probes_clear(ortho);
     ortho->panel_condition = PANEL_CONDITION_LEAST;
     for (int first = 0; first < ortho->vectors; first += ortho->width) {
-        const panel x = panel_of(ortho, frame, first), later = later_than(ortho, x);
+        const panel x = panel_of(ortho, frame, first);
         HD_TRY(panel_orthonormalise(ortho, x));
-        if (later.width > 0) panel_project(ortho, x, later);
+        panel_project_out(ortho, x);
     }
     ortho->condition = condition_of(ortho);
     ortho->passes++;
@@ -524,16 +541,15 @@ double hd_ortho_defect(const hd_ortho *ortho) { return ortho->defect; }
 int hd_ortho_passes(const hd_ortho *ortho) { return ortho->passes; }
 hd_norm hd_ortho_norm(const hd_ortho *ortho) { return ortho->norm; }
 
-/** max(worst, |x^T y - diagonal|) over all pairs of columns x of the panel and y from its first on;
- * NaN stays. */
-static double panel_defect(hd_ortho *ortho, panel x, double worst)
+/** max(worst, |x^T y - diagonal|) over all pairs of columns x of the panel and y; NaN stays. */
+static double panel_defect(hd_ortho *ortho, panel x, panel y, double worst)
 {
     const double *s = ortho->projection;
-    const int count = ortho->vectors - x.first;
-    inner_products(ortho, ortho->projection, count, (panel){x.a, x.lda, x.first, count}, x);
+    inner_products(ortho, ortho->projection, y.width, y, x);
     for (int col = 0; col < x.width; col++)
-        for (int row = 0; row < count; row++) {
-            const double off = fabs(s[(size_t)col * (size_t)count + (size_t)row] - (col == row));
+        for (int row = 0; row < y.width; row++) {
+            const bool same = x.first + col == y.first + row;
+            const double off = fabs(s[(size_t)col * (size_t)y.width + (size_t)row] - same);
             if (isnan(worst)) return worst;
             if (!(off <= worst)) worst = off;
         }
@@ -545,8 +561,12 @@ double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame, hd_norm norm)
     const hd_norm of_the_step = ortho->norm;
     double worst = 0.0;
     ortho->norm = norm;
-    for (int first = 0; first < ortho->vectors; first += ortho->width)
-        worst = panel_defect(ortho, panel_of(ortho, frame, first), worst);
+    for (int first = 0; first < ortho->vectors; first += ortho->width) {
+        const panel x = panel_of(ortho, frame, first);
+        const int width = piece_width(ortho->vectors - first);
+        for (int next = first; next < ortho->vectors; next += width)
+            worst = panel_defect(ortho, x, piece_at(ortho, x, next, width), worst);
+    }
     ortho->norm = of_the_step;
     return worst;
 }

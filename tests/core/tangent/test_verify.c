@@ -132,6 +132,21 @@ static void the_frame_is_checked(void **state)
     hd_run_free(run);
 }
 
+/** After a step in the norm of dq the dp halves may be anything. */
+static void the_frame_is_checked_in_the_norm_of_its_step(void **state)
+{
+    (void)state;
+    hd_run *run = run_of(HD_EXPONENTS_POSITIVE);
+    const hd_ortho_limits limits = {1e7, 1e-6, HD_NORM_DQ};
+    CHECK_OK(hd_ortho_step(run->ortho, run->frame, limits));
+    EXPECT_BROKEN(false, hd_verify_ortho(run->ortho, run->frame));
+    hd_frame_data(run->frame)[2 * hd_frame_stride(run->frame)] += 0.1;
+    EXPECT_BROKEN(false, hd_verify_ortho(run->ortho, run->frame));
+    hd_frame_data(run->frame)[hd_frame_stride(run->frame)] += 1e-3;
+    EXPECT_BROKEN(true, hd_verify_ortho(run->ortho, run->frame));
+    hd_run_free(run);
+}
+
 /** The step of a run asks, where the build verifies, and only there. */
 static void a_step_asks_where_the_build_verifies(void **state)
 {
@@ -149,6 +164,7 @@ int main(void)
         cmocka_unit_test(disks_are_checked),
         cmocka_unit_test(the_log_is_checked),
         cmocka_unit_test(the_frame_is_checked),
+        cmocka_unit_test(the_frame_is_checked_in_the_norm_of_its_step),
         cmocka_unit_test(a_step_asks_where_the_build_verifies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
