@@ -9,7 +9,7 @@
 static const double PI = 3.14159265358979323846;
 /** Of `pairs`: 0.75 pi / (1.25 lambda), lambda = 2.4. */
 static const double UNSEEN = 0.75 / (1.25 * 2.4) * 3.14159265358979323846;
-/** A whole step may be off by this before samples come closer [rad]. */
+/** Phases may be off by this before samples come closer [rad]. */
 static const double OFF = 0.25;
 
 /* ---- the estimate alone -------------------------------------------------------------------- */
@@ -25,7 +25,7 @@ static hd_foresight foreseen(hd_random *random, double diffusion, const double *
         const double now = dt[k % count];
         const double miss = sqrt(diffusion * now) * random_normal(random);
         hd_foresight_sample(&f, now);
-        for (int t = 0; t < 8; t++) hd_foresight_miss(&f, miss, now);
+        for (int t = 0; t < 8; t++) hd_foresight_miss(&f, miss, now, 0.5);
         hd_foresight_turn(&f, 1.3 * now + miss, now);
     }
     return f;
@@ -113,7 +113,7 @@ static void a_learnt_rate_unwraps_two_turns(void **state)
             r.dt = fmin(sampling(&r), 4.0 * PI / omega);
             assert_true(r.dt <= UNSEEN || k >= 20);
             longest = fmax(longest, r.dt);
-            diffuse(&r, omega, 0.09 / 5.0);
+            diffuse(&r, omega, 0.01); /* 0.22 in two turns */
             assert_int_equal(slips(&r), 0);
         }
         const hd_velocity v = hd_phases_velocity(r.phases);
@@ -238,7 +238,7 @@ static void errors_are_true_at_any_distances(void **state)
         check_honesty(all[k], 4, &omega, &v);
         print_message("distances %g %g %g %g: omega %.2f, v %.2f stated errors\n", all[k][0],
                       all[k][1], all[k][2], all[k][3], omega, v);
-        CHECK_CLOSE(omega, 1.0, 0.2);
+        CHECK_CLOSE(omega, 1.0, 0.25);
         CHECK_CLOSE(v, 1.0, 0.2);
     }
 }
