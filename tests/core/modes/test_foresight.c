@@ -2,6 +2,7 @@
  * [T13]. */
 #include "testing.h"
 
+#include "modes/archived.h"
 #include "modes/foresight.h"
 #include "rotating.h"
 #include "scenes.h"
@@ -72,6 +73,45 @@ static void distances_make_no_difference(void **state)
         }
         CHECK_CLOSE(mean, 4.0, 0.4); /* 2 % statistics, 4 % bias of 1 / D, 3 % error of omega */
     }
+}
+
+/** Long ones count as much as they are long. */
+static void the_rate_is_a_mean_over_time(void **state)
+{
+    (void)state;
+    hd_foresight f;
+    hd_foresight_clear(&f);
+    hd_foresight_turn(&f, 1.0, 1.0);
+    hd_foresight_turn(&f, 9.0, 3.0);
+    CHECK_CLOSE(f.omega, 2.5, 1e-14);
+}
+
+/** What a file keeps goes on as if it had not been kept. */
+static void a_file_keeps_all(void **state)
+{
+    (void)state;
+    rotating r = pairs(2);
+    for (int k = 0; k < 80; k++) {
+        r.dt = hd_phases_sampling(r.phases, r.w.steps);
+        turn(&r, k % 2 ? 2.0 : 2.1);
+    }
+    hd_phases *read;
+    CHECK_OK(hd_phases_create(&read, r.w.steps));
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    hd_archive out = hd_archive_writer(file);
+    hd_phases_archive(r.phases, &out);
+    CHECK_OK(hd_archive_end(&out));
+    rewind(file);
+    hd_archive in = hd_archive_reader(file, out.bytes);
+    hd_phases_archive(read, &in);
+    CHECK_OK(hd_archive_end(&in));
+    fclose(file);
+    const double sampling = hd_phases_sampling(r.phases, r.w.steps);
+    assert_true(sampling > 1.5 * UNSEEN);
+    CHECK_CLOSE(hd_phases_sampling(read, r.w.steps), sampling, 0.0);
+    hd_phases_free(read);
+    rotating_free(&r);
 }
 
 /* ---- what the rate is good for ------------------------------------------------------------- */
@@ -334,6 +374,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(diffusion_says_how_far),
         cmocka_unit_test(distances_make_no_difference),
+        cmocka_unit_test(the_rate_is_a_mean_over_time),
+        cmocka_unit_test(a_file_keeps_all),
         cmocka_unit_test(a_learnt_rate_unwraps_two_turns),
         cmocka_unit_test(what_is_not_known_is_not_foreseen),
         cmocka_unit_test(scatter_brings_samples_together),
