@@ -8,14 +8,12 @@
 #include <limits.h>
 #include <math.h>
 
-/** Foreseen as far as the whole is expected to be off by a quarter of the radian at which two
- * vectors that turn seem to change places, and its phases by the scatter below which that has not
- * been seen [rad]. */
-static const double OFF_WHOLE = 0.25, OFF_PHASE = 0.4;
-/** A whole that is off by three times as much is asked once more [rad]. */
-static const double FAR_OFF_WHOLE = 0.75;
-/** A phase may be weak as long as it is expected to be off by a third of pi [rad]. */
-static const double FAR_OFF_PHASE = 1.0;
+/** Foreseen as far as phases are expected to be off by this: a quarter of the radian at which two
+ * vectors that turn together seem to change places [rad]. */
+static const double OFF = 0.25;
+/** A whole that is off by this is asked once more; a phase may be weak as long as it is expected to
+ * be off by no more [rad]. */
+static const double FAR_OFF = 0.75;
 /** The next sample is at most so many times as far away as those that have shown the misses. */
 static const double GROWTH = 2.0;
 /** In times that need no foresight: longest between samples, and of a phase that is weak. */
@@ -30,95 +28,67 @@ enum { SHOWN = 16, LOST = 2 };
 /** Rotation without any noise has misses, too. */
 static const double DIFFUSION_MIN = 1e-100;
 
-/* ---- misses -------------------------------------------------------------------------------- */
-
-/** Mean time that they are of, longer ones counting more; 0 if there is none. */
-static double span(const hd_misses *m) { return m->time > 0 ? m->times / m->time : 0.0; }
-
-static void forget(hd_misses *m, double dt)
-{
-    const double keep = 1.0 - dt / fmax(dt, span(m)) / MEMORY;
-    m->time *= keep;
-    m->times *= keep;
-    m->squares *= keep;
-}
-
-static void add(hd_misses *m, double miss, double dt)
-{
-    m->time += dt;
-    m->times += dt * dt;
-    m->squares += dt * miss * miss;
-}
-
-/** Time ahead at which `error` is expected, from error^2 = D t (1 + t / averaged); 0 if there are
- * none. */
-static double reach(const hd_misses *m, double error, double averaged)
-{
-    if (m->times == 0) return 0.0;
-    const double alone = error * error / fmax(m->squares / m->times, DIFFUSION_MIN);
-    return 2.0 * alone / (1.0 + sqrt(1.0 + 4.0 * alone / averaged));
-}
-
-/* ---- foresight ----------------------------------------------------------------------------- */
-
 void hd_foresight_clear(hd_foresight *f) { *f = (hd_foresight){0}; }
+
+/** Mean time that the misses are of, longer ones counting more; 0 if there is none. */
+static double span(const hd_foresight *f) { return f->time > 0 ? f->times / f->time : 0.0; }
 
 void hd_foresight_sample(hd_foresight *f, double dt)
 {
-    forget(&f->whole, dt);
-    forget(&f->phases, dt);
+    const double keep = 1.0 - dt / fmax(dt, span(f)) / MEMORY;
+    f->time *= keep;
+    f->times *= keep;
+    f->squares *= keep;
     f->samples++;
 }
 
 void hd_foresight_turn(hd_foresight *f, double turn, double dt)
 {
     const double miss = turn - f->omega * dt;
-    const bool far = f->samples > SHOWN && fabs(miss) > FAR_OFF_WHOLE;
-    if (f->samples > 0) add(&f->whole, miss, dt);
-    f->far_off = far ? f->far_off + 1 : 0;
+    f->far_off = f->samples > SHOWN && fabs(miss) > FAR_OFF ? f->far_off + 1 : 0;
     f->averaged += dt;
     f->omega += miss / f->averaged;
 }
 
-void hd_foresight_miss(hd_foresight *f, double miss, double dt) { add(&f->phases, miss, dt); }
+void hd_foresight_miss(hd_foresight *f, double miss, double dt, double strength)
+{
+    f->time += strength * dt;
+    f->times += strength * dt * dt;
+    f->squares += strength * dt * miss * miss;
+}
+
+/** Time ahead at which phases are expected to be off by `error`, from error^2 = D t (1 + t / T); 0
+ * if there are no misses. */
+static double reach(const hd_foresight *f, double error)
+{
+    if (f->times == 0) return 0.0;
+    const double alone = error * error / fmax(f->squares / f->times, DIFFUSION_MIN);
+    return 2.0 * alone / (1.0 + sqrt(1.0 + 4.0 * alone / f->averaged));
+}
 
 double hd_foresight_sampling(const hd_foresight *f, double unseen)
 {
     if (f->samples < SHOWN || f->far_off > 0) return unseen;
-    const double whole = reach(&f->whole, OFF_WHOLE, f->averaged);
-    const double phases = reach(&f->phases, OFF_PHASE, f->averaged);
-    const double seen = fmin(fmin(whole, phases), GROWTH * span(&f->phases));
+    const double seen = fmin(reach(f, OFF), GROWTH * span(f));
     return fmax(unseen, fmin(seen, MOST * unseen));
 }
 
 double hd_foresight_gap(const hd_foresight *f, double unseen)
 {
     if (f->samples < SHOWN) return GAP_MAX * unseen;
-    const double seen = reach(&f->phases, FAR_OFF_PHASE, f->averaged);
-    return fmin(fmax(seen, LATE * hd_foresight_sampling(f, unseen)), GAP_MAX * unseen);
+    const double seen = fmax(reach(f, FAR_OFF), LATE * hd_foresight_sampling(f, unseen));
+    return fmin(seen, GAP_MAX * unseen);
 }
 
 bool hd_foresight_is_lost(const hd_foresight *f) { return f->far_off >= LOST; }
 
-/* ---- file ---------------------------------------------------------------------------------- */
-
-static void archive_misses(hd_misses *m, hd_archive *archive)
-{
-    hd_archive_of_doubles(archive, "misses time times squares", 3);
-    hd_archive_next_doubles(archive, &m->time, 1);
-    hd_archive_next_doubles(archive, &m->times, 1);
-    hd_archive_next_doubles(archive, &m->squares, 1);
-    const bool positive = m->time >= 0 && m->times >= 0 && m->squares >= 0;
-    hd_archive_expect(archive, positive, "misses", "a time or a square is negative");
-}
-
 void hd_foresight_archive(hd_foresight *f, hd_archive *archive)
 {
-    hd_archive_double(archive, "foresight omega", &f->omega);
-    hd_archive_double(archive, "foresight averaged", &f->averaged);
-    hd_archive_expect(archive, f->averaged >= 0, "foresight averaged", "it is negative");
-    archive_misses(&f->whole, archive);
-    archive_misses(&f->phases, archive);
+    double *const all[] = {&f->omega, &f->averaged, &f->time, &f->times, &f->squares};
+    hd_archive_of_doubles(archive, "foresight omega averaged time times squares", 5);
+    for (int k = 0; k < 5; k++) hd_archive_next_doubles(archive, all[k], 1);
     hd_archive_long(archive, "foresight samples", &f->samples, 0, LONG_MAX / 2);
     hd_archive_int(archive, "foresight far off", &f->far_off, 0, LOST);
+    for (int k = 1; k < 5; k++)
+        hd_archive_expect(archive, *all[k] >= 0, "foresight", "a time or a square is negative");
 }

@@ -1,20 +1,17 @@
-/** How far ahead the turns of one LP step are foreseen: its mean rate, and by how much the step and
- * its phases have missed it [T13]. `unseen` is the longest time between samples without any
+/** How far ahead the turns of one LP step are foreseen: its mean rate, and by how much its phases
+ * have missed it [T13]. `unseen` is the longest time between samples without any
  * foresight. */
 #ifndef HD_FORESIGHT_H
 #define HD_FORESIGHT_H
 
 #include "base/archive.h"
 
-/** Misses; older ones are forgotten. */
-typedef struct hd_misses {
-    double time, times, squares; /**< sums of dt, dt^2, dt miss^2 */
-} hd_misses;
-
 typedef struct hd_foresight {
     double omega;    /**< mean turn of the whole step per time */
     double averaged; /**< over so long */
-    hd_misses whole, phases;
+    /** Sums over phases, of which older ones are forgotten: dt, dt^2, dt miss^2, each times a^2 +
+     * b^2. */
+    double time, times, squares;
     long samples; /**< that have been held against omega */
     int far_off;  /**< last turns of the whole that were far from what had been foreseen */
 } hd_foresight;
@@ -28,8 +25,8 @@ void hd_foresight_sample(hd_foresight *f, double dt);
 /** The whole step has turned by `turn` in dt > 0. If that is far off, the next sample is to come as
  * early as if nothing were foreseen. */
 void hd_foresight_turn(hd_foresight *f, double turn, double dt);
-/** One phase was off by `miss` from what omega had foreseen for dt > 0. */
-void hd_foresight_miss(hd_foresight *f, double miss, double dt);
+/** One phase was off by `miss` from what omega had foreseen for dt > 0; strength: its a^2 + b^2. */
+void hd_foresight_miss(hd_foresight *f, double miss, double dt, double strength);
 
 /** Longest time to the next sample; at least `unseen`. */
 double hd_foresight_sampling(const hd_foresight *f, double unseen);

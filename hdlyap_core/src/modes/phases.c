@@ -279,8 +279,9 @@ static void rotor_store(rotor *r, const hd_modes *modes, double time, double for
             r->z[v][c] = away ? r->z[v][c] * turn : r->sign[v] * z;
             if (hd_track_add(t, r->sign[v] * z, time, omega, gap)) {
                 sum += t->rate_now, count++;
-                if (judged)
-                    hd_foresight_miss(&r->ahead, (t->rate_now - foreseen) * t->dt_now, t->dt_now);
+                if (judged && t->dt_now <= dt) /* it was not weak before */
+                    hd_foresight_miss(&r->ahead, (t->rate_now - foreseen) * dt, dt,
+                                      creal(z * conj(z)));
             }
             t->out.col = col;
             t->out.a = creal(z);
