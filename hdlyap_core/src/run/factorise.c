@@ -19,6 +19,9 @@ static const double DEFECT_SHARE = 0.1;
 /** Of an interval, beyond which dividing costs more than it saves [T6]; and beyond which what even
  * reflections cannot factor is given up. */
 enum { PIECES_MAX = 8, PIECES_LAST = 512 };
+/** Loss of isotropy beyond which the frame is made isotropic again: as much as orthogonality may
+ * lack where somebody looks [T19]. */
+static const double ISOTROPY = 1e-6;
 
 hd_status hd_run_replay(hd_run *run, double t_begin, double t_end)
 {
@@ -36,6 +39,15 @@ static double shortest_piece(const hd_run *run)
     return fmin(run->log->duration / PIECES_MAX, run->sample_max / HD_COLLISIONS_PER_SAMPLE);
 }
 
+/** What is lost of isotropy decays [T19]; should it ever not, the frame gets it back. */
+static hd_status keep_isotropic(hd_run *run)
+{
+    if (hd_conjugate_isotropy(run->conjugate, run->frame) > ISOTROPY)
+        HD_TRY(hd_conjugate_start(run->frame));
+    if (HD_VERIFIES) hd_verify_isotropy(run->frame);
+    return HD_OK;
+}
+
 /** Carries the frame from t_begin to t_end of the log and orthonormalises it. */
 static hd_status frame_piece(hd_run *run, double t_begin, double t_end, double defect)
 {
@@ -44,10 +56,10 @@ static hd_status frame_piece(hd_run *run, double t_begin, double t_end, double d
     const double replayed = hd_clock_now();
     const double allowed = hd_interval_piece_max(&run->interval, length, run->log->duration);
     const hd_ortho_limits limits = {allowed, defect};
-    const hd_status status = length > shortest_piece(run)
-                                 ? hd_ortho_step(run->ortho, run->frame, limits)
-                                 : hd_ortho_step_stable(run->ortho, run->frame,
-                                                        HD_CONDITION_STABLE);
+    hd_status status = length > shortest_piece(run)
+                           ? hd_ortho_step(run->ortho, run->frame, limits)
+                           : hd_ortho_step_stable(run->ortho, run->frame, HD_CONDITION_STABLE);
+    if (run->conjugate && status == HD_OK) status = keep_isotropic(run);
     run->cost.replay += replayed - start;
     run->cost.ortho += hd_clock_now() - replayed;
     if (HD_VERIFIES && status == HD_OK) hd_verify_ortho(run->ortho, run->frame);
@@ -68,8 +80,9 @@ static void piece_accepted(hd_run *run, double length)
     const double *stretch = hd_ortho_log_stretch(run->ortho);
     const double condition = hd_ortho_condition(run->ortho);
     double most = 0.0;
-    for (int col = 0; col < run->vectors; col++) most = fmax(most, fabs(stretch[col]));
+    for (int col = 0; col < run->carried; col++) most = fmax(most, fabs(stretch[col]));
     hd_interval_learn(&run->interval, length, condition, most);
+    if (run->conjugate) stretch = hd_conjugate_stretch(run->conjugate, stretch);
     if (run->schedule.stage == HD_AVERAGING) hd_spectrum_add(run->spectrum, stretch, length);
     hd_cost *cost = &run->cost;
     cost->interval = length;

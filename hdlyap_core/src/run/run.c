@@ -38,11 +38,12 @@ static hd_status create_frame(hd_run *run)
 {
     const hd_scene_def *scene = &run->scene;
     const hd_ortho_limits twice = {1e7, DBL_EPSILON};
-    HD_TRY(hd_frame_create(&run->frame, scene->disks, run->vectors, scene->seed, run->threads));
+    HD_TRY(hd_frame_create(&run->frame, scene->disks, run->carried, scene->seed, run->threads));
+    if (run->conjugate) return hd_conjugate_start(run->frame);
     if (hd_ortho_step(run->ortho, run->frame, twice) == HD_OK) return HD_OK;
     hd_frame_free(run->frame);
     run->frame = NULL;
-    HD_TRY(hd_frame_create(&run->frame, scene->disks, run->vectors, scene->seed, run->threads));
+    HD_TRY(hd_frame_create(&run->frame, scene->disks, run->carried, scene->seed, run->threads));
     return hd_ortho_step_stable(run->ortho, run->frame, 1.0 / DBL_EPSILON);
 }
 
@@ -54,7 +55,7 @@ double hd_run_block_least(const hd_run *run)
 
 static hd_status prepare_threads(hd_run *run)
 {
-    const int wanted = run->scene.threads, disks = run->scene.disks, n = run->vectors;
+    const int wanted = run->scene.threads, disks = run->scene.disks, n = run->carried;
     const int most = hd_threads_most(wanted, 4 * disks, n);
     if (most > 1) HD_TRY(hd_blas_room(most)); /* one has its buffer since the start */
     const int granted = run->threads = hd_blas_threads_granted(most);
@@ -68,8 +69,11 @@ static hd_status prepare_threads(hd_run *run)
 static hd_status prepare_frame(hd_run *run)
 {
     const int rows = 4 * run->scene.disks, n = run->vectors;
+    const bool whole = run->scene.observe & HD_OBSERVE_OF_MODES;
     HD_TRY(hd_event_log_create(&run->log));
-    HD_TRY(hd_ortho_create(&run->ortho, rows, n));
+    HD_TRY(hd_ortho_create(&run->ortho, rows, run->carried));
+    if (run->carried < n)
+        HD_TRY(hd_conjugate_create(&run->conjugate, rows, whole));
     HD_TRY(prepare_threads(run));
     HD_TRY(hd_spectrum_create(&run->spectrum, rows, n, hd_run_block_least(run)));
     return create_frame(run);
@@ -89,6 +93,7 @@ static hd_status prepare(hd_run *run, char *message, size_t size)
     const hd_scene_def *scene = &run->scene;
     HD_TRY(hd_advance_create(&run->advance, scene));
     run->vectors = hd_scene_vectors(scene);
+    run->carried = hd_scene_carried(scene);
     run->threads = 1;
     const double per_disk = 2.0 * hd_trajectory_collision_rate(run->advance.trajectory) /
                             scene->disks;
@@ -177,6 +182,7 @@ void hd_run_free(hd_run *run)
     hd_event_log_free(run->log);
     hd_frame_free(run->frame);
     hd_ortho_free(run->ortho);
+    hd_conjugate_free(run->conjugate);
     hd_spectrum_free(run->spectrum);
     hd_memory_free(run);
 }
@@ -200,7 +206,7 @@ static double phases_due(const hd_run *run)
 static hd_status measure(hd_run *run)
 {
     const double start = hd_clock_now();
-    HD_TRY(hd_observer_measure(&run->observer, run->frame, run->advance.trajectory));
+    HD_TRY(hd_observer_measure(&run->observer, hd_run_frame_columns(run), run->advance.trajectory));
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
 }

@@ -36,4 +36,7 @@ void hd_verify_symplectic(const hd_frame *frame, const hd_symplectic *before, do
  * 0. */
 void hd_verify_ortho(hd_ortho *ortho, hd_frame *frame);
 
+/** A frame that half of the vectors is carried of is isotropic. */
+void hd_verify_isotropy(const hd_frame *frame);
+
 #endif

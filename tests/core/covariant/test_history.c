@@ -156,7 +156,7 @@ static void check_rings(int exponents)
 static void what_was_left_comes_back(void **state)
 {
     (void)state;
-    check_rings(HD_EXPONENTS_ALL);
+    check_rings(HD_EXPONENTS_ALL_INDEPENDENT);
     check_rings(5);
     check_rings(1);
 }
@@ -164,7 +164,7 @@ static void what_was_left_comes_back(void **state)
 static void a_past_is_full_with_so_many_intervals(void **state)
 {
     (void)state;
-    forward *x = started(HD_EXPONENTS_ALL);
+    forward *x = started(HD_EXPONENTS_ALL_INDEPENDENT);
     while (x->end < INTERVALS) add(x, 0.2, false);
     for (int way = 0; way < PASTS; way++) {
         assert_true(hd_history_is_full(x->past[way]));
@@ -180,7 +180,7 @@ static void a_past_is_full_with_so_many_intervals(void **state)
 static void a_new_beginning_forgets_everything(void **state)
 {
     (void)state;
-    forward *x = started(HD_EXPONENTS_ALL);
+    forward *x = started(HD_EXPONENTS_ALL_INDEPENDENT);
     for (int again = 0; again < 4; again++) {
         for (int way = 0; way < PASTS; way++) {
             CHECK_OK(hd_history_begin(x->past[way], hd_frame_columns(x->f.frame),
@@ -216,7 +216,7 @@ static void the_room_is_stated(void **state)
 static void a_ring_takes_its_memory_once(void **state)
 {
     (void)state;
-    forward *x = started(HD_EXPONENTS_ALL);
+    forward *x = started(HD_EXPONENTS_ALL_INDEPENDENT);
     const int n = forward_vectors(&x->f);
     double *factor = malloc((size_t)(n * n) * sizeof *factor);
     size_t before = 0;

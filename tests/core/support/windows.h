@@ -18,7 +18,7 @@ typedef struct windows {
 static inline hd_scene_def windows_scene(int disks, hd_boundary x, hd_boundary y)
 {
     hd_scene_def scene = scene_of(disks, 0.5, 0.9, x, y, 9);
-    scene.exponents = HD_EXPONENTS_ALL;
+    scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
     scene.observe = HD_OBSERVE_COVARIANT;
     scene.covariant_window = 10.0;
     scene.covariant_transient = 20.0;
