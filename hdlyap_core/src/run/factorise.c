@@ -14,6 +14,9 @@
 static const double DEFECT_LOOSE = 1e-4;
 /** The same where somebody does. */
 static const double DEFECT_MEASURED = 1e-6;
+/** The same where Y takes both ends of an interval to be orthonormal to rounding [T19]: a second
+ * pass. */
+static const double DEFECT_COUPLED = 1e-12;
 /** Part of an interval's share of the accuracy that its square may be, as it too bounds a mean. */
 static const double DEFECT_SHARE = 0.1;
 /** Of an interval, beyond which dividing costs more than it saves [T6]; and beyond which what even
@@ -122,6 +125,7 @@ static double expected_interval(const hd_run *run)
 static hd_status window_starts(hd_run *run)
 {
     if (!hd_run_is_windowing(run)) return HD_OK;
+    if (run->conjugate && run->windows.due) HD_TRY(hd_conjugate_start(run->frame));
     return hd_windows_start(&run->windows, hd_frame_columns(run->frame),
                             hd_run_time(run) - run->log->duration, expected_interval(run));
 }
@@ -129,8 +133,7 @@ static hd_status window_starts(hd_run *run)
 static hd_status window_adds(hd_run *run, double begin, double end)
 {
     if (!hd_run_is_windowing(run)) return HD_OK;
-    return hd_windows_add(&run->windows, run->ortho, hd_frame_columns(run->frame), run->log, begin,
-                          end);
+    return hd_windows_add(&run->windows, run->ortho, run->frame, run->log, begin, end);
 }
 
 static hd_status window_ends(hd_run *run)
@@ -139,12 +142,18 @@ static hd_status window_ends(hd_run *run)
     return hd_windows_end(&run->windows, hd_frame_columns(run->frame), run->advance.trajectory);
 }
 
+/** Loss of orthogonality that an interval may leave. */
+static double defect_allowed(const hd_run *run)
+{
+    const bool windowing = hd_run_is_windowing(run);
+    if (windowing && run->conjugate) return DEFECT_COUPLED;
+    return fmin(windowing || hd_run_is_observing(run) ? DEFECT_MEASURED : DEFECT_LOOSE,
+                sqrt(DEFECT_SHARE * run->scene.accuracy * run->log->duration));
+}
+
 hd_status hd_run_factorise(hd_run *run)
 {
-    const double duration = run->log->duration;
-    const bool looked_at = hd_run_is_observing(run) || hd_run_is_windowing(run);
-    const double defect = fmin(looked_at ? DEFECT_MEASURED : DEFECT_LOOSE,
-                               sqrt(DEFECT_SHARE * run->scene.accuracy * duration));
+    const double duration = run->log->duration, defect = defect_allowed(run);
     double begin = 0.0, end = duration;
     HD_TRY(window_starts(run));
     while (begin < duration) {

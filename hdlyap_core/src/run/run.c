@@ -385,10 +385,20 @@ static hd_limit limit_of_rest(const hd_run *run, double left)
     return !averaging || last ? HD_LIMIT_STAGE : HD_LIMIT_LOOK;
 }
 
+/** Where the next interval ends at the latest: with the sample, or, as the intervals of half a
+ * frame are long, where covariant vectors are looked at. */
+static double interval_stop(const hd_run *run)
+{
+    const double end = hd_schedule_sample_end(&run->schedule);
+    if (!run->conjugate || !hd_run_is_windowing(run)) return end;
+    const double due = hd_windows_due(&run->windows);
+    return due < end - ROUGHLY * run->scene.covariant_sampling && due > hd_run_time(run) ? due : end;
+}
+
 /** Where the next orthonormalisation falls. */
 static void plan_interval(hd_run *run)
 {
-    const double end = hd_schedule_sample_end(&run->schedule), left = end - hd_run_time(run);
+    const double end = interval_stop(run), left = end - hd_run_time(run);
     const double most = hd_advance_longest(&run->advance);
     hd_interval_length next = hd_interval_next(&run->interval, left);
     if (next.length > most) next = (hd_interval_length){left / ceil(left / most), HD_LIMIT_EVENTS};

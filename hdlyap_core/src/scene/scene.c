@@ -48,7 +48,6 @@ int hd_scene_vectors(const hd_scene_def *def)
 
 int hd_scene_carried(const hd_scene_def *def)
 {
-    if (def->observe & HD_OBSERVE_COVARIANT) return hd_scene_vectors(def); /* INTERIM */
     return def->exponents == HD_EXPONENTS_ALL ? 2 * def->disks : hd_scene_vectors(def);
 }
 

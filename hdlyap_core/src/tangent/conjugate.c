@@ -190,8 +190,7 @@ const double *hd_conjugate_stretch(hd_conjugate *conjugate, const double *half)
     return conjugate->stretch;
 }
 
-/** Columns from behind are those of the half, turned by J. */
-static void complete(double *whole, hd_columns half, int rows)
+void hd_conjugate_fill(double *whole, hd_columns half, int rows)
 {
     const int n = half.count;
     for (int row = 0; row < rows; row++) {
@@ -207,7 +206,7 @@ static void complete(double *whole, hd_columns half, int rows)
 hd_columns hd_conjugate_complete(hd_conjugate *conjugate, hd_columns half)
 {
     HD_ASSERT(conjugate->whole && half.first == 0 && half.count == conjugate->half);
-    if (!conjugate->fresh) complete(conjugate->whole, half, conjugate->rows);
+    if (!conjugate->fresh) hd_conjugate_fill(conjugate->whole, half, conjugate->rows);
     conjugate->fresh = true;
     return (hd_columns){conjugate->whole, conjugate->rows, 0, conjugate->rows};
 }

@@ -27,6 +27,9 @@ void hd_conjugate_free(hd_conjugate *conjugate);
  * from behind, -ln R_ll. */
 const double *hd_conjugate_stretch(hd_conjugate *conjugate, const double *half);
 
+/** whole [rows * 2n], row-major: the vectors and, from behind, those turned by J. */
+void hd_conjugate_fill(double *whole, hd_columns half, int rows);
+
 /** All 4N vectors, [4N * 4N]: they are completed once after each orthonormalisation. Valid until
  * the next one. */
 hd_columns hd_conjugate_complete(hd_conjugate *conjugate, hd_columns half);
