@@ -92,7 +92,8 @@ static double observer_bytes(const hd_scene_def *def, const counted *of, double 
 /** Beside the windows. */
 static double covariant_bytes(const hd_scene_def *def, const counted *of, double n)
 {
-    const double rows = 4.0 * def->disks, factors = 2.0 * n * n, ways = 5.0 * n * n;
+    const double rows = 4.0 * def->disks, carried = hd_scene_carried(def);
+    const double factors = 2.0 * carried * carried, ways = (carried < n ? 8.25 : 5.0) * n * n;
     return WORD * (factors + ways + rows * n) + 3.0 * modes_bytes(of, def->disks, n) +
            spectrum_bytes(n);
 }
