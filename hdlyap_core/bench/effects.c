@@ -138,7 +138,8 @@ static void reconstruct(side *s)
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
         if (step->kind != HD_MODE_LP || !step->resolved) continue;
-        if (!hd_pmode_reconstruct(s->pmode, step, hd_run_modes(s->run), hd_run_frame_columns(s->run)))
+        if (!hd_pmode_reconstruct(s->pmode, step, hd_run_modes(s->run),
+                                  hd_run_frame_columns(s->run)))
             continue;
         for (int c = hd_pmode_pairs(s->pmode); c < 2 * hd_pmode_pairs(s->pmode); c++)
             hd_pmode_divide(s->pmode, s->field, c, s->p);

@@ -137,8 +137,8 @@ bool hd_pmode_reconstruct(hd_pmode *pmode, const hd_step *step, const hd_modes *
     return real(pmode, step, modes, vectors);
 }
 
-void hd_hydro_measure(hd_hydro *hydro, const hd_steps *found, hd_columns vectors,
-                      const double *q, const double *p)
+void hd_hydro_measure(hd_hydro *hydro, const hd_steps *found, hd_columns vectors, const double *q,
+                      const double *p)
 {
     void (*real)(hd_hydro *, const hd_steps *, hd_columns, const double *, const double *);
     next(&real, "hd_hydro_measure");

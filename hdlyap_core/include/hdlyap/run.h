@@ -98,8 +98,8 @@ void hd_run_watch(hd_run *run, double interval, int first);
  * 0). Their coefficients are in the snapshot of hd_run_modes. */
 hd_columns hd_run_columns(const hd_run *run);
 
-/** All n vectors of the last orthonormalisation, if modes are observed; valid until the next call of
- * hd_run_advance. */
+/** All n vectors of the last orthonormalisation, if modes are observed; valid until the next call
+ * of hd_run_advance. */
 hd_columns hd_run_frame_columns(const hd_run *run);
 /** hd_frame_halves of all n vectors; [n] each. */
 void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio);

@@ -102,7 +102,8 @@ double hd_vectors_apart(const double *x, const double *y, int count)
 {
     const double sign = cblas_ddot(count, x, 1, y, 1) < 0 ? -1.0 : 1.0;
     double sum = 0.0; /* |x - y| = 2 sin(angle / 2): small angles keep their digits */
-    for (int row = 0; row < count; row++) sum += (x[row] - sign * y[row]) * (x[row] - sign * y[row]);
+    for (int row = 0; row < count; row++)
+        sum += (x[row] - sign * y[row]) * (x[row] - sign * y[row]);
     return sqrt(sum * fmax(0.0, 1.0 - 0.25 * sum));
 }
 

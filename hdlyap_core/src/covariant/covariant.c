@@ -38,17 +38,17 @@ struct hd_covariant {
     hd_spectrum *spectrum;
     hd_splitting *splitting;
     hd_localization *shape;
-    hd_modes *half[2];      /**< weights of the dq and of the dp halves */
-    hd_modes *of_frame;     /**< of the dq halves of the frame, at the same times */
-    hd_angles *spaces;      /**< of C's rows; NULL where there is no centre, as the next two */
-    hd_angles *null;        /**< of the vectors' rows */
-    double *null_columns;   /**< [2 * centre][rows]: the covariant centre, the null space */
-    double *factor;         /**< [vectors * vectors]; room for the centres of both starts, too */
-    double *coupling;       /**< [carried * carried]; NULL where all vectors are carried */
-    double *angle;          /**< [vectors], principal ones */
-    double *apart;          /**< [vectors]: sines between both starts where the last window ended */
-    double *frame, *q, *p;  /**< vectors [rows * vectors], state of a look */
-    double window, due;     /**< start of the window; time of the next look */
+    hd_modes *half[2];     /**< weights of the dq and of the dp halves */
+    hd_modes *of_frame;    /**< of the dq halves of the frame, at the same times */
+    hd_angles *spaces;     /**< of C's rows; NULL where there is no centre, as the next two */
+    hd_angles *null;       /**< of the vectors' rows */
+    double *null_columns;  /**< [2 * centre][rows]: the covariant centre, the null space */
+    double *factor;        /**< [vectors * vectors]; room for the centres of both starts, too */
+    double *coupling;      /**< [carried * carried]; NULL where all vectors are carried */
+    double *angle;         /**< [vectors], principal ones */
+    double *apart;         /**< [vectors]: sines between both starts where the last window ended */
+    double *frame, *q, *p; /**< vectors [rows * vectors], state of a look */
+    double window, due;    /**< start of the window; time of the next look */
     double grown_time;
     double now; /**< of the forward pass */
     double bytes;

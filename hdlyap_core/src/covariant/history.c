@@ -62,9 +62,8 @@ double hd_history_bytes(const hd_history_def *def)
 {
     const double snapshots = (double)def->snapshots * (double)record_size(def);
     const hd_recompute_def again = recompute_of(def);
-    const double triangles = def->recompute
-                                 ? hd_recompute_doubles(&again)
-                                 : (double)def->intervals * (double)triangle_size(def);
+    const double triangles = def->recompute ? hd_recompute_doubles(&again)
+                                            : (double)def->intervals * (double)triangle_size(def);
     return (snapshots + triangles) * sizeof(double);
 }
 

@@ -31,8 +31,8 @@ HD_MUST_CHECK hd_status hd_history_begin(hd_history *past, hd_columns frame, dou
 /** What an orthonormalisation leaves: R of the interval from t_begin to t_end of the log, and the
  * frame that was replayed through it. There must be room (hd_history_is_full). */
 HD_MUST_CHECK hd_status hd_history_add(hd_history *past, const double *factor,
-                                       const hd_frame *frame,
-                                       const hd_event_log *log, double t_begin, double t_end);
+                                       const hd_frame *frame, const hd_event_log *log,
+                                       double t_begin, double t_end);
 bool hd_history_is_full(const hd_history *past);
 
 /** Keeps the frame and the state of the end of the last interval: q[2N], p[2N]. */

@@ -32,9 +32,9 @@ HD_MUST_CHECK hd_status hd_recompute_frame(hd_recompute *recompute, long slot, h
 HD_MUST_CHECK hd_status hd_recompute_events(hd_recompute *recompute, long slot,
                                             const hd_event_log *log, double t_begin, double t_end);
 
-/** The slot's R [n * n], row-major, and Y [n * n], both from the diagonal on (NULL where all vectors
- * are carried). Those of its stretch up to slot `last` are computed with it. HD_ILL_CONDITIONED,
- * HD_NO_MEMORY. */
+/** The slot's R [n * n], row-major, and Y [n * n], both from the diagonal on (NULL where all
+ * vectors are carried). Those of its stretch up to slot `last` are computed with it.
+ * HD_ILL_CONDITIONED, HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_recompute_factor(hd_recompute *recompute, double *factor,
                                             double *coupling, long slot, long last);
 

@@ -40,9 +40,9 @@ static hd_status allocate(hd_starts *s)
     const struct {
         double **array;
         size_t size;
-    } wanted[] = {{&s->grown, n},         {&s->told, n},       {&s->edge, n},
-                  {&s->z, m * m},         {&s->probe, m * PROBES}, {&s->work[0], m * m},
-                  {&s->work[1], m * m},   {&s->whole[0], n * n}, {&s->whole[1], n * n}};
+    } wanted[] = {{&s->grown, n},       {&s->told, n},           {&s->edge, n},
+                  {&s->z, m * m},       {&s->probe, m * PROBES}, {&s->work[0], m * m},
+                  {&s->work[1], m * m}, {&s->whole[0], n * n},   {&s->whole[1], n * n}};
     const size_t count = s->half ? sizeof wanted / sizeof *wanted : 2;
     for (size_t k = 0; k < count; k++)
         if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))

@@ -143,12 +143,12 @@ static void step_measure(hd_hydro *hydro, hd_hydro_response *out, const hd_steps
         for (int v = 0; v < step->count && found < step->expected; v++) {
             if (hd_steps_of_vector(steps, step->col + v) != index) continue;
             out[found++ * m.count + c] = (hd_hydro_response){index,
-                                                               step->col + v,
-                                                               m.bits[c],
-                                                               scale * sum[0][v],
-                                                               scale * sum[1][v],
-                                                               scale * sum[2][v],
-                                                               scale * sum[3][v]};
+                                                             step->col + v,
+                                                             m.bits[c],
+                                                             scale * sum[0][v],
+                                                             scale * sum[1][v],
+                                                             scale * sum[2][v],
+                                                             scale * sum[3][v]};
         }
     }
 }
@@ -161,8 +161,8 @@ static void entries_clear(const hd_hydro *hydro, hd_hydro_response *out, const h
         out[e] = (hd_hydro_response){.step = index, .col = -1, .modulation = m.bits[e % m.count]};
 }
 
-void hd_hydro_measure(hd_hydro *hydro, const hd_steps *steps, hd_columns vectors,
-                      const double *q, const double *p)
+void hd_hydro_measure(hd_hydro *hydro, const hd_steps *steps, hd_columns vectors, const double *q,
+                      const double *p)
 {
     hd_hydro_response *out = hydro->response;
     for (int k = 0; k < hd_steps_count(steps); k++) {

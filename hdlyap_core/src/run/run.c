@@ -72,8 +72,7 @@ static hd_status prepare_frame(hd_run *run)
     const bool whole = run->scene.observe & HD_OBSERVE_OF_MODES;
     HD_TRY(hd_event_log_create(&run->log));
     HD_TRY(hd_ortho_create(&run->ortho, rows, run->carried));
-    if (run->carried < n)
-        HD_TRY(hd_conjugate_create(&run->conjugate, rows, whole));
+    if (run->carried < n) HD_TRY(hd_conjugate_create(&run->conjugate, rows, whole));
     HD_TRY(prepare_threads(run));
     HD_TRY(hd_spectrum_create(&run->spectrum, rows, n, hd_run_block_least(run)));
     return create_frame(run);
@@ -392,7 +391,8 @@ static double interval_stop(const hd_run *run)
     const double end = hd_schedule_sample_end(&run->schedule);
     if (!run->conjugate || !hd_run_is_windowing(run)) return end;
     const double due = hd_windows_due(&run->windows);
-    return due < end - ROUGHLY * run->scene.covariant_sampling && due > hd_run_time(run) ? due : end;
+    return due < end - ROUGHLY * run->scene.covariant_sampling && due > hd_run_time(run) ? due
+                                                                                         : end;
 }
 
 /** Where the next orthonormalisation falls. */

@@ -28,7 +28,8 @@ HD_MUST_CHECK hd_status hd_windows_start(hd_windows *windows, hd_columns frame, 
                                          double expected);
 /** An orthonormalisation, and the part of the log before it. */
 HD_MUST_CHECK hd_status hd_windows_add(hd_windows *windows, const hd_ortho *ortho,
-                                       const hd_frame *frame, const hd_event_log *log, double t_begin, double t_end);
+                                       const hd_frame *frame, const hd_event_log *log,
+                                       double t_begin, double t_end);
 /** The whole interval is done. */
 HD_MUST_CHECK hd_status hd_windows_end(hd_windows *windows, hd_columns frame,
                                        const hd_trajectory *trajectory);

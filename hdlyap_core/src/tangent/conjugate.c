@@ -1,7 +1,7 @@
 /** 2N vectors -> all 4N, by J (dq, dp) = (dp, -dq) [T19].
  *
- * Q is row-major (stride >= n), for BLAS the column-major Q^T with its first rows the first vectors.
- * Panels, and what is turned by J, are column-major with a column for each vector. */
+ * Q is row-major (stride >= n), for BLAS the column-major Q^T with its first rows the first
+ * vectors. Panels, and what is turned by J, are column-major with a column for each vector. */
 #include "tangent/conjugate.h"
 
 #include <cblas.h>
@@ -253,9 +253,8 @@ double hd_conjugate_isotropy_measured(const hd_frame *frame)
     double worst = 0.0, *turned = hd_memory_alloc(size + square, sizeof *turned);
     if (!turned) return HUGE_VAL;
     for (int row = 0; row < rows; row++) {
-        const double *q = hd_frame_read(frame) +
-                          (size_t)(row % 4 < 2 ? row + 2 : row - 2) *
-                              (size_t)hd_frame_stride(frame);
+        const double *q = hd_frame_read(frame) + (size_t)(row % 4 < 2 ? row + 2 : row - 2) *
+                                                     (size_t)hd_frame_stride(frame);
         for (int col = 0; col < n; col++)
             turned[(size_t)row * (size_t)n + (size_t)col] = row % 4 < 2 ? q[col] : -q[col];
     }

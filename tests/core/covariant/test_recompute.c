@@ -70,7 +70,8 @@ static void check_slot(kept *k, double *found, long interval)
 {
     const long last = k->end - 1, slot = interval % SLOTS, to_wrap = SLOTS - 1 - slot;
     const long ahead = last - interval;
-    CHECK_OK(hd_recompute_factor(k->r, found, NULL, slot, slot + (ahead < to_wrap ? ahead : to_wrap)));
+    CHECK_OK(
+        hd_recompute_factor(k->r, found, NULL, slot, slot + (ahead < to_wrap ? ahead : to_wrap)));
     check_triangle(found, k->factor[interval], forward_vectors(&k->f), rounding_of(k));
 }
 

@@ -116,7 +116,8 @@ static void check_fields(const hd_run *run)
     CHECK_OK(hd_hydro_create(&hydro, hd_run_scene(run), steps));
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
-        if (!hd_pmode_reconstruct(pmode, step, hd_run_modes(run), hd_run_frame_columns(run))) continue;
+        if (!hd_pmode_reconstruct(pmode, step, hd_run_modes(run), hd_run_frame_columns(run)))
+            continue;
         for (int c = 0; c < step->expected; c++) {
             hd_pmode_divide(pmode, out, c, p);
             check_numbers(out, rows, "divided field");

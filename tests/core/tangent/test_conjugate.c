@@ -106,9 +106,10 @@ static void check_vectors(conjugates *x)
     const hd_columns all = conjugates_completed(x);
     for (int row = 0; row < x->rows; row++)
         for (int col = 0; col < x->rows; col++)
-            CHECK_CLOSE(all.data[row * all.stride + col],
-                        hd_frame_read(x->frame[WHOLE])[row * hd_frame_stride(x->frame[WHOLE]) + col],
-                        allowed(x));
+            CHECK_CLOSE(
+                all.data[row * all.stride + col],
+                hd_frame_read(x->frame[WHOLE])[row * hd_frame_stride(x->frame[WHOLE]) + col],
+                allowed(x));
 }
 
 static void check_halves(conjugates *x)
@@ -118,7 +119,8 @@ static void check_halves(conjugates *x)
     hd_conjugate_halves(found[0], found[1], x->rows / 2);
     hd_frame_halves(x->frame[WHOLE], want[0], want[1]);
     for (int col = 0; col < x->rows; col++) {
-        CHECK_CLOSE(found[0][col], want[0][col], 8.0 * allowed(x) * (want[1][col] + 1.0 / want[1][col]));
+        CHECK_CLOSE(found[0][col], want[0][col],
+                    8.0 * allowed(x) * (want[1][col] + 1.0 / want[1][col]));
         CHECK_CLOSE(found[1][col] / want[1][col], 1.0,
                     8.0 * allowed(x) * (want[1][col] + 1.0 / want[1][col]));
     }
