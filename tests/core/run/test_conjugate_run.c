@@ -89,6 +89,17 @@ static hd_scene_def windowed(int exponents, hd_boundary x, hd_boundary y)
     return scene;
 }
 
+/** Between an exponent and its neighbours: parts along them are gone like exp(-gap t). */
+static double gap(const hd_run *run, int col)
+{
+    const hd_spectrum *s = hd_run_spectrum(run);
+    double least = INFINITY;
+    for (int k = col - 1; k <= col + 1; k++)
+        if (k >= 0 && k < 40 && k != col)
+            least = fmin(least, fabs(hd_spectrum_exponent(s, k) - hd_spectrum_exponent(s, col)));
+    return least;
+}
+
 /** Spaces do not depend on where frames began: what is left of that is far below rounding, which
  * is 40 eps condition, over a small angle. */
 static void check_spaces(hd_run *half, hd_run *whole)
@@ -96,8 +107,8 @@ static void check_spaces(hd_run *half, hd_run *whole)
     const hd_covariant *one = hd_run_covariant(half), *other = hd_run_covariant(whole);
     const double rounding = 400.0 * DBL_EPSILON * half->rounding.condition_max;
     const hd_splitting *a = hd_covariant_splitting(one), *b = hd_covariant_splitting(other);
+    const double met = 1e-3; /* exp(-0.08 * 120) = 7e-5, and growth fluctuates */
     int good = 0;
-    const int zero = hd_scene_zero_exponents(hd_run_scene(half));
     assert_int_equal(hd_covariant_windows(one), 7);
     assert_int_equal(hd_covariant_windows(other), 7);
     assert_int_equal(hd_splitting_samples(a), hd_splitting_samples(b));
@@ -111,17 +122,13 @@ static void check_spaces(hd_run *half, hd_run *whole)
     CHECK_CLOSE(hd_covariant_null_most(one), 0.0, rounding);
     assert_true(hd_covariant_start_mismatch(one).stable < 1e-9);
     for (int col = 0; col < 40; col++) {
-        const double met = hd_covariant_start_mismatch_each(one)[col] +
-                           hd_covariant_start_mismatch_each(other)[col];
-        if (abs(2 * col - 39) < zero) continue; /* which of them, frames choose */
-        if (met > 1e-8) continue; /* nearly equal exponents; the last window is not the worst */
+        if (gap(half, col) < 0.08) continue;
         good++;
         CHECK_CLOSE(hd_spectrum_exponent(hd_covariant_spectrum(one), col),
-                    hd_spectrum_exponent(hd_covariant_spectrum(other), col), 10.0 * met + 1e-4);
-        CHECK_CLOSE(hd_covariant_widths(one)[col], hd_covariant_widths(other)[col],
-                    10.0 * met + 1e-4);
+                    hd_spectrum_exponent(hd_covariant_spectrum(other), col), met);
+        CHECK_CLOSE(hd_covariant_widths(one)[col], hd_covariant_widths(other)[col], met);
     }
-    assert_true(good >= 10);
+    assert_true(good >= 8);
 }
 
 static void covariant_vectors_are_those_of_vectors_carried_each(void **state)
