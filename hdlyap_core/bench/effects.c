@@ -138,7 +138,8 @@ static void reconstruct(side *s)
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
         if (step->kind != HD_MODE_LP || !step->resolved) continue;
-        if (!hd_pmode_reconstruct(s->pmode, step, hd_run_modes(s->run), hd_run_frame(s->run)))
+        if (!hd_pmode_reconstruct(s->pmode, step, hd_run_modes(s->run),
+                                  hd_run_frame_columns(s->run)))
             continue;
         for (int c = hd_pmode_pairs(s->pmode); c < 2 * hd_pmode_pairs(s->pmode); c++)
             hd_pmode_divide(s->pmode, s->field, c, s->p);
@@ -152,7 +153,7 @@ static void report(side *s)
     if (s->hydro || s->pmode) hd_trajectory_state(hd_run_trajectory(s->run), s->q, s->p);
     if (s->pmode) reconstruct(s);
     if (s->hydro)
-        hd_hydro_measure(s->hydro, hd_run_steps(s->run), hd_run_frame(s->run), s->q, s->p);
+        hd_hydro_measure(s->hydro, hd_run_steps(s->run), hd_run_frame_columns(s->run), s->q, s->p);
 }
 
 /** So many that each round has several orthonormalisations. */

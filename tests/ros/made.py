@@ -324,7 +324,7 @@ def lp_phases(info, made, sim_time, modulations=(0, 1), began=0.0, rng=None, run
                     tracked_time=sim_time - began,
                 )
             )
-    return LpPhases(run_id=run_id, sim_time=sim_time, samples_per_report=1, phases=phases)
+    return LpPhases(run_id=run_id, sim_time=sim_time, phases=phases)
 
 
 def disks(info, seed=1):

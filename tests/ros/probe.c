@@ -104,11 +104,11 @@ double hd_covariant_null(const hd_covariant *covariant)
     return getenv("PROBE_NAN_ANGLE") ? NAN : real(covariant);
 }
 
-void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_ratio)
+void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
 {
-    void (*real)(const hd_frame *, double *, double *);
-    next(&real, "hd_frame_halves");
-    real(frame, cos_theta, dp_dq_ratio);
+    void (*real)(const hd_run *, double *, double *);
+    next(&real, "hd_run_halves");
+    real(run, cos_theta, dp_dq_ratio);
     atomic_fetch_add(&halves, 1);
 }
 
@@ -129,21 +129,21 @@ void hd_phases_add(hd_phases *followed, const hd_steps *found, double time)
 }
 
 bool hd_pmode_reconstruct(hd_pmode *pmode, const hd_step *step, const hd_modes *modes,
-                          const hd_frame *frame)
+                          hd_columns vectors)
 {
-    bool (*real)(hd_pmode *, const hd_step *, const hd_modes *, const hd_frame *);
+    bool (*real)(hd_pmode *, const hd_step *, const hd_modes *, hd_columns);
     next(&real, "hd_pmode_reconstruct");
     atomic_fetch_add(&pmodes, 1);
-    return real(pmode, step, modes, frame);
+    return real(pmode, step, modes, vectors);
 }
 
-void hd_hydro_measure(hd_hydro *hydro, const hd_steps *found, const hd_frame *frame,
-                      const double *q, const double *p)
+void hd_hydro_measure(hd_hydro *hydro, const hd_steps *found, hd_columns vectors, const double *q,
+                      const double *p)
 {
-    void (*real)(hd_hydro *, const hd_steps *, const hd_frame *, const double *, const double *);
+    void (*real)(hd_hydro *, const hd_steps *, hd_columns, const double *, const double *);
     next(&real, "hd_hydro_measure");
     atomic_fetch_add(&hydros, 1);
-    real(hydro, found, frame, q, p);
+    real(hydro, found, vectors, q, p);
 }
 
 /* Messages made, of each type. */

@@ -39,7 +39,7 @@ def phases(time):
     pair = LpPhase(
         step=1, nx=1, ny=0, index=32, a=np.cos(angle(time)), b=np.sin(angle(time)), omega=1.0
     )
-    return LpPhases(run_id='one', sim_time=time, samples_per_report=1, phases=[pair])
+    return LpPhases(run_id='one', sim_time=time, phases=[pair])
 
 
 def fields(time):

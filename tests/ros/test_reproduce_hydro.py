@@ -53,7 +53,7 @@ class Run:
                 # what has no phase is not what the responses say
                 phase.state, phase.a, phase.b = LpPhase.WEAK, -phase.a, 3 * phase.b
             yield Hydro(run_id='one', sim_time=t, responses=responses)
-            yield LpPhases(run_id='one', sim_time=t + shift, samples_per_report=1, phases=phases)
+            yield LpPhases(run_id='one', sim_time=t + shift, phases=phases)
 
     def of_t(self, wave, pairs):
         turned = self.rng.uniform(0, 2 * np.pi)

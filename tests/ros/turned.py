@@ -78,7 +78,6 @@ def course(times, *waves):
         LpPhases(
             run_id='one',
             sim_time=t,
-            samples_per_report=1,
             phases=[one for wave in waves for one in wave.at(t)],
         )
         for t in times

@@ -39,16 +39,18 @@ void hd_covariant_clear(hd_covariant *covariant);
 HD_MUST_CHECK hd_status hd_covariant_begin(hd_covariant *covariant, hd_columns frame, double time,
                                            double interval);
 
-/** After an orthonormalisation: the interval from t_begin to t_end of the log. HD_NO_MEMORY,
- * HD_FILE_FAULT. */
+/** After an orthonormalisation: the interval from t_begin to t_end of the log, through which the
+ * frame was replayed. HD_NO_MEMORY, HD_FILE_FAULT. */
 HD_MUST_CHECK hd_status hd_covariant_add(hd_covariant *covariant, const hd_ortho *ortho,
-                                         hd_columns frame, const hd_event_log *log, double t_begin,
-                                         double t_end);
+                                         const hd_frame *frame, const hd_event_log *log,
+                                         double t_begin, double t_end);
 
 /** Keeps frame and disks after the last of them, if they are due (hd_covariant_wants_state). */
 HD_MUST_CHECK hd_status hd_covariant_state(hd_covariant *covariant, hd_columns frame,
                                            const hd_trajectory *trajectory);
 bool hd_covariant_wants_state(const hd_covariant *covariant);
+double
+hd_covariant_due(const hd_covariant *covariant); /**< simulated time of the next such state */
 
 /** True once a window and its transient are complete: until hd_covariant_step has gone back through
  * them, an interval at a time, nothing is to be added. */

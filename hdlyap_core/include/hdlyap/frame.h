@@ -42,6 +42,8 @@ hd_columns hd_frame_columns(const hd_frame *frame); /**< all of them */
 HD_MUST_CHECK hd_status hd_frame_replay(hd_frame *frame, const hd_event_log *log, double t_begin,
                                         double t_end);
 
+/** The vectors before the last replay, until the next one. */
+const double *hd_frame_before(const hd_frame *frame);
 /** Undoes the last replay (once). */
 void hd_frame_rewind(hd_frame *frame);
 

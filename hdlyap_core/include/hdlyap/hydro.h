@@ -27,8 +27,8 @@ void hd_hydro_free(hd_hydro *hydro);
 
 /** Responses of the vectors that belong to a resolved step (hd_steps_of_vector), in the state
  * q[2N], p[2N]. */
-void hd_hydro_measure(hd_hydro *hydro, const hd_steps *steps, const hd_frame *frame,
-                      const double *q, const double *p);
+void hd_hydro_measure(hd_hydro *hydro, const hd_steps *steps, hd_columns vectors, const double *q,
+                      const double *p);
 
 /** expected multiplicity x modulations of each step, in their order; constant. col is -1 where
  * there is none. */

@@ -19,7 +19,7 @@ void hd_pmode_free(hd_pmode *pmode);
  * (phi_L, phi_P) = psi Q by least squares. False if the step is no resolved LP step of its own
  * (shares its set). */
 bool hd_pmode_reconstruct(hd_pmode *pmode, const hd_step *step, const hd_modes *modes,
-                          const hd_frame *frame);
+                          hd_columns vectors);
 
 int hd_pmode_pairs(const hd_pmode *pmode); /**< d */
 /** phi_L of pair c for c < d, phi_P of pair c - d beyond; [2N]: x0 y0 x1 y1 .. */

@@ -98,6 +98,12 @@ void hd_run_watch(hd_run *run, double interval, int first);
  * 0). Their coefficients are in the snapshot of hd_run_modes. */
 hd_columns hd_run_columns(const hd_run *run);
 
+/** All n vectors of the last orthonormalisation, if modes are observed; valid until the next call
+ * of hd_run_advance. */
+hd_columns hd_run_frame_columns(const hd_run *run);
+/** hd_frame_halves of all n vectors; [n] each. */
+void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio);
+
 /** Starts the averages afresh at the present time. Fails as hd_run_advance does. */
 HD_MUST_CHECK hd_status hd_run_reset_average(hd_run *run);
 
@@ -108,7 +114,8 @@ int hd_run_vectors(const hd_run *run);        /**< n, 0 without exponents */
 int hd_run_threads(const hd_run *run);        /**< in use */
 int hd_run_threads_denied(const hd_run *run); /**< wanted, but not granted by OpenMP; 0: none */
 const hd_trajectory *hd_run_trajectory(const hd_run *run);
-const hd_frame *hd_run_frame(const hd_run *run);       /**< NULL without exponents */
+/** What is carried; of all 4N exponents half of the vectors [T19]. NULL without exponents */
+const hd_frame *hd_run_frame(const hd_run *run);
 const hd_spectrum *hd_run_spectrum(const hd_run *run); /**< NULL without exponents */
 const hd_modes *hd_run_modes(const hd_run *run); /**< NULL unless observed, as the two below */
 const hd_steps *hd_run_steps(const hd_run *run);

@@ -18,7 +18,12 @@ typedef enum hd_boundary { HD_PERIODIC, HD_REFLECTING } hd_boundary;
 typedef enum hd_stage { HD_EQUILIBRATING, HD_WARMING_UP, HD_AVERAGING, HD_FINISHED } hd_stage;
 
 /** Values of hd_scene_def.exponents that are not a plain number. */
-enum { HD_EXPONENTS_NONE = 0, HD_EXPONENTS_POSITIVE = -1, HD_EXPONENTS_ALL = -2 };
+enum {
+    HD_EXPONENTS_NONE = 0,
+    HD_EXPONENTS_POSITIVE = -1,
+    HD_EXPONENTS_ALL = -2,            /**< half of them carried, the other one follows [T19] */
+    HD_EXPONENTS_ALL_INDEPENDENT = -3 /**< each carried by itself */
+};
 
 /** The value of hd_scene_def.warmup that is not a plain number. */
 enum { HD_WARMUP_AUTO = -1 };
@@ -79,8 +84,11 @@ enum { HD_NULL_X, HD_NULL_Y, HD_NULL_P, HD_NULLS };
 /** Time with the frame before the averaging, as asked for or chosen [T12]. */
 double hd_scene_warmup(const hd_scene_def *def);
 
-/** Number of tangent vectors carried, 0 .. 4N (the positive half is (4N - Z) / 2). */
+/** Number of exponents and tangent vectors that come out, 0 .. 4N (the positive half is (4N - Z) /
+ * 2). */
 int hd_scene_vectors(const hd_scene_def *def);
+/** Number of tangent vectors that are carried for them: 2N for all 4N [T19]. */
+int hd_scene_carried(const hd_scene_def *def);
 
 #ifdef __cplusplus
 }

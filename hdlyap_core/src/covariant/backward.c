@@ -92,12 +92,18 @@ hd_status hd_backward_step(hd_backward *backward, double *growth, const double *
 
 double *hd_backward_data(hd_backward *backward) { return backward->c; }
 const double *hd_backward_read(const hd_backward *backward) { return backward->c; }
+
 double hd_backward_apart(const hd_backward *one, const hd_backward *other, int col)
 {
-    const double *x = column_of(one, col), *y = column_of(other, col);
-    const double sign = cblas_ddot(col + 1, x, 1, y, 1) < 0 ? -1.0 : 1.0;
+    return hd_vectors_apart(column_of(one, col), column_of(other, col), col + 1);
+}
+
+double hd_vectors_apart(const double *x, const double *y, int count)
+{
+    const double sign = cblas_ddot(count, x, 1, y, 1) < 0 ? -1.0 : 1.0;
     double sum = 0.0; /* |x - y| = 2 sin(angle / 2): small angles keep their digits */
-    for (int row = 0; row <= col; row++) sum += (x[row] - sign * y[row]) * (x[row] - sign * y[row]);
+    for (int row = 0; row < count; row++)
+        sum += (x[row] - sign * y[row]) * (x[row] - sign * y[row]);
     return sqrt(sum * fmax(0.0, 1.0 - 0.25 * sum));
 }
 

@@ -19,6 +19,7 @@
 #include "covariant/backward.h"
 #include "covariant/history.h"
 #include "covariant/localization.h"
+#include "covariant/starts.h"
 #include "scene/null_space.h"
 #include "modes/archived.h"
 
@@ -31,22 +32,23 @@ typedef enum way { FORWARD, THROUGH_TRANSIENT, THROUGH_WINDOW } way;
 
 struct hd_covariant {
     hd_scene_def scene;
-    int rows, vectors, threads, unstable, centre;
+    int rows, vectors, carried, threads, unstable, centre;
     hd_history *past;
-    hd_backward *start[2]; /**< two through the transient, the first through the window */
+    hd_starts *starts; /**< two through the transient, the first through the window */
     hd_spectrum *spectrum;
     hd_splitting *splitting;
     hd_localization *shape;
-    hd_modes *half[2];      /**< weights of the dq and of the dp halves */
-    hd_modes *of_frame;     /**< of the dq halves of the frame, at the same times */
-    hd_angles *spaces;      /**< of C's rows; NULL where there is no centre, as the next two */
-    hd_angles *null;        /**< of the vectors' rows */
-    double *null_columns;   /**< [2 * centre][rows]: the covariant centre, the null space */
-    double *factor;         /**< [vectors * vectors]; room for the centres of both starts, too */
-    double *growth, *grown; /**< [vectors]: of one interval, since the last look */
-    double *apart;          /**< [vectors]: sines between both starts where the last window ended */
-    double *frame, *q, *p;  /**< vectors [rows * vectors], state of a look */
-    double window, due;     /**< start of the window; time of the next look */
+    hd_modes *half[2];     /**< weights of the dq and of the dp halves */
+    hd_modes *of_frame;    /**< of the dq halves of the frame, at the same times */
+    hd_angles *spaces;     /**< of C's rows; NULL where there is no centre, as the next two */
+    hd_angles *null;       /**< of the vectors' rows */
+    double *null_columns;  /**< [2 * centre][rows]: the covariant centre, the null space */
+    double *factor;        /**< [vectors * vectors]; room for the centres of both starts, too */
+    double *coupling;      /**< [carried * carried]; NULL where all vectors are carried */
+    double *angle;         /**< [vectors], principal ones */
+    double *apart;         /**< [vectors]: sines between both starts where the last window ended */
+    double *frame, *q, *p; /**< vectors [rows * vectors], state of a look */
+    double window, due;    /**< start of the window; time of the next look */
     double grown_time;
     double now; /**< of the forward pass */
     double bytes;
@@ -54,7 +56,7 @@ struct hd_covariant {
     long at;   /**< interval that is next on the way back */
     long last; /**< interval that the window ends with */
     long windows, lost, intervals;
-    uint64_t starts;
+    uint64_t streams; /**< of random numbers, used so far */
     hd_covariant_mismatch spaces_apart;
     double null_apart, null_apart_most;
 };
@@ -70,7 +72,8 @@ static hd_history_def past_of(const hd_scene_def *def, double interval)
                  looks = ceil(both / def->covariant_sampling) + 4.0;
     const double most = 1e9; /* far beyond any room */
     return (hd_history_def){.disks = def->disks,
-                            .vectors = hd_scene_vectors(def),
+                            .vectors = hd_scene_carried(def),
+                            .conjugate = hd_scene_carried(def) < hd_scene_vectors(def),
                             .intervals = (long)fmin(intervals, most),
                             .snapshots = (long)fmin(looks, most),
                             .recompute = def->covariant_storage == HD_STORAGE_RECOMPUTE};
@@ -93,18 +96,20 @@ hd_status hd_covariant_check_room(const hd_scene_def *def, double interval, char
 static hd_status allocate_arrays(hd_covariant *c)
 {
     const size_t n = (size_t)c->vectors, rows = (size_t)c->rows, centres = 2 * (size_t)c->centre;
+    const size_t half = c->carried < c->vectors ? (size_t)c->carried : 0;
     const struct {
         double **array;
         size_t size;
     } wanted[] = {{&c->factor, n * (n > centres ? n : centres)},
-                  {&c->growth, n},
-                  {&c->grown, n},
+                  {&c->coupling, half * half},
+                  {&c->angle, n},
                   {&c->apart, n},
                   {&c->frame, rows * n},
                   {&c->q, rows / 2},
                   {&c->p, rows / 2}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
-        if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
+        if (wanted[k].size > 0 &&
+            !(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
             return HD_NO_MEMORY;
     return HD_OK;
 }
@@ -125,10 +130,9 @@ static hd_status allocate(hd_covariant *c)
 {
     HD_TRY(allocate_arrays(c));
     HD_TRY(allocate_spaces(c));
-    for (int k = 0; k < 2; k++) {
-        HD_TRY(hd_backward_create(&c->start[k], c->vectors));
+    HD_TRY(hd_starts_create(&c->starts, c->vectors, c->carried < c->vectors));
+    for (int k = 0; k < 2; k++)
         HD_TRY(hd_modes_create(&c->half[k], &c->scene, c->vectors, c->threads));
-    }
     HD_TRY(hd_modes_create(&c->of_frame, &c->scene, c->vectors, c->threads));
     HD_TRY(
         hd_spectrum_create(&c->spectrum, c->rows, c->vectors, hd_scene_sound_crossing(&c->scene)));
@@ -147,6 +151,7 @@ hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int t
     c->threads = threads;
     c->rows = 4 * def->disks;
     c->vectors = hd_scene_vectors(def);
+    c->carried = hd_scene_carried(def);
     c->centre = c->vectors >= positive + zero ? zero : 0;
     c->unstable = c->centre > 0 ? positive
                                 : c->vectors; /* a part of the centre is no space of its own */
@@ -163,13 +168,11 @@ hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int t
 void hd_covariant_free(hd_covariant *c)
 {
     if (!c) return;
-    for (int k = 0; k < 2; k++) {
-        hd_backward_free(c->start[k]);
-        hd_modes_free(c->half[k]);
-    }
+    for (int k = 0; k < 2; k++) hd_modes_free(c->half[k]);
+    hd_starts_free(c->starts);
     hd_modes_free(c->of_frame);
-    double *arrays[] = {c->factor, c->growth, c->grown, c->apart,
-                        c->frame,  c->q,      c->p,     c->null_columns};
+    double *arrays[] = {c->factor, c->coupling, c->angle, c->apart,
+                        c->frame,  c->q,        c->p,     c->null_columns};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) hd_memory_free(arrays[k]);
     hd_history_free(c->past);
     hd_spectrum_free(c->spectrum);
@@ -246,12 +249,11 @@ static bool is_complete(const hd_covariant *c)
 
 static void begin_way_back(hd_covariant *c)
 {
-    for (int k = 0; k < 2; k++) hd_backward_start(c->start[k], c->scene.seed, c->starts++);
+    hd_starts_begin(c->starts, c->scene.seed, c->streams);
+    c->streams += 2;
     c->at = hd_history_end(c->past) - 1;
     c->last = window_last(c);
-    memset(c->grown, 0,
-           (size_t)c->vectors * sizeof *c->grown); /* a way back may have been given up */
-    c->grown_time = 0.0;
+    c->grown_time = 0.0; /* a way back may have been given up */
     c->way = THROUGH_TRANSIENT;
 }
 
@@ -264,11 +266,12 @@ static hd_status lose_window(hd_covariant *c, hd_columns frame, double time)
     return status == HD_NO_ROOM ? begin_window(c, frame, time) : status;
 }
 
-hd_status hd_covariant_add(hd_covariant *c, const hd_ortho *ortho, hd_columns frame,
+hd_status hd_covariant_add(hd_covariant *c, const hd_ortho *ortho, const hd_frame *frame,
                            const hd_event_log *log, double t_begin, double t_end)
 {
     HD_ASSERT(c->way == FORWARD);
-    if (hd_history_is_full(c->past)) return lose_window(c, frame, c->now + t_end - t_begin);
+    if (hd_history_is_full(c->past))
+        return lose_window(c, hd_frame_columns(frame), c->now + t_end - t_begin);
     HD_TRY(hd_history_add(c->past, hd_ortho_factor(ortho), frame, log, t_begin, t_end));
     c->now = hd_history_time(c->past, hd_history_end(c->past) - 1);
     return HD_OK;
@@ -278,6 +281,8 @@ bool hd_covariant_wants_state(const hd_covariant *c)
 {
     return c->way == FORWARD && c->now >= c->due - CLOSE * c->scene.covariant_sampling;
 }
+
+double hd_covariant_due(const hd_covariant *c) { return c->due; }
 
 hd_status hd_covariant_state(hd_covariant *c, hd_columns frame, const hd_trajectory *trajectory)
 {
@@ -326,8 +331,8 @@ static hd_status measure_null(hd_covariant *c)
         cblas_dcopy(c->rows, c->frame + c->unstable + col, c->vectors,
                     columns + (size_t)col * (size_t)c->rows, 1);
     fill_null(c, columns + (size_t)c->centre * (size_t)c->rows);
-    HD_TRY(hd_angles_between(c->null, c->growth, columns, covariant, exact));
-    c->null_apart = c->growth[c->centre - 1];
+    HD_TRY(hd_angles_between(c->null, c->angle, columns, covariant, exact));
+    c->null_apart = c->angle[c->centre - 1];
     raise_to(&c->null_apart_most, c->null_apart);
     return HD_OK;
 }
@@ -351,18 +356,20 @@ static void swap_halves(hd_covariant *c)
 /** What the vectors grew by since the look before, which came later. */
 static void end_growth(hd_covariant *c)
 {
+    const double *grown = hd_starts_growth(c->starts);
     if (c->grown_time == 0) return;
-    hd_splitting_grow(c->splitting, c->grown);
+    hd_splitting_grow(c->splitting, grown);
+    hd_spectrum_add(c->spectrum, grown, c->grown_time);
     hd_spectrum_local_restart(c->spectrum);
     hd_spectrum_sample(c->spectrum);
-    memset(c->grown, 0, (size_t)c->vectors * sizeof *c->grown);
     c->grown_time = 0.0;
 }
 
 /** C is that of the end of the interval; V = Q C. */
 static hd_status look(hd_covariant *c, long interval)
 {
-    const double *coefficients = hd_backward_read(c->start[0]);
+    const double *coefficients;
+    HD_TRY(hd_starts_look(c->starts, &coefficients));
     end_growth(c);
     HD_TRY(hd_splitting_add(c->splitting, coefficients));
     hd_history_vectors(c->past, c->frame, c->q, c->p, interval);
@@ -379,15 +386,15 @@ static hd_status look(hd_covariant *c, long interval)
 /* ---- the way back -------------------------------------------------------------------------- */
 
 /** Largest angle between the spaces of columns first .. first + count - 1 of both starts. */
-static hd_status spaces_apart(hd_covariant *c, double *angle, int first, int count)
+static hd_status spaces_apart(hd_covariant *c, double *angle, const double *const both[2],
+                              int first, int count)
 {
     const size_t n = (size_t)c->vectors, size = (size_t)count * n;
     const hd_span one = {0, count}, other = {count, count};
     for (int k = 0; k < 2; k++)
-        memcpy(c->factor + (size_t)k * size, hd_backward_read(c->start[k]) + (size_t)first * n,
-               size * sizeof(double));
-    HD_TRY(hd_angles_between(c->spaces, c->growth, c->factor, one, other));
-    *angle = c->growth[count - 1];
+        memcpy(c->factor + (size_t)k * size, both[k] + (size_t)first * n, size * sizeof(double));
+    HD_TRY(hd_angles_between(c->spaces, c->angle, c->factor, one, other));
+    *angle = c->angle[count - 1];
     return HD_OK;
 }
 
@@ -396,30 +403,37 @@ static hd_status meet(hd_covariant *c)
 {
     hd_covariant_mismatch *apart = &c->spaces_apart;
     const int stable = c->vectors - c->unstable - c->centre;
+    const double *both[2];
     double now;
+    HD_TRY(hd_starts_meet(c->starts, both));
+    (void)hd_starts_growth(c->starts); /* of the transient */
     apart->most = 0.0;
     for (int col = 0; col < c->vectors; col++) {
-        c->apart[col] = hd_backward_apart(c->start[0], c->start[1], col);
+        const size_t first = (size_t)col * (size_t)c->vectors;
+        c->apart[col] = hd_vectors_apart(both[0] + first, both[1] + first, col + 1);
         raise_to(&apart->most, c->apart[col]);
     }
     c->way = THROUGH_WINDOW;
     if (c->centre == 0) return HD_OK;
-    HD_TRY(spaces_apart(c, &now, c->unstable, c->centre));
+    HD_TRY(spaces_apart(c, &now, both, c->unstable, c->centre));
     raise_to(&apart->centre, now);
     if (stable == 0) return HD_OK;
-    HD_TRY(spaces_apart(c, &now, c->unstable + c->centre, stable));
+    HD_TRY(spaces_apart(c, &now, both, c->unstable + c->centre, stable));
     raise_to(&apart->stable, now);
     return HD_OK;
 }
 
 /** The next window begins where this one ended. */
-static void end_window(hd_covariant *c)
+static hd_status end_window(hd_covariant *c)
 {
+    const double *unused;
+    HD_TRY(hd_starts_look(c->starts, &unused));
     end_growth(c);
     c->window = hd_history_time(c->past, c->last);
     hd_history_drop(c->past, c->window);
     c->windows++;
     c->way = FORWARD;
+    return HD_OK;
 }
 
 hd_status hd_covariant_step(hd_covariant *c)
@@ -428,17 +442,10 @@ hd_status hd_covariant_step(hd_covariant *c)
     if (c->way == THROUGH_TRANSIENT && c->at == c->last) HD_TRY(meet(c));
     const bool measuring = c->way == THROUGH_WINDOW;
     if (measuring && hd_history_has_snapshot(c->past, c->at)) HD_TRY(look(c, c->at));
-    HD_TRY(hd_history_factor(c->past, c->factor, c->at));
-    if (!measuring) HD_TRY(hd_backward_step(c->start[1], c->growth, c->factor));
-    HD_TRY(hd_backward_step(c->start[0], c->growth, c->factor));
-    if (measuring) {
-        const double length = hd_history_length(c->past, c->at);
-        hd_spectrum_add(c->spectrum, c->growth, length);
-        cblas_daxpy(c->vectors, 1.0, c->growth, 1, c->grown, 1);
-        c->grown_time += length;
-    }
-    if (--c->at < hd_history_first(c->past)) end_window(c);
-    return HD_OK;
+    HD_TRY(hd_history_factor(c->past, c->factor, c->coupling, c->at));
+    HD_TRY(hd_starts_step(c->starts, c->factor, c->coupling, !measuring));
+    if (measuring) c->grown_time += hd_history_length(c->past, c->at);
+    return --c->at < hd_history_first(c->past) ? end_window(c) : HD_OK;
 }
 
 /* ---- results ------------------------------------------------------------------------------- */
@@ -474,7 +481,7 @@ void hd_covariant_archive(hd_covariant *c, hd_archive *archive)
         &c->null_apart, &c->null_apart_most};
     hd_archive_long(archive, "covariant windows", &c->windows, 0, LONG_MAX / 2);
     hd_archive_long(archive, "covariant lost", &c->lost, 0, LONG_MAX / 2);
-    hd_archive_bits(archive, "covariant starts", &c->starts);
+    hd_archive_bits(archive, "covariant starts", &c->streams);
     hd_archive_of_doubles(archive, "covariant numbers", sizeof numbers / sizeof *numbers);
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         hd_archive_next_doubles(archive, numbers[k], 1);

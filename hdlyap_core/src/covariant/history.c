@@ -9,8 +9,10 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "covariant/backward.h"
+#include "covariant/coupling.h"
 #include "covariant/recompute.h"
 #include "covariant/store.h"
+#include "tangent/conjugate.h"
 
 typedef struct interval_kept {
     double time, length;
@@ -24,6 +26,7 @@ struct hd_history {
     interval_kept *kept; /**< [slots] */
     hd_store *triangles; /**< NULL if recomputed */
     hd_recompute *recompute;
+    hd_coupling *coupling; /**< NULL where all vectors are carried, or recomputed */
     hd_store *snapshots;
     long first, end, snapshots_end;
     double time;
@@ -34,15 +37,23 @@ static size_t record_size(const hd_history_def *def)
     return 4 * (size_t)def->disks * ((size_t)def->vectors + 1);
 }
 
+/** R, and Y with it. */
+static size_t triangle_size(const hd_history_def *def)
+{
+    return (def->conjugate ? 2 : 1) * hd_triangle_size(def->vectors);
+}
+
 /** Whole stretches, and one more: where one begins there must be a frame while any of its intervals
  * is there. */
 static hd_recompute_def recompute_of(const hd_history_def *def)
 {
     const int rows = 4 * def->disks;
-    const long stretch = hd_recompute_stretch(def->intervals, rows, def->vectors);
+    const long stretch = hd_recompute_stretch(def->intervals, def->conjugate ? rows / 2 : rows,
+                                              def->vectors);
     return (hd_recompute_def){.rows = rows,
                               .vectors = def->vectors,
                               .threads = def->threads,
+                              .conjugate = def->conjugate,
                               .slots = (def->intervals + 2 * stretch - 1) / stretch * stretch,
                               .stretch = stretch};
 }
@@ -51,21 +62,21 @@ double hd_history_bytes(const hd_history_def *def)
 {
     const double snapshots = (double)def->snapshots * (double)record_size(def);
     const hd_recompute_def again = recompute_of(def);
-    const double triangles = def->recompute
-                                 ? hd_recompute_doubles(&again)
-                                 : (double)def->intervals * (double)hd_triangle_size(def->vectors);
+    const double triangles = def->recompute ? hd_recompute_doubles(&again)
+                                            : (double)def->intervals * (double)triangle_size(def);
     return (snapshots + triangles) * sizeof(double);
 }
 
 static hd_status allocate(hd_history *past)
 {
     const hd_history_def *def = &past->def;
-    const size_t triangle = hd_triangle_size(def->vectors), record = record_size(def);
+    const size_t triangle = triangle_size(def), record = record_size(def);
     past->kept = hd_memory_alloc((size_t)past->slots, sizeof *past->kept);
     if (!past->kept) return HD_NO_MEMORY;
     HD_TRY(hd_store_create(&past->snapshots, record, def->snapshots));
     const hd_recompute_def again = recompute_of(def);
     if (def->recompute) return hd_recompute_create(&past->recompute, &again);
+    if (def->conjugate) HD_TRY(hd_coupling_create(&past->coupling, def->disks, def->threads));
     return hd_store_create(&past->triangles, triangle, past->slots);
 }
 
@@ -93,6 +104,7 @@ void hd_history_free(hd_history *past)
     hd_store_free(past->triangles);
     hd_store_free(past->snapshots);
     hd_recompute_free(past->recompute);
+    hd_coupling_free(past->coupling);
     hd_memory_free(past);
 }
 
@@ -123,22 +135,32 @@ bool hd_history_is_full(const hd_history *past)
     return past->end - past->first >= past->def.intervals;
 }
 
-hd_status hd_history_add(hd_history *past, const double *factor, hd_columns frame,
+static hd_status keep_triangle(hd_history *past, const double *factor, long slot)
+{
+    double *triangle = hd_store_put(past->triangles, slot);
+    if (!triangle) return HD_NO_MEMORY;
+    hd_triangle_pack(triangle, factor, past->def.vectors);
+    if (past->coupling)
+        hd_triangle_pack(triangle + hd_triangle_size(past->def.vectors),
+                         hd_coupling_read(past->coupling), past->def.vectors);
+    return HD_OK;
+}
+
+hd_status hd_history_add(hd_history *past, const double *factor, const hd_frame *frame,
                          const hd_event_log *log, double t_begin, double t_end)
 {
     HD_ASSERT(!hd_history_is_full(past));
     const long slot = past->end % past->slots;
-    if (past->recompute) {
+    if (past->coupling)
+        HD_TRY(hd_coupling_measure(past->coupling, frame, factor, log, t_begin, t_end));
+    if (past->recompute)
         HD_TRY(hd_recompute_events(past->recompute, slot, log, t_begin, t_end));
-    } else {
-        double *triangle = hd_store_put(past->triangles, slot);
-        if (!triangle) return HD_NO_MEMORY;
-        hd_triangle_pack(triangle, factor, past->def.vectors);
-    }
+    else
+        HD_TRY(keep_triangle(past, factor, slot));
     past->time += t_end - t_begin;
     past->kept[slot] = (interval_kept){past->time, t_end - t_begin, -1};
     past->end++;
-    return keep_frame(past, frame);
+    return keep_frame(past, hd_frame_columns(frame));
 }
 
 hd_status hd_history_snapshot(hd_history *past, hd_columns frame, const double *q, const double *p)
@@ -178,16 +200,20 @@ bool hd_history_has_snapshot(const hd_history *past, long interval)
     return kept_at(past, interval)->snapshot >= 0;
 }
 
-hd_status hd_history_factor(hd_history *past, double *factor, long interval)
+hd_status hd_history_factor(hd_history *past, double *factor, double *coupling, long interval)
 {
     const long slot = interval % past->slots;
     (void)kept_at(past, interval);
     if (past->recompute) {
         const long ahead = past->end - 1 - interval, to_wrap = past->slots - 1 - slot;
-        return hd_recompute_factor(past->recompute, factor, slot,
+        return hd_recompute_factor(past->recompute, factor, coupling, slot,
                                    slot + (ahead < to_wrap ? ahead : to_wrap));
     }
-    hd_triangle_unpack(factor, hd_store_fetch(past->triangles, slot), past->def.vectors);
+    const double *triangle = hd_store_fetch(past->triangles, slot);
+    hd_triangle_unpack(factor, triangle, past->def.vectors);
+    if (past->coupling)
+        hd_triangle_unpack(coupling, triangle + hd_triangle_size(past->def.vectors),
+                           past->def.vectors);
     return HD_OK;
 }
 
@@ -198,7 +224,10 @@ void hd_history_vectors(const hd_history *past, double *vectors, double *q, doub
     const long record = kept_at(past, interval)->snapshot;
     HD_ASSERT(record >= 0);
     const double *kept = hd_store_fetch(past->snapshots, record);
-    memcpy(vectors, kept, rows * n * sizeof *vectors);
+    if (past->def.conjugate)
+        hd_conjugate_fill(vectors, (hd_columns){kept, (int)n, 0, (int)n}, past->rows);
+    else
+        memcpy(vectors, kept, rows * n * sizeof *vectors);
     memcpy(q, kept + rows * n, half * sizeof *q);
     memcpy(p, kept + rows * n + half, half * sizeof *p);
 }

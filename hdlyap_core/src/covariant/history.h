@@ -10,6 +10,7 @@
 /** Where triangles are kept. */
 typedef struct hd_history_def {
     int disks, vectors, threads;
+    bool conjugate; /**< half of the vectors are carried: triangles are R and Y [T19] */
     long intervals; /**< of which triangles are kept, at most */
     long snapshots; /**< at most */
     bool recompute; /**< triangles are computed again instead of being kept */
@@ -28,9 +29,10 @@ void hd_history_free(hd_history *past);
 HD_MUST_CHECK hd_status hd_history_begin(hd_history *past, hd_columns frame, double time);
 
 /** What an orthonormalisation leaves: R of the interval from t_begin to t_end of the log, and the
- * frame after it. There must be room (hd_history_is_full). */
-HD_MUST_CHECK hd_status hd_history_add(hd_history *past, const double *factor, hd_columns frame,
-                                       const hd_event_log *log, double t_begin, double t_end);
+ * frame that was replayed through it. There must be room (hd_history_is_full). */
+HD_MUST_CHECK hd_status hd_history_add(hd_history *past, const double *factor,
+                                       const hd_frame *frame, const hd_event_log *log,
+                                       double t_begin, double t_end);
 bool hd_history_is_full(const hd_history *past);
 
 /** Keeps the frame and the state of the end of the last interval: q[2N], p[2N]. */
@@ -48,9 +50,12 @@ double hd_history_time(const hd_history *past, long interval); /**< of its end *
 double hd_history_length(const hd_history *past, long interval);
 bool hd_history_has_snapshot(const hd_history *past, long interval); /**< at its end */
 
-/** R [n * n], row-major, of one interval. */
-HD_MUST_CHECK hd_status hd_history_factor(hd_history *past, double *factor, long interval);
-/** Vectors [4N * n] row-major, q[2N], p[2N] of a snapshot. */
+/** R [n * n] and Y [n * n] (NULL where all are carried), row-major from the diagonal on, of one
+ * interval. */
+HD_MUST_CHECK hd_status hd_history_factor(hd_history *past, double *factor, double *coupling,
+                                          long interval);
+/** Vectors [4N * n] row-major, or all [4N * 2n] where half are carried, q[2N], p[2N] of a snapshot.
+ */
 void hd_history_vectors(const hd_history *past, double *vectors, double *q, double *p,
                         long interval);
 

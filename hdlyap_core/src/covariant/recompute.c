@@ -12,11 +12,14 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "covariant/backward.h"
+#include "covariant/coupling.h"
 #include "covariant/store.h"
 #include "events/event_log.h"
 #include "hdlyap/ortho.h"
 
 static const hd_ortho_limits LIMITS = {1e7, 1e-6, HD_NORM_FULL};
+/** To rounding, as Y takes both ends to be [T19]. */
+static const hd_ortho_limits LIMITS_COUPLED = {1e7, 1e-12, HD_NORM_FULL};
 
 struct hd_recompute {
     hd_recompute_def def;
@@ -26,6 +29,7 @@ struct hd_recompute {
     hd_event_log **log;  /**< [slots] */
     hd_frame *frame;
     hd_ortho *ortho;
+    hd_coupling *coupling; /**< NULL where all vectors are carried */
 };
 
 long hd_recompute_stretch(long slots, int rows, int vectors)
@@ -34,12 +38,19 @@ long hd_recompute_stretch(long slots, int rows, int vectors)
     return (long)fmax(1.0, fmin(round(stretch), (double)slots));
 }
 
+/** R, and Y with it. */
+static size_t triangle_size(const hd_recompute_def *def)
+{
+    return (def->conjugate ? 2 : 1) * hd_triangle_size(def->vectors);
+}
+
 double hd_recompute_doubles(const hd_recompute_def *def)
 {
     const double frame = (double)def->rows * def->vectors,
                  frames = (double)def->slots / (double)def->stretch;
-    /* beside those of the stretches: one to replay with, in two copies */
-    return (frames + 2.0) * frame + (double)def->stretch * (double)hd_triangle_size(def->vectors);
+    /* beside those of the stretches: one or two to replay with, in two copies */
+    const double replayed = def->conjugate ? 4.0 : 2.0;
+    return (frames + replayed) * frame + (double)def->stretch * (double)triangle_size(def);
 }
 
 static size_t frame_size(const hd_recompute *r)
@@ -50,7 +61,8 @@ static size_t frame_size(const hd_recompute *r)
 static hd_status allocate(hd_recompute *r)
 {
     const hd_recompute_def *def = &r->def;
-    const size_t triangle = hd_triangle_size(def->vectors);
+    const size_t triangle = triangle_size(def);
+    if (def->conjugate) HD_TRY(hd_coupling_create(&r->coupling, def->rows / 4, def->threads));
     HD_TRY(hd_store_create(&r->frames, frame_size(r), def->slots / def->stretch));
     HD_TRY(hd_store_create(&r->triangles, triangle, def->stretch));
     HD_TRY(hd_frame_create(&r->frame, def->rows / 4, def->vectors, 1, def->threads));
@@ -84,6 +96,7 @@ void hd_recompute_free(hd_recompute *r)
     hd_store_free(r->triangles);
     hd_frame_free(r->frame);
     hd_ortho_free(r->ortho);
+    hd_coupling_free(r->coupling);
     hd_memory_free(r);
 }
 
@@ -142,15 +155,21 @@ static void load_frame(hd_recompute *r, const double *vectors)
 static hd_status recompute_slot(hd_recompute *r, long slot)
 {
     const hd_event_log *log = r->log[slot];
+    const hd_ortho_limits limits = r->coupling ? LIMITS_COUPLED : LIMITS;
     HD_TRY(hd_frame_replay(r->frame, log, 0.0, log->duration));
-    if (hd_ortho_step(r->ortho, r->frame, LIMITS) == HD_ILL_CONDITIONED) {
+    if (hd_ortho_step(r->ortho, r->frame, limits) == HD_ILL_CONDITIONED) {
         hd_frame_rewind(r->frame);
         HD_TRY(hd_frame_replay(r->frame, log, 0.0, log->duration));
         HD_TRY(hd_ortho_step_stable(r->ortho, r->frame, 1.0 / DBL_EPSILON));
     }
     double *triangle = hd_store_put(r->triangles, slot % r->def.stretch);
     if (!triangle) return HD_NO_MEMORY;
-    hd_triangle_pack(triangle, hd_ortho_factor(r->ortho), r->def.vectors);
+    const double *factor = hd_ortho_factor(r->ortho);
+    hd_triangle_pack(triangle, factor, r->def.vectors);
+    if (!r->coupling) return HD_OK;
+    HD_TRY(hd_coupling_measure(r->coupling, r->frame, factor, log, 0.0, log->duration));
+    hd_triangle_pack(triangle + hd_triangle_size(r->def.vectors), hd_coupling_read(r->coupling),
+                     r->def.vectors);
     return HD_OK;
 }
 
@@ -166,11 +185,14 @@ static hd_status recompute_stretch(hd_recompute *r, long slot, long last)
     return HD_OK;
 }
 
-hd_status hd_recompute_factor(hd_recompute *r, double *factor, long slot, long last)
+hd_status hd_recompute_factor(hd_recompute *r, double *factor, double *coupling, long slot,
+                              long last)
 {
     HD_ASSERT(slot >= 0 && slot <= last && last < r->def.slots);
     if (slot < r->from || slot >= r->to) HD_TRY(recompute_stretch(r, slot, last));
     const double *triangle = hd_store_fetch(r->triangles, slot % r->def.stretch);
     hd_triangle_unpack(factor, triangle, r->def.vectors);
+    if (r->coupling)
+        hd_triangle_unpack(coupling, triangle + hd_triangle_size(r->def.vectors), r->def.vectors);
     return HD_OK;
 }

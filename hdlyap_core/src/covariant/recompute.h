@@ -3,6 +3,8 @@
 #ifndef HD_RECOMPUTE_H
 #define HD_RECOMPUTE_H
 
+#include <stdbool.h>
+
 #include "hdlyap/frame.h"
 
 /** Slots 0 .. slots - 1 are used in turn, as a ring. */
@@ -14,6 +16,7 @@ long hd_recompute_stretch(long slots, int rows, int vectors);
 
 typedef struct hd_recompute_def {
     int rows, vectors, threads;
+    bool conjugate;      /**< half of the vectors are carried: a triangle is R and Y [T19] */
     long slots, stretch; /**< a frame is kept for every `stretch` slots, which divides `slots` */
 } hd_recompute_def;
 
@@ -29,9 +32,10 @@ HD_MUST_CHECK hd_status hd_recompute_frame(hd_recompute *recompute, long slot, h
 HD_MUST_CHECK hd_status hd_recompute_events(hd_recompute *recompute, long slot,
                                             const hd_event_log *log, double t_begin, double t_end);
 
-/** The slot's R [n * n], row-major. Those of its stretch up to slot `last` are computed with it.
+/** The slot's R [n * n], row-major, and Y [n * n], both from the diagonal on (NULL where all
+ * vectors are carried). Those of its stretch up to slot `last` are computed with it.
  * HD_ILL_CONDITIONED, HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_recompute_factor(hd_recompute *recompute, double *factor, long slot,
-                                            long last);
+HD_MUST_CHECK hd_status hd_recompute_factor(hd_recompute *recompute, double *factor,
+                                            double *coupling, long slot, long last);
 
 #endif

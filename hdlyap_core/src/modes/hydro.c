@@ -110,16 +110,16 @@ static unsigned transverse_bits(const hd_hydro *hydro, unsigned bits)
 
 /** sum[RESPONSES][HD_SET_VECTORS_MAX]: of the vectors of a step at one modulation. */
 static void measure(const hd_hydro *hydro, double sum[RESPONSES][HD_SET_VECTORS_MAX],
-                    const hd_step *step, unsigned bits, const hd_frame *frame, const double *q,
+                    const hd_step *step, unsigned bits, hd_columns vectors, const double *q,
                     const double *p)
 {
-    const size_t stride = (size_t)hd_frame_stride(frame);
+    const size_t stride = (size_t)vectors.stride;
     memset(sum, 0, RESPONSES * sizeof *sum);
     for (int j = 0; j < hydro->disks; j++) {
         const modulation a = modulation_at(hydro, &step->wave, bits, q + 2 * j);
         const modulation b = modulation_at(hydro, &step->wave, transverse_bits(hydro, bits),
                                            q + 2 * j);
-        const double *row = hd_frame_read(frame) + 4 * (size_t)j * stride + step->col;
+        const double *row = vectors.data + 4 * (size_t)j * stride + step->col;
         functionals f;
         functionals_at(f, &step->wave, &a, &b, p + 2 * j);
         for (int r = 0; r < RESPONSES; r++)
@@ -131,24 +131,24 @@ static void measure(const hd_hydro *hydro, double sum[RESPONSES][HD_SET_VECTORS_
 
 /** The vectors that belong to the step, one after the other. */
 static void step_measure(hd_hydro *hydro, hd_hydro_response *out, const hd_steps *steps, int index,
-                         const hd_frame *frame, const double *q, const double *p)
+                         hd_columns vectors, const double *q, const double *p)
 {
     const hd_step *step = hd_steps_step(steps, index);
     const hd_modulations m = hd_wave_pairs(&step->wave, hydro->boundary);
     const double scale = 1.0 / sqrt(0.5 * hydro->disks);
     double sum[RESPONSES][HD_SET_VECTORS_MAX];
     for (int c = 0; c < m.count; c++) {
-        int vectors = 0;
-        measure(hydro, sum, step, m.bits[c], frame, q, p);
-        for (int v = 0; v < step->count && vectors < step->expected; v++) {
+        int found = 0;
+        measure(hydro, sum, step, m.bits[c], vectors, q, p);
+        for (int v = 0; v < step->count && found < step->expected; v++) {
             if (hd_steps_of_vector(steps, step->col + v) != index) continue;
-            out[vectors++ * m.count + c] = (hd_hydro_response){index,
-                                                               step->col + v,
-                                                               m.bits[c],
-                                                               scale * sum[0][v],
-                                                               scale * sum[1][v],
-                                                               scale * sum[2][v],
-                                                               scale * sum[3][v]};
+            out[found++ * m.count + c] = (hd_hydro_response){index,
+                                                             step->col + v,
+                                                             m.bits[c],
+                                                             scale * sum[0][v],
+                                                             scale * sum[1][v],
+                                                             scale * sum[2][v],
+                                                             scale * sum[3][v]};
         }
     }
 }
@@ -161,15 +161,15 @@ static void entries_clear(const hd_hydro *hydro, hd_hydro_response *out, const h
         out[e] = (hd_hydro_response){.step = index, .col = -1, .modulation = m.bits[e % m.count]};
 }
 
-void hd_hydro_measure(hd_hydro *hydro, const hd_steps *steps, const hd_frame *frame,
-                      const double *q, const double *p)
+void hd_hydro_measure(hd_hydro *hydro, const hd_steps *steps, hd_columns vectors, const double *q,
+                      const double *p)
 {
     hd_hydro_response *out = hydro->response;
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
         if (modulations_of(step, hydro) == 0) continue;
         entries_clear(hydro, out, step, k);
-        if (step->resolved) step_measure(hydro, out, steps, k, frame, q, p);
+        if (step->resolved) step_measure(hydro, out, steps, k, vectors, q, p);
         out += entries_of(step, hydro);
     }
 }

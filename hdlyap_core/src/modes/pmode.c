@@ -63,12 +63,12 @@ static double dot(const double *a, const double *b, int n)
 }
 
 /** psi: the dq halves of columns [col, col + dimension), with norm 1. */
-static void psi_load(hd_pmode *pmode, const hd_frame *frame, int col)
+static void psi_load(hd_pmode *pmode, hd_columns vectors, int col)
 {
-    const size_t stride = (size_t)hd_frame_stride(frame);
+    const size_t stride = (size_t)vectors.stride;
     for (int m = 0; m < pmode->dimension; m++) {
         double *psi = row_of(pmode->psi, m, pmode);
-        const double *v = hd_frame_read(frame) + col + m;
+        const double *v = vectors.data + col + m;
         for (int j = 0; j < pmode->disks; j++)
             for (int d = 0; d < 2; d++) psi[2 * j + d] = v[(size_t)(4 * j + d) * stride];
         const double norm = sqrt(dot(psi, psi, 2 * pmode->disks));
@@ -127,13 +127,13 @@ static void finish(hd_pmode *pmode)
 }
 
 bool hd_pmode_reconstruct(hd_pmode *pmode, const hd_step *step, const hd_modes *modes,
-                          const hd_frame *frame)
+                          hd_columns vectors)
 {
     if (step->kind != HD_MODE_LP || !step->resolved || step->members != 1) return false;
     const hd_fields *fields = hd_modes_fields(modes);
     const int column = hd_fields_subspace(fields, step->subspace)->column;
     pmode->dimension = step->expected;
-    psi_load(pmode, frame, step->col);
+    psi_load(pmode, vectors, step->col);
     for (int c = 0; c < pmode->dimension; c++) {
         field_column(row_of(pmode->field, c, pmode), fields, column + c, pmode->disks);
         pmode->norm[c] = hd_fields_norm(fields, column + c);

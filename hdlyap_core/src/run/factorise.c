@@ -16,6 +16,9 @@ static const double DEFECT_LOOSE = 1e-4;
 static const double DEFECT_MEASURED = 1e-6;
 /** Of a frame that is orthonormal in the norm of dq, at most: few collisions are that sharp. */
 static const double CONDITION_COMPLETE = 1e12;
+/** The same where Y takes both ends of an interval to be orthonormal to rounding [T19]: a second
+ * pass. */
+static const double DEFECT_COUPLED = 1e-12;
 /** Part of an interval's share of the accuracy that its square may be, as it too bounds a mean. */
 static const double DEFECT_SHARE = 0.1;
 /** Of an interval, beyond which dividing costs more than it saves [T6]; and beyond which what even
@@ -24,6 +27,9 @@ enum { PIECES_MAX = 8, PIECES_LAST = 512 };
 /** Vectors from which on the norm of dq is worth while; and orthonormalisations after which the
  * vectors of a random start have dq halves as independent as the vectors themselves. */
 enum { HALVES_MANY = 64, HALVES_ALIGNED = 8 };
+/** Loss of isotropy beyond which the frame is made isotropic again: as much as orthogonality may
+ * lack where somebody looks [T19]. */
+static const double ISOTROPY = 1e-6;
 
 hd_status hd_run_replay(hd_run *run, double t_begin, double t_end)
 {
@@ -44,9 +50,18 @@ static double shortest_piece(const hd_run *run)
 hd_norm hd_run_norm(const hd_run *run, bool measured)
 {
     const int positive = (4 * run->scene.disks - hd_scene_zero_exponents(&run->scene)) / 2;
-    const bool many = run->vectors >= HALVES_MANY && run->vectors <= positive;
+    const bool many = run->carried >= HALVES_MANY && run->carried <= positive;
     const bool aligned = run->cost.orthonormalisations >= HALVES_ALIGNED;
     return !many || !aligned || measured || hd_run_is_windowing(run) ? HD_NORM_FULL : HD_NORM_DQ;
+}
+
+/** What is lost of isotropy decays [T19]; should it ever not, the frame gets it back. */
+static hd_status keep_isotropic(hd_run *run)
+{
+    if (hd_conjugate_isotropy(run->conjugate, run->frame) > ISOTROPY)
+        HD_TRY(hd_conjugate_start(run->frame));
+    if (HD_VERIFIES) hd_verify_isotropy(run->frame);
+    return HD_OK;
 }
 
 /** Carries the frame from t_begin to t_end of the log and orthonormalises it. */
@@ -56,10 +71,10 @@ static hd_status frame_piece(hd_run *run, double t_begin, double t_end, hd_ortho
     HD_TRY(hd_run_replay(run, t_begin, t_end));
     const double replayed = hd_clock_now();
     limits.condition = hd_interval_piece_max(&run->interval, length, run->log->duration);
-    const hd_status status = length > shortest_piece(run)
-                                 ? hd_ortho_step(run->ortho, run->frame, limits)
-                                 : hd_ortho_step_stable(run->ortho, run->frame,
-                                                        HD_CONDITION_STABLE);
+    hd_status status = length > shortest_piece(run)
+                           ? hd_ortho_step(run->ortho, run->frame, limits)
+                           : hd_ortho_step_stable(run->ortho, run->frame, HD_CONDITION_STABLE);
+    if (run->conjugate && status == HD_OK) status = keep_isotropic(run);
     run->cost.replay += replayed - start;
     run->cost.ortho += hd_clock_now() - replayed;
     if (HD_VERIFIES && status == HD_OK) hd_verify_ortho(run->ortho, run->frame);
@@ -80,9 +95,10 @@ static void piece_accepted(hd_run *run, double length, hd_norm norm)
     const double *stretch = hd_ortho_log_stretch(run->ortho);
     const double condition = hd_ortho_condition(run->ortho);
     double most = 0.0;
-    for (int col = 0; col < run->vectors; col++) most = fmax(most, fabs(stretch[col]));
+    for (int col = 0; col < run->carried; col++) most = fmax(most, fabs(stretch[col]));
     run->interval.norm = norm;
     if (length > 0) hd_interval_learn(&run->interval, length, condition, most);
+    if (run->conjugate) stretch = hd_conjugate_stretch(run->conjugate, stretch);
     if (run->schedule.stage == HD_AVERAGING) hd_spectrum_add(run->spectrum, stretch, length);
     hd_cost *cost = &run->cost;
     if (length > 0) cost->interval = length;
@@ -121,6 +137,7 @@ static double expected_interval(const hd_run *run)
 static hd_status window_starts(hd_run *run)
 {
     if (!hd_run_is_windowing(run)) return HD_OK;
+    if (run->conjugate && run->windows.due) HD_TRY(hd_conjugate_start(run->frame));
     return hd_windows_start(&run->windows, hd_frame_columns(run->frame),
                             hd_run_time(run) - run->log->duration, expected_interval(run));
 }
@@ -128,8 +145,7 @@ static hd_status window_starts(hd_run *run)
 static hd_status window_adds(hd_run *run, double begin, double end)
 {
     if (!hd_run_is_windowing(run)) return HD_OK;
-    return hd_windows_add(&run->windows, run->ortho, hd_frame_columns(run->frame), run->log, begin,
-                          end);
+    return hd_windows_add(&run->windows, run->ortho, run->frame, run->log, begin, end);
 }
 
 static hd_status window_ends(hd_run *run)
@@ -151,13 +167,14 @@ static hd_status complete(hd_run *run)
     return HD_OK;
 }
 
-/** Of the frame after `duration`, in that norm; the condition is set for each piece. */
-static hd_ortho_limits limits_of(const hd_run *run, double duration, hd_norm norm)
+/** Loss of orthogonality that an interval may leave. */
+static double defect_allowed(const hd_run *run, double duration, hd_norm norm)
 {
-    const bool looked_at = hd_run_is_observing(run) || hd_run_is_windowing(run);
-    const double defect = looked_at && norm == HD_NORM_FULL ? DEFECT_MEASURED : DEFECT_LOOSE;
-    return (hd_ortho_limits){
-        .defect = fmin(defect, sqrt(DEFECT_SHARE * run->scene.accuracy * duration)), .norm = norm};
+    const bool windowing = hd_run_is_windowing(run);
+    const bool looked_at = norm == HD_NORM_FULL && (windowing || hd_run_is_observing(run));
+    if (windowing && run->conjugate) return DEFECT_COUPLED;
+    return fmin(looked_at ? DEFECT_MEASURED : DEFECT_LOOSE,
+                sqrt(DEFECT_SHARE * run->scene.accuracy * duration));
 }
 
 static hd_status factorise_log(hd_run *run, bool measured)
@@ -168,7 +185,9 @@ static hd_status factorise_log(hd_run *run, bool measured)
     while (begin < duration) {
         const double piece = end - begin;
         const hd_norm norm = hd_run_norm(run, measured && end >= duration);
-        const hd_status status = frame_piece(run, begin, end, limits_of(run, duration, norm));
+        const hd_ortho_limits limits = {.defect = defect_allowed(run, duration, norm),
+                                        .norm = norm};
+        const hd_status status = frame_piece(run, begin, end, limits);
         if (status != HD_OK && status != HD_ILL_CONDITIONED) return status;
         if (status == HD_OK) {
             piece_accepted(run, piece, norm);

@@ -46,10 +46,10 @@ void hd_observer_clear(hd_observer *observer)
     if (observer->phases) hd_phases_clear(observer->phases);
 }
 
-hd_status hd_observer_measure(hd_observer *observer, const hd_frame *frame,
+hd_status hd_observer_measure(hd_observer *observer, hd_columns vectors,
                               const hd_trajectory *trajectory)
 {
-    observer->known = hd_frame_columns(frame);
+    observer->known = vectors;
     hd_trajectory_state(trajectory, observer->q, observer->p);
     return hd_modes_measure(observer->modes, observer->known, observer->q, observer->p);
 }

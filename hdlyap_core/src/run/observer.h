@@ -22,8 +22,8 @@ void hd_observer_free(hd_observer *observer);
 /** Empties the averages. */
 void hd_observer_clear(hd_observer *observer);
 
-/** The modes of an orthonormal frame. Fails as hd_modes_measure. */
-HD_MUST_CHECK hd_status hd_observer_measure(hd_observer *observer, const hd_frame *frame,
+/** The modes of orthonormal vectors. Fails as hd_modes_measure. */
+HD_MUST_CHECK hd_status hd_observer_measure(hd_observer *observer, hd_columns vectors,
                                             const hd_trajectory *trajectory);
 
 /** True if so many of the slowest vectors can be found without an orthonormalisation. */

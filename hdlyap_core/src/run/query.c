@@ -24,6 +24,18 @@ const hd_covariant *hd_run_covariant(const hd_run *run) { return run->windows.co
 double hd_run_followed(const hd_run *run) { return run->followed; }
 hd_columns hd_run_columns(const hd_run *run) { return run->observer.known; }
 
+hd_columns hd_run_frame_columns(const hd_run *run)
+{
+    const hd_columns carried = hd_frame_columns(run->frame);
+    return run->conjugate ? hd_conjugate_complete(run->conjugate, carried) : carried;
+}
+
+void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
+{
+    hd_frame_halves(run->frame, cos_theta, dp_dq_ratio);
+    if (run->conjugate) hd_conjugate_halves(cos_theta, dp_dq_ratio, run->carried);
+}
+
 double hd_run_smallest_error(const hd_run *run)
 {
     return hd_spectrum_error_of_last(run->spectrum, SMALLEST_EXPONENTS);

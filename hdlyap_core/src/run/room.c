@@ -72,6 +72,15 @@ static double modes_bytes(const counted *of, double disks, double n)
     return WORD * (2.0 * disks * (columns + 4.0) + columns * columns + weights + work);
 }
 
+/** What makes all vectors of half of them. */
+static double conjugate_bytes(const hd_scene_def *def)
+{
+    const double rows = 4.0 * def->disks, signs = 8.0;
+    const bool whole = def->observe & HD_OBSERVE_OF_MODES;
+    if (hd_scene_carried(def) == hd_scene_vectors(def)) return 0.0;
+    return WORD * rows * (1.0 + 1.5 * signs + (whole ? rows : 0.0));
+}
+
 static double observer_bytes(const hd_scene_def *def, const counted *of, double n)
 {
     const double track = sizeof(hd_track) + WORD * (HD_BLOCKS_MAX + 1.0);
@@ -83,20 +92,22 @@ static double observer_bytes(const hd_scene_def *def, const counted *of, double 
 /** Beside the windows. */
 static double covariant_bytes(const hd_scene_def *def, const counted *of, double n)
 {
-    const double rows = 4.0 * def->disks, factors = 2.0 * n * n, ways = 5.0 * n * n;
+    const double rows = 4.0 * def->disks, carried = hd_scene_carried(def);
+    const double factors = 2.0 * carried * carried, ways = (carried < n ? 8.25 : 5.0) * n * n;
     return WORD * (factors + ways + rows * n) + 3.0 * modes_bytes(of, def->disks, n) +
            spectrum_bytes(n);
 }
 
 double hd_room_needed(const hd_scene_def *def, int threads)
 {
-    const double disks = def->disks, n = hd_scene_vectors(def);
+    const double disks = def->disks, n = hd_scene_vectors(def), carried = hd_scene_carried(def);
     const counted none = {0};
     double bytes = OF_A_DISK * disks;
     if (n == 0) return bytes;
     const counted of = def->observe ? fields_of(def) : none;
     bytes += OF_AN_EVENT * fmin(EVENTS_MAX, EVENTS_OF_A_DISK * disks);
-    bytes += frame_bytes(4.0 * disks, n, threads) + ortho_bytes(n) + spectrum_bytes(n);
+    bytes += frame_bytes(4.0 * disks, carried, threads) + ortho_bytes(carried);
+    bytes += conjugate_bytes(def) + spectrum_bytes(n);
     if (def->observe & HD_OBSERVE_OF_MODES) bytes += observer_bytes(def, &of, n);
     if (def->observe & HD_OBSERVE_COVARIANT) bytes += covariant_bytes(def, &of, n);
     return bytes;
@@ -107,7 +118,7 @@ double hd_room_needed(const hd_scene_def *def, int threads)
 static bool fits(const hd_scene_def *def, hd_room room)
 {
     return hd_room_needed(def, hd_threads_most(def->threads, 4 * def->disks,
-                                               hd_scene_vectors(def))) <= room.bytes;
+                                               hd_scene_carried(def))) <= room.bytes;
 }
 
 /** Largest value of a number of the scene, below the one it has, with which it fits; 0: none. The
@@ -149,7 +160,7 @@ static int about(int number)
 hd_status hd_room_check(const hd_scene_def *def, hd_room room, char *message, size_t size)
 {
     const int n = hd_scene_vectors(def);
-    const int threads = hd_threads_most(def->threads, 4 * def->disks, n);
+    const int threads = hd_threads_most(def->threads, 4 * def->disks, hd_scene_carried(def));
     char fitting[96] = "nothing of it would fit";
     if (fits(def, room)) return HD_OK;
     const int exponents = n > 0 ? about(exponents_that_fit(def, room)) : 0;

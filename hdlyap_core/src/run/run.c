@@ -44,11 +44,12 @@ static hd_status create_frame(hd_run *run)
 {
     const hd_scene_def *scene = &run->scene;
     const hd_ortho_limits twice = {1e7, DBL_EPSILON, HD_NORM_FULL};
-    HD_TRY(hd_frame_create(&run->frame, scene->disks, run->vectors, scene->seed, run->threads));
+    HD_TRY(hd_frame_create(&run->frame, scene->disks, run->carried, scene->seed, run->threads));
+    if (run->conjugate) return hd_conjugate_start(run->frame);
     if (hd_ortho_step(run->ortho, run->frame, twice) == HD_OK) return HD_OK;
     hd_frame_free(run->frame);
     run->frame = NULL;
-    HD_TRY(hd_frame_create(&run->frame, scene->disks, run->vectors, scene->seed, run->threads));
+    HD_TRY(hd_frame_create(&run->frame, scene->disks, run->carried, scene->seed, run->threads));
     return hd_ortho_step_stable(run->ortho, run->frame, 1.0 / DBL_EPSILON);
 }
 
@@ -60,7 +61,7 @@ double hd_run_block_least(const hd_run *run)
 
 static hd_status prepare_threads(hd_run *run)
 {
-    const int wanted = run->scene.threads, disks = run->scene.disks, n = run->vectors;
+    const int wanted = run->scene.threads, disks = run->scene.disks, n = run->carried;
     const int most = hd_threads_most(wanted, 4 * disks, n);
     if (most > 1) HD_TRY(hd_blas_room(most)); /* one has its buffer since the start */
     const int granted = run->threads = hd_blas_threads_granted(most);
@@ -74,8 +75,10 @@ static hd_status prepare_threads(hd_run *run)
 static hd_status prepare_frame(hd_run *run)
 {
     const int rows = 4 * run->scene.disks, n = run->vectors;
+    const bool whole = run->scene.observe & HD_OBSERVE_OF_MODES;
     HD_TRY(hd_event_log_create(&run->log));
-    HD_TRY(hd_ortho_create(&run->ortho, rows, n));
+    HD_TRY(hd_ortho_create(&run->ortho, rows, run->carried));
+    if (run->carried < n) HD_TRY(hd_conjugate_create(&run->conjugate, rows, whole));
     HD_TRY(prepare_threads(run));
     HD_TRY(hd_spectrum_create(&run->spectrum, rows, n, hd_run_block_least(run)));
     run->whole = true;
@@ -96,6 +99,7 @@ static hd_status prepare(hd_run *run, char *message, size_t size)
     const hd_scene_def *scene = &run->scene;
     HD_TRY(hd_advance_create(&run->advance, scene));
     run->vectors = hd_scene_vectors(scene);
+    run->carried = hd_scene_carried(scene);
     run->threads = 1;
     const double per_disk = 2.0 * hd_trajectory_collision_rate(run->advance.trajectory) /
                             scene->disks;
@@ -167,6 +171,7 @@ void hd_run_free(hd_run *run)
     hd_event_log_free(run->log);
     hd_frame_free(run->frame);
     hd_ortho_free(run->ortho);
+    hd_conjugate_free(run->conjugate);
     hd_spectrum_free(run->spectrum);
     hd_memory_free(run);
 }
@@ -191,7 +196,7 @@ static double phases_sampling(const hd_run *run)
 static hd_status measure(hd_run *run)
 {
     const double start = hd_clock_now();
-    HD_TRY(hd_observer_measure(&run->observer, run->frame, run->advance.trajectory));
+    HD_TRY(hd_observer_measure(&run->observer, hd_run_frame_columns(run), run->advance.trajectory));
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
 }
@@ -296,6 +301,14 @@ static double next_stop(const hd_run *run)
     return stop;
 }
 
+/** The next time at which covariant vectors are looked at: intervals of half a frame are long. */
+static double next_snapshot(const hd_run *run)
+{
+    const bool wanted = run->conjugate && hd_run_is_windowing(run);
+    const double due = wanted ? hd_windows_due(&run->windows) : INFINITY;
+    return due > hd_run_time(run) ? due : INFINITY;
+}
+
 /** An equal part of what is left, none longer than `most`. */
 static double share(double left, double most)
 {
@@ -346,11 +359,12 @@ static hd_limit limit_of_rest(const hd_run *run, double left)
  * the norm of dq will do [T5]. */
 static void plan_interval(hd_run *run)
 {
-    const double now = hd_run_time(run), stop = next_stop(run), left = stop - now;
+    const double now = hd_run_time(run), measured = next_stop(run);
+    const double stop = fmin(measured, next_snapshot(run)), left = stop - now;
     run->interval.norm = hd_run_norm(run, false);
     hd_interval_length next = next_interval(run, left);
     if (next.length < left) next.length = rounded_down(run, next.length);
-    run->sample.ends = is_rest(next.length, left) || is_last(run, next.length);
+    run->sample.ends = is_rest(next.length, measured - now) || is_last(run, next.length);
     if (run->sample.ends) {
         run->interval.norm = HD_NORM_FULL;
         next = next_interval(run, left);

@@ -9,6 +9,7 @@
 #include "run/observer.h"
 #include "run/schedule.h"
 #include "run/windows.h"
+#include "tangent/conjugate.h"
 #include "tangent/interval.h"
 
 /** What somebody watches between orthonormalisations, see hd_run_watch. */
@@ -50,12 +51,13 @@ typedef struct hd_sample {
 
 struct hd_run {
     hd_scene_def scene;
-    int vectors, threads, threads_denied;
+    int vectors, carried, threads, threads_denied;
     hd_advance advance;
     hd_event_log
         *log; /**< since the last orthonormalisation; NULL without exponents, as the next */
     hd_frame *frame;
     hd_ortho *ortho;
+    hd_conjugate *conjugate; /**< NULL where all vectors are carried */
     hd_spectrum *spectrum;
     hd_observer observer;
     hd_windows windows;

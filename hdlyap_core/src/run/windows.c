@@ -1,6 +1,8 @@
 /** Orthonormalisations of a run -> covariant vectors of its windows. */
 #include "run/windows.h"
 
+#include <math.h>
+
 #include "base/check.h"
 #include "base/clock.h"
 
@@ -38,7 +40,7 @@ hd_status hd_windows_start(hd_windows *windows, hd_columns frame, double begin, 
     return timed(windows, start, hd_covariant_begin(windows->covariant, frame, begin, expected));
 }
 
-hd_status hd_windows_add(hd_windows *windows, const hd_ortho *ortho, hd_columns frame,
+hd_status hd_windows_add(hd_windows *windows, const hd_ortho *ortho, const hd_frame *frame,
                          const hd_event_log *log, double t_begin, double t_end)
 {
     const double start = hd_clock_now();
@@ -51,6 +53,11 @@ hd_status hd_windows_end(hd_windows *windows, hd_columns frame, const hd_traject
     const double start = hd_clock_now();
     if (!hd_covariant_wants_state(windows->covariant)) return HD_OK;
     return timed(windows, start, hd_covariant_state(windows->covariant, frame, trajectory));
+}
+
+double hd_windows_due(const hd_windows *windows)
+{
+    return windows->due ? INFINITY : hd_covariant_due(windows->covariant);
 }
 
 bool hd_windows_is_going(const hd_windows *windows)

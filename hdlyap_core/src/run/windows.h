@@ -27,11 +27,15 @@ void hd_windows_clear(hd_windows *windows);
 HD_MUST_CHECK hd_status hd_windows_start(hd_windows *windows, hd_columns frame, double begin,
                                          double expected);
 /** An orthonormalisation, and the part of the log before it. */
-HD_MUST_CHECK hd_status hd_windows_add(hd_windows *windows, const hd_ortho *ortho, hd_columns frame,
-                                       const hd_event_log *log, double t_begin, double t_end);
+HD_MUST_CHECK hd_status hd_windows_add(hd_windows *windows, const hd_ortho *ortho,
+                                       const hd_frame *frame, const hd_event_log *log,
+                                       double t_begin, double t_end);
 /** The whole interval is done. */
 HD_MUST_CHECK hd_status hd_windows_end(hd_windows *windows, hd_columns frame,
                                        const hd_trajectory *trajectory);
+
+/** Simulated time of the next look; INFINITY before a window has begun. */
+double hd_windows_due(const hd_windows *windows);
 
 /** True while there is a way back to go. */
 bool hd_windows_is_going(const hd_windows *windows);

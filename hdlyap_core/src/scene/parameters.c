@@ -5,10 +5,12 @@
 
 static const hd_parameter_word hd_boundary_words[] = {
     {"periodic", HD_PERIODIC}, {"reflecting", HD_REFLECTING}, {NULL, 0}};
-static const hd_parameter_word hd_exponents_words[] = {{"positive", HD_EXPONENTS_POSITIVE},
-                                                       {"all", HD_EXPONENTS_ALL},
-                                                       {"none", HD_EXPONENTS_NONE},
-                                                       {NULL, 0}};
+static const hd_parameter_word hd_exponents_words[] = {
+    {"positive", HD_EXPONENTS_POSITIVE},
+    {"all", HD_EXPONENTS_ALL},
+    {"all_independent", HD_EXPONENTS_ALL_INDEPENDENT},
+    {"none", HD_EXPONENTS_NONE},
+    {NULL, 0}};
 static const hd_parameter_word hd_warmup_words[] = {{"auto", HD_WARMUP_AUTO}, {NULL, 0}};
 static const hd_parameter_word hd_interval_words[] = {{"auto", 0}, {NULL, 0}};
 static const hd_parameter_word hd_storage_words[] = {

@@ -41,9 +41,14 @@ int hd_scene_zero_exponents(const hd_scene_def *def)
 int hd_scene_vectors(const hd_scene_def *def)
 {
     const int all = 4 * def->disks;
-    if (def->exponents == HD_EXPONENTS_ALL) return all;
+    if (def->exponents <= HD_EXPONENTS_ALL) return all;
     if (def->exponents == HD_EXPONENTS_POSITIVE) return (all - hd_scene_zero_exponents(def)) / 2;
     return def->exponents;
+}
+
+int hd_scene_carried(const hd_scene_def *def)
+{
+    return def->exponents == HD_EXPONENTS_ALL ? 2 * def->disks : hd_scene_vectors(def);
 }
 
 /** Steps that differ by this part of the smallest of all are to part by so many factors of e: most

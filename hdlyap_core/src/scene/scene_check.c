@@ -115,10 +115,12 @@ hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
     double box[2];
     HD_TRY(hd_scene_check_box(def, message, size));
     hd_scene_box(def, box);
-    if (def->exponents < HD_EXPONENTS_ALL || def->exponents > 4 * def->disks)
-        return hd_refuse(message, size,
-                         "exponents = %d: must be positive, all, none or from 1 to 4 disks = %d",
-                         def->exponents, 4 * def->disks);
+    if (def->exponents < HD_EXPONENTS_ALL_INDEPENDENT || def->exponents > 4 * def->disks)
+        return hd_refuse(
+            message, size,
+            "exponents = %d: must be positive, all, all_independent, none or from 1 to 4 "
+            "disks = %d",
+            def->exponents, 4 * def->disks);
     HD_TRY(check_waves(def, message, size));
     HD_TRY(check_covariant(def, message, size));
     if (hd_lattice_best(def->disks, box, def->boundary).distance < HD_LATTICE_DISTANCE_MIN)

@@ -344,6 +344,7 @@ hd_status hd_frame_replay(hd_frame *frame, const hd_event_log *log, double t_beg
     return HD_OK;
 }
 
+const double *hd_frame_before(const hd_frame *frame) { return frame->copy[1 - frame->current]; }
 void hd_frame_rewind(hd_frame *frame) { frame->current = 1 - frame->current; }
 
 /* ---- what can be read ---------------------------------------------------------------------- */

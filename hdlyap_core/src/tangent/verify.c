@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "events/event_log.h"
 #include "events/trajectory_state.h"
+#include "tangent/conjugate.h"
 #include "tangent/interval.h"
 
 /** `value` is at most `limit`, and a number. */
@@ -108,4 +109,10 @@ void hd_verify_ortho(hd_ortho *ortho, hd_frame *frame)
     expect_at_most(fabs(sum),
                    n * HD_ROUNDING * hd_ortho_condition(ortho) + n * n * 1e-8 + n * least,
                    "volume");
+}
+
+/** As much as a run lets it lack, and what an estimate from few pairs may miss. */
+void hd_verify_isotropy(const hd_frame *frame)
+{
+    expect_at_most(hd_conjugate_isotropy_measured(frame), 1e-5, "isotropy");
 }

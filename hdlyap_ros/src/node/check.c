@@ -85,7 +85,7 @@ static void count_messages(trial *out, const hd_run *run)
  * none. */
 static bool make_smaller(hd_scene_def *def)
 {
-    const double vectors = hd_scene_vectors(def), work = def->disks * vectors * vectors;
+    const double vectors = hd_scene_carried(def), work = def->disks * vectors * vectors;
     const double part = cbrt(trial_work / fmax(work, trial_work));
     hd_scene_def smaller = *def;
     char message[200];

@@ -64,7 +64,7 @@ static void reconstruct(field_report *r, const hd_step *step, const snapshot *no
     const hd_modes *modes = hd_run_modes(now->run);
     *pairs = (pair_fields){.l = pairs->l, .p = pairs->p, .ratio = pairs->ratio};
     if (!step || step->kind != HD_MODE_LP) return;
-    if (!hd_pmode_reconstruct(r->pmode, step, modes, hd_run_frame(now->run))) return;
+    if (!hd_pmode_reconstruct(r->pmode, step, modes, hd_run_frame_columns(now->run))) return;
     const int d = hd_pmode_pairs(r->pmode);
     const hd_subspace *subspace = hd_fields_subspace(hd_modes_fields(modes), step->subspace);
     pairs->count = (uint32_t)d;
@@ -81,16 +81,15 @@ static void reconstruct(field_report *r, const hd_step *step, const snapshot *no
 }
 
 /** Component 0 .. 3 of a vector of the frame. */
-static hdr_doubles column_of(const hd_frame *frame, int col, int component, size_t disks)
+static hdr_doubles column_of(hd_columns frame, int col, int component, size_t disks)
 {
-    const size_t stride = (size_t)hd_frame_stride(frame);
-    return message_array(hd_frame_read(frame) + (size_t)component * stride + col, disks,
-                         4 * stride);
+    const size_t stride = (size_t)frame.stride;
+    return message_array(frame.data + (size_t)component * stride + col, disks, 4 * stride);
 }
 
 static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, size_t disks)
 {
-    const hd_frame *frame = hd_run_frame(run);
+    const hd_columns frame = hd_run_frame_columns(run);
     message->index = (uint32_t)col + 1;
     message->exponent = hd_spectrum_exponent(hd_run_spectrum(run), col);
     message->dqx = column_of(frame, col, 0, disks);

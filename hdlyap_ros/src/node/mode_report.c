@@ -325,7 +325,7 @@ static hd_status publish_hydro(mode_report *m, const snapshot *now)
         .sim_time = hd_run_time(now->run),
         .responses = {m->response, m->responses},
     };
-    hd_hydro_measure(m->hydro, steps, hd_run_frame(now->run), now->q, now->p);
+    hd_hydro_measure(m->hydro, steps, hd_run_frame_columns(now->run), now->q, now->p);
     for (uint32_t k = 0; k < m->responses; k++)
         if (!fill_response(&m->response[k], hd_hydro_at(m->hydro, (int)k), steps))
             return HD_NOT_FINITE;

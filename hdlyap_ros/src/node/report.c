@@ -173,7 +173,7 @@ static void spectrum_gather(report *rep, const hd_run *run)
         if (a->std_errors[k] < 0.0) a->std_errors[k] = -1.0;
         a->local_exponents[k] = hd_spectrum_local(spectrum, (int)k);
     }
-    hd_frame_halves(hd_run_frame(run), a->cos_theta, a->dp_dq_ratio);
+    hd_run_halves(run, a->cos_theta, a->dp_dq_ratio);
 }
 
 /** True if what must be measured is finite: not the halves of a vector, nor local exponents without

@@ -9,7 +9,7 @@
 static hd_scene_def few(int disks, hd_boundary x, hd_boundary y)
 {
     hd_scene_def scene = scene_of(disks, 0.5, 0.9, x, y, 3);
-    scene.exponents = HD_EXPONENTS_ALL;
+    scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
     return scene;
 }
 

@@ -83,7 +83,7 @@ static void add_piece(forward *x, double t_begin, double t_end, bool snapshot)
     for (int way = 0; way < PASTS; way++) {
         const hd_columns columns = hd_frame_columns(x->f.frame);
         assert_false(hd_history_is_full(x->past[way]));
-        CHECK_OK(hd_history_add(x->past[way], hd_ortho_factor(x->f.ortho), columns, log, t_begin,
+        CHECK_OK(hd_history_add(x->past[way], hd_ortho_factor(x->f.ortho), x->f.frame, log, t_begin,
                                 t_end));
         if (snapshot) CHECK_OK(hd_history_snapshot(x->past[way], columns, new->q, new->p));
     }
@@ -122,7 +122,7 @@ static void check_past(const forward *x, int way, long first)
     for (long k = x->end - 1; k >= first; k--) {
         CHECK_CLOSE(hd_history_time(past, k), x->left[k].time, 64 * DBL_EPSILON * x->left[k].time);
         CHECK_CLOSE(hd_history_length(past, k), x->left[k].length, 0.0);
-        CHECK_OK(hd_history_factor(past, found, k));
+        CHECK_OK(hd_history_factor(past, found, NULL, k));
         if (way == 0) check_same_triangle(found, x->left[k].factor, n);
         check_triangle(found, x->left[k].factor, n, rounding_of(x));
         assert_int_equal(hd_history_has_snapshot(past, k), k % 3 == 0);
@@ -156,7 +156,7 @@ static void check_rings(int exponents)
 static void what_was_left_comes_back(void **state)
 {
     (void)state;
-    check_rings(HD_EXPONENTS_ALL);
+    check_rings(HD_EXPONENTS_ALL_INDEPENDENT);
     check_rings(5);
     check_rings(1);
 }
@@ -164,7 +164,7 @@ static void what_was_left_comes_back(void **state)
 static void a_past_is_full_with_so_many_intervals(void **state)
 {
     (void)state;
-    forward *x = started(HD_EXPONENTS_ALL);
+    forward *x = started(HD_EXPONENTS_ALL_INDEPENDENT);
     while (x->end < INTERVALS) add(x, 0.2, false);
     for (int way = 0; way < PASTS; way++) {
         assert_true(hd_history_is_full(x->past[way]));
@@ -180,7 +180,7 @@ static void a_past_is_full_with_so_many_intervals(void **state)
 static void a_new_beginning_forgets_everything(void **state)
 {
     (void)state;
-    forward *x = started(HD_EXPONENTS_ALL);
+    forward *x = started(HD_EXPONENTS_ALL_INDEPENDENT);
     for (int again = 0; again < 4; again++) {
         for (int way = 0; way < PASTS; way++) {
             CHECK_OK(hd_history_begin(x->past[way], hd_frame_columns(x->f.frame),
@@ -216,7 +216,7 @@ static void the_room_is_stated(void **state)
 static void a_ring_takes_its_memory_once(void **state)
 {
     (void)state;
-    forward *x = started(HD_EXPONENTS_ALL);
+    forward *x = started(HD_EXPONENTS_ALL_INDEPENDENT);
     const int n = forward_vectors(&x->f);
     double *factor = malloc((size_t)(n * n) * sizeof *factor);
     size_t before = 0;
@@ -229,10 +229,10 @@ static void a_ring_takes_its_memory_once(void **state)
         const double q[2 * DISKS] = {0};
         if (k == 2 * INTERVALS) before = hd_memory_allocations();
         const size_t outside = hd_memory_allocations();
-        CHECK_OK(hd_history_add(past, hd_ortho_factor(x->f.ortho), columns, x->f.log, 0.0,
+        CHECK_OK(hd_history_add(past, hd_ortho_factor(x->f.ortho), x->f.frame, x->f.log, 0.0,
                                 x->f.log->duration));
         CHECK_OK(hd_history_snapshot(past, columns, q, q));
-        CHECK_OK(hd_history_factor(past, factor,
+        CHECK_OK(hd_history_factor(past, factor, NULL,
                                    hd_history_end(past) - 2 < 0 ? 0 : hd_history_end(past) - 2));
         if (before > 0) assert_int_equal(hd_memory_allocations(), outside);
     }

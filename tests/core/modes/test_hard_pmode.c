@@ -80,7 +80,7 @@ static double check_divided(lp_step *s, const double *p)
 {
     const double eps = HD_PMODE_EPSILON * mean_square(p);
     double worst = 0.0;
-    assert_true(hd_pmode_reconstruct(s->pmode, s->step, s->w.modes, s->w.frame));
+    assert_true(hd_pmode_reconstruct(s->pmode, s->step, s->w.modes, hd_frame_columns(s->w.frame)));
     for (int c = 0; c < DIMENSION / 2; c++) {
         double out[ROWS];
         hd_pmode_divide(s->pmode, out, DIMENSION / 2 + c, p);
@@ -150,7 +150,7 @@ static void noise_is_not_blown_up_where_a_disk_rests(void **state)
     for (int digits = 4; digits <= 13; digits++) {
         p[0] = p[1] = digits <= 12 ? pow(10.0, -digits) : 0.0;
         look(&s, p, 0.3);
-        assert_true(hd_pmode_reconstruct(s.pmode, s.step, s.w.modes, s.w.frame));
+        assert_true(hd_pmode_reconstruct(s.pmode, s.step, s.w.modes, hd_frame_columns(s.w.frame)));
         for (int c = 0; c < DIMENSION; c++) {
             hd_pmode_divide(s.pmode, out, c, p);
             const double eps = HD_PMODE_EPSILON * mean_square(p);
@@ -176,7 +176,7 @@ static void one_moving_disk_is_refused_or_finite(void **state)
     double p[ROWS] = {0.0}, out[ROWS];
     p[6] = 1.0, p[7] = -0.5;
     look(&s, p, 0.0);
-    if (hd_pmode_reconstruct(s.pmode, s.step, s.w.modes, s.w.frame)) {
+    if (hd_pmode_reconstruct(s.pmode, s.step, s.w.modes, hd_frame_columns(s.w.frame))) {
         assert_true(hd_pmode_rotation_distance(s.pmode) > 0.5);
         for (int c = 0; c < DIMENSION; c++) {
             hd_pmode_divide(s.pmode, out, c, p);
@@ -192,7 +192,7 @@ static void without_momenta_there_is_no_p_mode(void **state)
     lp_step s = lp_step_create();
     const double p[ROWS] = {0.0};
     look(&s, p, 0.0);
-    assert_false(hd_pmode_reconstruct(s.pmode, s.step, s.w.modes, s.w.frame));
+    assert_false(hd_pmode_reconstruct(s.pmode, s.step, s.w.modes, hd_frame_columns(s.w.frame)));
     lp_step_free(&s);
 }
 

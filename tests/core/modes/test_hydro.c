@@ -126,10 +126,10 @@ static void responses_are_derivatives(void **state)
         world w = all_steps(k & 1 ? R : P, k & 2 ? R : P, exponents, 30);
         hd_hydro *hydro;
         CHECK_OK(hd_hydro_create(&hydro, &w.scene, w.steps));
-        hd_hydro_measure(hydro, w.steps, w.frame, w.q, w.p);
+        hd_hydro_measure(hydro, w.steps, hd_frame_columns(w.frame), w.q, w.p);
         check_entries(&w, hydro);
         world_move(&w, 3.0); /* the same vectors elsewhere */
-        hd_hydro_measure(hydro, w.steps, w.frame, w.q, w.p);
+        hd_hydro_measure(hydro, w.steps, hd_frame_columns(w.frame), w.q, w.p);
         check_entries(&w, hydro);
         hd_hydro_free(hydro);
         world_free(&w);
@@ -150,7 +150,7 @@ static void only_vectors_of_resolved_steps_respond(void **state)
     hd_modes_clear(w.modes);
     hd_spectrum_clear(w.spectrum);
     world_find(&w, exponents);
-    hd_hydro_measure(hydro, w.steps, w.frame, w.q, w.p);
+    hd_hydro_measure(hydro, w.steps, hd_frame_columns(w.frame), w.q, w.p);
     assert_true(lp->resolved && !t->resolved);
     int named = 0, seen = 0;
     for (int e = 0; e < hd_hydro_count(hydro); e++) {
@@ -231,7 +231,7 @@ static void average(table *sum, int nx, int ny, double *k)
     memset(sum, 0, sizeof *sum);
     for (int t = 0; t < STATES; t++, world_move(&w, 2.0)) {
         write_fields(&w, subspace);
-        hd_hydro_measure(hydro, w.steps, w.frame, w.q, w.p);
+        hd_hydro_measure(hydro, w.steps, hd_frame_columns(w.frame), w.q, w.p);
         add_responses(sum, hydro, subspace, modulations);
     }
     hd_hydro_free(hydro);

@@ -75,7 +75,7 @@ static reconstruction reconstruction_create(int nx, int ny, bool on_lattice, dou
 
 static bool reconstruct(reconstruction *r)
 {
-    return hd_pmode_reconstruct(r->pmode, r->step, r->w.modes, r->w.frame);
+    return hd_pmode_reconstruct(r->pmode, r->step, r->w.modes, hd_frame_columns(r->w.frame));
 }
 
 static void reconstruction_free(reconstruction *r)
@@ -256,13 +256,13 @@ static void only_lp_steps_of_their_own(void **state)
     reconstruction r = reconstruction_create(1, 0, true, 0.0);
     hd_step step = *r.step;
     step.kind = HD_MODE_T;
-    assert_false(hd_pmode_reconstruct(r.pmode, &step, r.w.modes, r.w.frame));
+    assert_false(hd_pmode_reconstruct(r.pmode, &step, r.w.modes, hd_frame_columns(r.w.frame)));
     step = *r.step;
     step.resolved = false;
-    assert_false(hd_pmode_reconstruct(r.pmode, &step, r.w.modes, r.w.frame));
+    assert_false(hd_pmode_reconstruct(r.pmode, &step, r.w.modes, hd_frame_columns(r.w.frame)));
     step = *r.step;
     step.members = 2;
-    assert_false(hd_pmode_reconstruct(r.pmode, &step, r.w.modes, r.w.frame));
+    assert_false(hd_pmode_reconstruct(r.pmode, &step, r.w.modes, hd_frame_columns(r.w.frame)));
     assert_true(reconstruct(&r));
     memcpy(r.turn + 4, r.turn, 4 * sizeof *r.turn); /* two vectors alike */
     write_vectors(&r, 0.0);

@@ -145,7 +145,7 @@ static void pieces_are_no_shorter_than_helps(void **state)
     (void)state;
     long most = 0;
     for (uint64_t seed = 1; seed <= 5; seed++) {
-        hd_scene_def scene = small_scene(10, HD_EXPONENTS_ALL, seed);
+        hd_scene_def scene = small_scene(10, HD_EXPONENTS_ALL_INDEPENDENT, seed);
         scene.accuracy = 1e-12;
         hd_run *run = created(&scene);
         const double collision = run->sample_max / HD_COLLISIONS_PER_SAMPLE;
@@ -170,7 +170,7 @@ static void no_crumb_of_rounding_stops_the_run(void **state)
 {
     (void)state;
     hd_scene_def scene = scene_of(24, 0.7, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
-    scene.exponents = HD_EXPONENTS_ALL;
+    scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
     scene.equilibration = 10.0;
     scene.warmup = 20.0;
     scene.duration = 10.0;

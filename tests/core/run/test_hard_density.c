@@ -133,7 +133,7 @@ static hd_run *finished(hd_scene_def scene, double time)
 {
     hd_run *run;
     char message[256] = "";
-    scene.exponents = HD_EXPONENTS_ALL;
+    scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
     scene.equilibration = scene.warmup = 0.1 * time;
     scene.duration = time;
     scene.report_interval = fmax(1e-6, time / 20.0);
@@ -190,7 +190,7 @@ static void several_grazes_in_an_interval_are_divided(void **state)
         hd_scene_def scene = scene_of(3, 0.001, 1.0, HD_PERIODIC, HD_PERIODIC, seeds[k]);
         const double time = 300.0 / (3.5 * scene.density);
         hd_run *run;
-        scene.exponents = HD_EXPONENTS_ALL;
+        scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
         scene.equilibration = scene.warmup = 0.0;
         scene.duration = scene.report_interval = time;
         CHECK_OK(hd_run_create(&run, &scene, NULL, 0));

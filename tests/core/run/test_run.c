@@ -320,8 +320,9 @@ static void what_is_impossible_is_refused_by_name(void **state)
     char message[256] = "";
     assert_int_equal(hd_run_create(&run, &scene, message, sizeof message), HD_REFUSED);
     assert_null(run);
-    assert_string_equal(message,
-                        "exponents = 49: must be positive, all, none or from 1 to 4 disks = 48");
+    assert_string_equal(
+        message,
+        "exponents = 49: must be positive, all, all_independent, none or from 1 to 4 disks = 48");
 }
 
 int main(void)

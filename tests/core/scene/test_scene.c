@@ -161,7 +161,7 @@ static void whole_fields_out_of_range(void **state)
 static void exponents_out_of_range(void **state)
 {
     (void)state;
-    const int refused[] = {-3, 3121, INT32_MAX, INT32_MIN}, accepted[] = {-2, -1, 0, 1, 3120};
+    const int refused[] = {-4, 3121, INT32_MAX, INT32_MIN}, accepted[] = {-3, -2, -1, 0, 1, 3120};
     for (size_t k = 0; k < sizeof refused / sizeof *refused; k++) {
         char value[32];
         hd_scene_def def = hd_scene_def_default();

@@ -4,7 +4,9 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "tangent/conjugate.h"
 #include "testing.h"
 #include "interval.h"
 
@@ -146,6 +148,26 @@ static void carry(exact_frame *x, hd_trajectory *trajectory, hd_event_log *log, 
     }
 }
 
+/** That of a run: of all 4N vectors half and its conjugates [T19]. */
+static hd_frame *first_frame(const hd_scene_def *scene)
+{
+    const int n = hd_scene_vectors(scene), carried = hd_scene_carried(scene);
+    hd_frame *frame, *all;
+    hd_conjugate *conjugate;
+    CHECK_OK(hd_frame_create(&frame, scene->disks, carried, scene->seed, 1));
+    if (carried == n) return frame;
+    CHECK_OK(hd_conjugate_start(frame));
+    CHECK_OK(hd_frame_create(&all, scene->disks, n, 1, 1));
+    CHECK_OK(hd_conjugate_create(&conjugate, n, true));
+    const hd_columns whole = hd_conjugate_complete(conjugate, hd_frame_columns(frame));
+    for (int row = 0; row < n; row++)
+        memcpy(hd_frame_data(all) + (size_t)row * (size_t)hd_frame_stride(all),
+               whole.data + (size_t)row * (size_t)n, (size_t)n * sizeof(double));
+    hd_conjugate_free(conjugate);
+    hd_frame_free(frame);
+    return all;
+}
+
 void exact_spectrum(const hd_scene_def *scene, double *out)
 {
     hd_trajectory *trajectory;
@@ -154,7 +176,7 @@ void exact_spectrum(const hd_scene_def *scene, double *out)
     const int n = hd_scene_vectors(scene);
     CHECK_OK(hd_trajectory_create(&trajectory, scene));
     CHECK_OK(hd_event_log_create(&log));
-    CHECK_OK(hd_frame_create(&frame, scene->disks, n, scene->seed, 1));
+    frame = first_frame(scene);
     CHECK_OK(hd_trajectory_extend(trajectory, NULL, scene->equilibration));
     exact_frame *x = exact_create(frame);
     exact_orthonormalise(x->v, x->rows, n, x->sum);

@@ -18,7 +18,7 @@ typedef struct windows {
 static inline hd_scene_def windows_scene(int disks, hd_boundary x, hd_boundary y)
 {
     hd_scene_def scene = scene_of(disks, 0.5, 0.9, x, y, 9);
-    scene.exponents = HD_EXPONENTS_ALL;
+    scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
     scene.observe = HD_OBSERVE_COVARIANT;
     scene.covariant_window = 10.0;
     scene.covariant_transient = 20.0;
@@ -48,7 +48,7 @@ static inline bool windows_forward(windows *w)
 {
     forward_interval(&w->f, WINDOWS_INTERVAL);
     const hd_columns columns = hd_frame_columns(w->f.frame);
-    CHECK_OK(hd_covariant_add(w->c, w->f.ortho, columns, w->f.log, 0.0, w->f.log->duration));
+    CHECK_OK(hd_covariant_add(w->c, w->f.ortho, w->f.frame, w->f.log, 0.0, w->f.log->duration));
     CHECK_OK(hd_covariant_state(w->c, columns, w->f.trajectory));
     return hd_covariant_is_going_back(w->c);
 }

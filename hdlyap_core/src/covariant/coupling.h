@@ -1,0 +1,23 @@
+/** What couples the two halves of a triangle of all 4N vectors, of which half are carried [T19]. */
+#ifndef HD_COUPLING_H
+#define HD_COUPLING_H
+
+#include "hdlyap/frame.h"
+
+typedef struct hd_coupling hd_coupling;
+
+/** Of frames of 2N vectors. HD_NO_MEMORY: they take as much room as a frame, and 32 N^2 bytes. */
+HD_MUST_CHECK hd_status hd_coupling_create(hd_coupling **out, int disks, int threads);
+void hd_coupling_free(hd_coupling *coupling);
+
+/** Of the interval from t_begin to t_end of the log: the frame has been replayed through it and
+ * orthonormalised, with this R [2N * 2N], row-major; both its ends are orthonormal to rounding.
+ * HD_NO_MEMORY. Cost of a replay and 8/3 (2N)^3 flops. */
+HD_MUST_CHECK hd_status hd_coupling_measure(hd_coupling *coupling, const hd_frame *frame,
+                                            const double *factor, const hd_event_log *log,
+                                            double t_begin, double t_end);
+
+/** Y = R^-1 X of the last one, where S J Q = Q' X + J Q' R^-T: [2N * 2N], symmetric. */
+const double *hd_coupling_read(const hd_coupling *coupling);
+
+#endif

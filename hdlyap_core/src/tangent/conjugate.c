@@ -1,0 +1,270 @@
+/** 2N vectors -> all 4N, by J (dq, dp) = (dp, -dq) [T19].
+ *
+ * Q is row-major (stride >= n), for BLAS the column-major Q^T with its first rows the first
+ * vectors. Panels, and what is turned by J, are column-major with a column for each vector. */
+#include "tangent/conjugate.h"
+
+#include <cblas.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/check.h"
+#include "base/memory.h"
+#include "base/random.h"
+
+enum { PANEL = 16, PAIRS = 4 };
+
+struct hd_conjugate {
+    int rows, half;  /**< 4N, 2N */
+    bool fresh;      /**< whole is that of the last orthonormalisation */
+    double *stretch; /**< [rows] */
+    double *whole;   /**< [rows * rows], row-major; NULL unless asked for */
+    double *sign;    /**< [half * 2 PAIRS], random */
+    double *sum;     /**< [rows * 2 PAIRS]: Q times signs */
+};
+
+/** to = J from; entries of a vector in the frame's order. */
+static void turn(double *to, const double *from, int rows)
+{
+    for (int row = 0; row < rows; row += 4)
+        for (int d = 0; d < 2; d++) {
+            to[row + d] = from[row + 2 + d];
+            to[row + 2 + d] = -from[row + d];
+        }
+}
+
+/* ---- the start ----------------------------------------------------------------------------- */
+
+typedef struct panel {
+    int rows, first, width;
+    double *a, *turned; /**< [rows * width], column-major: vectors; work */
+    double *part;       /**< [n * width]: coefficients */
+} panel;
+
+static double *column_of(const panel *x, double *of, int col)
+{
+    return of + (size_t)col * (size_t)x->rows;
+}
+
+static void load(const panel *x, const hd_frame *frame)
+{
+    const double *v = hd_frame_read(frame) + x->first;
+    for (int col = 0; col < x->width; col++)
+        cblas_dcopy(x->rows, v + col, hd_frame_stride(frame), column_of(x, x->a, col), 1);
+}
+
+static void store(const panel *x, hd_frame *frame)
+{
+    double *v = hd_frame_data(frame) + x->first;
+    for (int col = 0; col < x->width; col++)
+        cblas_dcopy(x->rows, column_of(x, x->a, col), 1, v + col, hd_frame_stride(frame));
+}
+
+static void turn_all(const panel *x)
+{
+    for (int col = 0; col < x->width; col++)
+        turn(column_of(x, x->turned, col), column_of(x, x->a, col), x->rows);
+}
+
+/** A -= Q Q^T A + (J Q)(J Q)^T A for the vectors before the panel; (J Q)^T A = -Q^T J A. */
+static void project_out(const panel *x, const hd_frame *frame)
+{
+    const double *q = hd_frame_read(frame);
+    const int stride = hd_frame_stride(frame);
+    if (x->first == 0) return;
+    for (int conjugate = 0; conjugate < 2; conjugate++) {
+        if (conjugate) turn_all(x);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, x->first, x->width, x->rows, 1.0, q,
+                    stride, conjugate ? x->turned : x->a, x->rows, 0.0, x->part, x->first);
+        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, x->rows, x->width, x->first, 1.0, q,
+                    stride, x->part, x->first, 0.0, x->turned, x->rows);
+        for (int col = 0; col < x->width; col++) {
+            double *a = column_of(x, x->a, col), *along = column_of(x, x->turned, col);
+            if (conjugate) /* A += J Q (Q^T J A) */
+                for (int row = 0; row < x->rows; row++)
+                    a[row] += row % 4 < 2 ? along[row + 2] : -along[row - 2];
+            else
+                cblas_daxpy(x->rows, -1.0, along, 1, a, 1);
+        }
+    }
+}
+
+/** The same within the panel, one vector after the other. */
+static hd_status orthonormalise(const panel *x)
+{
+    for (int col = 0; col < x->width; col++) {
+        double *a = column_of(x, x->a, col);
+        for (int k = 0; k < 2 * col; k++) {
+            const double *q = column_of(x, x->a, k / 2);
+            double *along = column_of(x, x->turned, 0);
+            if (k % 2 == 0)
+                memcpy(along, q, (size_t)x->rows * sizeof *q);
+            else
+                turn(along, q, x->rows);
+            cblas_daxpy(x->rows, -cblas_ddot(x->rows, along, 1, a, 1), along, 1, a, 1);
+        }
+        const double length = cblas_dnrm2(x->rows, a, 1);
+        if (!(length > 0 && length < INFINITY)) return HD_ILL_CONDITIONED;
+        cblas_dscal(x->rows, 1.0 / length, a, 1);
+    }
+    return HD_OK;
+}
+
+/** Twice is enough, as the first time leaves hardly anything to cancel. */
+static hd_status start_panel(const panel *x, hd_frame *frame)
+{
+    load(x, frame);
+    for (int pass = 0; pass < 2; pass++) {
+        project_out(x, frame);
+        HD_TRY(orthonormalise(x));
+    }
+    store(x, frame);
+    return HD_OK;
+}
+
+hd_status hd_conjugate_start(hd_frame *frame)
+{
+    const int rows = hd_frame_rows(frame), n = hd_frame_vectors(frame);
+    const size_t panels = (size_t)rows * PANEL, parts = (size_t)n * PANEL;
+    HD_ASSERT(2 * n == rows);
+    double *room = hd_memory_alloc(2 * panels + parts, sizeof *room);
+    if (!room) return HD_NO_MEMORY;
+    hd_status status = HD_OK;
+    for (int first = 0; first < n && status == HD_OK; first += PANEL) {
+        const int width = n - first < PANEL ? n - first : PANEL;
+        const panel x = {rows, first, width, room, room + panels, room + 2 * panels};
+        status = start_panel(&x, frame);
+    }
+    hd_memory_free(room);
+    return status;
+}
+
+/* ---- the other half ------------------------------------------------------------------------ */
+
+static hd_status allocate(hd_conjugate *c, bool whole)
+{
+    const size_t rows = (size_t)c->rows, sums = 2 * PAIRS;
+    c->stretch = hd_memory_alloc(rows, sizeof(double));
+    c->sign = hd_memory_alloc((size_t)c->half * sums, sizeof(double));
+    c->sum = hd_memory_alloc(rows * sums, sizeof(double));
+    if (!c->stretch || !c->sign || !c->sum) return HD_NO_MEMORY;
+    if (whole && !(c->whole = hd_memory_alloc(rows * rows, sizeof(double)))) return HD_NO_MEMORY;
+    return HD_OK;
+}
+
+hd_status hd_conjugate_create(hd_conjugate **out, int rows, bool whole)
+{
+    hd_conjugate *c = hd_memory_alloc(1, sizeof *c);
+    *out = NULL;
+    if (!c) return HD_NO_MEMORY;
+    c->rows = rows;
+    c->half = rows / 2;
+    if (allocate(c, whole) != HD_OK) {
+        hd_conjugate_free(c);
+        return HD_NO_MEMORY;
+    }
+    hd_random random = hd_random_seeded(1, 3);
+    for (int k = 0; k < c->half * 2 * PAIRS; k++)
+        c->sign[k] = hd_random_symmetric(&random) < 0 ? -1.0 : 1.0;
+    *out = c;
+    return HD_OK;
+}
+
+void hd_conjugate_free(hd_conjugate *conjugate)
+{
+    if (!conjugate) return;
+    hd_memory_free(conjugate->stretch);
+    hd_memory_free(conjugate->whole);
+    hd_memory_free(conjugate->sign);
+    hd_memory_free(conjugate->sum);
+    hd_memory_free(conjugate);
+}
+
+const double *hd_conjugate_stretch(hd_conjugate *conjugate, const double *half)
+{
+    conjugate->fresh = false;
+    for (int col = 0; col < conjugate->half; col++) {
+        conjugate->stretch[col] = half[col];
+        conjugate->stretch[conjugate->rows - 1 - col] = -half[col];
+    }
+    return conjugate->stretch;
+}
+
+void hd_conjugate_fill(double *whole, hd_columns half, int rows)
+{
+    const int n = half.count;
+    for (int row = 0; row < rows; row++) {
+        const double *partner = half.data +
+                                (size_t)(row % 4 < 2 ? row + 2 : row - 2) * (size_t)half.stride;
+        const double sign = row % 4 < 2 ? 1.0 : -1.0;
+        double *to = whole + (size_t)row * 2 * (size_t)n;
+        memcpy(to, half.data + (size_t)row * (size_t)half.stride, (size_t)n * sizeof *to);
+        for (int col = 0; col < n; col++) to[2 * n - 1 - col] = sign * partner[col];
+    }
+}
+
+hd_columns hd_conjugate_complete(hd_conjugate *conjugate, hd_columns half)
+{
+    HD_ASSERT(conjugate->whole && half.first == 0 && half.count == conjugate->half);
+    if (!conjugate->fresh) hd_conjugate_fill(conjugate->whole, half, conjugate->rows);
+    conjugate->fresh = true;
+    return (hd_columns){conjugate->whole, conjugate->rows, 0, conjugate->rows};
+}
+
+void hd_conjugate_halves(double *cos_theta, double *dp_dq_ratio, int half)
+{
+    for (int col = 0; col < half; col++) {
+        const double ratio = dp_dq_ratio[col];
+        cos_theta[2 * half - 1 - col] = -cos_theta[col];
+        dp_dq_ratio[2 * half - 1 - col] = isnan(ratio) ? 0.0 : ratio > 0 ? 1.0 / ratio : NAN;
+    }
+}
+
+/* ---- isotropy ------------------------------------------------------------------------------ */
+
+/** a^T J b of two vectors. */
+static double product(const double *a, const double *b, int rows)
+{
+    double sum = 0.0;
+    for (int row = 0; row < rows; row += 4)
+        for (int d = 0; d < 2; d++)
+            sum += a[row + d] * b[row + 2 + d] - a[row + 2 + d] * b[row + d];
+    return sum;
+}
+
+double hd_conjugate_isotropy(hd_conjugate *c, const hd_frame *frame)
+{
+    double sum = 0.0;
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, c->rows, 2 * PAIRS, c->half, 1.0,
+                hd_frame_read(frame), hd_frame_stride(frame), c->sign, c->half, 0.0, c->sum,
+                c->rows);
+    for (int k = 0; k < PAIRS; k++) {
+        const double *a = c->sum + 2 * (size_t)k * (size_t)c->rows;
+        const double one = product(a, a + c->rows, c->rows);
+        sum += one * one / PAIRS;
+    }
+    return sqrt(sum);
+}
+
+double hd_conjugate_isotropy_measured(const hd_frame *frame)
+{
+    const int rows = hd_frame_rows(frame), n = hd_frame_vectors(frame);
+    const size_t size = (size_t)rows * (size_t)n, square = (size_t)n * (size_t)n;
+    double worst = 0.0, *turned = hd_memory_alloc(size + square, sizeof *turned);
+    if (!turned) return HUGE_VAL;
+    for (int row = 0; row < rows; row++) {
+        const double *q = hd_frame_read(frame) + (size_t)(row % 4 < 2 ? row + 2 : row - 2) *
+                                                     (size_t)hd_frame_stride(frame);
+        for (int col = 0; col < n; col++)
+            turned[(size_t)row * (size_t)n + (size_t)col] = row % 4 < 2 ? q[col] : -q[col];
+    }
+    cblas_dgemm(CblasRowMajor, CblasTrans, CblasNoTrans, n, n, rows, 1.0, hd_frame_read(frame),
+                hd_frame_stride(frame), turned, n, 0.0, turned + size, n);
+    for (size_t k = 0; k < square; k++) {
+        const double off = fabs(turned[size + k]);
+        if (!(off <= worst)) worst = off; /* NaN stays */
+        if (isnan(worst)) break;
+    }
+    hd_memory_free(turned);
+    return worst;
+}

@@ -1,0 +1,47 @@
+/** The conjugate half of a frame: what of all 4N vectors need not be carried [T19].
+ *
+ * Carried are 2N vectors Q whose span is its own complement with respect to J (dq, dp) = (dp, -dq):
+ * orthonormal, and isotropic, Q^T J Q = 0. Then Gram-Schmidt of all 4N is [Q, J Q in reverse
+ * order]. */
+#ifndef HD_CONJUGATE_H
+#define HD_CONJUGATE_H
+
+#include <stdbool.h>
+
+#include "hdlyap/frame.h"
+
+/** Turns the 2N vectors of a frame, whatever they are, into orthonormal and isotropic ones: each
+ * loses its part along those before it and along their conjugates. A random frame becomes a random
+ * one (columns of a random unitary matrix); one that is nearly isotropic changes as little as it
+ * lacks. HD_ILL_CONDITIONED if they are dependent, HD_NO_MEMORY. Cost 8 m n^2 flops. */
+HD_MUST_CHECK hd_status hd_conjugate_start(hd_frame *frame);
+
+typedef struct hd_conjugate hd_conjugate;
+
+/** For frames of so many rows, half as many vectors. whole: all 4N will be asked for. HD_NO_MEMORY.
+ */
+HD_MUST_CHECK hd_status hd_conjugate_create(hd_conjugate **out, int rows, bool whole);
+void hd_conjugate_free(hd_conjugate *conjugate);
+
+/** After an orthonormalisation: ln diag R of all 4N [4N] from that of the half [2N]: ln R_ll and,
+ * from behind, -ln R_ll. */
+const double *hd_conjugate_stretch(hd_conjugate *conjugate, const double *half);
+
+/** whole [rows * 2n], row-major: the vectors and, from behind, those turned by J. */
+void hd_conjugate_fill(double *whole, hd_columns half, int rows);
+
+/** All 4N vectors, [4N * 4N]: they are completed once after each orthonormalisation. Valid until
+ * the next one. */
+hd_columns hd_conjugate_complete(hd_conjugate *conjugate, hd_columns half);
+
+/** About the root of the sum of squares of E = Q^T J Q: from x^T E y for a few pairs of random
+ * signs, which know it to a third. Cost 8 m n flops. */
+double hd_conjugate_isotropy(hd_conjugate *conjugate, const hd_frame *frame);
+
+/** max |Q^T J Q|, by a dgemm; HUGE_VAL without memory. For tests and verification. */
+double hd_conjugate_isotropy_measured(const hd_frame *frame);
+
+/** Completes [4N] what hd_frame_halves says of the half. */
+void hd_conjugate_halves(double *cos_theta, double *dp_dq_ratio, int half);
+
+#endif

@@ -1,0 +1,174 @@
+/** Runs of all 4N exponents, half of them carried, beside runs that carry each. */
+#include <float.h>
+#include <stdlib.h>
+
+#include "runs.h"
+#include "run/run_state.h"
+#include "scenes.h"
+
+static hd_scene_def few(int exponents, hd_boundary x, hd_boundary y)
+{
+    hd_scene_def scene = scene_of(10, 0.5, 0.9, x, y, 3);
+    scene.exponents = exponents;
+    scene.equilibration = 20.0;
+    scene.warmup = 200.0;
+    scene.duration = 400.0;
+    scene.threads = 1;
+    return scene;
+}
+
+static hd_run *finished(const hd_scene_def *scene)
+{
+    hd_run *run = created(scene);
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+    return run;
+}
+
+static void exponents_pair_by_construction(void **state)
+{
+    (void)state;
+    const hd_scene_def scene = few(HD_EXPONENTS_ALL, HD_PERIODIC, HD_REFLECTING);
+    hd_run *run = finished(&scene);
+    const hd_spectrum *s = hd_run_spectrum(run);
+    assert_int_equal(hd_run_vectors(run), 40);
+    assert_int_equal(hd_frame_vectors(hd_run_frame(run)), 20);
+    assert_true(hd_spectrum_pairing_error(s) == 0.0);
+    for (int col = 0; col < 20; col++) {
+        assert_true(hd_spectrum_std_error(s, col) == hd_spectrum_std_error(s, 39 - col));
+        assert_true(hd_spectrum_local(s, col) == -hd_spectrum_local(s, 39 - col));
+    }
+    hd_run_free(run);
+}
+
+/** One does not know where the other's frame began: what both averaged forgets that like 1 / t. */
+static void exponents_are_those_of_vectors_carried_each(void **state)
+{
+    (void)state;
+    const hd_scene_def one = few(HD_EXPONENTS_ALL, HD_PERIODIC, HD_PERIODIC),
+                       other = few(HD_EXPONENTS_ALL_INDEPENDENT, HD_PERIODIC, HD_PERIODIC);
+    hd_run *half = finished(&one), *whole = finished(&other);
+    for (int col = 0; col < 40; col++)
+        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(half), col),
+                    hd_spectrum_exponent(hd_run_spectrum(whole), col), 4.0 / one.duration);
+    hd_run_free(half);
+    hd_run_free(whole);
+}
+
+/** Known at reports: all 4N, orthonormal. */
+static void all_vectors_are_known_where_they_are_measured(void **state)
+{
+    (void)state;
+    hd_scene_def scene = few(HD_EXPONENTS_ALL, HD_PERIODIC, HD_PERIODIC);
+    scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_MODES;
+    hd_run *run = finished(&scene);
+    const hd_columns v = hd_run_columns(run);
+    double cosine[40], ratio[40];
+    assert_int_equal(v.count, 40);
+    for (int a = 0; a < 40; a++)
+        for (int b = 0; b <= a; b++) {
+            double sum = 0.0;
+            for (int row = 0; row < 40; row++)
+                sum += v.data[row * v.stride + a] * v.data[row * v.stride + b];
+            CHECK_CLOSE(sum, a == b, 1e-5); /* of a measured state, and of isotropy */
+        }
+    assert_ptr_equal(hd_run_frame_columns(run).data, v.data);
+    hd_run_halves(run, cosine, ratio);
+    for (int col = 0; col < 40; col++) CHECK_CLOSE(cosine[col], -cosine[39 - col], 0.0);
+    hd_run_free(run);
+}
+
+/* ---- covariant vectors --------------------------------------------------------------------- */
+
+static hd_scene_def windowed(int exponents, hd_boundary x, hd_boundary y)
+{
+    hd_scene_def scene = few(exponents, x, y);
+    scene.observe = HD_OBSERVE_COVARIANT;
+    scene.covariant_window = 40.0;
+    scene.covariant_transient = 120.0;
+    scene.covariant_sampling = 5.0;
+    return scene;
+}
+
+/** Between an exponent and its neighbours: parts along them are gone like exp(-gap t). */
+static double gap(const hd_run *run, int col)
+{
+    const hd_spectrum *s = hd_run_spectrum(run);
+    double least = INFINITY;
+    for (int k = col - 1; k <= col + 1; k++)
+        if (k >= 0 && k < 40 && k != col)
+            least = fmin(least, fabs(hd_spectrum_exponent(s, k) - hd_spectrum_exponent(s, col)));
+    return least;
+}
+
+/** Spaces do not depend on where frames began: what is left of that is far below rounding, which
+ * is 40 eps condition, over a small angle. */
+static void check_spaces(hd_run *half, hd_run *whole)
+{
+    const hd_covariant *one = hd_run_covariant(half), *other = hd_run_covariant(whole);
+    const double rounding = 400.0 * DBL_EPSILON * half->rounding.condition_max;
+    const hd_splitting *a = hd_covariant_splitting(one), *b = hd_covariant_splitting(other);
+    const double met = 1e-3; /* exp(-0.08 * 120) = 7e-5, and growth fluctuates */
+    int good = 0;
+    assert_int_equal(hd_covariant_windows(one), 7);
+    assert_int_equal(hd_covariant_windows(other), 7);
+    assert_int_equal(hd_splitting_samples(a), hd_splitting_samples(b));
+    for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) {
+        const hd_angle_of_spaces *found = hd_splitting_angle(a, pair),
+                                 *want = hd_splitting_angle(b, pair);
+        CHECK_CLOSE(found->least, want->least, rounding);
+        CHECK_CLOSE(found->mean, want->mean, rounding);
+        CHECK_CLOSE(found->mean_of_all, want->mean_of_all, rounding);
+    }
+    CHECK_CLOSE(hd_covariant_null_most(one), 0.0, rounding);
+    assert_true(hd_covariant_start_mismatch(one).stable < 1e-9);
+    for (int col = 0; col < 40; col++) {
+        if (gap(half, col) < 0.08) continue;
+        good++;
+        CHECK_CLOSE(hd_spectrum_exponent(hd_covariant_spectrum(one), col),
+                    hd_spectrum_exponent(hd_covariant_spectrum(other), col), met);
+        CHECK_CLOSE(hd_covariant_widths(one)[col], hd_covariant_widths(other)[col], met);
+    }
+    assert_true(good >= 8);
+}
+
+static void covariant_vectors_are_those_of_vectors_carried_each(void **state)
+{
+    (void)state;
+    for (int b = 0; b < 4; b++) {
+        const hd_boundary x = b & 1 ? HD_REFLECTING : HD_PERIODIC,
+                          y = b & 2 ? HD_REFLECTING : HD_PERIODIC;
+        const hd_scene_def one = windowed(HD_EXPONENTS_ALL, x, y),
+                           other = windowed(HD_EXPONENTS_ALL_INDEPENDENT, x, y);
+        hd_run *half = finished(&one), *whole = finished(&other);
+        check_spaces(half, whole);
+        hd_run_free(half);
+        hd_run_free(whole);
+    }
+}
+
+/** Triangles and couplings that are computed again are the same but for rounding. */
+static void recomputed_windows_are_the_same(void **state)
+{
+    (void)state;
+    const hd_scene_def one = windowed(HD_EXPONENTS_ALL, HD_PERIODIC, HD_PERIODIC);
+    hd_scene_def other = one;
+    other.covariant_storage = HD_STORAGE_RECOMPUTE;
+    hd_run *kept = finished(&one), *again = finished(&other);
+    check_spaces(kept, again);
+    assert_true(hd_covariant_bytes(hd_run_covariant(again)) <
+                hd_covariant_bytes(hd_run_covariant(kept)));
+    hd_run_free(kept);
+    hd_run_free(again);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exponents_pair_by_construction),
+        cmocka_unit_test(exponents_are_those_of_vectors_carried_each),
+        cmocka_unit_test(all_vectors_are_known_where_they_are_measured),
+        cmocka_unit_test(covariant_vectors_are_those_of_vectors_carried_each),
+        cmocka_unit_test(recomputed_windows_are_the_same),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
