@@ -301,11 +301,10 @@ static double next_stop(const hd_run *run)
     return stop;
 }
 
-/** The next time at which covariant vectors are looked at: intervals of half a frame are long. */
+/** The next time at which covariant vectors are looked at. */
 static double next_snapshot(const hd_run *run)
 {
-    const bool wanted = run->conjugate && hd_run_is_windowing(run);
-    const double due = wanted ? hd_windows_due(&run->windows) : INFINITY;
+    const double due = hd_run_is_windowing(run) ? hd_windows_due(&run->windows) : INFINITY;
     return due > hd_run_time(run) ? due : INFINITY;
 }
 

@@ -60,7 +60,7 @@ static void contents_that_no_run_has_are_refused(void **state)
     def.report_interval = 0.1;
     hd_run *run = kept_run(&def), *again = NULL;
     char message[512] = "";
-    while (hd_run_time(run) < 35.0 || run->log->count < 10) kept_steps(run, 1);
+    while (hd_run_time(run) < 42.0 || run->log->count < 10) kept_steps(run, 1);
     const bytes b = kept_bytes(run);
     static const nonsense_case cases[] = {
         {"scene disks", 0, 0, 61, "another array"},

@@ -277,17 +277,17 @@ static double predicted_over_taken(uint64_t seed)
 }
 
 /** Errors are known to some ten percent after a tenth of the time, so the time to some twenty:
- * three of four runs end within 30 % of what was said. */
+ * seven of ten runs end within 30 % of what was said; of eight hardly ever fewer than four. */
 static void the_time_to_the_target_is_predicted(void **state)
 {
     (void)state;
     int right = 0;
-    for (uint64_t seed = 1; seed <= 4; seed++) {
+    for (uint64_t seed = 1; seed <= 8; seed++) {
         const double ratio = predicted_over_taken(seed);
         print_message("predicted after a tenth: %.2f of what it took\n", ratio);
         right += fabs(ratio - 1.0) <= 0.3;
     }
-    assert_true(right >= 3);
+    assert_true(right >= 4);
 }
 
 static void progress_and_cost_add_up(void **state)
