@@ -32,8 +32,8 @@ hd_symplectic hd_verify_sample(const hd_frame *frame);
 /** A replay of so many events has left the products as they were [T3]. */
 void hd_verify_symplectic(const hd_frame *frame, const hd_symplectic *before, double events);
 
-/** The vectors are as orthonormal as the step says, in its norm; all 4N of them keep the volume: sum ln R_ll =
- * 0. */
+/** The vectors are as orthonormal as the step says, in its norm; all 4N of them keep the volume:
+ * sum ln R_ll = 0. */
 void hd_verify_ortho(hd_ortho *ortho, hd_frame *frame);
 
 #endif
