@@ -89,8 +89,9 @@ void hd_run_save_accuracy(hd_run *run)
 }
 
 /** What an accepted orthonormalisation says about spectrum, interval and cost. */
-static void piece_accepted(hd_run *run, double length, hd_norm norm)
+static void piece_accepted(hd_run *run, double length)
 {
+    const hd_norm norm = hd_ortho_norm(run->ortho); /* of a stable step always the whole one */
     const double start = hd_clock_now();
     const double *stretch = hd_ortho_log_stretch(run->ortho);
     const double condition = hd_ortho_condition(run->ortho);
@@ -104,8 +105,9 @@ static void piece_accepted(hd_run *run, double length, hd_norm norm)
     if (length > 0) cost->interval = length;
     cost->condition = condition;
     cost->defect = hd_ortho_defect(run->ortho);
-    run->rounding.condition_max = fmax(run->rounding.condition_max, condition);
-    run->rounding.sum += HD_ROUNDING * condition;
+    const double counted = hd_interval_counted(condition, norm);
+    run->rounding.condition_max = fmax(run->rounding.condition_max, counted);
+    run->rounding.sum += HD_ROUNDING * counted;
     cost->orthonormalisations++;
     cost->second_passes += hd_ortho_passes(run->ortho) > 1;
     hd_run_save_accuracy(run);
@@ -163,7 +165,7 @@ static hd_status complete(hd_run *run)
     HD_TRY(hd_ortho_step(run->ortho, run->frame, limits));
     run->cost.ortho += hd_clock_now() - start;
     run->whole = true;
-    piece_accepted(run, 0.0, HD_NORM_FULL);
+    piece_accepted(run, 0.0);
     return HD_OK;
 }
 
@@ -185,13 +187,14 @@ static hd_status factorise_log(hd_run *run, bool measured)
     while (begin < duration) {
         const double piece = end - begin;
         const hd_norm norm = hd_run_norm(run, measured && end >= duration);
+        run->interval.norm = norm;
         const hd_ortho_limits limits = {.defect = defect_allowed(run, duration, norm),
                                         .norm = norm};
         const hd_status status = frame_piece(run, begin, end, limits);
         if (status != HD_OK && status != HD_ILL_CONDITIONED) return status;
         if (status == HD_OK) {
-            piece_accepted(run, piece, norm);
-            run->whole = norm == HD_NORM_FULL;
+            piece_accepted(run, piece);
+            run->whole = hd_ortho_norm(run->ortho) == HD_NORM_FULL;
             HD_TRY(window_adds(run, begin, end));
             begin = end;
             end = duration - end < 1.5 * piece ? duration
@@ -201,7 +204,6 @@ static hd_status factorise_log(hd_run *run, bool measured)
         if (piece <= duration / PIECES_LAST) return HD_ILL_CONDITIONED;
         run->cost.repairs += piece >= duration;
         run->cost.limit = HD_LIMIT_REPAIR;
-        run->interval.norm = norm;
         hd_interval_failed(&run->interval, piece);
         hd_frame_rewind(run->frame);
         end = begin + 0.5 * piece;

@@ -42,10 +42,16 @@ static hd_growth growth_of(const hd_interval *interval, hd_norm norm)
     return interval->growth[interval->growth[norm].slope > 0 ? norm : other];
 }
 
+double hd_interval_counted(double condition, hd_norm norm)
+{
+    return norm == HD_NORM_DQ ? HD_ROUNDING_OF_DQ * condition : condition;
+}
+
 /** That uses up the accuracy's share of so many time units. */
 static double condition_of(const hd_interval *interval, double time)
 {
-    const double condition = interval->accuracy * time / (HD_ENLARGED * HD_ROUNDING);
+    const double counted = interval->accuracy * time / (HD_ENLARGED * HD_ROUNDING);
+    const double condition = counted / hd_interval_counted(1.0, interval->norm);
     return fmax(CONDITION_MIN, fmin(CONDITION_MAX, condition));
 }
 

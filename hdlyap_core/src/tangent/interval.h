@@ -12,6 +12,9 @@
  * condition; seen: up to 1.4 eps [T6]. */
 #define HD_ROUNDING (2.0 * DBL_EPSILON)
 
+/** What a condition in the norm of dq counts: it is so much smaller, the error is not [T6]. */
+#define HD_ROUNDING_OF_DQ 2.5
+
 /** Neighbouring vectors that change places enlarge that: seen up to 18 times [T6]. */
 #define HD_ENLARGED 20.0
 
@@ -39,6 +42,9 @@ typedef struct hd_interval {
 } hd_interval;
 
 hd_interval hd_interval_first(double first, double limit, double accuracy);
+
+/** A condition as it counts for rounding, whatever its norm. */
+double hd_interval_counted(double condition, hd_norm norm);
 
 /** Largest condition that leaves the means as accurate as asked, with what is saved, after an
  * interval this long; some part of the share of one as long as usual is always given. */
