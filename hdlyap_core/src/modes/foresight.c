@@ -8,9 +8,10 @@
 #include <limits.h>
 #include <math.h>
 
-/** Foreseen as far as phases are expected to be off by this: a quarter of the radian at which two
- * vectors that turn together seem to change places [rad]. */
-static const double OFF = 0.25;
+/** Foreseen as far as phases are expected to be off by this: for one pair a quarter of the radian
+ * at which two vectors that turn together seem to change places; of several pairs another vector
+ * looks less like a turned one [rad]. */
+static const double OFF_ONE_PAIR = 0.25, OFF = 0.4;
 /** A whole that is off by this is asked once more; a phase may be weak as long as it is expected to
  * be off by no more [rad]. */
 static const double FAR_OFF = 0.75;
@@ -28,7 +29,10 @@ enum { SHOWN = 16, LOST = 2 };
 /** Rotation without any noise has misses, too. */
 static const double DIFFUSION_MIN = 1e-100;
 
-void hd_foresight_clear(hd_foresight *f) { *f = (hd_foresight){0}; }
+void hd_foresight_clear(hd_foresight *f, int pairs)
+{
+    *f = (hd_foresight){.off = pairs > 1 ? OFF : OFF_ONE_PAIR};
+}
 
 /** Mean time that the misses are of, longer ones counting more; 0 if there is none. */
 static double span(const hd_foresight *f) { return f->time > 0 ? f->times / f->time : 0.0; }
@@ -69,7 +73,7 @@ static double reach(const hd_foresight *f, double error)
 double hd_foresight_sampling(const hd_foresight *f, double unseen)
 {
     if (f->samples < SHOWN || f->far_off > 0) return unseen;
-    const double seen = fmin(reach(f, OFF), GROWTH * span(f));
+    const double seen = fmin(reach(f, f->off), GROWTH * span(f));
     return fmax(unseen, fmin(seen, MOST * unseen));
 }
 

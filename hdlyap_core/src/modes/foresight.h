@@ -7,6 +7,7 @@
 #include "base/archive.h"
 
 typedef struct hd_foresight {
+    double off;      /**< that phases may be expected to be [rad] */
     double omega;    /**< mean turn of the whole step per time */
     double averaged; /**< over so long */
     /** Sums over phases, of which older ones are forgotten: dt, dt^2, dt miss^2, each times a^2 +
@@ -16,8 +17,8 @@ typedef struct hd_foresight {
     int far_off;  /**< last turns of the whole that were far from what had been foreseen */
 } hd_foresight;
 
-/** Knows nothing. */
-void hd_foresight_clear(hd_foresight *f);
+/** Knows nothing of a step with so many pairs. */
+void hd_foresight_clear(hd_foresight *f, int pairs);
 
 /** After dt > 0 there is a sample that is to be held against omega: forgets as much of the older
  * ones. */

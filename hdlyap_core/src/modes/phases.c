@@ -68,6 +68,7 @@ static hd_status rotor_create(rotor *r, hd_track *tracks, const hd_step *step, i
                  .wave_number = step->wave.number,
                  .track = tracks,
                  .col = -1};
+    hd_foresight_clear(&r->ahead, r->pairs);
     for (int t = 0; t < r->slots * r->pairs; t++)
         HD_TRY(hd_blocks_create(&tracks[t].turns, 1, 0.0));
     return HD_OK;
@@ -141,7 +142,7 @@ static void rotor_restart(rotor *r, hd_lp_state state)
 {
     r->col = -1;
     r->samples = 0;
-    hd_foresight_clear(&r->ahead);
+    hd_foresight_clear(&r->ahead, r->pairs);
     r->turned = r->turning = 0.0;
     for (int k = 0; k < 2; k++) {
         r->sample[k] = 0.0;

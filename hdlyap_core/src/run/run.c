@@ -31,7 +31,7 @@ static const double COLLISIONS_PER_BLOCK = 8.0;
 /** A rest that could be longer by less than this factor is an equal share. */
 static const double DIVIDED = 1.25;
 /** Orthonormalisations that come earlier by this factor are cheaper than measured states. */
-static const double WORTH = 0.8;
+static const double WORTH = 0.75;
 /** Times that are this close, as a part of an interval, are one. */
 static const double CLOSE = 1e-6;
 /** Of samples, for standard errors: fewer in an averaging would make them late and rough. */
@@ -314,6 +314,14 @@ static double share(double left, double most)
     return left < INFINITY ? left / ceil(left / most) : most;
 }
 
+/** A little shorter, if that saves a look or a measured state before the phases must be known. */
+static double rounded_down(const hd_run *run, double length)
+{
+    const double left = run->sample.begin + phases_sampling(run) - hd_run_time(run);
+    const double part = left < INFINITY ? left / ceil(left / length * (1.0 - CLOSE)) : length;
+    return part < length && part > WORTH * length ? part : length;
+}
+
 /** The next interval, up to `left` long; why not longer. */
 static hd_interval_length next_interval(const hd_run *run, double left)
 {
@@ -321,6 +329,7 @@ static hd_interval_length next_interval(const hd_run *run, double left)
     hd_interval_length next = hd_interval_next(&run->interval, left);
     if (next.length > sample) next = (hd_interval_length){share(left, sample), HD_LIMIT_SAMPLE};
     if (next.length > most) next = (hd_interval_length){share(left, most), HD_LIMIT_EVENTS};
+    if (next.length < left) next.length = rounded_down(run, next.length);
     next.length = fmax(next.length, hd_advance_shortest(&run->advance));
     return next;
 }
@@ -332,14 +341,6 @@ static bool is_last(const hd_run *run, double length)
     const double gone = hd_run_time(run) + length - run->sample.begin, close = CLOSE * length;
     return gone + 0.5 * length >= hd_run_sample_longest(run) ||
            gone + length > phases_sampling(run) + close;
-}
-
-/** A little shorter, if one more of them goes into the sample before the phases must be known. */
-static double rounded_down(const hd_run *run, double length)
-{
-    const double left = run->sample.begin + phases_sampling(run) - hd_run_time(run);
-    const double part = left < INFINITY ? left / ceil(left / length * (1.0 - CLOSE)) : length;
-    return part < length && part > WORTH * length ? part : length;
 }
 
 /** True if nothing but rounding would be left of it. */
@@ -362,7 +363,6 @@ static void plan_interval(hd_run *run)
     const double stop = fmin(measured, next_snapshot(run)), left = stop - now;
     run->interval.norm = hd_run_norm(run, false);
     hd_interval_length next = next_interval(run, left);
-    if (next.length < left) next.length = rounded_down(run, next.length);
     run->sample.ends = is_rest(next.length, measured - now) || is_last(run, next.length);
     if (run->sample.ends) {
         run->interval.norm = HD_NORM_FULL;

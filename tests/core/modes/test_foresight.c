@@ -11,7 +11,7 @@ static const double PI = 3.14159265358979323846;
 /** Of `pairs`: 0.75 pi / (1.25 lambda), lambda = 2.4. */
 static const double UNSEEN = 0.75 / (1.25 * 2.4) * 3.14159265358979323846;
 /** Phases may be off by this before samples come closer [rad]. */
-static const double OFF = 0.25;
+static const double OFF = 0.4;
 
 /* ---- the estimate alone -------------------------------------------------------------------- */
 
@@ -20,7 +20,7 @@ static hd_foresight foreseen(hd_random *random, double diffusion, const double *
                              int samples)
 {
     hd_foresight f;
-    hd_foresight_clear(&f);
+    hd_foresight_clear(&f, 2);
     for (int k = 0; k < 5; k++) hd_foresight_turn(&f, 1.3 * dt[k % count], dt[k % count]);
     for (int k = 0; k < samples; k++) {
         const double now = dt[k % count];
@@ -80,7 +80,7 @@ static void the_rate_is_a_mean_over_time(void **state)
 {
     (void)state;
     hd_foresight f;
-    hd_foresight_clear(&f);
+    hd_foresight_clear(&f, 2);
     hd_foresight_turn(&f, 1.0, 1.0);
     hd_foresight_turn(&f, 9.0, 3.0);
     CHECK_CLOSE(f.omega, 2.5, 1e-14);
