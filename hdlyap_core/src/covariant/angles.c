@@ -137,6 +137,8 @@ hd_status hd_angles_leading(hd_angles *angles, double *angle, const double *c, i
     HD_ASSERT(b.count >= 1 && b.count <= angles->widest && b.count <= count &&
               b.count <= angles->rows - count);
     double *upper = angles->basis[0], *lower = angles->basis[1];
+    for (size_t k = 0; k < first; k++)
+        if (!(fabs(c[k * (rows + 1)]) > 0)) return HD_ILL_CONDITIONED;
     HD_TRY(orthonormalise(angles, lower, c, b));
     for (size_t col = 0; col < (size_t)b.count; col++) {
         memcpy(upper + col * first, lower + col * rows, first * sizeof *upper);
