@@ -369,7 +369,12 @@ class Faults(Case):
         self.listen('covariant')
         node = self.start(
             dict(
-                SCENE, interval='auto', covariant_window=50.0, duration=0.0, covariant_memory=0.003
+                SCENE,
+                exponents='all_independent',
+                interval='auto',
+                covariant_window=50.0,
+                duration=0.0,
+                covariant_memory=0.003,
             )
         )
         self.refused(

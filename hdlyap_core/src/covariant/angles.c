@@ -103,6 +103,14 @@ static hd_status singular_values(hd_angles *angles, double *value, double *matri
                : HD_ILL_CONDITIONED;
 }
 
+static void angles_of(const hd_angles *angles, double *angle, int count)
+{
+    for (int k = 0; k < count; k++) {
+        const double small = angles->value[0][count - 1 - k];
+        angle[k] = small < sqrt(0.5) ? asin(small) : acos(fmin(angles->value[1][k], 1.0));
+    }
+}
+
 hd_status hd_angles_between(hd_angles *angles, double *angle, const double *c, hd_span a, hd_span b)
 {
     const int rows = angles->rows;
@@ -118,9 +126,26 @@ hd_status hd_angles_between(hd_angles *angles, double *angle, const double *c, h
                 angles->product, a.count, 1.0, qb, rows);
     HD_TRY(singular_values(angles, sine, qb, rows, b.count));
     HD_TRY(singular_values(angles, cosine, angles->product, a.count, b.count));
-    for (int k = 0; k < b.count; k++) {
-        const double small = sine[b.count - 1 - k];
-        angle[k] = small < sqrt(0.5) ? asin(small) : acos(fmin(cosine[k], 1.0));
+    angles_of(angles, angle, b.count);
+    return HD_OK;
+}
+
+/** Q_a are unit vectors: Q_a^T Q_b is the first rows of Q_b, Q_b - Q_a Q_a^T Q_b the others. */
+hd_status hd_angles_leading(hd_angles *angles, double *angle, const double *c, int count, hd_span b)
+{
+    const size_t rows = (size_t)angles->rows, first = (size_t)count, later = rows - first;
+    HD_ASSERT(b.count >= 1 && b.count <= angles->widest && b.count <= count &&
+              b.count <= angles->rows - count);
+    double *upper = angles->basis[0], *lower = angles->basis[1];
+    for (size_t k = 0; k < first; k++)
+        if (!(fabs(c[k * (rows + 1)]) > 0)) return HD_ILL_CONDITIONED;
+    HD_TRY(orthonormalise(angles, lower, c, b));
+    for (size_t col = 0; col < (size_t)b.count; col++) {
+        memcpy(upper + col * first, lower + col * rows, first * sizeof *upper);
+        memmove(lower + col * later, lower + col * rows + first, later * sizeof *lower);
     }
+    HD_TRY(singular_values(angles, angles->value[0], lower, (int)later, b.count));
+    HD_TRY(singular_values(angles, angles->value[1], upper, count, b.count));
+    angles_of(angles, angle, b.count);
     return HD_OK;
 }

@@ -143,7 +143,9 @@ hd_status hd_splitting_add(hd_splitting *s, const double *c)
     if (!s->angles) return HD_OK;
     for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) {
         const hd_span a = s->space[PAIR[pair][0]], b = s->space[PAIR[pair][1]];
-        HD_TRY(hd_angles_between(s->angles, s->found, c, a, b));
+        HD_TRY(a.first == 0 && a.count >= b.count
+                   ? hd_angles_leading(s->angles, s->found, c, a.count, b)
+                   : hd_angles_between(s->angles, s->found, c, a, b));
         add_angles(&s->angle[pair], s->found, a.count < b.count ? a.count : b.count, s->samples);
         sample[pair] = s->angle[pair].last;
     }

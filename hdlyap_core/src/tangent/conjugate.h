@@ -38,7 +38,7 @@ hd_columns hd_conjugate_complete(hd_conjugate *conjugate, hd_columns half);
  * signs, which know it to a third. Cost 8 m n flops. */
 double hd_conjugate_isotropy(hd_conjugate *conjugate, const hd_frame *frame);
 
-/** max |Q^T J Q|, by a dgemm; HUGE_VAL without memory. For tests and verification. */
+/** max |Q^T J Q|, m n^2 flops. For tests and verification. */
 double hd_conjugate_isotropy_measured(const hd_frame *frame);
 
 /** Completes [4N] what hd_frame_halves says of the half. */

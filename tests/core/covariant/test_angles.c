@@ -91,6 +91,26 @@ static void one_vector_and_another(void **state)
     hd_angles_free(angles);
 }
 
+/** The first columns of a triangle: as if nobody knew what they span. */
+static void first_columns_of_a_triangle_span_coordinates(void **state)
+{
+    (void)state;
+    hd_random random = hd_random_seeded(3, 1);
+    double c[ROWS * ROWS] = {0}, found[ROWS], want[ROWS];
+    hd_angles *angles;
+    CHECK_OK(hd_angles_create(&angles, ROWS, ROWS / 2));
+    for (int col = 0; col < ROWS; col++)
+        for (int row = 0; row <= col; row++)
+            c[col * ROWS + row] = hd_random_symmetric(&random) + (row == col);
+    const hd_span first = {0, ROWS / 2}, others[] = {{ROWS / 2, ROWS / 2}, {ROWS / 2, 2}};
+    for (int k = 0; k < 2; k++) {
+        CHECK_OK(hd_angles_leading(angles, found, c, first.count, others[k]));
+        CHECK_OK(hd_angles_between(angles, want, c, first, others[k]));
+        for (int col = 0; col < others[k].count; col++) CHECK_CLOSE(found[col], want[col], 1e-11);
+    }
+    hd_angles_free(angles);
+}
+
 static void dependent_columns_are_refused(void **state)
 {
     (void)state;
@@ -114,6 +134,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_angles_are_found),
         cmocka_unit_test(one_vector_and_another),
+        cmocka_unit_test(first_columns_of_a_triangle_span_coordinates),
         cmocka_unit_test(dependent_columns_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
