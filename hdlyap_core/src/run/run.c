@@ -30,8 +30,9 @@ static const double COLLISIONS_MOST = 60.0;
 static const double COLLISIONS_PER_BLOCK = 8.0;
 /** A rest that could be longer by less than this factor is an equal share. */
 static const double DIVIDED = 1.25;
-/** Orthonormalisations that come earlier by this factor are cheaper than measured states. */
-static const double WORTH = 0.75;
+/** Orthonormalisations that come earlier by this factor are cheaper than to measure every state, or
+ * to look at phases in between. */
+static const double WORTH_A_STATE = 0.875, WORTH_A_LOOK = 0.75;
 /** Times that are this close, as a part of an interval, are one. */
 static const double CLOSE = 1e-6;
 /** Of samples, for standard errors: fewer in an averaging would make them late and rough. */
@@ -318,8 +319,10 @@ static double share(double left, double most)
 static double rounded_down(const hd_run *run, double length)
 {
     const double left = run->sample.begin + phases_sampling(run) - hd_run_time(run);
-    const double part = left < INFINITY ? left / ceil(left / length * (1.0 - CLOSE)) : length;
-    return part < length && part > WORTH * length ? part : length;
+    if (!(left > 0 && left < INFINITY)) return length;
+    const double count = ceil(left / length * (1.0 - CLOSE)), part = left / count;
+    const double worth = count > 1 ? WORTH_A_STATE : WORTH_A_LOOK;
+    return part < length && part > worth * length ? part : length;
 }
 
 /** The next interval, up to `left` long; why not longer. */
@@ -411,7 +414,8 @@ static double look_due(const hd_run *run)
 {
     const double sampling = phases_sampling(run), since = run->followed;
     const double left = run->interval_end - since;
-    if (since < 0 || left <= sampling || since + sampling <= hd_run_time(run)) return INFINITY;
+    if (since < 0 || left <= sampling * (1.0 + CLOSE) || since + sampling <= hd_run_time(run))
+        return INFINITY;
     const double share = since + left / ceil(left / sampling);
     return share > hd_run_time(run) ? share : since + sampling;
 }

@@ -28,7 +28,7 @@
 static const double PANEL_CONDITION_LEAST = 8.0;
 /** A panel that is worse conditioned by itself gets a second Cholesky pass: its loss of
  * orthogonality, eps condition^2, multiplies what the later panels are cleaned of. */
-static const double PANEL_CONDITION_GOOD = 30.0;
+static const double PANEL_CONDITION_GOOD = 16.0;
 /** Cholesky of a Gram matrix breaks down near 1 / sqrt(16 eps) = 2e7. */
 static const double PANEL_CONDITION_MAX = 1e7;
 
