@@ -9,9 +9,9 @@
  * cleaned: it loses orthogonality in proportion to the condition, where one Cholesky factorisation
  * of all loses its square. diag(L) > 0, so Q and R = L^T are unique; R is used up on the way unless
  * somebody keeps it. In the norm of dq the inner products G and S are those of the dq halves, which
- * for BLAS are two matrices with a leading dimension of four strides; that is 1.5 m n^2 flops. The
- * stable step factors A = L Q by reflections instead (dgelqf, dorglq). Equations [T5]-[T7]. */
-#include "hdlyap/ortho.h"
+ * for BLAS are two matrices with a leading dimension of four strides; that is 1.5 m n^2 flops.
+ * Equations [T5]-[T7]. */
+#include "tangent/ortho_state.h"
 
 #include <cblas.h>
 #include <float.h>
@@ -23,9 +23,6 @@
 #include "base/check.h"
 #include "base/memory.h"
 
-/** |Q^T Q - 1| after one pass is at most the square of this, or of the worst panel's own condition
- * if that is larger, times eps condition; see [T7]. */
-static const double PANEL_CONDITION_LEAST = 8.0;
 /** A panel that is worse conditioned by itself gets a second Cholesky pass: its loss of
  * orthogonality, eps condition^2, multiplies what the later panels are cleaned of. */
 static const double PANEL_CONDITION_GOOD = 16.0;
@@ -35,29 +32,7 @@ static const double PANEL_CONDITION_MAX = 1e7;
 /** PANELS of them if there are that many vectors: the last half of the flops then falls into wide
  * products. A panel wider than LEAF_MAX is orthonormalised by halves. S is of LATER_MAX vectors at
  * most, for the sake of its room. */
-enum { PANELS = 8, PANEL_MIN = 8, PANEL_MAX = 160, LEAF_MAX = 48, LATER_MAX = 704, PROBES = 8 };
-
-struct hd_ortho {
-    int rows, vectors;
-    int width;          /**< of a panel */
-    double *gram;       /**< [width * width], column-major, lower triangle: G, then L */
-    double *projection; /**< [later * width], column-major: S; LAPACK's workspace */
-    double *inverse;    /**< L^-1, as gram; in the room of S, which comes later */
-    /** [vectors], |V e_k|^2, of a panel complete when its turn comes */
-    double *norm2;
-    double *scale;       /**< [width], diagonal of G */
-    double *probe;       /**< [PROBES][vectors]: R^-T D x, see condition_of */
-    double *log_stretch; /**< [vectors] */
-    double *reflector;   /**< [vectors], of the stable step */
-    /** [vectors * vectors], column-major: L of each pass; NULL unless kept */
-    double *factor[2];
-    int lwork; /**< of projection */
-    double condition, defect;
-    hd_norm norm; /**< of the present or last step */
-    /** Largest of the panels as they were accepted, at least PANEL_CONDITION_LEAST */
-    double panel_condition;
-    int passes;
-};
+enum { PANELS = 8, PANEL_MIN = 8, PANEL_MAX = 160, LEAF_MAX = 48, LATER_MAX = 704 };
 
 /** Entries of workspace that LAPACK wants for the stable step. */
 static int stable_workspace(int rows, int vectors)
@@ -82,7 +57,7 @@ static hd_status ortho_allocate(hd_ortho *ortho)
                   {&ortho->projection, (size_t)ortho->lwork},
                   {&ortho->norm2, n},
                   {&ortho->scale, width},
-                  {&ortho->probe, n * PROBES},
+                  {&ortho->probe, n * HD_PROBES},
                   {&ortho->log_stretch, n},
                   {&ortho->reflector, n}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
@@ -133,8 +108,7 @@ void hd_ortho_free(hd_ortho *ortho)
 
 /* ---- the condition ------------------------------------------------------------------------- */
 
-/** Entry of a fixed matrix of random signs (a bit of the row's hash). */
-static double sign_of(int row, int probe)
+double hd_probe_sign(int row, int probe)
 {
     uint32_t hash = (uint32_t)row * 2654435761u;
     hash = (hash ^ hash >> 15) * 2246822519u;
@@ -142,22 +116,17 @@ static double sign_of(int row, int probe)
     return hash >> (16 + probe) & 1 ? 1.0 : -1.0;
 }
 
-/** True if a sum of squares is known to rounding: neither zero, as BLAS libraries differ in what
- * they make of that, nor near the smallest numbers, nor overflown. */
-static bool is_square(double sum) { return sum > DBL_MIN / DBL_EPSILON && sum < INFINITY; }
+bool hd_is_square(double sum) { return sum > DBL_MIN / DBL_EPSILON && sum < INFINITY; }
 
-/** See hd_ortho_condition: with D = diag |V e_k| and random signs x the entries of y = R^-T D x
- * have the mean squares kappa_l^2. INFINITY where one is not finite, or a vector too short to be
- * measured. */
-static double condition_of(const hd_ortho *ortho)
+double hd_ortho_condition_from_probes(const hd_ortho *ortho)
 {
     double worst = 1.0;
     for (int col = 0; col < ortho->vectors; col++) {
-        if (!is_square(ortho->norm2[col])) return INFINITY;
+        if (!hd_is_square(ortho->norm2[col])) return INFINITY;
         double sum = 0.0;
-        for (int p = 0; p < PROBES; p++) {
+        for (int p = 0; p < HD_PROBES; p++) {
             const double y = ortho->probe[p * ortho->vectors + col];
-            sum += y * y / PROBES;
+            sum += y * y / HD_PROBES;
         }
         if (!(sum < INFINITY)) return INFINITY;
         worst = fmax(worst, sum);
@@ -260,7 +229,7 @@ static hd_status cholesky(hd_ortho *ortho, panel whole, panel x)
     const int ld = whole.width;
     inner_products(ortho, l, ld, x, x);
     for (int k = 0; k < x.width; k++) /* keeps NaN out of LAPACK */
-        if (!is_square(l[k * (ld + 1)])) return HD_ILL_CONDITIONED;
+        if (!hd_is_square(l[k * (ld + 1)])) return HD_ILL_CONDITIONED;
     if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', x.width, l, ld) != 0) return HD_ILL_CONDITIONED;
     for (int col = 0; col < x.width; col++)
         memcpy(inverse + col * (ld + 1), l + col * (ld + 1),
@@ -337,9 +306,9 @@ static double panel_condition(const hd_ortho *ortho, int width)
 static void probe_panel(hd_ortho *ortho, panel x)
 {
     for (int k = 0; k < x.width; k++) ortho->norm2[x.first + k] += ortho->scale[k];
-    for (int p = 0; p < PROBES; p++)
+    for (int p = 0; p < HD_PROBES; p++)
         for (int k = x.first; k < x.first + x.width; k++)
-            ortho->probe[p * ortho->vectors + k] += sign_of(k, p) * sqrt(ortho->norm2[k]);
+            ortho->probe[p * ortho->vectors + k] += hd_probe_sign(k, p) * sqrt(ortho->norm2[k]);
 }
 
 static hd_status panel_orthonormalise(hd_ortho *ortho, panel x)
@@ -355,7 +324,8 @@ static hd_status panel_orthonormalise(hd_ortho *ortho, panel x)
         if (!(condition <= PANEL_CONDITION_MAX)) return HD_ILL_CONDITIONED;
         if (pass == 0) probe_panel(ortho, x);
         cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, x.width,
-                    PROBES, 1.0, ortho->inverse, x.width, ortho->probe + x.first, ortho->vectors);
+                    HD_PROBES, 1.0, ortho->inverse, x.width, ortho->probe + x.first,
+                    ortho->vectors);
         good = condition <= PANEL_CONDITION_GOOD;
         if (good) ortho->panel_condition = fmax(ortho->panel_condition, condition);
     }
@@ -374,8 +344,8 @@ static void panel_project(hd_ortho *ortho, panel x, panel later)
             const double entry = s[(size_t)col * (size_t)count + (size_t)row];
             ortho->norm2[later.first + row] += entry * entry;
         }
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, PROBES, x.width, -1.0, s, count,
-                ortho->probe + x.first, ortho->vectors, 1.0, ortho->probe + later.first,
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, HD_PROBES, x.width, -1.0, s,
+                count, ortho->probe + x.first, ortho->vectors, 1.0, ortho->probe + later.first,
                 ortho->vectors);
     take_out(ortho, s, count, later, x);
 }
@@ -389,27 +359,27 @@ static void panel_project_out(hd_ortho *ortho, panel x)
 
 /* ---- a step -------------------------------------------------------------------------------- */
 
-static void probes_clear(hd_ortho *ortho)
+void hd_ortho_probes_clear(hd_ortho *ortho)
 {
     memset(ortho->norm2, 0, (size_t)ortho->vectors * sizeof *ortho->norm2);
-    memset(ortho->probe, 0, (size_t)ortho->vectors * PROBES * sizeof *ortho->probe);
+    memset(ortho->probe, 0, (size_t)ortho->vectors * HD_PROBES * sizeof *ortho->probe);
 }
 
 static hd_status pass(hd_ortho *ortho, hd_frame *frame, double condition_max)
 {
-    probes_clear(ortho);
-    ortho->panel_condition = PANEL_CONDITION_LEAST;
+    hd_ortho_probes_clear(ortho);
+    ortho->panel_condition = HD_PANEL_CONDITION_LEAST;
     for (int first = 0; first < ortho->vectors; first += ortho->width) {
         const panel x = panel_of(ortho, frame, first);
         HD_TRY(panel_orthonormalise(ortho, x));
         panel_project_out(ortho, x);
     }
-    ortho->condition = condition_of(ortho);
+    ortho->condition = hd_ortho_condition_from_probes(ortho);
     ortho->passes++;
     return ortho->condition <= condition_max ? HD_OK : HD_ILL_CONDITIONED;
 }
 
-static void step_start(hd_ortho *ortho, const hd_frame *frame, hd_norm norm)
+void hd_ortho_begin(hd_ortho *ortho, const hd_frame *frame, hd_norm norm)
 {
     HD_ASSERT(hd_frame_rows(frame) == ortho->rows && hd_frame_vectors(frame) == ortho->vectors);
     HD_ASSERT(norm == HD_NORM_FULL || 2 * ortho->vectors <= ortho->rows);
@@ -447,7 +417,7 @@ static hd_status unseen_check(const hd_ortho *ortho, const hd_frame *frame)
 
 hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits)
 {
-    step_start(ortho, frame, limits.norm);
+    hd_ortho_begin(ortho, frame, limits.norm);
     HD_TRY(pass(ortho, frame, limits.condition));
     const double condition = ortho->condition;
     ortho->defect = defect_foreseen(ortho);
@@ -458,71 +428,6 @@ hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits
         factors_multiply(ortho);
     }
     return limits.norm == HD_NORM_DQ ? unseen_check(ortho, frame) : HD_OK;
-}
-
-/* ---- by reflections ------------------------------------------------------------------------ */
-
-/** With L in a: norm2 <- |V e_k|^2, log_stretch <- ln |L_kk|, and the condition. */
-static void examine_lq(hd_ortho *ortho, const double *a, int stride)
-{
-    const int n = ortho->vectors;
-    probes_clear(ortho);
-    for (int col = 0; col < n; col++)
-        for (int row = col; row < n; row++) {
-            const double entry = a[(size_t)col * (size_t)stride + (size_t)row];
-            ortho->norm2[row] += entry * entry;
-        }
-    ortho->condition = INFINITY;
-    for (int k = 0; k < n; k++) {
-        const double diagonal = fabs(a[(size_t)k * (size_t)(stride + 1)]);
-        if (!is_square(ortho->norm2[k]) || !(diagonal > 0.0)) return;
-        ortho->log_stretch[k] = log(diagonal);
-        for (int p = 0; p < PROBES; p++)
-            ortho->probe[p * n + k] = sign_of(k, p) * sqrt(ortho->norm2[k]);
-    }
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, PROBES, 1.0, a,
-                stride, ortho->probe, n);
-    ortho->condition = condition_of(ortho);
-}
-
-/** Column k of L takes the sign of L_kk. */
-static void keep_lq(const hd_ortho *ortho, const double *a, int stride, const double *sign)
-{
-    if (!ortho->factor[0]) return;
-    for (int col = 0; col < ortho->vectors; col++)
-        for (int row = col; row < ortho->vectors; row++)
-            ortho->factor[0][(size_t)col * (size_t)ortho->vectors + (size_t)row] =
-                a[(size_t)col * (size_t)stride + (size_t)row] * sign[col];
-}
-
-/** Row l of Q^T (column l of the row-major frame) takes the sign of L_ll. */
-static void apply_signs(const hd_ortho *ortho, double *a, int stride, const double *sign)
-{
-    for (int row = 0; row < ortho->rows; row++)
-        for (int col = 0; col < ortho->vectors; col++)
-            a[(size_t)row * (size_t)stride + (size_t)col] *= sign[col];
-}
-
-hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame, double condition_max)
-{
-    const int n = ortho->vectors, stride = hd_frame_stride(frame);
-    double *a = hd_frame_data(frame), *sign = ortho->norm2;
-    step_start(ortho, frame, HD_NORM_FULL);
-    if (LAPACKE_dgelqf_work(LAPACK_COL_MAJOR, n, ortho->rows, a, stride, ortho->reflector,
-                            ortho->projection, ortho->lwork) != 0)
-        return HD_ILL_CONDITIONED;
-    examine_lq(ortho, a, stride);
-    if (!(ortho->condition <= condition_max)) return HD_ILL_CONDITIONED;
-    for (int col = 0; col < n; col++)
-        sign[col] = a[(size_t)col * (size_t)(stride + 1)] < 0 ? -1.0 : 1.0;
-    keep_lq(ortho, a, stride, sign);
-    if (LAPACKE_dorglq_work(LAPACK_COL_MAJOR, n, ortho->rows, n, a, stride, ortho->reflector,
-                            ortho->projection, ortho->lwork) != 0)
-        return HD_ILL_CONDITIONED;
-    apply_signs(ortho, a, stride, sign);
-    ortho->passes = 1;
-    ortho->defect = DBL_EPSILON * PANEL_CONDITION_LEAST * PANEL_CONDITION_LEAST;
-    return HD_OK;
 }
 
 hd_status hd_ortho_keep_factor(hd_ortho *ortho)

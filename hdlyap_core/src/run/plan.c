@@ -1,0 +1,131 @@
+/** A run's state -> where the next orthonormalisation falls, and whether the sample ends there.
+ *
+ * An interval is as long as the conditioning allows. It ends early where all vectors must be known.
+ * A sample is as many intervals as come nearest to what it should be, or fewer, if phases cannot
+ * wait so long. */
+#include "run/plan.h"
+
+#include <math.h>
+
+#include "run/factorise.h"
+
+/** A rest that could be longer by less than this factor is an equal share. */
+static const double DIVIDED = 1.25;
+/** Orthonormalisations that come earlier by this factor are cheaper than to measure every state, or
+ * to look at phases in between. */
+static const double WORTH_A_STATE = 0.875, WORTH_A_LOOK = 0.75;
+/** Times that are this close, as a part of an interval, are one. */
+static const double CLOSE = 1e-6;
+/** Of samples, for standard errors: fewer in an averaging would make them late and rough. */
+static const double SAMPLES_MIN = 32.0;
+
+/** Longest time from one look at the phases to the next; INFINITY if nobody looks. */
+static double phases_sampling(const hd_run *run)
+{
+    const bool followed = hd_run_is_observing(run) && (run->observe & HD_OBSERVE_PHASES);
+    return followed ? hd_phases_sampling(run->observer.phases, run->observer.steps) : INFINITY;
+}
+
+double hd_run_sample_longest(const hd_run *run)
+{
+    const hd_schedule *s = &run->schedule;
+    if (s->stage != HD_AVERAGING) return INFINITY;
+    return fmin(run->sample_max, s->length[HD_AVERAGING] / SAMPLES_MIN);
+}
+
+/** The next time at which all vectors must be known: the end of the stage, or a report for which
+ * somebody wants them; the first one has something to say, too. */
+static double next_stop(const hd_run *run)
+{
+    const hd_schedule *s = &run->schedule;
+    const bool averaging = s->stage == HD_AVERAGING, observing = hd_run_is_observing(run);
+    double stop = hd_schedule_stage_end(s);
+    if (averaging && hd_spectrum_time(run->spectrum) == 0) stop = hd_schedule_cut(s);
+    if (observing && (run->observe & HD_OBSERVE_HYDRO)) stop = hd_schedule_cut(s);
+    if (observing && (run->observe & HD_OBSERVE_FIELDS))
+        stop = fmin(stop, hd_schedule_next_multiple(s, run->in_force.field_interval));
+    return stop;
+}
+
+/** The next time at which covariant vectors are looked at. */
+static double next_snapshot(const hd_run *run)
+{
+    const double due = hd_run_is_windowing(run) ? hd_windows_due(&run->windows) : INFINITY;
+    return due > hd_run_time(run) ? due : INFINITY;
+}
+
+/** An equal part of what is left, none longer than `most`. */
+static double share(double left, double most)
+{
+    return left < INFINITY ? left / ceil(left / most) : most;
+}
+
+/** A little shorter, if that saves a look or a measured state before the phases must be known. */
+static double rounded_down(const hd_run *run, double length)
+{
+    const double left = run->sample.begin + phases_sampling(run) - hd_run_time(run);
+    if (!(left > 0 && left < INFINITY)) return length;
+    const double count = ceil(left / length * (1.0 - CLOSE)), part = left / count;
+    const double worth = count > 1 ? WORTH_A_STATE : WORTH_A_LOOK;
+    return part < length && part > worth * length ? part : length;
+}
+
+/** The next interval, up to `left` long; why not longer. */
+static hd_interval_length next_interval(const hd_run *run, double left)
+{
+    const double sample = hd_run_sample_longest(run), most = hd_advance_longest(&run->advance);
+    hd_interval_length next = hd_interval_next(&run->interval, left);
+    if (next.length > sample) next = (hd_interval_length){share(left, sample), HD_LIMIT_SAMPLE};
+    if (next.length > most) next = (hd_interval_length){share(left, most), HD_LIMIT_EVENTS};
+    if (next.length < left) next.length = rounded_down(run, next.length);
+    next.length = fmax(next.length, hd_advance_shortest(&run->advance));
+    return next;
+}
+
+/** True if the sample should end with an interval of this length: no other end would come closer to
+ * what it should be, or the phases cannot wait. */
+static bool is_last(const hd_run *run, double length)
+{
+    const double gone = hd_run_time(run) + length - run->sample.begin, close = CLOSE * length;
+    return gone + 0.5 * length >= hd_run_sample_longest(run) ||
+           gone + length > phases_sampling(run) + close;
+}
+
+/** True if nothing but rounding would be left of it. */
+static bool is_rest(double length, double left) { return length >= left * (1.0 - CLOSE); }
+
+/** Why an interval that takes all of what is left is no longer. */
+static hd_limit limit_of_rest(const hd_run *run, double left)
+{
+    const hd_interval_length longest = hd_interval_longest(&run->interval);
+    if (longest.length < DIVIDED * left) return longest.limit;
+    return hd_run_time(run) + left < hd_schedule_stage_end(&run->schedule) ? HD_LIMIT_SCHEDULE
+                                                                           : HD_LIMIT_STAGE;
+}
+
+void hd_run_plan(hd_run *run)
+{
+    const double now = hd_run_time(run), measured = next_stop(run);
+    const double stop = fmin(measured, next_snapshot(run)), left = stop - now;
+    run->interval.norm = hd_run_norm(run, false);
+    hd_interval_length next = next_interval(run, left);
+    run->sample.ends = is_rest(next.length, measured - now) || is_last(run, next.length);
+    if (run->sample.ends) {
+        run->interval.norm = HD_NORM_FULL;
+        next = next_interval(run, left);
+    }
+    run->interval_end = is_rest(next.length, left)
+                            ? stop
+                            : hd_schedule_snap(&run->schedule, now, next.length);
+    run->limit = next.limit == HD_LIMIT_SCHEDULE ? limit_of_rest(run, left) : next.limit;
+}
+
+double hd_run_look_due(const hd_run *run)
+{
+    const double sampling = phases_sampling(run), since = run->followed;
+    const double left = run->interval_end - since;
+    if (since < 0 || left <= sampling * (1.0 + CLOSE) || since + sampling <= hd_run_time(run))
+        return INFINITY;
+    const double share = since + left / ceil(left / sampling);
+    return share > hd_run_time(run) ? share : since + sampling;
+}

@@ -1,0 +1,54 @@
+/** What an orthonormaliser holds, for the files that make it up: ortho.c takes panels,
+ * reflections.c the whole frame. */
+#ifndef HD_ORTHO_STATE_H
+#define HD_ORTHO_STATE_H
+
+#include <stdbool.h>
+
+#include "hdlyap/ortho.h"
+
+/** |Q^T Q - 1| after one pass is at most the square of this, or of the worst panel's own condition
+ * if that is larger, times eps condition; see [T7]. */
+#define HD_PANEL_CONDITION_LEAST 8.0
+
+enum { HD_PROBES = 8 };
+
+struct hd_ortho {
+    int rows, vectors;
+    int width;          /**< of a panel */
+    double *gram;       /**< [width * width], column-major, lower triangle: G, then L */
+    double *projection; /**< [later * width], column-major: S; LAPACK's workspace */
+    double *inverse;    /**< L^-1, as gram; in the room of S, which comes later */
+    /** [vectors], |V e_k|^2, of a panel complete when its turn comes */
+    double *norm2;
+    double *scale;       /**< [width], diagonal of G */
+    double *probe;       /**< [HD_PROBES][vectors]: R^-T D x, see hd_ortho_condition_from_probes */
+    double *log_stretch; /**< [vectors] */
+    double *reflector;   /**< [vectors], of the stable step */
+    /** [vectors * vectors], column-major: L of each pass; NULL unless kept */
+    double *factor[2];
+    int lwork; /**< of projection */
+    double condition, defect;
+    hd_norm norm; /**< of the present or last step */
+    /** Largest of the panels as they were accepted, at least HD_PANEL_CONDITION_LEAST */
+    double panel_condition;
+    int passes;
+};
+
+/** Entry of a fixed matrix of random signs (a bit of the row's hash). */
+double hd_probe_sign(int row, int probe);
+
+/** True if a sum of squares is known to rounding: neither zero, as BLAS libraries differ in what
+ * they make of that, nor near the smallest numbers, nor overflown. */
+bool hd_is_square(double sum);
+
+/** See hd_ortho_condition: with D = diag |V e_k| and random signs x the entries of y = R^-T D x
+ * have the mean squares kappa_l^2. INFINITY where one is not finite, or a vector too short to be
+ * measured. */
+double hd_ortho_condition_from_probes(const hd_ortho *ortho);
+
+void hd_ortho_probes_clear(hd_ortho *ortho);
+
+void hd_ortho_begin(hd_ortho *ortho, const hd_frame *frame, hd_norm norm);
+
+#endif
