@@ -24,6 +24,8 @@
 /** Single precision leaves a tenth of the slow vectors astray there, and a thousandth of their
  * phases. */
 static const double CONDITION_SLOW = 1e4;
+/** Loss of orthogonality of a random frame that does not matter; a pass leaves less. */
+static const double ORTHONORMAL = 1e-10;
 /** Collisions of each disk between two orthonormalisations that no accuracy and no density exceed.
  */
 static const double COLLISIONS_MOST = 60.0;
@@ -36,10 +38,10 @@ static const double COLLISIONS_PER_BLOCK = 8.0;
 static hd_status create_frame(hd_run *run)
 {
     const hd_scene_def *scene = &run->scene;
-    const hd_ortho_limits twice = {1e7, DBL_EPSILON, HD_NORM_FULL};
+    const hd_ortho_limits once = {1e7, ORTHONORMAL, HD_NORM_FULL};
     HD_TRY(hd_frame_create(&run->frame, scene->disks, run->carried, scene->seed, run->threads));
     if (run->conjugate) return hd_conjugate_start(run->frame);
-    if (hd_ortho_step(run->ortho, run->frame, twice) == HD_OK) return HD_OK;
+    if (hd_ortho_step(run->ortho, run->frame, once) == HD_OK) return HD_OK;
     hd_frame_free(run->frame);
     run->frame = NULL;
     HD_TRY(hd_frame_create(&run->frame, scene->disks, run->carried, scene->seed, run->threads));
