@@ -178,6 +178,7 @@ static void print_events(void)
     events_alone(1000, 0.7, 1e6);
     events_alone(10000, 0.7, 1e6);
     events_alone(100000, 0.7, 1e6);
+    events_alone(1000000, 0.7, 4e6);
     events_alone(780, 0.01, 1e5);
     const double memory = memory_rate();
     printf(

@@ -11,7 +11,7 @@ typedef enum hd_limit {
     HD_LIMIT_OVERFLOW,  /**< vectors would outgrow their numbers */
     HD_LIMIT_SCENE,     /**< hd_scene_def.interval */
     HD_LIMIT_EVENTS, /**< the log of events would take too much memory, or the wait for an answer */
-    HD_LIMIT_LOOK,   /**< vectors were wanted for a report */
+    HD_LIMIT_LOOK,   /**< vectors were wanted: for a report, a viewer, or the phases */
     HD_LIMIT_REPAIR, /**< it was longer, and had to be taken back */
     HD_LIMIT_STAGE,  /**< warm-up or averaging ends */
     /** A sample for standard errors ends: about 80 collisions of each disk, at most 1/32 of the

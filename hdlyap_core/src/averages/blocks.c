@@ -10,6 +10,8 @@
 
 /** Ends that are this close, as a part of a block, are one. */
 static const double CLOSE = 1e-9;
+/** Part of the least weight that is enough: samples are not laid out for blocks. */
+static const double NEARLY = 0.92;
 /** Neighbours are correlated if their correlation exceeds so many of its standard deviations. */
 static const double SIGNIFICANT = 1.0;
 /** Fewer blocks than this are not joined any more. */
@@ -86,7 +88,7 @@ void hd_blocks_add(hd_blocks *blocks, const double *sum, double weight)
 {
     HD_ASSERT(weight > 0);
     add(blocks, blocks->count, sum, weight);
-    const double enough = fmax(blocks->least, blocks->length - 0.5 * weight);
+    const double enough = fmax(NEARLY * blocks->least, blocks->length - 0.5 * weight);
     if (blocks->weight[blocks->count] < enough * (1.0 - CLOSE)) return;
     if (blocks->count == 0) blocks->length = blocks->weight[0];
     blocks->count++;

@@ -13,7 +13,7 @@ typedef struct hd_blocks {
     int series;
     int count;     /**< whole blocks */
     double length; /**< of a block, about: that of the first; their mean when two become one */
-    double least;  /**< that none falls below */
+    double least;  /**< that none falls below, but for less than a tenth */
     double weight[HD_BLOCKS_MAX + 1]; /**< of the whole ones, and of the one that is being filled */
     double *sum;                      /**< [HD_BLOCKS_MAX + 1][series] */
 } hd_blocks;

@@ -16,8 +16,10 @@ static const double DIVIDED = 1.25;
 static const double WORTH_A_STATE = 0.875, WORTH_A_LOOK = 0.75;
 /** Times that are this close, as a part of an interval, are one. */
 static const double CLOSE = 1e-6;
-/** Of samples, for standard errors: fewer in an averaging would make them late and rough. */
-static const double SAMPLES_MIN = 32.0;
+/** Of samples, for standard errors: fewer in an averaging would make them late and rough. Where
+ * several make up a block of the averages they fill it, with so much to spare, as they can be a
+ * little shorter. */
+static const double SAMPLES_MIN = 32.0, WHOLE_BLOCK = 1.1;
 
 /** Longest time from one look at the phases to the next; INFINITY if nobody looks. */
 static double phases_sampling(const hd_run *run)
@@ -26,11 +28,19 @@ static double phases_sampling(const hd_run *run)
     return followed ? hd_phases_sampling(run->observer.phases, run->observer.steps) : INFINITY;
 }
 
+/** An equal part of what is left, none longer than `most`. */
+static double share(double left, double most)
+{
+    return left < INFINITY ? left / ceil(left / most) : most;
+}
+
 double hd_run_sample_longest(const hd_run *run)
 {
     const hd_schedule *s = &run->schedule;
+    const double block = WHOLE_BLOCK * hd_run_block_least(run);
     if (s->stage != HD_AVERAGING) return INFINITY;
-    return fmin(run->sample_max, s->length[HD_AVERAGING] / SAMPLES_MIN);
+    const double most = fmin(run->sample_max, s->length[HD_AVERAGING] / SAMPLES_MIN);
+    return most < block ? share(block, most) : most;
 }
 
 /** The next time at which all vectors must be known: the end of the stage, or a report for which
@@ -54,12 +64,6 @@ static double next_snapshot(const hd_run *run)
     return due > hd_run_time(run) ? due : INFINITY;
 }
 
-/** An equal part of what is left, none longer than `most`. */
-static double share(double left, double most)
-{
-    return left < INFINITY ? left / ceil(left / most) : most;
-}
-
 /** A little shorter, if that saves a look or a measured state before the phases must be known. */
 static double rounded_down(const hd_run *run, double length)
 {
@@ -77,7 +81,8 @@ static hd_interval_length next_interval(const hd_run *run, double left)
     hd_interval_length next = hd_interval_next(&run->interval, left);
     if (next.length > sample) next = (hd_interval_length){share(left, sample), HD_LIMIT_SAMPLE};
     if (next.length > most) next = (hd_interval_length){share(left, most), HD_LIMIT_EVENTS};
-    if (next.length < left) next.length = rounded_down(run, next.length);
+    const double rounded = next.length < left ? rounded_down(run, next.length) : next.length;
+    if (rounded < next.length) next = (hd_interval_length){rounded, HD_LIMIT_LOOK};
     next.length = fmax(next.length, hd_advance_shortest(&run->advance));
     return next;
 }
@@ -126,6 +131,6 @@ double hd_run_look_due(const hd_run *run)
     const double left = run->interval_end - since;
     if (since < 0 || left <= sampling * (1.0 + CLOSE) || since + sampling <= hd_run_time(run))
         return INFINITY;
-    const double share = since + left / ceil(left / sampling);
-    return share > hd_run_time(run) ? share : since + sampling;
+    const double next = since + share(left, sampling);
+    return next > hd_run_time(run) ? next : since + sampling;
 }
