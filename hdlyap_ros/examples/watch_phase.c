@@ -64,8 +64,9 @@ static void on_phases(void *context, const hdr_lp_phases *all)
     w->state = state;
     if (state != HDR_LP_PHASE_TRACKED) return;
 
-    /* lost and found again, or in another run: since when is less than what has gone by */
     const double gone = all->sim_time - w->time, grown = phase->tracked_time - w->tracked;
+    if (gone == 0.0 && grown == 0.0) return; /* a report of the same state */
+    /* lost and found again, or in another run: since when is less than what has gone by */
     if (gone <= 0.0 || grown < 0.5 * gone) w->even = (line){0};
     w->time = all->sim_time;
     w->tracked = phase->tracked_time;

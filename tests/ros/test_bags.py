@@ -308,7 +308,7 @@ def expected_sizes(disks, vectors, steps, phases):
         spectrum=begin + 8 + 8 + 5 * 8 + 4 + 5 * 4 + 40 * vectors,
         modes=begin + 8 + 4 + 4 + 89 * vectors,
         steps=begin + 8 + 8 + 4 + 96 * steps + 2 * 64 + 4 + 5 * 8,
-        lp_phases=begin + 4 + 4 + 74 * phases,
+        lp_phases=begin + 4 + 74 * phases,
         fields=begin + 29 + 8 * 4 + 64 * disks + 4 + 3 * 4 + 8 + 6 * 4,
         state=begin + 8 + 4 * 4 + 32 * disks,
         status=begin + 1 + 3 * 8,

@@ -42,7 +42,7 @@ def expected_deviations(messages, ours):
     expected, times, phases, last = [], [], [], None
     for message in messages:
         phase = ours(message)
-        if phase.state != LpPhase.TRACKED:
+        if phase.state != LpPhase.TRACKED or times[-1:] == [message.sim_time]:
             continue
         began = message.sim_time - phase.tracked_time
         if last is None or abs(began - last) > 0.1:

@@ -103,8 +103,8 @@ class Live(harness.Case):
         self.ends(node)
         times = self.times('state')
         self.assertEqual(times[-1], end)
-        since = [time - reports.sim_time for time in times if time >= reports.sim_time - CLOSE]
-        for k, time in enumerate(since[:-1]):
+        since = [time - reports.sim_time for time in times if time > reports.sim_time + CLOSE]
+        for k, time in enumerate(since[:-1], 1):
             self.assertAlmostEqual(time, 0.25 * k, delta=CLOSE)
         for time in times:
             self.assertTrue(time > reports.sim_time or is_multiple(time - BEGIN, 1.0))

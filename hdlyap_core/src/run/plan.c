@@ -19,7 +19,7 @@ static const double CLOSE = 1e-6;
 /** Of samples, for standard errors: fewer in an averaging would make them late and rough. Where
  * several make up a block of the averages they fill it, with so much to spare, as they can be a
  * little shorter. */
-static const double SAMPLES_MIN = 32.0, WHOLE_BLOCK = 1.1;
+static const double SAMPLES_MIN = 32.0, WHOLE_BLOCK = 1.1, IN_A_BLOCK = 2.0;
 
 /** Longest time from one look at the phases to the next; INFINITY if nobody looks. */
 static double phases_sampling(const hd_run *run)
@@ -40,7 +40,7 @@ double hd_run_sample_longest(const hd_run *run)
     const double block = WHOLE_BLOCK * hd_run_block_least(run);
     if (s->stage != HD_AVERAGING) return INFINITY;
     const double most = fmin(run->sample_max, s->length[HD_AVERAGING] / SAMPLES_MIN);
-    return most < block ? share(block, most) : most;
+    return most < block ? fmax(share(block, most), block / IN_A_BLOCK) : most;
 }
 
 /** The next time at which all vectors must be known: the end of the stage, or a report for which
