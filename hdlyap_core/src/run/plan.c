@@ -16,10 +16,11 @@ static const double DIVIDED = 1.25;
 static const double WORTH_A_STATE = 0.875, WORTH_A_LOOK = 0.75;
 /** Times that are this close, as a part of an interval, are one. */
 static const double CLOSE = 1e-6;
-/** Of samples, for standard errors: fewer in an averaging would make them late and rough. Where
- * several make up a block of the averages they fill it, with so much to spare, as they can be a
- * little shorter. */
-static const double SAMPLES_MIN = 32.0, WHOLE_BLOCK = 1.1, IN_A_BLOCK = 2.0;
+/** Of samples, for standard errors: fewer in an averaging would make them late and rough. */
+static const double SAMPLES_MIN = 32.0;
+/** Of a block, so that samples that are a little shorter fill it; samples in a block, however short
+ * the run; and intervals in a sample that need not fit it. */
+static const double WHOLE_BLOCK = 1.05, IN_A_BLOCK = 2.0, IN_A_SAMPLE = 3.0;
 
 /** Longest time from one look at the phases to the next; INFINITY if nobody looks. */
 static double phases_sampling(const hd_run *run)
@@ -34,13 +35,18 @@ static double share(double left, double most)
     return left < INFINITY ? left / ceil(left / most) : most;
 }
 
+/** In a run that is not much longer than errors need, samples fill the blocks of the averages: each
+ * one interval, where intervals are not much shorter. */
 double hd_run_sample_longest(const hd_run *run)
 {
     const hd_schedule *s = &run->schedule;
     const double block = WHOLE_BLOCK * hd_run_block_least(run);
     if (s->stage != HD_AVERAGING) return INFINITY;
-    const double most = fmin(run->sample_max, s->length[HD_AVERAGING] / SAMPLES_MIN);
-    return most < block ? fmax(share(block, most), block / IN_A_BLOCK) : most;
+    const double wanted = fmax(s->length[HD_AVERAGING] / SAMPLES_MIN, block / IN_A_BLOCK);
+    const double most = fmin(run->sample_max, wanted);
+    const double usual = hd_interval_longest(&run->interval).length;
+    if (most >= block) return most;
+    return share(block, usual < most && usual > most / IN_A_SAMPLE ? usual : most);
 }
 
 /** The next time at which all vectors must be known: the end of the stage, or a report for which
