@@ -2,9 +2,9 @@
  * F = 4 m n^2 flops at dgemm speed per ln(1e8) / (lambda_1 - lambda_n) of simulated time,
  * all measured in one run on one machine, in rounds.
  * Usage: hdlyap_bench [--disks N] [--threads N] [--rounds N] [--duration TIME UNITS OF A ROUND]
- *         [--settling TIME UNITS BEFORE THE FIRST] [--whole] [--events] [--out FOLDER] [--name NAME]; with --out it writes FOLDER/NAME.csv;
- * --whole and
- *         --events are for one part alone. */
+ *         [--settling TIME UNITS BEFORE THE FIRST] [--whole] [--events] [--out FOLDER]
+ *         [--name NAME]; with --out it writes FOLDER/NAME.csv; --whole and --events are for one
+ *         part alone. */
 #include <hdlyap/hdlyap.h>
 #include <stdio.h>
 
