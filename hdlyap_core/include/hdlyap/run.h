@@ -99,9 +99,10 @@ void hd_run_watch(hd_run *run, double interval, int first);
 hd_columns hd_run_columns(const hd_run *run);
 
 /** All n vectors of the last orthonormalisation, if modes are observed; valid until the next call
- * of hd_run_advance. */
+ * of hd_run_advance. Orthonormal in the whole norm at measured states: as for fields that are due.
+ */
 hd_columns hd_run_frame_columns(const hd_run *run);
-/** hd_frame_halves of all n vectors; [n] each. */
+/** hd_frame_halves of all n vectors at the last measured state; [n] each. */
 void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio);
 
 /** Starts the averages afresh at the present time. Fails as hd_run_advance does. */

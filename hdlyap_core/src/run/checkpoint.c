@@ -104,6 +104,7 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     if (!run->frame || !hd_archive_good(archive)) return;
     hd_event_log_archive(run->log, archive, run->scene.disks);
     hd_frame_archive(run->frame, archive);
+    hd_archive_doubles(archive, "run halves", run->halves, 2 * (size_t)run->vectors);
     hd_spectrum_archive(run->spectrum, archive);
     if (run->observer.modes) hd_modes_archive(run->observer.modes, archive);
     if (run->observer.steps) hd_steps_archive(run->observer.steps, archive);

@@ -32,8 +32,11 @@ hd_columns hd_run_frame_columns(const hd_run *run)
 
 void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
 {
-    hd_frame_halves(run->frame, cos_theta, dp_dq_ratio);
-    if (run->conjugate) hd_conjugate_halves(cos_theta, dp_dq_ratio, run->carried);
+    for (int col = 0; col < run->vectors; col++) {
+        const double cosine = run->halves[col], ratio = run->halves[run->vectors + col];
+        cos_theta[col] = cosine == HD_NO_HALF ? NAN : cosine;
+        dp_dq_ratio[col] = ratio == HD_NO_HALF ? NAN : ratio;
+    }
 }
 
 double hd_run_smallest_error(const hd_run *run)

@@ -67,6 +67,16 @@ static hd_status prepare_threads(hd_run *run)
     return HD_OK;
 }
 
+/** Of a frame that is orthonormal in the whole norm: the next one may be so in that of dq alone. */
+static void keep_halves(hd_run *run)
+{
+    double *cos_theta = run->halves, *ratio = run->halves + run->vectors;
+    hd_frame_halves(run->frame, cos_theta, ratio);
+    if (run->conjugate) hd_conjugate_halves(cos_theta, ratio, run->carried);
+    for (int k = 0; k < 2 * run->vectors; k++)
+        if (isnan(run->halves[k])) run->halves[k] = HD_NO_HALF;
+}
+
 static hd_status prepare_frame(hd_run *run)
 {
     const int rows = 4 * run->scene.disks, n = run->vectors;
@@ -77,7 +87,11 @@ static hd_status prepare_frame(hd_run *run)
     HD_TRY(prepare_threads(run));
     HD_TRY(hd_spectrum_create(&run->spectrum, rows, n, hd_run_block_least(run)));
     run->whole = true;
-    return create_frame(run);
+    run->halves = hd_memory_alloc(2 * (size_t)n, sizeof *run->halves);
+    if (!run->halves) return HD_NO_MEMORY;
+    HD_TRY(create_frame(run));
+    keep_halves(run);
+    return HD_OK;
 }
 
 static hd_status prepare_windows(hd_run *run, char *message, size_t size)
@@ -168,6 +182,7 @@ void hd_run_free(hd_run *run)
     hd_ortho_free(run->ortho);
     hd_conjugate_free(run->conjugate);
     hd_spectrum_free(run->spectrum);
+    hd_memory_free(run->halves);
     hd_memory_free(run);
 }
 
@@ -248,6 +263,7 @@ static hd_status end_sample(hd_run *run)
     if (is_measured(run)) return HD_OK; /* an averaging can be too short for time to move */
     HD_TRY(hd_run_factorise(run, true));
     run->sample = (hd_sample){.begin = hd_run_time(run)};
+    keep_halves(run);
     if (run->schedule.stage != HD_AVERAGING) return HD_OK;
     hd_spectrum_sample(run->spectrum);
     return hd_run_is_observing(run) ? observe(run) : HD_OK;

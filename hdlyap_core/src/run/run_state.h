@@ -58,6 +58,7 @@ struct hd_run {
     hd_frame *frame;
     hd_ortho *ortho;
     hd_conjugate *conjugate; /**< NULL where all vectors are carried */
+    double *halves; /**< [2 * vectors], of the last measured state: as hd_run_halves gives them */
     hd_spectrum *spectrum;
     hd_observer observer;
     hd_windows windows;
@@ -81,6 +82,9 @@ struct hd_run {
 };
 
 enum { SMALLEST_EXPONENTS = 8 };
+
+/** Kept for what is no number. */
+#define HD_NO_HALF (-2.0)
 
 /** Of one disk, at most. */
 #define HD_COLLISIONS_PER_SAMPLE 80.0
