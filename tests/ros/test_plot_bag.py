@@ -528,6 +528,11 @@ class Phases(Bags):
         # another vector and another pair
         self.assertEqual(phases.chosen(run), [(0, [0, 3])])
 
+    def test_told_twice(self):
+        """Of one state there can be several reports."""
+        run = self.course(*((float(t), 100.0) for t in (101, 102, 102, 103, 103, 103, 104)))
+        self.assertEqual(self.curves(run), [[101, 102, 103, 104]])
+
     def test_lost_for_a_while(self):
         run = self.course(*((float(t), 100.0) for t in range(101, 108)), lost=(104.0,))
         self.assertEqual(self.curves(run), [[101, 102, 103], [105, 106, 107]])

@@ -124,8 +124,10 @@ def of_phases(message):
 
 
 def over_time(messages, of):
-    """The frames of many messages below each other, by simulated time."""
-    frames, times = zip(*((of(message), message.sim_time) for message in messages))
+    """The frames of many messages below each other, by simulated time. Two reports can tell the
+    same state of phases: it is there once."""
+    states = {message.sim_time: message for message in messages}
+    frames, times = zip(*((of(message), time) for time, message in states.items()))
     joined = pandas.concat(frames, keys=times, names=['sim_time'])
     object.__setattr__(joined, 'attrs', frames[-1].attrs)
     return joined

@@ -22,7 +22,11 @@ class PhaseCourse:
         self._course = Course()
 
     def add(self, msg):
+        """Two reports can tell the same state: the second one adds nothing."""
+        known = self.last is not None and self.last.sim_time == msg.sim_time
         self.last = msg
+        if known:
+            return
         tracked = [phase.state == phase.TRACKED for phase in msg.phases]
         self._course.add(
             (

@@ -79,7 +79,7 @@ class Rotation:
 def read(bag):
     """{(nx, ny): Rotation} of the LP steps of a run's bag; of those alone that have been
     tracked."""
-    messages = list(bag.messages(PHASES))
+    messages = list({message.sim_time: message for message in bag.messages(PHASES)}.values())
     if not messages:
         return {}
     time = np.array([message.sim_time for message in messages])
