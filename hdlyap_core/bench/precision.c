@@ -131,14 +131,14 @@ static void measure_fixed(study *s, factor_method method, int pieces, point *p)
     progress_add(&s->shown, end - s->shown.done); /* a failure ends early */
 }
 
-/** Up to the first report of the averaging, measuring dgemm in between. */
+/** Through the averaging phase, measuring dgemm in between. */
 static void average(hd_run *run, gemm *g, sample *speed)
 {
-    do {
+    while (hd_run_stage(run) != HD_FINISHED) {
         require(hd_run_advance(run), "averaging");
         gemm_measure(g);
         sample_add(speed, gemm_last(g));
-    } while (!hd_run_report_due(run));
+    }
 }
 
 static void measure_chosen(study *s, double accuracy, point *p)
@@ -147,7 +147,6 @@ static void measure_chosen(study *s, double accuracy, point *p)
     hd_run *run;
     sample speed = {0};
     scene.accuracy = accuracy;
-    scene.duration = 0.0; /* the first report ends the window: it is a measured state */
     require(hd_run_create(&run, &scene, NULL, 0), "scene");
     while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     const hd_cost before = hd_run_cost(run);
