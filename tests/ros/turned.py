@@ -75,10 +75,6 @@ class Wave:
 
 def course(times, *waves):
     return [
-        LpPhases(
-            run_id='one',
-            sim_time=t,
-            phases=[one for wave in waves for one in wave.at(t)],
-        )
+        LpPhases(run_id='one', sim_time=t, phases=[one for wave in waves for one in wave.at(t)])
         for t in times
     ]
