@@ -16,7 +16,8 @@
 #include "hdlyap_ros/markers.h"
 #include "base/memory.h"
 
-static atomic_long steps, overlaps, states, halves, measures, phases, pmodes, hydros, allocations;
+static atomic_long steps, overlaps, states, halves, measures, phases, pmodes, hydros, samples,
+    allocations;
 
 /** The core's own function of that name, into the pointer that `function` is the address of. */
 static void next(void *function, const char *name)
@@ -120,6 +121,15 @@ hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const
     return real(modes, v, q, p);
 }
 
+/** One at each measured state of the averaging. */
+void hd_spectrum_sample(hd_spectrum *spectrum)
+{
+    void (*real)(hd_spectrum *);
+    next(&real, "hd_spectrum_sample");
+    atomic_fetch_add(&samples, 1);
+    real(spectrum);
+}
+
 void hd_phases_add(hd_phases *followed, const hd_steps *found, double time)
 {
     void (*real)(hd_phases *, const hd_steps *, double);
@@ -171,6 +181,7 @@ __attribute__((destructor)) static void write_counts(void)
         {"frame_halves", atomic_load(&halves)},         {"modes_measure", atomic_load(&measures)},
         {"phases_add", atomic_load(&phases)},           {"pmode_reconstruct", atomic_load(&pmodes)},
         {"hydro_measure", atomic_load(&hydros)},        {"memory_alloc", atomic_load(&allocations)},
+        {"spectrum_sample", atomic_load(&samples)},
     };
     const char *path = getenv("PROBE_COUNTS");
     FILE *file = path ? fopen(path, "w") : NULL;

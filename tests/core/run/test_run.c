@@ -277,7 +277,7 @@ static double predicted_over_taken(uint64_t seed)
 }
 
 /** Errors are known to some ten percent after a tenth of the time, so the time to some twenty:
- * seven of ten runs end within 30 % of what was said; of eight hardly ever fewer than four. */
+ * three of four runs end within 30 % of what was said. */
 static void the_time_to_the_target_is_predicted(void **state)
 {
     (void)state;
@@ -287,7 +287,7 @@ static void the_time_to_the_target_is_predicted(void **state)
         print_message("predicted after a tenth: %.2f of what it took\n", ratio);
         right += fabs(ratio - 1.0) <= 0.3;
     }
-    assert_true(right >= 4);
+    assert_true(right >= 6);
 }
 
 static void progress_and_cost_add_up(void **state)

@@ -1,0 +1,91 @@
+/** Between measured states a run orthonormalises in the norm of dq: nothing that is read of it may
+ * show that [T5]. */
+#include <string.h>
+
+#include "runs.h"
+#include "scenes.h"
+
+enum { DISKS = 40, VECTORS = 2 * DISKS - 3 };
+
+static hd_scene_def endless(unsigned observe)
+{
+    hd_scene_def scene = scene_of(DISKS, 0.7, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
+    scene.equilibration = 10.0;
+    scene.warmup = 20.0;
+    scene.duration = 400.0;
+    scene.report_interval = 0.5;
+    scene.observe = observe;
+    scene.threads = 1;
+    return scene;
+}
+
+/** To the end; the number of orthonormalisations of the averaging that left the norm of dq. */
+static int finish(hd_run *run)
+{
+    int dq = 0;
+    for (long before = 0; hd_run_stage(run) != HD_FINISHED;) {
+        CHECK_OK(hd_run_advance(run));
+        const long now = hd_run_cost(run).orthonormalisations;
+        dq += now > before && hd_run_stage(run) == HD_AVERAGING && !run->whole;
+        before = now;
+    }
+    return dq;
+}
+
+/** The twin is orthonormalised in the whole norm at every report: its hydrodynamic response is
+ * looked at. */
+static void exponents_do_not_depend_on_it(void **state)
+{
+    (void)state;
+    const hd_scene_def scene = endless(0);
+    const hd_scene_def looked = endless(HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_HYDRO);
+    hd_run *run = created(&scene), *twin = created(&looked);
+    const int with = finish(run), without = finish(twin);
+    assert_true(with > 40);
+    assert_int_equal(without, 0);
+    const double bound = hd_run_cost(run).error_bound + hd_run_cost(twin).error_bound;
+    double most = 0.0;
+    for (int col = 0; col < VECTORS; col++) {
+        const double off = hd_spectrum_exponent(run->spectrum, col) -
+                           hd_spectrum_exponent(twin->spectrum, col);
+        CHECK_CLOSE(off, 0.0, bound);
+        most = fmax(most, fabs(off));
+    }
+    print_message("%d states in the norm of dq; exponents apart by %.1e, bounds %.1e\n", with, most,
+                  bound);
+    hd_run_free(run);
+    hd_run_free(twin);
+}
+
+/** Angles and ratios of the halves are those of the last measured state, like the averages, and not
+ * those of the frame that stands there. */
+static void halves_are_those_of_the_measured_state(void **state)
+{
+    (void)state;
+    const hd_scene_def scene = endless(0);
+    hd_run *run = created(&scene);
+    double want[2][VECTORS], got[2][VECTORS], frame[2][VECTORS];
+    int between = 0;
+    while (hd_run_time(run) < 100.0) {
+        CHECK_OK(hd_run_advance(run));
+        if (hd_run_stage(run) != HD_AVERAGING) continue;
+        hd_frame_halves(hd_run_frame(run), frame[0], frame[1]);
+        if (hd_run_time(run) == run->sample.begin) memcpy(want, frame, sizeof want);
+        hd_run_halves(run, got[0], got[1]);
+        for (int half = 0; half < 2; half++)
+            for (int col = 0; col < VECTORS; col++)
+                CHECK_CLOSE(got[half][col], want[half][col], 0.0);
+        between += !run->whole && fabs(frame[0][VECTORS - 1] - got[0][VECTORS - 1]) > 1e-6;
+    }
+    assert_true(between > 20);
+    hd_run_free(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exponents_do_not_depend_on_it),
+        cmocka_unit_test(halves_are_those_of_the_measured_state),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
