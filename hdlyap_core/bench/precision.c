@@ -16,7 +16,7 @@
 #include "timing.h"
 #include "window.h"
 
-enum { LENGTHS = 10, AUTOS = 4, SLOW = 40, REFERENCE_PIECES = 48, SHORT = 4 };
+enum { LENGTHS = 10, AUTOS = 4, SLOW = 40, REFERENCE_PIECES = 48, SHORT = 4, WINDOWS = 40 };
 
 /** Intervals per window of 12 time units. */
 static const int PIECES[LENGTHS] = {48, 24, 12, 8, 6, 5, 4, 3, 2, 1};
@@ -131,22 +131,32 @@ static void measure_fixed(study *s, factor_method method, int pieces, point *p)
     progress_add(&s->shown, end - s->shown.done); /* a failure ends early */
 }
 
-/** Through the averaging phase, measuring dgemm in between. */
+/** To the first report of the averaging, measuring dgemm in between. */
 static void average(hd_run *run, gemm *g, sample *speed)
 {
-    while (hd_run_stage(run) != HD_FINISHED) {
+    do {
         require(hd_run_advance(run), "averaging");
         gemm_measure(g);
         sample_add(speed, gemm_last(g));
-    }
+    } while (!hd_run_report_due(run));
+}
+
+/** The window is the start of a run of usual length: it ends with the first report, which has a
+ * measured state. */
+static hd_scene_def scene_of_chosen(const study *s, double accuracy)
+{
+    hd_scene_def scene = s->w.scene;
+    scene.accuracy = accuracy;
+    scene.report_interval = s->w.length;
+    scene.duration = WINDOWS * s->w.length;
+    return scene;
 }
 
 static void measure_chosen(study *s, double accuracy, point *p)
 {
-    hd_scene_def scene = s->w.scene;
+    const hd_scene_def scene = scene_of_chosen(s, accuracy);
     hd_run *run;
     sample speed = {0};
-    scene.accuracy = accuracy;
     require(hd_run_create(&run, &scene, NULL, 0), "scene");
     while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     const hd_cost before = hd_run_cost(run);

@@ -192,6 +192,7 @@ class Run(unittest.TestCase):
 
     def test_nothing_computed_without_subscribers(self):
         calls = harness.calls(self, SHORT)
+        self.assertGreater(calls.pop('spectrum_sample'), 0)  # this is what the run is for
         self.assertEqual(calls.pop('run_info_publish'), 1)  # latched, as is the next
         self.assertEqual(calls.pop('run_status_publish'), 4)
         self.assertEqual(set(calls.values()), {0}, calls)
@@ -199,6 +200,7 @@ class Run(unittest.TestCase):
     def test_computed_for_subscribers(self):
         self.listen('state')
         calls = harness.calls(self, dict(SHORT, wait_for_subscribers=['state']))
+        self.assertGreater(calls.pop('spectrum_sample'), 0)
         self.assertEqual(calls.pop('run_info_publish'), 1)
         self.assertEqual(calls.pop('run_status_publish'), 4)
         self.assertEqual(calls.pop('state_publish'), 4)
