@@ -75,7 +75,8 @@ static double work_of_fixed(factor_method method, int pieces)
 
 static double work_in_all(const study *s)
 {
-    double sum = AUTOS * work_of_chosen(s) + REFERENCE_PIECES * weight(FACTOR_CHOLESKY_TWICE);
+    double sum = AUTOS * work_of_chosen(s) +
+                 (AUTOS + 1) * REFERENCE_PIECES * weight(FACTOR_CHOLESKY_TWICE);
     for (factor_method method = 0; method < FACTOR_METHODS; method++)
         for (int k = 0; k < LENGTHS; k++)
             if (!is_left_out(method, PIECES[k])) sum += work_of_fixed(method, PIECES[k]);
@@ -131,46 +132,14 @@ static void measure_fixed(study *s, factor_method method, int pieces, point *p)
     progress_add(&s->shown, end - s->shown.done); /* a failure ends early */
 }
 
-/** To the first report of the averaging, measuring dgemm in between. */
-static void average(hd_run *run, gemm *g, sample *speed)
+/** To the first measured state behind the window's end, measuring dgemm in between. */
+static void average(hd_run *run, gemm *g, double length, sample *speed)
 {
-    do {
+    while (hd_run_stage(run) < HD_AVERAGING || hd_spectrum_time(hd_run_spectrum(run)) < length) {
         require(hd_run_advance(run), "averaging");
         gemm_measure(g);
         sample_add(speed, gemm_last(g));
-    } while (!hd_run_report_due(run));
-}
-
-/** The window is the start of a run of usual length: it ends with the first report, which has a
- * measured state. */
-static hd_scene_def scene_of_chosen(const study *s, double accuracy)
-{
-    hd_scene_def scene = s->w.scene;
-    scene.accuracy = accuracy;
-    scene.report_interval = s->w.length;
-    scene.duration = WINDOWS * s->w.length;
-    return scene;
-}
-
-static void measure_chosen(study *s, double accuracy, point *p)
-{
-    const hd_scene_def scene = scene_of_chosen(s, accuracy);
-    hd_run *run;
-    sample speed = {0};
-    require(hd_run_create(&run, &scene, NULL, 0), "scene");
-    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
-    const hd_cost before = hd_run_cost(run);
-    average(run, s->g, &speed);
-    const hd_cost after = hd_run_cost(run);
-    const long steps = after.orthonormalisations - before.orthonormalisations;
-    *p = (point){.measured = true, .accuracy = accuracy, .interval = s->w.length / (double)steps};
-    for (int l = 0; l < s->w.vectors; l++)
-        s->exponents[l] = hd_spectrum_exponent(hd_run_spectrum(run), l);
-    measure_deviation(s, p);
-    fill_cost(s, p, after.replay - before.replay, after.ortho - before.ortho,
-              sample_median(&speed));
-    hd_run_free(run);
-    progress_add(&s->shown, work_of_chosen(s));
+    }
 }
 
 static void measure_reference(study *s)
@@ -183,10 +152,39 @@ static void measure_reference(study *s)
     factor_free(f);
 }
 
+/** The start of a run of usual length, which is not made to end with the window: it has a reference
+ * of its own. */
+static void measure_chosen(study *s, double accuracy, point *p)
+{
+    const double length = s->w.length;
+    hd_scene_def scene = s->w.scene;
+    hd_run *run;
+    sample speed = {0};
+    scene.accuracy = accuracy;
+    scene.duration = WINDOWS * length;
+    require(hd_run_create(&run, &scene, NULL, 0), "scene");
+    while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
+    const hd_cost before = hd_run_cost(run);
+    average(run, s->g, length, &speed);
+    const hd_cost after = hd_run_cost(run);
+    const long steps = after.orthonormalisations - before.orthonormalisations;
+    s->w.length = hd_spectrum_time(hd_run_spectrum(run));
+    *p = (point){.measured = true, .accuracy = accuracy, .interval = s->w.length / (double)steps};
+    for (int l = 0; l < s->w.vectors; l++)
+        s->exponents[l] = hd_spectrum_exponent(hd_run_spectrum(run), l);
+    fill_cost(s, p, after.replay - before.replay, after.ortho - before.ortho,
+              sample_median(&speed));
+    hd_run_free(run);
+    progress_add(&s->shown, work_of_chosen(s));
+    measure_reference(s);
+    measure_deviation(s, p);
+    s->w.length = length;
+}
+
 static void measure_all(study *s)
 {
-    measure_reference(s);
     for (int k = 0; k < AUTOS; k++) measure_chosen(s, ACCURACY[k], &s->chosen[k]);
+    measure_reference(s);
     for (factor_method method = 0; method < FACTOR_METHODS; method++)
         for (int k = 0; k < LENGTHS; k++)
             if (!is_left_out(method, PIECES[k]))

@@ -85,11 +85,11 @@ run_all() {
     elif [[ -x $PROGRAMS/hdlyap_effects ]]; then
         with_effects=1
     fi
-    TOTAL=$((${#QUICK[@]} ? 12 : 2022))
+    TOTAL=$((${#QUICK[@]} ? 12 : 2212))
     if ((with_effects)); then TOTAL=$((TOTAL + 60)); fi
     stage 220 'what accuracy costs' "$PROGRAMS/hdlyap_precision" --out "$OUT" "${QUICK[@]}"
     stage 45 'how long a wanted error takes' "$PROGRAMS/hdlyap_convergence" --out "$OUT" "${QUICK[@]}"
-    stage 110 'how cost grows' "$PROGRAMS/hdlyap_scaling" --out "$OUT" "${QUICK[@]}"
+    stage 300 'how cost grows' "$PROGRAMS/hdlyap_scaling" --out "$OUT" "${QUICK[@]}"
     stage 15 'a whole run to its floor' "$PROGRAMS/hdlyap_bench" "${whole[@]}" "${small[@]}"
     stage 5 'the same, N = 100, one thread' "$PROGRAMS/hdlyap_bench" "${whole[@]}" --name whole_small \
         --disks 100 --threads 1 --duration 40

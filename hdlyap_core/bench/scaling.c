@@ -34,11 +34,13 @@ static const double THEORY[SWEEPS][PARTS] = {{1, 2, 3, 2}, {0, 1, 2, NAN}};
 static const double FIT_FROM[SWEEPS] = {200, 100};
 /** A point whose predicted seconds are more is left out. */
 static const double PATIENCE = 180.0;
-static const double WARMUP = 6.0, TIME_MIN = 2.0;
+/** Time units; what is measured comes behind so many, or seconds, of averaging: in the first ones
+ * intervals are short, and the rotation of the phases is learnt. */
+static const double WARMUP = 6.0, TIME_MIN = 16.0, SETTLING = 150.0, SETTLING_SECONDS = 60.0;
 
 typedef struct point {
     int disks, vectors, threads;
-    double interval, time; /**< [time units]; averaged */
+    double interval, time; /**< [time units]; that was measured */
     double part[PARTS];    /**< seconds per time unit */
     double whole,
         floor; /**< their sum; see gemm_floor: 0 for few vectors, which dgemm does not bound */
@@ -68,15 +70,21 @@ static void read_costs(const hd_run *run, double part[PARTS])
     part[MODES] = cost.modes;
 }
 
-/** At least TIME_MIN and seconds_min; dgemm's speed meanwhile. */
+static void settle(hd_run *run)
+{
+    const double start = seconds(), begin = hd_run_time(run);
+    while (hd_run_time(run) < begin + SETTLING && seconds() < start + SETTLING_SECONDS)
+        require(hd_run_advance(run), "settling");
+}
+
+/** At least TIME_MIN and seconds_min, from an orthonormalisation to another; dgemm's speed
+ * meanwhile. */
 static double average(hd_run *run, const study *all)
 {
-    const double start = seconds();
-    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    const double start = seconds(), begin = hd_run_time(run);
     double next = start;
     sample speed = {0};
-    while (!hd_run_report_due(run) || hd_spectrum_time(spectrum) < TIME_MIN - 1e-9 ||
-           seconds() < start + all->seconds_min) {
+    while (hd_run_time(run) < begin + TIME_MIN || seconds() < start + all->seconds_min) {
         require(hd_run_advance(run), "averaging");
         if (seconds() < next) continue;
         gemm_measure(all->g);
@@ -86,7 +94,8 @@ static double average(hd_run *run, const study *all)
     return sample_median(&speed);
 }
 
-static void fill(const hd_run *run, double speed, const double before[PARTS], point *p)
+static void fill(const hd_run *run, double speed, double begin, const double before[PARTS],
+                 point *p)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     const int n = hd_run_vectors(run);
@@ -95,7 +104,7 @@ static void fill(const hd_run *run, double speed, const double before[PARTS], po
     p->vectors = n;
     p->threads = hd_run_threads(run);
     p->interval = hd_run_cost(run).interval;
-    p->time = hd_spectrum_time(spectrum);
+    p->time = hd_run_time(run) - begin;
     for (int k = 0; k < PARTS; k++) {
         p->part[k] = (after[k] - before[k]) / p->time;
         p->whole += p->part[k];
@@ -118,8 +127,10 @@ static void measure(study *all, int which, int disks, int exponents, unsigned st
     *p = (point){.disks = disks};
     require(hd_run_create(&run, &scene, NULL, 0), "scene");
     while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
+    settle(run);
     read_costs(run, before);
-    fill(run, average(run, all), before, p);
+    const double begin = hd_run_time(run), speed = average(run, all);
+    fill(run, speed, begin, before, p);
     hd_run_free(run);
 }
 
@@ -241,7 +252,7 @@ int main(int argc, char **argv)
     measure_all(&all, quick);
     table *points = table_create(
         out, "scaling",
-        "sweep,disks,vectors,threads,interval [time units],averaged [time units],"
+        "sweep,disks,vectors,threads,interval [time units],measured [time units],"
         "events [s/time unit],replay [s/time unit],factorisation [s/time unit],"
         "modes [s/time unit],whole [s/time unit],floor F [s/time unit]");
     table *fits = table_create(out, "scaling_fits", "sweep,part,fitted power,theory,fitted from");

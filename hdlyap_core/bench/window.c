@@ -35,7 +35,7 @@ static void record_events(window *w)
     require(hd_trajectory_create(&trajectory, &w->scene), "window");
     require(hd_trajectory_extend(trajectory, NULL, begin), "window");
     hd_event_log_clear(w->log);
-    require(hd_trajectory_extend(trajectory, w->log, begin + w->length), "window");
+    require(hd_trajectory_extend(trajectory, w->log, begin + WINDOW_LONGEST * w->length), "window");
     hd_trajectory_free(trajectory);
 }
 
@@ -71,7 +71,7 @@ static hd_event_log log_from(const hd_event_log *log, double t)
 static hd_status replay_piece(window *w, double begin, double end)
 {
     hd_event_log log = log_from(w->log, begin);
-    if (end < w->length) log.count -= log_from(w->log, end).count;
+    log.count -= log_from(w->log, end).count;
     return hd_frame_replay(w->frame, &log, begin, end);
 }
 

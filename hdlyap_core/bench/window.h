@@ -8,9 +8,11 @@
 #include "progress.h"
 #include "sample.h"
 
+#define WINDOW_LONGEST 2.0
+
 typedef struct window {
     hd_scene_def scene;
-    double length; /**< time units */
+    double length; /**< time units; may be changed, up to WINDOW_LONGEST times as much */
     int rows, vectors;
     hd_event_log *log;
     hd_frame *frame;
