@@ -164,7 +164,7 @@ int main(int argc, char **argv)
 {
     const char *out = ".";
     bool quick = false;
-    double duration = 160.0;
+    double duration = 480.0;
     const option list[] = {{"--out", .text = &out},
                            {"--quick", .flag = &quick},
                            {"--duration", .number = &duration, .least = 40, .most = 1e6},

@@ -218,7 +218,7 @@ def _shade(axes, left):
         ha='left' if left else 'right',
     )
     axes.annotate(
-        'refused or broken down, with an error',
+        'refused, with an error',
         (0.97, FAILS * 6**6),
         xycoords=('axes fraction', 'data'),
         fontsize=8,
@@ -281,7 +281,7 @@ def convergence(tables):
     ticks = [t for t in (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50) if low <= t <= high]
     axes.set_yticks(ticks)
     axes.set_yticklabels([f'{tick:g}' for tick in ticks])
-    axes.legend(ncol=2, loc='upper right')
+    axes.legend(ncol=2, loc='lower left')
     _second_axis(axes, table)
     return figure
 
