@@ -36,7 +36,7 @@ run_packages() {
 
 test_packages() {
     echo ccache libcmocka-dev libgtest-dev ninja-build shellcheck strace valgrind clang libomp-dev xvfb libxtst6 imagemagick libgl1-mesa-dri \
-        black flake8 clang-format doxygen
+        black flake8 clang-format doxygen libopenmpi-dev openmpi-bin slurmctld slurmd slurm-client
     case $1 in
         debian)
             echo libclang-rt-dev librostest-dev python3-rostest python3-rostopic python3-rosnode \

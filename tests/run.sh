@@ -10,8 +10,9 @@ readonly WORK=$ROOT/build/check # not build/tests: cmake puts the folder tests t
 readonly LOGS=$WORK/log COUNTS=$WORK/counts SECOND=$WORK/second TAKEN=$WORK/taken
 export TMPDIR=$WORK/tmp XDG_RUNTIME_DIR=$WORK/runtime
 export HDLYAP_SUITE=$$.$EPOCHREALTIME # marks its processes
-# The core is compiled alone, for ROS and for the demo, each time the same: a cache of this run's own.
-readonly CACHE=(CMAKE_C_COMPILER_LAUNCHER=ccache "CCACHE_DIR=$WORK/ccache" CCACHE_NOHASHDIR=1)
+# Core and wrapper are compiled alone, for ROS and for the demo, each time the same: a cache of this run's own.
+readonly CACHE=(CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache "CCACHE_DIR=$WORK/ccache" CCACHE_NOHASHDIR=1
+    "CCACHE_BASEDIR=$ROOT")
 export "${CACHE[@]}"
 
 # ---- the stages ------------------------------------------------------------------------------
@@ -257,11 +258,15 @@ either_lane() {
     first demo checks flock -o "$TAKEN.build" "$ROOT/tests/demo.sh" "$WORK/demo"
     first downstream checks downstream
     first plot_tests unittest plot_tests
+    ! can_slurm || first slurm checks "$ROOT/tests/slurm.sh" "$WORK/slurm" "$WORK/ros/.install/setup.bash"
     first reproduce checks flock -o "$TAKEN.build" "$ROOT/tests/reproduce.sh" "$WORK/reproduce"
     first lint one lint
     [[ $(clang-format --version) != *' 14.'* ]] || first format one format
     first doxygen one public_headers
 }
+
+# A Slurm of the suite's own needs root.
+can_slurm() { ((EUID == 0)) && command -v slurmctld slurmd srun >/dev/null; }
 
 # first NAME COUNTER COMMAND...: the stage, in the lane that comes first.
 first() { ! mkdir "$TAKEN/$1" 2>/dev/null || stage "$@"; }
@@ -290,6 +295,7 @@ finish "$CHILD" || whole=1
 finish "$ros" || whole=1
 stage warnings one warnings
 stage leftovers one leftovers
+can_slurm || say "slurm: skipped, needs root, slurmctld, slurmd and slurm-client"
 ((!whole)) || report "end of a lane" 0 1 "$COUNTS"
 
 cat "$SECOND"

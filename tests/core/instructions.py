@@ -17,7 +17,7 @@ MODES, STEPS, PHASES, EVERYTHING = 1, 2, 4, 31  # HD_OBSERVE_*
 
 # sources of each stage; what is common to all is in none
 OF_TRAJECTORY = {'trajectory.c', 'prediction.c', 'contact.h', 'cells.c', 'queue.c'}
-OF_FRAME = {'frame.c', 'ortho.c', 'spectrum.c', 'blocks.c', 'blas.c'}
+OF_FRAME = {'frame.c', 'replay.c', 'ortho.c', 'panel.c', 'spectrum.c', 'blocks.c', 'blas.c'}
 OF_MODES = {'fields.c', 'modes.c'}
 OF_STEPS = {'steps.c', 'sets.c'}
 OF_PHASES = {'phases.c'}
@@ -94,7 +94,7 @@ class Stages(unittest.TestCase):
 
 
 class Walls(unittest.TestCase):
-    PLACES = (('events/trajectory.c', 'reflect'), ('tangent/frame.c', 'reflect'))
+    PLACES = (('events/trajectory.c', 'reflect'), ('tangent/replay.c', 'reflect'))
 
     def test_without_walls_nothing_is_reflected(self):
         for place in self.PLACES:
@@ -110,10 +110,7 @@ class Vectors(unittest.TestCase):
 
     def replay(self, exponents):
         spent = profile('average', disks=self.DISKS, time=2.0, exponents=exponents)
-        halves = ('halves_of_columns', 'hd_frame_halves')  # of measured states, each column alone
-        return spent.of_file('frame.c') - sum(
-            of_function(spent, 'tangent/frame.c', name) for name in halves
-        )
+        return spent.of_file('replay.c')
 
     def test_ten_vectors(self):
         of_column = (self.replay(32) - self.replay(16)) / 16

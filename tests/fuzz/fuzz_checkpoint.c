@@ -68,7 +68,7 @@ static void read_arrays(const uint8_t *bytes, size_t size)
     FILE *file = fmemopen((void *)(uintptr_t)bytes, size, "rb");
     require(file != NULL, "no file", "");
     hd_archive archive = hd_archive_reader(file, size);
-    const hd_status status = hd_run_read(&run, &archive, NULL, line, sizeof line);
+    const hd_status status = hd_run_read(&run, &archive, NULL, NULL, line, sizeof line);
     require((status == HD_OK) == (run != NULL), "a run against its status", line);
     check_line(status, line);
     if (run) go_on(run);

@@ -25,7 +25,8 @@ typedef struct hd_checkpoint {
 /** Writes the run, between two steps, to `path`: to `path`.part first, which replaces the file only
  * when it is whole and on the disk. `label` (at most HD_CHECKPOINT_LABEL - 1 bytes of it) is kept.
  * HD_FILE_FAULT with one line in `message` (the file, the reason), HD_NOT_FINITE if a number of the
- * run is none; an older file then stays as it was. Cost: 32 N n bytes. */
+ * run is none; an older file then stays as it was. Of several ranks rank 0 writes, and has the
+ * line. Cost: 32 N n bytes. */
 HD_MUST_CHECK hd_status hd_run_save(hd_run *run, const char *path, const char *label, char *message,
                                     size_t size);
 
@@ -46,6 +47,12 @@ HD_MUST_CHECK hd_status hd_checkpoint_read(hd_checkpoint *out, const char *path,
  */
 HD_MUST_CHECK hd_status hd_run_resume(hd_run **out, const char *path, const hd_scene_def *scene,
                                       char *message, size_t size);
+/** The same by several ranks, each of which reads the file; of any number, whatever it was before.
+ */
+HD_MUST_CHECK hd_status hd_run_resume_shared(hd_run **out, const char *path,
+                                             const hd_scene_def *scene,
+                                             hd_communicator *communicator, char *message,
+                                             size_t size);
 
 #ifdef __cplusplus
 }

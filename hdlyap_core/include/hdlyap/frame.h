@@ -2,6 +2,7 @@
 #ifndef HDLYAP_FRAME_H
 #define HDLYAP_FRAME_H
 
+#include "hdlyap/communicator.h"
 #include "hdlyap/trajectory.h"
 
 #ifdef __cplusplus
@@ -9,16 +10,21 @@ extern "C" {
 #endif
 
 /** Rows 4i .. 4i+3 are dq_x, dq_y, dp_x, dp_y of disk i; row-major with leading dimension
- * hd_frame_stride >= n, rows aligned to 64 bytes, columns beyond n zero. */
+ * hd_frame_stride, rows aligned to 64 bytes, columns beyond those of vectors zero. Of several ranks
+ * each has hd_frame_stride vectors, the last ones fewer; of a single one, n <= hd_frame_stride. */
 typedef struct hd_frame hd_frame;
 
 /** vectors: 1 .. 4 disks. Random entries from the seed; orthonormalise before use. */
 HD_MUST_CHECK hd_status hd_frame_create(hd_frame **out, int disks, int vectors, uint64_t seed,
                                         int threads);
+/** The same of all ranks together; HD_NO_MEMORY if any of them has too little. */
+HD_MUST_CHECK hd_status hd_frame_create_shared(hd_frame **out, int disks, int vectors,
+                                               uint64_t seed, int threads,
+                                               hd_communicator *communicator);
 void hd_frame_free(hd_frame *frame);
 
 int hd_frame_rows(const hd_frame *frame);                /**< 4N */
-int hd_frame_vectors(const hd_frame *frame);             /**< n */
+int hd_frame_vectors(const hd_frame *frame);             /**< n, of all ranks together */
 int hd_frame_stride(const hd_frame *frame);              /**< doubles from one row to the next */
 int hd_frame_threads(const hd_frame *frame);             /**< that work on it */
 void hd_frame_use_threads(hd_frame *frame, int threads); /**< 1 .. as many as at its creation */
@@ -32,7 +38,20 @@ typedef struct hd_columns {
     int stride; /**< doubles from one row to the next */
     int first, count;
 } hd_columns;
-hd_columns hd_frame_columns(const hd_frame *frame); /**< all of them */
+hd_columns hd_frame_columns(const hd_frame *frame); /**< all of them, of this rank */
+
+/** Exchanges with the other ranks: each has then all vectors of some of the disks instead of some
+ * vectors of all, in the same room. Until hd_frame_to_columns, or a rewind. */
+void hd_frame_to_rows(hd_frame *frame);
+void hd_frame_to_columns(hd_frame *frame);
+int hd_frame_rows_here(const hd_frame *frame); /**< in between, zeros behind the last disk's */
+/** In between: entry of the first row of a vector, and the number of vectors beside it, with this
+ * one, that lie in the same rows at the leading dimension hd_frame_stride. */
+double *hd_frame_vector(hd_frame *frame, int col);
+int hd_frame_neighbours(const hd_frame *frame, int col);
+
+/** Copies vectors of any rank to all of them, row-major: x[4N][count]. */
+void hd_frame_gather(const hd_frame *frame, int first, int count, double *x);
 
 /** Carries the vectors from t_begin to t_end (times as in the log) through the logged events with
  * t_begin <= t < t_end, and keeps the vectors of t_begin for hd_frame_rewind. All cores; a block
@@ -48,7 +67,7 @@ const double *hd_frame_before(const hd_frame *frame);
 void hd_frame_rewind(hd_frame *frame);
 
 /** Per column: cosine of the angle between its dp and dq halves, NaN if one of them vanishes, and
- * |dp| / |dq|, NaN if dq vanishes; [n] each. */
+ * |dp| / |dq|, NaN if dq vanishes; of this rank's, as many as hd_frame_columns has, each. */
 void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_ratio);
 
 #ifdef __cplusplus

@@ -4,6 +4,7 @@
 
 /* base */
 #include "hdlyap/blas.h"
+#include "hdlyap/communicator.h"
 #include "hdlyap/status.h"
 /* scene */
 #include "hdlyap/scene.h"
@@ -31,6 +32,7 @@
 #include "hdlyap/run.h"
 #include "hdlyap/room.h"
 #include "hdlyap/checkpoint.h"
+#include "hdlyap/follow.h"
 
 #define HDLYAP_VERSION "0.1.0"
 

@@ -12,6 +12,9 @@ extern "C" {
 typedef struct hd_ortho hd_ortho;
 
 HD_MUST_CHECK hd_status hd_ortho_create(hd_ortho **out, int rows, int vectors);
+/** Of frames that are shared by several ranks. */
+HD_MUST_CHECK hd_status hd_ortho_create_shared(hd_ortho **out, int rows, int vectors,
+                                               hd_communicator *communicator);
 void hd_ortho_free(hd_ortho *ortho);
 
 /** In which the vectors become orthonormal: of all rows, or of their dq halves, which at most 2N

@@ -8,15 +8,17 @@
 extern "C" {
 #endif
 
-/** Bytes that the core asks for in a run of a checked scene, within some percent, with so many
- * threads. Not in it: libraries, what the caller makes of the run, and windows of covariant
- * vectors, which have a limit of their own (covariant_memory). O(wave vectors). */
-double hd_room_needed(const hd_scene_def *def, int threads);
+/** Bytes that the core asks for on each of some ranks (1: a single one) in a run of a checked
+ * scene, within some percent, with so many threads. Not in it: libraries, what the caller makes of
+ * the run, and windows of covariant vectors, which have a limit of their own (covariant_memory).
+ * O(wave vectors). */
+double hd_room_needed(const hd_scene_def *def, int threads, int ranks);
 
 /** Why there is not more. */
 typedef struct hd_room {
     double bytes;      /**< that this process may still take */
     const char *limit; /**< "machine", "cgroup" or "ulimit" */
+    int ranks;         /**< that carry the run, each with so much; 0 is 1 */
 } hd_room;
 
 /** Linux; INFINITY elsewhere. Swap is no room. */

@@ -28,6 +28,9 @@ typedef struct hd_cost {
     double modes;    /**< seconds in classification, steps and phases */
     /** Seconds in covariant vectors: what is kept for them, and the way back */
     double covariant;
+    /** Seconds of the above in exchange with other ranks, waiting included; bytes that this rank
+     * has handed over; calls. 0 with a single rank */
+    double communication, bytes, calls;
     double events_per_second; /**< pair events over seconds in the trajectory */
     double interval;          /**< time units between orthonormalisations, last used */
     hd_limit limit;           /**< why it was not longer */
@@ -53,6 +56,12 @@ typedef struct hd_run hd_run;
 /** HD_REFUSED with its line in `message` as by hd_scene_check (`message` may be NULL). */
 HD_MUST_CHECK hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message,
                                       size_t size);
+/** The same by several ranks together, which then make all calls together, in the same order. What
+ * is read of the run is on each of them, but for vectors: of those each has some. HD_REFUSED also
+ * for what one rank alone can do. */
+HD_MUST_CHECK hd_status hd_run_create_shared(hd_run **out, const hd_scene_def *def,
+                                             hd_communicator *communicator, char *message,
+                                             size_t size);
 void hd_run_free(hd_run *run);
 
 /** Goes on by one interval; short enough (a fraction of a second for N below 1000) to be
@@ -69,6 +78,10 @@ bool hd_run_report_due(const hd_run *run);
  * averaging began, 0 included, and with the last one; with 0 (as at first) at every report. The
  * first call holds at once, another one from hd_run_change_time on. Not kept in a checkpoint. */
 void hd_run_fields_every(hd_run *run, double interval);
+
+/** Of several ranks, each knows the vectors of the steps where fields are due: and from now on all
+ * others from this column on. */
+void hd_run_fields_from(hd_run *run, int first);
 
 /** Asks for another value of a parameter of the scene whose row is a live one. It holds from
  * hd_run_change_time on, and hd_run_scene has it at once. HD_REFUSED with one line in `message`: it
@@ -100,7 +113,7 @@ hd_columns hd_run_columns(const hd_run *run);
 
 /** All n vectors of the last orthonormalisation, if modes are observed; valid until the next call
  * of hd_run_advance. Orthonormal in the whole norm at measured states: as for fields that are due.
- */
+ * Of several ranks, those of the modes, where fields or the hydrodynamic response are due. */
 hd_columns hd_run_frame_columns(const hd_run *run);
 /** hd_frame_halves of all n vectors at the last measured state; [n] each. */
 void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio);
@@ -112,7 +125,8 @@ hd_stage hd_run_stage(const hd_run *run);
 double hd_run_time(const hd_run *run); /**< simulated time since the start */
 const hd_scene_def *hd_run_scene(const hd_run *run);
 int hd_run_vectors(const hd_run *run);        /**< n, 0 without exponents */
-int hd_run_threads(const hd_run *run);        /**< in use */
+int hd_run_ranks(const hd_run *run);          /**< 1 unless shared */
+int hd_run_threads(const hd_run *run);        /**< in use, of this rank */
 int hd_run_threads_denied(const hd_run *run); /**< wanted, but not granted by OpenMP; 0: none */
 const hd_trajectory *hd_run_trajectory(const hd_run *run);
 /** What is carried; of all 4N exponents half of the vectors [T19]. NULL without exponents */

@@ -119,7 +119,7 @@ static void measure(const hd_hydro *hydro, double sum[RESPONSES][HD_SET_VECTORS_
         const modulation a = modulation_at(hydro, &step->wave, bits, q + 2 * j);
         const modulation b = modulation_at(hydro, &step->wave, transverse_bits(hydro, bits),
                                            q + 2 * j);
-        const double *row = vectors.data + 4 * (size_t)j * stride + step->col;
+        const double *row = vectors.data + 4 * (size_t)j * stride + (step->col - vectors.first);
         functionals f;
         functionals_at(f, &step->wave, &a, &b, p + 2 * j);
         for (int r = 0; r < RESPONSES; r++)

@@ -247,6 +247,21 @@ hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const
     return all_finite(modes->snapshot, weight_rows(modes) * modes->stride) ? HD_OK : HD_NOT_FINITE;
 }
 
+/** What is computed for each vector; all of it, for vectors that any rank has. */
+hd_status hd_modes_share(hd_modes *modes, hd_communicator *communicator, int width)
+{
+    const size_t stride = modes->stride, n = (size_t)modes->vectors, w = (size_t)width;
+    const struct {
+        double *array;
+        size_t rows;
+    } known[] = {{modes->snapshot, weight_rows(modes)},
+                 {modes->coefficient, (size_t)hd_fields_columns(modes->fields)},
+                 {modes->dq_norm, 1}};
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+        HD_TRY(hd_communicator_share(communicator, known[k].array, known[k].rows, stride, w, n));
+    return HD_OK;
+}
+
 /* ---- averages ------------------------------------------------------------------------------ */
 
 void hd_modes_add(hd_modes *modes)

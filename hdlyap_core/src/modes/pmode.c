@@ -68,7 +68,7 @@ static void psi_load(hd_pmode *pmode, hd_columns vectors, int col)
     const size_t stride = (size_t)vectors.stride;
     for (int m = 0; m < pmode->dimension; m++) {
         double *psi = row_of(pmode->psi, m, pmode);
-        const double *v = vectors.data + col + m;
+        const double *v = vectors.data + (col - vectors.first) + m;
         for (int j = 0; j < pmode->disks; j++)
             for (int d = 0; d < 2; d++) psi[2 * j + d] = v[(size_t)(4 * j + d) * stride];
         const double norm = sqrt(dot(psi, psi, 2 * pmode->disks));

@@ -13,7 +13,8 @@ enum { LINE = 512, PATH = 1024 };
 static void keep_least(hd_room *room, double bytes, const char *limit)
 {
     if (bytes >= room->bytes) return;
-    *room = (hd_room){fmax(bytes, 0.0), limit};
+    room->bytes = fmax(bytes, 0.0);
+    room->limit = limit;
 }
 
 /** Number after a name, at the start of a line of a file; the first number of all if the name is
@@ -89,7 +90,7 @@ static void see_own_limit(hd_room *room)
 
 hd_room hd_room_available(void)
 {
-    hd_room room = {INFINITY, "machine"};
+    hd_room room = {INFINITY, "machine", 1};
     const double kilobytes = number_in("/proc/meminfo", "MemAvailable:", INFINITY);
     keep_least(&room, 1024.0 * kilobytes, "machine");
     see_all_groups(&room);

@@ -4,6 +4,7 @@
 
 #include "base/check.h"
 #include "hdlyap/parameters.h"
+#include "run/order.h"
 #include "run/run_state.h"
 
 static bool is_averaging(const hd_run *run)
@@ -30,6 +31,10 @@ hd_status hd_run_change(hd_run *run, const hd_parameter *row, double value, char
                         size_t size)
 {
     hd_scene_def asked = run->scene;
+    int count;
+    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_CHANGE,
+                                                .integer = (int)(row - hd_scene_parameters(&count)),
+                                                .number = value});
     if (!row->live)
         return hd_refuse(message, size, "%s = %.15g: is read at the start", row->name, value);
     if (run->schedule.stage == HD_FINISHED || run->due.stage_end)
@@ -45,6 +50,7 @@ hd_status hd_run_change(hd_run *run, const hd_parameter *row, double value, char
 
 void hd_run_fields_every(hd_run *run, double interval)
 {
+    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_FIELDS_EVERY, .number = interval});
     run->field_interval = interval;
     if (!run->fields_said) run->in_force.field_interval = interval;
     run->in_force.changing |= run->fields_said;

@@ -18,6 +18,7 @@
 #include "run/checkpoint.h"
 #include "run/checkpoint_file.h"
 #include "run/factorise.h"
+#include "run/order.h"
 #include "run/run_state.h"
 #include "scene/archived.h"
 #include "tangent/archived.h"
@@ -101,9 +102,10 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     hd_trajectory_archive(run->advance.trajectory, archive);
     hd_schedule_archive(&run->schedule, archive);
     hd_interval_archive(&run->interval, archive);
-    if (!run->frame || !hd_archive_good(archive)) return;
+    if (!run->frame || hd_communicator_agree(run->communicator, archive->status) != HD_OK) return;
     hd_event_log_archive(run->log, archive, run->scene.disks);
-    hd_frame_archive(run->frame, archive);
+    const hd_status status = hd_frame_archive(run->frame, archive);
+    if (status != HD_OK) hd_archive_fail(archive, status, "frame vectors", NULL);
     hd_archive_doubles(archive, "run halves", run->halves, 2 * (size_t)run->vectors);
     hd_spectrum_archive(run->spectrum, archive);
     if (run->observer.modes) hd_modes_archive(run->observer.modes, archive);
@@ -162,18 +164,42 @@ void hd_run_write(hd_run *run, hd_archive *archive, const char *label)
     parts_archive(run, archive);
 }
 
-hd_status hd_run_save(hd_run *run, const char *path, const char *label, char *message, size_t size)
+/** What rank 0 writes, the others tell it. */
+static hd_status tell_writer(hd_run *run)
+{
+    FILE *nowhere = fopen("/dev/null", "wb");
+    HD_TRY(hd_communicator_agree(run->communicator, nowhere ? HD_OK : HD_FILE_FAULT));
+    hd_archive archive = hd_archive_writer(nowhere);
+    hd_run_write(run, &archive, "");
+    (void)fclose(nowhere);
+    return HD_OK;
+}
+
+static hd_status write_file(hd_run *run, const char *path, const char *label, char *message,
+                            size_t size)
 {
     hd_checkpoint_file file;
+    const hd_status begun = hd_checkpoint_file_begin(&file, path, message, size);
+    const hd_status all = hd_communicator_agree(run->communicator, begun);
+    if (all != HD_OK && begun == HD_OK) hd_checkpoint_file_drop(&file);
+    if (all != HD_OK) return all;
+    hd_archive archive = hd_archive_writer(file.file);
+    hd_run_write(run, &archive, label);
+    return hd_checkpoint_file_end(&file, &archive, message, size);
+}
+
+hd_status hd_run_save(hd_run *run, const char *path, const char *label, char *message, size_t size)
+{
+    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_SAVE, .path = ""});
     const hd_status settled = hd_run_settle(run);
     if (settled != HD_OK) {
         (void)hd_refuse(message, size, "%s", hd_status_text(settled));
         return settled;
     }
-    HD_TRY(hd_checkpoint_file_begin(&file, path, message, size));
-    hd_archive archive = hd_archive_writer(file.file);
-    hd_run_write(run, &archive, label);
-    return hd_checkpoint_file_end(&file, &archive, message, size);
+    const bool writes = hd_communicator_rank(run->communicator) == 0;
+    const hd_status status = writes ? write_file(run, path, label, message, size)
+                                    : tell_writer(run);
+    return hd_communicator_agree(run->communicator, status);
 }
 
 hd_status hd_checkpoint_writable(const char *path, char *message, size_t size)
@@ -283,28 +309,39 @@ static bool holds(hd_archive *archive, const hd_scene_def *scene)
     return hd_archive_good(archive);
 }
 
-hd_status hd_run_read(hd_run **out, hd_archive *archive, const hd_scene_def *scene, char *message,
-                      size_t size)
+/** Head and scene: as asked for, which must be the checkpoint's but for what may differ. */
+static hd_status begin_reading(hd_checkpoint *head, hd_scene_def *asked, int *threads,
+                               hd_archive *archive, const hd_scene_def *scene, char *message,
+                               size_t size)
+{
+    HD_TRY(read_head(head, archive, message, size));
+    *asked = scene ? *scene : head->scene;
+    asked->warmup = hd_scene_warmup(asked);
+    hd_archive_int(archive, "run threads", threads, 1, INT_MAX);
+    HD_TRY(check_same(asked, &head->scene, message, size));
+    return holds(archive, &head->scene) ? HD_OK : inconsistent(archive, message, size);
+}
+
+hd_status hd_run_read(hd_run **out, hd_archive *archive, const hd_scene_def *scene,
+                      hd_communicator *communicator, char *message, size_t size)
 {
     hd_checkpoint head;
+    hd_scene_def asked;
     int threads = 1;
     *out = NULL;
-    HD_TRY(read_head(&head, archive, message, size));
-    hd_scene_def asked = scene ? *scene : head.scene;
-    asked.warmup = hd_scene_warmup(&asked);
-    hd_archive_int(archive, "run threads", &threads, 1, INT_MAX);
-    HD_TRY(check_same(&asked, &head.scene, message, size));
-    if (!holds(archive, &head.scene)) return inconsistent(archive, message, size);
+    HD_TRY(hd_communicator_agree(
+        communicator, begin_reading(&head, &asked, &threads, archive, scene, message, size)));
     hd_scene_def def = asked;
     def.threads = threads_of(asked.threads, threads);
     hd_run *run = NULL;
-    HD_TRY(hd_run_create(&run, &def, message, size));
-    const hd_status status = restore(run, archive, head.time, message, size);
+    HD_TRY(hd_run_make(&run, &def, communicator, message, size));
+    const hd_status status = hd_communicator_agree(communicator,
+                                                   restore(run, archive, head.time, message, size));
     run->scene.threads = asked.threads;
     if (status == HD_OK)
         *out = run;
     else
-        hd_run_free(run);
+        hd_run_drop(run);
     return status;
 }
 
@@ -334,13 +371,26 @@ hd_status hd_checkpoint_read(hd_checkpoint *out, const char *path, char *message
 hd_status hd_run_resume(hd_run **out, const char *path, const hd_scene_def *scene, char *message,
                         size_t size)
 {
-    FILE *file;
+    return hd_run_resume_shared(out, path, scene, NULL, message, size);
+}
+
+hd_status hd_run_resume_shared(hd_run **out, const char *path, const hd_scene_def *scene,
+                               hd_communicator *communicator, char *message, size_t size)
+{
+    FILE *file = NULL;
     uint64_t bytes;
     char line[512] = "";
     *out = NULL;
-    HD_TRY(hd_checkpoint_file_open(&file, &bytes, path, message, size));
+    hd_order_tell(communicator, (hd_order){.kind = HD_ORDER_RESUME, .scene = scene, .path = path});
+    const hd_status opened = hd_checkpoint_file_open(&file, &bytes, path, message, size);
+    const hd_status all = hd_communicator_agree(communicator, opened);
+    if (all != HD_OK && opened == HD_OK) {
+        (void)fclose(file);
+        hd_checkpoint_file_line(message, size, path, "another rank cannot read it");
+    }
+    if (all != HD_OK) return all;
     hd_archive archive = hd_archive_reader(file, bytes);
-    const hd_status status = hd_run_read(out, &archive, scene, line, sizeof line);
+    const hd_status status = hd_run_read(out, &archive, scene, communicator, line, sizeof line);
     (void)fclose(file);
     return named(status, path, line, message, size);
 }

@@ -6,10 +6,9 @@
 
 enum { SLOW_MAX = 60 };
 
-static hd_status create_phases(hd_observer *observer, const hd_scene_def *scene, int vectors)
+static hd_status create_slow(hd_observer *observer, const hd_scene_def *scene, int vectors)
 {
     const int most = vectors / 4;
-    HD_TRY(hd_phases_create(&observer->phases, observer->steps));
     const hd_status status = hd_slow_vectors_create(&observer->slow, scene,
                                                     most < SLOW_MAX ? most : SLOW_MAX);
     return status == HD_REFUSED ? HD_OK : status;
@@ -17,7 +16,7 @@ static hd_status create_phases(hd_observer *observer, const hd_scene_def *scene,
 
 /** Kinds of modes need steps; only phases cost more. */
 hd_status hd_observer_create(hd_observer *observer, const hd_scene_def *scene, int vectors,
-                             int threads)
+                             int threads, bool looks)
 {
     const size_t size = 2 * (size_t)scene->disks;
     observer->q = hd_memory_alloc(size, sizeof(double));
@@ -25,7 +24,9 @@ hd_status hd_observer_create(hd_observer *observer, const hd_scene_def *scene, i
     if (!observer->q || !observer->p) return HD_NO_MEMORY;
     HD_TRY(hd_modes_create(&observer->modes, scene, vectors, threads));
     HD_TRY(hd_steps_create(&observer->steps, scene, observer->modes));
-    return scene->observe & HD_OBSERVE_PHASES ? create_phases(observer, scene, vectors) : HD_OK;
+    if (!(scene->observe & HD_OBSERVE_PHASES)) return HD_OK;
+    HD_TRY(hd_phases_create(&observer->phases, observer->steps));
+    return looks ? create_slow(observer, scene, vectors) : HD_OK;
 }
 
 void hd_observer_free(hd_observer *observer)

@@ -14,9 +14,9 @@ typedef struct hd_observer {
     hd_columns known;      /**< vectors that are known at this very time */
 } hd_observer;
 
-/** HD_NO_MEMORY. */
+/** looks: the slowest vectors can be found without an orthonormalisation. HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_observer_create(hd_observer *observer, const hd_scene_def *scene,
-                                           int vectors, int threads);
+                                           int vectors, int threads, bool looks);
 void hd_observer_free(hd_observer *observer);
 
 /** Empties the averages. */

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/clock.h"
+#include "run/order.h"
 #include "run/run_state.h"
 
 bool hd_run_report_due(const hd_run *run) { return run->due.report; }
@@ -11,6 +12,7 @@ hd_stage hd_run_stage(const hd_run *run) { return run->schedule.stage; }
 double hd_run_time(const hd_run *run) { return hd_advance_now(&run->advance); }
 const hd_scene_def *hd_run_scene(const hd_run *run) { return &run->scene; }
 int hd_run_vectors(const hd_run *run) { return run->vectors; }
+int hd_run_ranks(const hd_run *run) { return hd_communicator_ranks(run->communicator); }
 int hd_run_threads(const hd_run *run) { return run->threads; }
 int hd_run_threads_denied(const hd_run *run) { return run->threads_denied; }
 const hd_trajectory *hd_run_trajectory(const hd_run *run) { return run->advance.trajectory; }
@@ -22,12 +24,23 @@ const hd_phases *hd_run_phases(const hd_run *run) { return run->observer.phases;
 const hd_covariant *hd_run_covariant(const hd_run *run) { return run->windows.covariant; }
 
 double hd_run_followed(const hd_run *run) { return run->followed; }
-hd_columns hd_run_columns(const hd_run *run) { return run->observer.known; }
+
+hd_columns hd_run_columns(const hd_run *run)
+{
+    return run->communicator ? run->gathered : run->observer.known;
+}
 
 hd_columns hd_run_frame_columns(const hd_run *run)
 {
+    if (run->communicator) return run->gathered;
     const hd_columns carried = hd_frame_columns(run->frame);
     return run->conjugate ? hd_conjugate_complete(run->conjugate, carried) : carried;
+}
+
+void hd_run_fields_from(hd_run *run, int first)
+{
+    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_FIELDS_FROM, .integer = first});
+    run->fields_first = first;
 }
 
 void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
@@ -82,6 +95,10 @@ hd_cost hd_run_cost(const hd_run *run)
     hd_cost cost = run->cost;
     const double now = hd_clock_now(), left = time_left(run);
     cost.covariant = run->windows.seconds;
+    const hd_traffic traffic = hd_communicator_traffic(run->communicator);
+    cost.communication = traffic.seconds;
+    cost.bytes = traffic.bytes;
+    cost.calls = traffic.calls;
     cost.wall = now - run->clocks.created;
     const double averaged = run->schedule.stage >= HD_AVERAGING && run->spectrum
                                 ? hd_run_averaged(run)

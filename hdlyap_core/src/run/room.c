@@ -98,7 +98,7 @@ static double covariant_bytes(const hd_scene_def *def, const counted *of, double
            spectrum_bytes(n);
 }
 
-double hd_room_needed(const hd_scene_def *def, int threads)
+double hd_room_needed(const hd_scene_def *def, int threads, int ranks)
 {
     const double disks = def->disks, n = hd_scene_vectors(def), carried = hd_scene_carried(def);
     const counted none = {0};
@@ -106,7 +106,7 @@ double hd_room_needed(const hd_scene_def *def, int threads)
     if (n == 0) return bytes;
     const counted of = def->observe ? fields_of(def) : none;
     bytes += OF_AN_EVENT * fmin(EVENTS_MAX, EVENTS_OF_A_DISK * disks);
-    bytes += frame_bytes(4.0 * disks, carried, threads) + ortho_bytes(carried);
+    bytes += frame_bytes(4.0 * disks, carried / fmax(ranks, 1.0), threads) + ortho_bytes(carried);
     bytes += conjugate_bytes(def) + spectrum_bytes(n);
     if (def->observe & HD_OBSERVE_OF_MODES) bytes += observer_bytes(def, &of, n);
     if (def->observe & HD_OBSERVE_COVARIANT) bytes += covariant_bytes(def, &of, n);
@@ -117,8 +117,8 @@ double hd_room_needed(const hd_scene_def *def, int threads)
 
 static bool fits(const hd_scene_def *def, hd_room room)
 {
-    return hd_room_needed(def, hd_threads_most(def->threads, 4 * def->disks,
-                                               hd_scene_carried(def))) <= room.bytes;
+    const int threads = hd_threads_most(def->threads, 4 * def->disks, hd_scene_carried(def));
+    return hd_room_needed(def, threads, room.ranks) <= room.bytes;
 }
 
 /** Largest value of a number of the scene, below the one it has, with which it fits; 0: none. The
@@ -170,9 +170,9 @@ hd_status hd_room_check(const hd_scene_def *def, hd_room room, char *message, si
                  disks);
     else if (disks > 0)
         snprintf(fitting, sizeof fitting, "disks = %d would fit", disks);
-    (void)hd_refuse(message, size,
-                    "%s: disks = %d with %d exponents need %.3g GB, there are %.3g GB (%s); %s",
-                    hd_status_text(HD_NO_MEMORY), def->disks, n,
-                    1e-9 * hd_room_needed(def, threads), 1e-9 * room.bytes, room.limit, fitting);
+    (void)hd_refuse(
+        message, size, "%s: disks = %d with %d exponents need %.3g GB, there are %.3g GB (%s); %s",
+        hd_status_text(HD_NO_MEMORY), def->disks, n,
+        1e-9 * hd_room_needed(def, threads, room.ranks), 1e-9 * room.bytes, room.limit, fitting);
     return HD_NO_MEMORY;
 }

@@ -16,7 +16,9 @@
 #include "hdlyap/blas.h"
 #include "hdlyap/room.h"
 #include "run/factorise.h"
+#include "run/order.h"
 #include "run/plan.h"
+#include "run/ranks.h"
 #include "run/run_state.h"
 #include "tangent/threads.h"
 #include "tangent/verify.h"
@@ -39,12 +41,14 @@ static hd_status create_frame(hd_run *run)
 {
     const hd_scene_def *scene = &run->scene;
     const hd_ortho_limits once = {1e7, ORTHONORMAL, HD_NORM_FULL};
-    HD_TRY(hd_frame_create(&run->frame, scene->disks, run->carried, scene->seed, run->threads));
+    HD_TRY(hd_frame_create_shared(&run->frame, scene->disks, run->carried, scene->seed,
+                                  run->threads, run->communicator));
     if (run->conjugate) return hd_conjugate_start(run->frame);
     if (hd_ortho_step(run->ortho, run->frame, once) == HD_OK) return HD_OK;
     hd_frame_free(run->frame);
     run->frame = NULL;
-    HD_TRY(hd_frame_create(&run->frame, scene->disks, run->carried, scene->seed, run->threads));
+    HD_TRY(hd_frame_create_shared(&run->frame, scene->disks, run->carried, scene->seed,
+                                  run->threads, run->communicator));
     return hd_ortho_step_stable(run->ortho, run->frame, 1.0 / DBL_EPSILON);
 }
 
@@ -57,41 +61,45 @@ double hd_run_block_least(const hd_run *run)
 static hd_status prepare_threads(hd_run *run)
 {
     const int wanted = run->scene.threads, disks = run->scene.disks, n = run->carried;
-    const int most = hd_threads_most(wanted, 4 * disks, n);
+    const int most = hd_run_threads_most(run);
     if (most > 1) HD_TRY(hd_blas_room(most)); /* one has its buffer since the start */
     const int granted = run->threads = hd_blas_threads_granted(most);
     hd_blas_use_threads(granted);
-    if (wanted == 0) HD_TRY(hd_threads_choose(&run->threads, run->ortho, disks, n, granted));
+    if (wanted == 0 && !run->communicator)
+        HD_TRY(hd_threads_choose(&run->threads, run->ortho, disks, n, granted));
     run->threads_denied = run->threads == granted ? most - granted : 0;
     hd_blas_use_threads(run->threads);
     return HD_OK;
 }
 
 /** Of a frame that is orthonormal in the whole norm: the next one may be so in that of dq alone. */
-static void keep_halves(hd_run *run)
+static hd_status keep_halves(hd_run *run)
 {
-    double *cos_theta = run->halves, *ratio = run->halves + run->vectors;
-    hd_frame_halves(run->frame, cos_theta, ratio);
+    const size_t n = (size_t)run->vectors, width = (size_t)hd_frame_stride(run->frame);
+    const int first = hd_frame_columns(run->frame).first;
+    double *cos_theta = run->halves, *ratio = run->halves + n;
+    if (first < run->vectors) hd_frame_halves(run->frame, cos_theta + first, ratio + first);
+    HD_TRY(hd_communicator_share(run->communicator, run->halves, 2, n, width, n));
     if (run->conjugate) hd_conjugate_halves(cos_theta, ratio, run->carried);
     for (int k = 0; k < 2 * run->vectors; k++)
         if (isnan(run->halves[k])) run->halves[k] = HD_NO_HALF;
+    return HD_OK;
 }
 
 static hd_status prepare_frame(hd_run *run)
 {
     const int rows = 4 * run->scene.disks, n = run->vectors;
     const bool whole = run->scene.observe & HD_OBSERVE_OF_MODES;
-    HD_TRY(hd_event_log_create(&run->log));
-    HD_TRY(hd_ortho_create(&run->ortho, rows, run->carried));
+    HD_TRY(hd_run_agree(run, hd_event_log_create(&run->log)));
+    HD_TRY(hd_ortho_create_shared(&run->ortho, rows, run->carried, run->communicator));
     if (run->carried < n) HD_TRY(hd_conjugate_create(&run->conjugate, rows, whole));
-    HD_TRY(prepare_threads(run));
-    HD_TRY(hd_spectrum_create(&run->spectrum, rows, n, hd_run_block_least(run)));
+    HD_TRY(hd_run_agree(run, prepare_threads(run)));
+    HD_TRY(hd_run_agree(run, hd_spectrum_create(&run->spectrum, rows, n, hd_run_block_least(run))));
     run->whole = true;
     run->halves = hd_memory_alloc(2 * (size_t)n, sizeof *run->halves);
-    if (!run->halves) return HD_NO_MEMORY;
+    HD_TRY(hd_run_agree(run, run->halves ? HD_OK : HD_NO_MEMORY));
     HD_TRY(create_frame(run));
-    keep_halves(run);
-    return HD_OK;
+    return keep_halves(run);
 }
 
 static hd_status prepare_windows(hd_run *run, char *message, size_t size)
@@ -106,7 +114,7 @@ static hd_status prepare_windows(hd_run *run, char *message, size_t size)
 static hd_status prepare(hd_run *run, char *message, size_t size)
 {
     const hd_scene_def *scene = &run->scene;
-    HD_TRY(hd_advance_create(&run->advance, scene));
+    HD_TRY(hd_run_agree(run, hd_advance_create(&run->advance, scene)));
     run->vectors = hd_scene_vectors(scene);
     run->carried = hd_scene_carried(scene);
     run->threads = 1;
@@ -124,7 +132,8 @@ static hd_status prepare(hd_run *run, char *message, size_t size)
     HD_TRY(prepare_windows(run, message, size));
     run->observe = scene->observe;
     if (!(scene->observe & HD_OBSERVE_OF_MODES)) return HD_OK;
-    return hd_observer_create(&run->observer, scene, run->vectors, run->threads);
+    return hd_run_agree(run, hd_observer_create(&run->observer, scene, run->vectors, run->threads,
+                                                !run->communicator));
 }
 
 static void averages_clear(hd_run *run)
@@ -153,17 +162,31 @@ static void enter_stage(hd_run *run, hd_stage stage)
 
 hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, size_t size)
 {
+    return hd_run_create_shared(out, def, NULL, message, size);
+}
+
+hd_status hd_run_create_shared(hd_run **out, const hd_scene_def *def, hd_communicator *communicator,
+                               char *message, size_t size)
+{
+    hd_order_tell(communicator, (hd_order){.kind = HD_ORDER_CREATE, .scene = def});
+    return hd_run_make(out, def, communicator, message, size);
+}
+
+hd_status hd_run_make(hd_run **out, const hd_scene_def *def, hd_communicator *communicator,
+                      char *message, size_t size)
+{
     *out = NULL;
-    HD_TRY(hd_scene_check(def, message, size));
-    HD_TRY(hd_room_check(def, hd_room_available(), message, size));
+    HD_TRY(hd_communicator_agree(communicator, hd_run_check(def, communicator, message, size)));
     hd_run *run = hd_memory_alloc(1, sizeof *run);
-    if (!run) return HD_NO_MEMORY;
+    HD_TRY(hd_communicator_agree(communicator, run ? HD_OK : HD_NO_MEMORY));
+    run->communicator = communicator;
+    run->fields_first = 4 * def->disks; /* none */
     run->scene = *def;
     run->scene.warmup = hd_scene_warmup(def);
     run->clocks.created = hd_clock_now();
     const hd_status status = prepare(run, message, size);
     if (status != HD_OK) {
-        hd_run_free(run);
+        hd_run_drop(run);
         return status;
     }
     enter_stage(run, HD_EQUILIBRATING);
@@ -172,6 +195,12 @@ hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message, si
 }
 
 void hd_run_free(hd_run *run)
+{
+    if (run) hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_FREE});
+    hd_run_drop(run);
+}
+
+void hd_run_drop(hd_run *run)
 {
     if (!run) return;
     hd_advance_clear(&run->advance);
@@ -183,6 +212,7 @@ void hd_run_free(hd_run *run)
     hd_conjugate_free(run->conjugate);
     hd_spectrum_free(run->spectrum);
     hd_memory_free(run->halves);
+    hd_memory_free(run->gathered_room);
     hd_memory_free(run);
 }
 
@@ -199,7 +229,11 @@ static bool target_reached(const hd_run *run)
 static hd_status measure(hd_run *run)
 {
     const double start = hd_clock_now();
-    HD_TRY(hd_observer_measure(&run->observer, hd_run_frame_columns(run), run->advance.trajectory));
+    const hd_columns here = run->communicator ? hd_frame_columns(run->frame)
+                                              : hd_run_frame_columns(run);
+    const hd_status status = hd_observer_measure(&run->observer, here, run->advance.trajectory);
+    HD_TRY(hd_run_agree(run, status));
+    HD_TRY(hd_modes_share(run->observer.modes, run->communicator, hd_frame_stride(run->frame)));
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
 }
@@ -218,15 +252,9 @@ static hd_status observe(hd_run *run)
     hd_modes_add(run->observer.modes);
     hd_steps_find(run->observer.steps, run->spectrum);
     if (run->observe & HD_OBSERVE_PHASES) follow_phases(run);
+    HD_TRY(hd_run_gather(run));
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
-}
-
-/** True where somebody wants all of the vectors of this very time. */
-static bool vectors_wanted(const hd_run *run)
-{
-    const unsigned due = HD_OBSERVE_HYDRO | (run->due.fields ? HD_OBSERVE_FIELDS : 0u);
-    return hd_run_is_observing(run) && (run->observe & due);
 }
 
 /** Takes up what has been asked for since. The averaging may end with it. */
@@ -248,14 +276,6 @@ static void take_changes(hd_run *run)
 /** True where a sample has ended. */
 static bool is_measured(const hd_run *run) { return hd_run_time(run) == run->sample.begin; }
 
-/** Number of slowest vectors that a watcher wants now. */
-static int watched(const hd_run *run)
-{
-    return hd_run_is_observing(run) && run->watch.first < run->vectors
-               ? run->vectors - run->watch.first
-               : 0;
-}
-
 /** Ends the interval here, and with it the sample: the frame becomes orthonormal in the whole norm.
  */
 static hd_status end_sample(hd_run *run)
@@ -263,7 +283,7 @@ static hd_status end_sample(hd_run *run)
     if (is_measured(run)) return HD_OK; /* an averaging can be too short for time to move */
     HD_TRY(hd_run_factorise(run, true));
     run->sample = (hd_sample){.begin = hd_run_time(run)};
-    keep_halves(run);
+    HD_TRY(keep_halves(run));
     if (run->schedule.stage != HD_AVERAGING) return HD_OK;
     hd_spectrum_sample(run->spectrum);
     return hd_run_is_observing(run) ? observe(run) : HD_OK;
@@ -272,7 +292,7 @@ static hd_status end_sample(hd_run *run)
 /** The sample also ends if that alone makes known what a watcher wants. */
 static hd_status end_interval(hd_run *run)
 {
-    const int count = watched(run);
+    const int count = hd_run_watched(run);
     run->cost.limit = run->limit;
     const bool hidden = count > 0 && !hd_observer_reaches(&run->observer, count);
     return run->sample.ends || hidden ? end_sample(run) : hd_run_factorise(run, false);
@@ -319,9 +339,12 @@ static hd_status find_slowest(hd_run *run, int count)
 static hd_status look_around(hd_run *run, bool at_phases)
 {
     const int phases = at_phases ? hd_phases_vectors(run->observer.steps) : 0;
-    const int most = phases > watched(run) ? phases : watched(run);
+    const int most = phases > hd_run_watched(run) ? phases : hd_run_watched(run);
     if (most == 0 || run->observer.known.count > 0) return HD_OK;
-    if (is_measured(run)) return measure(run);
+    if (is_measured(run)) {
+        HD_TRY(measure(run));
+        return hd_run_gather(run);
+    }
     HD_TRY(find_slowest(run, most));
     if (phases > 0 && !is_measured(run)) follow_phases(run);
     return HD_OK;
@@ -362,16 +385,17 @@ static hd_status take_cut(hd_run *run)
     run->due.fields = averaging && (reached || multiple <= hd_schedule_cut(&run->schedule));
     run->due.stage_end = hd_schedule_pass(&run->schedule) & HD_ENDS_STAGE || reached;
     const bool first = averaging && run->spectrum && hd_spectrum_time(run->spectrum) == 0;
-    const bool ends = run->due.stage_end || first || vectors_wanted(run);
+    const bool ends = run->due.stage_end || first || hd_run_vectors_wanted(run);
     const bool carried = run->frame && run->schedule.stage != HD_EQUILIBRATING;
-    return carried && ends && !is_measured(run) ? end_early(run) : HD_OK;
+    if (!carried || !ends) return HD_OK;
+    return is_measured(run) ? hd_run_gather(run) : end_early(run);
 }
 
 /** Moves the disks on, as far as a watcher lets them. */
 static hd_status advance(hd_run *run, hd_event_log *log)
 {
     const double start = hd_clock_now();
-    HD_TRY(hd_advance_on(&run->advance, log, run->watch.interval));
+    HD_TRY(hd_run_agree(run, hd_advance_on(&run->advance, log, run->watch.interval)));
     run->cost.events += hd_clock_now() - start;
     if (HD_VERIFIES) hd_verify_disks(run->advance.trajectory, &run->scene);
     if (HD_VERIFIES && log) hd_verify_log(log, run->scene.disks);
@@ -413,10 +437,11 @@ static hd_status advance_frame(hd_run *run)
 
 hd_status hd_run_advance(hd_run *run)
 {
+    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_ADVANCE});
     const bool told = run->due.report && run->schedule.stage == HD_AVERAGING;
     if (told && run->spectrum) hd_spectrum_local_restart(run->spectrum);
     run->due.report = run->due.fields = false;
-    run->observer.known.count = 0;
+    run->observer.known.count = run->gathered.count = 0;
     if (run->schedule.stage == HD_FINISHED) return HD_OK;
     const bool with_frame = run->frame && run->schedule.stage != HD_EQUILIBRATING;
     if (with_frame) hd_blas_use_threads(run->threads); /* with OpenMP: of the calling thread */
@@ -427,6 +452,8 @@ hd_status hd_run_advance(hd_run *run)
 void hd_run_observe(hd_run *run, unsigned stages)
 {
     const unsigned now = stages & run->scene.observe, begun = now & ~run->observe;
+    if (now == run->observe) return;
+    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_OBSERVE, .integer = (int)now});
     if (begun & HD_OBSERVE_PHASES)
         hd_phases_clear(run->observer.phases);                 /* not followed in between */
     if (begun & HD_OBSERVE_COVARIANT) run->windows.due = true; /* nor this */
@@ -435,6 +462,7 @@ void hd_run_observe(hd_run *run, unsigned stages)
 
 hd_status hd_run_reset_average(hd_run *run)
 {
+    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_RESET});
     if (run->schedule.stage != HD_AVERAGING) return HD_OK;
     if (run->frame) hd_blas_use_threads(run->threads);
     if (run->frame) HD_TRY(hd_run_factorise(run, true));
@@ -445,6 +473,9 @@ hd_status hd_run_reset_average(hd_run *run)
 void hd_run_watch(hd_run *run, double interval, int first)
 {
     HD_ASSERT(interval > 0.0 && first >= 0);
+    if (interval == run->watch.interval && first == run->watch.first) return;
+    hd_order_tell(run->communicator,
+                  (hd_order){.kind = HD_ORDER_WATCH, .integer = first, .number = interval});
     run->watch.interval = interval;
     run->watch.first = first;
 }

@@ -50,9 +50,14 @@ typedef struct hd_sample {
 } hd_sample;
 
 struct hd_run {
+    hd_communicator *communicator; /**< NULL: a single rank */
     hd_scene_def scene;
     int vectors, carried, threads, threads_denied;
     hd_advance advance;
+    hd_columns gathered; /**< vectors of several ranks that are known to each now; count 0: none */
+    int fields_first;    /**< from there on, beside those of the steps, where fields are due */
+    double *gathered_room;
+    size_t gathered_size;
     hd_event_log
         *log; /**< since the last orthonormalisation; NULL without exponents, as the next */
     hd_frame *frame;
@@ -88,6 +93,11 @@ enum { SMALLEST_EXPONENTS = 8 };
 
 /** Of one disk, at most. */
 #define HD_COLLISIONS_PER_SAMPLE 80.0
+
+/** hd_run_create_shared and hd_run_free within a call that the other ranks make, too. */
+HD_MUST_CHECK hd_status hd_run_make(hd_run **out, const hd_scene_def *def,
+                                    hd_communicator *communicator, char *message, size_t size);
+void hd_run_drop(hd_run *run);
 
 /** Ends what a step has begun, so that the run can be kept: half of a way back is none. */
 HD_MUST_CHECK hd_status hd_run_settle(hd_run *run);

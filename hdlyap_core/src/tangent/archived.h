@@ -6,7 +6,9 @@
 #include "hdlyap/frame.h"
 #include "tangent/interval.h"
 
-void hd_frame_archive(hd_frame *frame, hd_archive *archive);
+/** Of several ranks each reads all of a file, and the one that writes gets all vectors;
+ * HD_NO_MEMORY on all of them. */
+HD_MUST_CHECK hd_status hd_frame_archive(hd_frame *frame, hd_archive *archive);
 void hd_interval_archive(hd_interval *interval, hd_archive *archive);
 
 #endif

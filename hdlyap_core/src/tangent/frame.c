@@ -1,54 +1,19 @@
-/** Event log -> tangent vectors.
- *
- * V is 4N x n, row-major, rows 4i .. 4i+3 = dq_x dq_y dp_x dp_y of disk i. The log is first turned
- * into tangent maps with all divisions done. Then each thread takes a block of columns into a
- * buffer that stays in its cache, [disk][4][width], carries it through all maps with lazy free
- * flight (only disks that collide are brought up to date), and writes it to the second copy of V;
- * so the vectors from before remain for hd_frame_rewind at no cost in time. Equations [T1], [T3],
- * [T4]. Parallel over blocks; the result does not depend on the number of threads. */
-#include "hdlyap/frame.h"
+/** Tangent vectors: 4N x n, row-major, rows 4i .. 4i+3 = dq_x dq_y dp_x dp_y of disk i. Of several
+ * ranks each has some columns; for an orthonormalisation it has some rows of all, in the same room:
+ * its columns of some disks are exchanged for those disks' columns of the others. */
+#include "tangent/frame_state.h"
 
 #include <float.h>
 #include <math.h>
-#include <omp.h>
-#include <stdbool.h>
 #include <string.h>
 
 #include "base/check.h"
 #include "base/memory.h"
-#include "base/multiversion.h"
 #include "base/random.h"
 #include "tangent/archived.h"
 
 /** Sums of squares below are no longer known to rounding: such a half counts as none. */
 static const double SQUARE_MIN = DBL_MIN / DBL_EPSILON;
-enum { BLOCK_BYTES = 512 * 1024, BLOCK_WIDTH_MAX = 64 };
-/** Events that are fetched ahead, where the disks of a block outgrow the cache. */
-enum { FETCH_AHEAD = 12, LINE = 64 / sizeof(double) };
-
-/** Tangent map of one event: free flights of its disks since their last events, then the collision.
- */
-typedef struct tangent_map {
-    int32_t i, j;     /**< as in hd_event */
-    double flight[2]; /**< of i, of j */
-    double n[2];
-    double normal;     /**< b = p.n < 0 */
-    double tangential; /**< p_t = p.t, t = n turned by +90 degrees */
-    double ratio;      /**< p_t / b */
-} tangent_map;
-
-struct hd_frame {
-    int disks, rows, vectors, stride;
-    int threads, threads_max;
-    int width;       /**< of a block: 1, 2, 4, 8, 16, 32 or 64 columns */
-    double *copy[2]; /**< [rows * stride] */
-    int current;
-    double *buffer;   /**< [threads][rows * width] */
-    tangent_map *map; /**< [map_capacity], of the interval being replayed */
-    size_t map_capacity;
-    bool walls;    /**< some of them are of wall events */
-    double *since; /**< [disks], time of each disk's last event, then its last flight */
-};
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
@@ -66,15 +31,15 @@ static int padded(int vectors)
 static int block_width(int rows, int stride)
 {
     int width = stride < 8 ? stride : 8;
-    while (width < BLOCK_WIDTH_MAX && 2 * width <= stride &&
-           (size_t)rows * (size_t)width * 2 * sizeof(double) <= BLOCK_BYTES)
+    while (width < HD_BLOCK_WIDTH_MAX && 2 * width <= stride &&
+           (size_t)rows * (size_t)width * 2 * sizeof(double) <= HD_BLOCK_BYTES)
         width *= 2;
     return width;
 }
 
 static hd_status frame_allocate(hd_frame *frame)
 {
-    const size_t size = (size_t)frame->rows * (size_t)frame->stride;
+    const size_t size = (size_t)frame->rows_kept * (size_t)frame->stride;
     for (int k = 0; k < 2; k++)
         if (!(frame->copy[k] = hd_memory_alloc(size, sizeof(double)))) return HD_NO_MEMORY;
     const size_t block = (size_t)frame->rows * (size_t)frame->width;
@@ -83,7 +48,34 @@ static hd_status frame_allocate(hd_frame *frame)
     return frame->buffer && frame->since ? HD_OK : HD_NO_MEMORY;
 }
 
+/** An equal part of them for each rank, or less for the last ones. */
+static int part_of(const hd_frame *frame, int all)
+{
+    const int ranks = hd_communicator_ranks(frame->communicator);
+    return (all + ranks - 1) / ranks;
+}
+
+/** Entries of the whole frame from the seed; those of our columns are kept. */
+static void fill_random(hd_frame *frame, uint64_t seed)
+{
+    const hd_columns own = hd_frame_columns(frame);
+    hd_random random = hd_random_seeded(seed, 1);
+    for (int row = 0; row < frame->rows; row++)
+        for (int col = 0; col < frame->vectors; col++) {
+            const double entry = hd_random_symmetric(&random);
+            if (col >= own.first && col < own.first + own.count)
+                frame->copy[0][(size_t)row * (size_t)own.stride + (size_t)(col - own.first)] =
+                    entry;
+        }
+}
+
 hd_status hd_frame_create(hd_frame **out, int disks, int vectors, uint64_t seed, int threads)
+{
+    return hd_frame_create_shared(out, disks, vectors, seed, threads, NULL);
+}
+
+hd_status hd_frame_create_shared(hd_frame **out, int disks, int vectors, uint64_t seed, int threads,
+                                 hd_communicator *communicator)
 {
     HD_ASSERT(disks >= 1 && vectors >= 1 && vectors <= 4 * disks && threads >= 1);
     hd_frame *frame = hd_memory_alloc(1, sizeof *frame);
@@ -92,19 +84,17 @@ hd_status hd_frame_create(hd_frame **out, int disks, int vectors, uint64_t seed,
     frame->disks = disks;
     frame->rows = 4 * disks;
     frame->vectors = vectors;
-    frame->stride = padded(vectors);
+    frame->communicator = communicator;
+    frame->stride = padded(part_of(frame, vectors));
+    frame->rows_kept = 4 * part_of(frame, disks) * hd_communicator_ranks(communicator);
     frame->width = block_width(frame->rows, frame->stride);
     frame->threads = frame->threads_max = threads;
-    const hd_status status = frame_allocate(frame);
+    const hd_status status = hd_communicator_agree(communicator, frame_allocate(frame));
     if (status != HD_OK) {
         hd_frame_free(frame);
         return status;
     }
-    hd_random random = hd_random_seeded(seed, 1);
-    for (int row = 0; row < frame->rows; row++)
-        for (int col = 0; col < vectors; col++)
-            frame->copy[0][(size_t)row * (size_t)frame->stride + (size_t)col] = hd_random_symmetric(
-                &random);
+    fill_random(frame, seed);
     *out = frame;
     return HD_OK;
 }
@@ -136,221 +126,75 @@ const double *hd_frame_read(const hd_frame *frame) { return frame->copy[frame->c
 
 hd_columns hd_frame_columns(const hd_frame *frame)
 {
-    return (hd_columns){hd_frame_read(frame), frame->stride, 0, frame->vectors};
+    const int first = hd_communicator_rank(frame->communicator) * frame->stride;
+    const int left = frame->vectors > first ? frame->vectors - first : 0;
+    return (hd_columns){hd_frame_read(frame), frame->stride, left > 0 ? first : frame->vectors,
+                        left < frame->stride ? left : frame->stride};
 }
 
-/* ---- the log as tangent maps --------------------------------------------------------------- */
+/* ---- all vectors of some disks ------------------------------------------------------------- */
 
-static double flight(double *since, int32_t disk, double t)
+/** The part of a copy that goes to one rank, as all do: some rows of our columns. */
+static size_t part_size(const hd_frame *frame)
 {
-    const double tau = t - since[disk];
-    since[disk] = t;
-    return tau;
+    return (size_t)hd_frame_rows_here(frame) * (size_t)frame->stride;
 }
 
-static void map_fill(tangent_map *map, const hd_event *event, double *since)
+void hd_frame_to_rows(hd_frame *frame)
 {
-    *map = (tangent_map){.i = event->i, .j = event->j, .n = {event->n[0], event->n[1]}};
-    map->flight[0] = flight(since, event->i, event->t);
-    if (event->j < 0) return;
-    map->flight[1] = flight(since, event->j, event->t);
-    map->normal = event->p[0] * event->n[0] + event->p[1] * event->n[1];
-    map->tangential = event->p[1] * event->n[0] - event->p[0] * event->n[1];
-    map->ratio = map->tangential / map->normal;
+    HD_ASSERT(!frame->by_rows);
+    hd_communicator_exchange(frame->communicator, hd_frame_data(frame), part_size(frame));
+    frame->by_rows = true;
 }
 
-static hd_status maps_reserve(hd_frame *frame, size_t count)
+void hd_frame_to_columns(hd_frame *frame)
 {
-    if (count <= frame->map_capacity) return HD_OK;
-    hd_memory_free(frame->map);
-    frame->map_capacity = count + count / 2;
-    frame->map = hd_memory_alloc(frame->map_capacity, sizeof *frame->map);
-    if (frame->map) return HD_OK;
-    frame->map_capacity = 0;
-    return HD_NO_MEMORY;
+    HD_ASSERT(frame->by_rows);
+    hd_communicator_exchange(frame->communicator, hd_frame_data(frame), part_size(frame));
+    frame->by_rows = false;
 }
 
-/** Fills frame->map and leaves each disk's last flight in frame->since; returns the number of maps.
- */
-static size_t maps_fill(hd_frame *frame, const hd_event_log *log, double t_begin, double t_end)
+int hd_frame_rows_here(const hd_frame *frame)
 {
-    const bool last = t_end >= log->duration;
-    size_t count = 0;
-    frame->walls = false;
-    for (int i = 0; i < frame->disks; i++) frame->since[i] = t_begin;
-    for (size_t e = 0; e < log->count; e++) {
-        if (log->event[e].t < t_begin) continue;
-        if (log->event[e].t >= t_end && !last) break;
-        frame->walls |= log->event[e].j < 0;
-        map_fill(&frame->map[count++], &log->event[e], frame->since);
-    }
-    for (int i = 0; i < frame->disks; i++) frame->since[i] = t_end - frame->since[i];
-    return count;
+    return frame->rows_kept / hd_communicator_ranks(frame->communicator);
 }
 
-/* ---- a block of columns -------------------------------------------------------------------- */
-
-/** [T1] dq += tau dp; v points to the four rows of a disk. */
-static inline __attribute__((always_inline)) void fly(double *restrict v, double tau, int width)
+double *hd_frame_vector(hd_frame *frame, int col)
 {
-    for (int k = 0; k < 2 * width; k++) v[k] += tau * v[2 * width + k];
+    return hd_frame_data(frame) + part_size(frame) * (size_t)(col / frame->stride) +
+           col % frame->stride;
 }
 
-/** [T3] with the free flights before it; only the tangential part s of the displacement turns n. */
-static inline __attribute__((always_inline)) void collide(double *restrict vi, double *restrict vj,
-                                                          const tangent_map *map, int width)
+int hd_frame_neighbours(const hd_frame *frame, int col)
 {
-    const double nx = map->n[0], ny = map->n[1], ti = map->flight[0], tj = map->flight[1];
-    const double b = map->normal, pt = map->tangential, ratio = map->ratio;
-#pragma GCC ivdep
-    for (int k = 0; k < width; k++) {
-        double *qi = vi + k, *pi = vi + 2 * width + k, *qj = vj + k, *pj = vj + 2 * width + k;
-        const double qix = qi[0] + ti * pi[0], qiy = qi[width] + ti * pi[width];
-        const double qjx = qj[0] + tj * pj[0], qjy = qj[width] + tj * pj[width];
-        const double qx = qjx - qix, qy = qjy - qiy;
-        const double px = pj[0] - pi[0], py = pj[width] - pi[width];
-        const double a = qx * nx + qy * ny;                     /* dq.n */
-        const double s = qy * nx - qx * ny - ratio * a;         /* dq.t - (p_t / b) a */
-        const double u = px * nx + py * ny + pt * s, w = b * s; /* d + p_t s, b s */
-        const double ux = u * nx - w * ny, uy = u * ny + w * nx;
-        qi[0] = qix + a * nx, qi[width] = qiy + a * ny;
-        qj[0] = qjx - a * nx, qj[width] = qjy - a * ny;
-        pi[0] += ux, pi[width] += uy;
-        pj[0] -= ux, pj[width] -= uy;
-    }
+    const int end = (col / frame->stride + 1) * frame->stride;
+    return (end < frame->vectors ? end : frame->vectors) - col;
 }
 
-/** [T4] */
-static inline __attribute__((always_inline)) void reflect(double *restrict v,
-                                                          const tangent_map *map, int width)
+void hd_frame_gather(const hd_frame *frame, int first, int count, double *x)
 {
-    const int d = map->j == HD_WALL_Y;
-    fly(v, map->flight[0], width);
-    for (int k = 0; k < width; k++) {
-        v[d * width + k] = -v[d * width + k];
-        v[(2 + d) * width + k] = -v[(2 + d) * width + k];
-    }
-}
-
-typedef struct maps {
-    const tangent_map *map; /**< [count] */
-    size_t count;
-    size_t fetching; /**< at the first ones of them, those FETCH_AHEAD later are fetched */
-} maps;
-
-/** The rows of both disks, into the cache. A wall fetches those of i alone. */
-static inline __attribute__((always_inline)) void fetch(const double *buffer,
-                                                        const tangent_map *map, int width)
-{
-    const size_t disk = 4 * (size_t)width;
-    const double *vi = buffer + disk * (size_t)map->i;
-    const double *vj = map->j >= 0 ? buffer + disk * (size_t)map->j : vi;
-    for (size_t k = 0; k < disk; k += LINE) {
-        __builtin_prefetch(vi + k, 1);
-        __builtin_prefetch(vj + k, 1);
-    }
-}
-
-static inline __attribute__((always_inline)) void replay_width(double *buffer, maps m, bool walls,
-                                                               int width)
-{
-    const size_t disk = 4 * (size_t)width;
-    const tangent_map *map = m.map;
-    for (size_t e = 0; e < m.count; e++) {
-        if (e < m.fetching) fetch(buffer, &map[e + FETCH_AHEAD], width);
-        double *vi = buffer + disk * (size_t)map[e].i;
-        if (!walls || map[e].j >= 0)
-            collide(vi, buffer + disk * (size_t)map[e].j, &map[e], width);
-        else
-            reflect(vi, &map[e], width);
-    }
-}
-
-/** The widths are spelled out so that the compiler unrolls and vectorises each. */
-static inline __attribute__((always_inline)) void replay_any(double *buffer, maps m, bool walls,
-                                                             int width)
-{
-    switch (width) {
-    case 1: replay_width(buffer, m, walls, 1); break;
-    case 2: replay_width(buffer, m, walls, 2); break;
-    case 4: replay_width(buffer, m, walls, 4); break;
-    case 8: replay_width(buffer, m, walls, 8); break;
-    case 16: replay_width(buffer, m, walls, 16); break;
-    case 32: replay_width(buffer, m, walls, 32); break;
-    default: replay_width(buffer, m, walls, BLOCK_WIDTH_MAX); break;
-    }
-}
-
-HD_MULTIVERSION
-static void replay_block(double *buffer, maps m, int width) { replay_any(buffer, m, false, width); }
-
-/** The same for a log that holds wall events. */
-HD_MULTIVERSION
-static void replay_block_with_walls(double *buffer, maps m, int width)
-{
-    replay_any(buffer, m, true, width);
-}
-
-/** Columns [col, col + used) of V into the buffer, or back. */
-static void block_load(const hd_frame *frame, double *buffer, int col, int used)
-{
-    const double *v = frame->copy[frame->current] + col;
-    for (int row = 0; row < frame->rows; row++)
-        memcpy(buffer + (size_t)row * (size_t)frame->width, v + (size_t)row * (size_t)frame->stride,
-               (size_t)used * sizeof *v);
-}
-
-static void block_store(const hd_frame *frame, const double *buffer, int col, int used)
-{
-    double *v = frame->copy[1 - frame->current] + col;
-    for (int row = 0; row < frame->rows; row++)
-        memcpy(v + (size_t)row * (size_t)frame->stride, buffer + (size_t)row * (size_t)frame->width,
-               (size_t)used * sizeof *v);
-}
-
-static maps maps_of(const hd_frame *frame, size_t count)
-{
-    const size_t bytes = (size_t)frame->rows * (size_t)frame->width * sizeof(double);
-    const bool is_far = bytes > BLOCK_BYTES && count > FETCH_AHEAD;
-    return (maps){frame->map, count, is_far ? count - FETCH_AHEAD : 0};
-}
-
-static void block_replay(const hd_frame *frame, double *buffer, size_t count, int block)
-{
-    const maps m = maps_of(frame, count);
-    const int width = frame->width, col = block * width;
-    const int used = col + width <= frame->stride ? width : frame->stride - col;
-    block_load(frame, buffer, col, used);
-    if (frame->walls)
-        replay_block_with_walls(buffer, m, width);
-    else
-        replay_block(buffer, m, width);
-    for (int i = 0; i < frame->disks; i++)
-        fly(buffer + 4 * (size_t)width * (size_t)i, frame->since[i], width);
-    block_store(frame, buffer, col, used);
-}
-
-hd_status hd_frame_replay(hd_frame *frame, const hd_event_log *log, double t_begin, double t_end)
-{
-    HD_TRY(maps_reserve(frame, log->count));
-    const size_t count = maps_fill(frame, log, t_begin, t_end);
-    const int blocks = (frame->stride + frame->width - 1) / frame->width;
-    const size_t block_size = (size_t)frame->rows * (size_t)frame->width;
-#pragma omp parallel for schedule(dynamic) num_threads(frame->threads) if (frame->threads > 1)
-    for (int block = 0; block < blocks; block++)
-        block_replay(frame, frame->buffer + block_size * (size_t)omp_get_thread_num(), count,
-                     block);
-    frame->current = 1 - frame->current;
-    return HD_OK;
+    const hd_columns own = hd_frame_columns(frame);
+    const size_t rows = (size_t)frame->rows, wide = (size_t)count;
+    memset(x, 0, rows * wide * sizeof *x);
+    for (size_t row = 0; row < rows; row++)
+        for (int col = own.first > first ? own.first : first;
+             col < own.first + own.count && col < first + count; col++)
+            x[row * wide + (size_t)(col - first)] =
+                own.data[row * (size_t)own.stride + (size_t)(col - own.first)];
+    hd_communicator_sum(frame->communicator, x, rows * wide);
 }
 
 const double *hd_frame_before(const hd_frame *frame) { return frame->copy[1 - frame->current]; }
-void hd_frame_rewind(hd_frame *frame) { frame->current = 1 - frame->current; }
+void hd_frame_rewind(hd_frame *frame)
+{
+    frame->current = 1 - frame->current;
+    frame->by_rows = false;
+}
 
 /* ---- what can be read ---------------------------------------------------------------------- */
 
 /** Sums over all disks of dq.dq, dp.dp and dq.dp for columns [col, col + count), count <= 64. */
-static void halves_of_columns(const hd_frame *frame, double sum[3][BLOCK_WIDTH_MAX], int col,
+static void halves_of_columns(const hd_frame *frame, double sum[3][HD_BLOCK_WIDTH_MAX], int col,
                               int count)
 {
     memset(sum, 0, 3 * sizeof *sum);
@@ -369,11 +213,11 @@ static void halves_of_columns(const hd_frame *frame, double sum[3][BLOCK_WIDTH_M
 
 void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_ratio)
 {
-    const int n = frame->vectors;
+    const int n = hd_frame_columns(frame).count;
 #pragma omp parallel for schedule(static) num_threads(frame->threads) if (frame->threads > 1)
-    for (int col = 0; col < n; col += BLOCK_WIDTH_MAX) {
-        double sum[3][BLOCK_WIDTH_MAX];
-        const int count = n - col < BLOCK_WIDTH_MAX ? n - col : BLOCK_WIDTH_MAX;
+    for (int col = 0; col < n; col += HD_BLOCK_WIDTH_MAX) {
+        double sum[3][HD_BLOCK_WIDTH_MAX];
+        const int count = n - col < HD_BLOCK_WIDTH_MAX ? n - col : HD_BLOCK_WIDTH_MAX;
         halves_of_columns(frame, sum, col, count);
         for (int k = 0; k < count; k++) {
             const bool dq = sum[0][k] > SQUARE_MIN, dp = sum[1][k] > SQUARE_MIN;
@@ -383,10 +227,44 @@ void hd_frame_halves(const hd_frame *frame, double *cos_theta, double *dp_dq_rat
     }
 }
 
-void hd_frame_archive(hd_frame *frame, hd_archive *archive)
+/** Our part of some rows of the whole frame, into them or out of them. */
+static void copy_rows(hd_frame *frame, double *rows, int first, int count, bool out)
+{
+    const hd_columns own = hd_frame_columns(frame);
+    for (int row = 0; row < count && own.count > 0; row++) {
+        double *here = hd_frame_data(frame) + (size_t)(first + row) * (size_t)frame->stride;
+        double *there = rows + (size_t)row * (size_t)frame->vectors + own.first;
+        memcpy(out ? here : there, out ? there : here, (size_t)own.count * sizeof *here);
+    }
+}
+
+/** Some rows of the whole frame at a time. */
+static hd_status archive_shared(hd_frame *frame, hd_archive *archive)
+{
+    enum { ROWS = 32 };
+    const size_t n = (size_t)frame->vectors;
+    double *rows = hd_memory_alloc(ROWS * n, sizeof *rows);
+    hd_status status = hd_communicator_agree(frame->communicator, rows ? HD_OK : HD_NO_MEMORY);
+    for (int first = 0; first < frame->rows && status == HD_OK; first += ROWS) {
+        const int count = frame->rows - first < ROWS ? frame->rows - first : ROWS;
+        copy_rows(frame, rows, first, count, false);
+        if (archive->writing)
+            status = hd_communicator_share(frame->communicator, rows, (size_t)count, n,
+                                           (size_t)frame->stride, n);
+        for (int row = 0; row < count && status == HD_OK; row++)
+            hd_archive_next_doubles(archive, rows + (size_t)row * n, n);
+        copy_rows(frame, rows, first, count, true);
+    }
+    hd_memory_free(rows);
+    return status;
+}
+
+hd_status hd_frame_archive(hd_frame *frame, hd_archive *archive)
 {
     const size_t rows = (size_t)frame->rows, n = (size_t)frame->vectors;
     hd_archive_of_doubles(archive, "frame vectors", rows * n);
+    if (frame->communicator) return archive_shared(frame, archive);
     for (size_t row = 0; row < rows; row++)
         hd_archive_next_doubles(archive, hd_frame_data(frame) + row * (size_t)frame->stride, n);
+    return HD_OK;
 }

@@ -14,11 +14,15 @@
 enum { HD_PROBES = 8 };
 
 struct hd_ortho {
-    int rows, vectors;
+    hd_communicator *communicator; /**< NULL: a single rank */
+    int rows, vectors;             /**< those of the disks of this rank; n */
+    int leaf;                      /**< vectors that are orthonormalised at once, at most */
+    double panel_condition_max;
     int width;          /**< of a panel */
     double *gram;       /**< [width * width], column-major, lower triangle: G, then L */
     double *projection; /**< [later * width], column-major: S; LAPACK's workspace */
     double *inverse;    /**< L^-1, as gram; in the room of S, which comes later */
+    double *sum;        /**< [width * width], of all ranks; NULL with a single one */
     /** [vectors], |V e_k|^2, of a panel complete when its turn comes */
     double *norm2;
     double *scale;       /**< [width], diagonal of G */
@@ -48,6 +52,10 @@ bool hd_is_square(double sum);
 double hd_ortho_condition_from_probes(const hd_ortho *ortho);
 
 void hd_ortho_probes_clear(hd_ortho *ortho);
+
+/** hd_ortho_step_stable of several ranks, by Gram-Schmidt alone. */
+HD_MUST_CHECK hd_status hd_ortho_step_repeated(hd_ortho *ortho, hd_frame *frame,
+                                               double condition_max);
 
 void hd_ortho_begin(hd_ortho *ortho, const hd_frame *frame, hd_norm norm);
 

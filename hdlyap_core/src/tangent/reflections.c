@@ -50,6 +50,7 @@ static void apply_signs(const hd_ortho *ortho, double *a, int stride, const doub
 
 hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame, double condition_max)
 {
+    if (ortho->communicator) return hd_ortho_step_repeated(ortho, frame, condition_max);
     const int n = ortho->vectors, stride = hd_frame_stride(frame);
     double *a = hd_frame_data(frame), *sign = ortho->norm2;
     hd_ortho_begin(ortho, frame, HD_NORM_FULL);

@@ -50,10 +50,10 @@ void hd_verify_log(const hd_event_log *log, int disks)
 
 /* ---- frame --------------------------------------------------------------------------------- */
 
-/** First vector of pair k: spread over the frame; the second is the last vector. */
+/** First vector of pair k: spread over those of this rank; the second is the last of them. */
 static int first_of(const hd_frame *frame, int k)
 {
-    return (int)((long)hd_frame_vectors(frame) * k / HD_VERIFY_PAIRS);
+    return (int)((long)hd_frame_columns(frame).count * k / HD_VERIFY_PAIRS);
 }
 
 /** Rows are dq_x, dq_y, dp_x, dp_y of each disk. */
@@ -76,10 +76,10 @@ static void pair_products(const hd_frame *frame, int a, int b, double *product, 
 
 hd_symplectic hd_verify_sample(const hd_frame *frame)
 {
-    hd_symplectic s;
-    for (int k = 0; k < HD_VERIFY_PAIRS; k++)
-        pair_products(frame, first_of(frame, k), hd_frame_vectors(frame) - 1, &s.product[k],
-                      &s.scale[k]);
+    hd_symplectic s = {0};
+    const int last = hd_frame_columns(frame).count - 1;
+    for (int k = 0; k < HD_VERIFY_PAIRS && last >= 0; k++)
+        pair_products(frame, first_of(frame, k), last, &s.product[k], &s.scale[k]);
     return s;
 }
 

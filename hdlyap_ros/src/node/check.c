@@ -167,8 +167,8 @@ static void print_seconds(const char *name, double seconds)
 
 static void print_memory(const settings *set, hd_room room)
 {
-    const double needed = hd_room_needed(&set->def, set->def.threads > 0 ? set->def.threads
-                                                                         : hd_blas_query().cores);
+    const int threads = set->def.threads > 0 ? set->def.threads : hd_blas_query().cores;
+    const double needed = hd_room_needed(&set->def, threads, 1);
     printf("memory    %.3g GB beside 0.1 GB of libraries; there are %.3g GB (%s)\n", 1e-9 * needed,
            1e-9 * room.bytes, room.limit);
     if (set->def.observe & HD_OBSERVE_COVARIANT)

@@ -84,7 +84,8 @@ static void reconstruct(field_report *r, const hd_step *step, const snapshot *no
 static hdr_doubles column_of(hd_columns frame, int col, int component, size_t disks)
 {
     const size_t stride = (size_t)frame.stride;
-    return message_array(frame.data + (size_t)component * stride + col, disks, 4 * stride);
+    return message_array(frame.data + (size_t)component * stride + (col - frame.first), disks,
+                         4 * stride);
 }
 
 static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, size_t disks)

@@ -1,5 +1,6 @@
 /** hdlyap_node: reads the parameters, starts the worker, looks after it until the end. */
 #include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,9 +8,11 @@
 
 #include "check.h"
 #include "diagnostics.h"
+#include "hdlyap/follow.h"
 #include "hdlyap/hdlyap.h"
 #include "parameters.h"
 #include "parameters_text.h"
+#include "ranks.h"
 #include "report.h"
 #include "services.h"
 #include "settings.h"
@@ -30,6 +33,7 @@ static const double poll_seconds = 0.02;
 
 /** Everything that the node owns, in the order of its making. */
 typedef struct app {
+    hd_communicator *ranks; /**< NULL: a single one */
     hdr_node *ros;
     hdr_params *params;
     hd_checkpoint kept; /**< what is gone on from */
@@ -95,6 +99,15 @@ static int read_settings(app *a)
     return EXIT_SUCCESS;
 }
 
+/** Lowest column of the fields that are chosen by their number; beyond all if none is. */
+static int first_field(const settings *set)
+{
+    int first = INT_MAX;
+    for (int k = 0; k < set->fields.count; k++)
+        if (set->fields.index[k] - 1 < first) first = set->fields.index[k] - 1;
+    return first;
+}
+
 /** A run whose checkpoints could not be written is not begun. */
 static int create_run(app *a)
 {
@@ -102,11 +115,13 @@ static int create_run(app *a)
     const settings *set = &a->set;
     hd_status status = checkpoint_writer_check(set, message, sizeof message);
     if (status == HD_OK && *set->resume)
-        status = hd_run_resume(&a->run, set->resume, &set->def, message, sizeof message);
+        status = hd_run_resume_shared(&a->run, set->resume, &set->def, a->ranks, message,
+                                      sizeof message);
     else if (status == HD_OK)
-        status = hd_run_create(&a->run, &set->def, message, sizeof message);
-    if (*set->checkpoint) hdr_node_stop_within(stop_keeping_seconds);
+        status = hd_run_create_shared(&a->run, &set->def, a->ranks, message, sizeof message);
+    if (*set->checkpoint || a->ranks) hdr_node_stop_within(stop_keeping_seconds);
     if (status == HD_OK) hd_run_fields_every(a->run, set->field_interval);
+    if (status == HD_OK) hd_run_fields_from(a->run, first_field(set));
     if (status == HD_OK)
         status = checkpoint_writer_begin(&a->keep, set, a->run, message, sizeof message);
     return fault_logged(status, message);
@@ -191,8 +206,8 @@ static bool look_after(app *a)
         if (diagnostics_update(&a->diag, &state)) worker_examine(a->work); /* for the next one */
     }
     worker_stop(a->work);
-    return ended ||
-           worker_wait(a->work, *a->set.checkpoint ? stop_step_keeping_seconds : stop_step_seconds);
+    return ended || worker_wait(a->work, *a->set.checkpoint || a->ranks ? stop_step_keeping_seconds
+                                                                        : stop_step_seconds);
 }
 
 /** A run at fault has no last message: its end is in the log and in the diagnostics. */
@@ -232,7 +247,7 @@ static int run(app *a)
     status = finish(a);
     if (ended) return status;
     hdr_node_free(a->ros, linger_seconds); /* a step under way still uses everything else */
-    _exit(status);
+    _exit(status);                         /* mpirun ends the other ranks of that step */
 }
 
 /** What needs no master: an exit status, or -1. */
@@ -251,19 +266,39 @@ static int answer(int argc, char **argv)
     return -1;
 }
 
+static int follow(const app *a)
+{
+    ranks_follow(a->ranks);
+    return EXIT_SUCCESS;
+}
+
+/** The node itself. */
+static int lead(app *a, int argc, char **argv)
+{
+    if (a->ranks) hd_run_lead(a->ranks);
+    const hdr_status created = hdr_node_create(&a->ros, &argc, argv, "hdlyap", stop_seconds,
+                                               fault_status(HD_NO_MEMORY));
+    if (created != HDR_OK) { /* roscpp that has started by half does not survive the end of main */
+        const int failed = failed_status(created);
+        ranks_leave(a->ranks);
+        _exit(failed);
+    }
+    if (!a->ros) return EXIT_SUCCESS;
+    const int status = argc > 1 ? refuse_argument(argv[1]) : run(a);
+    app_free(a);
+    return status;
+}
+
 int main(int argc, char **argv)
 {
     app a = {.ros = NULL};
+    char message[512];
     const int answered = answer(argc, argv);
     if (answered >= 0) return answered;
     hd_blas_restart_if_slow(argv);
     if (argc > 1 && strcmp(argv[1], "--check") == 0) return check_scene(argc - 2, argv + 2);
-    const hdr_status created = hdr_node_create(&a.ros, &argc, argv, "hdlyap", stop_seconds,
-                                               fault_status(HD_NO_MEMORY));
-    /* roscpp that has started by half does not survive the end of main */
-    if (created != HDR_OK) _exit(failed_status(created));
-    if (!a.ros) return EXIT_SUCCESS;
-    const int status = argc > 1 ? refuse_argument(argv[1]) : run(&a);
-    app_free(&a);
+    if (!ranks_join(&a.ranks, &argc, &argv, message, sizeof message)) return refuse(message);
+    const int status = a.ranks && a.ranks->rank > 0 ? follow(&a) : lead(&a, argc, argv);
+    ranks_leave(a.ranks);
     return status;
 }

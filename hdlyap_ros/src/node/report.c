@@ -284,6 +284,9 @@ static hd_status publish_cost(report *rep, const progress *now)
         .second_passes = (uint64_t)cost->second_passes,
         .slow_vector_samples = (uint64_t)cost->slow_vector_samples,
         .repairs = (uint64_t)cost->repairs,
+        .communication_seconds = cost->communication,
+        .communication_bytes = cost->bytes,
+        .communication_calls = cost->calls,
     };
     const double numbers[] = {now->time,   cost->wall,     cost->events, cost->replay,
                               cost->ortho, cost->spectrum, cost->modes,  cost->covariant};

@@ -88,6 +88,7 @@ static void fill_machine(hdr_run_info *info, const hd_run *run)
     const hd_blas blas = hd_blas_query();
     info->version = HDLYAP_VERSION;
     info->vectors = (uint32_t)hd_run_vectors(run);
+    info->ranks = (uint32_t)hd_run_ranks(run);
     info->threads = (uint32_t)hd_run_threads(run);
     info->blas_threads = (uint32_t)blas.threads;
     info->blas_library = blas.library;

@@ -14,7 +14,7 @@ static hd_status status_of(const bytes *b, hd_run **run, char *message, size_t s
 {
     FILE *file = fmemopen(b->data, b->size, "rb");
     hd_archive archive = hd_archive_reader(file, b->size);
-    const hd_status status = hd_run_read(run, &archive, NULL, message, size);
+    const hd_status status = hd_run_read(run, &archive, NULL, NULL, message, size);
     fclose(file);
     return status;
 }

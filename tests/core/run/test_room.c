@@ -23,7 +23,7 @@ static void compare(const char *what, const hd_scene_def *scene, double least, d
 {
     ledger_reset_peak();
     const double asked = asked_for(scene), threads = scene->threads;
-    const double needed = hd_room_needed(scene, (int)threads);
+    const double needed = hd_room_needed(scene, (int)threads, 1);
     print_message("%s: asked for %.2f MB, estimated %.3f times that\n", what, 1e-6 * asked,
                   needed / asked);
     assert_true(needed >= least * asked && needed <= most * asked);
@@ -64,7 +64,7 @@ static void what_is_too_much_is_said(void **state)
 {
     (void)state;
     char line[256] = "";
-    const hd_room room = {8e9, "machine"};
+    const hd_room room = {8e9, "machine", 1};
     const hd_scene_def large = short_run(20000, HD_EXPONENTS_POSITIVE, HD_OBSERVE_ALL & 31);
     int exponents = 0, disks = 0;
     assert_int_equal(hd_room_check(&large, room, line, sizeof line), HD_NO_MEMORY);
@@ -78,11 +78,11 @@ static void what_is_too_much_is_said(void **state)
     hd_scene_def one = large;
     one.exponents = exponents;
     CHECK_OK(hd_room_check(&one, room, NULL, 0));
-    assert_true(hd_room_needed(&one, 2) > 0.9 * room.bytes * 0.9);
+    assert_true(hd_room_needed(&one, 2, 1) > 0.9 * room.bytes * 0.9);
     one = large;
     one.disks = disks;
     CHECK_OK(hd_room_check(&one, room, NULL, 0));
-    assert_true(hd_room_needed(&one, 2) > 0.7 * room.bytes);
+    assert_true(hd_room_needed(&one, 2, 1) > 0.7 * room.bytes);
 }
 
 static void nothing_is_allocated_for_it(void **state)

@@ -24,6 +24,9 @@ def parameters(given, folder, cwd):
     scene, own = given.pop('scene', ''), mapping('params', given.pop('params', ''))
     if not scene and not given.get('resume'):
         scene = USUAL_SCENE
+    ranks = given.pop('ranks', '1')
+    if not (ranks.isdigit() and int(ranks) > 0):
+        raise Refused(f'ranks = {ranks}: must be a number of processes, 1 at least')
     awaited = awaited_by(given)
     for name in FILES:
         if name in given:

@@ -1,0 +1,70 @@
+/** Several processes (ranks) that carry one run together: what they tell each other. All of them
+ * make the same calls in the same order; each carries its columns of the frame, and all else is
+ * computed by each alike. What a communicator does is in hdlyap/mpi.h; without one (NULL) a run has
+ * one rank, and these calls do nothing. */
+#ifndef HDLYAP_COMMUNICATOR_H
+#define HDLYAP_COMMUNICATOR_H
+
+#include <stddef.h>
+
+#include "hdlyap/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct hd_communicator hd_communicator;
+
+typedef enum hd_call { HD_CALL_SUM, HD_CALL_GATHER, HD_CALL_EXCHANGE, HD_CALL_BROADCAST } hd_call;
+enum { HD_CALLS = 4 };
+
+/** Of one kind of call, on this rank. */
+typedef struct hd_traffic {
+    double calls;
+    double bytes;   /**< of what is summed or broadcast; of what goes from here to the others */
+    double seconds; /**< waiting included */
+} hd_traffic;
+
+/** How it is done; every function is called by all ranks together and gives all of them the same
+ * bits, but for `exchange`. */
+typedef struct hd_transport {
+    /** x[count] <- its sum over all ranks */
+    void (*sum)(void *context, double *x, size_t count);
+    /** x[ranks * count]: each rank has filled its own count entries; then all have all of them */
+    void (*gather)(void *context, double *x, size_t count);
+    /** x[ranks * count]: entries r * count ... go to rank r, and those from there take their place
+     */
+    void (*exchange)(void *context, double *x, size_t count);
+    /** x[bytes] <- that of rank 0 */
+    void (*broadcast)(void *context, void *x, size_t bytes);
+} hd_transport;
+
+struct hd_communicator {
+    int rank, ranks;
+    int beside; /**< ranks on this machine, this one included */
+    int leads;  /**< its calls of a run are told to the others (follow.h) */
+    const hd_transport *transport;
+    void *context;
+    hd_traffic traffic[HD_CALLS];
+};
+
+int hd_communicator_rank(const hd_communicator *c);           /**< 0 without one */
+int hd_communicator_ranks(const hd_communicator *c);          /**< 1 without one */
+hd_traffic hd_communicator_traffic(const hd_communicator *c); /**< of all kinds together */
+
+void hd_communicator_sum(hd_communicator *c, double *x, size_t count);
+void hd_communicator_exchange(hd_communicator *c, double *x, size_t count);
+void hd_communicator_broadcast(hd_communicator *c, void *x, size_t bytes);
+
+/** x[rows][stride]: rank r has filled columns r * width ... of every row, up to `count`; then all
+ * have all of them. HD_NO_MEMORY, on all ranks. */
+HD_MUST_CHECK hd_status hd_communicator_share(hd_communicator *c, double *x, size_t rows,
+                                              size_t stride, size_t width, size_t count);
+
+/** The status of the first rank that has another one than HD_OK: all then go on, or none. */
+HD_MUST_CHECK hd_status hd_communicator_agree(hd_communicator *c, hd_status mine);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

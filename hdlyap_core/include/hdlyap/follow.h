@@ -1,0 +1,23 @@
+/** Ranks that have no program of their own: rank 0 makes the calls of a run (run.h, checkpoint.h),
+ * the others make the same ones, as they are told. */
+#ifndef HDLYAP_FOLLOW_H
+#define HDLYAP_FOLLOW_H
+
+#include "hdlyap/communicator.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** On rank 0: from now on each call of a run with this communicator is told to the others. */
+void hd_run_lead(hd_communicator *communicator);
+/** On rank 0: they may go. Once. */
+void hd_run_dismiss(hd_communicator *communicator);
+/** On the others: makes the calls of rank 0, one run at a time, until they may go. What fails there
+ * fails here alike; rank 0 says so. */
+void hd_run_follow(hd_communicator *communicator);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

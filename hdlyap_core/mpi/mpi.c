@@ -1,0 +1,94 @@
+/** MPI -> transport of a communicator. The only file that knows MPI. */
+#include "hdlyap/mpi.h"
+
+#include <limits.h>
+#include <mpi.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+/** Of one message: MPI counts in int; and room that an exchange takes beside what it exchanges. */
+enum { PIECE = 1 << 17 };
+
+/** As many as MPI can count. */
+static int as_count(size_t left) { return left < INT_MAX ? (int)left : INT_MAX; }
+
+/** MPI promises the same bits to all ranks. */
+static void sum(void *context, double *x, size_t count)
+{
+    (void)context;
+    for (size_t at = 0; at < count;) {
+        const int piece = as_count(count - at);
+        MPI_Allreduce(MPI_IN_PLACE, x + at, piece, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+        at += (size_t)piece;
+    }
+}
+
+static void gather(void *context, double *x, size_t count)
+{
+    (void)context;
+    MPI_Allgather(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, x, as_count(count), MPI_DOUBLE,
+                  MPI_COMM_WORLD);
+}
+
+/** With one rank after the other, in pieces: hardly any room beside x. */
+static void exchange(void *context, double *x, size_t count)
+{
+    const hd_communicator *c = context;
+    for (int step = 0; step < c->ranks; step++) {
+        const int other = (step - c->rank + c->ranks) % c->ranks;
+        double *block = x + (size_t)other * count;
+        if (other == c->rank) continue;
+        for (size_t at = 0; at < count; at += PIECE) {
+            const int piece = (int)(count - at < PIECE ? count - at : PIECE);
+            MPI_Sendrecv_replace(block + at, piece, MPI_DOUBLE, other, 0, other, 0, MPI_COMM_WORLD,
+                                 MPI_STATUS_IGNORE);
+        }
+    }
+}
+
+static void broadcast(void *context, void *x, size_t bytes)
+{
+    (void)context;
+    for (size_t at = 0; at < bytes;) {
+        const int piece = as_count(bytes - at);
+        MPI_Bcast((char *)x + at, piece, MPI_BYTE, 0, MPI_COMM_WORLD);
+        at += (size_t)piece;
+    }
+}
+
+static const hd_transport transport = {sum, gather, exchange, broadcast};
+
+static int ranks_beside(void)
+{
+    MPI_Comm machine;
+    int ranks;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+    MPI_Comm_size(machine, &ranks);
+    MPI_Comm_free(&machine);
+    return ranks;
+}
+
+hd_status hd_mpi_begin(hd_communicator **out, int *argc, char ***argv)
+{
+    int provided, rank, ranks;
+    *out = NULL;
+    MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    if (ranks == 1) return HD_OK;
+    hd_communicator *c = calloc(1, sizeof *c);
+    if (!c) return HD_NO_MEMORY;
+    c->rank = rank;
+    c->ranks = ranks;
+    c->beside = ranks_beside();
+    c->transport = &transport;
+    c->context = c;
+    *out = c;
+    return HD_OK;
+}
+
+void hd_mpi_end(hd_communicator *c)
+{
+    MPI_Finalize();
+    free(c);
+}

@@ -1,0 +1,117 @@
+/** Calls of a run's ranks -> its transport, counted. */
+#include "hdlyap/communicator.h"
+
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+
+/** Rows that are shared at once: room for them, not for all, is taken beside them. */
+enum { ROWS_AT_ONCE = 32 };
+
+int hd_communicator_rank(const hd_communicator *c) { return c ? c->rank : 0; }
+int hd_communicator_ranks(const hd_communicator *c) { return c ? c->ranks : 1; }
+
+static void count(hd_communicator *c, hd_call kind, double start, double bytes)
+{
+    hd_traffic *of = &c->traffic[kind];
+    of->calls++;
+    of->bytes += bytes;
+    of->seconds += hd_clock_now() - start;
+}
+
+hd_traffic hd_communicator_traffic(const hd_communicator *c)
+{
+    hd_traffic all = {0.0, 0.0, 0.0};
+    for (int kind = 0; c && kind < HD_CALLS; kind++) {
+        all.calls += c->traffic[kind].calls;
+        all.bytes += c->traffic[kind].bytes;
+        all.seconds += c->traffic[kind].seconds;
+    }
+    return all;
+}
+
+void hd_communicator_sum(hd_communicator *c, double *x, size_t size)
+{
+    if (hd_communicator_ranks(c) == 1) return;
+    const double start = hd_clock_now();
+    c->transport->sum(c->context, x, size);
+    count(c, HD_CALL_SUM, start, (double)(size * sizeof *x));
+}
+
+static void gather(hd_communicator *c, double *x, size_t size)
+{
+    const double start = hd_clock_now();
+    c->transport->gather(c->context, x, size);
+    count(c, HD_CALL_GATHER, start, (double)(size * sizeof *x) * (c->ranks - 1));
+}
+
+void hd_communicator_exchange(hd_communicator *c, double *x, size_t size)
+{
+    if (hd_communicator_ranks(c) == 1) return;
+    const double start = hd_clock_now();
+    c->transport->exchange(c->context, x, size);
+    count(c, HD_CALL_EXCHANGE, start, (double)(size * sizeof *x) * (c->ranks - 1));
+}
+
+void hd_communicator_broadcast(hd_communicator *c, void *x, size_t bytes)
+{
+    if (hd_communicator_ranks(c) == 1) return;
+    const double start = hd_clock_now();
+    c->transport->broadcast(c->context, x, bytes);
+    count(c, HD_CALL_BROADCAST, start, (double)bytes);
+}
+
+/** Number of entries of a row that a rank fills. */
+static size_t part_of(size_t rank, size_t width, size_t size)
+{
+    const size_t first = rank * width;
+    return first >= size ? 0 : size - first < width ? size - first : width;
+}
+
+/** The entries of a rank in some rows, into its place among the parts, or out of it. */
+static void pack(double *parts, double *x, size_t rank, size_t rows, size_t stride, size_t width,
+                 size_t size, int out)
+{
+    const size_t bytes = part_of(rank, width, size) * sizeof *x;
+    for (size_t row = 0; row < rows; row++) {
+        double *part = parts + (rank * rows + row) * width,
+               *place = x + row * stride + rank * width;
+        if (bytes > 0) memcpy(out ? place : part, out ? part : place, bytes);
+    }
+}
+
+hd_status hd_communicator_share(hd_communicator *c, double *x, size_t rows, size_t stride,
+                                size_t width, size_t size)
+{
+    const size_t ranks = (size_t)hd_communicator_ranks(c);
+    if (ranks == 1) return HD_OK;
+    const size_t most = rows < ROWS_AT_ONCE ? rows : ROWS_AT_ONCE;
+    double *parts = hd_memory_alloc(ranks * most * width, sizeof *parts);
+    const hd_status status = hd_communicator_agree(c, parts ? HD_OK : HD_NO_MEMORY);
+    for (size_t row = 0; row < rows && status == HD_OK; row += most) {
+        const size_t now = rows - row < most ? rows - row : most;
+        double *here = x + row * stride;
+        pack(parts, here, (size_t)c->rank, now, stride, width, size, 0);
+        gather(c, parts, now * width);
+        for (size_t rank = 0; rank < ranks; rank++)
+            pack(parts, here, rank, now, stride, width, size, 1);
+    }
+    hd_memory_free(parts);
+    return status;
+}
+
+hd_status hd_communicator_agree(hd_communicator *c, hd_status mine)
+{
+    const int ranks = hd_communicator_ranks(c);
+    if (ranks == 1) return mine;
+    double all[2] = {mine != HD_OK, 0.0};
+    hd_communicator_sum(c, all, 1);
+    if (all[0] == 0.0) return HD_OK;
+    /* rare: who is the first, and what has it got? */
+    for (int rank = 0; rank < ranks && all[1] == 0.0; rank++) {
+        all[1] = rank == c->rank ? (double)mine : 0.0;
+        hd_communicator_sum(c, all + 1, 1);
+    }
+    return (hd_status)all[1];
+}

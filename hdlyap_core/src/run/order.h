@@ -1,0 +1,34 @@
+/** A call of a run, as rank 0 tells it to the others. */
+#ifndef HD_ORDER_H
+#define HD_ORDER_H
+
+#include "hdlyap/follow.h"
+#include "hdlyap/scene.h"
+
+typedef enum hd_order_kind {
+    HD_ORDER_END,
+    HD_ORDER_CREATE,
+    HD_ORDER_RESUME,
+    HD_ORDER_FREE,
+    HD_ORDER_ADVANCE,
+    HD_ORDER_OBSERVE,
+    HD_ORDER_WATCH,
+    HD_ORDER_CHANGE,
+    HD_ORDER_FIELDS_EVERY,
+    HD_ORDER_FIELDS_FROM,
+    HD_ORDER_RESET,
+    HD_ORDER_SAVE
+} hd_order_kind;
+
+typedef struct hd_order {
+    hd_order_kind kind;
+    int integer; /**< stages, a column, a row of the table of parameters */
+    double number;
+    const hd_scene_def *scene; /**< NULL: none */
+    const char *path;          /**< the same */
+} hd_order;
+
+/** Nothing unless this rank leads. */
+void hd_order_tell(hd_communicator *communicator, hd_order order);
+
+#endif

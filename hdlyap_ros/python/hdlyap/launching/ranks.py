@@ -1,0 +1,36 @@
+"""The ranks that mpirun or srun has started this program as."""
+
+import os
+import socket
+
+import roslib.packages
+
+from hdlyap.runs.bag import Bag
+
+# as Open MPI, PMIx, Slurm and MPICH call it
+NUMBERS = 'OMPI_COMM_WORLD_RANK', 'PMIX_RANK', 'SLURM_PROCID', 'PMI_RANK'
+
+
+def number():
+    """Of this rank, from 0; 0 without others."""
+    for name in NUMBERS:
+        if name in os.environ:
+            return int(os.environ[name])
+    return 0
+
+
+def become_node():
+    """Does not return."""
+    program = roslib.packages.find_node('hdlyap', 'hdlyap_node')[0]
+    os.execv(program, [program])
+
+
+def free_port():
+    with socket.socket() as listening:
+        listening.bind(('', 0))
+        return listening.getsockname()[1]
+
+
+def is_complete(bag):
+    """Whether a run that went to its end is in it."""
+    return os.path.exists(bag) and Bag(bag).is_complete()

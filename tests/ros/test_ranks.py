@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+"""The node on several ranks: the same topics, numbers, checkpoints and ends as on one."""
+
+import os
+import signal
+
+import rospy
+import rostest
+
+import harness
+from harness import MODES, REPEATABLE, SHORT
+
+RANKS = 2
+ENDLESS = dict(SHORT, disks=60, duration=0.0, report_interval=0.5, threads=1)
+# root may, more ranks than cores may, and mpirun insists after two seconds
+ENVIRONMENT = {
+    'OMPI_ALLOW_RUN_AS_ROOT': '1',
+    'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1',
+    'OMPI_MCA_rmaps_base_oversubscribe': '1',
+    'OMPI_MCA_mpi_yield_when_idle': '1',
+    'OMPI_MCA_odls_base_sigkill_timeout': '2',
+}
+
+
+def mpirun(ranks=RANKS):
+    return ['mpirun', '--bind-to', 'none', '-n', str(ranks), harness.executable()]
+
+
+def followers(node):
+    """Process numbers of the ranks that are not the node, of those that mpirun has started."""
+    found = []
+    for pid in filter(str.isdigit, os.listdir('/proc')):
+        try:
+            with open('/proc/%s/environ' % pid, 'rb') as file:
+                environ = dict(
+                    entry.split(b'=', 1) for entry in file.read().split(b'\0') if b'=' in entry
+                )
+            with open('/proc/%s/stat' % pid) as file:
+                parent = int(file.read().rsplit(')', 1)[1].split()[1])
+        except OSError:
+            continue
+        if parent == node.process.pid and environ.get(b'OMPI_COMM_WORLD_RANK', b'0') != b'0':
+            found.append(int(pid))
+    return found
+
+
+class Ranks(harness.Case):
+    def on_ranks(self, params, ranks=RANKS):
+        return self.start(params, command=mpirun(ranks), **ENVIRONMENT)
+
+    def last(self, topic, node):
+        """The last message of a run that ends by itself."""
+        status = node.wait()
+        self.assertEqual(status, 0, node.text())
+        self.assertTrue(topic.wait_for(lambda message: True))
+        return topic.messages[-1]
+
+    def test_numbers(self):
+        spectra = []
+        for ranks in (1, RANKS, 3):
+            heard = [self.listen(topic) for topic in ('spectrum', 'cost', 'run_info')]
+            params = dict(MODES, threads=1, wait_for_subscribers=['spectrum', 'cost'])
+            node = self.on_ranks(params, ranks) if ranks > 1 else self.start(params)
+            spectrum = self.last(heard[0], node)
+            cost = heard[1].messages[-1]
+            self.assertEqual(heard[2].messages[-1].ranks, ranks)
+            self.assertEqual(cost.communication_calls > 0, ranks > 1)
+            self.assertEqual(cost.communication_bytes > 0, ranks > 1)
+            spectra.append((spectrum.exponents, cost.error_bound))
+            for listener in heard:
+                listener.close()
+        for exponents, bound in spectra[1:]:
+            for one, other in zip(spectra[0][0], exponents):
+                self.assertAlmostEqual(one, other, delta=spectra[0][1] + bound)
+
+    def test_all_topics(self):
+        """Fields, hydrodynamic response and slow vectors come from all of them."""
+        topics = {name: self.listen(name) for name in (*harness.TYPES, 'slow_vectors')}
+        node = self.on_ranks(
+            dict(REPEATABLE, observables=harness.OBSERVABLES, slow_vectors_rate=50.0)
+        )
+        self.assertEqual(node.wait(), 0, node.text())
+        for name, topic in topics.items():
+            self.assertTrue(topic.messages, name)
+
+    def test_interrupt(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            spectrum = self.listen('spectrum')
+            node = self.on_ranks(ENDLESS)
+            self.assertTrue(spectrum.wait_for(lambda message: True))
+            others = followers(node)
+            self.assertEqual(len(others), RANKS - 1)
+            node.send(number)
+            node.wait(harness.SOON)
+            self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())
+            for pid in others:
+                self.assertTrue(
+                    harness.wait_until(lambda pid=pid: not os.path.exists('/proc/%d' % pid))
+                )
+            spectrum.close()
+
+    def test_killed(self):
+        """A rank that dies ends all."""
+        spectrum = self.listen('spectrum')
+        node = self.on_ranks(ENDLESS)
+        self.assertTrue(spectrum.wait_for(lambda message: True))
+        (pid,) = followers(node)
+        os.kill(pid, signal.SIGKILL)
+        self.assertNotEqual(node.wait(harness.SOON), 0)
+
+    def test_refused(self):
+        node = self.on_ranks(dict(SHORT, exponents='all'))
+        self.assertEqual(node.wait(), 2, node.text())
+        self.assertEqual(len(node.lines('ranks = 2: must be 1 for exponents = all')), 1)
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_ranks')
+    rostest.rosrun('hdlyap', 'ranks', Ranks)

@@ -1,0 +1,121 @@
+#!/usr/bin/env bash
+# Runs on a Slurm of its own, as on a cluster: a run of several ranks, the reproduction's job array, a job that is requeued.
+# Controller and two nodes are this machine, as root, in one folder, without systemd or munge.
+#   slurm.sh WORK_FOLDER INSTALLED_SETUP
+set -euo pipefail
+# shellcheck source=launch/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
+
+readonly WORK=$1 SETUP=$2 NODES=(one two)
+export SLURM_CONF=$WORK/slurm.conf
+mkdir -p "$WORK"/{state,log}
+# shellcheck source=tests/check.sh
+source "$ROOT/tests/check.sh"
+
+
+configure() {
+    local node
+    {
+        cat <<END
+ClusterName=check
+SlurmctldHost=$(hostname -s)(127.0.0.1)
+SlurmctldPort=$(free_port)
+SlurmUser=root
+AuthType=auth/none
+CredType=cred/none
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+MpiDefault=pmix
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core
+ReturnToService=2
+JobRequeue=1
+StateSaveLocation=$WORK/state
+SlurmdSpoolDir=$WORK/spool.%n
+SlurmctldPidFile=$WORK/slurmctld.pid
+SlurmdPidFile=$WORK/slurmd.%n.pid
+SlurmctldLogFile=$WORK/log/slurmctld
+SlurmdLogFile=$WORK/log/slurmd.%n
+END
+        for node in "${NODES[@]}"; do
+            echo "NodeName=$node NodeAddr=127.0.0.1 Port=$(free_port) CPUs=2 RealMemory=4000"
+        done
+        echo "PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP"
+    } >"$SLURM_CONF"
+    echo 'CgroupPlugin=cgroup/v1' >"$WORK/cgroup.conf"
+}
+
+idle() { [[ $(sinfo -h -N -o '%N %T' 2>/dev/null | grep -c ' idle$') == "${#NODES[@]}" ]]; }
+
+begin() {
+    local node
+    configure
+    start slurmctld -D -f "$SLURM_CONF"
+    for node in "${NODES[@]}"; do start slurmd -D -f "$SLURM_CONF" -N "$node"; done
+    wait_for 30 idle
+}
+
+# wait_for SECONDS COMMAND...
+wait_for() {
+    local until=$((SECONDS + $1))
+    while ! "${@:2}"; do
+        ((SECONDS < until)) || return 1
+        sleep 0.2
+    done
+}
+
+# ranks_of BAG: that its run says it had.
+ranks_of() {
+    /usr/bin/python3 -c 'import sys; from hdlyap.plots import recording; print(recording.run_infos(sys.argv[1])[-1].ranks)' "$1"
+}
+
+runs_together() {
+    srun -N 1 -n 2 hdlyap_run quick --out "$WORK/two.bag" duration:=30 && [[ $(ranks_of "$WORK/two.bag") == 2 ]]
+}
+
+refuses_what_is_no_argument() { ! srun -N 1 -n 1 hdlyap_run quick --out "$WORK/none.bag" duration=30 && [[ ! -e $WORK/none.bag ]]; }
+
+gone() { [[ -z $(squeue -h -j "$1" 2>/dev/null) ]]; }
+
+missing() { rosrun hdlyap reproduce --plan "$WORK/plan.yaml" --write --out "$WORK/array"; }
+
+# Two of the reproduction's runs, as doc/reproduction.md says.
+runs_an_array() {
+    local job
+    cd "$WORK"
+    printf '%s: {base: quick, disks: 60, aspect: 0.2, equilibration: 5.0, warmup: 20.0, duration: 20, seconds: [1, 1]}\n' \
+        periodic travelling >plan.yaml
+    missing >runs.txt && [[ $(wc -l <runs.txt) == 2 ]] &&
+        job=$(sbatch --parsable --array=1-2 --mem-per-cpu=500M "$ROOT/launch/reproduce.sbatch" "$WORK/array" runs.txt \
+            --plan "$WORK/plan.yaml") &&
+        wait_for 90 gone "$job" && [[ -s array/periodic.bag && -s array/travelling.bag && -z $(missing) ]]
+}
+
+# A job that goes on from its checkpoint, if there is one; requeued in the middle.
+goes_on() {
+    local job
+    cd "$WORK"
+    cat >job.sh <<END
+#!/usr/bin/env bash
+[[ ! -s run.checkpoint ]] || from=resume:=run.checkpoint
+exec srun -n 2 hdlyap_run quick --out run.bag duration:=3000 params:="{checkpoint_interval: 1}" checkpoint:=run.checkpoint \$from
+END
+    job=$(sbatch --parsable -N 1 -n 2 --mem-per-cpu=500M --requeue --open-mode=append job.sh) &&
+        wait_for 60 test -s run.checkpoint && sleep 5 && scontrol requeue "$job" && wait_for 30 pending "$job" &&
+        scontrol update "JobId=$job" StartTime=now && wait_for 60 resumed "$job" && scancel "$job" && wait_for 60 gone "$job"
+}
+
+pending() { [[ $(squeue -h -o %T -j "$1") == PENDING ]]; }
+
+resumed() { grep -q 'goes on from simulated time [1-9]' "$WORK/slurm-$1.out"; }
+
+stop_at_exit
+source_setup "$SETUP"
+programs=$(catkin_find --first-only --libexec hdlyap)
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 PATH=$PATH:$programs
+check 'a Slurm of two nodes' begin
+check 'srun of two ranks' runs_together
+check 'srun of what is no argument' refuses_what_is_no_argument
+check 'sbatch of the reproduction' runs_an_array
+check 'a requeued job goes on' goes_on
+exit "$FAILED"
