@@ -24,7 +24,7 @@ message_packages() {
 
 run_packages() {
     message_packages "$1"
-    echo pkg-config procps libopenblas-openmp-dev liblapacke-dev libyaml-dev zlib1g-dev
+    echo pkg-config procps python3-paramiko libopenblas-openmp-dev liblapacke-dev libyaml-dev zlib1g-dev
     case $1 in
         debian)
             echo ros-std-srvs libstd-srvs-dev python3-std-srvs ros-diagnostic-msgs libdiagnostic-msgs-dev \
@@ -36,7 +36,7 @@ run_packages() {
 
 test_packages() {
     echo ccache libcmocka-dev libgtest-dev ninja-build shellcheck strace valgrind clang libomp-dev xvfb libxtst6 imagemagick libgl1-mesa-dri \
-        black flake8 clang-format doxygen libopenmpi-dev openmpi-bin slurmctld slurmd slurm-client
+        black flake8 clang-format doxygen libopenmpi-dev openmpi-bin slurmctld slurmd slurm-client openssh-server iproute2
     case $1 in
         debian)
             echo libclang-rt-dev librostest-dev python3-rostest python3-rostopic python3-rosnode \

@@ -259,6 +259,7 @@ either_lane() {
     first downstream checks downstream
     first plot_tests unittest plot_tests
     ! can_slurm || first slurm checks "$ROOT/tests/slurm.sh" "$WORK/slurm" "$WORK/ros/.install/setup.bash"
+    ! can_ssh || first ssh checks "$ROOT/tests/ssh.sh" "$WORK/ssh" "$WORK/ros/.install/setup.bash"
     first reproduce checks flock -o "$TAKEN.build" "$ROOT/tests/reproduce.sh" "$WORK/reproduce"
     first lint one lint
     [[ $(clang-format --version) != *' 14.'* ]] || first format one format
@@ -267,6 +268,9 @@ either_lane() {
 
 # A Slurm of the suite's own needs root.
 can_slurm() { ((EUID == 0)) && command -v slurmctld slurmd srun >/dev/null; }
+
+# Nor do machines of its own go without root: they are network namespaces.
+can_ssh() { ((EUID == 0)) && command -v sshd ip >/dev/null && ip netns add "hdlyap$$" && ip netns del "hdlyap$$"; }
 
 # first NAME COUNTER COMMAND...: the stage, in the lane that comes first.
 first() { ! mkdir "$TAKEN/$1" 2>/dev/null || stage "$@"; }
@@ -295,6 +299,7 @@ finish "$CHILD" || whole=1
 finish "$ros" || whole=1
 stage warnings one warnings
 stage leftovers one leftovers
+can_ssh || say "ssh: skipped, needs root, openssh-server and iproute2"
 can_slurm || say "slurm: skipped, needs root, slurmctld, slurmd and slurm-client"
 ((!whole)) || report "end of a lane" 0 1 "$COUNTS"
 
