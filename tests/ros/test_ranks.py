@@ -3,6 +3,8 @@
 
 import os
 import signal
+import tempfile
+import time
 
 import rospy
 import rostest
@@ -107,6 +109,48 @@ class Ranks(harness.Case):
         (pid,) = followers(node)
         os.kill(pid, signal.SIGKILL)
         self.assertNotEqual(node.wait(harness.SOON), 0)
+
+    def test_stopped_for_a_while(self):
+        """The others wait for it."""
+        status = self.listen('status')
+        node = self.on_ranks(dict(ENDLESS, duration=200.0))
+        self.assertTrue(status.wait_for(lambda message: message.sim_time > 3))
+        (pid,) = followers(node)
+        os.kill(pid, signal.SIGSTOP)
+        time.sleep(1)
+        before = status.messages[-1].sim_time
+        time.sleep(2)
+        self.assertEqual(status.messages[-1].sim_time, before)
+        os.kill(pid, signal.SIGCONT)
+        self.assertEqual(node.wait(harness.SOON), 0, node.text())
+
+    def unlike(self, *other, **params):
+        """A run whose second rank is started in another way; what the node says at its end."""
+        node = self.start(
+            dict(SHORT, **params), command=[*mpirun(1), ':', '-n', '1', *other, harness.executable()], **ENVIRONMENT
+        )
+        return node.wait(harness.SOON), ' '.join(node.lines('FATAL'))
+
+    def test_unlike_kernels(self):
+        status, said = self.unlike('-x', 'OPENBLAS_CORETYPE=Nehalem')
+        self.assertEqual(status, 2, said)
+        self.assertRegex(said, 'rank 1 is hdlyap .* Nehalem kernels: must be hdlyap')
+
+    def test_no_room(self):
+        status, said = self.unlike('prlimit', '--as=900000000', disks=3000)
+        self.assertEqual(status, 3, said)
+        self.assertIn('another rank: out of memory', said)
+
+    def test_checkpoint(self):
+        """Kept by two, it goes on with one."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, 'kept')
+            params = dict(SHORT, disks=40, threads=1)
+            node = self.on_ranks(dict(params, checkpoint=path))
+            self.assertEqual(node.wait(), 0, node.text())
+            node = self.start(dict(params, resume=path, duration=4.0))
+            self.assertEqual(node.wait(), 0, node.text())
+            self.assertEqual(len(node.lines('goes on from simulated time 4 of')), 1, node.text())
 
     def test_refused(self):
         node = self.on_ranks(dict(SHORT, exponents='all'))

@@ -50,7 +50,7 @@ static hd_status same_programs(hd_communicator *c, char *message, size_t size)
     return status;
 }
 
-hd_status hd_run_check(const hd_scene_def *def, hd_communicator *c, char *message, size_t size)
+static hd_status check(const hd_scene_def *def, hd_communicator *c, char *message, size_t size)
 {
     const int ranks = hd_communicator_ranks(c);
     HD_TRY(same_programs(c, message, size));
@@ -66,6 +66,16 @@ hd_status hd_run_check(const hd_scene_def *def, hd_communicator *c, char *messag
     room.ranks = ranks;
     if (c) room.bytes /= c->beside;
     return hd_room_check(def, room, message, size);
+}
+
+hd_status hd_run_check_together(const hd_scene_def *def, hd_communicator *c, char *message,
+                                size_t size)
+{
+    const hd_status own = check(def, c, message, size);
+    const hd_status all = hd_communicator_agree(c, own);
+    if (own == HD_OK && all != HD_OK)
+        (void)hd_refuse(message, size, "another rank: %s", hd_status_text(all));
+    return all;
 }
 
 int hd_run_threads_most(const hd_run *run)

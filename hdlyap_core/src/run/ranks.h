@@ -8,8 +8,9 @@
 HD_MUST_CHECK hd_status hd_run_agree(const hd_run *run, hd_status status);
 
 /** A scene that these ranks can carry together: HD_REFUSED with its line, or HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_run_check(const hd_scene_def *def, hd_communicator *communicator,
-                                     char *message, size_t size);
+HD_MUST_CHECK hd_status hd_run_check_together(const hd_scene_def *def,
+                                              hd_communicator *communicator, char *message,
+                                              size_t size);
 
 /** Ranks share the cores of their machine. */
 int hd_run_threads_most(const hd_run *run);

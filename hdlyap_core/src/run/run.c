@@ -176,7 +176,7 @@ hd_status hd_run_make(hd_run **out, const hd_scene_def *def, hd_communicator *co
                       char *message, size_t size)
 {
     *out = NULL;
-    HD_TRY(hd_communicator_agree(communicator, hd_run_check(def, communicator, message, size)));
+    HD_TRY(hd_run_check_together(def, communicator, message, size));
     hd_run *run = hd_memory_alloc(1, sizeof *run);
     HD_TRY(hd_communicator_agree(communicator, run ? HD_OK : HD_NO_MEMORY));
     run->communicator = communicator;
