@@ -45,7 +45,8 @@ class Launch(unittest.TestCase):
         self.assertEqual(info.scene, scene)
         params = dict(harness.defaults(), **params)
         params['exponents'] = str(params['exponents'])
-        self.assertEqual(params.pop('interval'), 'auto')
+        for name in ('interval', 'phase_interval'):
+            self.assertEqual(params.pop(name), 'auto')
         if params['warmup'] == 'auto':
             params['warmup'] = info.warmup  # chosen
             self.assertGreaterEqual(info.warmup, 20.0 if info.vectors else 0.0)

@@ -40,6 +40,7 @@ BAD = dict(
     interval=[0, 0.0, -1, 2e12, 'never', '', NAN, INFINITY, True],
     accuracy=[0, 0.9e-12, 1.1e-2, 'x', NAN, INFINITY],
     report_interval=[0, -1, 2e12, 'x', NAN, INFINITY],
+    phase_interval=[0, 0.0, -1, 2e12, 'never', '', NAN, INFINITY, True],
     observables=[
         ['covariants'],
         ['modes', 'covariance'],
@@ -116,6 +117,7 @@ BAD_TOGETHER = [
     ('observables', dict(exponents='none', observables=['spectrum'])),
     ('observables', dict(exponents='none', observables=['state', 'modes'])),
     ('observables', dict(exponents='none', observables=['hydro'])),
+    ('phase_interval', dict(phase_interval=1.0, observables=['steps'])),
     ('max_mode_number', dict(max_mode_number=1, max_wave_number=1.5)),
     ('max_mode_number', dict(max_mode_number=3, disks=20, aspect=0.9)),
     ('max_mode_number', dict(max_mode_number=1, observables=['spectrum', 'state'])),
@@ -342,7 +344,8 @@ class Parameters(unittest.TestCase):
         info = listener.messages[0]
         want = dict(harness.defaults(), vectors=1557, zero_exponents=6)
         want.update(wave_nx=(1, 0, 1, 2, 0, 2, 1, 2), wave_ny=(0, 1, 1, 0, 2, 1, 2, 2))
-        self.assertEqual((want.pop('interval'), info.interval), ('auto', 0.0))
+        for name in ('interval', 'phase_interval'):
+            self.assertEqual((want.pop(name), getattr(info, name)), ('auto', 0.0))
         self.assertEqual(want.pop('warmup'), 'auto')
         self.assertAlmostEqual(info.warmup, 97.48, delta=0.01)  # 3 / (0.05 c_T k), c_T = 3.285
         self.assertEqual(want.pop('threads'), 0)

@@ -127,7 +127,9 @@ class Ranks(harness.Case):
     def unlike(self, *other, **params):
         """A run whose second rank is started in another way; what the node says at its end."""
         node = self.start(
-            dict(SHORT, **params), command=[*mpirun(1), ':', '-n', '1', *other, harness.executable()], **ENVIRONMENT
+            dict(SHORT, **params),
+            command=[*mpirun(1), ':', '-n', '1', *other, harness.executable()],
+            **ENVIRONMENT,
         )
         return node.wait(harness.SOON), ' '.join(node.lines('FATAL'))
 

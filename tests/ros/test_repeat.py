@@ -37,7 +37,10 @@ def info_of(scene, **others):
     params = dict(
         scene,
         **texts,
-        interval=0.0 if scene['interval'] == 'auto' else scene['interval'],
+        **{
+            name: 0.0 if scene[name] == 'auto' else scene[name]
+            for name in ('interval', 'phase_interval')
+        },
         threads=2,
     )
     return made.run_info(**dict(params, **others))

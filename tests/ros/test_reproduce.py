@@ -53,7 +53,7 @@ class Folder(unittest.TestCase):
         info = {
             name: value for name, value in run.parameters.items() if name in made.RunInfo.__slots__
         }
-        info.update({'exponents': 'positive', 'interval': 0.0, **changed})
+        info.update({'exponents': 'positive', 'interval': 0.0, 'phase_interval': 0.0, **changed})
         last = made.status(150.0, stage=stage, progress=progress)
         made.write(
             run.bag(self.folder),

@@ -78,6 +78,7 @@ PARAMETERS = [
     'interval',
     'accuracy',
     'report_interval',
+    'phase_interval',
     'max_wave_number',
     'max_mode_number',
     'field_indices',

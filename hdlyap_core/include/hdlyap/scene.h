@@ -51,10 +51,11 @@ typedef enum hd_storage {
 typedef struct hd_scene_def {
     hd_boundary boundary[2]; /**< boundary_x, boundary_y */
     uint64_t seed;
-    int exponents;    /**< number of leading ones, 1 .. 4N, or one of HD_EXPONENTS_* */
-    double warmup;    /**< HD_WARMUP_AUTO, see hd_scene_warmup [time units] */
-    double interval;  /**< 0 = auto [time units] */
-    unsigned observe; /**< a set of HD_OBSERVE_*, 0 = none */
+    int exponents;         /**< number of leading ones, 1 .. 4N, or one of HD_EXPONENTS_* */
+    double warmup;         /**< HD_WARMUP_AUTO, see hd_scene_warmup [time units] */
+    double interval;       /**< 0 = auto [time units] */
+    double phase_interval; /**< the same */
+    unsigned observe;      /**< a set of HD_OBSERVE_*, 0 = none */
     hd_storage covariant_storage;
 #define HD_INT(name, ...) int name;
 #define HD_REAL(name, ...) double name;

@@ -26,7 +26,10 @@ static const double WHOLE_BLOCK = 1.05, IN_A_BLOCK = 2.0, IN_A_SAMPLE = 3.0;
 static double phases_sampling(const hd_run *run)
 {
     const bool followed = hd_run_is_observing(run) && (run->observe & HD_OBSERVE_PHASES);
-    return followed ? hd_phases_sampling(run->observer.phases, run->observer.steps) : INFINITY;
+    const double wanted = run->scene.phase_interval;
+    if (!followed) return INFINITY;
+    const double needed = hd_phases_sampling(run->observer.phases, run->observer.steps);
+    return wanted > 0 ? fmin(wanted, needed) : needed;
 }
 
 /** An equal part of what is left, none longer than `most`. */

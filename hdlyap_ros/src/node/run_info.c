@@ -74,6 +74,7 @@ static void fill_scene(hdr_run_info *info, const settings *set)
     info->exponents = set->exponents;
     info->zero_exponents = (uint32_t)hd_scene_zero_exponents(def);
     info->interval = def->interval;
+    info->phase_interval = def->phase_interval;
     info->warmup = hd_scene_warmup(def);
     info->covariant_storage = word_of("covariant_storage", def);
 #define HD_INT(name, ...) info->name = (uint32_t)def->name;

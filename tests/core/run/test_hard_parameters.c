@@ -64,6 +64,7 @@ static const struct {
     {"target_std_error", 1e-3, 1},
     {"interval", 0.01, 10},
     {"report_interval", 0.1, 10},
+    {"phase_interval", 0.05, 10},
     {"max_wave_number", 0.3, 3},
     {"max_mode_number", 0, 3},
     {"observe", 0, HD_OBSERVE_ALL ^ HD_OBSERVE_COVARIANT},
@@ -167,14 +168,15 @@ static hd_scene_def drawn(hd_random *random)
 
 static void print_scene(int number, const hd_scene_def *def)
 {
-    print_error(
-        "set %d: disks %d density %a aspect %a boundaries %d %d seed %llu exponents %d\n"
-        "  equilibration %a warmup %a duration %a target %a interval %a accuracy %a\n"
-        "  report_interval %a observe %x max_wave_number %a max_mode_number %d threads %d\n",
-        number, def->disks, def->density, def->aspect, (int)def->boundary[0], (int)def->boundary[1],
-        (unsigned long long)def->seed, def->exponents, def->equilibration, def->warmup,
-        def->duration, def->target_std_error, def->interval, def->accuracy, def->report_interval,
-        def->observe, def->max_wave_number, def->max_mode_number, def->threads);
+    print_error("set %d: disks %d density %a aspect %a boundaries %d %d seed %llu exponents %d\n"
+                "  equilibration %a warmup %a duration %a target %a interval %a accuracy %a\n"
+                "  report_interval %a phase_interval %a observe %x max_wave_number %a "
+                "max_mode_number %d threads %d\n",
+                number, def->disks, def->density, def->aspect, (int)def->boundary[0],
+                (int)def->boundary[1], (unsigned long long)def->seed, def->exponents,
+                def->equilibration, def->warmup, def->duration, def->target_std_error,
+                def->interval, def->accuracy, def->report_interval, def->phase_interval,
+                def->observe, def->max_wave_number, def->max_mode_number, def->threads);
 }
 
 /* ---- what becomes of them ------------------------------------------------------------------ */

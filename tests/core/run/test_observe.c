@@ -331,6 +331,31 @@ static void rarer_looks_lose_no_phase(void **state)
     hd_run_free(run);
 }
 
+/** As somebody wants phases who looks at how they turn within a quarter. */
+static void phases_are_known_as_often_as_asked(void **state)
+{
+    (void)state;
+    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
+    scene.phase_interval = 0.3;
+    scene.duration = 60.0;
+    hd_run *run = created(&scene);
+    double farthest = 0.0, followed = -1.0;
+    int states = 0;
+    while (hd_run_stage(run) != HD_FINISHED) {
+        CHECK_OK(hd_run_advance(run));
+        const double now = hd_run_followed(run);
+        if (now > 530.0) { /* its steps are known */
+            states += now > followed;
+            farthest = fmax(farthest, now - followed);
+        }
+        followed = now;
+    }
+    print_message("%d states, at most %.3f apart\n", states, farthest);
+    CHECK_CLOSE(farthest, 0.3, 1e-3);
+    assert_true(states >= 100);
+    hd_run_free(run);
+}
+
 static void nothing_is_allocated_while_looking(void **state)
 {
     (void)state;
@@ -453,6 +478,7 @@ int main(void)
         cmocka_unit_test(fields_are_due_now_and_then),
         cmocka_unit_test(a_look_away_begins_the_phases_anew),
         cmocka_unit_test(rarer_looks_lose_no_phase),
+        cmocka_unit_test(phases_are_known_as_often_as_asked),
         cmocka_unit_test(nothing_is_allocated_while_looking),
         cmocka_unit_test(a_reset_forgets_modes_steps_and_phases),
         cmocka_unit_test(the_negative_half_mirrors_the_positive_one),

@@ -18,6 +18,7 @@ RESULTS = (
     'wave_nx',
     'wave_ny',
     'resumed_time',
+    'ranks',
     'blas_threads',
     'blas_library',
     'blas_kernel',
@@ -57,6 +58,7 @@ def parameters(info):
     asked.update(
         {name: _list_of(asked[name]) for name in LISTS if name in asked},
         interval=info.interval or 'auto',
+        phase_interval=getattr(info, 'phase_interval', 0.0) or 'auto',
         checkpoint='',
         resume='',
     )
