@@ -351,7 +351,7 @@ static void phases_are_known_as_often_as_asked(void **state)
         followed = now;
     }
     print_message("%d states, at most %.3f apart\n", states, farthest);
-    CHECK_CLOSE(farthest, 0.3, 1e-3);
+    assert_true(farthest > 0.25 && farthest <= 0.3 + 1e-9);
     assert_true(states >= 100);
     hd_run_free(run);
 }
