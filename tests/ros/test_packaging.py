@@ -54,10 +54,12 @@ OF_SYSTEM = {
     'imagemagick': 'imagemagick',
     'liblapacke-dev': 'liblapacke-dev',
     'libopenblas-dev': 'libopenblas-openmp-dev',
+    'mpi': 'libopenmpi-dev openmpi-bin',
     'ninja-build': 'ninja-build',
     'pkg-config': 'pkg-config',
     'python3-matplotlib': 'python3-matplotlib',
     'python3-numpy': 'python3-numpy',
+    'python3-paramiko': 'python3-paramiko',
     'python3-pandas': 'python3-pandas',
     'python3-rospkg': 'python3-rospkg',
     'yaml': 'libyaml-dev',
@@ -72,7 +74,7 @@ OF_SYSTEM = {
 TOOLS = set(
     'build-essential cmake procps libcmocka-dev shellcheck strace valgrind clang libomp-dev '
     'libclang-rt-dev catkin-lint python3-catkin-lint xvfb libxtst6 imagemagick libgl1-mesa-dri '
-    'black flake8 clang-format doxygen'.split()
+    'black flake8 clang-format doxygen slurmctld slurmd slurm-client openssh-server iproute2'.split()
 )
 
 # commands, options and variables that CMake has only since 3.17 or later
