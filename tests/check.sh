@@ -17,3 +17,12 @@ check() {
         FAILED=1
     fi
 }
+
+# wait_for SECONDS COMMAND...
+wait_for() {
+    local until=$((SECONDS + $1))
+    while ! "${@:2}"; do
+        ((SECONDS < until)) || return 1
+        sleep 0.2
+    done
+}

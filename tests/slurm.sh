@@ -55,15 +55,6 @@ begin() {
     wait_for 30 idle
 }
 
-# wait_for SECONDS COMMAND...
-wait_for() {
-    local until=$((SECONDS + $1))
-    while ! "${@:2}"; do
-        ((SECONDS < until)) || return 1
-        sleep 0.2
-    done
-}
-
 # ranks_of BAG: that its run says it had.
 ranks_of() {
     /usr/bin/python3 -c 'import sys; from hdlyap.plots import recording; print(recording.run_infos(sys.argv[1])[-1].ranks)' "$1"

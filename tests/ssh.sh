@@ -45,15 +45,6 @@ daemons() {
     done
 }
 
-# wait_for SECONDS COMMAND...
-wait_for() {
-    local until=$((SECONDS + $1))
-    while ! "${@:2}"; do
-        ((SECONDS < until)) || return 1
-        sleep 0.2
-    done
-}
-
 # What a shell on a machine must know: where hdlyap is, and which address others reach it at.
 environment() {
     cat >"$WORK/env.sh" <<END
