@@ -139,13 +139,13 @@ def draw(table, folder):
     for disks in SIZES:
         mine = [row for row in table if row[0] == disks]
         label = f'N = {disks:,}'.replace(',', ' ')
-        axes[0].plot([r[1] for r in mine], [r[2] for r in mine], 'o-', ms=3, label=label)
-        axes[1].plot([r[1] for r in mine], [r[3] for r in mine], 'o-', ms=3)
+        axes[0].plot([r[1] for r in mine], [r[2] for r in mine], 'o-', ms=3)
+        axes[1].plot([r[1] for r in mine], [r[3] for r in mine], 'o-', ms=3, label=label)
     axes[0].set(xscale='log', yscale='log', xlabel='ranks', ylabel='seconds per time unit')
     axes[1].set(xscale='log', ylim=(0, 1.05), xlabel='ranks', ylabel='efficiency')
     for one in axes:
         one.set_xscale('log', base=2)
-    axes[0].legend()
+    axes[1].legend(loc='lower left')
     figure.tight_layout()
     figure.savefig(os.path.join(folder, 'ranks_model.png'), dpi=150)
 

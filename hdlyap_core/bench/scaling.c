@@ -33,7 +33,7 @@ static const double THEORY[SWEEPS][PARTS] = {{1, 2, 3, 2}, {0, 1, 2, NAN}};
  */
 static const double FIT_FROM[SWEEPS] = {200, 100};
 /** A point whose predicted seconds are more is left out. */
-static const double PATIENCE = 180.0;
+static const double PATIENCE = 300.0;
 /** Time units; what is measured comes behind so many, or seconds, of averaging: in the first ones
  * intervals are short, and the rotation of the phases is learnt. */
 static const double WARMUP = 6.0, TIME_MIN = 16.0, SETTLING = 150.0, SETTLING_SECONDS = 60.0;
