@@ -74,7 +74,8 @@ OF_SYSTEM = {
 TOOLS = set(
     'build-essential cmake procps libcmocka-dev shellcheck strace valgrind clang libomp-dev '
     'libclang-rt-dev catkin-lint python3-catkin-lint xvfb libxtst6 imagemagick libgl1-mesa-dri '
-    'black flake8 clang-format doxygen slurmctld slurmd slurm-client openssh-server iproute2'.split()
+    'black flake8 clang-format doxygen slurmctld slurmd slurm-client openssh-server '
+    'iproute2'.split()
 )
 
 # commands, options and variables that CMake has only since 3.17 or later

@@ -1,4 +1,5 @@
-/** The ranks of an MPI program as a communicator. Library hdlyap_mpi; there where MPI was found. */
+/** The ranks of an MPI program as a communicator: a library of its own, there where MPI was found.
+ */
 #ifndef HDLYAP_MPI_H
 #define HDLYAP_MPI_H
 
