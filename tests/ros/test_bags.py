@@ -312,7 +312,7 @@ def expected_sizes(disks, vectors, steps, phases):
         fields=begin + 29 + 8 * 4 + 64 * disks + 4 + 3 * 4 + 8 + 6 * 4,
         state=begin + 8 + 4 * 4 + 32 * disks,
         status=begin + 1 + 3 * 8,
-        cost=begin + 137,
+        cost=begin + 137 + 3 * 8,
     )
 
 
