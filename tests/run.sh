@@ -269,8 +269,11 @@ either_lane() {
 # A Slurm of the suite's own needs root.
 can_slurm() { ((EUID == 0)) && command -v slurmctld slurmd srun >/dev/null; }
 
-# Nor do machines of its own go without root: they are network namespaces.
-can_ssh() { ((EUID == 0)) && command -v sshd ip >/dev/null && ip netns add "hdlyap$$" && ip netns del "hdlyap$$"; }
+# Nor do machines of its own go without root: they are network namespaces on a bridge.
+can_ssh() {
+    ((EUID == 0)) && command -v sshd ip >/dev/null && ip netns add "hdlyap$$" && ip netns del "hdlyap$$" &&
+        ip link add "hdlyap$$" type bridge && ip link del "hdlyap$$"
+} 2>/dev/null
 
 # first NAME COUNTER COMMAND...: the stage, in the lane that comes first.
 first() { ! mkdir "$TAKEN/$1" 2>/dev/null || stage "$@"; }
