@@ -1,7 +1,7 @@
 /** What a time unit costs on several ranks, and what goes between them: started by mpirun, or alone
  * for comparison. Usage: [mpirun -n RANKS] hdlyap_ranks [--disks N] [--threads OF EACH RANK]
  * [--rounds R] [--duration TIME UNITS OF A ROUND] [--settling TIME UNITS BEFORE THE FIRST]
- *[--steps]; ; rank 0 prints. */
+ * [--steps]; rank 0 prints. */
 #include <hdlyap/hdlyap.h>
 #include <hdlyap/mpi.h>
 #include <stdio.h>

@@ -3,7 +3,6 @@
 
 #include <limits.h>
 #include <mpi.h>
-#include <stdint.h>
 #include <stdlib.h>
 
 /** Of one message: MPI counts in int; and room that an exchange takes beside what it exchanges. */
@@ -23,11 +22,12 @@ static void sum(void *context, double *x, size_t count)
     }
 }
 
+/** Some rows of a table at a time: MPI can count them. */
 static void gather(void *context, double *x, size_t count)
 {
     (void)context;
-    MPI_Allgather(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, x, as_count(count), MPI_DOUBLE,
-                  MPI_COMM_WORLD);
+    if (count > INT_MAX) MPI_Abort(MPI_COMM_WORLD, 1);
+    MPI_Allgather(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, x, (int)count, MPI_DOUBLE, MPI_COMM_WORLD);
 }
 
 /** With one rank after the other, in pieces: hardly any room beside x. */
@@ -72,7 +72,8 @@ hd_status hd_mpi_begin(hd_communicator **out, int *argc, char ***argv)
 {
     int provided, rank, ranks;
     *out = NULL;
-    MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
+    MPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &provided);
+    if (provided < MPI_THREAD_SERIALIZED) return HD_REFUSED;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
     if (ranks == 1) return HD_OK;

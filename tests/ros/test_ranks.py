@@ -68,10 +68,12 @@ class Ranks(harness.Case):
             self.assertEqual(heard[2].messages[-1].ranks, ranks)
             self.assertEqual(cost.communication_calls > 0, ranks > 1)
             self.assertEqual(cost.communication_bytes > 0, ranks > 1)
+            self.assertEqual(0 < cost.communication_seconds < cost.wall_seconds, ranks > 1)
             spectra.append((spectrum.exponents, cost.error_bound))
             for listener in heard:
                 listener.close()
         for exponents, bound in spectra[1:]:
+            self.assertEqual(len(exponents), len(spectra[0][0]))
             for one, other in zip(spectra[0][0], exponents):
                 self.assertAlmostEqual(one, other, delta=spectra[0][1] + bound)
 

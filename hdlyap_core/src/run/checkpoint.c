@@ -190,7 +190,7 @@ static hd_status write_file(hd_run *run, const char *path, const char *label, ch
 
 hd_status hd_run_save(hd_run *run, const char *path, const char *label, char *message, size_t size)
 {
-    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_SAVE, .path = ""});
+    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_SAVE});
     const hd_status settled = hd_run_settle(run);
     if (settled != HD_OK) {
         (void)hd_refuse(message, size, "%s", hd_status_text(settled));

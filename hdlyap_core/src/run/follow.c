@@ -11,8 +11,8 @@
 
 enum { PATH_SIZE = 4096 };
 
-/** As it goes over the wire. Ranks that differ in version are refused before they lead or follow.
- */
+/** As it goes over the wire. Ranks of another version are refused with the first run; where this
+ * has another size there, MPI ends them all before. */
 typedef struct message {
     int kind, integer, with_scene, with_path;
     double number;
@@ -94,7 +94,7 @@ static hd_status obey(follower *f)
     case HD_ORDER_FIELDS_EVERY: hd_run_fields_every(f->run, m->number); break;
     case HD_ORDER_FIELDS_FROM: hd_run_fields_from(f->run, m->integer); break;
     case HD_ORDER_RESET: return hd_run_reset_average(f->run);
-    case HD_ORDER_SAVE: return hd_run_save(f->run, f->path, "", NULL, 0);
+    case HD_ORDER_SAVE: return hd_run_save(f->run, "", "", NULL, 0);
     case HD_ORDER_END: break;
     }
     return HD_OK;

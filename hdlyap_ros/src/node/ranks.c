@@ -47,7 +47,9 @@ bool ranks_join(hd_communicator **out, int *argc, char ***argv, char *message, s
     }
     const hd_status status = begin(out, argc, argv);
     if (status == HD_OK) return true;
-    snprintf(message, size, "ranks = %d: %s", ranks, hd_status_text(status));
+    snprintf(message, size, "ranks = %d: %s", ranks,
+             status == HD_REFUSED ? "this MPI cannot be called by several threads"
+                                  : hd_status_text(status));
     return false;
 }
 

@@ -1,204 +1,13 @@
-/** Run by mpirun on some ranks: what they compute together, each holds against what it computes
- * alone. With an argument every call of the communicator is late by a random time on each rank: no
- * clock may decide what is called. */
+/** Whole runs of several ranks. */
 #define _GNU_SOURCE
-#include <hdlyap/mpi.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "hdlyap/checkpoint.h"
 #include "hdlyap/follow.h"
 #include "hdlyap/hydro.h"
 #include "runs.h"
 #include "scenes.h"
-
-static hd_communicator *ranks;
-
-/* ---- a transport that is late --------------------------------------------------------------- */
-
-static const hd_transport *in_time;
-
-static void wait_a_little(void) { usleep((useconds_t)(rand() % 300)); }
-
-static void late_sum(void *context, double *x, size_t count)
-{
-    wait_a_little();
-    in_time->sum(context, x, count);
-}
-
-static void late_gather(void *context, double *x, size_t count)
-{
-    wait_a_little();
-    in_time->gather(context, x, count);
-}
-
-static void late_exchange(void *context, double *x, size_t count)
-{
-    wait_a_little();
-    in_time->exchange(context, x, count);
-}
-
-static void late_broadcast(void *context, void *x, size_t bytes)
-{
-    wait_a_little();
-    in_time->broadcast(context, x, bytes);
-}
-
-static const hd_transport late = {late_sum, late_gather, late_exchange, late_broadcast};
-
-/* ---- calls ---------------------------------------------------------------------------------- */
-
-static void calls_give_the_same_to_all(void **state)
-{
-    (void)state;
-    const int all = ranks->ranks, rank = ranks->rank;
-    double x[3] = {1.0, rank, 0.1 * rank};
-    hd_communicator_sum(ranks, x, 3);
-    CHECK_CLOSE(x[0], all, 0.0);
-    CHECK_CLOSE(x[1], 0.5 * all * (all - 1), 0.0);
-    unsigned long bits = rank == 0 ? 1234567890123UL : 0;
-    hd_communicator_broadcast(ranks, &bits, sizeof bits);
-    assert_int_equal(bits, 1234567890123UL);
-    CHECK_OK(hd_communicator_agree(ranks, HD_OK));
-    const hd_status mine = rank == all - 1 ? HD_NO_MEMORY : HD_OK;
-    assert_int_equal(hd_communicator_agree(ranks, mine), HD_NO_MEMORY);
-}
-
-/** 70 rows, 11 columns of which each rank has as many as fit. */
-static void shares_are_put_together(void **state)
-{
-    (void)state;
-    enum { ROWS = 70, STRIDE = 16, COUNT = 11 };
-    double x[ROWS][STRIDE];
-    const int width = (COUNT + ranks->ranks - 1) / ranks->ranks, first = ranks->rank * width;
-    for (int row = 0; row < ROWS; row++)
-        for (int col = 0; col < STRIDE; col++)
-            x[row][col] = col >= first && col < first + width && col < COUNT ? row + 0.01 * col
-                                                                             : -1.0;
-    CHECK_OK(hd_communicator_share(ranks, x[0], ROWS, STRIDE, (size_t)width, COUNT));
-    for (int row = 0; row < ROWS; row++)
-        for (int col = 0; col < COUNT; col++) CHECK_CLOSE(x[row][col], row + 0.01 * col, 0.0);
-    CHECK_CLOSE(x[0][COUNT], -1.0, 0.0);
-}
-
-/* ---- a frame -------------------------------------------------------------------------------- */
-
-typedef struct frames {
-    hd_frame *own, *shared;
-    hd_ortho *of_own, *of_shared;
-} frames;
-
-static frames frames_of(int disks, int vectors)
-{
-    frames f;
-    CHECK_OK(hd_frame_create(&f.own, disks, vectors, 7, 1));
-    CHECK_OK(hd_frame_create_shared(&f.shared, disks, vectors, 7, 1, ranks));
-    CHECK_OK(hd_ortho_create(&f.of_own, 4 * disks, vectors));
-    CHECK_OK(hd_ortho_create_shared(&f.of_shared, 4 * disks, vectors, ranks));
-    return f;
-}
-
-static void frames_free(frames *f)
-{
-    hd_frame_free(f->own);
-    hd_frame_free(f->shared);
-    hd_ortho_free(f->of_own);
-    hd_ortho_free(f->of_shared);
-}
-
-static void expect_columns(const frames *f, double tolerance)
-{
-    const hd_columns own = hd_frame_columns(f->own), shared = hd_frame_columns(f->shared);
-    for (int row = 0; row < hd_frame_rows(f->own); row++)
-        for (int col = 0; col < shared.count; col++)
-            CHECK_CLOSE(shared.data[(size_t)row * (size_t)shared.stride + (size_t)col],
-                        own.data[(size_t)row * (size_t)own.stride + (size_t)(shared.first + col)],
-                        tolerance);
-}
-
-static void each_rank_has_its_columns(void **state)
-{
-    (void)state;
-    static const int sizes[][2] = {{5, 3}, {17, 30}, {40, 77}, {33, 132}};
-    for (int k = 0; k < 4; k++) {
-        frames f = frames_of(sizes[k][0], sizes[k][1]);
-        double count = hd_frame_columns(f.shared).count;
-        hd_communicator_sum(ranks, &count, 1);
-        CHECK_CLOSE(count, sizes[k][1], 0.0);
-        expect_columns(&f, 0.0);
-        hd_frame_to_rows(f.shared);
-        const int rows = hd_frame_rows_here(f.shared), first = rows * ranks->rank;
-        for (int col = 0; col < sizes[k][1]; col++)
-            for (int row = first; row < first + rows && row < 4 * sizes[k][0]; row++)
-                CHECK_CLOSE(
-                    hd_frame_vector(f.shared, col)[(row - first) * hd_frame_stride(f.shared)],
-                    hd_frame_read(f.own)[row * hd_frame_stride(f.own) + col], 0.0);
-        hd_frame_to_columns(f.shared);
-        expect_columns(&f, 0.0);
-        frames_free(&f);
-    }
-}
-
-/** Vectors that grow apart by so many orders of magnitude. */
-static void stretch(hd_frame *frame, double orders)
-{
-    const hd_columns x = hd_frame_columns(frame);
-    const int n = hd_frame_vectors(frame);
-    double *data = hd_frame_data(frame);
-    for (int row = 0; row < hd_frame_rows(frame); row++)
-        for (int col = 0; col < x.count; col++) {
-            double *entry = data + (size_t)row * (size_t)x.stride + (size_t)col;
-            *entry = sin(1.0 + row) + *entry * pow(10.0, -orders * (x.first + col + 1) / n);
-        }
-}
-
-static void vectors_are_orthonormalised_alike(void **state)
-{
-    (void)state;
-    static const struct {
-        int disks, vectors;
-        double orders;
-        hd_norm norm;
-        bool stable;
-    } cases[] = {{60, 117, 0.0, HD_NORM_FULL, false}, {60, 117, 4.0, HD_NORM_FULL, false},
-                 {60, 117, 4.0, HD_NORM_DQ, false},   {20, 80, 2.0, HD_NORM_FULL, false},
-                 {9, 5, 1.0, HD_NORM_FULL, false},    {60, 117, 4.0, HD_NORM_FULL, true},
-                 {60, 117, 11.0, HD_NORM_FULL, true}};
-    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        const hd_ortho_limits limits = {1e12, 1e-10, cases[k].norm};
-        frames f = frames_of(cases[k].disks, cases[k].vectors);
-        stretch(f.own, cases[k].orders);
-        stretch(f.shared, cases[k].orders);
-        if (cases[k].stable) {
-            CHECK_OK(hd_ortho_step_stable(f.of_own, f.own, 1e15));
-            CHECK_OK(hd_ortho_step_stable(f.of_shared, f.shared, 1e15));
-        } else {
-            CHECK_OK(hd_ortho_step(f.of_own, f.own, limits));
-            CHECK_OK(hd_ortho_step(f.of_shared, f.shared, limits));
-        }
-        const double condition = hd_ortho_condition(f.of_own), eps = 2.3e-16;
-        CHECK_CLOSE(hd_ortho_condition(f.of_shared), condition, 1e-3 * condition);
-        for (int col = 0; col < cases[k].vectors; col++)
-            CHECK_CLOSE(hd_ortho_log_stretch(f.of_shared)[col], hd_ortho_log_stretch(f.of_own)[col],
-                        20.0 * eps * condition);
-        expect_columns(&f, 100.0 * eps * condition);
-        const double defect = hd_ortho_defect_measured(f.of_shared, f.shared, cases[k].norm);
-        CHECK_CLOSE(defect, 0.0, fmax(hd_ortho_defect(f.of_shared), 1e-13));
-        if (ranks->rank == 0) print_message("condition %.1e, defect %.1e\n", condition, defect);
-        frames_free(&f);
-    }
-}
-
-static void what_is_dependent_is_said_by_all(void **state)
-{
-    (void)state;
-    frames f = frames_of(20, 40);
-    stretch(f.shared, 40.0);
-    const hd_ortho_limits limits = {1e7, 1e-10, HD_NORM_FULL};
-    assert_int_equal(hd_ortho_step(f.of_shared, f.shared, limits), HD_ILL_CONDITIONED);
-    frames_free(&f);
-}
+#include "together.h"
 
 /* ---- runs ----------------------------------------------------------------------------------- */
 
@@ -224,10 +33,12 @@ static void expect_same_exponents(const hd_run *run, const hd_run *alone)
     const double bound = hd_run_cost(run).error_bound + hd_run_cost(alone).error_bound;
     double most = 0.0;
     assert_int_equal(hd_run_vectors(run), hd_run_vectors(alone));
-    for (int col = 0; col < hd_run_vectors(run); col++)
-        most = fmax(most, fabs(hd_spectrum_exponent(hd_run_spectrum(run), col) -
-                               hd_spectrum_exponent(hd_run_spectrum(alone), col)));
-    CHECK_CLOSE(most, 0.0, bound);
+    for (int col = 0; col < hd_run_vectors(run); col++) {
+        const double off = hd_spectrum_exponent(hd_run_spectrum(run), col) -
+                           hd_spectrum_exponent(hd_run_spectrum(alone), col);
+        CHECK_CLOSE(off, 0.0, bound);
+        most = fmax(most, fabs(off));
+    }
     if (ranks->rank == 0) print_message("exponents apart by %.1e, bounds %.1e\n", most, bound);
 }
 
@@ -261,15 +72,14 @@ static void modes_are_those_of_one_rank(void **state)
     expect_same_exponents(run, alone);
     const hd_modes *own = hd_run_modes(alone), *shared = hd_run_modes(run);
     const int n = hd_run_vectors(run), subspaces = hd_fields_subspaces(hd_modes_fields(own));
-    double most = 0.0, largest = 0.0;
+    double largest = 0.0;
     for (int s = 0; s < subspaces; s++)
         for (int col = 0; col < n; col++) {
             const double weight = hd_modes_snapshot(own, s, HD_WEIGHT)[col];
-            most = fmax(most, fabs(hd_modes_snapshot(shared, s, HD_WEIGHT)[col] - weight));
+            CHECK_CLOSE(hd_modes_snapshot(shared, s, HD_WEIGHT)[col], weight, 1e-6);
             largest = fmax(largest, weight);
         }
     assert_true(largest > 0.5);
-    CHECK_CLOSE(most, 0.0, 1e-6);
     const hd_steps *a = hd_run_steps(run), *b = hd_run_steps(alone);
     assert_int_equal(hd_steps_count(a), hd_steps_count(b));
     for (int k = 0; k < hd_steps_count(a); k++) {
@@ -310,6 +120,14 @@ static void bits_are_the_same(void **state)
     }
 }
 
+static void expect_same_response(const hd_hydro_response *a, const hd_hydro_response *b)
+{
+    CHECK_CLOSE(a->density, b->density, 1e-6);
+    CHECK_CLOSE(a->along, b->along, 1e-6);
+    CHECK_CLOSE(a->across, b->across, 1e-6);
+    CHECK_CLOSE(a->energy, b->energy, 1e-6);
+}
+
 /** Vectors of the modes, from all ranks, and the hydrodynamic response, on each. */
 static void vectors_are_gathered_for_reports(void **state)
 {
@@ -338,7 +156,7 @@ static void vectors_are_gathered_for_reports(void **state)
     int resolved = 0;
     for (int k = 0; k < hd_hydro_count(hydro[0]); k++) {
         resolved += hd_hydro_at(hydro[0], k)->col >= 0;
-        CHECK_CLOSE(hd_hydro_at(hydro[0], k)->density, hd_hydro_at(hydro[1], k)->density, 1e-6);
+        expect_same_response(hd_hydro_at(hydro[0], k), hd_hydro_at(hydro[1], k));
     }
     assert_true(resolved > 0);
     for (int k = 0; k < 2; k++) {
@@ -505,11 +323,6 @@ static void what_they_cannot_carry_is_refused(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(calls_give_the_same_to_all),
-        cmocka_unit_test(shares_are_put_together),
-        cmocka_unit_test(each_rank_has_its_columns),
-        cmocka_unit_test(vectors_are_orthonormalised_alike),
-        cmocka_unit_test(what_is_dependent_is_said_by_all),
         cmocka_unit_test(exponents_are_those_of_one_rank),
         cmocka_unit_test(modes_are_those_of_one_rank),
         cmocka_unit_test(bits_are_the_same),
@@ -520,13 +333,6 @@ int main(int argc, char **argv)
         cmocka_unit_test(others_follow),
         cmocka_unit_test(what_they_cannot_carry_is_refused),
     };
-    CHECK_OK(hd_mpi_begin(&ranks, &argc, &argv));
-    if (!ranks) return 77; /* nothing to compare */
-    srand((unsigned)ranks->rank);
-    in_time = ranks->transport;
-    if (argc > 1) ranks->transport = &late;
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    if (failed) abort(); /* the others may wait */
-    hd_mpi_end(ranks);
-    return 0;
+    if (!ranks_begin(argc, argv)) return 77;
+    return ranks_end(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -1,0 +1,68 @@
+/** Programs that mpirun starts on some ranks: what they compute together, each holds against what
+ * it computes alone. With an argument every call of the communicator is late by a random time on
+ * each rank: no clock may decide what is called. */
+#ifndef HD_TOGETHER_H
+#define HD_TOGETHER_H
+
+#include <hdlyap/mpi.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "testing.h"
+
+static hd_communicator *ranks;
+
+/* ---- a transport that is late --------------------------------------------------------------- */
+
+static const hd_transport *in_time;
+
+static void wait_a_little(void) { usleep((useconds_t)(rand() % 300)); }
+
+static void late_sum(void *context, double *x, size_t count)
+{
+    wait_a_little();
+    in_time->sum(context, x, count);
+}
+
+static void late_gather(void *context, double *x, size_t count)
+{
+    wait_a_little();
+    in_time->gather(context, x, count);
+}
+
+static void late_exchange(void *context, double *x, size_t count)
+{
+    wait_a_little();
+    in_time->exchange(context, x, count);
+}
+
+static void late_broadcast(void *context, void *x, size_t bytes)
+{
+    wait_a_little();
+    in_time->broadcast(context, x, bytes);
+}
+
+static const hd_transport late = {late_sum, late_gather, late_exchange, late_broadcast};
+
+/** False for a single rank: there is nothing to compare. */
+static inline bool ranks_begin(int argc, char **argv)
+{
+    CHECK_OK(hd_mpi_begin(&ranks, &argc, &argv));
+    if (!ranks) return false;
+    srand((unsigned)ranks->rank);
+    in_time = ranks->transport;
+    if (argc > 1) ranks->transport = &late;
+    return true;
+}
+
+/** Status of the program. */
+static inline int ranks_end(int failed)
+{
+    if (failed) abort(); /* the others may wait */
+    hd_mpi_end(ranks);
+    return 0;
+}
+
+#endif
