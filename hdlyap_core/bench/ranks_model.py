@@ -49,24 +49,17 @@ def sums_of_panel(width):
     return calls, numbers
 
 
-def sums(vectors, ranks):
-    """The same of a whole orthonormalisation."""
-    stride, width = share(vectors, ranks), panel_width(vectors)
-    calls = numbers = first = 0
-    while first < vectors:
-        end = min((first // stride + 1) * stride, vectors)
-        panel = min(width, end - first)
+def sums(vectors):
+    """The same of a whole orthonormalisation, whatever the number of ranks."""
+    width, calls, numbers = panel_width(vectors), 0, 0
+    for first in range(0, vectors, width):
+        panel = min(width, vectors - first)
         own, their = sums_of_panel(panel)
-        calls, numbers = calls + own, numbers + their
-        first += panel
-        later = vectors - first
+        later = vectors - first - panel
         pieces = -(-later // LATER_MAX)
         most = (-(-later // pieces) + 7) // 8 * 8 if pieces > 1 else later
-        at = first
-        while at < vectors:
-            piece = min(most, min((at // stride + 1) * stride, vectors) - at)
-            calls, numbers = calls + 1, numbers + piece * panel
-            at += piece
+        calls += own + (-(-later // most) if later else 0)
+        numbers += their + later * panel
     return calls, numbers
 
 
@@ -89,7 +82,7 @@ class Machine:
         replay = self.replay * (m * share(n, ranks)) / (3120 * 1557)
         if ranks == 1:
             return work + replay, alike, 0.0, 0.0
-        calls, numbers = sums(n, ranks)
+        calls, numbers = sums(n)
         steps = math.ceil(math.log2(ranks))
         summed = 2 * WORD * numbers * (ranks - 1) / ranks / self.bandwidth
         given = exchanged(disks, n, ranks) / self.bandwidth
@@ -155,7 +148,7 @@ def main():
     machine = Machine(args.flops, args.latency, args.bandwidth, args.replay)
     if args.check:
         disks, ranks = args.check
-        calls, numbers = sums(vectors_of(disks), ranks)
+        calls, numbers = sums(vectors_of(disks))
         work, alike, summed, given = machine.parts(disks, ranks)
         print(
             f'{disks} disks, {ranks} ranks, an orthonormalisation: sums {calls} calls, '

@@ -56,10 +56,15 @@ void hd_communicator_sum(hd_communicator *c, double *x, size_t count);
 void hd_communicator_exchange(hd_communicator *c, double *x, size_t count);
 void hd_communicator_broadcast(hd_communicator *c, void *x, size_t bytes);
 
-/** x[rows][stride]: rank r has filled columns r * width ... of every row, up to `count`; then all
- * have all of them. HD_NO_MEMORY, on all ranks. */
-HD_MUST_CHECK hd_status hd_communicator_share(hd_communicator *c, double *x, size_t rows,
-                                              size_t stride, size_t width, size_t count);
+/** Of x[rows][stride] rank r fills columns r * width ... of every row, up to `count`; or, from
+ * behind, the columns that are as far from column count - 1. */
+typedef struct hd_shared {
+    size_t rows, stride, width, count;
+    int from_behind;
+} hd_shared;
+
+/** What each has filled, to all. HD_NO_MEMORY, on all ranks. */
+HD_MUST_CHECK hd_status hd_communicator_share(hd_communicator *c, double *x, hd_shared shared);
 
 /** The status of the first rank that has another one than HD_OK: all then go on, or none. */
 HD_MUST_CHECK hd_status hd_communicator_agree(hd_communicator *c, hd_status mine);

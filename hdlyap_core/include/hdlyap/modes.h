@@ -24,9 +24,11 @@ void hd_modes_free(hd_modes *modes);
  * and one reading of the vectors. */
 HD_MUST_CHECK hd_status hd_modes_measure(hd_modes *modes, hd_columns vectors, const double *q,
                                          const double *p);
-/** Of vectors that several ranks have measured, `width` each: then all of them have the snapshot of
- * all. HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_modes_share(hd_modes *modes, hd_communicator *communicator, int width);
+/** Of vectors that several ranks have measured, `width` of the `carried` ones each, and the
+ * partners of these if they are half of all: then all of them have the snapshot of all.
+ * HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_modes_share(hd_modes *modes, hd_communicator *communicator, int width,
+                                       int carried);
 /** Adds the snapshot to the running averages. */
 void hd_modes_add(hd_modes *modes);
 /** Empties the running averages. */

@@ -16,7 +16,8 @@ extern "C" {
     X(HD_ILL_CONDITIONED, "the tangent frame became too ill-conditioned to be repaired")           \
     X(HD_OVERLAP, "two disks overlap by more than rounding")                                       \
     X(HD_FILE_FAULT, "a file could not be read or written")                                        \
-    X(HD_NO_ROOM, "windows of covariant vectors do not fit covariant_memory")
+    X(HD_NO_ROOM, "windows of covariant vectors do not fit covariant_memory")                      \
+    X(HD_RANKS_APART, "ranks have computed different trajectories")
 
 typedef enum hd_status {
 #define HD_STATUS_NAME(name, text) name,

@@ -70,32 +70,29 @@ static size_t part_of(size_t rank, size_t width, size_t size)
 }
 
 /** The entries of a rank in some rows, into its place among the parts, or out of it. */
-static void pack(double *parts, double *x, size_t rank, size_t rows, size_t stride, size_t width,
-                 size_t size, int out)
+static void pack(double *parts, double *x, size_t rank, size_t rows, hd_shared s, int out)
 {
-    const size_t bytes = part_of(rank, width, size) * sizeof *x;
-    for (size_t row = 0; row < rows; row++) {
-        double *part = parts + (rank * rows + row) * width,
-               *place = x + row * stride + rank * width;
-        if (bytes > 0) memcpy(out ? place : part, out ? part : place, bytes);
+    const size_t part = part_of(rank, s.width, s.count);
+    const size_t first = s.from_behind ? s.count - rank * s.width - part : rank * s.width;
+    for (size_t row = 0; row < rows && part > 0; row++) {
+        double *packed = parts + (rank * rows + row) * s.width, *place = x + row * s.stride + first;
+        memcpy(out ? place : packed, out ? packed : place, part * sizeof *x);
     }
 }
 
-hd_status hd_communicator_share(hd_communicator *c, double *x, size_t rows, size_t stride,
-                                size_t width, size_t size)
+hd_status hd_communicator_share(hd_communicator *c, double *x, hd_shared s)
 {
     const size_t ranks = (size_t)hd_communicator_ranks(c);
     if (ranks == 1) return HD_OK;
-    const size_t most = rows < ROWS_AT_ONCE ? rows : ROWS_AT_ONCE;
-    double *parts = hd_memory_alloc(ranks * most * width, sizeof *parts);
+    const size_t most = s.rows < ROWS_AT_ONCE ? s.rows : ROWS_AT_ONCE;
+    double *parts = hd_memory_alloc(ranks * most * s.width, sizeof *parts);
     const hd_status status = hd_communicator_agree(c, parts ? HD_OK : HD_NO_MEMORY);
-    for (size_t row = 0; row < rows && status == HD_OK; row += most) {
-        const size_t now = rows - row < most ? rows - row : most;
-        double *here = x + row * stride;
-        pack(parts, here, (size_t)c->rank, now, stride, width, size, 0);
-        gather(c, parts, now * width);
-        for (size_t rank = 0; rank < ranks; rank++)
-            pack(parts, here, rank, now, stride, width, size, 1);
+    for (size_t row = 0; row < s.rows && status == HD_OK; row += most) {
+        const size_t now = s.rows - row < most ? s.rows - row : most;
+        double *here = x + row * s.stride;
+        pack(parts, here, (size_t)c->rank, now, s, 0);
+        gather(c, parts, now * s.width);
+        for (size_t rank = 0; rank < ranks; rank++) pack(parts, here, rank, now, s, 1);
     }
     hd_memory_free(parts);
     return status;

@@ -266,13 +266,18 @@ static hd_status lose_window(hd_covariant *c, hd_columns frame, double time)
     return status == HD_NO_ROOM ? begin_window(c, frame, time) : status;
 }
 
+bool hd_covariant_wants_vectors(const hd_covariant *c)
+{
+    return hd_history_is_full(c->past) || hd_history_keeps_next(c->past);
+}
+
 hd_status hd_covariant_add(hd_covariant *c, const hd_ortho *ortho, const hd_frame *frame,
-                           const hd_event_log *log, double t_begin, double t_end)
+                           hd_columns vectors, const hd_event_log *log, double t_begin,
+                           double t_end)
 {
     HD_ASSERT(c->way == FORWARD);
-    if (hd_history_is_full(c->past))
-        return lose_window(c, hd_frame_columns(frame), c->now + t_end - t_begin);
-    HD_TRY(hd_history_add(c->past, hd_ortho_factor(ortho), frame, log, t_begin, t_end));
+    if (hd_history_is_full(c->past)) return lose_window(c, vectors, c->now + t_end - t_begin);
+    HD_TRY(hd_history_add(c->past, hd_ortho_factor(ortho), frame, vectors, log, t_begin, t_end));
     c->now = hd_history_time(c->past, hd_history_end(c->past) - 1);
     return HD_OK;
 }

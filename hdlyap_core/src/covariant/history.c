@@ -146,8 +146,13 @@ static hd_status keep_triangle(hd_history *past, const double *factor, long slot
     return HD_OK;
 }
 
+bool hd_history_keeps_next(const hd_history *past)
+{
+    return past->recompute && hd_recompute_keeps(past->recompute, (past->end + 1) % past->slots);
+}
+
 hd_status hd_history_add(hd_history *past, const double *factor, const hd_frame *frame,
-                         const hd_event_log *log, double t_begin, double t_end)
+                         hd_columns vectors, const hd_event_log *log, double t_begin, double t_end)
 {
     HD_ASSERT(!hd_history_is_full(past));
     const long slot = past->end % past->slots;
@@ -160,7 +165,7 @@ hd_status hd_history_add(hd_history *past, const double *factor, const hd_frame 
     past->time += t_end - t_begin;
     past->kept[slot] = (interval_kept){past->time, t_end - t_begin, -1};
     past->end++;
-    return keep_frame(past, hd_frame_columns(frame));
+    return keep_frame(past, vectors);
 }
 
 hd_status hd_history_snapshot(hd_history *past, hd_columns frame, const double *q, const double *p)

@@ -28,11 +28,15 @@ void hd_history_free(hd_history *past);
 /** Forgets everything; the frame is that of the start. */
 HD_MUST_CHECK hd_status hd_history_begin(hd_history *past, hd_columns frame, double time);
 
-/** What an orthonormalisation leaves: R of the interval from t_begin to t_end of the log, and the
- * frame that was replayed through it. There must be room (hd_history_is_full). */
+/** What an orthonormalisation leaves: R of the interval from t_begin to t_end of the log, the frame
+ * that was replayed through it, and its vectors now, if they are to be kept. There must be room
+ * (hd_history_is_full). */
 HD_MUST_CHECK hd_status hd_history_add(hd_history *past, const double *factor,
-                                       const hd_frame *frame, const hd_event_log *log,
-                                       double t_begin, double t_end);
+                                       const hd_frame *frame, hd_columns vectors,
+                                       const hd_event_log *log, double t_begin, double t_end);
+/** True if the vectors after the next interval are to be kept: what comes then is computed again
+ * from them. */
+bool hd_history_keeps_next(const hd_history *past);
 bool hd_history_is_full(const hd_history *past);
 
 /** Keeps the frame and the state of the end of the last interval: q[2N], p[2N]. */

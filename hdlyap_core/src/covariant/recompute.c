@@ -102,10 +102,12 @@ void hd_recompute_free(hd_recompute *r)
 
 /* ---- forward ------------------------------------------------------------------------------- */
 
+bool hd_recompute_keeps(const hd_recompute *r, long slot) { return slot % r->def.stretch == 0; }
+
 hd_status hd_recompute_frame(hd_recompute *r, long slot, hd_columns columns)
 {
+    if (!hd_recompute_keeps(r, slot)) return HD_OK;
     HD_ASSERT(columns.count == r->def.vectors);
-    if (slot % r->def.stretch != 0) return HD_OK;
     double *vectors = hd_store_put(r->frames, slot / r->def.stretch);
     if (!vectors) return HD_NO_MEMORY;
     for (int row = 0; row < r->def.rows; row++)

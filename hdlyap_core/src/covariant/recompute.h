@@ -26,7 +26,9 @@ double hd_recompute_doubles(const hd_recompute_def *def);
 HD_MUST_CHECK hd_status hd_recompute_create(hd_recompute **out, const hd_recompute_def *def);
 void hd_recompute_free(hd_recompute *recompute);
 
-/** The frame where the slot begins; wanted if it is a multiple of the stretch. HD_NO_MEMORY. */
+/** True if a slot begins with a frame that is kept: with a stretch. */
+bool hd_recompute_keeps(const hd_recompute *recompute, long slot);
+/** The frame where the slot begins, if it is kept. HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_recompute_frame(hd_recompute *recompute, long slot, hd_columns columns);
 /** The slot's events: those of the log from t_begin to t_end. HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_recompute_events(hd_recompute *recompute, long slot,

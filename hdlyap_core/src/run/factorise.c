@@ -140,8 +140,8 @@ static hd_status window_starts(hd_run *run)
 {
     if (!hd_run_is_windowing(run)) return HD_OK;
     if (run->conjugate && run->windows.due) HD_TRY(hd_conjugate_start(run->frame));
-    return hd_windows_start(&run->windows, hd_frame_columns(run->frame),
-                            hd_run_time(run) - run->log->duration, expected_interval(run));
+    return hd_windows_start(&run->windows, run->frame, hd_run_time(run) - run->log->duration,
+                            expected_interval(run));
 }
 
 static hd_status window_adds(hd_run *run, double begin, double end)
@@ -153,7 +153,7 @@ static hd_status window_adds(hd_run *run, double begin, double end)
 static hd_status window_ends(hd_run *run)
 {
     if (!hd_run_is_windowing(run)) return HD_OK;
-    return hd_windows_end(&run->windows, hd_frame_columns(run->frame), run->advance.trajectory);
+    return hd_windows_end(&run->windows, run->frame, run->advance.trajectory);
 }
 
 /** The frame is orthonormal in the norm of dq: in the whole norm, too, at the same time. */

@@ -3,9 +3,11 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <zlib.h>
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "events/trajectory_state.h"
 #include "hdlyap/blas.h"
 #include "hdlyap/hdlyap.h"
 #include "hdlyap/room.h"
@@ -40,8 +42,8 @@ static hd_status same_programs(hd_communicator *c, char *message, size_t size)
     program *all = hd_memory_alloc(ranks, sizeof *all);
     HD_TRY(hd_communicator_agree(c, all ? HD_OK : HD_NO_MEMORY));
     all[c->rank] = this_program();
-    hd_status status = hd_communicator_share(c, (double *)all, 1, ranks * words, words,
-                                             ranks * words);
+    const hd_shared shared = {1, ranks * words, words, ranks * words, 0};
+    hd_status status = hd_communicator_share(c, (double *)all, shared);
     for (size_t rank = 1; rank < ranks && status == HD_OK; rank++)
         if (memcmp(&all[rank], &all[0], sizeof *all) != 0)
             status = hd_refuse(message, size, "rank %zu is %s: must be %s, as rank 0", rank,
@@ -55,12 +57,11 @@ static hd_status check(const hd_scene_def *def, hd_communicator *c, char *messag
     const int ranks = hd_communicator_ranks(c);
     HD_TRY(same_programs(c, message, size));
     HD_TRY(hd_scene_check(def, message, size));
-    if (ranks > 1 && def->observe & HD_OBSERVE_COVARIANT)
-        return hd_refuse(message, size, "ranks = %d: must be 1 for covariant vectors", ranks);
-    if (ranks > 1 && hd_scene_carried(def) < hd_scene_vectors(def))
+    if (ranks > 1 && def->observe & HD_OBSERVE_COVARIANT &&
+        hd_scene_carried(def) < hd_scene_vectors(def))
         return hd_refuse(message, size,
-                         "ranks = %d: must be 1 for exponents = all; all_independent has them on "
-                         "several ranks",
+                         "ranks = %d: must be 1 for covariant vectors with exponents = all; "
+                         "all_independent has them on several ranks",
                          ranks);
     hd_room room = hd_room_available();
     room.ranks = ranks;
@@ -115,18 +116,60 @@ static int first_wanted(const hd_run *run)
     return first;
 }
 
-hd_status hd_run_gather(hd_run *run)
+static hd_status gathered_room(hd_run *run, size_t size)
 {
-    const int first = first_wanted(run), count = run->vectors - first;
-    const size_t size = (size_t)hd_frame_rows(run->frame) * (size_t)count;
-    if (!run->communicator || count == 0) return HD_OK;
     if (size > run->gathered_size) {
         hd_memory_free(run->gathered_room);
         run->gathered_room = hd_memory_alloc(size, sizeof *run->gathered_room);
         run->gathered_size = run->gathered_room ? size : 0;
     }
-    HD_TRY(hd_run_agree(run, run->gathered_size >= size ? HD_OK : HD_NO_MEMORY));
+    return hd_run_agree(run, run->gathered_size >= size ? HD_OK : HD_NO_MEMORY);
+}
+
+/** All 4N: the half, and with it the other one. */
+static hd_status gather_both_halves(hd_run *run)
+{
+    const int rows = hd_frame_rows(run->frame), n = run->carried;
+    const size_t size = (size_t)rows * (size_t)n;
+    HD_TRY(gathered_room(run, 3 * size));
+    double *half = run->gathered_room + 2 * size;
+    hd_frame_gather(run->frame, 0, n, half);
+    hd_conjugate_fill(run->gathered_room, (hd_columns){half, n, 0, n}, rows);
+    run->gathered = (hd_columns){run->gathered_room, rows, 0, rows};
+    return HD_OK;
+}
+
+hd_status hd_run_gather(hd_run *run)
+{
+    const int first = first_wanted(run), count = run->vectors - first;
+    if (!run->communicator || count == 0) return HD_OK;
+    if (run->conjugate) return gather_both_halves(run);
+    HD_TRY(gathered_room(run, (size_t)hd_frame_rows(run->frame) * (size_t)count));
     hd_frame_gather(run->frame, first, count, run->gathered_room);
     run->gathered = (hd_columns){run->gathered_room, count, first, count};
     return HD_OK;
+}
+
+/* ---- the disks ------------------------------------------------------------------------------ */
+
+/** Of positions and momenta to the last bit. */
+static uint32_t fingerprint(const hd_trajectory *tr)
+{
+    const int n = hd_trajectory_disks(tr);
+    uLong crc = 0;
+    for (int i = 0; i < n; i++) {
+        const hd_disk *disk = &tr->motion.disk[i];
+        crc = crc32_z(crc, (const Bytef *)disk->q, sizeof disk->q);
+        crc = crc32_z(crc, (const Bytef *)disk->p, sizeof disk->p);
+    }
+    return (uint32_t)crc;
+}
+
+hd_status hd_run_compare_disks(const hd_run *run)
+{
+    if (!run->communicator) return HD_OK;
+    const uint32_t own = fingerprint(run->advance.trajectory);
+    uint32_t first = own;
+    hd_communicator_broadcast(run->communicator, &first, sizeof first);
+    return hd_run_agree(run, own == first ? HD_OK : HD_RANKS_APART);
 }

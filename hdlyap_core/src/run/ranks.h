@@ -19,6 +19,9 @@ int hd_run_threads_most(const hd_run *run);
 bool hd_run_vectors_wanted(const hd_run *run);
 /** Number of slowest vectors that a watcher wants now. */
 int hd_run_watched(const hd_run *run);
+/** HD_RANKS_APART unless all of them have the same disks, bit for bit. */
+HD_MUST_CHECK hd_status hd_run_compare_disks(const hd_run *run);
+
 /** Vectors that somebody wants to read now, of all ranks on each of them. HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_run_gather(hd_run *run);
 

@@ -36,10 +36,11 @@ static double frame_bytes(double rows, double n, double threads)
     return WORD * rows * (2.0 * (n + 4.0) + threads * width);
 }
 
-static double ortho_bytes(double n)
+static double ortho_bytes(double rows, double n, double ranks)
 {
     const double width = fmin(n, fmin(fmax(n / 8.0, 8.0), PANEL)), later = fmin(n, LATER);
-    return WORD * (width * width + later * width + (PROBES + 40.0) * n);
+    const double copied = ranks > 1 ? width * (width + rows / ranks) : 0.0;
+    return WORD * (width * width + later * width + (PROBES + 40.0) * n + copied);
 }
 
 static double spectrum_bytes(double n) { return WORD * (HD_BLOCKS_MAX + 6.0) * n; }
@@ -72,13 +73,15 @@ static double modes_bytes(const counted *of, double disks, double n)
     return WORD * (2.0 * disks * (columns + 4.0) + columns * columns + weights + work);
 }
 
-/** What makes all vectors of half of them. */
-static double conjugate_bytes(const hd_scene_def *def)
+/** What makes all vectors of half of them: of those of a rank, and of all that it gathers. */
+static double conjugate_bytes(const hd_scene_def *def, double ranks)
 {
     const double rows = 4.0 * def->disks, signs = 8.0;
     const bool whole = def->observe & HD_OBSERVE_OF_MODES;
+    const bool gathered = ranks > 1 && def->observe & (HD_OBSERVE_HYDRO | HD_OBSERVE_FIELDS);
     if (hd_scene_carried(def) == hd_scene_vectors(def)) return 0.0;
-    return WORD * rows * (1.0 + 1.5 * signs + (whole ? rows : 0.0));
+    return WORD * rows *
+           (1.0 + 1.5 * signs + (whole ? rows / ranks : 0.0) + (gathered ? 1.5 * rows : 0.0));
 }
 
 static double observer_bytes(const hd_scene_def *def, const counted *of, double n)
@@ -101,15 +104,18 @@ static double covariant_bytes(const hd_scene_def *def, const counted *of, double
 double hd_room_needed(const hd_scene_def *def, int threads, int ranks)
 {
     const double disks = def->disks, n = hd_scene_vectors(def), carried = hd_scene_carried(def);
+    const double of_ranks = fmax(ranks, 1.0);
     const counted none = {0};
     double bytes = OF_A_DISK * disks;
     if (n == 0) return bytes;
     const counted of = def->observe ? fields_of(def) : none;
     bytes += OF_AN_EVENT * fmin(EVENTS_MAX, EVENTS_OF_A_DISK * disks);
-    bytes += frame_bytes(4.0 * disks, carried / fmax(ranks, 1.0), threads) + ortho_bytes(carried);
-    bytes += conjugate_bytes(def) + spectrum_bytes(n);
+    bytes += frame_bytes(4.0 * disks, carried / of_ranks, threads);
+    bytes += ortho_bytes(4.0 * disks, carried, of_ranks);
+    bytes += conjugate_bytes(def, of_ranks) + spectrum_bytes(n);
     if (def->observe & HD_OBSERVE_OF_MODES) bytes += observer_bytes(def, &of, n);
     if (def->observe & HD_OBSERVE_COVARIANT) bytes += covariant_bytes(def, &of, n);
+    if (def->observe & HD_OBSERVE_COVARIANT && ranks > 1) bytes += WORD * 4.0 * disks * n;
     return bytes;
 }
 

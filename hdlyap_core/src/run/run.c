@@ -43,7 +43,7 @@ static hd_status create_frame(hd_run *run)
     const hd_ortho_limits once = {1e7, ORTHONORMAL, HD_NORM_FULL};
     HD_TRY(hd_frame_create_shared(&run->frame, scene->disks, run->carried, scene->seed,
                                   run->threads, run->communicator));
-    if (run->conjugate) return hd_conjugate_start(run->frame);
+    if (run->carried < run->vectors) return hd_conjugate_start(run->frame);
     if (hd_ortho_step(run->ortho, run->frame, once) == HD_OK) return HD_OK;
     hd_frame_free(run->frame);
     run->frame = NULL;
@@ -75,30 +75,38 @@ static hd_status prepare_threads(hd_run *run)
 /** Of a frame that is orthonormal in the whole norm: the next one may be so in that of dq alone. */
 static hd_status keep_halves(hd_run *run)
 {
-    const size_t n = (size_t)run->vectors, width = (size_t)hd_frame_stride(run->frame);
-    const int first = hd_frame_columns(run->frame).first;
-    double *cos_theta = run->halves, *ratio = run->halves + n;
-    if (first < run->vectors) hd_frame_halves(run->frame, cos_theta + first, ratio + first);
-    HD_TRY(hd_communicator_share(run->communicator, run->halves, 2, n, width, n));
+    const hd_shared shared = {2, (size_t)run->vectors, (size_t)hd_frame_stride(run->frame),
+                              (size_t)run->carried, 0};
+    const hd_columns own = hd_frame_columns(run->frame);
+    double *cos_theta = run->halves, *ratio = run->halves + run->vectors;
+    if (own.count > 0) hd_frame_halves(run->frame, cos_theta + own.first, ratio + own.first);
+    HD_TRY(hd_communicator_share(run->communicator, run->halves, shared));
     if (run->conjugate) hd_conjugate_halves(cos_theta, ratio, run->carried);
     for (int k = 0; k < 2 * run->vectors; k++)
         if (isnan(run->halves[k])) run->halves[k] = HD_NO_HALF;
     return HD_OK;
 }
 
+static hd_status prepare_conjugate(hd_run *run)
+{
+    const int here = run->communicator ? hd_frame_stride(run->frame) : run->carried;
+    const bool completed = run->scene.observe & HD_OBSERVE_OF_MODES;
+    if (run->carried == run->vectors) return HD_OK;
+    return hd_conjugate_create(&run->conjugate, 4 * run->scene.disks, completed ? here : 0);
+}
+
 static hd_status prepare_frame(hd_run *run)
 {
     const int rows = 4 * run->scene.disks, n = run->vectors;
-    const bool whole = run->scene.observe & HD_OBSERVE_OF_MODES;
     HD_TRY(hd_run_agree(run, hd_event_log_create(&run->log)));
     HD_TRY(hd_ortho_create_shared(&run->ortho, rows, run->carried, run->communicator));
-    if (run->carried < n) HD_TRY(hd_conjugate_create(&run->conjugate, rows, whole));
     HD_TRY(hd_run_agree(run, prepare_threads(run)));
     HD_TRY(hd_run_agree(run, hd_spectrum_create(&run->spectrum, rows, n, hd_run_block_least(run))));
     run->whole = true;
     run->halves = hd_memory_alloc(2 * (size_t)n, sizeof *run->halves);
     HD_TRY(hd_run_agree(run, run->halves ? HD_OK : HD_NO_MEMORY));
     HD_TRY(create_frame(run));
+    HD_TRY(hd_run_agree(run, prepare_conjugate(run)));
     return keep_halves(run);
 }
 
@@ -107,8 +115,9 @@ static hd_status prepare_windows(hd_run *run, char *message, size_t size)
     const double longest = fmin(COLLISIONS_MOST * run->sample_max / HD_COLLISIONS_PER_SAMPLE,
                                 run->interval.limit);
     if (!(run->scene.observe & HD_OBSERVE_COVARIANT)) return HD_OK;
-    return hd_windows_create(&run->windows, &run->scene, run->ortho, longest, run->threads, message,
-                             size);
+    run->windows.communicator = run->communicator;
+    return hd_run_agree(run, hd_windows_create(&run->windows, &run->scene, run->ortho, longest,
+                                               run->threads, message, size));
 }
 
 static hd_status prepare(hd_run *run, char *message, size_t size)
@@ -225,15 +234,25 @@ static bool target_reached(const hd_run *run)
     return target > 0 && run->spectrum && hd_run_smallest_error(run) <= target;
 }
 
+/** The modes of the vectors that this rank has, and of their partners. */
+static hd_status measure_here(hd_run *run)
+{
+    const hd_columns own = hd_frame_columns(run->frame);
+    const hd_trajectory *disks = run->advance.trajectory;
+    if (!run->communicator)
+        return hd_observer_measure(&run->observer, hd_run_frame_columns(run), disks);
+    HD_TRY(hd_observer_measure(&run->observer, own, disks));
+    if (!run->conjugate) return HD_OK;
+    return hd_observer_measure(&run->observer, hd_conjugate_partners(run->conjugate, own), disks);
+}
+
 /** The modes of an orthonormal frame. */
 static hd_status measure(hd_run *run)
 {
     const double start = hd_clock_now();
-    const hd_columns here = run->communicator ? hd_frame_columns(run->frame)
-                                              : hd_run_frame_columns(run);
-    const hd_status status = hd_observer_measure(&run->observer, here, run->advance.trajectory);
-    HD_TRY(hd_run_agree(run, status));
-    HD_TRY(hd_modes_share(run->observer.modes, run->communicator, hd_frame_stride(run->frame)));
+    HD_TRY(hd_run_agree(run, measure_here(run)));
+    HD_TRY(hd_modes_share(run->observer.modes, run->communicator, hd_frame_stride(run->frame),
+                          run->carried));
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
 }
@@ -387,6 +406,7 @@ static hd_status take_cut(hd_run *run)
     const bool first = averaging && run->spectrum && hd_spectrum_time(run->spectrum) == 0;
     const bool ends = run->due.stage_end || first || hd_run_vectors_wanted(run);
     const bool carried = run->frame && run->schedule.stage != HD_EQUILIBRATING;
+    HD_TRY(hd_run_compare_disks(run));
     if (!carried || !ends) return HD_OK;
     return is_measured(run) ? hd_run_gather(run) : end_early(run);
 }

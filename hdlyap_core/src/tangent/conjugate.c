@@ -11,6 +11,7 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "tangent/frame_state.h"
 
 enum { PANEL = 16, PAIRS = 4 };
 
@@ -18,7 +19,8 @@ struct hd_conjugate {
     int rows, half;  /**< 4N, 2N */
     bool fresh;      /**< whole is that of the last orthonormalisation */
     double *stretch; /**< [rows] */
-    double *whole;   /**< [rows * rows], row-major; NULL unless asked for */
+    double *whole;   /**< [rows * 2 most], row-major; NULL unless asked for */
+    int most;        /**< of the half that are completed */
     double *sign;    /**< [half * 2 PAIRS], random */
     double *sum;     /**< [rows * 2 PAIRS]: Q times signs */
 };
@@ -36,9 +38,9 @@ static void turn(double *to, const double *from, int rows)
 /* ---- the start ----------------------------------------------------------------------------- */
 
 typedef struct panel {
-    int rows, first, width;
-    double *a, *turned; /**< [rows * width], column-major: vectors; work */
-    double *part;       /**< [n * width]: coefficients */
+    int rows, first, width; /**< rows of this rank: those of some disks */
+    double *a, *turned;     /**< [rows * width], column-major: vectors; work */
+    double *part;           /**< [n * width]: coefficients */
 } panel;
 
 static double *column_of(const panel *x, double *of, int col)
@@ -46,18 +48,18 @@ static double *column_of(const panel *x, double *of, int col)
     return of + (size_t)col * (size_t)x->rows;
 }
 
-static void load(const panel *x, const hd_frame *frame)
+static void load(const panel *x, hd_frame *frame)
 {
-    const double *v = hd_frame_read(frame) + x->first;
     for (int col = 0; col < x->width; col++)
-        cblas_dcopy(x->rows, v + col, hd_frame_stride(frame), column_of(x, x->a, col), 1);
+        cblas_dcopy(x->rows, hd_frame_vector(frame, x->first + col), hd_frame_stride(frame),
+                    column_of(x, x->a, col), 1);
 }
 
 static void store(const panel *x, hd_frame *frame)
 {
-    double *v = hd_frame_data(frame) + x->first;
     for (int col = 0; col < x->width; col++)
-        cblas_dcopy(x->rows, column_of(x, x->a, col), 1, v + col, hd_frame_stride(frame));
+        cblas_dcopy(x->rows, column_of(x, x->a, col), 1, hd_frame_vector(frame, x->first + col),
+                    hd_frame_stride(frame));
 }
 
 static void turn_all(const panel *x)
@@ -66,18 +68,35 @@ static void turn_all(const panel *x)
         turn(column_of(x, x->turned, col), column_of(x, x->a, col), x->rows);
 }
 
-/** A -= Q Q^T A + (J Q)(J Q)^T A for the vectors before the panel; (J Q)^T A = -Q^T J A. */
-static void project_out(const panel *x, const hd_frame *frame)
+/** Vectors before the panel that lie side by side, from one of them on. */
+static int beside(const panel *x, const hd_frame *frame, int col)
 {
-    const double *q = hd_frame_read(frame);
+    const int count = hd_frame_neighbours(frame, col);
+    return count < x->first - col ? count : x->first - col;
+}
+
+/** turned <- Q Q^T of, for the vectors before the panel. */
+static void project(const panel *x, hd_frame *frame, const double *of)
+{
     const int stride = hd_frame_stride(frame);
+    for (int col = 0; col < x->first; col += beside(x, frame, col))
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, beside(x, frame, col), x->width,
+                    x->rows, 1.0, hd_frame_vector(frame, col), stride, of, x->rows, 0.0,
+                    x->part + col, x->first);
+    hd_communicator_sum(frame->communicator, x->part, (size_t)x->first * (size_t)x->width);
+    for (int col = 0; col < x->first; col += beside(x, frame, col))
+        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, x->rows, x->width,
+                    beside(x, frame, col), 1.0, hd_frame_vector(frame, col), stride, x->part + col,
+                    x->first, col > 0, x->turned, x->rows);
+}
+
+/** A -= Q Q^T A + (J Q)(J Q)^T A for the vectors before the panel; (J Q)^T A = -Q^T J A. */
+static void project_out(const panel *x, hd_frame *frame)
+{
     if (x->first == 0) return;
     for (int conjugate = 0; conjugate < 2; conjugate++) {
         if (conjugate) turn_all(x);
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, x->first, x->width, x->rows, 1.0, q,
-                    stride, conjugate ? x->turned : x->a, x->rows, 0.0, x->part, x->first);
-        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, x->rows, x->width, x->first, 1.0, q,
-                    stride, x->part, x->first, 0.0, x->turned, x->rows);
+        project(x, frame, conjugate ? x->turned : x->a);
         for (int col = 0; col < x->width; col++) {
             double *a = column_of(x, x->a, col), *along = column_of(x, x->turned, col);
             if (conjugate) /* A += J Q (Q^T J A) */
@@ -89,8 +108,21 @@ static void project_out(const panel *x, const hd_frame *frame)
     }
 }
 
+/** Of two vectors of all ranks. */
+static double inner(const panel *x, hd_communicator *c, const double *a, const double *b)
+{
+    double sum = cblas_ddot(x->rows, a, 1, b, 1);
+    hd_communicator_sum(c, &sum, 1);
+    return sum;
+}
+
+static double length_of(const panel *x, hd_communicator *c, const double *a)
+{
+    return c ? sqrt(inner(x, c, a, a)) : cblas_dnrm2(x->rows, a, 1);
+}
+
 /** The same within the panel, one vector after the other. */
-static hd_status orthonormalise(const panel *x)
+static hd_status orthonormalise(const panel *x, hd_communicator *c)
 {
     for (int col = 0; col < x->width; col++) {
         double *a = column_of(x, x->a, col);
@@ -101,9 +133,9 @@ static hd_status orthonormalise(const panel *x)
                 memcpy(along, q, (size_t)x->rows * sizeof *q);
             else
                 turn(along, q, x->rows);
-            cblas_daxpy(x->rows, -cblas_ddot(x->rows, along, 1, a, 1), along, 1, a, 1);
+            cblas_daxpy(x->rows, -inner(x, c, along, a), along, 1, a, 1);
         }
-        const double length = cblas_dnrm2(x->rows, a, 1);
+        const double length = length_of(x, c, a);
         if (!(length > 0 && length < INFINITY)) return HD_ILL_CONDITIONED;
         cblas_dscal(x->rows, 1.0 / length, a, 1);
     }
@@ -116,7 +148,7 @@ static hd_status start_panel(const panel *x, hd_frame *frame)
     load(x, frame);
     for (int pass = 0; pass < 2; pass++) {
         project_out(x, frame);
-        HD_TRY(orthonormalise(x));
+        HD_TRY(orthonormalise(x, frame->communicator));
     }
     store(x, frame);
     return HD_OK;
@@ -124,42 +156,45 @@ static hd_status start_panel(const panel *x, hd_frame *frame)
 
 hd_status hd_conjugate_start(hd_frame *frame)
 {
-    const int rows = hd_frame_rows(frame), n = hd_frame_vectors(frame);
+    const int rows = hd_frame_rows_here(frame), n = hd_frame_vectors(frame);
     const size_t panels = (size_t)rows * PANEL, parts = (size_t)n * PANEL;
-    HD_ASSERT(2 * n == rows);
+    HD_ASSERT(2 * n == hd_frame_rows(frame));
     double *room = hd_memory_alloc(2 * panels + parts, sizeof *room);
-    if (!room) return HD_NO_MEMORY;
-    hd_status status = HD_OK;
+    hd_status status = hd_communicator_agree(frame->communicator, room ? HD_OK : HD_NO_MEMORY);
+    if (status == HD_OK) hd_frame_to_rows(frame);
     for (int first = 0; first < n && status == HD_OK; first += PANEL) {
         const int width = n - first < PANEL ? n - first : PANEL;
         const panel x = {rows, first, width, room, room + panels, room + 2 * panels};
         status = start_panel(&x, frame);
     }
+    if (frame->by_rows) hd_frame_to_columns(frame);
     hd_memory_free(room);
     return status;
 }
 
 /* ---- the other half ------------------------------------------------------------------------ */
 
-static hd_status allocate(hd_conjugate *c, bool whole)
+static hd_status allocate(hd_conjugate *c)
 {
     const size_t rows = (size_t)c->rows, sums = 2 * PAIRS;
     c->stretch = hd_memory_alloc(rows, sizeof(double));
     c->sign = hd_memory_alloc((size_t)c->half * sums, sizeof(double));
     c->sum = hd_memory_alloc(rows * sums, sizeof(double));
     if (!c->stretch || !c->sign || !c->sum) return HD_NO_MEMORY;
-    if (whole && !(c->whole = hd_memory_alloc(rows * rows, sizeof(double)))) return HD_NO_MEMORY;
-    return HD_OK;
+    if (c->most == 0) return HD_OK;
+    c->whole = hd_memory_alloc(rows * 2 * (size_t)c->most, sizeof(double));
+    return c->whole ? HD_OK : HD_NO_MEMORY;
 }
 
-hd_status hd_conjugate_create(hd_conjugate **out, int rows, bool whole)
+hd_status hd_conjugate_create(hd_conjugate **out, int rows, int most)
 {
     hd_conjugate *c = hd_memory_alloc(1, sizeof *c);
     *out = NULL;
     if (!c) return HD_NO_MEMORY;
     c->rows = rows;
     c->half = rows / 2;
-    if (allocate(c, whole) != HD_OK) {
+    c->most = most;
+    if (allocate(c) != HD_OK) {
         hd_conjugate_free(c);
         return HD_NO_MEMORY;
     }
@@ -205,10 +240,17 @@ void hd_conjugate_fill(double *whole, hd_columns half, int rows)
 
 hd_columns hd_conjugate_complete(hd_conjugate *conjugate, hd_columns half)
 {
-    HD_ASSERT(conjugate->whole && half.first == 0 && half.count == conjugate->half);
+    HD_ASSERT(half.count <= conjugate->most);
     if (!conjugate->fresh) hd_conjugate_fill(conjugate->whole, half, conjugate->rows);
     conjugate->fresh = true;
-    return (hd_columns){conjugate->whole, conjugate->rows, 0, conjugate->rows};
+    return (hd_columns){conjugate->whole, 2 * half.count, half.first, 2 * half.count};
+}
+
+hd_columns hd_conjugate_partners(hd_conjugate *conjugate, hd_columns half)
+{
+    const hd_columns both = hd_conjugate_complete(conjugate, half);
+    return (hd_columns){both.data + half.count, both.stride,
+                        conjugate->rows - half.first - half.count, half.count};
 }
 
 void hd_conjugate_halves(double *cos_theta, double *dp_dq_ratio, int half)
@@ -234,10 +276,11 @@ static double product(const double *a, const double *b, int rows)
 
 double hd_conjugate_isotropy(hd_conjugate *c, const hd_frame *frame)
 {
+    const hd_columns own = hd_frame_columns(frame);
     double sum = 0.0;
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, c->rows, 2 * PAIRS, c->half, 1.0,
-                hd_frame_read(frame), hd_frame_stride(frame), c->sign, c->half, 0.0, c->sum,
-                c->rows);
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, c->rows, 2 * PAIRS, own.count, 1.0,
+                own.data, own.stride, c->sign + own.first, c->half, 0.0, c->sum, c->rows);
+    hd_communicator_sum(frame->communicator, c->sum, 2 * PAIRS * (size_t)c->rows);
     for (int k = 0; k < PAIRS; k++) {
         const double *a = c->sum + 2 * (size_t)k * (size_t)c->rows;
         const double one = product(a, a + c->rows, c->rows);
@@ -262,7 +305,7 @@ static double product_of_columns(const hd_frame *frame, int a, int b)
 double hd_conjugate_isotropy_measured(const hd_frame *frame)
 {
     double worst = 0.0;
-    for (int a = 0; a < hd_frame_vectors(frame); a++)
+    for (int a = 0; a < hd_frame_columns(frame).count; a++)
         for (int b = 0; b < a && !isnan(worst); b++) {
             const double off = fabs(product_of_columns(frame, a, b));
             if (!(off <= worst)) worst = off; /* NaN stays */

@@ -13,14 +13,15 @@
 /** Turns the 2N vectors of a frame, whatever they are, into orthonormal and isotropic ones: each
  * loses its part along those before it and along their conjugates. A random frame becomes a random
  * one (columns of a random unitary matrix); one that is nearly isotropic changes as little as it
- * lacks. HD_ILL_CONDITIONED if they are dependent, HD_NO_MEMORY. Cost 8 m n^2 flops. */
+ * lacks. Of all ranks together. HD_ILL_CONDITIONED if they are dependent, HD_NO_MEMORY. Cost 8 m
+ * n^2 flops. */
 HD_MUST_CHECK hd_status hd_conjugate_start(hd_frame *frame);
 
 typedef struct hd_conjugate hd_conjugate;
 
-/** For frames of so many rows, half as many vectors. whole: all 4N will be asked for. HD_NO_MEMORY.
- */
-HD_MUST_CHECK hd_status hd_conjugate_create(hd_conjugate **out, int rows, bool whole);
+/** For frames of so many rows, half as many vectors. most: of these, to be completed at once; 0:
+ * none will be. HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_conjugate_create(hd_conjugate **out, int rows, int most);
 void hd_conjugate_free(hd_conjugate *conjugate);
 
 /** After an orthonormalisation: ln diag R of all 4N [4N] from that of the half [2N]: ln R_ll and,
@@ -31,14 +32,16 @@ const double *hd_conjugate_stretch(hd_conjugate *conjugate, const double *half);
 void hd_conjugate_fill(double *whole, hd_columns half, int rows);
 
 /** All 4N vectors, [4N * 4N]: they are completed once after each orthonormalisation. Valid until
- * the next one. */
+ * the next one. Of the part of the half that a rank has: these, and behind them their partners. */
 hd_columns hd_conjugate_complete(hd_conjugate *conjugate, hd_columns half);
+/** The partners alone, at the Lyapunov indices that they have. */
+hd_columns hd_conjugate_partners(hd_conjugate *conjugate, hd_columns half);
 
 /** About the root of the sum of squares of E = Q^T J Q: from x^T E y for a few pairs of random
  * signs, which know it to a third. Cost 8 m n flops. */
 double hd_conjugate_isotropy(hd_conjugate *conjugate, const hd_frame *frame);
 
-/** max |Q^T J Q|, m n^2 flops. For tests and verification. */
+/** max |Q^T J Q| of this rank's vectors, m n^2 flops. For tests and verification. */
 double hd_conjugate_isotropy_measured(const hd_frame *frame);
 
 /** Completes [4N] what hd_frame_halves says of the half. */

@@ -80,7 +80,7 @@ hd_status hd_frame_create_shared(hd_frame **out, int disks, int vectors, uint64_
     HD_ASSERT(disks >= 1 && vectors >= 1 && vectors <= 4 * disks && threads >= 1);
     hd_frame *frame = hd_memory_alloc(1, sizeof *frame);
     *out = NULL;
-    if (!frame) return HD_NO_MEMORY;
+    HD_TRY(hd_communicator_agree(communicator, frame ? HD_OK : HD_NO_MEMORY));
     frame->disks = disks;
     frame->rows = 4 * disks;
     frame->vectors = vectors;
@@ -249,8 +249,9 @@ static hd_status archive_shared(hd_frame *frame, hd_archive *archive)
         const int count = frame->rows - first < ROWS ? frame->rows - first : ROWS;
         copy_rows(frame, rows, first, count, false);
         if (archive->writing)
-            status = hd_communicator_share(frame->communicator, rows, (size_t)count, n,
-                                           (size_t)frame->stride, n);
+            status = hd_communicator_share(
+                frame->communicator, rows,
+                (hd_shared){(size_t)count, n, (size_t)frame->stride, n, 0});
         for (int row = 0; row < count && status == HD_OK; row++)
             hd_archive_next_doubles(archive, rows + (size_t)row * n, n);
         copy_rows(frame, rows, first, count, true);

@@ -59,7 +59,8 @@ static hd_status ortho_allocate(hd_ortho *ortho)
                   {&ortho->probe, n * HD_PROBES},
                   {&ortho->log_stretch, n},
                   {&ortho->reflector, n},
-                  {&ortho->sum, ortho->communicator ? width * width : 0}};
+                  {&ortho->sum, ortho->communicator ? width * width : 0},
+                  {&ortho->copy, ortho->communicator ? width * (size_t)ortho->rows : 0}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
         if (wanted[k].size > 0 &&
             !(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
@@ -86,7 +87,11 @@ hd_status hd_ortho_create_shared(hd_ortho **out, int rows, int vectors,
     HD_ASSERT(vectors >= 1 && vectors <= rows);
     hd_ortho *ortho = hd_memory_alloc(1, sizeof *ortho);
     *out = NULL;
-    if (!ortho) return HD_NO_MEMORY;
+    const hd_status head = hd_communicator_agree(communicator, ortho ? HD_OK : HD_NO_MEMORY);
+    if (head != HD_OK) {
+        hd_memory_free(ortho);
+        return head;
+    }
     const int ranks = hd_communicator_ranks(communicator);
     ortho->communicator = communicator;
     ortho->rows = 4 * ((rows / 4 + ranks - 1) / ranks);
@@ -111,6 +116,7 @@ void hd_ortho_free(hd_ortho *ortho)
     hd_memory_free(ortho->log_stretch);
     hd_memory_free(ortho->reflector);
     hd_memory_free(ortho->sum);
+    hd_memory_free(ortho->copy);
     hd_memory_free(ortho->factor[0]);
     hd_memory_free(ortho->factor[1]);
     hd_memory_free(ortho);
@@ -152,15 +158,22 @@ void hd_ortho_probes_clear(hd_ortho *ortho)
     memset(ortho->probe, 0, (size_t)ortho->vectors * HD_PROBES * sizeof *ortho->probe);
 }
 
+/** Of the panel that begins there. */
+static int width_at(const hd_ortho *ortho, int first)
+{
+    const int left = ortho->vectors - first;
+    return left < ortho->width ? left : ortho->width;
+}
+
 static hd_status pass(hd_ortho *ortho, hd_frame *frame, double condition_max)
 {
     hd_ortho_probes_clear(ortho);
     ortho->panel_condition = HD_PANEL_CONDITION_LEAST;
-    for (int first = 0; first < ortho->vectors;) {
-        const hd_panel x = hd_panel_at(frame, first, ortho->width);
+    for (int first = 0; first < ortho->vectors; first += ortho->width) {
+        const hd_panel x = hd_panel_load(ortho, frame, first, width_at(ortho, first));
         HD_TRY(hd_panel_orthonormalise(ortho, x));
+        hd_panel_store(ortho, frame, x);
         hd_panel_project_out(ortho, frame, x);
-        first += x.width;
     }
     ortho->condition = hd_ortho_condition_from_probes(ortho);
     ortho->passes++;
@@ -236,8 +249,10 @@ static hd_status repeat_by_rows(hd_ortho *ortho, hd_frame *frame, double conditi
     enum { PASSES_MAX = 4 };
     HD_TRY(pass(ortho, frame, condition_max));
     const double condition = ortho->condition;
-    while (defect_foreseen(ortho) > REPEATED && ortho->passes < PASSES_MAX)
+    while (defect_foreseen(ortho) > REPEATED && ortho->passes < PASSES_MAX) {
         HD_TRY(pass(ortho, frame, condition_max));
+        factors_multiply(ortho);
+    }
     ortho->defect = defect_foreseen(ortho);
     ortho->condition = condition;
     return HD_OK;
@@ -270,15 +285,17 @@ double hd_ortho_defect(const hd_ortho *ortho) { return ortho->defect; }
 int hd_ortho_passes(const hd_ortho *ortho) { return ortho->passes; }
 hd_norm hd_ortho_norm(const hd_ortho *ortho) { return ortho->norm; }
 
-/** max(worst, |x^T y - diagonal|) over all pairs of columns x of the panel and y; NaN stays. */
-static double panel_defect(hd_ortho *ortho, hd_panel x, hd_panel y, double worst)
+/** max(worst, |x^T y - diagonal|) over all pairs of columns x of the panel and `count` vectors y;
+ * NaN stays. */
+static double panel_defect(hd_ortho *ortho, hd_frame *frame, hd_panel x, int first, int count,
+                           double worst)
 {
     const double *s = ortho->projection;
-    hd_panel_inner_products(ortho, ortho->projection, y.width, y, x);
+    hd_panel_products(ortho, frame, ortho->projection, first, count, x);
     for (int col = 0; col < x.width; col++)
-        for (int row = 0; row < y.width; row++) {
-            const bool same = x.first + col == y.first + row;
-            const double off = fabs(s[(size_t)col * (size_t)y.width + (size_t)row] - same);
+        for (int row = 0; row < count; row++) {
+            const bool same = x.first + col == first + row;
+            const double off = fabs(s[(size_t)col * (size_t)count + (size_t)row] - same);
             if (isnan(worst)) return worst;
             if (!(off <= worst)) worst = off;
         }
@@ -291,15 +308,13 @@ double hd_ortho_defect_measured(hd_ortho *ortho, hd_frame *frame, hd_norm norm)
     double worst = 0.0;
     ortho->norm = norm;
     hd_frame_to_rows(frame);
-    for (int first = 0; first < ortho->vectors;) {
-        const hd_panel x = hd_panel_at(frame, first, ortho->width);
+    for (int first = 0; first < ortho->vectors; first += ortho->width) {
+        const hd_panel x = hd_panel_load(ortho, frame, first, width_at(ortho, first));
         const int width = hd_panel_later_width(ortho->vectors - first);
-        for (int next = first; next < ortho->vectors;) {
-            const hd_panel later = hd_panel_at(frame, next, width);
-            worst = panel_defect(ortho, x, later, worst);
-            next += later.width;
+        for (int next = first; next < ortho->vectors; next += width) {
+            const int left = ortho->vectors - next;
+            worst = panel_defect(ortho, frame, x, next, left < width ? left : width, worst);
         }
-        first += x.width;
     }
     hd_frame_to_columns(frame);
     ortho->norm = of_the_step;

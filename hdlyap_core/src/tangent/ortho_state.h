@@ -31,7 +31,8 @@ struct hd_ortho {
     double *reflector;   /**< [vectors], of the stable step */
     /** [vectors * vectors], column-major: L of each pass; NULL unless kept */
     double *factor[2];
-    int lwork; /**< of projection */
+    double *copy; /**< [rows * width], of a panel of several ranks */
+    int lwork;    /**< of projection */
     double condition, defect;
     hd_norm norm; /**< of the present or last step */
     /** Largest of the panels as they were accepted, at least HD_PANEL_CONDITION_LEAST */

@@ -13,11 +13,40 @@
  * orthogonality, eps condition^2, multiplies what the later panels are cleaned of. */
 static const double PANEL_CONDITION_GOOD = 16.0;
 
-hd_panel hd_panel_at(hd_frame *frame, int first, int most)
+/** From a vector on, `most` of them, or fewer if the next ones lie elsewhere. */
+static hd_panel panel_at(hd_frame *frame, int first, int most)
 {
     const int left = hd_frame_neighbours(frame, first);
     return (hd_panel){hd_frame_vector(frame, first), hd_frame_stride(frame), first,
                       left < most ? left : most};
+}
+
+/** Between a panel's copy and its vectors, wherever they are. */
+static void copy(const hd_ortho *ortho, hd_frame *frame, hd_panel x, bool back)
+{
+    for (int col = 0; col < x.width;) {
+        const hd_panel part = panel_at(frame, x.first + col, x.width - col);
+        for (int row = 0; row < ortho->rows; row++) {
+            double *there = part.a + (size_t)row * (size_t)part.lda,
+                   *here = x.a + (size_t)row * (size_t)x.lda + col;
+            memcpy(back ? there : here, back ? here : there, (size_t)part.width * sizeof *here);
+        }
+        col += part.width;
+    }
+}
+
+hd_panel hd_panel_load(hd_ortho *ortho, hd_frame *frame, int first, int width)
+{
+    const hd_panel there = panel_at(frame, first, width);
+    const hd_panel here = {ortho->copy, width, first, width};
+    if (there.width == width) return there;
+    copy(ortho, frame, here, false);
+    return here;
+}
+
+void hd_panel_store(const hd_ortho *ortho, hd_frame *frame, hd_panel x)
+{
+    if (x.a == ortho->copy) copy(ortho, frame, x, true);
 }
 
 int hd_panel_later_width(int later)
@@ -44,7 +73,8 @@ static void inner_products_here(const hd_ortho *ortho, double *s, int lds, hd_pa
                     part > 0, s, lds);
 }
 
-void hd_panel_inner_products(const hd_ortho *ortho, double *s, int lds, hd_panel y, hd_panel x)
+/** The same of all ranks. */
+static void inner_products(const hd_ortho *ortho, double *s, int lds, hd_panel y, hd_panel x)
 {
     const size_t height = (size_t)y.width, width = (size_t)x.width;
     double *sum = ortho->communicator && lds != y.width ? ortho->sum : s;
@@ -62,10 +92,11 @@ static void take_out(const hd_ortho *ortho, const double *s, int lds, hd_panel y
                 lds, x.a, x.lda, 1.0, y.a, y.lda);
 }
 
-/** Entry of L of the present pass at a row and the panel's first column. */
+/** Entry of L of the present pass at a row and the panel's first column: of the first one, or of
+ * the one that follows and is multiplied with it. */
 static double *factor_at(const hd_ortho *ortho, hd_panel x, int row)
 {
-    return ortho->factor[ortho->passes] + (size_t)x.first * (size_t)ortho->vectors + row;
+    return ortho->factor[ortho->passes > 0] + (size_t)x.first * (size_t)ortho->vectors + row;
 }
 
 /** The panel's own triangle in gram, of its first or second time: L = L_1 L_2. */
@@ -86,13 +117,12 @@ static void keep_panel(const hd_ortho *ortho, hd_panel x, bool again)
 }
 
 /** S, the rows of L of some later vectors. */
-static void keep_projection(const hd_ortho *ortho, hd_panel x, hd_panel later)
+static void keep_projection(const hd_ortho *ortho, hd_panel x, int first, int count)
 {
     if (!ortho->factor[0]) return;
     for (int col = 0; col < x.width; col++)
-        memcpy(factor_at(ortho, x, later.first) + (size_t)col * (size_t)ortho->vectors,
-               ortho->projection + (size_t)col * (size_t)later.width,
-               (size_t)later.width * sizeof(double));
+        memcpy(factor_at(ortho, x, first) + (size_t)col * (size_t)ortho->vectors,
+               ortho->projection + (size_t)col * (size_t)count, (size_t)count * sizeof(double));
 }
 
 /** A narrow part of a panel: gram <- L of G = A_p A_p^T, inverse <- L^-1, A_p <- L^-1 A_p. */
@@ -101,7 +131,7 @@ static hd_status cholesky(hd_ortho *ortho, hd_panel whole, hd_panel x)
     double *l = triangle_at(ortho->gram, whole, x),
            *inverse = triangle_at(ortho->inverse, whole, x);
     const int ld = whole.width;
-    hd_panel_inner_products(ortho, l, ld, x, x);
+    inner_products(ortho, l, ld, x, x);
     for (int k = 0; k < x.width; k++) /* keeps NaN out of LAPACK */
         if (!hd_is_square(l[k * (ld + 1)])) return HD_ILL_CONDITIONED;
     if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', x.width, l, ld) != 0) return HD_ILL_CONDITIONED;
@@ -142,7 +172,7 @@ static hd_status by_halves(hd_ortho *ortho, hd_panel whole, hd_panel x)
     const hd_panel second = {x.a + half, x.lda, x.first + half, x.width - half};
     double *s = triangle_at(ortho->gram, whole, first) + half;
     HD_TRY(by_halves(ortho, whole, first));
-    hd_panel_inner_products(ortho, s, whole.width, second, first);
+    inner_products(ortho, s, whole.width, second, first);
     take_out(ortho, s, whole.width, second, first);
     HD_TRY(by_halves(ortho, whole, second));
     invert_corner(ortho, whole, first, second);
@@ -206,30 +236,43 @@ hd_status hd_panel_orthonormalise(hd_ortho *ortho, hd_panel x)
     return HD_OK;
 }
 
-/** Takes the panel out of later vectors, and out of their probes. */
-static void panel_project(hd_ortho *ortho, hd_panel x, hd_panel later)
+void hd_panel_products(hd_ortho *ortho, hd_frame *frame, double *s, int first, int count,
+                       hd_panel x)
+{
+    for (int at = 0; at < count;) {
+        const hd_panel part = panel_at(frame, first + at, count - at);
+        inner_products_here(ortho, s + at, count, part, x);
+        at += part.width;
+    }
+    hd_communicator_sum(ortho->communicator, s, (size_t)count * (size_t)x.width);
+}
+
+/** Takes the panel out of `count` later vectors, and out of their probes. */
+static void panel_project(hd_ortho *ortho, hd_frame *frame, hd_panel x, int first, int count)
 {
     double *s = ortho->projection;
-    const int count = later.width;
-    hd_panel_inner_products(ortho, s, count, later, x);
-    keep_projection(ortho, x, later);
+    hd_panel_products(ortho, frame, s, first, count, x);
+    keep_projection(ortho, x, first, count);
     for (int col = 0; col < x.width; col++)
         for (int row = 0; row < count; row++) {
             const double entry = s[(size_t)col * (size_t)count + (size_t)row];
-            ortho->norm2[later.first + row] += entry * entry;
+            ortho->norm2[first + row] += entry * entry;
         }
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, HD_PROBES, x.width, -1.0, s,
-                count, ortho->probe + x.first, ortho->vectors, 1.0, ortho->probe + later.first,
+                count, ortho->probe + x.first, ortho->vectors, 1.0, ortho->probe + first,
                 ortho->vectors);
-    take_out(ortho, s, count, later, x);
+    for (int at = 0; at < count;) {
+        const hd_panel part = panel_at(frame, first + at, count - at);
+        take_out(ortho, s + at, count, part, x);
+        at += part.width;
+    }
 }
 
 void hd_panel_project_out(hd_ortho *ortho, hd_frame *frame, hd_panel x)
 {
     const int first = x.first + x.width, width = hd_panel_later_width(ortho->vectors - first);
-    for (int next = first; next < ortho->vectors;) {
-        const hd_panel later = hd_panel_at(frame, next, width);
-        panel_project(ortho, x, later);
-        next += later.width;
+    for (int next = first; next < ortho->vectors; next += width) {
+        const int left = ortho->vectors - next;
+        panel_project(ortho, frame, x, next, left < width ? left : width);
     }
 }

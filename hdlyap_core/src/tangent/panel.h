@@ -15,15 +15,20 @@ typedef struct hd_panel {
     int lda, first, width;
 } hd_panel;
 
-/** From a vector on, `most` of them, or fewer if the next ones lie elsewhere. */
-hd_panel hd_panel_at(hd_frame *frame, int first, int most);
+/** Some vectors from `first` on, side by side: where they are, or, if they are of several ranks, a
+ * copy of them in the room for one panel. */
+hd_panel hd_panel_load(hd_ortho *ortho, hd_frame *frame, int first, int width);
+/** The copy, if it is one, goes back to where the vectors are. */
+void hd_panel_store(const hd_ortho *ortho, hd_frame *frame, hd_panel x);
 
 /** Of the equal pieces, of HD_LATER_MAX vectors at most, that so many later ones are dealt with in.
  */
 int hd_panel_later_width(int later);
 
-/** s <- A_y A_x^T of all ranks, in the norm, column-major. */
-void hd_panel_inner_products(const hd_ortho *ortho, double *s, int lds, hd_panel y, hd_panel x);
+/** s[count * x.width] <- A_y A_x^T of all ranks, in the norm, column-major: y are `count` vectors
+ * from `first` on, wherever they are. */
+void hd_panel_products(hd_ortho *ortho, hd_frame *frame, double *s, int first, int count,
+                       hd_panel x);
 
 /** x <- orthonormal; its logarithms and its part of the probes are then known. HD_ILL_CONDITIONED.
  */

@@ -83,8 +83,8 @@ static void add_piece(forward *x, double t_begin, double t_end, bool snapshot)
     for (int way = 0; way < PASTS; way++) {
         const hd_columns columns = hd_frame_columns(x->f.frame);
         assert_false(hd_history_is_full(x->past[way]));
-        CHECK_OK(hd_history_add(x->past[way], hd_ortho_factor(x->f.ortho), x->f.frame, log, t_begin,
-                                t_end));
+        CHECK_OK(hd_history_add(x->past[way], hd_ortho_factor(x->f.ortho), x->f.frame,
+                                hd_frame_columns(x->f.frame), log, t_begin, t_end));
         if (snapshot) CHECK_OK(hd_history_snapshot(x->past[way], columns, new->q, new->p));
     }
 }
@@ -229,8 +229,8 @@ static void a_ring_takes_its_memory_once(void **state)
         const double q[2 * DISKS] = {0};
         if (k == 2 * INTERVALS) before = hd_memory_allocations();
         const size_t outside = hd_memory_allocations();
-        CHECK_OK(hd_history_add(past, hd_ortho_factor(x->f.ortho), x->f.frame, x->f.log, 0.0,
-                                x->f.log->duration));
+        CHECK_OK(hd_history_add(past, hd_ortho_factor(x->f.ortho), x->f.frame,
+                                hd_frame_columns(x->f.frame), x->f.log, 0.0, x->f.log->duration));
         CHECK_OK(hd_history_snapshot(past, columns, q, q));
         CHECK_OK(hd_history_factor(past, factor, NULL,
                                    hd_history_end(past) - 2 < 0 ? 0 : hd_history_end(past) - 2));

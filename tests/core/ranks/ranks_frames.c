@@ -21,21 +21,26 @@ static void calls_give_the_same_to_all(void **state)
     assert_int_equal(hd_communicator_agree(ranks, mine), HD_NO_MEMORY);
 }
 
-/** 70 rows, 11 columns of which each rank has as many as fit. */
+/** 70 rows, 11 columns of which each rank has as many as fit; from the first on, or from the last.
+ */
 static void shares_are_put_together(void **state)
 {
-    (void)state;
     enum { ROWS = 70, STRIDE = 16, COUNT = 11 };
+    const int from_behind = state == NULL;
     double x[ROWS][STRIDE];
     const int width = (COUNT + ranks->ranks - 1) / ranks->ranks, first = ranks->rank * width;
     for (int row = 0; row < ROWS; row++)
-        for (int col = 0; col < STRIDE; col++)
-            x[row][col] = col >= first && col < first + width && col < COUNT ? row + 0.01 * col
-                                                                             : -1.0;
-    CHECK_OK(hd_communicator_share(ranks, x[0], ROWS, STRIDE, (size_t)width, COUNT));
+        for (int col = 0; col < STRIDE; col++) {
+            const int at = from_behind ? COUNT - 1 - col : col;
+            x[row][col] = at >= first && at < first + width && col < COUNT ? row + 0.01 * col
+                                                                           : -1.0;
+        }
+    CHECK_OK(hd_communicator_share(ranks, x[0],
+                                   (hd_shared){ROWS, STRIDE, (size_t)width, COUNT, from_behind}));
     for (int row = 0; row < ROWS; row++)
         for (int col = 0; col < COUNT; col++) CHECK_CLOSE(x[row][col], row + 0.01 * col, 0.0);
     CHECK_CLOSE(x[0][COUNT], -1.0, 0.0);
+    if (!from_behind) shares_are_put_together(NULL);
 }
 
 /** Each kind by itself, and all together. */

@@ -45,9 +45,11 @@ static void expect_same_exponents(const hd_run *run, const hd_run *alone)
 static void exponents_are_those_of_one_rank(void **state)
 {
     (void)state;
-    for (int all = 0; all < 2; all++) {
-        hd_scene_def scene = scene_of_runs(all ? 24 : 60, 0);
-        if (all) scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
+    static const int exponents[] = {HD_EXPONENTS_POSITIVE, HD_EXPONENTS_ALL_INDEPENDENT,
+                                    HD_EXPONENTS_ALL};
+    for (int k = 0; k < 3; k++) {
+        hd_scene_def scene = scene_of_runs(k == 0 ? 60 : 24, 0);
+        scene.exponents = exponents[k];
         hd_run *run, *alone = created(&scene);
         CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
         finish(run);
@@ -60,11 +62,10 @@ static void exponents_are_those_of_one_rank(void **state)
 
 /** The run has the same trajectory; its frame differs by rounding, and so by little as long as the
  * directions are those of the dynamics. */
-static void modes_are_those_of_one_rank(void **state)
+static void expect_modes_of_one_rank(int exponents)
 {
-    (void)state;
-    const hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_MODES | HD_OBSERVE_STEPS |
-                                                     HD_OBSERVE_PHASES);
+    hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES);
+    scene.exponents = exponents;
     hd_run *run, *alone = created(&scene);
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     finish(run);
@@ -95,6 +96,13 @@ static void modes_are_those_of_one_rank(void **state)
     }
     hd_run_free(run);
     hd_run_free(alone);
+}
+
+static void modes_are_those_of_one_rank(void **state)
+{
+    (void)state;
+    expect_modes_of_one_rank(HD_EXPONENTS_POSITIVE);
+    expect_modes_of_one_rank(HD_EXPONENTS_ALL);
 }
 
 /** The same on every rank, and once more the same: with other delays. */
@@ -129,18 +137,19 @@ static void expect_same_response(const hd_hydro_response *a, const hd_hydro_resp
 }
 
 /** Vectors of the modes, from all ranks, and the hydrodynamic response, on each. */
-static void vectors_are_gathered_for_reports(void **state)
+static void expect_vectors_of_one_rank(int exponents)
 {
-    (void)state;
-    const hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_ALL & ~(unsigned)HD_OBSERVE_COVARIANT);
+    hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_ALL & ~(unsigned)HD_OBSERVE_COVARIANT);
+    scene.exponents = exponents;
     hd_run *run, *alone = created(&scene);
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     hd_run_fields_from(run, 100);
     finish(run);
     finish(alone);
     const hd_columns got = hd_run_frame_columns(run), want = hd_run_frame_columns(alone);
+    const bool all = exponents == HD_EXPONENTS_ALL; /* the other half needs the whole of this one */
     assert_int_equal(got.first + got.count, want.count);
-    assert_true(got.first <= 100 && got.first > 60);
+    assert_true(all ? got.first == 0 : got.first <= 100 && got.first > 60);
     for (int row = 0; row < 240; row++)
         for (int col = 0; col < got.count; col++)
             CHECK_CLOSE(got.data[row * got.stride + col],
@@ -162,6 +171,62 @@ static void vectors_are_gathered_for_reports(void **state)
     for (int k = 0; k < 2; k++) {
         hd_hydro_free(hydro[k]);
         hd_run_free(both[k]);
+    }
+}
+
+static void vectors_are_gathered_for_reports(void **state)
+{
+    (void)state;
+    expect_vectors_of_one_rank(HD_EXPONENTS_POSITIVE);
+    expect_vectors_of_one_rank(HD_EXPONENTS_ALL);
+}
+
+/** Windows, kept or computed again, and the way back through them. */
+static void covariant_vectors_are_those_of_one_rank(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_of_runs(10, HD_OBSERVE_COVARIANT);
+    scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
+    scene.covariant_window = 10.0;
+    scene.covariant_transient = 10.0;
+    scene.covariant_sampling = 1.0;
+    for (int k = 0; k < 2; k++) {
+        scene.covariant_storage = k == 0 ? HD_STORAGE_MEMORY : HD_STORAGE_RECOMPUTE;
+        hd_run *run, *alone = created(&scene);
+        CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+        finish(run);
+        finish(alone);
+        const hd_covariant *a = hd_run_covariant(run), *b = hd_run_covariant(alone);
+        assert_int_equal(hd_covariant_windows(a), hd_covariant_windows(b));
+        assert_true(hd_covariant_windows(a) >= 2);
+        for (int col = 0; col < 40; col++) {
+            CHECK_CLOSE(hd_spectrum_exponent(hd_covariant_spectrum(a), col),
+                        hd_spectrum_exponent(hd_covariant_spectrum(b), col), 1e-6);
+            CHECK_CLOSE(hd_covariant_widths(a)[col], hd_covariant_widths(b)[col], 1e-6);
+            CHECK_CLOSE(hd_covariant_cosines(a)[col], hd_covariant_cosines(b)[col], 1e-6);
+        }
+        CHECK_CLOSE(hd_splitting_angle(hd_covariant_splitting(a), HD_UNSTABLE_STABLE)->mean,
+                    hd_splitting_angle(hd_covariant_splitting(b), HD_UNSTABLE_STABLE)->mean, 1e-6);
+        hd_run_free(run);
+        hd_run_free(alone);
+    }
+}
+
+/** What one rank gets wrong is said by all with the first report. */
+static void disks_are_compared(void **state)
+{
+    (void)state;
+    for (int with_frame = 0; with_frame < 2; with_frame++) {
+        hd_scene_def scene = scene_of_runs(20, 0);
+        hd_run *run;
+        hd_status status = HD_OK;
+        if (!with_frame) scene.exponents = HD_EXPONENTS_NONE;
+        scene.seed += ranks->rank == ranks->ranks - 1;
+        CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+        while (status == HD_OK && hd_run_time(run) < 1.5) status = hd_run_advance(run);
+        assert_int_equal(status, HD_RANKS_APART);
+        CHECK_CLOSE(hd_run_time(run), 1.0, 1e-9);
+        hd_run_free(run);
     }
 }
 
@@ -264,9 +329,10 @@ static double lead(hd_communicator *c)
                                        HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_FIELDS);
     char message[300], path[] = "led.checkpoint";
     hd_run *run;
+    scene.observe |= HD_OBSERVE_COVARIANT;
     scene.exponents = HD_EXPONENTS_ALL;
     if (c) assert_int_equal(hd_run_create_shared(&run, &scene, c, message, 300), HD_REFUSED);
-    scene.exponents = HD_EXPONENTS_POSITIVE;
+    scene.observe &= ~(unsigned)HD_OBSERVE_COVARIANT;
     CHECK_OK(hd_run_create_shared(&run, &scene, c, message, 300));
     hd_run_fields_every(run, 2.0);
     hd_run_fields_from(run, 40);
@@ -309,15 +375,14 @@ static void what_they_cannot_carry_is_refused(void **state)
     (void)state;
     char message[200];
     hd_run *run;
-    hd_scene_def scene = scene_of_runs(20, 0);
+    hd_scene_def scene = scene_of_runs(20, HD_OBSERVE_COVARIANT);
     scene.exponents = HD_EXPONENTS_ALL;
-    assert_int_equal(hd_run_create_shared(&run, &scene, ranks, message, sizeof message),
-                     HD_REFUSED);
-    assert_non_null(strstr(message, "all_independent"));
-    scene = scene_of_runs(20, HD_OBSERVE_COVARIANT);
+    scene.covariant_window = scene.covariant_transient = 10.0;
+    scene.covariant_sampling = 1.0;
     assert_int_equal(hd_run_create_shared(&run, &scene, ranks, message, sizeof message),
                      HD_REFUSED);
     assert_non_null(strstr(message, "covariant"));
+    assert_non_null(strstr(message, "all_independent"));
 }
 
 int main(int argc, char **argv)
@@ -327,6 +392,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(modes_are_those_of_one_rank),
         cmocka_unit_test(bits_are_the_same),
         cmocka_unit_test(vectors_are_gathered_for_reports),
+        cmocka_unit_test(covariant_vectors_are_those_of_one_rank),
+        cmocka_unit_test(disks_are_compared),
         cmocka_unit_test(the_slowest_are_watched),
         cmocka_unit_test(checkpoints_fit_any_number_of_ranks),
         cmocka_unit_test(checkpoints_that_fail_are_said_by_all),

@@ -42,7 +42,7 @@ static inline conjugates conjugates_of(const hd_scene_def *scene)
     CHECK_OK(hd_trajectory_create(&x.trajectory, scene));
     CHECK_OK(hd_trajectory_extend(x.trajectory, NULL, 10.0));
     CHECK_OK(hd_event_log_create(&x.log));
-    CHECK_OK(hd_conjugate_create(&x.conjugate, x.rows, true));
+    CHECK_OK(hd_conjugate_create(&x.conjugate, x.rows, x.rows / 2));
     for (int k = 0; k < 2; k++) {
         const int vectors = k == HALF ? x.rows / 2 : x.rows;
         CHECK_OK(hd_frame_create(&x.frame[k], x.disks, vectors, scene->seed, 1));

@@ -158,7 +158,7 @@ static hd_frame *first_frame(const hd_scene_def *scene)
     if (carried == n) return frame;
     CHECK_OK(hd_conjugate_start(frame));
     CHECK_OK(hd_frame_create(&all, scene->disks, n, 1, 1));
-    CHECK_OK(hd_conjugate_create(&conjugate, n, true));
+    CHECK_OK(hd_conjugate_create(&conjugate, n, n / 2));
     const hd_columns whole = hd_conjugate_complete(conjugate, hd_frame_columns(frame));
     for (int row = 0; row < n; row++)
         memcpy(hd_frame_data(all) + (size_t)row * (size_t)hd_frame_stride(all),

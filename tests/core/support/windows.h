@@ -48,7 +48,8 @@ static inline bool windows_forward(windows *w)
 {
     forward_interval(&w->f, WINDOWS_INTERVAL);
     const hd_columns columns = hd_frame_columns(w->f.frame);
-    CHECK_OK(hd_covariant_add(w->c, w->f.ortho, w->f.frame, w->f.log, 0.0, w->f.log->duration));
+    CHECK_OK(hd_covariant_add(w->c, w->f.ortho, w->f.frame, hd_frame_columns(w->f.frame), w->f.log,
+                              0.0, w->f.log->duration));
     CHECK_OK(hd_covariant_state(w->c, columns, w->f.trajectory));
     return hd_covariant_is_going_back(w->c);
 }

@@ -54,7 +54,7 @@ static void isotropy_comes_back(void **state)
     hd_conjugate *conjugate;
     double before[8 * DISKS * DISKS], change = 0.0;
     CHECK_OK(hd_frame_create(&frame, DISKS, 2 * DISKS, 7, 1));
-    CHECK_OK(hd_conjugate_create(&conjugate, 4 * DISKS, false));
+    CHECK_OK(hd_conjugate_create(&conjugate, 4 * DISKS, 0));
     CHECK_OK(hd_conjugate_start(frame));
     double *v = hd_frame_data(frame);
     for (int row = 0; row < 4 * DISKS; row++)

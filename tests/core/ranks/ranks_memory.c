@@ -1,0 +1,81 @@
+/** What each of several ranks asks for, and what becomes of a run if one of them does not get it.
+ */
+#define _GNU_SOURCE
+#include "hdlyap/room.h"
+#include "ledger.h"
+#include "runs.h"
+#include "scenes.h"
+#include "together.h"
+
+static hd_scene_def short_scene(int disks, unsigned observe)
+{
+    hd_scene_def scene = scene_of(disks, 0.7, 0.3, HD_PERIODIC, HD_PERIODIC, 3);
+    scene.equilibration = 0.1;
+    scene.warmup = scene.duration = 2.0;
+    scene.threads = 1;
+    scene.observe = observe;
+    return scene;
+}
+
+/** 8 m n + 8 n^2 bytes of all ranks together, times 1.4, for two copies of the frame and what
+ * belongs to them; and a little that each has. */
+static void memory_falls_with_the_ranks(void **state)
+{
+    (void)state;
+    const hd_scene_def scene = short_scene(400, 0);
+    const double m = 1600.0, n = 797.0, alike = 6e6;
+    hd_run *run;
+    ledger_reset_peak();
+    const double before = (double)ledger_now().live;
+    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+    const double peak = (double)ledger_now().peak - before;
+    const double needed = hd_room_needed(&scene, 1, ranks->ranks);
+    if (ranks->rank == 0)
+        print_message("%.2f MB of each rank, estimated %.3f times that\n", 1e-6 * peak,
+                      needed / peak);
+    assert_true(peak < 1.4 * 8.0 * (m * n + n * n) / ranks->ranks + alike);
+    assert_true(needed > 0.95 * peak && needed < 1.25 * peak);
+    hd_run_free(run);
+}
+
+/** Whatever it is that the last rank does not get: all of them end, and say so. */
+static void what_one_does_not_get_ends_all(void **state)
+{
+    (void)state;
+    hd_scene_def scene = short_scene(16, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES);
+    for (int kind = 0; kind < 3; kind++) {
+        size_t refused = 0;
+        if (kind == 1) scene.exponents = HD_EXPONENTS_ALL;
+        if (kind == 2) {
+            scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
+            scene.observe |= HD_OBSERVE_COVARIANT;
+            scene.covariant_window = scene.covariant_transient = 10.0;
+            scene.covariant_sampling = 1.0;
+            scene.warmup = 10.0;
+            scene.duration = 30.0;
+        }
+        for (bool whole = false; !whole; refused++) {
+            hd_run *run;
+            if (ranks->rank == ranks->ranks - 1) ledger_refuse(refused, 1);
+            const hd_status status = hd_run_create_shared(&run, &scene, ranks, NULL, 0);
+            ledger_refuse(0, 0);
+            whole = status == HD_OK;
+            if (whole)
+                hd_run_free(run);
+            else
+                assert_int_equal(status, HD_NO_MEMORY);
+        }
+        assert_true(refused > 30);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(memory_falls_with_the_ranks),
+        cmocka_unit_test(what_one_does_not_get_ends_all),
+    };
+    if (!ranks_begin(argc, argv)) return 77;
+    return ranks_end(cmocka_run_group_tests(tests, NULL, NULL));
+}
