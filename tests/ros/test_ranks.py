@@ -28,9 +28,9 @@ def mpirun(ranks=RANKS):
     return ['mpirun', '--bind-to', 'none', '-n', str(ranks), harness.executable()]
 
 
-def followers(node):
-    """Process numbers of the ranks that are not the node, of those that mpirun has started."""
-    found = []
+def processes(node):
+    """Process numbers of the ranks, the node's own first, that mpirun has started."""
+    found = {}
     for pid in filter(str.isdigit, os.listdir('/proc')):
         try:
             with open('/proc/%s/environ' % pid, 'rb') as file:
@@ -41,9 +41,15 @@ def followers(node):
                 parent = int(file.read().rsplit(')', 1)[1].split()[1])
         except OSError:
             continue
-        if parent == node.process.pid and environ.get(b'OMPI_COMM_WORLD_RANK', b'0') != b'0':
-            found.append(int(pid))
-    return found
+        if parent == node.process.pid and b'OMPI_COMM_WORLD_RANK' in environ:
+            found[int(environ[b'OMPI_COMM_WORLD_RANK'])] = int(pid)
+    return [found[rank] for rank in sorted(found)]
+
+
+def all_gone(pids):
+    return harness.wait_until(
+        lambda: not any(os.path.exists('/proc/%d' % pid) for pid in pids), harness.SOON
+    )
 
 
 class Ranks(harness.Case):
@@ -92,32 +98,60 @@ class Ranks(harness.Case):
             spectrum = self.listen('spectrum')
             node = self.on_ranks(ENDLESS)
             self.assertTrue(spectrum.wait_for(lambda message: True))
-            others = followers(node)
-            self.assertEqual(len(others), RANKS - 1)
+            pids = processes(node)
+            self.assertEqual(len(pids), RANKS)
             node.send(number)
             node.wait(harness.SOON)
             self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())
-            for pid in others:
-                self.assertTrue(
-                    harness.wait_until(lambda pid=pid: not os.path.exists('/proc/%d' % pid))
-                )
+            self.assertTrue(all_gone(pids))
             spectrum.close()
 
-    def test_killed(self):
-        """A rank that dies ends all."""
+    def test_one_is_interrupted(self):
+        """It is for the node to end the run."""
         spectrum = self.listen('spectrum')
         node = self.on_ranks(ENDLESS)
         self.assertTrue(spectrum.wait_for(lambda message: True))
-        (pid,) = followers(node)
-        os.kill(pid, signal.SIGKILL)
-        self.assertNotEqual(node.wait(harness.SOON), 0)
+        first, other = processes(node)
+        os.kill(other, signal.SIGINT)
+        now = spectrum.messages[-1].sim_time
+        self.assertTrue(spectrum.wait_for(lambda message: message.sim_time > now + 5))
+        os.kill(first, signal.SIGINT)
+        self.assertEqual(node.wait(harness.SOON), 0, node.text())
+        self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())
+
+    def kill(self, chosen):
+        """What is killed midway ends all; the last checkpoint is whole, and goes on."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, 'kept')
+            node = self.on_ranks(dict(ENDLESS, checkpoint=path, checkpoint_interval=0.2))
+            self.assertTrue(harness.wait_until(lambda: os.path.exists(path), harness.SOON))
+            pids = processes(node)
+            os.kill(chosen(node, pids), signal.SIGKILL)
+            self.assertNotEqual(node.wait(harness.SOON), 0)
+            self.assertTrue(all_gone(pids))
+            node = self.on_ranks(dict(ENDLESS, resume=path))
+            self.assertTrue(
+                harness.wait_until(lambda: node.lines('goes on from simulated time'), harness.SOON),
+                node.text(),
+            )
+            node.send(signal.SIGINT)
+            node.wait(harness.SOON)
+
+    def test_the_node_is_killed(self):
+        self.kill(lambda node, pids: pids[0])
+
+    def test_another_is_killed(self):
+        self.kill(lambda node, pids: pids[1])
+
+    def test_mpirun_is_killed(self):
+        self.kill(lambda node, pids: node.process.pid)
 
     def test_stopped_for_a_while(self):
         """The others wait for it."""
         status = self.listen('status')
         node = self.on_ranks(dict(ENDLESS, duration=200.0))
         self.assertTrue(status.wait_for(lambda message: message.sim_time > 3))
-        (pid,) = followers(node)
+        pid = processes(node)[1]
         os.kill(pid, signal.SIGSTOP)
         time.sleep(1)
         before = status.messages[-1].sim_time
@@ -157,9 +191,17 @@ class Ranks(harness.Case):
             self.assertEqual(len(node.lines('goes on from simulated time 4 of')), 1, node.text())
 
     def test_refused(self):
-        node = self.on_ranks(dict(SHORT, exponents='all'))
+        params = dict(
+            SHORT,
+            exponents='all',
+            observables=['covariant'],
+            covariant_window=0.5,
+            covariant_transient=0.5,
+            covariant_sampling=0.1,
+        )
+        node = self.on_ranks(params)
         self.assertEqual(node.wait(), 2, node.text())
-        self.assertEqual(len(node.lines('ranks = 2: must be 1 for exponents = all')), 1)
+        self.assertEqual(len(node.lines('ranks = 2: must be 1 for covariant vectors')), 1)
 
 
 if __name__ == '__main__':
