@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "hdlyap/hydro.h"
 #include "hdlyap/pmode.h"
@@ -44,6 +45,18 @@ hd_status hd_run_advance(hd_run *run)
         return HD_ILL_CONDITIONED;
     next(&real, "hd_run_advance");
     return real(run);
+}
+
+/** PROBE_FSYNC_AFTER: files that the disk has taken before it does not answer any more. */
+int fsync(int file)
+{
+    static atomic_long files;
+    int (*real)(int);
+    const double after = number("PROBE_FSYNC_AFTER");
+    while (after > 0.0 && (double)atomic_load(&files) >= after) sleep(1);
+    atomic_fetch_add(&files, 1);
+    next(&real, "fsync");
+    return real(file);
 }
 
 /** PROBE_OVERLAP: how deep disks overlap once the run has begun [sigma]. */

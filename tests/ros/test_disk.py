@@ -2,6 +2,7 @@
 """Checkpoints on a disk that is full, or was never to be written to, or in a process that is
 killed: what has been written stays whole, what cannot be is named, and the run goes on."""
 
+import fcntl
 import os
 import random
 import resource
@@ -226,6 +227,56 @@ class Disk(unittest.TestCase):
         self.check_full(node, 'No such file or directory')
         self.stop(node, FILE_FAULT)
         self.resumes(self.path('away/run.checkpoint'))
+
+    # ---- others ----
+
+    def goes_on_beyond(self, sim_time):
+        status = harness.Listener('status')
+        self.addCleanup(status.close)
+        self.assertTrue(status.wait_for(lambda message: message.sim_time > sim_time))
+
+    def test_touched_and_rewritten(self):
+        """The name is still that of the run's own file."""
+        path = self.path()
+        node = self.start(dict(KEPT, checkpoint=path))
+        self.wait_for(lambda: written(path), node)
+        os.utime(path)
+        self.written_again(node, path)
+        with open(path, 'r+b') as file:
+            whole = file.read()
+            file.seek(0)
+            file.write(whole)
+        self.written_again(node, path)
+        self.stop(node, 0)
+        self.assertFalse(node.lines('checkpoint not written'), node.text())
+        self.resumes(path)
+
+    def test_somebody_locks_the_folder(self):
+        folder = os.open(self.folder, os.O_RDONLY)
+        self.addCleanup(os.close, folder)
+        fcntl.flock(folder, fcntl.LOCK_EX)
+        node = self.start(dict(KEPT, checkpoint=self.path(), checkpoint_interval=0.0))
+        self.wait_for(lambda: written(self.path()), node)
+        first = written(self.path())
+        self.goes_on_beyond(2.0)
+        begin = time.monotonic()
+        self.stop(node, 0)
+        self.assertLess(time.monotonic() - begin, 9.0)
+        self.assertNotEqual(written(self.path()), first)
+        self.assertFalse(node.lines('the checkpoint is not of the end'), node.text())
+
+    def test_the_disk_does_not_answer(self):
+        """Named, with the status of a file that could not be written; the one of before stays."""
+        node = self.start(
+            dict(KEPT, checkpoint=self.path(), checkpoint_interval=0.0),
+            probe={'PROBE_FSYNC_AFTER': '2'},
+        )
+        self.wait_for(lambda: written(self.path()), node)
+        self.goes_on_beyond(2.0)
+        self.stop(node, FILE_FAULT)
+        self.assertEqual(len(node.lines('the disk does not answer')), 1, node.text())
+        os.remove(self.path('run.checkpoint.part'))
+        self.resumes(self.path())
 
     # ---- killed ----
 

@@ -7,6 +7,7 @@ import os
 import random
 import resource
 import signal
+import subprocess
 import time
 import unittest
 
@@ -53,6 +54,23 @@ class Faults(unittest.TestCase):
         self.addCleanup(links.Reader([cost]).join, harness.PATIENCE)
         self.assertTrue(harness.wait_until(lambda: len(cost.seqs) > 0))
         return node, cost
+
+    def test_no_address_of_a_master(self):
+        addresses = ('', 'http://localhost', 'ftp://localhost:1', 'http://:1', 'http://host:70000')
+        for address in addresses:
+            for argument in ([], ['__master:=' + address]):
+                own = 'http://localhost:1' if argument else address
+                ended = subprocess.run(
+                    [harness.executable(), *argument],
+                    env=dict(os.environ, ROS_MASTER_URI=own),
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.STDOUT,
+                    timeout=harness.PATIENCE,
+                    text=True,
+                )
+                self.assertEqual(ended.returncode, 2, ended.stdout)
+                self.assertIn("= '%s': must be http://HOST:PORT" % address, ended.stdout)
+                self.assertEqual(len(ended.stdout.strip().splitlines()), 1, ended.stdout)
 
     def goes_on(self, node, cost):
         now = len(cost.seqs)

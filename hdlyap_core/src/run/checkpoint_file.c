@@ -2,15 +2,16 @@
  *
  * Head, 48 bytes: "hdlyap checkpoint" and zeros (24); format, and 0x01020304 in the machine's byte
  * order (4 each); length of the file (8); CRC-32 of everything behind the head, and of the head so
- * far (4 each). The part is written with an empty head, which is filled in when all else is; then
- * it is forced to the disk, and renamed: at every moment the name belongs to a whole file or to
- * none. */
+ * far (4 each). The part is written with a head of its first 24 bytes alone, which is filled in
+ * when all else is; then it is forced to the disk, and renamed: at every moment the name belongs to
+ * a whole file or to none. */
 #define _POSIX_C_SOURCE 200809L
 #include "run/checkpoint_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -76,14 +77,31 @@ static int lock_part(int fd, const char *part)
            opened.st_ino == named.st_ino && S_ISREG(opened.st_mode);
 }
 
+/** True of what a process that was killed may have left: a part that was begun, perhaps without
+ * contents yet; and of no file that has another name, too. */
+static bool is_left_over(int fd)
+{
+    static const char nothing[sizeof MAGIC];
+    char found[sizeof MAGIC];
+    struct stat opened;
+    const ssize_t count = pread(fd, found, sizeof found, 0);
+    if (fstat(fd, &opened) != 0 || opened.st_nlink != 1) return false;
+    return count == 0 || (count == sizeof found && (memcmp(found, MAGIC, sizeof found) == 0 ||
+                                                    memcmp(found, nothing, sizeof found) == 0));
+}
+
 /** Without waiting for anybody at the other end of what is no file. */
 static hd_status open_part(hd_checkpoint_file *f, char *message, size_t size)
 {
-    const int fd = open(f->part, O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    const int fd = open(f->part, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
     if (fd < 0) return fault(message, size, f->part, "%s", strerror(errno));
     if (!lock_part(fd, f->part)) {
         close(fd);
         return fault(message, size, f->part, "is another process's, or no regular file");
+    }
+    if (!is_left_over(fd)) {
+        close(fd);
+        return fault(message, size, f->part, "is there, and no part of a checkpoint");
     }
     f->file = ftruncate(fd, 0) == 0 ? fdopen(fd, "wb") : NULL;
     if (f->file) return HD_OK;
@@ -96,11 +114,12 @@ static hd_status open_part(hd_checkpoint_file *f, char *message, size_t size)
 hd_status hd_checkpoint_file_begin(hd_checkpoint_file *out, const char *path, char *message,
                                    size_t size)
 {
-    const head empty = {.format = 0};
+    head begun = {.format = 0};
+    memcpy(begun.magic, MAGIC, sizeof MAGIC);
     *out = (hd_checkpoint_file){.path = path};
     hd_status status = name_part(out, message, size);
     if (status == HD_OK) status = open_part(out, message, size);
-    if (status != HD_OK || fwrite(&empty, sizeof empty, 1, out->file) == 1) return status;
+    if (status != HD_OK || fwrite(&begun, sizeof begun, 1, out->file) == 1) return status;
     status = fault(message, size, out->part, "%s", strerror(errno));
     hd_checkpoint_file_drop(out);
     return status;

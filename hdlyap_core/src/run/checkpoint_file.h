@@ -19,7 +19,8 @@ typedef struct hd_checkpoint_file {
 /** "path: reason"; of a long path the end. */
 void hd_checkpoint_file_line(char *message, size_t size, const char *path, const char *reason);
 
-/** Opens path.part, empty but for the head, and keeps others from writing it. */
+/** Opens path.part, empty but for the head, and keeps others from writing it. What is there already
+ * goes only if it is such a part. */
 HD_MUST_CHECK hd_status hd_checkpoint_file_begin(hd_checkpoint_file *out, const char *path,
                                                  char *message, size_t size);
 /** The part becomes the file, once it is on the disk; if the archive has failed, or this does, the

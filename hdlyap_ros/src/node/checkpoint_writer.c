@@ -1,4 +1,5 @@
 /** Settings and run -> checkpoints. */
+#define _GNU_SOURCE /* statx */
 #include "checkpoint_writer.h"
 
 #include <errno.h>
@@ -32,15 +33,16 @@ static hd_status fault(const char *path, const char *what, char *message, size_t
 /* ---- one at a time ------------------------------------------------------------------------- */
 
 /** Locks the file's folder, so that whose the file is does not change between looking and writing;
- * -1 where that cannot be had within seconds: then it is only looked at. */
+ * -1 where that cannot be had soon, as anybody may lock it: then it is only looked at. */
 static int folder_lock(const char *path)
 {
+    enum { TRIES = 50 };
     const struct timespec pause = {.tv_nsec = 10000000};
     char folder[PATH_MAX] = ".";
     const char *slash = strrchr(path, '/');
     if (slash) snprintf(folder, sizeof folder, "%.*s", (int)(slash - path) + 1, path);
     const int folder_file = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    for (int tries = 0; folder_file >= 0 && tries < 1000; tries++) {
+    for (int tries = 0; folder_file >= 0 && tries < TRIES; tries++) {
         if (flock(folder_file, LOCK_EX | LOCK_NB) == 0) return folder_file;
         if (errno != EWOULDBLOCK) break;
         nanosleep(&pause, NULL);
@@ -97,15 +99,19 @@ static hd_status save_first(const settings *set, hd_run *run, char *message, siz
     return status;
 }
 
-/** Whose the file is: a rename makes it another one. */
-static void remember(checkpoint_writer *k)
+static bool identify(const char *path, file_identity *out)
 {
-    struct stat now;
-    if (stat(k->set->checkpoint, &now) != 0) return;
-    k->device = now.st_dev;
-    k->number = now.st_ino;
-    k->written = now.st_mtim;
+    struct statx now;
+    if (statx(AT_FDCWD, path, 0, STATX_INO | STATX_MTIME | STATX_BTIME, &now) != 0) return false;
+    const bool known = now.stx_mask & STATX_BTIME;
+    const struct statx_timestamp when = known ? now.stx_btime : now.stx_mtime;
+    *out = (file_identity){now.stx_dev_major, now.stx_dev_minor, now.stx_ino, when.tv_sec,
+                           when.tv_nsec};
+    return true;
 }
+
+/** Whose the file is: a rename makes it another one. */
+static void remember(checkpoint_writer *k) { (void)identify(k->set->checkpoint, &k->written); }
 
 hd_status checkpoint_writer_check(const settings *set, char *message, size_t size)
 {
@@ -143,10 +149,11 @@ bool checkpoint_writer_due(const checkpoint_writer *k)
 /** Two runs must not take turns with one file. */
 static bool is_mine(const checkpoint_writer *k)
 {
-    struct stat now;
-    if (stat(k->set->checkpoint, &now) != 0) return true;
-    return now.st_dev == k->device && now.st_ino == k->number &&
-           now.st_mtim.tv_sec == k->written.tv_sec && now.st_mtim.tv_nsec == k->written.tv_nsec;
+    const file_identity *own = &k->written;
+    file_identity now;
+    if (!identify(k->set->checkpoint, &now)) return true;
+    return now.major == own->major && now.minor == own->minor && now.number == own->number &&
+           now.seconds == own->seconds && now.nanoseconds == own->nanoseconds;
 }
 
 static hd_status save(checkpoint_writer *k, hd_run *run)

@@ -3,9 +3,6 @@
 #ifndef HDLYAP_CHECKPOINT_WRITER_H
 #define HDLYAP_CHECKPOINT_WRITER_H
 
-#include <sys/types.h>
-#include <time.h>
-
 #include "hdlyap/checkpoint.h"
 #include "settings.h"
 
@@ -16,13 +13,20 @@ typedef struct kept {
     char message[512]; /**< of the last failure */
 } kept;
 
+/** A number is given again once its file is gone, so also when it was born; or, where the file
+ * system does not know that, when it was changed last. */
+typedef struct file_identity {
+    unsigned major, minor; /**< of the device */
+    unsigned long long number;
+    long long seconds;
+    unsigned nanoseconds;
+} file_identity;
+
 typedef struct checkpoint_writer {
     const settings *set;
-    bool changed; /**< the run is not as in the file */
-    double due;   /**< [s of clock_seconds]; INFINITY: only when asked */
-    dev_t device; /**< of the file, as it was written */
-    ino_t number; /**< likewise; a number is given again once its file is gone, so also: */
-    struct timespec written;
+    bool changed;          /**< the run is not as in the file */
+    double due;            /**< [s of clock_seconds]; INFINITY: only when asked */
+    file_identity written; /**< the file, as it was written */
     kept state;
 } checkpoint_writer;
 

@@ -217,11 +217,12 @@ static int finish(app *a)
     if (state.status == HD_OK) state.status = worker_finish(a->work);
     diagnostics_publish(&a->diag, &state);
     log_end(&state);
+    if (state.saving) hdr_log(HDR_ERROR, "checkpoint not written: the disk does not answer");
     if (*a->set.checkpoint && state.status == HD_OK && state.checkpoint.time != state.last.time)
         hdr_log(HDR_WARN, "the checkpoint is not of the end, but of simulated time %.6g",
                 state.checkpoint.time);
-    return state.status == HD_OK && state.checkpoint.failed ? EXIT_FILE_FAULT
-                                                            : fault_status(state.status);
+    const bool unkept = state.saving || state.checkpoint.failed;
+    return state.status == HD_OK && unkept ? EXIT_FILE_FAULT : fault_status(state.status);
 }
 
 /** The worker publishes through the node, whose services call the worker. */

@@ -126,7 +126,8 @@ static bool read_of_scene(const reader *r, const parameter *p, hd_scene_def *def
         read = p->row->kind == HD_PARAMETER_WORD ? read_word(r, p, &whole)
                : p->row->kind == HD_PARAMETER_EXPONENTS
                    ? read_exponents(r, p, &whole)
-                   : accepts(r, hdr_param_int(r->params, r->name, &whole), "an integer");
+                   : accepts(r, hdr_param_int(r->params, r->name, &whole),
+                             "an integer, without a point");
         real = whole;
     }
     hd_parameter_assign(p->row, def, real);
@@ -185,7 +186,8 @@ bool reader_read(const reader *r, const parameter *p, void *field)
     switch (p->kind) {
     case OF_SCENE: return read_of_scene(r, p, field);
     case REAL_NUMBER: return accepts(r, hdr_param_double(r->params, r->name, field), "a number");
-    case WHOLE_NUMBER: return accepts(r, hdr_param_int(r->params, r->name, field), "an integer");
+    case WHOLE_NUMBER:
+        return accepts(r, hdr_param_int(r->params, r->name, field), "an integer, without a point");
     case NAME:
     case FILE_PATH: return read_line(r, p, field);
     case TOPICS_OBSERVED:

@@ -118,10 +118,11 @@ static bool too_early(const worker *w) { return w->due > 0.0 && clock_seconds() 
 /** Writes the checkpoint. Lock held, but not while it is written. */
 static void save(worker *w)
 {
+    w->state.saving = true;
     pthread_mutex_unlock(&w->lock);
     checkpoint_writer_save(&w->keep, w->run);
     pthread_mutex_lock(&w->lock);
-    w->save = false;
+    w->save = w->state.saving = false;
     w->state.checkpoint = w->keep.state;
     pthread_cond_broadcast(&w->changed);
 }

@@ -24,6 +24,7 @@ typedef struct worker_state {
     error_trend errors; /**< of the exponents nearest to zero */
     examination disks;  /**< as of the last worker_examine */
     kept checkpoint;
+    bool saving; /**< one is being written */
 } worker_state;
 
 typedef struct worker worker;

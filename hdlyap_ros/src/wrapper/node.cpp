@@ -1,5 +1,6 @@
 /** The node's life: roscpp started and left without its signal handlers, its clock and its log. */
 #include "node.hpp"
+#include "master.hpp"
 
 #include <algorithm>
 #include <cstdarg>
@@ -127,6 +128,7 @@ hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *n
     stop_without_memory(memory_status);
     return hdr_guard([&] {
         stop_handlers_install(stop_seconds);
+        master_address_check(*argc, argv);
         ros::init(*argc, argv, name, ros::init_options::NoSigintHandler);
         *out = node_start();
     });

@@ -149,7 +149,7 @@ static void what_cannot_be_written_is_named(void **state)
     expect_unwritable(run, "checkpoint_file.link", "no regular file");
     remove("checkpoint_file.link");
     assert_int_equal(mkfifo(PART, 0644), 0);
-    expect_unwritable(run, PATH, "No such device");
+    expect_unwritable(run, PATH, "no regular file");
     remove(PART);
     CHECK_OK(hd_checkpoint_writable(PATH, message, sizeof message));
     assert_int_not_equal(access(PART, F_OK), 0);
@@ -205,6 +205,43 @@ static void a_run_that_is_no_number_is_not_written(void **state)
     hd_run_free(run);
 }
 
+static void put(const char *path, const char *text, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(text, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+/** What a killed process has left is written over; what somebody else has there, stays. */
+static void only_a_part_is_written_over(void **state)
+{
+    (void)state;
+    static const char begun[30] = "hdlyap checkpoint", zeros[30];
+    char message[512] = "";
+    const char *const left[] = {begun, zeros, begun};
+    const size_t sizes[] = {sizeof begun, sizeof zeros, 0};
+    for (int k = 0; k < 3; k++) {
+        put(PART, left[k], sizes[k]);
+        CHECK_OK(hd_checkpoint_writable(PATH, message, sizeof message));
+    }
+    put(PART, "notes of somebody, longer than a head", 37);
+    assert_int_equal(hd_checkpoint_writable(PATH, message, sizeof message), HD_FILE_FAULT);
+    assert_non_null(strstr(message, "no part of a checkpoint"));
+    bytes now = kept_file(PART);
+    assert_int_equal(now.size, 37);
+    free(now.data);
+    put(PART, begun, sizeof begun);
+    (void)remove("other.name");
+    assert_int_equal(link(PART, "other.name"), 0);
+    assert_int_equal(hd_checkpoint_writable(PATH, message, sizeof message), HD_FILE_FAULT);
+    now = kept_file("other.name");
+    assert_int_equal(now.size, sizeof begun);
+    free(now.data);
+    (void)remove("other.name");
+    (void)remove(PART);
+}
+
 /** While another process holds the part. */
 static void nobody_writes_into_anothers_part(void **state)
 {
@@ -238,6 +275,7 @@ int main(void)
         cmocka_unit_test(what_cannot_be_written_is_named),
         cmocka_unit_test(a_write_that_fails_leaves_the_file),
         cmocka_unit_test(a_run_that_is_no_number_is_not_written),
+        cmocka_unit_test(only_a_part_is_written_over),
         cmocka_unit_test(nobody_writes_into_anothers_part),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
