@@ -79,7 +79,9 @@ class Gas(harness.Case):
         """Over the same time as these; its collisions are those that they are told with."""
         topics = ['spectrum', 'gas']
         params = dict(GAS, exponents='positive', duration=60.0, warmup=20.0, report_interval=1.0)
-        messages = harness.whole_run(dict(params, observables=topics), ['status', 'cost', *topics])
+        messages = harness.whole_run(
+            dict(params, observables=topics), ['run_info', 'status', 'cost', *topics]
+        )
         self.assertGreater(len(messages['gas']), 30)
         averaged = {message.sim_time: message.averaged_time for message in messages['spectrum']}
         self.assertEqual({m.sim_time: m.averaged_time for m in messages['gas']}, averaged)

@@ -32,7 +32,7 @@ def width(field):
 class Widths(harness.Case):
     def test_against_the_vectors(self):
         """Fields end a sample at each report, so that both are of the same time."""
-        topics = ['status', 'cost', *PARAMS['observables']]
+        topics = ['run_info', 'status', 'cost', *PARAMS['observables']]
         messages = harness.whole_run(PARAMS, topics)
         told = {message.sim_time: message for message in messages['localization']}
         self.assertGreaterEqual(len(told), 15)

@@ -136,7 +136,7 @@ class Exponents(Bags):
         self.assertIn('pressure        1.250000 +- 0.010000 per sigma^2\n', text)
         self.assertIn('of px, py     1.500000, 1.000000\n', text)
         self.assertIn('Z = p A / N     2.500000 +- 0.020000\n', text)
-        self.assertIn('2.761', text)  # (1 + eta^2 / 8) / (1 - eta)^2, eta = pi / 8
+        self.assertIn(' 2.763657 by Henderson', text)  # (1 + eta^2 / 8) / (1 - eta)^2, eta = pi / 8
         walls = dict(boundary_x='reflecting')
         self.write([made.run_info(**walls), made.gas(error=-1.0), made.cost(1), made.cost(2)])
         text = self.succeeds(COST_FILES)
