@@ -13,7 +13,7 @@ import callgrind  # noqa: E402
 
 VALGRIND, LOAD, CORE = sys.argv[1:4]
 NONE, POSITIVE, ALL = 0, -1, -2  # HD_EXPONENTS_*
-MODES, STEPS, PHASES, EVERYTHING = 1, 2, 4, 31  # HD_OBSERVE_*
+MODES, STEPS, PHASES, EVERYTHING, GAS, WIDTHS = 1, 2, 4, 31, 64, 128  # HD_OBSERVE_*
 
 # sources of each stage; what is common to all is in none
 OF_TRAJECTORY = {'trajectory.c', 'prediction.c', 'contact.h', 'cells.c', 'queue.c'}
@@ -21,8 +21,9 @@ OF_FRAME = {'frame.c', 'replay.c', 'ortho.c', 'panel.c', 'spectrum.c', 'blocks.c
 OF_MODES = {'fields.c', 'modes.c'}
 OF_STEPS = {'steps.c', 'sets.c'}
 OF_PHASES = {'phases.c'}
+OF_GAS, OF_WIDTHS = {'gas.c'}, {'localization.c'}
 OF_CALLER = {'pmode.c', 'hydro.c', 'dispersion.c'}  # called by who publishes
-LATER = OF_MODES | OF_STEPS | OF_PHASES | OF_CALLER
+LATER = OF_MODES | OF_STEPS | OF_PHASES | OF_CALLER | OF_GAS | OF_WIDTHS
 LIBRARIES = ('blas', 'lapack', 'gomp')
 
 
@@ -74,11 +75,25 @@ class Stages(unittest.TestCase):
 
     def test_everything(self):
         everything = profile('average', observe=EVERYTHING, look=EVERYTHING)
-        self.assertEqual(LATER - everything.files(), OF_CALLER)
+        self.assertEqual(LATER - everything.files(), OF_CALLER | OF_GAS | OF_WIDTHS)
 
     def test_nobody_looks(self):
         unseen = profile('average', observe=EVERYTHING, look=0)
         self.assertLessEqual(OF_FRAME, unseen.files())
+        self.assertEqual(unseen.files() & LATER, set())
+
+    def test_gas(self):
+        """Needs no frame, and costs next to nothing."""
+        gas = profile('average', exponents=NONE, observe=GAS)
+        self.assertLessEqual(OF_TRAJECTORY | OF_GAS, gas.files())
+        self.assertEqual(gas.files() & (OF_FRAME | LATER), OF_GAS | {'blocks.c'})
+        spent = gas.of_file('gas.c') + gas.of_file('blocks.c')
+        self.assertLess(spent, 0.01 * sum(map(gas.of_file, OF_TRAJECTORY)))
+
+    def test_widths(self):
+        seen = profile('average', observe=WIDTHS, look=WIDTHS)
+        self.assertEqual(seen.files() & LATER, OF_WIDTHS)
+        unseen = profile('average', observe=WIDTHS, look=0)
         self.assertEqual(unseen.files() & LATER, set())
 
     def test_equilibration_has_no_frame(self):

@@ -42,12 +42,13 @@ static int save_run(const char *folder, const char *name, const hd_scene_def *de
 
 static int save_all(const char *folder)
 {
-    static const unsigned modes = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
+    static const unsigned modes = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES |
+                                  HD_OBSERVE_GAS | HD_OBSERVE_LOCALIZATION;
     static const struct {
         const char *name;
         int exponents;
         unsigned observe;
-    } kinds[] = {{"events", HD_EXPONENTS_NONE, 0},
+    } kinds[] = {{"events", HD_EXPONENTS_NONE, HD_OBSERVE_GAS},
                  {"spectrum", HD_EXPONENTS_ALL, 0},
                  {"modes", HD_EXPONENTS_POSITIVE, modes}};
     static const int disks[] = {2, 4, 10};

@@ -23,7 +23,9 @@ import yaml
 from hdlyap.msg import (
     Cost,
     Covariant,
+    Gas,
     Hydro,
+    Localization,
     LpPhases,
     Mode,
     ModeField,
@@ -64,6 +66,8 @@ TYPES = dict(
     lp_phases=LpPhases,
     fields=ModeField,
     hydro=Hydro,
+    localization=Localization,
+    gas=Gas,
     state=State,
     status=RunStatus,
     cost=Cost,

@@ -13,6 +13,8 @@ from hdlyap.msg import (
     Covariant,
     CovariantAngle,
     CovariantWeight,
+    Gas,
+    Localization,
     LpPhase,
     LpPhases,
     ModeField,
@@ -40,6 +42,8 @@ TOPICS = {
     'hdlyap/ModeField': 'fields',
     'hdlyap/Hydro': 'hydro',
     'hdlyap/Covariant': 'covariant',
+    'hdlyap/Localization': 'localization',
+    'hdlyap/Gas': 'gas',
     'hdlyap/State': 'state',
 }
 BINS = 90  # of the histograms of angles
@@ -289,6 +293,42 @@ def covariant(exponents, run_id='one', error=0.01, **fields):
         stable_start_mismatch=-1.0,
         null_angle=-1.0,
         largest_null_angle=-1.0,
+    )
+    for name, value in fields.items():
+        setattr(made, name, value)
+    return made
+
+
+def localization(widths, run_id='one', error=0.01, **fields):
+    made = Localization(
+        run_id=run_id,
+        sim_time=150.0,
+        samples=20,
+        first_index=1,
+        widths=widths,
+        std_errors=[error] * len(widths),
+        widths_now=np.multiply(widths, 0.9),
+    )
+    for name, value in fields.items():
+        setattr(made, name, value)
+    return made
+
+
+def gas(averaged_time=50.0, run_id='one', error=0.01, **fields):
+    """Of density 0.5: Z = p / 0.5."""
+    made = Gas(
+        run_id=run_id,
+        sim_time=100 + averaged_time,
+        averaged_time=averaged_time,
+        collision_rate=3.25,
+        collision_rate_error=2 * error if error >= 0 else -1.0,
+        pressure=1.25,
+        pressure_error=error,
+        pressure_x=1.5,
+        pressure_x_error=error,
+        pressure_y=1.0,
+        pressure_y_error=error,
+        compressibility=2.5,
     )
     for name, value in fields.items():
         setattr(made, name, value)

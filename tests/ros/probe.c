@@ -18,7 +18,7 @@
 #include "base/memory.h"
 
 static atomic_long steps, overlaps, states, halves, measures, phases, pmodes, hydros, samples,
-    allocations;
+    widths, allocations;
 
 /** The core's own function of that name, into the pointer that `function` is the address of. */
 static void next(void *function, const char *name)
@@ -169,6 +169,14 @@ void hd_hydro_measure(hd_hydro *hydro, const hd_steps *found, hd_columns vectors
     real(hydro, found, vectors, q, p);
 }
 
+void hd_localization_measure(hd_localization *shape, hd_columns columns)
+{
+    void (*real)(hd_localization *, hd_columns);
+    next(&real, "hd_localization_measure");
+    atomic_fetch_add(&widths, 1);
+    real(shape, columns);
+}
+
 /* Messages made, of each type. */
 #define COUNT_MESSAGES(type)                                                                       \
     static atomic_long of_##type;                                                                  \
@@ -190,11 +198,16 @@ __attribute__((destructor)) static void write_counts(void)
         const char *name;
         long calls;
     } counts[] = {
-        {"trajectory_overlap", atomic_load(&overlaps)}, {"trajectory_state", atomic_load(&states)},
-        {"frame_halves", atomic_load(&halves)},         {"modes_measure", atomic_load(&measures)},
-        {"phases_add", atomic_load(&phases)},           {"pmode_reconstruct", atomic_load(&pmodes)},
-        {"hydro_measure", atomic_load(&hydros)},        {"memory_alloc", atomic_load(&allocations)},
+        {"trajectory_overlap", atomic_load(&overlaps)},
+        {"trajectory_state", atomic_load(&states)},
+        {"frame_halves", atomic_load(&halves)},
+        {"modes_measure", atomic_load(&measures)},
+        {"phases_add", atomic_load(&phases)},
+        {"pmode_reconstruct", atomic_load(&pmodes)},
+        {"hydro_measure", atomic_load(&hydros)},
+        {"memory_alloc", atomic_load(&allocations)},
         {"spectrum_sample", atomic_load(&samples)},
+        {"localization_measure", atomic_load(&widths)},
     };
     const char *path = getenv("PROBE_COUNTS");
     FILE *file = path ? fopen(path, "w") : NULL;

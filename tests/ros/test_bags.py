@@ -310,6 +310,8 @@ def expected_sizes(disks, vectors, steps, phases):
         steps=begin + 8 + 8 + 4 + 96 * steps + 2 * 64 + 4 + 5 * 8,
         lp_phases=begin + 4 + 74 * phases,
         fields=begin + 29 + 8 * 4 + 64 * disks + 4 + 3 * 4 + 8 + 6 * 4,
+        localization=begin + 4 + 4 + 3 * 4 + 24 * vectors,
+        gas=begin + 10 * 8,
         state=begin + 8 + 4 * 4 + 32 * disks,
         status=begin + 1 + 3 * 8,
         cost=begin + 137 + 3 * 8,

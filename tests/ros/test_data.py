@@ -175,6 +175,25 @@ class Arrays(Bags):
         self.equal(found.value[['lambda_max', 'h_KS']], [spectrum.lambda_max, spectrum.ks_entropy])
         self.assertEqual(found.unit['c_T2'], 'sigma^2/time unit')
 
+    def test_gas_and_widths(self):
+        widths = [0.2, 0.5, 0.7]
+        gas, shape = made.gas(60.0), made.localization(widths, error=-1.0)
+        run = self.load([made.run_info(), made.gas(50.0, error=-1.0), gas, shape])
+        self.assertEqual(
+            list(run.gas.index),
+            ['collision_rate', 'pressure', 'pressure_x', 'pressure_y', 'compressibility'],
+        )
+        self.equal(run.gas.value, [3.25, 1.25, 1.5, 1.0, 2.5])
+        np.testing.assert_allclose(run.gas.std_error, [0.02, 0.01, 0.01, 0.01, 0.02])
+        self.assertEqual(run.gas.unit['pressure_x'], '1/sigma^2')
+        course = run.course('gas').std_error.unstack()
+        self.equal(course.index, [150, 160])
+        self.assertTrue(course.loc[150].isna().all())
+        self.equal(run.localization.index, [1, 2, 3])
+        self.equal(run.localization.width, widths)
+        self.equal(run.localization.widths_now, np.multiply(widths, 0.9))
+        self.assertTrue(run.localization.std_error.isna().all())
+
     def test_what_was_not_recorded(self):
         with self.assertRaisesRegex(RecordingError, 'run.bag: no message of covariant in it'):
             self.run_.covariant

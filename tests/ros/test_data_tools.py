@@ -171,6 +171,40 @@ class Export(Tools):
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         self.assertEqual(os.listdir(self.csv), ['cost.csv'])
 
+    def test_gas_and_widths(self):
+        bag = self.write(
+            'gas', [made.run_info(), made.gas(), made.localization([0.25, 0.5]), made.cost(1)]
+        )
+        done = self.plot(bag, '--csv', self.csv, '--npz', self.npz)
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        self.assertEqual(sorted(os.listdir(self.csv)), ['cost.csv', 'gas.csv', 'localization.csv'])
+        gas = pandas.read_csv(os.path.join(self.csv, 'gas.csv'), comment='#', index_col=0)
+        self.assertEqual(gas.value['pressure'], 1.25)
+        self.assertEqual(gas.unit['pressure'], '1/sigma^2')
+        widths = os.path.join(self.csv, 'localization.csv')
+        widths = pandas.read_csv(widths, comment='#', index_col=0)
+        np.testing.assert_array_equal(widths.width, [0.25, 0.5])
+        with np.load(self.npz) as arrays:
+            np.testing.assert_array_equal(arrays['localization.width'], [0.25, 0.5])
+            self.assertEqual(arrays['gas.value'][0], 3.25)
+
+    def test_gas_of_seeds(self):
+        bags = [
+            self.write(
+                f'gas{seed}',
+                [
+                    made.run_info(seed=str(seed), run_id=str(seed)),
+                    made.gas(50.0, run_id=str(seed), pressure=1.0 + 0.25 * seed),
+                ],
+            )
+            for seed in (1, 2, 3)
+        ]
+        mean = hdlyap.load(*bags).gas
+        self.assertAlmostEqual(mean.value['pressure'], 1.5)
+        self.assertAlmostEqual(mean.std_error['pressure'], 0.01 / np.sqrt(3))
+        self.assertAlmostEqual(mean.scatter['pressure'], 0.25 / np.sqrt(3))
+        self.assertEqual(mean.unit['pressure'], '1/sigma^2')
+
 
 class Hostile(Tools):
     def check(self, name, *arguments, fault):

@@ -18,7 +18,7 @@ import made
 from made import LP, T
 from hdlyap.plots import paper, recording, report, waves
 from hdlyap.plots.course import LIMIT, Course
-from hdlyap.plots.figures import modes, p_mode, phases, plt
+from hdlyap.plots.figures import localization, modes, p_mode, phases, plt
 from hdlyap.plots.numbers import with_error
 from plotted import plot_bag, plot_bag_process
 
@@ -126,6 +126,46 @@ class Exponents(Bags):
     def test_trajectory_only(self):
         self.write([made.run_info(), made.cost(1), made.cost(2)])
         self.assertIn('no averaged spectrum', self.succeeds(COST_FILES))
+
+    def test_gas(self):
+        """With exponents or without; the reference where it holds."""
+        self.write([made.run_info(), made.cost(1), made.gas(20.0), made.gas(50.0), made.cost(2)])
+        text = self.succeeds(COST_FILES)
+        self.assertIn('gas, averaged over 50\n', text)
+        self.assertIn('collision rate  3.250000 +- 0.020000 per disk and time unit\n', text)
+        self.assertIn('pressure        1.250000 +- 0.010000 per sigma^2\n', text)
+        self.assertIn('of px, py     1.500000, 1.000000\n', text)
+        self.assertIn('Z = p A / N     2.500000 +- 0.020000\n', text)
+        self.assertIn(' 2.763657 by Henderson', text)  # (1 + eta^2 / 8) / (1 - eta)^2, eta = pi / 8
+        walls = dict(boundary_x='reflecting')
+        self.write([made.run_info(**walls), made.gas(error=-1.0), made.cost(1), made.cost(2)])
+        text = self.succeeds(COST_FILES)
+        self.assertIn('pressure        1.250000 per sigma^2\n', text)
+        self.assertNotIn('Henderson', text)
+
+    def test_localization(self):
+        spectrum = made.spectrum(np.linspace(3, 1, 37), 50.0)
+        widths = np.linspace(0.1, 0.8, 37)
+        files_ = SPECTRUM_FILES + files('localization')
+        self.write([made.run_info(), spectrum, made.localization(widths)])
+        self.succeeds(files_)
+        run = recording.read(self.path)
+        figure = localization.draw(run)
+        (axes,) = figure.axes
+        places, drawn = axes.containers[0].lines[0].get_data()
+        np.testing.assert_array_equal(places, np.arange(1, 38))
+        np.testing.assert_array_equal(drawn, widths)
+        bars = np.array([one[:, 1] for one in axes.containers[0].lines[2][0].get_segments()])
+        np.testing.assert_allclose(bars, np.transpose([widths - 0.01, widths + 0.01]))
+        plt.close(figure)
+        many = np.linspace(0.1, 0.8, 80)
+        self.write([made.run_info(disks=43), made.localization(many), made.covariant(list(many))])
+        figure = localization.draw(recording.read(self.path))
+        self.assertEqual(len(figure.axes), 2)
+        shown = [len(one.lines[0].get_xdata()) for one in figure.axes[1].containers]
+        self.assertEqual(shown, [localization.LARGEST] * 2)
+        self.assertEqual(len(figure.axes[1].get_legend().get_texts()), 2)
+        plt.close(figure)
 
     def test_paper_scene_without_steps(self):
         info = made.paper_info()

@@ -14,9 +14,11 @@
 #include "hdlyap/spectrum.h"
 /* events */
 #include "hdlyap/trajectory.h"
+#include "hdlyap/gas.h"
 /* tangent */
 #include "hdlyap/frame.h"
 #include "hdlyap/interval.h"
+#include "hdlyap/localization.h"
 #include "hdlyap/ortho.h"
 /* modes */
 #include "hdlyap/fields.h"

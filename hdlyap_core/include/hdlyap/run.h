@@ -6,7 +6,9 @@
 #include <stdbool.h>
 
 #include "hdlyap/covariant.h"
+#include "hdlyap/gas.h"
 #include "hdlyap/interval.h"
+#include "hdlyap/localization.h"
 #include "hdlyap/ortho.h"
 #include "hdlyap/parameters.h"
 #include "hdlyap/phases.h"
@@ -25,7 +27,7 @@ typedef struct hd_cost {
     double replay;   /**< seconds in the tangent frame */
     double ortho;    /**< seconds in the factorisation */
     double spectrum; /**< seconds in averages */
-    double modes;    /**< seconds in classification, steps and phases */
+    double modes;    /**< seconds in classification, steps and phases; and in widths */
     /** Seconds in covariant vectors: what is kept for them, and the way back */
     double covariant;
     /** Seconds of the above in exchange with other ranks, waiting included; bytes that this rank
@@ -138,6 +140,11 @@ const hd_phases *hd_run_phases(const hd_run *run);
 /** Simulated time of the phases; negative while none have been followed. */
 double hd_run_followed(const hd_run *run);
 const hd_covariant *hd_run_covariant(const hd_run *run); /**< NULL unless observed */
+/** NULL unless observed. Up to the last measured state; without exponents up to some 80 collisions
+ * of each disk ago, at a report up to now. */
+const hd_gas *hd_run_gas(const hd_run *run);
+/** NULL unless observed; up to the last measured state. */
+hd_localization *hd_run_localization(const hd_run *run);
 hd_cost hd_run_cost(const hd_run *run);
 /** Averaged time from which standard errors are stated [T8]; 0 without exponents. */
 double hd_run_errors_after(const hd_run *run);

@@ -18,10 +18,11 @@
 #include "covariant/archived.h"
 #include "covariant/backward.h"
 #include "covariant/history.h"
-#include "covariant/localization.h"
 #include "covariant/starts.h"
+#include "hdlyap/localization.h"
 #include "scene/null_space.h"
 #include "modes/archived.h"
+#include "tangent/archived.h"
 
 /** Intervals that there is room for, over those that are expected: they vary. */
 static const double SPARE = 1.5;
@@ -137,7 +138,7 @@ static hd_status allocate(hd_covariant *c)
     HD_TRY(
         hd_spectrum_create(&c->spectrum, c->rows, c->vectors, hd_scene_sound_crossing(&c->scene)));
     HD_TRY(hd_splitting_create(&c->splitting, c->vectors, c->unstable, c->centre));
-    return hd_localization_create(&c->shape, c->scene.disks, c->vectors);
+    return hd_localization_create(&c->shape, c->scene.disks, c->vectors, c->threads);
 }
 
 hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int threads)
@@ -381,7 +382,8 @@ static hd_status look(hd_covariant *c, long interval)
     HD_TRY(measure_weights(c, c->of_frame));
     cblas_dtrmm(CblasRowMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, c->rows,
                 c->vectors, 1.0, coefficients, c->vectors, c->frame, c->vectors);
-    hd_localization_add(c->shape, vectors_of(c));
+    hd_localization_measure(c->shape, vectors_of(c));
+    hd_localization_add(c->shape);
     HD_TRY(measure_null(c));
     HD_TRY(measure_weights(c, c->half[0]));
     swap_halves(c);

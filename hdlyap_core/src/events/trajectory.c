@@ -117,6 +117,7 @@ static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *c
     hd_status status = HD_OK;
     if (exchange(a, b, r, approach, excess)) {
         tr->collisions++;
+        for (int d = 0; d < 2; d++) tr->virial[d] -= approach * event.n[d] * event.n[d];
         status = log_append(log, &event);
     }
     a->collisions++;
@@ -335,6 +336,12 @@ int hd_trajectory_disks(const hd_trajectory *tr) { return tr->motion.count; }
 uint64_t hd_trajectory_collisions(const hd_trajectory *tr) { return tr->collisions; }
 uint64_t hd_trajectory_wall_events(const hd_trajectory *tr) { return tr->wall_events; }
 double hd_trajectory_collision_rate(const hd_trajectory *tr) { return tr->rate; }
+
+void hd_trajectory_virial(const hd_trajectory *tr, double virial[2])
+{
+    virial[0] = tr->virial[0];
+    virial[1] = tr->virial[1];
+}
 
 void hd_trajectory_box(const hd_trajectory *tr, double box[2])
 {

@@ -74,6 +74,7 @@ void hd_trajectory_archive(hd_trajectory *tr, hd_archive *archive)
     hd_archive_double(archive, "trajectory time", &tr->now);
     hd_archive_bits(archive, "trajectory collisions", &tr->collisions);
     hd_archive_bits(archive, "trajectory wall events", &tr->wall_events);
+    hd_archive_doubles(archive, "trajectory virial", tr->virial, 2);
     disks_archive(tr, archive);
     if (archive->writing || !hd_archive_good(archive)) return;
     book(tr);

@@ -102,6 +102,7 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     hd_trajectory_archive(run->advance.trajectory, archive);
     hd_schedule_archive(&run->schedule, archive);
     hd_interval_archive(&run->interval, archive);
+    if (run->gas) hd_gas_archive(run->gas, archive, hd_run_time(run));
     if (!run->frame || hd_communicator_agree(run->communicator, archive->status) != HD_OK) return;
     hd_event_log_archive(run->log, archive, run->scene.disks);
     const hd_status status = hd_frame_archive(run->frame, archive);
@@ -111,6 +112,7 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     if (run->observer.modes) hd_modes_archive(run->observer.modes, archive);
     if (run->observer.steps) hd_steps_archive(run->observer.steps, archive);
     if (run->observer.phases) hd_phases_archive(run->observer.phases, archive);
+    if (run->shape) hd_localization_archive(run->shape, archive);
     if (run->windows.covariant) hd_covariant_archive(run->windows.covariant, archive);
 }
 

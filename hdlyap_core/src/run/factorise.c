@@ -120,6 +120,12 @@ bool hd_run_is_observing(const hd_run *run)
            run->schedule.stage == HD_AVERAGING;
 }
 
+bool hd_run_is_localizing(const hd_run *run)
+{
+    return run->shape && run->observe & HD_OBSERVE_LOCALIZATION &&
+           run->schedule.stage == HD_AVERAGING;
+}
+
 bool hd_run_is_windowing(const hd_run *run)
 {
     return run->windows.covariant && (run->observe & HD_OBSERVE_COVARIANT) &&
@@ -173,7 +179,8 @@ static hd_status complete(hd_run *run)
 static double defect_allowed(const hd_run *run, double duration, hd_norm norm)
 {
     const bool windowing = hd_run_is_windowing(run);
-    const bool looked_at = norm == HD_NORM_FULL && (windowing || hd_run_is_observing(run));
+    const bool observing = hd_run_is_observing(run) || hd_run_is_localizing(run);
+    const bool looked_at = norm == HD_NORM_FULL && (windowing || observing);
     if (windowing && run->conjugate) return DEFECT_COUPLED;
     return fmin(looked_at ? DEFECT_MEASURED : DEFECT_LOOSE,
                 sqrt(DEFECT_SHARE * run->scene.accuracy * duration));

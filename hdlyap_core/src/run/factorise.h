@@ -12,6 +12,8 @@ enum {
 
 /** True while modes are looked at. */
 bool hd_run_is_observing(const hd_run *run);
+/** True while the widths of vectors are looked at. */
+bool hd_run_is_localizing(const hd_run *run);
 /** True while covariant vectors are wanted of what is carried. */
 bool hd_run_is_windowing(const hd_run *run);
 

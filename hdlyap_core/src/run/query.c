@@ -22,6 +22,8 @@ const hd_modes *hd_run_modes(const hd_run *run) { return run->observer.modes; }
 const hd_steps *hd_run_steps(const hd_run *run) { return run->observer.steps; }
 const hd_phases *hd_run_phases(const hd_run *run) { return run->observer.phases; }
 const hd_covariant *hd_run_covariant(const hd_run *run) { return run->windows.covariant; }
+const hd_gas *hd_run_gas(const hd_run *run) { return run->gas; }
+hd_localization *hd_run_localization(const hd_run *run) { return run->shape; }
 
 double hd_run_followed(const hd_run *run) { return run->followed; }
 

@@ -45,6 +45,8 @@ static double ortho_bytes(double rows, double n, double ranks)
 
 static double spectrum_bytes(double n) { return WORD * (HD_BLOCKS_MAX + 6.0) * n; }
 
+static double localization_bytes(double n) { return WORD * (HD_BLOCKS_MAX + 6.0) * n; }
+
 /** What is counted of the fields of a scene. */
 typedef struct counted {
     double columns, subspaces, tracks;
@@ -98,7 +100,7 @@ static double covariant_bytes(const hd_scene_def *def, const counted *of, double
     const double rows = 4.0 * def->disks, carried = hd_scene_carried(def);
     const double factors = 2.0 * carried * carried, ways = (carried < n ? 8.25 : 5.0) * n * n;
     return WORD * (factors + ways + rows * n) + 3.0 * modes_bytes(of, def->disks, n) +
-           spectrum_bytes(n);
+           spectrum_bytes(n) + localization_bytes(n);
 }
 
 double hd_room_needed(const hd_scene_def *def, int threads, int ranks)
@@ -108,11 +110,12 @@ double hd_room_needed(const hd_scene_def *def, int threads, int ranks)
     const counted none = {0};
     double bytes = OF_A_DISK * disks;
     if (n == 0) return bytes;
-    const counted of = def->observe ? fields_of(def) : none;
+    const counted of = def->observe & HD_OBSERVE_WAVES ? fields_of(def) : none;
     bytes += OF_AN_EVENT * fmin(EVENTS_MAX, EVENTS_OF_A_DISK * disks);
     bytes += frame_bytes(4.0 * disks, carried / of_ranks, threads);
     bytes += ortho_bytes(4.0 * disks, carried, of_ranks);
     bytes += conjugate_bytes(def, of_ranks) + spectrum_bytes(n);
+    if (def->observe & HD_OBSERVE_LOCALIZATION) bytes += localization_bytes(n);
     if (def->observe & HD_OBSERVE_OF_MODES) bytes += observer_bytes(def, &of, n);
     if (def->observe & HD_OBSERVE_COVARIANT) bytes += covariant_bytes(def, &of, n);
     if (def->observe & HD_OBSERVE_COVARIANT && ranks > 1) bytes += WORD * 4.0 * disks * n;

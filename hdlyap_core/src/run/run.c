@@ -16,6 +16,7 @@
 #include "hdlyap/blas.h"
 #include "hdlyap/room.h"
 #include "run/factorise.h"
+#include "run/localize.h"
 #include "run/order.h"
 #include "run/plan.h"
 #include "run/ranks.h"
@@ -136,9 +137,12 @@ static hd_status prepare(hd_run *run, char *message, size_t size)
     run->interval = hd_interval_first(2.0 / per_disk, limit, scene->accuracy);
     run->schedule = hd_schedule_of(scene);
     run->in_force.target_std_error = scene->target_std_error;
+    if (scene->observe & HD_OBSERVE_GAS)
+        HD_TRY(hd_run_agree(run, hd_gas_create(&run->gas, scene, hd_run_block_least(run))));
     if (run->vectors == 0) return HD_OK;
     HD_TRY(prepare_frame(run));
     HD_TRY(prepare_windows(run, message, size));
+    HD_TRY(hd_run_agree(run, hd_run_localize_from(run)));
     run->observe = scene->observe;
     if (!(scene->observe & HD_OBSERVE_OF_MODES)) return HD_OK;
     return hd_run_agree(run, hd_observer_create(&run->observer, scene, run->vectors, run->threads,
@@ -149,6 +153,7 @@ static void averages_clear(hd_run *run)
 {
     hd_spectrum_clear(run->spectrum);
     hd_observer_clear(&run->observer);
+    if (run->shape) hd_localization_clear(run->shape);
     if (run->windows.covariant) hd_windows_clear(&run->windows);
 }
 
@@ -161,6 +166,7 @@ static void enter_stage(hd_run *run, hd_stage stage)
     run->followed = -1.0;
     run->advance.plan.end = now;
     stage = run->schedule.stage;
+    if (run->gas && stage == HD_AVERAGING) hd_gas_begin(run->gas, run->advance.trajectory);
     if (run->spectrum && stage == HD_AVERAGING) averages_clear(run);
     if (stage == HD_AVERAGING) run->rounding.sum = HD_ROUNDING * run->rounding.condition_max;
     hd_run_save_accuracy(run);
@@ -215,6 +221,8 @@ void hd_run_drop(hd_run *run)
     hd_advance_clear(&run->advance);
     hd_observer_free(&run->observer);
     hd_windows_free(&run->windows);
+    hd_gas_free(run->gas);
+    hd_localization_free(run->shape);
     hd_event_log_free(run->log);
     hd_frame_free(run->frame);
     hd_ortho_free(run->ortho);
@@ -305,6 +313,8 @@ static hd_status end_sample(hd_run *run)
     HD_TRY(keep_halves(run));
     if (run->schedule.stage != HD_AVERAGING) return HD_OK;
     hd_spectrum_sample(run->spectrum);
+    if (run->gas) hd_gas_add(run->gas, run->advance.trajectory);
+    HD_TRY(hd_run_localize(run));
     return hd_run_is_observing(run) ? observe(run) : HD_OK;
 }
 
@@ -422,14 +432,20 @@ static hd_status advance(hd_run *run, hd_event_log *log)
     return HD_OK;
 }
 
-/** The disks alone, up to a report. */
+/** The disks alone, up to a report, or to the end of a sample of what they do. */
 static hd_status advance_disks(hd_run *run)
 {
     take_changes(run);
     if (run->due.stage_end) return go_back(run, false);
-    const double cut = hd_schedule_cut(&run->schedule);
-    if (hd_advance_is_done(&run->advance)) hd_advance_make_plan(&run->advance, cut);
+    const bool sampled = run->gas && run->schedule.stage == HD_AVERAGING;
+    const double end = sampled ? run->sample.begin + hd_run_sample_longest(run) : INFINITY;
+    const double cut = hd_schedule_cut(&run->schedule), stop = fmin(cut, end);
+    if (hd_advance_is_done(&run->advance)) hd_advance_make_plan(&run->advance, stop);
     HD_TRY(advance(run, NULL));
+    if (sampled && hd_run_time(run) >= stop) {
+        hd_gas_add(run->gas, run->advance.trajectory);
+        run->sample.begin = hd_run_time(run);
+    }
     if (hd_run_time(run) >= cut) HD_TRY(take_cut(run));
     leave_stage(run);
     return HD_OK;

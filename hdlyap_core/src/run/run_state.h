@@ -67,6 +67,8 @@ struct hd_run {
     hd_spectrum *spectrum;
     hd_observer observer;
     hd_windows windows;
+    hd_gas *gas;            /**< NULL unless observed, as the next */
+    hd_localization *shape; /**< of the vectors */
     hd_schedule schedule;
     hd_interval interval;
     double interval_end; /**< simulated time at which the frame is orthonormalised next */

@@ -137,11 +137,11 @@ static hd_status try_scene(trial *out, const settings *set, char *message, size_
 static double report_bytes(const settings *set, const trial *t)
 {
     const double n = hd_scene_vectors(&set->def);
-    const double of[TOPICS] = {[TOPIC_SPECTRUM] = 162.0 + 40.0 * n,
-                               [TOPIC_MODES] = 98.0 + 89.0 * n,
-                               [TOPIC_STEPS] = 204.0 + 96.0 * t->steps,
-                               [TOPIC_LP_PHASES] = 90.0 + 74.0 * t->phases,
-                               [TOPIC_STATE] = 106.0 + 32.0 * set->def.disks};
+    const double of[TOPICS] = {
+        [TOPIC_SPECTRUM] = 162.0 + 40.0 * n,          [TOPIC_MODES] = 98.0 + 89.0 * n,
+        [TOPIC_STEPS] = 204.0 + 96.0 * t->steps,      [TOPIC_LP_PHASES] = 90.0 + 74.0 * t->phases,
+        [TOPIC_LOCALIZATION] = 98.0 + 24.0 * n,       [TOPIC_GAS] = 162.0,
+        [TOPIC_STATE] = 106.0 + 32.0 * set->def.disks};
     double bytes = 220.0 + 110.0; /* cost, status */
     for (topic k = 0; k < TOPICS; k++)
         if (set->observables & topic_bit(k)) bytes += of[k];

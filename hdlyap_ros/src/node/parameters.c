@@ -7,7 +7,8 @@
 #include "settings.h"
 #include "topic.h"
 
-#define OBSERVABLES "spectrum, modes, steps, lp_phases, fields, hydro, covariant, state"
+#define OBSERVABLES                                                                                \
+    "spectrum, modes, steps, lp_phases, fields, hydro, covariant, localization, gas, state"
 
 static const parameter name_row = {
     .name = "scene",
@@ -33,7 +34,8 @@ static const parameter rows[] = {
         .text =
             "Topics that are computed and published, beside run_info, status, cost and "
             "/diagnostics. A topic costs nothing while nobody subscribes to it. With exponents: "
-            "none there is only state. A resumed run may have other ones of spectrum and state.",
+            "none there are only gas and state. A resumed run may have other ones of spectrum and "
+            "state.",
     },
     {
         .name = "field_indices",

@@ -7,6 +7,8 @@
 #include "clock.h"
 #include "covariant_report.h"
 #include "field_report.h"
+#include "gas_report.h"
+#include "localization_report.h"
 #include "mode_report.h"
 #include "publishers.h"
 #include "run_info.h"
@@ -35,6 +37,7 @@ struct report {
     mode_report *modes;   /**< NULL unless some of its topics are asked for */
     field_report *fields; /**< NULL unless asked for, as the next */
     covariant_report *covariant;
+    localization_report *localization;
     slow_vectors_report *slow;
     subscriber_wait awaited;
     unsigned demand; /**< set of topics that the step under way is made for */
@@ -85,16 +88,23 @@ static bool parts_create(report *rep, const hd_run *run)
         return false;
     if ((set & topic_bit(TOPIC_FIELDS)) && !field_report_create(&rep->fields, &rep->out, rep->set))
         return false;
+    if ((set & topic_bit(TOPIC_LOCALIZATION)) &&
+        !localization_report_create(&rep->localization, &rep->out, run))
+        return false;
     return !(set & topic_bit(TOPIC_COVARIANT)) ||
            covariant_report_create(&rep->covariant, &rep->out, run);
 }
 
 static hdr_status advertise(report *rep, hdr_node *ros)
 {
-    double doubles[TOPICS] = {[TOPIC_SPECTRUM] = 5.0 * rep->n, [TOPIC_STATE] = 4.0 * rep->disks};
+    double doubles[TOPICS] = {[TOPIC_SPECTRUM] = 5.0 * rep->n,
+                              [TOPIC_STATE] = 4.0 * rep->disks,
+                              [TOPIC_GAS] = GAS_REPORT_SIZE};
     if (rep->modes) mode_report_sizes(rep->modes, doubles);
     if (rep->fields) doubles[TOPIC_FIELDS] = field_report_size(rep->fields);
     if (rep->covariant) doubles[TOPIC_COVARIANT] = covariant_report_size(rep->covariant);
+    if (rep->localization)
+        doubles[TOPIC_LOCALIZATION] = localization_report_size(rep->localization);
     return publishers_advertise(&rep->out, ros, rep->set->observables | TOPICS_ALWAYS, doubles,
                                 rep->set->seed);
 }
@@ -120,6 +130,7 @@ void report_free(report *rep)
     mode_report_free(rep->modes);
     field_report_free(rep->fields);
     covariant_report_free(rep->covariant);
+    localization_report_free(rep->localization);
     slow_vectors_report_free(rep->slow);
     free(rep->block);
     free(rep);
@@ -306,18 +317,18 @@ static hd_status publish_progress(report *rep, const progress *now, hd_stage sta
     return status;
 }
 
-/** Topics that have something to say after this step and someone to listen. The modes were measured
- * only if someone listened before. */
+/** Topics that have something to say after this step and someone to listen. Vectors were
+ * measured only if someone listened before. */
 static unsigned topics_due(const report *rep, const hd_run *run)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     const hd_modes *modes = hd_run_modes(run);
-    const unsigned of_modes = TOPICS_OF_MODES;
+    const unsigned of_vectors = TOPICS_OF_MODES | topic_bit(TOPIC_LOCALIZATION);
     unsigned set = publishers_subscribed(&rep->out);
     if (!spectrum || !(hd_spectrum_time(spectrum) > 0.0)) set &= ~topic_bit(TOPIC_SPECTRUM);
-    if (!modes || hd_modes_samples(modes) == 0) set &= ~of_modes;
+    if (!modes || hd_modes_samples(modes) == 0) set &= ~(unsigned)TOPICS_OF_MODES;
     if (!hd_run_fields_due(run)) set &= ~topic_bit(TOPIC_FIELDS);
-    return set & (rep->demand | ~of_modes);
+    return set & (rep->demand | ~of_vectors);
 }
 
 /** The last word about a run that has finished is left to report_finish. */
@@ -329,6 +340,10 @@ static hd_status publish_due(report *rep, const hd_run *run)
     if (set & of_state) hd_trajectory_state(hd_run_trajectory(run), rep->q, rep->p);
     if (set & topic_bit(TOPIC_STATE)) status = publish_state(rep, run);
     if (status == HD_OK && (set & topic_bit(TOPIC_SPECTRUM))) status = publish_spectrum(rep, run);
+    if (status == HD_OK && (set & topic_bit(TOPIC_GAS)))
+        status = gas_report_publish(&rep->out, run);
+    if (status == HD_OK && (set & topic_bit(TOPIC_LOCALIZATION)))
+        status = localization_report_publish(rep->localization, run);
     if (status == HD_OK && (set & TOPICS_OF_MODES))
         status = mode_report_publish(rep->modes, &now, set);
     if (status == HD_OK && (set & topic_bit(TOPIC_FIELDS)))

@@ -30,7 +30,7 @@ typedef struct wave_list {
 
 static bool waves_create(wave_list *list, const hd_scene_def *def)
 {
-    const int count = def->observe ? hd_waves(def, NULL, 0) : 0;
+    const int count = def->observe & HD_OBSERVE_WAVES ? hd_waves(def, NULL, 0) : 0;
     hd_wave *waves = malloc(((size_t)count + 1) * sizeof *waves);
     *list = (wave_list){.nx = malloc((2 * (size_t)count + 1) * sizeof *list->nx)};
     const bool created = waves && list->nx;

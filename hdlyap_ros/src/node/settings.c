@@ -12,7 +12,10 @@
 #include "reader.h"
 #include "topic.h"
 
-enum { OF_EXPONENTS = 1u << TOPIC_SPECTRUM | 1u << TOPIC_COVARIANT | TOPICS_OF_MODES };
+enum {
+    OF_EXPONENTS = 1u << TOPIC_SPECTRUM | 1u << TOPIC_COVARIANT | 1u << TOPIC_LOCALIZATION |
+                   TOPICS_OF_MODES
+};
 
 static bool check_names(reader *r)
 {
@@ -78,7 +81,7 @@ static bool check_observables(settings *set, reader *r)
     r->name = "observables";
     if (set->def.exponents == HD_EXPONENTS_NONE && (set->observables & OF_EXPONENTS)) {
         if (*hdr_param_text(r->params, r->name))
-            return reader_refuse(r, "[state] or [] when exponents = none");
+            return reader_refuse(r, "a list out of gas, state when exponents = none");
         set->observables &= ~(unsigned)OF_EXPONENTS;
     }
     set->def.observe = topic_stages(set->observables);

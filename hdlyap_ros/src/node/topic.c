@@ -18,6 +18,8 @@ static const struct {
     [TOPIC_FIELDS] = {"fields", HD_OBSERVE_FIELDS},
     [TOPIC_HYDRO] = {"hydro", HD_OBSERVE_HYDRO},
     [TOPIC_COVARIANT] = {"covariant", HD_OBSERVE_COVARIANT},
+    [TOPIC_LOCALIZATION] = {"localization", HD_OBSERVE_LOCALIZATION},
+    [TOPIC_GAS] = {"gas", HD_OBSERVE_GAS},
     [TOPIC_STATE] = {"state", 0},
     [TOPIC_STATUS] = {"status", 0},
     [TOPIC_COST] = {"cost", 0},

@@ -13,6 +13,8 @@ typedef enum topic {
     TOPIC_FIELDS,
     TOPIC_HYDRO,
     TOPIC_COVARIANT,
+    TOPIC_LOCALIZATION,
+    TOPIC_GAS,
     TOPIC_STATE,
     TOPIC_STATUS,
     TOPIC_COST,

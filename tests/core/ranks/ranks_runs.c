@@ -105,6 +105,30 @@ static void modes_are_those_of_one_rank(void **state)
     expect_modes_of_one_rank(HD_EXPONENTS_ALL);
 }
 
+/** Widths are measured where the vectors are; the gas is that of the trajectory, the same bits. */
+static void widths_and_gas_are_those_of_one_rank(void **state)
+{
+    (void)state;
+    const hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_LOCALIZATION | HD_OBSERVE_GAS);
+    hd_run *run, *alone = created(&scene);
+    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    finish(run);
+    finish(alone);
+    hd_localization *shared = hd_run_localization(run), *own = hd_run_localization(alone);
+    assert_true(hd_localization_samples(own) > 0);
+    assert_true(hd_localization_samples(shared) == hd_localization_samples(own));
+    for (int col = 0; col < hd_run_vectors(run); col++) {
+        CHECK_CLOSE(hd_localization_widths(shared)[col], hd_localization_widths(own)[col], 1e-6);
+        CHECK_CLOSE(hd_localization_width_now(shared, col), hd_localization_width_now(own, col),
+                    1e-6);
+    }
+    const hd_gas_means a = hd_gas_read(hd_run_gas(run)), b = hd_gas_read(hd_run_gas(alone));
+    CHECK_CLOSE(a.time, b.time, 1e-9);
+    CHECK_CLOSE(a.pressure, b.pressure, 1e-9);
+    hd_run_free(run);
+    hd_run_free(alone);
+}
+
 /** The same on every rank, and once more the same: with other delays. */
 static void bits_are_the_same(void **state)
 {
@@ -390,6 +414,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exponents_are_those_of_one_rank),
         cmocka_unit_test(modes_are_those_of_one_rank),
+        cmocka_unit_test(widths_and_gas_are_those_of_one_rank),
         cmocka_unit_test(bits_are_the_same),
         cmocka_unit_test(vectors_are_gathered_for_reports),
         cmocka_unit_test(covariant_vectors_are_those_of_one_rank),

@@ -91,6 +91,27 @@ static void expect_same_steps(const hd_steps *a, const hd_steps *b)
     }
 }
 
+static void expect_same_gas(const hd_gas *a, const hd_gas *b)
+{
+    const hd_gas_means x = hd_gas_read(a), y = hd_gas_read(b);
+    CHECK_CLOSE(x.time, y.time, 0.0);
+    CHECK_CLOSE(x.pressure_error, y.pressure_error, 0.0);
+    CHECK_CLOSE(x.collision_rate_error, y.collision_rate_error, 0.0);
+    if (x.time == 0) return;
+    CHECK_CLOSE(x.pressure, y.pressure, 0.0);
+    CHECK_CLOSE(x.collision_rate, y.collision_rate, 0.0);
+}
+
+static void expect_same_localization(hd_localization *a, hd_localization *b, int n)
+{
+    expect_same_doubles(hd_localization_widths(a), hd_localization_widths(b), n);
+    assert_true(hd_localization_samples(a) == hd_localization_samples(b));
+    for (int col = 0; col < n; col++) {
+        CHECK_CLOSE(hd_localization_width_now(a, col), hd_localization_width_now(b, col), 0.0);
+        CHECK_CLOSE(hd_localization_width_error(a, col), hd_localization_width_error(b, col), 0.0);
+    }
+}
+
 /** What is kept; and, of what nothing else depends on, what is read. */
 static void expect_same_state(hd_run *a, hd_run *b)
 {
@@ -101,6 +122,9 @@ static void expect_same_state(hd_run *a, hd_run *b)
                      hd_trajectory_wall_events(hd_run_trajectory(b)));
     if (hd_run_modes(a)) expect_same_modes(hd_run_modes(a), hd_run_modes(b));
     if (hd_run_phases(a)) expect_same_phases(hd_run_phases(a), hd_run_phases(b));
+    if (hd_run_gas(a)) expect_same_gas(hd_run_gas(a), hd_run_gas(b));
+    if (hd_run_localization(a))
+        expect_same_localization(hd_run_localization(a), hd_run_localization(b), hd_run_vectors(a));
     const bytes of_a = kept_bytes(a), of_b = kept_bytes(b);
     expect_same_bytes(&of_a, &of_b);
     free(of_a.data);
@@ -152,7 +176,7 @@ static void a_resumed_run_is_the_uninterrupted_one(void **state)
     hd_scene_def rare = kept_scene(20, 0.05, 1.0, 3, 0);
     rare.report_interval = 7.0;
     const hd_scene_def few = kept_scene(2, 0.3, 1.0, HD_EXPONENTS_ALL, KEPT_ALL);
-    const hd_scene_def none = kept_scene(50, 0.7, 1.0, HD_EXPONENTS_NONE, 0);
+    const hd_scene_def none = kept_scene(50, 0.7, 1.0, HD_EXPONENTS_NONE, HD_OBSERVE_GAS);
     expect_uninterrupted(&walls, 5, 8);
     expect_uninterrupted(&crowded, 37, 4);
     expect_uninterrupted(&looks, 7, 30);
@@ -166,7 +190,7 @@ static void a_run_that_is_looked_at_keeps_its_plan(void **state)
 {
     (void)state;
     const hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
-    const hd_scene_def none = kept_scene(50, 0.7, 1.0, HD_EXPONENTS_NONE, 0);
+    const hd_scene_def none = kept_scene(50, 0.7, 1.0, HD_EXPONENTS_NONE, HD_OBSERVE_GAS);
     const hd_scene_def looks = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL);
     expect_uninterrupted_watched(&def, 37, 100, 0.01, 0);
     expect_uninterrupted_watched(&none, 37, 100, 0.01, 0);

@@ -96,6 +96,8 @@ static void stages_have_memory_when_asked_for(void **state)
         assert_true(bytes > before + 1000.0);
         before = bytes;
     }
+    assert_true(bytes_for(HD_EXPONENTS_NONE, HD_OBSERVE_GAS) > 0.0);
+    assert_true(bytes_for(1, HD_OBSERVE_LOCALIZATION) > bytes_for(1, 0));
     CHECK_CLOSE(bytes_for(HD_EXPONENTS_POSITIVE, HD_OBSERVE_MODES),
                 bytes_for(HD_EXPONENTS_POSITIVE, HD_OBSERVE_STEPS), 0.0);
     CHECK_CLOSE(bytes_for(HD_EXPONENTS_POSITIVE, EVERYTHING), before,
@@ -125,6 +127,7 @@ static void a_long_run_allocates_nothing(void **state)
         int exponents;
         unsigned observe;
     } modes[] = {{HD_EXPONENTS_NONE, 0},
+                 {HD_EXPONENTS_NONE, HD_OBSERVE_GAS},
                  {1, 0},
                  {10, 0},
                  {HD_EXPONENTS_POSITIVE, 0},
@@ -132,7 +135,7 @@ static void a_long_run_allocates_nothing(void **state)
                  {HD_EXPONENTS_POSITIVE, HD_OBSERVE_STEPS},
                  {10, EVERYTHING},
                  {HD_EXPONENTS_POSITIVE, EVERYTHING},
-                 {HD_EXPONENTS_ALL, EVERYTHING}};
+                 {HD_EXPONENTS_ALL, EVERYTHING | HD_OBSERVE_GAS | HD_OBSERVE_LOCALIZATION}};
     for (size_t k = 0; k < 2 * (sizeof modes / sizeof *modes); k++) {
         hd_scene_def scene = small(modes[k / 2].exponents, modes[k / 2].observe);
         scene.boundary[0] = scene.boundary[1] = k % 2 ? HD_REFLECTING : HD_PERIODIC;

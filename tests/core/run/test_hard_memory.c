@@ -8,7 +8,7 @@
 
 #include "hdlyap/hdlyap.h"
 
-enum { EVERYTHING = 31 };
+enum { EVERYTHING = 31 | HD_OBSERVE_GAS | HD_OBSERVE_LOCALIZATION };
 static const char FILE_NAME[] = "hard_memory.test";
 
 /** Everything that a node makes of a scene. */

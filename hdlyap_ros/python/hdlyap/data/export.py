@@ -7,12 +7,14 @@ import numpy as np
 
 from .reader import Missing
 
-FRAMES = ('results', 'spectrum', 'steps', 'modes', 'phases', 'covariant', 'cost', 'status')
+FRAMES = ('results', 'spectrum', 'steps', 'modes', 'phases', 'covariant', 'localization')
+FRAMES += ('gas', 'cost', 'status')
 OVER_TIME = '1/time unit'  # unit of what stands below Lyapunov indices
 
 
 def tables(run):
-    """{name: frame} of all that was recorded; of Seeds there are results, spectrum and steps."""
+    """{name: frame} of all that was recorded; of Seeds there are results, spectrum, steps and
+    gas."""
     found = {}
     for name in FRAMES:
         try:

@@ -16,7 +16,9 @@ STATUS, COST = 'hdlyap/RunStatus', 'hdlyap/Cost'
 MODES, STEPS, PHASES = 'hdlyap/Modes', 'hdlyap/Steps', 'hdlyap/LpPhases'
 FIELD, STATE = 'hdlyap/ModeField', 'hdlyap/State'
 COVARIANT, HYDRO = 'hdlyap/Covariant', 'hdlyap/Hydro'
+LOCALIZATION, GAS = 'hdlyap/Localization', 'hdlyap/Gas'
 TYPES = (RUN_INFO, SPECTRUM, STATUS, COST, MODES, STEPS) + (PHASES, FIELD, STATE, COVARIANT, HYDRO)
+TYPES += (LOCALIZATION, GAS)
 NAME, PATH, LINE, LIST = 200, 4096, 8192, 4096  # longest text, path, error; most elements of a list
 PATHS = ('checkpoint', 'resume')
 # arrays of as many elements as the first of them
@@ -25,6 +27,7 @@ ALIKE = {
     STATE: ('x', 'y', 'px', 'py'),
     FIELD: ('x', 'y', 'px', 'py', 'dqx', 'dqy', 'dpx', 'dpy'),
     COVARIANT: ('exponents', 'std_errors', 'start_mismatch', 'widths', 'cos_theta'),
+    LOCALIZATION: ('widths', 'std_errors', 'widths_now'),
 }
 
 
@@ -105,6 +108,8 @@ def _check(kind, message):
         raise Damaged(f'{kind}: its arrays have {sorted(lengths)} elements')
     if kind == SPECTRUM and not len(message.exponents):
         raise Damaged(f'{kind}: no exponents')
+    if kind == LOCALIZATION and not len(message.widths):
+        raise Damaged(f'{kind}: no widths')
     if kind == RUN_INFO:
         sizes = message.density, message.aspect, message.box_x, message.box_y
         if not (message.disks and all(math.isfinite(size) and size > 0 for size in sizes)):

@@ -23,6 +23,8 @@ TOPICS = {
     'fields': reader.FIELD,
     'hydro': reader.HYDRO,
     'covariant': reader.COVARIANT,
+    'localization': reader.LOCALIZATION,
+    'gas': reader.GAS,
     'state': reader.STATE,
     'status': reader.STATUS,
     'cost': reader.COST,
@@ -33,6 +35,8 @@ FRAMES = {
     'steps': tables.of_steps,
     'lp_phases': tables.of_phases,
     'covariant': tables.arrays,
+    'localization': tables.arrays,
+    'gas': tables.of_gas,
 }
 # name of an array: where its unit is said
 ARRAYS = {
@@ -53,9 +57,10 @@ Local = namedtuple('Local', 'times lengths exponents')
 class Run:
     """`info` is its run_info. Arrays have a row for each message: `times` (simulated),
     `averaged_times`, `exponents` and `std_errors` of the running means; `local` the samples. Frames
-    are of the last message: `spectrum`, `modes`, `steps`, `phases`, `covariant`, `results`; or of
-    all: `cost`, `status`, `course(topic)`. `state` has positions and momenta, `fields` the last
-    field of each vector. What was averaged before ~reset_average does not count."""
+    are of the last message: `spectrum`, `modes`, `steps`, `phases`, `covariant`, `localization`,
+    `gas`, `results`; or of all: `cost`, `status`, `course(topic)`. `state` has positions and
+    momenta, `fields` the last field of each vector. What was averaged before ~reset_average does
+    not count."""
 
     def __init__(self, joined):
         self._joined = joined
@@ -143,6 +148,14 @@ class Run:
         return tables.arrays(self.last('covariant'))
 
     @cached_property
+    def localization(self):
+        return tables.arrays(self.last('localization'))
+
+    @cached_property
+    def gas(self):
+        return tables.of_gas(self.last('gas'))
+
+    @cached_property
     def results(self):
         """lambda_max, the sum of the positive exponents, and the fits over steps if there were
         any, with what they stand on."""
@@ -195,8 +208,9 @@ class Run:
         return tables.scalars(self._all('status'))
 
     def course(self, topic):
-        """Frame of all messages of 'spectrum', 'modes', 'steps', 'lp_phases' or 'covariant', by
-        simulated time: course('lp_phases')['phase'].unstack() has a column for each phase."""
+        """Frame of all messages of 'spectrum', 'modes', 'steps', 'lp_phases', 'covariant',
+        'localization' or 'gas', by simulated time: course('lp_phases')['phase'].unstack() has a
+        column for each phase."""
         return tables.over_time(self._all(topic), FRAMES[topic])
 
     # ---- disks and vectors ------------------------------------------------------------------
@@ -220,10 +234,12 @@ class Run:
     def _lasts(self):
         """{type: Packed} of those that are small, so that the bag is read once for all."""
         kinds = reader.MODES, reader.STEPS, reader.PHASES, reader.COVARIANT
+        kinds += reader.LOCALIZATION, reader.GAS
         return {packed.kind: packed for packed in self._joined.packed(kinds)}
 
     def has(self, topic):
-        """Whether there is a message of 'modes', 'steps', 'lp_phases' or 'covariant'."""
+        """Whether there is a message of 'modes', 'steps', 'lp_phases', 'covariant',
+        'localization' or 'gas'."""
         return TOPICS[topic] in self._lasts
 
     def last(self, topic):

@@ -19,8 +19,8 @@ def load(*bags, node=None, run=None):
 
 
 class Seeds:
-    """`runs` of the same system, which are independent. The frames `spectrum`, `steps` and
-    `results` have means over them, weighted with the averaged times, and two errors: `std_error`
+    """`runs` of the same system, which are independent. The frames `spectrum`, `steps`, `results`
+    and `gas` have means over them, weighted with the averaged times, and two errors: `std_error`
     from the errors that the runs state, `scatter` from how far the runs are apart (of n runs it is
     itself known to 1 / sqrt(2 n - 2)). `chi2` is of `runs` - 1 degrees of freedom; far above that
     the runs are further apart than their errors allow."""
@@ -79,16 +79,24 @@ class Seeds:
         made = self._mean([one.loc[names] for one in frames], 'value')
         return made.join(frames[0][['unit', 'basis']])
 
+    @cached_property
+    def gas(self):
+        """Collision rate and pressure."""
+        frames = [run.gas for run in self.runs]
+        weights = np.array([run.last('gas').averaged_time for run in self.runs])
+        return self._mean(frames, 'value', weights).join(frames[0][['unit']])
+
     def _is_in_all(self, fit):
         return all(any(fit.is_like(other) for other in run.fits) for run in self.runs)
 
-    def _mean(self, frames, name):
-        """Of a column of frames with the same rows, beside its errors."""
+    def _mean(self, frames, name, weights=None):
+        """Of a column of frames with the same rows, beside its errors; weights: averaged times."""
+        weights = self._weights if weights is None else weights
         values, errors = (
             np.array([one[column] for one in frames], dtype=float) for column in (name, 'std_error')
         )
         columns = name, 'std_error', 'scatter', 'chi2', 'runs'
-        made = dict(zip(columns, mean(values, errors, self._weights)))
+        made = dict(zip(columns, mean(values, errors, weights)))
         units = dict.fromkeys(columns[:3], '1/time unit' if name == 'exponent' else '')
         return tables.frame(made, units, frames[0].index)
 

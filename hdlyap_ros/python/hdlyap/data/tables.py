@@ -11,6 +11,7 @@ from hdlyap.plots.numbers import known
 
 from . import fields
 
+NUMBERED = 'exponents', 'widths'  # arrays with an element for each Lyapunov index
 NUMBERS = {'bool': bool, 'float64': float}  # others are integers
 KINDS = {0: 'none', **steps.NAMES}
 
@@ -86,7 +87,7 @@ def arrays(message, without=()):
     """Of a message that says something of each Lyapunov index from first_index on; what it says of
     an index and the next one has no last element."""
     described = fields.of(message)
-    size = len(message.exponents)
+    size = max(len(getattr(message, slot)) for slot in NUMBERED if hasattr(message, slot))
     columns, units = {}, {}
     for slot, kind in zip(message.__slots__, message._slot_types):
         if kind == 'float64[]' and slot not in without:
@@ -109,6 +110,22 @@ def of_steps(message):
 def of_modes(message):
     index = pandas.Index([mode.index for mode in message.modes], name='index', dtype=int)
     return elements(message.modes, index, without=('index', 'step'))
+
+
+def of_gas(message):
+    """By quantity."""
+    described = fields.of(message)
+    names = 'collision_rate', 'pressure', 'pressure_x', 'pressure_y'
+    values = [getattr(message, name) for name in names] + [message.compressibility]
+    errors = known([getattr(message, name + '_error') for name in names])
+    relative = errors[1] / message.pressure if message.pressure else np.nan
+    columns = {
+        'value': values,
+        'std_error': [*errors, relative * message.compressibility],
+        'unit': [described[name].unit for name in names] + [''],
+    }
+    index = pandas.Index([*names, 'compressibility'], name='quantity')
+    return frame(columns, {}, index)
 
 
 def of_phases(message):

@@ -6,6 +6,8 @@ from hdlyap.data.reader import (
     COST,
     COVARIANT,
     FIELD,
+    GAS,
+    LOCALIZATION,
     PHASES,
     RUN_INFO,
     SPECTRUM,
@@ -21,7 +23,8 @@ from .run import Run
 from .stages import PARTS
 
 __all__ = ['RUN_INFO', 'SPECTRUM', 'RecordingError']  # of the reader, also known by these names
-TYPES = (RUN_INFO, SPECTRUM, STATUS, COST, STEPS, PHASES, FIELD, COVARIANT)
+TYPES = (RUN_INFO, SPECTRUM, STATUS, COST, STEPS, PHASES, FIELD, COVARIANT, LOCALIZATION, GAS)
+LAST = (STEPS, COVARIANT, LOCALIZATION, GAS)  # of these the last one counts
 SMALLEST = 4  # exponents whose course is kept, counted back from the last positive one
 
 
@@ -29,7 +32,7 @@ class Recording(Run):
     """The last run in the bag: its run_info, its last spectrum (None without exponents), the
     course of the averages since their last reset, the cost over time, and of the modes the last
     steps (None if unrecorded), the last field of each vector, and the course of the LP phases,
-    and the last of covariant vectors."""
+    and the last of covariant vectors, of widths, and of the gas."""
 
     def __init__(self, info, runs=1):
         self.info = info
@@ -56,6 +59,16 @@ class Recording(Run):
         """The last Covariant message, likewise: there is at least one window."""
         return self._averaged(COVARIANT)
 
+    @property
+    def gas(self):
+        """The last Gas message, likewise."""
+        return self._averaged(GAS)
+
+    @property
+    def localization(self):
+        """The last Localization message; None if there is none."""
+        return self._last[LOCALIZATION].message() if LOCALIZATION in self._last else None
+
     def _averaged(self, kind):
         message = self._last[kind].message() if kind in self._last else None
         return message if message is not None and message.averaged_time > 0 else None
@@ -67,7 +80,7 @@ class Recording(Run):
 
     def add(self, kind, packed):
         """A message of one of TYPES. What counts only if it is the last one stays packed."""
-        if kind in (STEPS, COVARIANT):
+        if kind in LAST:
             self._last[kind] = packed
         elif kind == FIELD:
             self._fields[packed.field_index()] = packed

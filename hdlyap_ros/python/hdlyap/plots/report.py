@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from . import covariant_table, paper, step_table
+from . import covariant_table, equation, paper, step_table
 from .numbers import known
 
 TAIL = 64  # exponents in the table
@@ -11,6 +11,8 @@ COLUMNS = 3
 
 def report(recording):
     blocks = [_head(recording)]
+    if recording.gas is not None:
+        blocks.append(_gas(recording))
     if recording.spectrum is not None:
         blocks += [_sums(recording), _tail(recording)]
         blocks += (
@@ -69,6 +71,28 @@ def _sums(recording):
         )
     if spectrum.pairing_error >= 0:
         lines.append(f'pairing error   {spectrum.pairing_error:.2e}')
+    return '\n'.join(lines)
+
+
+def _gas(recording):
+    gas, info = recording.gas, recording.info
+    known = gas.pressure_error >= 0 and gas.pressure > 0
+    relative = gas.pressure_error / gas.pressure if known else -1.0
+    periodic = info.boundary_x == info.boundary_y == 'periodic'
+    rows = [
+        ('collision rate', gas.collision_rate, gas.collision_rate_error, 'per disk and time unit'),
+        ('pressure', gas.pressure, gas.pressure_error, 'per sigma^2'),
+        ('  of px, py', f'{gas.pressure_x:.6f}, {gas.pressure_y:.6f}', -1.0, ''),
+        ('Z = p A / N', gas.compressibility, relative * gas.compressibility, ''),
+    ]
+    lines = [f'gas, averaged over {gas.averaged_time:g}']
+    for name, value, error, unit in rows:
+        text = value if isinstance(value, str) else f'{value:.6f}{_error(error)}'
+        lines.append(f'{name:<15} {text} {unit}'.rstrip())
+    if periodic and info.density <= equation.MOST:
+        lines.append(
+            f'                {equation.compressibility(info.density):.6f} by Henderson (1975)'
+        )
     return '\n'.join(lines)
 
 

@@ -4,10 +4,10 @@ from .numbers import stated
 
 
 class Run:
-    """Its run_info, its last spectrum (None without exponents), its last steps and covariant
-    vectors (None if nobody listened)."""
+    """Its run_info, its last spectrum (None without exponents), its last steps, covariant
+    vectors, widths and gas (None if nobody listened)."""
 
-    info = spectrum = steps = covariant = None
+    info = spectrum = steps = covariant = localization = gas = None
 
     @property
     def positive_end(self):

@@ -3,21 +3,22 @@
 
 #include "testing.h"
 
-#include "covariant/localization.h"
+#include "hdlyap/localization.h"
 
 enum { DISKS = 5, ROWS = 4 * DISKS, VECTORS = 3, STRIDE = 8 };
 
 static hd_localization *created(void)
 {
     hd_localization *shape;
-    CHECK_OK(hd_localization_create(&shape, DISKS, VECTORS));
+    CHECK_OK(hd_localization_create(&shape, DISKS, VECTORS, 1));
     hd_localization_clear(shape);
     return shape;
 }
 
 static void add(hd_localization *shape, double v[ROWS][STRIDE])
 {
-    hd_localization_add(shape, (hd_columns){&v[0][0], STRIDE, 0, VECTORS});
+    hd_localization_measure(shape, (hd_columns){&v[0][0], STRIDE, 0, VECTORS});
+    hd_localization_add(shape);
 }
 
 /** Column 0 on one disk, column 1 on all alike, column 2 on two with parts 0.2 and 0.8. */

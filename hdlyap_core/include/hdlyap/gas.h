@@ -1,0 +1,51 @@
+/** The disks as a gas: how often they collide, and the pressure that follows, with standard errors
+ * [T20]. */
+#ifndef HDLYAP_GAS_H
+#define HDLYAP_GAS_H
+
+#include "hdlyap/trajectory.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Means over all whole samples since hd_gas_begin. Errors are standard errors [T8]; negative while
+ * they cannot be known. */
+typedef struct hd_gas_means {
+    double time;                 /**< averaged time [time units]; without it all else is NaN */
+    double collision_rate;       /**< 2 pair events / (N t): of each disk [1/time unit] */
+    double collision_rate_error; /**< negative if not yet known, as the next ones */
+    double pressure;             /**< mean of both directions [energy/sigma^2] */
+    double pressure_error;
+    double pressure_of[2]; /**< momentum along x that crosses a line across it, per length and time;
+                              and along y */
+    double pressure_of_error[2];
+    double compressibility; /**< Z = pressure area / N, 1 without collisions */
+} hd_gas_means;
+
+typedef struct hd_gas hd_gas;
+
+/** block: standard errors come from blocks of the averaged time that are at least so long [time
+ * units]. HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block);
+void hd_gas_free(hd_gas *gas);
+
+/** Begins anew where the disks are now. */
+void hd_gas_begin(hd_gas *gas, const hd_trajectory *trajectory);
+/** Ends a sample there: all that happened since the last call of one of the two. Samples may be of
+ * any length; one without time is none. O(1). */
+void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory);
+
+/** O(blocks). */
+hd_gas_means hd_gas_read(const hd_gas *gas);
+
+/** Area in which centres move: between walls L - 1 instead of L [sigma^2]. */
+double hd_gas_area(const hd_scene_def *def);
+/** kT: twice the kinetic energy over the momenta that are free, those less that are conserved; 1
+ * but for 1 / N [energy]. */
+double hd_gas_temperature(const hd_scene_def *def);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

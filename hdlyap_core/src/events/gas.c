@@ -1,0 +1,135 @@
+/** Counts of the trajectory -> collision rate and pressure [T20], in samples and blocks [T8]. */
+#include "hdlyap/gas.h"
+
+#include <math.h>
+
+#include "averages/blocks.h"
+#include "base/check.h"
+#include "base/memory.h"
+#include "events/archived.h"
+
+/** Series that are averaged: per time unit, in order. */
+enum { COLLISIONS, VIRIAL_X, VIRIAL_Y, SERIES };
+
+/** What a trajectory has counted. */
+typedef struct counts {
+    double time, virial[2];
+    uint64_t collisions;
+} counts;
+
+struct hd_gas {
+    double disks, area,
+        kinetic[2];           /**< of kinetic: that along each direction, twice, in the mean */
+    counts last;              /**< where the last sample ended */
+    double time, sum[SERIES]; /**< since the beginning */
+    hd_blocks blocks;
+};
+
+static counts counts_of(const hd_trajectory *trajectory)
+{
+    counts now = {.time = hd_trajectory_time(trajectory),
+                  .collisions = hd_trajectory_collisions(trajectory)};
+    hd_trajectory_virial(trajectory, now.virial);
+    return now;
+}
+
+/** Momenta along a direction, but for their sum where it is conserved. */
+static double momenta(const hd_scene_def *def, int d)
+{
+    return def->disks - (def->boundary[d] == HD_PERIODIC);
+}
+
+double hd_gas_temperature(const hd_scene_def *def)
+{
+    return 2.0 * def->disks / (momenta(def, 0) + momenta(def, 1));
+}
+
+double hd_gas_area(const hd_scene_def *def)
+{
+    double box[2];
+    hd_scene_box(def, box);
+    for (int d = 0; d < 2; d++) box[d] -= def->boundary[d] == HD_REFLECTING;
+    return box[0] * box[1];
+}
+
+hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
+{
+    hd_gas *gas = hd_memory_alloc(1, sizeof *gas);
+    *out = NULL;
+    if (!gas) return HD_NO_MEMORY;
+    gas->disks = def->disks;
+    gas->area = hd_gas_area(def);
+    for (int d = 0; d < 2; d++) gas->kinetic[d] = momenta(def, d) * hd_gas_temperature(def);
+    const hd_status status = hd_blocks_create(&gas->blocks, SERIES, block);
+    if (status == HD_OK)
+        *out = gas;
+    else
+        hd_memory_free(gas);
+    return status;
+}
+
+void hd_gas_free(hd_gas *gas)
+{
+    if (!gas) return;
+    hd_blocks_clear(&gas->blocks);
+    hd_memory_free(gas);
+}
+
+void hd_gas_begin(hd_gas *gas, const hd_trajectory *trajectory)
+{
+    gas->last = counts_of(trajectory);
+    gas->time = 0.0;
+    for (int s = 0; s < SERIES; s++) gas->sum[s] = 0.0;
+    hd_blocks_restart(&gas->blocks);
+}
+
+void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory)
+{
+    const counts now = counts_of(trajectory), last = gas->last;
+    const double dt = now.time - last.time;
+    const double sample[SERIES] = {[COLLISIONS] = (double)(now.collisions - last.collisions),
+                                   [VIRIAL_X] = now.virial[0] - last.virial[0],
+                                   [VIRIAL_Y] = now.virial[1] - last.virial[1]};
+    if (!(dt > 0)) return;
+    for (int s = 0; s < SERIES; s++) gas->sum[s] += sample[s];
+    gas->time += dt;
+    gas->last = now;
+    hd_blocks_add(&gas->blocks, sample, dt);
+}
+
+/** Of factor times the sum of series first .. last, per time. */
+static double error_of(const hd_gas *gas, int first, int last, double factor)
+{
+    hd_part parts[SERIES];
+    for (int s = first; s <= last; s++) parts[s - first] = (hd_part){s, factor};
+    return hd_blocks_error(&gas->blocks, parts, last - first + 1);
+}
+
+hd_gas_means hd_gas_read(const hd_gas *gas)
+{
+    const double t = gas->time > 0 ? gas->time : NAN, each = 2.0 / gas->disks, a = gas->area;
+    hd_gas_means m = {.time = gas->time,
+                      .collision_rate = each * gas->sum[COLLISIONS] / t,
+                      .collision_rate_error = error_of(gas, COLLISIONS, COLLISIONS, each),
+                      .pressure_error = error_of(gas, VIRIAL_X, VIRIAL_Y, 0.5 / a)};
+    for (int d = 0; d < 2; d++) {
+        m.pressure_of[d] = (gas->kinetic[d] + gas->sum[VIRIAL_X + d] / t) / a;
+        m.pressure_of_error[d] = error_of(gas, VIRIAL_X + d, VIRIAL_X + d, 1.0 / a);
+    }
+    m.pressure = 0.5 * (m.pressure_of[0] + m.pressure_of[1]);
+    m.compressibility = m.pressure * a / gas->disks;
+    return m;
+}
+
+void hd_gas_archive(hd_gas *gas, hd_archive *archive, double now)
+{
+    hd_archive_double(archive, "gas last time", &gas->last.time);
+    hd_archive_doubles(archive, "gas last virial", gas->last.virial, 2);
+    hd_archive_bits(archive, "gas last collisions", &gas->last.collisions);
+    hd_archive_double(archive, "gas time", &gas->time);
+    hd_archive_doubles(archive, "gas sum", gas->sum, SERIES);
+    hd_archive_expect(archive, gas->last.time >= 0 && gas->last.time <= now, "gas last time",
+                      "it does not fit the time");
+    hd_archive_expect(archive, gas->time >= 0, "gas time", "it is negative");
+    hd_blocks_archive(&gas->blocks, archive);
+}

@@ -1,0 +1,69 @@
+"""Equation of state of hard disks, and what follows from a pressure and a collision rate: in
+reduced units, the kinetic energy of a disk being 1, so that kT = 1.
+
+Of the reference, Henderson, Mol. Phys. 30, 971 (1975), Z = (1 + eta^2 / 8) / (1 - eta)^2 with
+eta = pi rho / 4, good to a percent up to MOST; all of it takes numbers and arrays."""
+
+from math import pi, sqrt
+
+import numpy as np
+
+MOST = 0.7  # density; disks freeze near 0.88
+
+
+def compressibility(density):
+    """Z = p / rho."""
+    eta = pi * np.asarray(density) / 4
+    return (1 + eta**2 / 8) / (1 - eta) ** 2
+
+
+def contact_value(z, density):
+    """g(sigma) of a Z: Z - 1 = (pi / 2) rho g."""
+    return 2 * (np.asarray(z) - 1) / (pi * np.asarray(density))
+
+
+def collision_rate(z):
+    """Of each disk, that belongs to a Z: 2 sqrt(pi) rho g."""
+    return 4 * (np.asarray(z) - 1) / sqrt(pi)
+
+
+def mean_free_path(rate):
+    """Mean speed over the collisions of a disk in a time unit [sigma]."""
+    return sqrt(pi / 2) / np.asarray(rate)
+
+
+def sound_velocity(density):
+    """Of the reference: c^2 = d(rho Z)/d rho + Z^2, as a disk has two degrees of freedom
+    [sigma/time unit]."""
+    eta = pi * np.asarray(density) / 4
+    z = compressibility(density)
+    slope = (eta / 4 + 2 * z * (1 - eta)) / (1 - eta) ** 2  # dZ / d eta
+    return np.sqrt(z + eta * slope + z**2)
+
+
+def sound_velocities(densities, z, errors=None):
+    """Of measured Z at three or more densities: (velocities, errors) there. The slope is that of
+    the quadratic through each density's nearest three; errors (of Z, independent) go through it
+    linearly."""
+    densities, z = np.asarray(densities, dtype=float), np.asarray(z, dtype=float)
+    errors = np.full(len(z), np.nan) if errors is None else np.asarray(errors, dtype=float)
+    if len(z) < 3 or len(set(densities)) < len(densities):
+        raise ValueError(f'{len(set(densities))} different densities: must be at least 3')
+    slopes = np.array([_slope(densities, one) for one in range(len(z))])
+    square = z + densities * (slopes @ z) + z**2
+    # c^2 as a linear function of all Z near what was measured
+    share = densities[:, None] * slopes + np.diag(1 + 2 * z)
+    variance = ((share * np.where(share == 0, 0.0, errors)) ** 2).sum(axis=1)
+    velocities = np.sqrt(square)
+    return velocities, np.sqrt(variance) / (2 * velocities)
+
+
+def _slope(densities, one):
+    """Weights of all Z in dZ / d rho at one density: of Lagrange's quadratic."""
+    near = np.argsort(np.abs(densities - densities[one]), kind='stable')[:3]
+    weights, at = np.zeros(len(densities)), densities[one]
+    for k in near:
+        others = [densities[other] for other in near if other != k]
+        below = np.prod([densities[k] - other for other in others])
+        weights[k] = sum(at - other for other in others) / below
+    return weights

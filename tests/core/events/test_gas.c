@@ -1,0 +1,316 @@
+/** Pressure and collision rate: against sums over the events, impulses on walls, exact means,
+ * virial coefficients and the spread over seeds. Seeds are fixed, so that a tolerance of Z standard
+ * errors passes or fails for good. */
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "scenes.h"
+#include "testing.h"
+
+#include "hdlyap/gas.h"
+
+static const double Z = 3.0, PI = 3.14159265358979323846;
+
+enum { PERIODIC_BOTH, WALLS_X, WALLS_BOTH, KINDS };
+
+static hd_scene_def scene_with(int kind, int disks, double density, uint64_t seed)
+{
+    return scene_of(disks, density, 0.8, kind == PERIODIC_BOTH ? HD_PERIODIC : HD_REFLECTING,
+                    kind == WALLS_BOTH ? HD_REFLECTING : HD_PERIODIC, seed);
+}
+
+/** After so many collisions of each disk. */
+static hd_trajectory *equilibrated(const hd_scene_def *def, double collisions)
+{
+    hd_trajectory *tr;
+    CHECK_OK(hd_trajectory_create(&tr, def));
+    const double rate = 2.0 * hd_trajectory_collision_rate(tr) / def->disks;
+    CHECK_OK(hd_trajectory_extend(tr, NULL, collisions / rate));
+    return tr;
+}
+
+/** Averages over `samples` samples of `each` collisions of a disk. */
+static hd_gas_means averaged(const hd_scene_def *def, int samples, double each)
+{
+    hd_gas *gas;
+    hd_trajectory *tr = equilibrated(def, 200.0);
+    const double dt = each * def->disks / (2.0 * hd_trajectory_collision_rate(tr));
+    CHECK_OK(hd_gas_create(&gas, def, 0.0));
+    hd_gas_begin(gas, tr);
+    for (int k = 0; k < samples; k++) {
+        CHECK_OK(hd_trajectory_extend(tr, NULL, hd_trajectory_time(tr) + dt));
+        hd_gas_add(gas, tr);
+    }
+    const hd_gas_means means = hd_gas_read(gas);
+    hd_gas_free(gas);
+    hd_trajectory_free(tr);
+    return means;
+}
+
+/* ---- exact sums ---------------------------------------------------------------------------- */
+
+/** A replay of momenta alone. */
+typedef struct sums {
+    double *p, kinetic[2]; /**< [2N]; integral of sum p_d^2 */
+    double virial[2], impulse[2];
+    double pairs, moment[2]; /**< of moment: sum (q_d - L_d / 2) p_d */
+} sums;
+
+static void add_event(sums *s, const hd_event *e)
+{
+    if (e->j < 0) {
+        const int d = e->j == HD_WALL_Y;
+        s->impulse[d] += fabs(e->p[d]);
+        s->p[2 * e->i + d] = -s->p[2 * e->i + d];
+        return;
+    }
+    const double b = e->p[0] * e->n[0] + e->p[1] * e->n[1];
+    s->pairs++;
+    for (int d = 0; d < 2; d++) {
+        s->virial[d] -= b * e->n[d] * e->n[d];
+        s->p[2 * e->i + d] += b * e->n[d];
+        s->p[2 * e->j + d] -= b * e->n[d];
+    }
+}
+
+static void add_flight(sums *s, int disks, double dt)
+{
+    for (int k = 0; k < 2 * disks; k++) s->kinetic[k % 2] += s->p[k] * s->p[k] * dt;
+}
+
+/** Adds `sign` times the moments of now. */
+static void add_moment(sums *s, const hd_trajectory *tr, double sign)
+{
+    const int n = hd_trajectory_disks(tr);
+    double *q = malloc(4 * (size_t)n * sizeof *q), *p = q + 2 * n, box[2];
+    hd_trajectory_box(tr, box);
+    hd_trajectory_state(tr, q, p);
+    for (int k = 0; k < 2 * n; k++) s->moment[k % 2] += sign * (q[k] - 0.5 * box[k % 2]) * p[k];
+    free(q);
+}
+
+static void follow(sums *s, hd_trajectory *tr, double t)
+{
+    hd_event_log *log;
+    const int n = hd_trajectory_disks(tr);
+    double at = 0.0;
+    CHECK_OK(hd_event_log_create(&log));
+    hd_trajectory_state(tr, NULL, s->p);
+    add_moment(s, tr, -1.0);
+    CHECK_OK(hd_trajectory_extend(tr, log, hd_trajectory_time(tr) + t));
+    for (size_t k = 0; k < log->count; k++) {
+        add_flight(s, n, log->event[k].t - at);
+        add_event(s, &log->event[k]);
+        at = log->event[k].t;
+    }
+    add_flight(s, n, t - at);
+    add_moment(s, tr, 1.0);
+    hd_event_log_free(log);
+}
+
+/** The published numbers are those sums; between walls what these say is the force on them. */
+static void numbers_are_sums_over_the_events(void **state)
+{
+    (void)state;
+    static const int disks[] = {2, 17, 100};
+    for (int k = 0; k < 3 * KINDS; k++) {
+        const hd_scene_def def = scene_with(k % KINDS, disks[k / KINDS], 0.4, 5);
+        const double n = def.disks, t = 40.0, rounding = 1e-11;
+        double momenta[2] = {n, n}, reach[2], box[2];
+        sums s = {.p = malloc(2 * (size_t)def.disks * sizeof *s.p)};
+        hd_trajectory *tr = equilibrated(&def, 50.0);
+        hd_gas *gas;
+        CHECK_OK(hd_gas_create(&gas, &def, 0.0));
+        hd_gas_begin(gas, tr);
+        follow(&s, tr, t);
+        hd_gas_add(gas, tr);
+        const hd_gas_means m = hd_gas_read(gas);
+        hd_scene_box(&def, box);
+        for (int d = 0; d < 2; d++) {
+            const bool walls = def.boundary[d] == HD_REFLECTING;
+            momenta[d] -= !walls;
+            reach[d] = walls ? box[d] - 1.0 : box[d];
+        }
+        const double area = reach[0] * reach[1], kT = 2.0 * n / (momenta[0] + momenta[1]);
+        assert_true(s.pairs > 10);
+        CHECK_CLOSE(m.time, t, rounding);
+        CHECK_CLOSE(m.collision_rate, 2.0 * s.pairs / (n * t), rounding);
+        for (int d = 0; d < 2; d++)
+            CHECK_CLOSE(m.pressure_of[d], (momenta[d] * kT + s.virial[d] / t) / area, rounding);
+        CHECK_CLOSE(m.pressure, (n + 0.5 * (s.virial[0] + s.virial[1]) / t) / area, rounding);
+        CHECK_CLOSE(m.compressibility, m.pressure * area / n, rounding);
+        CHECK_CLOSE(hd_gas_temperature(&def), kT, rounding);
+        for (int d = 0; d < 2; d++)
+            if (def.boundary[d] == HD_REFLECTING) {
+                assert_true(s.impulse[d] > 1.0);
+                CHECK_CLOSE(s.impulse[d] * reach[d], s.kinetic[d] + s.virial[d] - s.moment[d],
+                            rounding * n * t);
+            }
+        if (k % KINDS == WALLS_BOTH) /* the mean of both directions knows the kinetic energy */
+            CHECK_CLOSE(2.0 * m.pressure * area * t,
+                        s.impulse[0] * reach[0] + s.impulse[1] * reach[1] + s.moment[0] +
+                            s.moment[1],
+                        rounding * n * t);
+        free(s.p);
+        hd_gas_free(gas);
+        hd_trajectory_free(tr);
+    }
+}
+
+/** Without a sample there is nothing to say, and a sample without time is none. */
+static void nothing_is_said_of_nothing(void **state)
+{
+    (void)state;
+    const hd_scene_def def = scene_with(PERIODIC_BOTH, 20, 0.4, 5);
+    hd_trajectory *tr = equilibrated(&def, 10.0);
+    hd_gas *gas;
+    CHECK_OK(hd_gas_create(&gas, &def, 0.0));
+    hd_gas_begin(gas, tr);
+    hd_gas_add(gas, tr);
+    const hd_gas_means m = hd_gas_read(gas);
+    CHECK_CLOSE(m.time, 0.0, 0.0);
+    assert_true(isnan(m.pressure) && isnan(m.collision_rate) && isnan(m.compressibility));
+    assert_true(m.pressure_error < 0 && m.collision_rate_error < 0);
+    hd_gas_free(gas);
+    hd_trajectory_free(tr);
+}
+
+/* ---- exact means --------------------------------------------------------------------------- */
+
+/** <|p.n|>, see [T20]. */
+static double exact_impact(const hd_scene_def *def)
+{
+    const double m = 2.0 * def->disks - (def->boundary[0] == HD_PERIODIC) -
+                     (def->boundary[1] == HD_PERIODIC);
+    return sqrt(4.0 * PI * def->disks) / m * exp(lgamma(0.5 * m + 0.5) - lgamma(0.5 * m));
+}
+
+/** The rate that the pressure says, over the rate that is counted, is 1: of few disks and many,
+ * thin and dense, between walls and without. */
+static void pressure_and_rate_say_the_same(void **state)
+{
+    (void)state;
+    enum { SEEDS = 12 };
+    static const struct {
+        int kind, disks;
+        double density;
+    } cases[] = {{PERIODIC_BOTH, 4, 0.3}, {PERIODIC_BOTH, 100, 0.8}, {WALLS_X, 5, 0.3},
+                 {WALLS_X, 60, 0.05},     {WALLS_BOTH, 3, 0.3},      {WALLS_BOTH, 100, 0.6}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        double ratio[SEEDS], mean = 0.0, square = 0.0;
+        for (int seed = 0; seed < SEEDS; seed++) {
+            const hd_scene_def def = scene_with(cases[k].kind, cases[k].disks, cases[k].density,
+                                                (uint64_t)seed + 1);
+            const double each = (HD_SANITIZED ? 5e3 : 5e4) / cases[k].disks;
+            const hd_gas_means m = averaged(&def, 4, 0.25 * each);
+            const double virial_rate = 2.0 * (m.compressibility - 1.0); /* W / (N t) */
+            ratio[seed] = 2.0 * virial_rate / (exact_impact(&def) * m.collision_rate);
+            mean += ratio[seed] / SEEDS;
+        }
+        for (int seed = 0; seed < SEEDS; seed++)
+            square += (ratio[seed] - mean) * (ratio[seed] - mean);
+        const double error = sqrt(square / (SEEDS - 1.0) / SEEDS);
+        print_message("kind %d, %d disks, density %g: %.5f +- %.5f\n", cases[k].kind,
+                      cases[k].disks, cases[k].density, mean, error);
+        assert_true(HD_SANITIZED || error < 2e-3); /* 1/N of 100 disks would be seen */
+        CHECK_CLOSE(mean, 1.0, Z * error);
+    }
+}
+
+/* ---- literature ---------------------------------------------------------------------------- */
+
+/** B_k / B_2^(k-1), k = 2 .. 10 (Clisby and McCoy, J. Stat. Phys. 122, 15 (2006)). */
+static double virial_series(double density)
+{
+    static const double b[] = {1.0,       0.782004,  0.53223180, 0.33355604, 0.1988425,
+                               0.1148728, 0.0649930, 0.0362193,  0.0199537};
+    double z = 1.0, power = 1.0;
+    for (size_t k = 0; k < sizeof b / sizeof *b; k++) {
+        power *= 0.5 * PI * density;
+        z += b[k] * power;
+    }
+    return z;
+}
+
+static double henderson(double density)
+{
+    const double eta = 0.25 * PI * density;
+    return (1.0 + eta * eta / 8.0) / ((1.0 - eta) * (1.0 - eta));
+}
+
+/** Of 400 disks, which differ from infinitely many by 1/N. Up to density 0.4 what the series leaves
+ * out is below 3e-4; Henderson's equation is good to a percent up to 0.7. */
+static void equation_of_state_is_that_of_the_literature(void **state)
+{
+    (void)state;
+    static const double density[] = {0.05, 0.1, 0.25, 0.4, 0.55, 0.7};
+    for (size_t k = 0; k < sizeof density / sizeof *density; k++) {
+        const hd_scene_def def = scene_of(400, density[k], 0.9, HD_PERIODIC, HD_PERIODIC, 21);
+        const hd_gas_means m = averaged(&def, 96, HD_SANITIZED ? 8.0 : 40.0);
+        const double z = m.compressibility, relative = m.pressure_error / m.pressure;
+        const double series = virial_series(density[k]), equation = henderson(density[k]);
+        print_message("density %.2f: Z = %.5f +- %.5f, series %.5f, Henderson %.5f\n", density[k],
+                      z, z * relative, series, equation);
+        assert_true(m.pressure_error > 0 && (HD_SANITIZED || relative < 2e-3));
+        CHECK_CLOSE(z, equation, 0.01 * equation);
+        if (density[k] <= 0.4) CHECK_CLOSE(z, series, Z * relative * z + (z - 1.0) / 400 + 3e-4);
+    }
+}
+
+/** Between walls the gas has less room: Z by the area that centres reach is nearer to that of the
+ * bulk than by the box, and the pressure is above that of a periodic box. */
+static void walls_raise_the_pressure(void **state)
+{
+    (void)state;
+    const hd_scene_def open = scene_with(PERIODIC_BOTH, 400, 0.3, 3),
+                       closed = scene_with(WALLS_BOTH, 400, 0.3, 3);
+    const hd_gas_means a = averaged(&open, 96, 10.0), b = averaged(&closed, 96, 10.0);
+    double box[2];
+    hd_scene_box(&open, box);
+    const double edge = 1.0 / box[0] + 1.0 / box[1];
+    print_message("pressure %.5f without walls, %.5f with; 1/L %.4f\n", a.pressure, b.pressure,
+                  edge);
+    assert_true(b.pressure > a.pressure * (1.0 + 0.5 * edge));
+    assert_true(b.pressure < a.pressure * (1.0 + 3.0 * edge));
+}
+
+/* ---- errors -------------------------------------------------------------------------------- */
+
+/** Means of independent runs scatter as their errors say. */
+static void errors_are_those_of_seeds(void **state)
+{
+    (void)state;
+    enum { SEEDS = 64 };
+    double value[2][SEEDS], square[2] = {0, 0}, mean[2] = {0, 0}, score[2] = {0, 0};
+    if (HD_SANITIZED) skip();
+    for (int seed = 0; seed < SEEDS; seed++) {
+        const hd_scene_def def = scene_with(PERIODIC_BOTH, 64, 0.6, (uint64_t)seed + 5000);
+        const hd_gas_means m = averaged(&def, 200, 10.0);
+        assert_true(m.pressure_error > 0 && m.collision_rate_error > 0);
+        value[0][seed] = m.pressure;
+        value[1][seed] = m.collision_rate;
+        square[0] += m.pressure_error * m.pressure_error / SEEDS;
+        square[1] += m.collision_rate_error * m.collision_rate_error / SEEDS;
+    }
+    for (int k = 0; k < 2; k++) {
+        for (int seed = 0; seed < SEEDS; seed++) mean[k] += value[k][seed] / SEEDS;
+        for (int seed = 0; seed < SEEDS; seed++)
+            score[k] += (value[k][seed] - mean[k]) * (value[k][seed] - mean[k]) / (SEEDS - 1);
+        print_message("spread over seeds / stated error: %.2f\n", sqrt(score[k] / square[k]));
+        /* known to 1 / sqrt(2 (SEEDS - 1)) = 9 % */
+        CHECK_CLOSE(sqrt(score[k] / square[k]), 1.0, Z * 0.09);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numbers_are_sums_over_the_events),
+        cmocka_unit_test(nothing_is_said_of_nothing),
+        cmocka_unit_test(pressure_and_rate_say_the_same),
+        cmocka_unit_test(equation_of_state_is_that_of_the_literature),
+        cmocka_unit_test(walls_raise_the_pressure),
+        cmocka_unit_test(errors_are_those_of_seeds),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,132 @@
+/** Pressure and collision rate of whole runs: those of the trajectory over the averaged time,
+ * whoever carries a frame or looks on. */
+#include "runs.h"
+#include "scenes.h"
+#include "testing.h"
+
+static hd_scene_def scene_with(int exponents, unsigned observe)
+{
+    hd_scene_def scene = scene_of(30, 0.6, 0.9, HD_PERIODIC, HD_REFLECTING, 4);
+    scene.exponents = exponents;
+    scene.observe = observe;
+    scene.equilibration = 5.0;
+    scene.warmup = exponents == HD_EXPONENTS_NONE ? 0.0 : 10.0;
+    scene.duration = 150.0;
+    scene.threads = 1;
+    return scene;
+}
+
+/** Of a trajectory by itself, between two simulated times. */
+static hd_gas_means by_itself(const hd_scene_def *scene, double begin, double end)
+{
+    hd_trajectory *tr;
+    hd_gas *gas;
+    CHECK_OK(hd_trajectory_create(&tr, scene));
+    CHECK_OK(hd_gas_create(&gas, scene, 0.0));
+    CHECK_OK(hd_trajectory_extend(tr, NULL, begin));
+    hd_gas_begin(gas, tr);
+    CHECK_OK(hd_trajectory_extend(tr, NULL, end));
+    hd_gas_add(gas, tr);
+    const hd_gas_means means = hd_gas_read(gas);
+    hd_gas_free(gas);
+    hd_trajectory_free(tr);
+    return means;
+}
+
+static void expect_same(hd_gas_means got, hd_gas_means want)
+{
+    const double rounding = 1e-11;
+    CHECK_CLOSE(got.time, want.time, rounding);
+    CHECK_CLOSE(got.collision_rate, want.collision_rate, rounding);
+    CHECK_CLOSE(got.pressure, want.pressure, rounding);
+    for (int d = 0; d < 2; d++) CHECK_CLOSE(got.pressure_of[d], want.pressure_of[d], rounding);
+}
+
+/** At every report; with a frame over the averaged time of the spectrum, without one up to now. */
+static void means_are_those_of_the_averaged_time(void **state)
+{
+    (void)state;
+    static const int exponents[] = {HD_EXPONENTS_NONE, 1, HD_EXPONENTS_POSITIVE};
+    for (int k = 0; k < 3; k++) {
+        const hd_scene_def scene = scene_with(exponents[k], HD_OBSERVE_GAS);
+        const double begin = scene.equilibration + scene.warmup;
+        hd_run *run = created(&scene);
+        int reports = 0;
+        while (hd_run_stage(run) != HD_FINISHED) {
+            CHECK_OK(hd_run_advance(run));
+            if (!hd_run_report_due(run) || !(hd_gas_read(hd_run_gas(run)).time > 0)) continue;
+            const double averaged = hd_run_spectrum(run) ? hd_spectrum_time(hd_run_spectrum(run))
+                                                         : hd_run_time(run) - begin;
+            if (++reports % 10 == 0)
+                expect_same(hd_gas_read(hd_run_gas(run)),
+                            by_itself(&scene, begin, begin + averaged));
+        }
+        const hd_gas_means last = hd_gas_read(hd_run_gas(run));
+        assert_true(reports >= 100);
+        CHECK_CLOSE(last.time, scene.duration, 1e-9);
+        assert_true(last.pressure_error > 0 && last.pressure_error < 0.05 * last.pressure);
+        assert_true(last.collision_rate_error > 0);
+        hd_run_free(run);
+    }
+}
+
+static hd_gas_means finished(const hd_scene_def *scene, double between)
+{
+    hd_run *run = created(scene);
+    hd_run_watch(run, between, hd_run_vectors(run));
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+    const hd_gas_means means = hd_gas_read(hd_run_gas(run));
+    hd_run_free(run);
+    return means;
+}
+
+/** Nor does it matter who looks on; one report at the end is enough for an error. */
+static void errors_do_not_depend_on_who_looks(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_with(HD_EXPONENTS_NONE, HD_OBSERVE_GAS);
+    scene.report_interval = scene.duration;
+    const hd_gas_means alone = finished(&scene, INFINITY), watched = finished(&scene, 0.03);
+    assert_true(alone.pressure_error > 0);
+    CHECK_CLOSE(watched.pressure, alone.pressure, 0.0);
+    CHECK_CLOSE(watched.pressure_error, alone.pressure_error, 0.0);
+    CHECK_CLOSE(watched.collision_rate_error, alone.collision_rate_error, 0.0);
+}
+
+static void averages_begin_anew(void **state)
+{
+    (void)state;
+    static const int exponents[] = {HD_EXPONENTS_NONE, 2};
+    for (int k = 0; k < 2; k++) {
+        const hd_scene_def scene = scene_with(exponents[k], HD_OBSERVE_GAS);
+        hd_run *run = created(&scene);
+        while (hd_run_time(run) < 60.0) CHECK_OK(hd_run_advance(run));
+        const double begin = hd_run_time(run);
+        assert_true(hd_gas_read(hd_run_gas(run)).time > 10.0);
+        CHECK_OK(hd_run_reset_average(run));
+        CHECK_CLOSE(hd_gas_read(hd_run_gas(run)).time, 0.0, 0.0);
+        while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+        expect_same(hd_gas_read(hd_run_gas(run)), by_itself(&scene, begin, hd_run_time(run)));
+        hd_run_free(run);
+    }
+}
+
+static void nobody_pays_who_does_not_ask(void **state)
+{
+    (void)state;
+    const hd_scene_def scene = scene_with(HD_EXPONENTS_NONE, 0);
+    hd_run *run = created(&scene);
+    assert_null(hd_run_gas(run));
+    hd_run_free(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(means_are_those_of_the_averaged_time),
+        cmocka_unit_test(errors_do_not_depend_on_who_looks),
+        cmocka_unit_test(averages_begin_anew),
+        cmocka_unit_test(nobody_pays_who_does_not_ask),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

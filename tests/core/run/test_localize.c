@@ -1,0 +1,143 @@
+/** Widths of a run's vectors: those of a slow twin, only while somebody looks. */
+#include <string.h>
+
+#include "runs.h"
+#include "scenes.h"
+#include "testing.h"
+
+enum { DISKS = 40, VECTORS_MAX = 4 * DISKS, SAMPLES_MAX = 1000 };
+
+static hd_scene_def scene_with(int exponents, unsigned observe)
+{
+    hd_scene_def scene = scene_of(DISKS, 0.6, 0.4, HD_PERIODIC, HD_PERIODIC, 6);
+    scene.exponents = exponents;
+    scene.observe = observe;
+    scene.equilibration = 5.0;
+    scene.warmup = 20.0;
+    scene.duration = 120.0;
+    scene.threads = 2;
+    return scene;
+}
+
+/** Of one column. */
+static double entropy_of(hd_columns v, int col)
+{
+    double sum = 0.0;
+    for (int disk = 0; disk < DISKS; disk++) {
+        double part = 0.0;
+        for (int row = 4 * disk; row < 4 * disk + 4; row++)
+            part += pow(v.data[(size_t)row * (size_t)v.stride + (size_t)col], 2.0);
+        if (part > 0) sum += part * log(part);
+    }
+    return -sum;
+}
+
+/** Every time that the run has measured. */
+typedef struct twin {
+    int samples;
+    double entropy[SAMPLES_MAX][VECTORS_MAX];
+} twin;
+
+static void expect_as(const twin *t, hd_localization *shape, int n)
+{
+    const double rounding = 1e-12;
+    for (int col = 0; col < n; col++) {
+        double mean = 0.0;
+        for (int k = 0; k < t->samples; k++) mean += t->entropy[k][col] / t->samples;
+        CHECK_CLOSE(hd_localization_widths(shape)[col], exp(mean) / DISKS, rounding);
+        CHECK_CLOSE(hd_localization_width_now(shape, col),
+                    exp(t->entropy[t->samples - 1][col]) / DISKS, rounding);
+    }
+}
+
+/** With half of the vectors carried, those of the other half too: they are seen with the modes. */
+static void widths_are_those_of_the_vectors(void **state)
+{
+    (void)state;
+    static twin t;
+    static const int exponents[] = {HD_EXPONENTS_POSITIVE, 7, HD_EXPONENTS_ALL,
+                                    HD_EXPONENTS_ALL_INDEPENDENT};
+    for (size_t k = 0; k < sizeof exponents / sizeof *exponents; k++) {
+        const hd_scene_def scene = scene_with(exponents[k],
+                                              HD_OBSERVE_LOCALIZATION | HD_OBSERVE_MODES);
+        hd_run *run = created(&scene);
+        hd_localization *shape = hd_run_localization(run);
+        const int n = hd_run_vectors(run);
+        t.samples = 0;
+        while (hd_run_stage(run) != HD_FINISHED) {
+            CHECK_OK(hd_run_advance(run));
+            if (hd_localization_samples(shape) == t.samples) continue;
+            assert_true(hd_localization_samples(shape) == t.samples + 1 && t.samples < SAMPLES_MAX);
+            const hd_columns v = hd_run_frame_columns(run);
+            for (int col = 0; col < n; col++) t.entropy[t.samples][col] = entropy_of(v, col);
+            t.samples++;
+        }
+        assert_true(t.samples >= 16);
+        expect_as(&t, shape, n);
+        print_message("%d vectors, %d samples: widths %.3f +- %.3f .. %.3f +- %.3f\n", n, t.samples,
+                      hd_localization_widths(shape)[0], hd_localization_width_error(shape, 0),
+                      hd_localization_widths(shape)[n - 1],
+                      hd_localization_width_error(shape, n - 1));
+        hd_run_free(run);
+    }
+}
+
+/** The largest exponent's vector lies on few disks, the slowest ones on all (Taniguchi and Morriss
+ * 2003). */
+static void the_fastest_vector_is_the_narrowest(void **state)
+{
+    (void)state;
+    hd_scene_def scene = scene_with(HD_EXPONENTS_POSITIVE, HD_OBSERVE_LOCALIZATION);
+    scene.density = 0.2;
+    hd_run *run = created(&scene);
+    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+    const double *width = hd_localization_widths(hd_run_localization(run));
+    const int n = hd_run_vectors(run);
+    assert_true(width[0] < 0.5 * width[n - 1]);
+    for (int col = 0; col < n; col++) assert_true(width[col] >= 1.0 / DISKS && width[col] <= 1.0);
+    hd_run_free(run);
+}
+
+/** Nothing is measured, and the exponents are those of a run that was not asked. */
+static void nothing_is_measured_while_nobody_looks(void **state)
+{
+    (void)state;
+    const hd_scene_def asked = scene_with(HD_EXPONENTS_POSITIVE, HD_OBSERVE_LOCALIZATION),
+                       plain = scene_with(HD_EXPONENTS_POSITIVE, 0);
+    hd_run *run = created(&asked), *other = created(&plain);
+    assert_null(hd_run_localization(other));
+    hd_run_observe(run, 0);
+    while (hd_run_stage(run) != HD_FINISHED) {
+        CHECK_OK(hd_run_advance(run));
+        CHECK_OK(hd_run_advance(other));
+    }
+    assert_true(hd_localization_samples(hd_run_localization(run)) == 0);
+    for (int col = 0; col < hd_run_vectors(run); col++)
+        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(run), col),
+                    hd_spectrum_exponent(hd_run_spectrum(other), col), 0.0);
+    hd_run_free(run);
+    hd_run_free(other);
+}
+
+static void averages_begin_anew(void **state)
+{
+    (void)state;
+    const hd_scene_def scene = scene_with(3, HD_OBSERVE_LOCALIZATION);
+    hd_run *run = created(&scene);
+    while (hd_run_time(run) < 80.0) CHECK_OK(hd_run_advance(run));
+    assert_true(hd_localization_samples(hd_run_localization(run)) > 0);
+    CHECK_OK(hd_run_reset_average(run));
+    assert_true(hd_localization_samples(hd_run_localization(run)) == 0);
+    hd_run_free(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(widths_are_those_of_the_vectors),
+        cmocka_unit_test(the_fastest_vector_is_the_narrowest),
+        cmocka_unit_test(nothing_is_measured_while_nobody_looks),
+        cmocka_unit_test(averages_begin_anew),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
