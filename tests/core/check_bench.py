@@ -40,8 +40,9 @@ COLUMNS = {  # the first ones of each table, without units
     ],
     'errors': ['quantity', 'from', 'box', 'length', 'seeds', 'stated', 'mean', 'stated error'],
     'rivals': ['quantity', 'disks', 'minimum', 'median', 'maximum', 'rounds'],
+    'findings_trailing': ['density', 'disks', 'height', 'ends of x', 'nodes', 'k', 'lambda'],
 }
-PICTURES = ('precision', 'convergence', 'scaling', 'errors', 'whole')
+PICTURES = ('precision', 'convergence', 'scaling', 'errors', 'whole', 'findings_trailing')
 ACCURACY = 1e-8  # asked for, and so the largest deviation allowed
 SPREAD = 0.05  # of the grey values of a picture that shows something
 RUN_SH, PROGRAMS, FOLDER = sys.argv[1:4]
@@ -109,6 +110,20 @@ class Bench(unittest.TestCase):
             ratio = float(row['scatter / stated'])
             self.assertTrue(ratio == -1 or 0.2 < ratio < 5, row)
 
+    def test_halves_of_lp_modes(self):
+        """The form of whole vectors vanishes, dp is hardly ahead, the pressure turns the phase."""
+        rows = [
+            {name.partition(' [')[0]: text for name, text in row.items()}
+            for row in table('findings_trailing')[1]
+        ]
+        self.assertEqual([row['nodes'] for row in rows], ['1'])
+        number = {name: float(text) for name, text in rows[0].items() if is_number(text)}
+        self.assertLess(abs(number['sum rule']), 1e-6)
+        self.assertLess(abs(number['angle']), 0.05)
+        self.assertTrue(-0.09 < number['symmetric / mean'] < -0.03, number)
+        self.assertAlmostEqual(number['v'] / number['P_xx / (sqrt(2) rho)'], 1, delta=0.06)
+        self.assertTrue(0.5 < number['mean C'] / number['lambda'] < 0.8, number)
+
     def test_pictures_show_something(self):
         for name in PICTURES:
             pixels = matplotlib.image.imread(os.path.join(FOLDER, name + '.png'))
@@ -127,6 +142,7 @@ class Bench(unittest.TestCase):
             'scaling',
             'endurance',
             'errors',
+            'halves',
         ):
             run = subprocess.run(
                 [os.path.join(PROGRAMS, 'hdlyap_' + command), '--nonsense'],
