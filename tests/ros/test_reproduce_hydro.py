@@ -111,7 +111,8 @@ class Responses(Turned):
     def test_exact(self):
         bag = self.bag(Run().messages())
         self.assertKnown(bag)
-        rows = self.rows(bag)
+        # those of C: test_reproduce_halves.py
+        rows = {name: row for name, row in self.rows(bag).items() if ': ' in name}
         self.assertEqual({row.verdict for row in rows.values()}, {'agrees'})
         self.assertEqual(len(rows), 12)
         words = {name: row.published for name, row in rows.items()}
@@ -238,7 +239,7 @@ class Responses(Turned):
         ):
             bag = self.bag(messages)
             rows = self.rows(bag)
-            self.assertEqual(len(rows), 12)
+            self.assertEqual(len(rows), 15)
             self.assertEqual({row.verdict for row in rows.values()}, {'not measured'})
             self.assertEqual(self.figures(bag), {})
             ((_, lines),) = self.tables(bag).values()

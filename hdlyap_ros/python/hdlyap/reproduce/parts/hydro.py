@@ -6,11 +6,12 @@ import numpy as np
 
 from hdlyap.msg import LpPhase, Mode
 
+from hdlyap.plots import waves
 from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, plt, scene
 from hdlyap.plots.numbers import with_error
 from hdlyap.plots.recording import PHASES
 
-from .. import blocks
+from .. import blocks, halves
 from ..row import SIGMAS, Row
 
 TITLE = 'Hydrodynamic table: response of density, momentum and energy to T, L and P modes'
@@ -61,6 +62,10 @@ def rows(bags):
                 word,
                 remark=_remark(found, mode, kind),
             )
+    info = bags[RUN].info
+    yield from halves.rows(
+        found, {wave: float(np.hypot(*waves.wave_vector(info, *wave))) for wave in found}
+    )
 
 
 def _word(found, mode, kind):

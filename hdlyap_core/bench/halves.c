@@ -1,0 +1,352 @@
+/** How the dp halves of LP modes stand to their dq halves: dp = C dq on the L and P fields, with
+ * the angle between the halves, beside the rotation and the pressure. Long boxes of several
+ * densities, several waves each. Usage: hdlyap_halves [--out FOLDER] [--quick]; writes
+ * findings_trailing.csv. As many boxes side by side as there are cores, one thread each. */
+#include <complex.h>
+#include <hdlyap/hdlyap.h>
+#include <lapacke.h>
+#include <math.h>
+#include <string.h>
+
+#include "gemm.h"
+#include "options.h"
+#include "progress.h"
+#include "table.h"
+#include "timing.h"
+
+enum { BLOCKS = 20, STEPS = 32, VECTORS = 12, PAIRS = 2, FIELDS = 2 * PAIRS };
+
+typedef struct box {
+    double density;
+    int disks;
+    double height;   /**< [sigma] */
+    hd_boundary end; /**< of x */
+    double sampling; /**< [time units]; fractions of a turn */
+    double duration; /**< [time units] */
+} box;
+
+static const box BOXES[] = {
+    {0.1, 80, 6, HD_PERIODIC, 2.0, 2500},   {0.1, 140, 6, HD_PERIODIC, 2.0, 1500},
+    {0.2, 100, 4, HD_PERIODIC, 1.5, 1200},  {0.2, 160, 4, HD_PERIODIC, 1.5, 900},
+    {0.4, 100, 4, HD_PERIODIC, 1.0, 1000},  {0.4, 240, 4, HD_PERIODIC, 1.0, 500},
+    {0.4, 100, 4, HD_REFLECTING, 1.0, 800}, {0.6, 100, 4, HD_PERIODIC, 0.7, 700},
+    {0.6, 240, 4, HD_PERIODIC, 0.7, 350},   {0.8, 100, 5, HD_PERIODIC, 0.4, 500},
+    {0.8, 200, 5, HD_PERIODIC, 0.4, 400},   {0.8, 300, 3, HD_PERIODIC, 0.4, 300},
+    {0.8, 100, 5, HD_REFLECTING, 0.4, 500}, {0.8, 160, 5, HD_REFLECTING, 0.4, 300}};
+enum { BOXES_ALL = sizeof BOXES / sizeof *BOXES };
+static const box QUICK = {0.6, 40, 3, HD_PERIODIC, 0.7, 200};
+
+/** Over vectors, pairs and times, of z = a + i b of the dq half and w of the dp half. */
+typedef struct sums {
+    double complex zw, z_w, zz, turn; /**< conj(z) w, z w, z z, conj(z) z' of the next time */
+    double z2, antisymmetric, whole;  /**< |z|^2; see halves_compare */
+} sums;
+
+/** One box. */
+typedef struct harvest {
+    box box;
+    hd_run *run;
+    hd_fields *fields;
+    double *q, *p;
+    sums (*sums)[STEPS]; /**< [BLOCKS] */
+    double complex before[STEPS][VECTORS][PAIRS];
+    int known[STEPS]; /**< column of the first vector of `before`, -1: none */
+    double pressure;  /**< P_xx / (rho kT) */
+    double between;   /**< collisions of one disk [time units] */
+} harvest;
+
+static hd_scene_def scene_of(const box *b)
+{
+    hd_scene_def scene = hd_scene_def_default();
+    scene.disks = b->disks;
+    scene.density = b->density;
+    scene.aspect = b->height * b->height * b->density / b->disks;
+    scene.boundary[0] = b->end;
+    scene.equilibration = 0.2 * b->duration;
+    scene.warmup = 0.4 * b->duration;
+    scene.duration = b->duration;
+    scene.report_interval = b->sampling;
+    scene.threads = 1;
+    scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_HYDRO; /* all vectors at each report */
+    return scene;
+}
+
+/* ---- one step at one time ------------------------------------------------------------------- */
+
+/** Least-squares coefficients of dq (half 0) or dp halves (1): on L and P of each pair, real and
+ * imaginary part. */
+static void project(double complex z[VECTORS][PAIRS], const harvest *h, const hd_subspace *s,
+                    hd_columns x, int half)
+{
+    const int d = s->dimension, stride = hd_fields_stride(h->fields);
+    double gram[FIELDS * FIELDS] = {0}, right[FIELDS * VECTORS] = {0};
+    for (int r = 0; r < 2 * h->box.disks; r++) {
+        const double *f = hd_fields_data(h->fields) + (size_t)r * (size_t)stride + s->column;
+        const double *row = x.data + (size_t)(4 * (r / 2) + 2 * half + r % 2) * (size_t)x.stride;
+        for (int i = 0; i < d; i++) {
+            for (int j = 0; j < d; j++) gram[i * d + j] += f[i] * f[j];
+            for (int v = 0; v < x.count; v++) right[i * x.count + v] += f[i] * row[v];
+        }
+    }
+    if (LAPACKE_dposv(LAPACK_ROW_MAJOR, 'U', d, x.count, gram, d, right, x.count) != 0)
+        require(HD_ILL_CONDITIONED, "fields");
+    for (int v = 0; v < x.count; v++)
+        for (int c = 0; c < d / 2; c++)
+            z[v][c] = right[c * x.count + v] + I * right[(c + d / 2) * x.count + v];
+}
+
+/** dq_l.dp_m - dp_l.dq_m of two whole vectors: zero of any two that grow. */
+static double form(const hd_columns *x, int disks, int l, int m)
+{
+    double sum = 0.0;
+    for (int j = 0; j < disks; j++)
+        for (int d = 0; d < 2; d++) {
+            const double *dq = x->data + (size_t)(4 * j + d) * (size_t)x->stride;
+            const double *dp = dq + 2 * x->stride;
+            sum += dq[l] * dp[m] - dp[l] * dq[m];
+        }
+    return sum;
+}
+
+/** The same form, of the parts in the fields (antisymmetric) and of whole vectors, both added up
+ * over pairs of vectors with the sine of their phases apart: the first is what makes an angle. */
+static void halves_compare(sums *s, double complex z[VECTORS][PAIRS],
+                           double complex w[VECTORS][PAIRS], int pairs, const hd_columns *x,
+                           int disks)
+{
+    for (int l = 0; l < x->count; l++)
+        for (int m = 0; m < l; m++) {
+            double sine = 0.0, part = 0.0;
+            for (int c = 0; c < pairs; c++) {
+                sine += cimag(conj(z[l][c]) * z[m][c]);
+                part += creal(z[l][c] * conj(w[m][c]) - w[l][c] * conj(z[m][c]));
+            }
+            s->antisymmetric += sine * part;
+            s->whole += sine * form(x, disks, l, m);
+        }
+}
+
+static void step_measure(harvest *h, sums *s, const hd_step *step, int index)
+{
+    const hd_subspace *space = hd_fields_subspace(h->fields, step->subspace);
+    hd_columns x = hd_run_frame_columns(h->run);
+    double complex z[VECTORS][PAIRS], w[VECTORS][PAIRS];
+    const int pairs = space->dimension / 2;
+    x.data += step->col - x.first;
+    x.first = step->col, x.count = step->count;
+    project(z, h, space, x, 0);
+    project(w, h, space, x, 1);
+    for (int v = 0; v < x.count; v++)
+        for (int c = 0; c < pairs; c++) {
+            const double complex a = z[v][c], b = w[v][c];
+            s->zw += conj(a) * b, s->z_w += a * b, s->zz += a * a, s->z2 += creal(a * conj(a));
+            if (h->known[index] == step->col) s->turn += conj(h->before[index][v][c]) * a;
+        }
+    halves_compare(s, z, w, pairs, &x, h->box.disks);
+    memcpy(h->before[index], z, sizeof z);
+    h->known[index] = step->col;
+}
+
+/** Of an LP step along x; its set may hold T steps: what is summed does not depend on how vectors
+ * of the set are mixed. */
+static bool is_wanted(const hd_steps *steps, int index)
+{
+    const hd_step *step = hd_steps_step(steps, index);
+    int others = 0;
+    if (step->kind != HD_MODE_LP || !step->resolved || step->count > VECTORS) return false;
+    for (int k = 0; k < hd_steps_count(steps); k++) {
+        const hd_step *other = hd_steps_step(steps, k);
+        others += k != index && other->resolved && other->set == step->set &&
+                  other->kind == HD_MODE_LP;
+    }
+    return others == 0 && step->wave.n[1] == 0;
+}
+
+/* ---- one box -------------------------------------------------------------------------------- */
+
+/** The same events as the run's: P_xx from the momenta and from what collisions carry along x. */
+static void pressure_measure(harvest *h)
+{
+    const hd_scene_def scene = scene_of(&h->box);
+    const double begin = scene.equilibration + scene.warmup;
+    hd_trajectory *disks;
+    hd_event_log *log;
+    require(hd_trajectory_create(&disks, &scene), "pressure");
+    require(hd_event_log_create(&log), "pressure");
+    require(hd_trajectory_extend(disks, NULL, begin), "pressure");
+    double flown = 0.0, carried = 0.0;
+    const uint64_t before = hd_trajectory_collisions(disks);
+    const int pieces = (int)ceil(scene.duration / h->box.sampling);
+    for (int k = 1; k <= pieces; k++) {
+        hd_event_log_clear(log);
+        require(hd_trajectory_extend(disks, log, begin + scene.duration * k / pieces), "pressure");
+        hd_trajectory_state(disks, NULL, h->p);
+        for (int j = 0; j < scene.disks; j++) flown += h->p[2 * j] * h->p[2 * j] / pieces;
+        for (const hd_event *e = log->event; e < log->event + log->count; e++)
+            if (e->j >= 0) carried -= (e->n[0] * e->p[0] + e->n[1] * e->p[1]) * e->n[0] * e->n[0];
+    }
+    h->pressure = (flown + carried / scene.duration) / scene.disks;
+    h->between = 0.5 * scene.disks * scene.duration /
+                 (double)(hd_trajectory_collisions(disks) - before);
+    hd_event_log_free(log);
+    hd_trajectory_free(disks);
+}
+
+static void report_measure(harvest *h, double since)
+{
+    const int block = (int)fmin(BLOCKS - 1, BLOCKS * since / h->box.duration);
+    const hd_steps *steps = hd_run_steps(h->run);
+    hd_trajectory_state(hd_run_trajectory(h->run), h->q, h->p);
+    hd_fields_sample(h->fields, h->q, h->p);
+    for (int k = 0; k < STEPS && k < hd_steps_count(steps); k++) {
+        if (is_wanted(steps, k))
+            step_measure(h, &h->sums[block][k], hd_steps_step(steps, k), k);
+        else
+            h->known[k] = -1;
+    }
+}
+
+static void follow(harvest *h)
+{
+    const hd_scene_def scene = scene_of(&h->box);
+    char message[512] = "out of memory";
+    if (hd_run_create(&h->run, &scene, message, sizeof message) != HD_OK) {
+        fprintf(stderr, "hdlyap_halves: %s\n", message);
+        exit(2);
+    }
+    require(hd_fields_create(&h->fields, &scene), "fields");
+    h->q = room(2 * (size_t)scene.disks, sizeof *h->q);
+    h->p = room(2 * (size_t)scene.disks, sizeof *h->p);
+    h->sums = room(BLOCKS, sizeof *h->sums);
+    for (int k = 0; k < STEPS; k++) h->known[k] = -1;
+    while (hd_run_stage(h->run) < HD_AVERAGING) require(hd_run_advance(h->run), "warm-up");
+    const double start = hd_run_time(h->run);
+    while (hd_run_stage(h->run) < HD_FINISHED) {
+        require(hd_run_advance(h->run), "run");
+        if (hd_run_report_due(h->run)) report_measure(h, hd_run_time(h->run) - start);
+    }
+    pressure_measure(h);
+}
+
+static void harvest_free(harvest *h)
+{
+    hd_run_free(h->run);
+    hd_fields_free(h->fields);
+    free(h->q);
+    free(h->p);
+    free(h->sums);
+}
+
+/* ---- sums -> numbers ------------------------------------------------------------------------ */
+
+enum { ANGLE, MEAN, DIFFERENCE, SYMMETRIC, RATE, SUM_RULE, NUMBERS };
+
+/** w = c z + d conj(z), by least squares: C = Re c + ((Re d, Im d), (Im d, -Re d)) and a rotation
+ * by arg c. ANGLE: phase of w less that of z on average; MEAN: Re c; DIFFERENCE, SYMMETRIC: d over
+ * it; RATE: of the phase of z; SUM_RULE: the form of whole vectors over that of the fields. */
+static void numbers_of(double out[NUMBERS], const sums *s, double sampling)
+{
+    const double det = s->z2 * s->z2 - creal(s->zz * conj(s->zz));
+    const double complex c = (s->z2 * s->zw - conj(s->zz) * s->z_w) / det;
+    const double complex d = (s->z2 * s->z_w - s->zz * s->zw) / det;
+    out[ANGLE] = carg(s->zw);
+    out[MEAN] = creal(c);
+    out[DIFFERENCE] = creal(d) / creal(c);
+    out[SYMMETRIC] = cimag(d) / creal(c);
+    out[RATE] = carg(s->turn) / sampling;
+    out[SUM_RULE] = s->whole / s->antisymmetric;
+}
+
+static void sums_add(sums *s, const sums *more, double factor)
+{
+    s->zw += factor * more->zw, s->z_w += factor * more->z_w, s->zz += factor * more->zz;
+    s->turn += factor * more->turn, s->z2 += factor * more->z2;
+    s->antisymmetric += factor * more->antisymmetric, s->whole += factor * more->whole;
+}
+
+/** Jackknife: one block of time after the other is left out. False if one is empty. */
+static bool estimate(double value[NUMBERS], double error[NUMBERS], const harvest *h, int step)
+{
+    sums total = {0};
+    double square[NUMBERS] = {0};
+    for (int b = 0; b < BLOCKS; b++) {
+        if (!(h->sums[b][step].z2 > 0.0)) return false;
+        sums_add(&total, &h->sums[b][step], 1.0);
+    }
+    numbers_of(value, &total, h->box.sampling);
+    for (int b = 0; b < BLOCKS; b++) {
+        sums less = total;
+        double without[NUMBERS];
+        sums_add(&less, &h->sums[b][step], -1.0);
+        numbers_of(without, &less, h->box.sampling);
+        for (int k = 0; k < NUMBERS; k++) square[k] += pow(without[k] - value[k], 2.0);
+    }
+    for (int k = 0; k < NUMBERS; k++) error[k] = sqrt(square[k] * (BLOCKS - 1) / BLOCKS);
+    return true;
+}
+
+/* ---- telling -------------------------------------------------------------------------------- */
+
+static const char *const HEADER =
+    "density,disks,height [sigma],ends of x,nodes,k [1/sigma],lambda [1/time unit],"
+    "time between collisions [time units],angle [rad],angle error,mean C [1/time unit],mean C "
+    "error,difference / mean,difference error,symmetric / mean,symmetric error,"
+    "v [sigma/time unit],v error,P_xx / (sqrt(2) rho) [sigma/time unit],sum rule";
+
+static void tell(const harvest *h, table *t, int index)
+{
+    const hd_step *step = hd_steps_step(hd_run_steps(h->run), index);
+    double x[NUMBERS], e[NUMBERS];
+    if (!is_wanted(hd_run_steps(h->run), index) || !estimate(x, e, h, index)) return;
+    const double k = step->wave.number;
+    const char *end = h->box.end == HD_PERIODIC ? "periodic" : "reflecting";
+    printf("%4g %4d %-10s %d %7.4f %8.4f %8.4f %8.4f %8.3f %10.4f %9.4f %8.4f %8.4f\n",
+           h->box.density, h->box.disks, end, step->wave.n[0], k, x[RATE] * h->between, x[ANGLE],
+           e[ANGLE], x[MEAN] / step->exponent, x[DIFFERENCE], x[SYMMETRIC], x[RATE] / k,
+           h->pressure / sqrt(2.0));
+    table_row(t,
+              "%g,%d,%g,%s,%d,%.6g,%.6g,%.6g,%.6g,%.3g,%.6g,%.3g,%.6g,%.3g,%.6g,%.3g,%.6g,%.3g,"
+              "%.6g,%.3g",
+              h->box.density, h->box.disks, h->box.height, end, step->wave.n[0], k, step->exponent,
+              h->between, x[ANGLE], e[ANGLE], x[MEAN], e[MEAN], x[DIFFERENCE], e[DIFFERENCE],
+              x[SYMMETRIC], e[SYMMETRIC], x[RATE] / k, e[RATE] / k, h->pressure / sqrt(2.0),
+              x[SUM_RULE]);
+}
+
+static double cost(const box *b) { return pow(b->disks, 3.0) * b->duration / b->sampling; }
+
+int main(int argc, char **argv)
+{
+    const char *out = ".";
+    bool quick = false;
+    const option list[] = {{"--out", .text = &out}, {"--quick", .flag = &quick}, {0}};
+    options_read(argc, argv, list);
+    const int boxes = quick ? 1 : BOXES_ALL;
+    const box *chosen = quick ? &QUICK : BOXES;
+    hd_blas_restart_if_slow(argv);
+    harvest *h = room((size_t)boxes, sizeof *h);
+    table *t = table_create(out, "findings_trailing", HEADER);
+    double total = 0.0;
+    for (int b = 0; b < boxes; b++) h[b].box = chosen[b], total += cost(&chosen[b]);
+    progress p = progress_begin("halves", total);
+#pragma omp parallel for schedule(dynamic)
+    for (int b = 0; b < boxes; b++) {
+        follow(&h[b]);
+#pragma omp critical
+        progress_add(&p, cost(&h[b].box));
+    }
+    progress_end();
+    printf("%4s %4s %-10s %s %7s %8s %8s %8s %8s %10s %9s %8s %8s\n", "rho", "N", "ends of x", "n",
+           "k", "om tau", "angle", "error", "C/lambda", "difference", "symmetric", "v", "from P");
+    for (int b = 0; b < boxes; b++) {
+        for (int k = 0; k < STEPS && k < hd_steps_count(hd_run_steps(h[b].run)); k++)
+            tell(&h[b], t, k);
+        harvest_free(&h[b]);
+    }
+    free(h);
+    gemm *g = gemm_create(1000, 1000); /* the comment says on what machine */
+    gemm_measure(g);
+    table_write(t, argv, gemm_rate(g));
+    gemm_free(g);
+    return 0;
+}
