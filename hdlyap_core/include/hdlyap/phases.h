@@ -9,25 +9,25 @@
 extern "C" {
 #endif
 
-typedef enum hd_lp_state {
-    HD_LP_UNRESOLVED, /**< the step is not resolved: nothing else is known */
-    HD_LP_WEAK,       /**< a^2 + b^2 too small for a phase at this time */
-    HD_LP_COARSE,     /**< the sample came too late to unwrap the phase: it begins anew */
-    HD_LP_TRACKED     /**< all is known */
-} hd_lp_state;
+typedef enum hd_phase_state {
+    HD_PHASE_UNRESOLVED, /**< the step is not resolved: nothing else is known */
+    HD_PHASE_WEAK,       /**< a^2 + b^2 too small for a phase at this time */
+    HD_PHASE_COARSE,     /**< the sample came too late to unwrap the phase: it begins anew */
+    HD_PHASE_TRACKED     /**< all is known */
+} hd_phase_state;
 
 /** One pair (L, P) of one modulation, and one vector of its step. */
-typedef struct hd_lp_phase {
+typedef struct hd_phase {
     int step;                 /**< of hd_steps */
     unsigned char modulation; /**< HD_SIN_X | HD_SIN_Y */
     int col; /**< the vector followed; it changes where vectors change places; -1 */
-    hd_lp_state state;
+    hd_phase_state state;
     double a, b;        /**< least-squares coefficients on the normalised L and P field */
     double phase;       /**< atan2(b, a), unwrapped since the tracking began [rad] */
     double omega;       /**< its slope by regression [rad/time unit] */
     double omega_error; /**< standard error; negative if not yet known */
     double time;        /**< tracked for so long [time units] */
-} hd_lp_phase;
+} hd_phase;
 
 typedef struct hd_phases hd_phases;
 
@@ -41,7 +41,7 @@ void hd_phases_add(hd_phases *phases, const hd_steps *steps, double time);
 /** 2 d^2 for each LP subspace with d pairs, in the order of the steps: vectors outside, pairs
  * inside. Constant. */
 int hd_phases_count(const hd_phases *phases);
-const hd_lp_phase *hd_phases_phase(const hd_phases *phases, int index);
+const hd_phase *hd_phases_phase(const hd_phases *phases, int index);
 
 /** |omega| / k of the tracked phases, weighted with their errors [sigma/time unit]. */
 typedef struct hd_velocity {

@@ -89,10 +89,10 @@ static hd_status rotors_create(hd_phases *phases, const hd_steps *steps)
         r->sample = phases->sample + 2 * r->number;
         for (int v = 0; v < r->slots; v++)
             for (int c = 0; c < r->pairs; c++)
-                phases->track[t++].out = (hd_lp_phase){.step = k,
-                                                       .modulation = s->modulations.bits[c],
-                                                       .col = -1,
-                                                       .omega_error = -1.0};
+                phases->track[t++].out = (hd_phase){.step = k,
+                                                    .modulation = s->modulations.bits[c],
+                                                    .col = -1,
+                                                    .omega_error = -1.0};
     }
     return HD_OK;
 }
@@ -138,7 +138,7 @@ void hd_phases_free(hd_phases *phases)
 
 /* ---- one rotor ----------------------------------------------------------------------------- */
 
-static void rotor_restart(rotor *r, hd_lp_state state)
+static void rotor_restart(rotor *r, hd_phase_state state)
 {
     r->col = -1;
     r->samples = 0;
@@ -297,7 +297,7 @@ static void rotor_store(rotor *r, const hd_modes *modes, double time, double for
 /** Follows the vectors of the step from here on. */
 static void rotor_take_up(rotor *r, const hd_step *step, const hd_modes *modes)
 {
-    rotor_restart(r, HD_LP_WEAK);
+    rotor_restart(r, HD_PHASE_WEAK);
     r->col = step->col;
     r->count = step->count;
     slots_fill(r, step, modes);
@@ -309,7 +309,7 @@ static void rotor_add(rotor *r, const hd_step *step, const hd_modes *modes, doub
 {
     const double dt = time - r->time, foreseen = r->ahead.omega;
     if (!step->resolved) {
-        if (r->col >= 0) rotor_restart(r, HD_LP_UNRESOLVED);
+        if (r->col >= 0) rotor_restart(r, HD_PHASE_UNRESOLVED);
         return;
     }
     const bool same = r->col == step->col && r->count == step->count;
@@ -324,7 +324,7 @@ static void rotor_add(rotor *r, const hd_step *step, const hd_modes *modes, doub
     }
     if (!same || coarse) rotor_take_up(r, step, modes);
     rotor_store(r, modes, time, foreseen, gap);
-    for (int t = 0; coarse && t < r->slots * r->pairs; t++) r->track[t].out.state = HD_LP_COARSE;
+    for (int t = 0; coarse && t < r->slots * r->pairs; t++) r->track[t].out.state = HD_PHASE_COARSE;
 }
 
 void hd_phases_add(hd_phases *phases, const hd_steps *steps, double time)
@@ -342,7 +342,7 @@ void hd_phases_add(hd_phases *phases, const hd_steps *steps, double time)
 
 void hd_phases_clear(hd_phases *phases)
 {
-    for (int k = 0; k < phases->rotors; k++) rotor_restart(&phases->rotor[k], HD_LP_UNRESOLVED);
+    for (int k = 0; k < phases->rotors; k++) rotor_restart(&phases->rotor[k], HD_PHASE_UNRESOLVED);
     hd_blocks_restart(&phases->blocks);
 }
 
@@ -350,7 +350,7 @@ void hd_phases_clear(hd_phases *phases)
 
 int hd_phases_count(const hd_phases *phases) { return phases->tracks; }
 
-const hd_lp_phase *hd_phases_phase(const hd_phases *phases, int index)
+const hd_phase *hd_phases_phase(const hd_phases *phases, int index)
 {
     HD_ASSERT(index >= 0 && index < phases->tracks);
     return &phases->track[index].out;
@@ -359,7 +359,8 @@ const hd_lp_phase *hd_phases_phase(const hd_phases *phases, int index)
 static int tracked(const rotor *r)
 {
     int count = 0;
-    for (int t = 0; t < r->slots * r->pairs; t++) count += r->track[t].out.state == HD_LP_TRACKED;
+    for (int t = 0; t < r->slots * r->pairs; t++)
+        count += r->track[t].out.state == HD_PHASE_TRACKED;
     return count;
 }
 

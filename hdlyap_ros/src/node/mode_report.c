@@ -7,7 +7,7 @@
 #include "hdlyap/hydro.h"
 
 _Static_assert((int)HD_MODE_LP == (int)HDR_MODE_LP, "kinds as in the core");
-_Static_assert((int)HD_LP_TRACKED == (int)HDR_LP_PHASE_TRACKED, "states as in the core");
+_Static_assert((int)HD_PHASE_TRACKED == (int)HDR_LP_PHASE_TRACKED, "states as in the core");
 
 struct mode_report {
     const publishers *to;
@@ -167,7 +167,7 @@ static bool fill_step(hdr_step *out, const hd_step *step)
                     step->gap + step->gap_error);
 }
 
-static bool fill_phase(hdr_lp_phase *out, const hd_lp_phase *phase, const hd_steps *steps)
+static bool fill_phase(hdr_lp_phase *out, const hd_phase *phase, const hd_steps *steps)
 {
     const hd_step *step = hd_steps_step(steps, phase->step);
     *out = (hdr_lp_phase){
@@ -183,13 +183,13 @@ static bool fill_phase(hdr_lp_phase *out, const hd_lp_phase *phase, const hd_ste
         .omega_error = -1.0,
         .velocity = NAN,
     };
-    if (phase->state == HD_LP_UNRESOLVED) return true;
+    if (phase->state == HD_PHASE_UNRESOLVED) return true;
     out->index = (uint32_t)phase->col + 1;
     out->a = phase->a;
     out->b = phase->b;
     out->omega_error = error_of(phase->omega_error);
     out->tracked_time = phase->time;
-    if (phase->state == HD_LP_TRACKED || phase->time > 0) out->phase = phase->phase;
+    if (phase->state == HD_PHASE_TRACKED || phase->time > 0) out->phase = phase->phase;
     if (phase->time > 0) {
         out->omega = phase->omega;
         out->velocity = fabs(phase->omega) / step->wave.number;
@@ -309,7 +309,7 @@ static hd_status publish_phases(mode_report *m, const snapshot *now)
         .phases = {m->phase, m->phases},
     };
     for (uint32_t k = 0; k < m->phases; k++) {
-        const hd_lp_phase *phase = hd_phases_phase(hd_run_phases(run), (int)k);
+        const hd_phase *phase = hd_phases_phase(hd_run_phases(run), (int)k);
         if (!fill_phase(&m->phase[k], phase, hd_run_steps(run))) return HD_NOT_FINITE;
     }
     return publishers_sent(hdr_lp_phases_publish(m->to->publisher[TOPIC_LP_PHASES], &message),

@@ -32,7 +32,7 @@ static void expect_same_bytes(const bytes *a, const bytes *b)
 static void expect_same_phases(const hd_phases *a, const hd_phases *b)
 {
     for (int k = 0; k < hd_phases_count(a); k++) {
-        const hd_lp_phase *x = hd_phases_phase(a, k), *y = hd_phases_phase(b, k);
+        const hd_phase *x = hd_phases_phase(a, k), *y = hd_phases_phase(b, k);
         assert_int_equal(x->state, y->state);
         assert_int_equal(x->col, y->col);
         CHECK_CLOSE(x->a, y->a, 0.0);
@@ -186,7 +186,7 @@ static void what_was_compared_was_there(void **state)
     int tracked = 0, resolved = 0;
     const hd_phases *phases = hd_run_phases(run);
     for (int k = 0; k < hd_phases_count(phases); k++)
-        tracked += hd_phases_phase(phases, k)->state == HD_LP_TRACKED;
+        tracked += hd_phases_phase(phases, k)->state == HD_PHASE_TRACKED;
     for (int k = 0; k < hd_steps_count(hd_run_steps(run)); k++)
         resolved += hd_steps_step(hd_run_steps(run), k)->resolved;
     assert_true(hd_run_cost(run).slow_vector_samples > 0);

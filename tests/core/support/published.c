@@ -94,7 +94,7 @@ static void check_steps(const hd_run *run)
 static void check_phases(const hd_phases *phases)
 {
     for (int k = 0; k < hd_phases_count(phases); k++) {
-        const hd_lp_phase *phase = hd_phases_phase(phases, k);
+        const hd_phase *phase = hd_phases_phase(phases, k);
         const double x[] = {phase->a,     phase->b,           phase->phase,
                             phase->omega, phase->omega_error, phase->time};
         check_numbers(x, 6, "phase");

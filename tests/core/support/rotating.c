@@ -3,7 +3,7 @@
 #include "scenes.h"
 #include "testing.h"
 
-const hd_lp_phase *phase_of(const rotating *r, int slot, int c)
+const hd_phase *phase_of(const rotating *r, int slot, int c)
 {
     return hd_phases_phase(r->phases, r->first + slot * r->d + c);
 }
@@ -108,15 +108,15 @@ rotating pairs_of(int d, int disks)
 
 rotating pairs(int d) { return pairs_of(d, d == 4 ? 60 : 30); }
 
-double strength_of(const hd_lp_phase *phase) { return phase->a * phase->a + phase->b * phase->b; }
+double strength_of(const hd_phase *phase) { return phase->a * phase->a + phase->b * phase->b; }
 
 int check_tracks(const rotating *r, double angle, double time, double tolerance)
 {
     int tracked = 0;
     for (int v = 0; v < 2 * r->d; v++)
         for (int c = 0; c < r->d; c++) {
-            const hd_lp_phase *phase = phase_of(r, v, c);
-            if (phase->state != HD_LP_TRACKED || phase->time != time) continue;
+            const hd_phase *phase = phase_of(r, v, c);
+            if (phase->state != HD_PHASE_TRACKED || phase->time != time) continue;
             const double start = atan2(r->im[v][c], r->re[v][c]);
             assert_true(strength_of(phase) >= WEAK);
             CHECK_CLOSE(phase->phase, start + angle, tolerance);

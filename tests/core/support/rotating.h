@@ -42,8 +42,8 @@ void turn(rotating *r, double omega);
 /** Exponents all alike, and the steps anew. */
 void find(rotating *r, double exponent);
 
-const hd_lp_phase *phase_of(const rotating *r, int slot, int c);
-double strength_of(const hd_lp_phase *phase);
+const hd_phase *phase_of(const rotating *r, int slot, int c);
+double strength_of(const hd_phase *phase);
 /** Every strong track turned by `angle` in all, tracked for so long. Returns how many there are. */
 int check_tracks(const rotating *r, double angle, double time, double tolerance);
 
