@@ -34,6 +34,7 @@ from hdlyap.msg import (
     Spectrum,
     State,
     Steps,
+    TPhases,
 )
 
 NODE = 'hdlyap'
@@ -62,6 +63,7 @@ TYPES = dict(
     modes=Modes,
     steps=Steps,
     lp_phases=LpPhases,
+    t_phases=TPhases,
     fields=ModeField,
     hydro=Hydro,
     state=State,

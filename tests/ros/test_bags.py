@@ -206,9 +206,11 @@ class Recorded(unittest.TestCase):
     def test_sizes(self):
         """Of each message, by what the guide states."""
         for number, info in enumerate(self.infos):
-            last = {topic: self.of_run(topic, number)[-1] for topic in ('steps', 'lp_phases')}
+            steps, lp, t = (
+                self.of_run(topic, number)[-1] for topic in ('steps', 'lp_phases', 't_phases')
+            )
             sizes = expected_sizes(
-                info.disks, info.vectors, len(last['steps'].steps), len(last['lp_phases'].phases)
+                info.disks, info.vectors, len(steps.steps), len(lp.phases), len(t.phases)
             )
             for topic in sizes:
                 for message in self.of_run(topic, number):
@@ -226,7 +228,7 @@ class Recorded(unittest.TestCase):
         """Of the paper's scene: 8 waves along an axis or not, each T and LP, and the zero modes."""
         with open(GUIDE) as file:
             text = file.read()
-        sizes = expected_sizes(780, 1557, 17, 4 * 8 + 4 * 32)
+        sizes = expected_sizes(780, 1557, 17, 4 * 8 + 4 * 32, 4 * 2 + 4 * 8)
         fields = [sizes['fields'], sizes['fields'] + 4 * 48 * 780]
         stated = dict(
             re.findall(r'^\| `(\w+)` \|.* \| ([0-9.]+(?: to [0-9.]+)?) kB \|$', text, re.MULTILINE)
@@ -300,7 +302,7 @@ class Recorded(unittest.TestCase):
         self.assertIn('identical', compare.text())
 
 
-def expected_sizes(disks, vectors, steps, phases):
+def expected_sizes(disks, vectors, steps, phases, t_phases):
     """Bytes of a message without frame_id and run_id, of fields without pairs: what the guide says,
     and single numbers."""
     begin = 4 + 8 + 8  # seq, stamp, sim_time
@@ -309,6 +311,7 @@ def expected_sizes(disks, vectors, steps, phases):
         modes=begin + 8 + 4 + 4 + 89 * vectors,
         steps=begin + 8 + 8 + 4 + 96 * steps + 2 * 64 + 4 + 5 * 8,
         lp_phases=begin + 4 + 74 * phases,
+        t_phases=begin + 4 + 82 * t_phases,
         fields=begin + 29 + 8 * 4 + 64 * disks + 4 + 3 * 4 + 8 + 6 * 4,
         state=begin + 8 + 4 * 4 + 32 * disks,
         status=begin + 1 + 3 * 8,

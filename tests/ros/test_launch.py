@@ -200,6 +200,7 @@ class Launch(unittest.TestCase):
                 modes=30,
                 steps=30,
                 lp_phases=30,
+                t_phases=0,
                 fields=fields,
                 hydro=0,
                 state=70,

@@ -110,10 +110,10 @@ class Agreement(unittest.TestCase):
 
     def test_one_run(self):
         counts = {topic: len(messages) for topic, messages in self.messages.items()}
-        for topic in ('spectrum', 'modes', 'steps', 'lp_phases', 'hydro'):
+        for topic in ('spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'hydro'):
             self.assertEqual(counts[topic], REPORTS, topic)
         times = [message.sim_time for message in self.messages['spectrum']]
-        for topic in ('modes', 'steps', 'lp_phases', 'hydro'):
+        for topic in ('modes', 'steps', 'lp_phases', 't_phases', 'hydro'):
             self.assertEqual([message.sim_time for message in self.messages[topic]], times, topic)
         for topic, messages in self.messages.items():
             self.assertEqual({message.run_id for message in messages}, {self.info.run_id}, topic)
@@ -125,6 +125,7 @@ class Agreement(unittest.TestCase):
             modes=('modes', 240),
             steps=('steps', len(steps)),
             lp_phases=('phases', sum(2 * pairs**2 for s in steps if s.kind == Mode.LP)),
+            t_phases=('phases', sum(s.expected for s in steps if s.kind == Mode.T)),
             hydro=('responses', sum(pairs * s.expected for s in steps if s.kind != Mode.ZERO)),
         )
         for topic, (field, length) in lengths.items():
@@ -279,6 +280,27 @@ class Agreement(unittest.TestCase):
             turn = (phase.phase - math.atan2(phase.b, phase.a)) / (2 * math.pi)
             self.assertAlmostEqual(turn, round(turn))
 
+    def test_t_phases(self):
+        """Of the vectors of the T steps; they do not turn within 5 of their errors, which are known
+        here of none: beside what an LP phase turns by."""
+        steps = self.last('steps').steps
+        rate = min(p.omega for p in self.last('lp_phases').phases if p.state == LpPhase.TRACKED)
+        tracked = 0
+        for message in self.messages['t_phases']:
+            for phase in message.phases:
+                step = steps[phase.step]
+                self.assertEqual((step.kind, step.nx, step.ny), (Mode.T, phase.nx, phase.ny))
+                self.assertEqual(phase.modulation, LpPhase.COS_COS)
+                if phase.state == LpPhase.TRACKED:
+                    turn = (phase.phase - math.atan2(phase.b, phase.a)) / (2 * math.pi)
+                    self.assertAlmostEqual(turn, round(turn))
+                    self.assertGreater(math.hypot(phase.a, phase.b), 0.2)
+        for phase in self.last('t_phases').phases:
+            if phase.tracked_time > 10:
+                tracked += 1
+                self.assertLess(abs(phase.omega), max(5 * phase.omega_error, 0.5 * rate))
+        self.assertGreater(tracked, 1)
+
     def test_fields_follow_the_steps(self):
         got = [(field.sim_time, field.index) for field in self.messages['fields']]
         want = [
@@ -430,6 +452,10 @@ class Demand(unittest.TestCase):
 
     def test_lp_phases(self):
         calls = self.calls(['lp_phases'], observables=['lp_phases'])
+        self.check(calls, calls['phases_add'], phases=True)
+
+    def test_t_phases(self):
+        calls = self.calls(['t_phases'], observables=['t_phases'])
         self.check(calls, calls['phases_add'], phases=True)
 
     def test_fields(self):

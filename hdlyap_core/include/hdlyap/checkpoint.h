@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-enum { HD_CHECKPOINT_FORMAT = 9, HD_CHECKPOINT_LABEL = 64 };
+enum { HD_CHECKPOINT_FORMAT = 10, HD_CHECKPOINT_LABEL = 64 };
 
 /** What a checkpoint says of itself. */
 typedef struct hd_checkpoint {

@@ -37,7 +37,8 @@ enum {
     HD_OBSERVE_FIELDS = 8,     /**< reconstructed P modes */
     HD_OBSERVE_HYDRO = 16,     /**< hydrodynamic response */
     HD_OBSERVE_COVARIANT = 32, /**< covariant vectors; alone, it needs no modes */
-    HD_OBSERVE_ALL = 63        /**< all of these */
+    HD_OBSERVE_T_PHASES = 64,  /**< phases of the T steps */
+    HD_OBSERVE_ALL = 127       /**< all of these */
 };
 
 /** Where the triangles that covariant vectors need wait for the way back. */

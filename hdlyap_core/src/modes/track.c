@@ -1,4 +1,4 @@
-/** Coefficients of one vector on one LP pair -> its phase [T13]. */
+/** Coefficients of one vector on one pair of fields -> its phase [T13]. */
 #include "modes/track.h"
 
 #include <limits.h>

@@ -1,4 +1,4 @@
-/** The phase of one vector (slot) of an LP step and one pair, unwrapped [T13]. */
+/** The phase of one vector (slot) of a step and one pair, unwrapped [T13]. */
 #ifndef HD_TRACK_H
 #define HD_TRACK_H
 

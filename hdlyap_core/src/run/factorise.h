@@ -7,7 +7,7 @@
 /** What modes are needed for. */
 enum {
     HD_OBSERVE_OF_MODES = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES |
-                          HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO
+                          HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO | HD_OBSERVE_T_PHASES
 };
 
 /** True while modes are looked at. */

@@ -58,8 +58,10 @@ static counted fields_of(const hd_scene_def *def)
     counted all = {.subspaces = 2.0 * count};
     for (int k = 0; k < count && k < WAVES; k++) {
         const double pairs = hd_wave_pairs(&wave[k], def->boundary).count;
-        all.columns += hd_wave_transverse(&wave[k], def->boundary).count + 2.0 * pairs;
-        all.tracks += 2.0 * pairs * pairs;
+        const double t = hd_wave_transverse(&wave[k], def->boundary).count;
+        all.columns += t + 2.0 * pairs;
+        if (def->observe & HD_OBSERVE_PHASES) all.tracks += 2.0 * pairs * pairs;
+        if (def->observe & HD_OBSERVE_T_PHASES) all.tracks += 2.0 * floor(t / 2.0) * floor(t / 2.0);
     }
     if (count > WAVES) all.columns = OF_ONE * count;
     return all;
@@ -84,7 +86,7 @@ static double conjugate_bytes(const hd_scene_def *def)
 static double observer_bytes(const hd_scene_def *def, const counted *of, double n)
 {
     const double track = sizeof(hd_track) + WORD * (HD_BLOCKS_MAX + 1.0);
-    const bool phases = def->observe & HD_OBSERVE_PHASES;
+    const bool phases = def->observe & HD_OBSERVE_OF_PHASES;
     const double looks = SLOW * (4.0 * def->disks + 4.0 * SLOW);
     return modes_bytes(of, def->disks, n) + (phases ? of->tracks * track + WORD * looks : 0.0);
 }

@@ -240,7 +240,7 @@ static hd_status measure(hd_run *run)
 
 static void follow_phases(hd_run *run)
 {
-    hd_phases_add(run->observer.phases, run->observer.steps, hd_run_time(run));
+    hd_observer_follow(&run->observer, run->observe, hd_run_time(run));
     run->followed = hd_run_time(run);
 }
 
@@ -251,7 +251,7 @@ static hd_status observe(hd_run *run)
     const double start = hd_clock_now();
     hd_modes_add(run->observer.modes);
     hd_steps_find(run->observer.steps, run->spectrum);
-    if (run->observe & HD_OBSERVE_PHASES) follow_phases(run);
+    if (run->observe & HD_OBSERVE_OF_PHASES) follow_phases(run);
     HD_TRY(hd_run_gather(run));
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
@@ -338,7 +338,7 @@ static hd_status find_slowest(hd_run *run, int count)
 /** The slowest vectors, if they are wanted and not known. */
 static hd_status look_around(hd_run *run, bool at_phases)
 {
-    const int phases = at_phases ? hd_phases_vectors(run->observer.steps) : 0;
+    const int phases = at_phases ? hd_observer_followed(&run->observer, run->observe) : 0;
     const int most = phases > hd_run_watched(run) ? phases : hd_run_watched(run);
     if (most == 0 || run->observer.known.count > 0) return HD_OK;
     if (is_measured(run)) {
@@ -454,8 +454,7 @@ void hd_run_observe(hd_run *run, unsigned stages)
     const unsigned now = stages & run->scene.observe, begun = now & ~run->observe;
     if (now == run->observe) return;
     hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_OBSERVE, .integer = (int)now});
-    if (begun & HD_OBSERVE_PHASES)
-        hd_phases_clear(run->observer.phases);                 /* not followed in between */
+    hd_observer_forget_phases(&run->observer, begun);          /* not followed in between */
     if (begun & HD_OBSERVE_COVARIANT) run->windows.due = true; /* nor this */
     run->observe = now;
 }

@@ -27,10 +27,10 @@ static const double of_slopes = 2.0;
 
 typedef struct trial {
     int disks;
-    double seconds;              /**< per time unit */
-    double interval;             /**< between orthonormalisations; NaN without exponents */
-    double errors_after;         /**< averaged time */
-    double steps, phases, pairs; /**< in messages; pairs of all LP steps */
+    double seconds;      /**< per time unit */
+    double interval;     /**< between orthonormalisations; NaN without exponents */
+    double errors_after; /**< averaged time */
+    double steps, phases, t_phases, pairs; /**< in messages; pairs of all LP steps */
 } trial;
 
 /* ---- the trial ------------------------------------------------------------------------------ */
@@ -75,6 +75,7 @@ static void count_messages(trial *out, const hd_run *run)
     if (!steps) return;
     out->steps = hd_steps_count(steps);
     if (hd_run_phases(run)) out->phases = hd_phases_count(hd_run_phases(run));
+    if (hd_run_t_phases(run)) out->t_phases = hd_phases_count(hd_run_t_phases(run));
     for (int s = 0; s < hd_steps_count(steps); s++) {
         const hd_step *step = hd_steps_step(steps, s);
         if (step->kind == HD_MODE_LP && !step->conjugate) out->pairs += step->expected / 2;
@@ -141,6 +142,7 @@ static double report_bytes(const settings *set, const trial *t)
                                [TOPIC_MODES] = 98.0 + 89.0 * n,
                                [TOPIC_STEPS] = 204.0 + 96.0 * t->steps,
                                [TOPIC_LP_PHASES] = 90.0 + 74.0 * t->phases,
+                               [TOPIC_T_PHASES] = 90.0 + 82.0 * t->t_phases,
                                [TOPIC_STATE] = 106.0 + 32.0 * set->def.disks};
     double bytes = 220.0 + 110.0; /* cost, status */
     for (topic k = 0; k < TOPICS; k++)

@@ -7,7 +7,7 @@
 #include "settings.h"
 #include "topic.h"
 
-#define OBSERVABLES "spectrum, modes, steps, lp_phases, fields, hydro, covariant, state"
+#define OBSERVABLES "spectrum, modes, steps, lp_phases, t_phases, fields, hydro, covariant, state"
 
 static const parameter name_row = {
     .name = "scene",

@@ -18,6 +18,7 @@ static const advertise_function advertise[TOPICS] = {
     [TOPIC_MODES] = hdr_modes_advertise,
     [TOPIC_STEPS] = hdr_steps_advertise,
     [TOPIC_LP_PHASES] = hdr_lp_phases_advertise,
+    [TOPIC_T_PHASES] = hdr_t_phases_advertise,
     [TOPIC_FIELDS] = hdr_mode_field_advertise,
     [TOPIC_HYDRO] = hdr_hydro_advertise,
     [TOPIC_COVARIANT] = hdr_covariant_advertise,

@@ -15,6 +15,7 @@ static const struct {
     [TOPIC_MODES] = {"modes", HD_OBSERVE_MODES},
     [TOPIC_STEPS] = {"steps", HD_OBSERVE_STEPS},
     [TOPIC_LP_PHASES] = {"lp_phases", HD_OBSERVE_PHASES},
+    [TOPIC_T_PHASES] = {"t_phases", HD_OBSERVE_T_PHASES},
     [TOPIC_FIELDS] = {"fields", HD_OBSERVE_FIELDS},
     [TOPIC_HYDRO] = {"hydro", HD_OBSERVE_HYDRO},
     [TOPIC_COVARIANT] = {"covariant", HD_OBSERVE_COVARIANT},

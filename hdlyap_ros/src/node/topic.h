@@ -10,6 +10,7 @@ typedef enum topic {
     TOPIC_MODES,
     TOPIC_STEPS,
     TOPIC_LP_PHASES,
+    TOPIC_T_PHASES,
     TOPIC_FIELDS,
     TOPIC_HYDRO,
     TOPIC_COVARIANT,
@@ -24,7 +25,7 @@ enum {
     TOPICS_ALWAYS = 1u << TOPIC_RUN_INFO | 1u << TOPIC_STATUS | 1u << TOPIC_COST,
     TOPICS_OBSERVABLE = ((1u << TOPICS) - 1) ^ TOPICS_ALWAYS,
     TOPICS_OF_MODES = 1u << TOPIC_MODES | 1u << TOPIC_STEPS | 1u << TOPIC_LP_PHASES |
-                      1u << TOPIC_FIELDS | 1u << TOPIC_HYDRO,
+                      1u << TOPIC_T_PHASES | 1u << TOPIC_FIELDS | 1u << TOPIC_HYDRO,
     ALL_PUBLISHED = 1u << TOPICS /**< in a set of awaited topics: whatever the others are */
 };
 

@@ -96,7 +96,7 @@ static void a_file_keeps_all(void **state)
         turn(&r, k % 2 ? 2.0 : 2.1);
     }
     hd_phases *read;
-    CHECK_OK(hd_phases_create(&read, r.w.steps));
+    CHECK_OK(hd_phases_create(&read, r.w.steps, HD_MODE_LP));
     FILE *file = tmpfile();
     assert_non_null(file);
     hd_archive out = hd_archive_writer(file);

@@ -67,7 +67,7 @@ static void phases_lie_in_order(void **state)
     def.max_mode_number = 1;
     world w = world_create(&def, 10, 1);
     hd_phases *phases;
-    CHECK_OK(hd_phases_create(&phases, w.steps));
+    CHECK_OK(hd_phases_create(&phases, w.steps, HD_MODE_LP));
     int index = 0;
     for (int k = 0; k < hd_steps_count(w.steps); k++) {
         const hd_step *step = hd_steps_step(w.steps, k);
@@ -216,7 +216,7 @@ static channel channel_create(void)
     def.max_mode_number = 2;
     channel ch = {.w = world_create(&def, 4, 1)};
     const double exponents[4] = {1.6, 1.6, 0.8, 0.8};
-    CHECK_OK(hd_phases_create(&ch.phases, ch.w.steps));
+    CHECK_OK(hd_phases_create(&ch.phases, ch.w.steps, HD_MODE_LP));
     for (int n = 0; n < 2; n++) {
         const int s = world_subspace(&ch.w, HD_MODE_LP, n + 1, 0);
         ch.k[n] = hd_fields_subspace(ch.w.fields, s)->wave.number;
@@ -328,7 +328,7 @@ static void shared_sets_turn_too(void **state)
     def.max_wave_number = hd_wave_component(&def, 0, 1);
     world w = world_create(&def, 4, 1);
     hd_phases *phases;
-    CHECK_OK(hd_phases_create(&phases, w.steps));
+    CHECK_OK(hd_phases_create(&phases, w.steps, HD_MODE_LP));
     const int both[] = {world_subspace(&w, HD_MODE_LP, 1, 0), world_subspace(&w, HD_MODE_LP, 0, 1)};
     double rotation[16], exponents[4] = {0.8, 0.8, 0.8, 0.8};
     world_span(&w, 0, both, 2, 0.0);

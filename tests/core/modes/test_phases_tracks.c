@@ -174,7 +174,7 @@ static void another_set_is_followed_anew(void **state)
     (void)state;
     hd_scene_def def = scene_in_box(30, 40.0, 1.5, R, P, 9);
     def.max_mode_number = 1;
-    rotating r = rotating_create(&def, 1, 0, 6, 2.4);
+    rotating r = rotating_create(&def, HD_MODE_LP, 1, 0, 6, 2.4);
     assert_int_equal(r.step->col, 4);
     for (int t = 0; t < 20; t++) turn(&r, 0.5);
     check_all(&r, HD_PHASE_TRACKED, 20.0);

@@ -63,8 +63,7 @@ static void exponents_are_those_of_one_rank(void **state)
 static void modes_are_those_of_one_rank(void **state)
 {
     (void)state;
-    const hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_MODES | HD_OBSERVE_STEPS |
-                                                     HD_OBSERVE_PHASES);
+    const hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES);
     hd_run *run, *alone = created(&scene);
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     finish(run);
@@ -85,6 +84,13 @@ static void modes_are_those_of_one_rank(void **state)
     for (int k = 0; k < hd_steps_count(a); k++) {
         assert_int_equal(hd_steps_step(a, k)->resolved, hd_steps_step(b, k)->resolved);
         assert_int_equal(hd_steps_step(a, k)->col, hd_steps_step(b, k)->col);
+    }
+    for (int k = 0; k < hd_phases_count(hd_run_t_phases(alone)); k++) {
+        const hd_phase *x = hd_phases_phase(hd_run_t_phases(run), k);
+        const hd_phase *y = hd_phases_phase(hd_run_t_phases(alone), k);
+        assert_int_equal(x->state, y->state);
+        assert_int_equal(x->col, y->col);
+        CHECK_CLOSE(x->phase, y->phase, 1e-6);
     }
     double cosine[2][4 * 60], ratio[2][4 * 60];
     hd_run_halves(run, cosine[0], ratio[0]);

@@ -31,6 +31,7 @@ static void expect_same_bytes(const bytes *a, const bytes *b)
 
 static void expect_same_phases(const hd_phases *a, const hd_phases *b)
 {
+    double errors[2];
     for (int k = 0; k < hd_phases_count(a); k++) {
         const hd_phase *x = hd_phases_phase(a, k), *y = hd_phases_phase(b, k);
         assert_int_equal(x->state, y->state);
@@ -41,6 +42,9 @@ static void expect_same_phases(const hd_phases *a, const hd_phases *b)
         CHECK_CLOSE(x->omega, y->omega, 0.0);
         CHECK_CLOSE(x->omega_error, y->omega_error, 0.0);
         CHECK_CLOSE(x->time, y->time, 0.0);
+        CHECK_CLOSE(hd_phases_diffusion(a, k, &errors[0]), hd_phases_diffusion(b, k, &errors[1]),
+                    0.0);
+        CHECK_CLOSE(errors[0], errors[1], 0.0);
     }
     CHECK_CLOSE(hd_phases_velocity(a).v, hd_phases_velocity(b).v, 0.0);
 }
@@ -101,6 +105,7 @@ static void expect_same_state(hd_run *a, hd_run *b)
                      hd_trajectory_wall_events(hd_run_trajectory(b)));
     if (hd_run_modes(a)) expect_same_modes(hd_run_modes(a), hd_run_modes(b));
     if (hd_run_phases(a)) expect_same_phases(hd_run_phases(a), hd_run_phases(b));
+    if (hd_run_t_phases(a)) expect_same_phases(hd_run_t_phases(a), hd_run_t_phases(b));
     const bytes of_a = kept_bytes(a), of_b = kept_bytes(b);
     expect_same_bytes(&of_a, &of_b);
     free(of_a.data);

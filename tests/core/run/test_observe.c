@@ -120,6 +120,7 @@ static void check_same_exponents(hd_scene_def scene, unsigned observe, double bo
     assert_null(hd_run_modes(blind));
     assert_null(hd_run_steps(blind));
     assert_null(hd_run_phases(blind));
+    assert_null(hd_run_t_phases(blind));
     assert_true(hd_trajectory_collisions(hd_run_trajectory(looked)) ==
                 hd_trajectory_collisions(hd_run_trajectory(blind)));
     const double tolerance = bounds *

@@ -93,11 +93,14 @@ static void check_steps(const hd_run *run)
 
 static void check_phases(const hd_phases *phases)
 {
+    double error;
     for (int k = 0; k < hd_phases_count(phases); k++) {
         const hd_phase *phase = hd_phases_phase(phases, k);
         const double x[] = {phase->a,     phase->b,           phase->phase,
                             phase->omega, phase->omega_error, phase->time};
         check_numbers(x, 6, "phase");
+        check_number(hd_phases_diffusion(phases, k, &error), "diffusion");
+        check_number(error, "error of the diffusion");
     }
     check_number(hd_phases_velocity(phases).v, "velocity");
     check_number(hd_phases_velocity(phases).v_error, "error of the velocity");
@@ -160,6 +163,7 @@ long check_published(const hd_run *run)
     if (hd_run_modes(run)) check_modes(hd_run_modes(run));
     if (hd_run_steps(run)) check_steps(run);
     if (hd_run_phases(run)) check_phases(hd_run_phases(run));
+    if (hd_run_t_phases(run)) check_phases(hd_run_t_phases(run));
     if (hd_run_steps(run)) check_fields(run);
     return numbers;
 }

@@ -13,10 +13,12 @@ from hdlyap.plots.progress import Progress
 
 RUN_INFO, SPECTRUM = 'hdlyap/RunInfo', 'hdlyap/Spectrum'
 STATUS, COST = 'hdlyap/RunStatus', 'hdlyap/Cost'
-MODES, STEPS, PHASES = 'hdlyap/Modes', 'hdlyap/Steps', 'hdlyap/LpPhases'
+MODES, STEPS = 'hdlyap/Modes', 'hdlyap/Steps'
+PHASES, T_PHASES = 'hdlyap/LpPhases', 'hdlyap/TPhases'
 FIELD, STATE = 'hdlyap/ModeField', 'hdlyap/State'
 COVARIANT, HYDRO = 'hdlyap/Covariant', 'hdlyap/Hydro'
-TYPES = (RUN_INFO, SPECTRUM, STATUS, COST, MODES, STEPS) + (PHASES, FIELD, STATE, COVARIANT, HYDRO)
+TYPES = (RUN_INFO, SPECTRUM, STATUS, COST, MODES, STEPS, PHASES, T_PHASES)
+TYPES += (FIELD, STATE, COVARIANT, HYDRO)
 NAME, PATH, LINE, LIST = 200, 4096, 8192, 4096  # longest text, path, error; most elements of a list
 PATHS = ('checkpoint', 'resume')
 # arrays of as many elements as the first of them

@@ -20,6 +20,7 @@ TOPICS = {
     'modes': reader.MODES,
     'steps': reader.STEPS,
     'lp_phases': reader.PHASES,
+    't_phases': reader.T_PHASES,
     'fields': reader.FIELD,
     'hydro': reader.HYDRO,
     'covariant': reader.COVARIANT,
@@ -32,6 +33,7 @@ FRAMES = {
     'modes': tables.of_modes,
     'steps': tables.of_steps,
     'lp_phases': tables.of_phases,
+    't_phases': tables.of_t_phases,
     'covariant': tables.arrays,
 }
 # name of an array: where its unit is said
@@ -53,9 +55,10 @@ Local = namedtuple('Local', 'times lengths exponents')
 class Run:
     """`info` is its run_info. Arrays have a row for each message: `times` (simulated),
     `averaged_times`, `exponents` and `std_errors` of the running means; `local` the samples. Frames
-    are of the last message: `spectrum`, `modes`, `steps`, `phases`, `covariant`, `results`; or of
-    all: `cost`, `status`, `course(topic)`. `state` has positions and momenta, `fields` the last
-    field of each vector. What was averaged before ~reset_average does not count."""
+    are of the last message: `spectrum`, `modes`, `steps`, `phases`, `t_phases`, `covariant`,
+    `results`; or of all: `cost`, `status`, `course(topic)`. `state` has positions and momenta,
+    `fields` the last field of each vector. What was averaged before ~reset_average does not
+    count."""
 
     def __init__(self, joined):
         self._joined = joined
@@ -139,6 +142,10 @@ class Run:
         return tables.of_phases(self.last('lp_phases'))
 
     @cached_property
+    def t_phases(self):
+        return tables.of_t_phases(self.last('t_phases'))
+
+    @cached_property
     def covariant(self):
         return tables.arrays(self.last('covariant'))
 
@@ -195,8 +202,9 @@ class Run:
         return tables.scalars(self._all('status'))
 
     def course(self, topic):
-        """Frame of all messages of 'spectrum', 'modes', 'steps', 'lp_phases' or 'covariant', by
-        simulated time: course('lp_phases')['phase'].unstack() has a column for each phase."""
+        """Frame of all messages of 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases' or
+        'covariant', by simulated time: course('lp_phases')['phase'].unstack() has a column for each
+        phase."""
         return tables.over_time(self._all(topic), FRAMES[topic])
 
     # ---- disks and vectors ------------------------------------------------------------------
@@ -219,11 +227,12 @@ class Run:
     @cached_property
     def _lasts(self):
         """{type: Packed} of those that are small, so that the bag is read once for all."""
-        kinds = reader.MODES, reader.STEPS, reader.PHASES, reader.COVARIANT
+        kinds = reader.MODES, reader.STEPS, reader.PHASES, reader.T_PHASES, reader.COVARIANT
         return {packed.kind: packed for packed in self._joined.packed(kinds)}
 
     def has(self, topic):
-        """Whether there is a message of 'modes', 'steps', 'lp_phases' or 'covariant'."""
+        """Whether there is a message of 'modes', 'steps', 'lp_phases', 't_phases' or
+        'covariant'."""
         return TOPICS[topic] in self._lasts
 
     def last(self, topic):
