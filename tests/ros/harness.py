@@ -34,6 +34,7 @@ from hdlyap.msg import (
     Spectrum,
     State,
     Steps,
+    Structure,
     TPhases,
 )
 
@@ -66,6 +67,7 @@ TYPES = dict(
     t_phases=TPhases,
     fields=ModeField,
     hydro=Hydro,
+    structure=Structure,
     state=State,
     status=RunStatus,
     cost=Cost,

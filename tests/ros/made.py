@@ -42,6 +42,7 @@ TOPICS = {
     'hdlyap/TPhases': 't_phases',
     'hdlyap/ModeField': 'fields',
     'hdlyap/Hydro': 'hydro',
+    'hdlyap/Structure': 'structure',
     'hdlyap/Covariant': 'covariant',
     'hdlyap/State': 'state',
 }

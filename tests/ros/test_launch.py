@@ -203,6 +203,7 @@ class Launch(unittest.TestCase):
                 t_phases=0,
                 fields=fields,
                 hydro=0,
+                structure=0,
                 state=70,
                 status=70,
                 cost=70,

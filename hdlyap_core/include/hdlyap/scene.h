@@ -29,16 +29,17 @@ enum {
 enum { HD_WARMUP_AUTO = -1 };
 
 /** hd_scene_def.observe: what is computed beyond the exponents. Phases, fields and hydro need
- * steps, which need modes: these come with them. */
+ * steps, which need modes, as structure does: these come with them. */
 enum {
-    HD_OBSERVE_MODES = 1,      /**< weights of every vector */
-    HD_OBSERVE_STEPS = 2,      /**< degenerate sets, dispersion */
-    HD_OBSERVE_PHASES = 4,     /**< of the LP pairs */
-    HD_OBSERVE_FIELDS = 8,     /**< reconstructed P modes */
-    HD_OBSERVE_HYDRO = 16,     /**< hydrodynamic response */
-    HD_OBSERVE_COVARIANT = 32, /**< covariant vectors; alone, it needs no modes */
-    HD_OBSERVE_T_PHASES = 64,  /**< phases of the T steps */
-    HD_OBSERVE_ALL = 127       /**< all of these */
+    HD_OBSERVE_MODES = 1,       /**< weights of every vector */
+    HD_OBSERVE_STEPS = 2,       /**< degenerate sets, dispersion */
+    HD_OBSERVE_PHASES = 4,      /**< of the LP pairs */
+    HD_OBSERVE_FIELDS = 8,      /**< reconstructed P modes */
+    HD_OBSERVE_HYDRO = 16,      /**< hydrodynamic response */
+    HD_OBSERVE_COVARIANT = 32,  /**< covariant vectors; alone, it needs no modes */
+    HD_OBSERVE_T_PHASES = 64,   /**< phases of the T steps */
+    HD_OBSERVE_STRUCTURE = 128, /**< structure factors, and amplitudes at every report */
+    HD_OBSERVE_ALL = 255        /**< all of these */
 };
 
 /** Where the triangles that covariant vectors need wait for the way back. */

@@ -315,6 +315,8 @@ const double *hd_modes_null_average(const hd_modes *modes, int null)
     return null_of(modes, modes->average, null);
 }
 
+const double *hd_modes_dq_norms(const hd_modes *modes) { return modes->dq_norm; }
+
 const double *hd_modes_coefficients(const hd_modes *modes, int column)
 {
     HD_ASSERT(column >= 0 && column < hd_fields_columns(modes->fields));

@@ -29,6 +29,8 @@ hd_status hd_observer_create(hd_observer *observer, const hd_scene_def *scene, i
     if (!observer->q || !observer->p) return HD_NO_MEMORY;
     HD_TRY(hd_modes_create(&observer->modes, scene, vectors, threads));
     HD_TRY(hd_steps_create(&observer->steps, scene, observer->modes));
+    if (scene->observe & HD_OBSERVE_STRUCTURE)
+        HD_TRY(hd_structure_create(&observer->structure, scene, vectors, threads));
     if (!(scene->observe & HD_OBSERVE_OF_PHASES)) return HD_OK;
     for (int k = 0; k < HD_FOLLOWED; k++)
         if (scene->observe & hd_observer_stage[k])
@@ -40,6 +42,7 @@ void hd_observer_free(hd_observer *observer)
 {
     hd_slow_vectors_free(observer->slow);
     for (int k = 0; k < HD_FOLLOWED; k++) hd_phases_free(observer->phases[k]);
+    hd_structure_free(observer->structure);
     hd_steps_free(observer->steps);
     hd_modes_free(observer->modes);
     hd_memory_free(observer->q);
@@ -51,6 +54,7 @@ void hd_observer_clear(hd_observer *observer)
     if (!observer->modes) return;
     hd_modes_clear(observer->modes);
     hd_steps_clear(observer->steps);
+    if (observer->structure) hd_structure_clear(observer->structure);
     hd_observer_forget_phases(observer, ~0u);
 }
 
@@ -93,12 +97,34 @@ int hd_observer_followed(const hd_observer *observer, unsigned stages)
     return most;
 }
 
-hd_status hd_observer_measure(hd_observer *observer, hd_columns vectors,
+static hd_structure *structure_of(const hd_observer *observer, unsigned stages)
+{
+    return stages & HD_OBSERVE_STRUCTURE ? observer->structure : NULL;
+}
+
+hd_status hd_observer_measure(hd_observer *observer, unsigned stages, hd_columns vectors,
                               const hd_trajectory *trajectory)
 {
     observer->known = vectors;
     hd_trajectory_state(trajectory, observer->q, observer->p);
-    return hd_modes_measure(observer->modes, observer->known, observer->q, observer->p);
+    HD_TRY(hd_modes_measure(observer->modes, observer->known, observer->q, observer->p));
+    if (!structure_of(observer, stages)) return HD_OK;
+    return hd_structure_measure(observer->structure, observer->known, observer->q,
+                                hd_modes_dq_norms(observer->modes));
+}
+
+hd_status hd_observer_share(hd_observer *observer, unsigned stages, hd_communicator *communicator,
+                            int width)
+{
+    HD_TRY(hd_modes_share(observer->modes, communicator, width));
+    if (!structure_of(observer, stages)) return HD_OK;
+    return hd_structure_share(observer->structure, communicator, width);
+}
+
+void hd_observer_add(hd_observer *observer, unsigned stages)
+{
+    hd_modes_add(observer->modes);
+    if (structure_of(observer, stages)) hd_structure_add(observer->structure);
 }
 
 bool hd_observer_reaches(const hd_observer *observer, int count)

@@ -3,6 +3,7 @@
 #define HD_OBSERVER_H
 
 #include "hdlyap/phases.h"
+#include "hdlyap/structure.h"
 #include "tangent/slow_vectors.h"
 
 /** Kinds of steps whose phases can be followed. */
@@ -16,6 +17,7 @@ extern const unsigned hd_observer_stage[HD_FOLLOWED];
 typedef struct hd_observer {
     hd_modes *modes; /**< NULL unless observed, as all others */
     hd_steps *steps;
+    hd_structure *structure;        /**< NULL unless asked for */
     hd_phases *phases[HD_FOLLOWED]; /**< NULL unless they are observed */
     hd_slow_vectors *slow;          /**< NULL without phases, and where it does not apply */
     double *q, *p;                  /**< [2N], state of a snapshot */
@@ -41,9 +43,15 @@ double hd_observer_sampling(const hd_observer *observer, unsigned stages);
 /** Number of slowest vectors among which all of theirs are. */
 int hd_observer_followed(const hd_observer *observer, unsigned stages);
 
-/** The modes of orthonormal vectors. Fails as hd_modes_measure. */
-HD_MUST_CHECK hd_status hd_observer_measure(hd_observer *observer, hd_columns vectors,
-                                            const hd_trajectory *trajectory);
+/** The modes, and of these stages the structure factors, of orthonormal vectors. Fails as
+ * hd_modes_measure. */
+HD_MUST_CHECK hd_status hd_observer_measure(hd_observer *observer, unsigned stages,
+                                            hd_columns vectors, const hd_trajectory *trajectory);
+/** Of vectors of several ranks. Fails as hd_modes_share. */
+HD_MUST_CHECK hd_status hd_observer_share(hd_observer *observer, unsigned stages,
+                                          hd_communicator *communicator, int width);
+/** Adds what has been measured to the averages. */
+void hd_observer_add(hd_observer *observer, unsigned stages);
 
 /** True if so many of the slowest vectors can be found without an orthonormalisation. */
 bool hd_observer_reaches(const hd_observer *observer, int count);

@@ -60,7 +60,7 @@ static double next_stop(const hd_run *run)
     const bool averaging = s->stage == HD_AVERAGING, observing = hd_run_is_observing(run);
     double stop = hd_schedule_stage_end(s);
     if (averaging && hd_spectrum_time(run->spectrum) == 0) stop = hd_schedule_cut(s);
-    if (observing && (run->observe & HD_OBSERVE_HYDRO)) stop = hd_schedule_cut(s);
+    if (observing && (run->observe & HD_OBSERVE_AT_REPORTS)) stop = hd_schedule_cut(s);
     if (observing && (run->observe & HD_OBSERVE_FIELDS))
         stop = fmin(stop, hd_schedule_next_multiple(s, run->in_force.field_interval));
     return stop;

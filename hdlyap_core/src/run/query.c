@@ -22,6 +22,7 @@ const hd_modes *hd_run_modes(const hd_run *run) { return run->observer.modes; }
 const hd_steps *hd_run_steps(const hd_run *run) { return run->observer.steps; }
 const hd_phases *hd_run_phases(const hd_run *run) { return run->observer.phases[HD_FOLLOWED_LP]; }
 const hd_phases *hd_run_t_phases(const hd_run *run) { return run->observer.phases[HD_FOLLOWED_T]; }
+const hd_structure *hd_run_structure(const hd_run *run) { return run->observer.structure; }
 const hd_covariant *hd_run_covariant(const hd_run *run) { return run->windows.covariant; }
 
 double hd_run_followed(const hd_run *run) { return run->followed; }

@@ -231,9 +231,11 @@ static hd_status measure(hd_run *run)
     const double start = hd_clock_now();
     const hd_columns here = run->communicator ? hd_frame_columns(run->frame)
                                               : hd_run_frame_columns(run);
-    const hd_status status = hd_observer_measure(&run->observer, here, run->advance.trajectory);
+    const hd_status status = hd_observer_measure(&run->observer, run->observe, here,
+                                                 run->advance.trajectory);
     HD_TRY(hd_run_agree(run, status));
-    HD_TRY(hd_modes_share(run->observer.modes, run->communicator, hd_frame_stride(run->frame)));
+    HD_TRY(hd_observer_share(&run->observer, run->observe, run->communicator,
+                             hd_frame_stride(run->frame)));
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
 }
@@ -249,7 +251,7 @@ static hd_status observe(hd_run *run)
 {
     HD_TRY(measure(run));
     const double start = hd_clock_now();
-    hd_modes_add(run->observer.modes);
+    hd_observer_add(&run->observer, run->observe);
     hd_steps_find(run->observer.steps, run->spectrum);
     if (run->observe & HD_OBSERVE_OF_PHASES) follow_phases(run);
     HD_TRY(hd_run_gather(run));
@@ -385,7 +387,8 @@ static hd_status take_cut(hd_run *run)
     run->due.fields = averaging && (reached || multiple <= hd_schedule_cut(&run->schedule));
     run->due.stage_end = hd_schedule_pass(&run->schedule) & HD_ENDS_STAGE || reached;
     const bool first = averaging && run->spectrum && hd_spectrum_time(run->spectrum) == 0;
-    const bool ends = run->due.stage_end || first || hd_run_vectors_wanted(run);
+    const bool looked_at = hd_run_is_observing(run) && run->observe & HD_OBSERVE_AT_REPORTS;
+    const bool ends = run->due.stage_end || first || looked_at || hd_run_vectors_wanted(run);
     const bool carried = run->frame && run->schedule.stage != HD_EQUILIBRATING;
     if (!carried || !ends) return HD_OK;
     return is_measured(run) ? hd_run_gather(run) : end_early(run);

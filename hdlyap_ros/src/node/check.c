@@ -137,12 +137,13 @@ static hd_status try_scene(trial *out, const settings *set, char *message, size_
 /** Bytes of the messages of a report, but for fields. */
 static double report_bytes(const settings *set, const trial *t)
 {
-    const double n = hd_scene_vectors(&set->def);
+    const double n = hd_scene_vectors(&set->def), waves = hd_structure_waves_of(&set->def);
     const double of[TOPICS] = {[TOPIC_SPECTRUM] = 162.0 + 40.0 * n,
                                [TOPIC_MODES] = 98.0 + 89.0 * n,
                                [TOPIC_STEPS] = 204.0 + 96.0 * t->steps,
                                [TOPIC_LP_PHASES] = 90.0 + 74.0 * t->phases,
                                [TOPIC_T_PHASES] = 90.0 + 82.0 * t->t_phases,
+                               [TOPIC_STRUCTURE] = 118.0 + 16.0 * waves + 68.0 * n,
                                [TOPIC_STATE] = 106.0 + 32.0 * set->def.disks};
     double bytes = 220.0 + 110.0; /* cost, status */
     for (topic k = 0; k < TOPICS; k++)
@@ -150,11 +151,15 @@ static double report_bytes(const settings *set, const trial *t)
     return bytes;
 }
 
-/** Of all steps, if all are found. */
+/** Of all steps, if all are found, and of the means in structure. */
 static double field_bytes(const settings *set, const trial *t)
 {
-    if (!(set->observables & topic_bit(TOPIC_FIELDS))) return 0.0;
-    return set->def.disks * (64.0 * t->steps + 48.0 * t->pairs);
+    const double waves = hd_structure_waves_of(&set->def), n = hd_scene_vectors(&set->def);
+    double bytes = 0.0;
+    if (set->observables & topic_bit(TOPIC_FIELDS))
+        bytes += set->def.disks * (64.0 * t->steps + 48.0 * t->pairs);
+    if (set->observables & topic_bit(TOPIC_STRUCTURE)) bytes += 16.0 * waves * n;
+    return bytes;
 }
 
 static void print_seconds(const char *name, double seconds)

@@ -21,6 +21,7 @@ static const advertise_function advertise[TOPICS] = {
     [TOPIC_T_PHASES] = hdr_t_phases_advertise,
     [TOPIC_FIELDS] = hdr_mode_field_advertise,
     [TOPIC_HYDRO] = hdr_hydro_advertise,
+    [TOPIC_STRUCTURE] = hdr_structure_advertise,
     [TOPIC_COVARIANT] = hdr_covariant_advertise,
     [TOPIC_STATE] = hdr_state_advertise,
     [TOPIC_STATUS] = hdr_run_status_advertise_latched,

@@ -18,6 +18,7 @@ static const struct {
     [TOPIC_T_PHASES] = {"t_phases", HD_OBSERVE_T_PHASES},
     [TOPIC_FIELDS] = {"fields", HD_OBSERVE_FIELDS},
     [TOPIC_HYDRO] = {"hydro", HD_OBSERVE_HYDRO},
+    [TOPIC_STRUCTURE] = {"structure", HD_OBSERVE_STRUCTURE},
     [TOPIC_COVARIANT] = {"covariant", HD_OBSERVE_COVARIANT},
     [TOPIC_STATE] = {"state", 0},
     [TOPIC_STATUS] = {"status", 0},

@@ -64,6 +64,15 @@ static void expect_same_modes(const hd_modes *a, const hd_modes *b)
         expect_same_doubles(hd_modes_coefficients(a, c), hd_modes_coefficients(b, c), n);
 }
 
+static void expect_same_structure(const hd_structure *a, const hd_structure *b)
+{
+    assert_int_equal(hd_structure_samples(a), hd_structure_samples(b));
+    for (int w = 0; w < hd_structure_waves(a); w++)
+        for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++)
+            expect_same_doubles(hd_structure_mean(a, w, e), hd_structure_mean(b, w, e),
+                                hd_structure_vectors(a));
+}
+
 static void expect_same_spectrum(const hd_spectrum *a, const hd_spectrum *b, int n)
 {
     CHECK_CLOSE(hd_spectrum_local_time(a), hd_spectrum_local_time(b), 0.0);
@@ -106,6 +115,7 @@ static void expect_same_state(hd_run *a, hd_run *b)
     if (hd_run_modes(a)) expect_same_modes(hd_run_modes(a), hd_run_modes(b));
     if (hd_run_phases(a)) expect_same_phases(hd_run_phases(a), hd_run_phases(b));
     if (hd_run_t_phases(a)) expect_same_phases(hd_run_t_phases(a), hd_run_t_phases(b));
+    if (hd_run_structure(a)) expect_same_structure(hd_run_structure(a), hd_run_structure(b));
     const bytes of_a = kept_bytes(a), of_b = kept_bytes(b);
     expect_same_bytes(&of_a, &of_b);
     free(of_a.data);

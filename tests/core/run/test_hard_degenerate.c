@@ -10,7 +10,8 @@ static const double PI = 3.14159265358979323846;
 static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 
 static const unsigned EVERYTHING = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES |
-                                   HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO;
+                                   HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO | HD_OBSERVE_T_PHASES |
+                                   HD_OBSERVE_STRUCTURE;
 
 /* ---- few disks ----------------------------------------------------------------------------- */
 

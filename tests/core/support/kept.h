@@ -5,7 +5,10 @@
 #include "run/checkpoint.h"
 #include "scenes.h"
 
-enum { KEPT_ALL = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES };
+enum {
+    KEPT_ALL = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES |
+               HD_OBSERVE_STRUCTURE
+};
 /** Before the elements of an array in the bytes. */
 enum { KEPT_HEAD = HD_ARCHIVE_NAME + 16 };
 

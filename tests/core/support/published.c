@@ -69,6 +69,17 @@ static void check_modes(const hd_modes *modes)
         check_numbers(hd_modes_null_average(modes, null), n, "part in the null space");
 }
 
+static void check_structure(const hd_structure *s)
+{
+    const int n = hd_structure_vectors(s);
+    for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++) {
+        for (int w = 0; w < hd_structure_waves(s); w++)
+            check_numbers(hd_structure_mean(s, w, e), n, "structure factor");
+        for (unsigned bits = 0; bits < 4; bits++)
+            check_numbers(hd_structure_amplitude(s, e, bits), n, "amplitude");
+    }
+}
+
 static void check_dispersion(hd_dispersion fit)
 {
     const double x[] = {fit.c, fit.c_error, fit.c2, fit.c2_error, fit.misfit};
@@ -164,6 +175,7 @@ long check_published(const hd_run *run)
     if (hd_run_steps(run)) check_steps(run);
     if (hd_run_phases(run)) check_phases(hd_run_phases(run));
     if (hd_run_t_phases(run)) check_phases(hd_run_t_phases(run));
+    if (hd_run_structure(run)) check_structure(hd_run_structure(run));
     if (hd_run_steps(run)) check_fields(run);
     return numbers;
 }

@@ -11,7 +11,7 @@ from hdlyap import msg
 from hdlyap.plots import fits, run as common
 from hdlyap.plots.numbers import known
 
-from . import fields, reader, tables
+from . import fields, reader, structure, tables
 from .disks import Disks
 from .reader import Missing
 
@@ -23,6 +23,7 @@ TOPICS = {
     't_phases': reader.T_PHASES,
     'fields': reader.FIELD,
     'hydro': reader.HYDRO,
+    'structure': reader.STRUCTURE,
     'covariant': reader.COVARIANT,
     'state': reader.STATE,
     'status': reader.STATUS,
@@ -56,9 +57,9 @@ class Run:
     """`info` is its run_info. Arrays have a row for each message: `times` (simulated),
     `averaged_times`, `exponents` and `std_errors` of the running means; `local` the samples. Frames
     are of the last message: `spectrum`, `modes`, `steps`, `phases`, `t_phases`, `covariant`,
-    `results`; or of all: `cost`, `status`, `course(topic)`. `state` has positions and momenta,
-    `fields` the last field of each vector. What was averaged before ~reset_average does not
-    count."""
+    `results`; or of all: `cost`, `status`, `course(topic)`. `structure` has structure
+    factors, `state` positions and momenta, `fields` the last field of each vector. What was
+    averaged before ~reset_average does not count."""
 
     def __init__(self, joined):
         self._joined = joined
@@ -206,6 +207,20 @@ class Run:
         'covariant', by simulated time: course('lp_phases')['phase'].unstack() has a column for each
         phase."""
         return tables.over_time(self._all(topic), FRAMES[topic])
+
+    @cached_property
+    def structure(self):
+        """The last mean structure factors: see structure.Structure."""
+        last = None
+        for message in self.messages('structure'):
+            last = message if len(message.along) else last
+        if last is None:
+            raise self._missing('structure with means')
+        return structure.Structure(last)
+
+    def amplitudes(self, indices, direction):
+        """Frame of all amplitudes of these vectors' waves, 'along' or 'across' k."""
+        return structure.amplitudes(self._all('structure'), list(indices), direction)
 
     # ---- disks and vectors ------------------------------------------------------------------
 

@@ -14,6 +14,7 @@ from . import (
     phases,
     spectrum,
     steps,
+    structure,
 )
 from .style import STYLE, plt, save
 
@@ -26,6 +27,7 @@ FIGURES = (
     modes,
     p_mode,
     phases,
+    structure,
     covariant_exponents,
     covariant_weights,
     covariant_angles,
