@@ -110,10 +110,10 @@ class Agreement(unittest.TestCase):
 
     def test_one_run(self):
         counts = {topic: len(messages) for topic, messages in self.messages.items()}
-        for topic in ('spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'hydro'):
+        for topic in set(OBSERVABLES) - {'fields', 'state'}:
             self.assertEqual(counts[topic], REPORTS, topic)
         times = [message.sim_time for message in self.messages['spectrum']]
-        for topic in ('modes', 'steps', 'lp_phases', 't_phases', 'hydro'):
+        for topic in ('modes', 'steps', 'lp_phases', 't_phases', 'hydro', 'structure'):
             self.assertEqual([message.sim_time for message in self.messages[topic]], times, topic)
         for topic, messages in self.messages.items():
             self.assertEqual({message.run_id for message in messages}, {self.info.run_id}, topic)
@@ -382,6 +382,49 @@ class Agreement(unittest.TestCase):
                 self.assertAlmostEqual(got.density, density)
                 self.assertAlmostEqual(got.energy, energy)
 
+    def test_structure_is_that_of_the_fields(self):
+        """Amplitudes along and across, of vectors whose fields there are; of waves along x."""
+        now = {message.sim_time: message for message in self.messages['structure']}
+        checked = 0
+        for field in self.messages['fields']:
+            message = now[field.sim_time]
+            n, peak = len(message.peak), message.peak[field.index - 1]
+            if peak == 0:
+                continue
+            k = message.wave_number[peak - 1]
+            self.assertAlmostEqual(k, 2 * math.pi * message.nx[peak - 1] / self.info.box_x)
+            self.assertEqual(message.ny[peak - 1], 0)
+            norm = math.sqrt(sum(u * u for u in (*field.dqx, *field.dqy)))
+            for bits, wave in enumerate((lambda x: -math.sin(k * x), lambda x: math.cos(k * x))):
+                along, across = (
+                    sum(wave(x) * u for x, u in zip(field.x, dq)) / norm
+                    for dq in (field.dqx, [-u for u in field.dqy])
+                )
+                at = bits * n + field.index - 1
+                self.assertAlmostEqual(message.amplitude_along[at], along)
+                self.assertAlmostEqual(message.amplitude_across[at], across)
+                checked += abs(along) + abs(across) > 0.5
+        self.assertGreater(checked, 2 * REPORTS)
+
+    def test_structure_finds_the_steps(self):
+        """Largest at the wave of the step of which a vector is most."""
+        message, steps = self.last('structure'), self.last('steps').steps
+        n, waves = len(message.peak), len(message.nx)
+        self.assertEqual((n, len(message.along)), (240, 240 * waves))
+        self.assertGreater(waves, len(self.info.wave_nx))
+        self.assertEqual(message.samples, self.last('modes').samples)
+        found = 0
+        for step in steps:
+            if not step.resolved or step.kind == Mode.ZERO or step.members > 1:
+                continue
+            factors = message.along if step.kind == Mode.LP else message.across
+            for index in range(step.first_index, step.last_index + 1):
+                own = [factors[wave * n + index - 1] for wave in range(waves)]
+                largest = own.index(max(own))
+                self.assertEqual((message.nx[largest], message.ny[largest]), (step.nx, step.ny))
+                found += 1
+        self.assertGreater(found, 5)
+
 
 def example(modes, number, step):
     """Index of the first vector of its set that belongs to a step, else of the first."""
@@ -461,6 +504,11 @@ class Demand(unittest.TestCase):
     def test_fields(self):
         calls = self.calls(['fields'], observables=OBSERVABLES, field_interval=0.0)
         self.check(calls, calls['spectrum_sample'], pmodes=True)
+        self.assertGreaterEqual(calls['spectrum_sample'], REPORTS)
+
+    def test_structure(self):
+        calls = self.calls(['structure'], observables=['structure'], field_interval=5.0)
+        self.check(calls, calls['spectrum_sample'])
         self.assertGreaterEqual(calls['spectrum_sample'], REPORTS)
 
     def test_hydro(self):

@@ -52,7 +52,9 @@ class Lines(unittest.TestCase):
     def test_what_stands_still_is_at_zero(self):
         times = self.times()
         found = structure.line(times, self.turning(times, 0.0, diffusion=1e-4))
-        self.assertEqual(found, (0.0, 0.0))
+        self.assertEqual(found, (0.0, 4 * np.pi / np.ptp(times)))
+        slow = structure.line(times, self.turning(times, 2 * found.error))
+        self.assertAlmostEqual(slow.omega, 2 * found.error, delta=0.2 * found.error)
 
     def test_power_is_the_mean_square(self):
         times = self.times()

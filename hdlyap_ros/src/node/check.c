@@ -143,7 +143,7 @@ static double report_bytes(const settings *set, const trial *t)
                                [TOPIC_STEPS] = 204.0 + 96.0 * t->steps,
                                [TOPIC_LP_PHASES] = 90.0 + 74.0 * t->phases,
                                [TOPIC_T_PHASES] = 90.0 + 82.0 * t->t_phases,
-                               [TOPIC_STRUCTURE] = 118.0 + 16.0 * waves + 68.0 * n,
+                               [TOPIC_STRUCTURE] = 122.0 + 16.0 * waves + 68.0 * n,
                                [TOPIC_STATE] = 106.0 + 32.0 * set->def.disks};
     double bytes = 220.0 + 110.0; /* cost, status */
     for (topic k = 0; k < TOPICS; k++)
@@ -201,6 +201,14 @@ static void print_speed(const settings *set, const trial *t)
     printf("\n");
 }
 
+/** What comes every field_interval. */
+static const char *of_interval(const settings *set)
+{
+    const bool fields = set->observables & topic_bit(TOPIC_FIELDS);
+    if (!(set->observables & topic_bit(TOPIC_STRUCTURE))) return "fields";
+    return fields ? "fields and structure factors" : "structure factors";
+}
+
 static void print_bag(const settings *set, const trial *t)
 {
     const double r = set->def.report_interval, fields = fmax(set->field_interval, r);
@@ -209,8 +217,8 @@ static void print_bag(const settings *set, const trial *t)
     const double paced = fmin(speed, reports_per_second * r);
     printf("bag       %.4g kB a report", 1e-3 * report_bytes(set, t));
     if (field_bytes(set, t) > 0)
-        printf(", at most %.3g MB of fields every %.3g time units", 1e-6 * field_bytes(set, t),
-               fields);
+        printf(", at most %.3g MB of %s every %.3g time units", 1e-6 * field_bytes(set, t),
+               of_interval(set), fields);
     if (set->def.duration > 0) printf(", %.3g MB in all", 1e-6 * set->def.duration * per_unit);
     printf(";\n          at most %.3g GB an hour if publishing and recording took no time, "
            "uncompressed\n",

@@ -89,11 +89,13 @@ def frequencies(times):
 
 def line(times, series):
     """Middle of the line with the largest power, half of its frequency to either side, and its
-    standard error from pieces of the course; None of a course that is too short. A line at 0, as of
-    what does not turn, is at 0."""
+    standard error from pieces of the course; None of a course that is too short. A line that is not
+    told from one at 0, as of what does not turn, is at 0 within what would be told."""
     if len(times) < REPORTS or not (np.diff(times) > 0).all():
         return None
     whole = _middle(times, series, _largest(times, series))
+    if whole == 0:
+        return Line(0.0, _resolution(times))
     pieces = np.array_split(np.arange(len(times)), PIECES)
     parts = [_middle(times[piece], series[piece], whole) for piece in pieces]
     return Line(whole, np.std(parts, ddof=1) / np.sqrt(PIECES))
@@ -102,7 +104,12 @@ def line(times, series):
 def _largest(times, series):
     omega = frequencies(times)
     largest = np.argmax(power(times, series, omega))
-    return omega[largest] if omega[largest] > 2 * np.pi * 2 / (times[-1] - times[0]) else 0.0
+    return omega[largest] if omega[largest] > _resolution(times) else 0.0
+
+
+def _resolution(times):
+    """Half of the width of a line of what turns evenly."""
+    return 4 * np.pi / (times[-1] - times[0])
 
 
 def _middle(times, series, about):
