@@ -123,8 +123,8 @@ static number *read_velocity(const hd_run *run, number *out)
     const hd_velocity v = hd_phases_velocity(hd_run_phases(run));
     uint64_t of = 0;
     for (int k = 0; k < hd_phases_count(hd_run_phases(run)); k++) {
-        const hd_lp_phase *phase = hd_phases_phase(hd_run_phases(run), k);
-        if (phase->state == HD_LP_TRACKED && phase->step < waves(run)) of |= bit(phase->step);
+        const hd_phase *phase = hd_phases_phase(hd_run_phases(run), k);
+        if (phase->state == HD_PHASE_TRACKED && phase->step < waves(run)) of |= bit(phase->step);
     }
     *out++ = (number){v.v, v.v_error, v.phases > 0 ? of : 0};
     return out;
@@ -146,9 +146,9 @@ static number *read_steps(const hd_run *run, number *out)
 static number *read_phases(const hd_run *run, number *out)
 {
     for (int k = 0; k < hd_phases_count(hd_run_phases(run)); k++) {
-        const hd_lp_phase *phase = hd_phases_phase(hd_run_phases(run), k);
+        const hd_phase *phase = hd_phases_phase(hd_run_phases(run), k);
         if (phase->step >= waves(run)) break;
-        const bool known = phase->state != HD_LP_UNRESOLVED && phase->time > 0;
+        const bool known = phase->state != HD_PHASE_UNRESOLVED && phase->time > 0;
         *out++ = (number){phase->omega, phase->omega_error, known ? bit(phase->step) : 0};
     }
     return out;

@@ -105,7 +105,7 @@ template <> struct item_of<%(name)s_list> {
 
 
 def snake(name):
-    return re.sub(r'(?<=[a-z0-9])(?=[A-Z])', '_', name).lower()
+    return re.sub(r'(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])', '_', name).lower()
 
 
 class Message:

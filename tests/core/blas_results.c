@@ -78,11 +78,11 @@ static void print_phases(const hd_run *run, double more)
     const hd_phases *phases = hd_run_phases(run);
     const double vectors = of_vectors(run) + more;
     for (int k = 0; k < hd_phases_count(phases); k++) {
-        const hd_lp_phase *phase = hd_phases_phase(phases, k);
+        const hd_phase *phase = hd_phases_phase(phases, k);
         print("state", phase->state, 0.0);
         print("a", phase->a, 2.0 * vectors);
         print("b", phase->b, 2.0 * vectors);
-        if (phase->state != HD_LP_TRACKED) continue;
+        if (phase->state != HD_PHASE_TRACKED) continue;
         const double strength = hypot(phase->a, phase->b); /* a phase is known to 1 / |z| of it */
         print("phase", phase->phase, 2.0 * vectors / strength);
     }

@@ -36,6 +36,8 @@ from hdlyap.msg import (
     Spectrum,
     State,
     Steps,
+    Structure,
+    TPhases,
 )
 
 NODE = 'hdlyap'
@@ -64,10 +66,12 @@ TYPES = dict(
     modes=Modes,
     steps=Steps,
     lp_phases=LpPhases,
+    t_phases=TPhases,
     fields=ModeField,
     hydro=Hydro,
     localization=Localization,
     gas=Gas,
+    structure=Structure,
     state=State,
     status=RunStatus,
     cost=Cost,

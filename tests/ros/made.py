@@ -23,6 +23,8 @@ from hdlyap.msg import (
     Spectrum,
     Step,
     Steps,
+    TPhase,
+    TPhases,
 )
 from hdlyap.plots import waves
 
@@ -39,8 +41,10 @@ TOPICS = {
     'hdlyap/Modes': 'modes',
     'hdlyap/Steps': 'steps',
     'hdlyap/LpPhases': 'lp_phases',
+    'hdlyap/TPhases': 't_phases',
     'hdlyap/ModeField': 'fields',
     'hdlyap/Hydro': 'hydro',
+    'hdlyap/Structure': 'structure',
     'hdlyap/Covariant': 'covariant',
     'hdlyap/Localization': 'localization',
     'hdlyap/Gas': 'gas',
@@ -367,6 +371,32 @@ def lp_phases(info, made, sim_time, modulations=(0, 1), began=0.0, rng=None, run
     return LpPhases(run_id=run_id, sim_time=sim_time, phases=phases)
 
 
+def t_phases(made, sim_time, began=0.0, run_id='one'):
+    """Vectors of every T step stand still, one here and one a quarter of the wave further."""
+    phases = [
+        TPhase(
+            step=number,
+            nx=one.nx,
+            ny=one.ny,
+            modulation=0,
+            index=index,
+            state=LpPhase.TRACKED,
+            a=index % 2,
+            b=1 - index % 2,
+            phase=0.5 * np.pi * (1 - index % 2),
+            omega=0.0,
+            omega_error=1e-3,
+            diffusion=2e-4 * number,
+            diffusion_error=1e-4 if number else -1.0,
+            tracked_time=sim_time - began,
+        )
+        for number, one in enumerate(made)
+        if one.kind == T
+        for index in range(one.first_index, one.last_index + 1)
+    ]
+    return TPhases(run_id=run_id, sim_time=sim_time, phases=phases)
+
+
 def disks(info, seed=1):
     """Positions on a shaken lattice and thermal momenta: x, y, px, py."""
     rng = np.random.default_rng(seed)
@@ -460,6 +490,7 @@ def small_run():
             status(100 + t),
             cost(100 + t),
             lp_phases(info, found, 100 + t, began=100, rng=rng),
+            t_phases(found, 100 + t, began=100),
         )
     ]
     fields = [mode_field(info, one, modulations=(0, 1) if one.nx else (0, 2)) for one in found]

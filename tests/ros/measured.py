@@ -83,6 +83,17 @@ def _phases(message):
             yield f'phases[{k}].{name}'
 
 
+def _t_phases(message):
+    for k, phase in enumerate(message.phases):
+        unknown = ['a', 'b'] if phase.state == LpPhase.UNRESOLVED else []
+        if phase.tracked_time == 0:
+            unknown += ['omega']
+            unknown += [] if phase.state == LpPhase.TRACKED else ['phase']
+        unknown += ['diffusion'] if phase.diffusion_error == -1 else []
+        for name in unknown:
+            yield f'phases[{k}].{name}'
+
+
 def _hydro(message):
     for k, response in enumerate(message.responses):
         if response.index == 0:
@@ -103,6 +114,7 @@ RULES = dict(
     Modes=_modes,
     Steps=_steps,
     LpPhases=_phases,
+    TPhases=_t_phases,
     Hydro=_hydro,
     ModeField=_field,
 )

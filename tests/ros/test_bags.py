@@ -206,19 +206,27 @@ class Recorded(unittest.TestCase):
     def test_sizes(self):
         """Of each message, by what the guide states."""
         for number, info in enumerate(self.infos):
-            last = {topic: self.of_run(topic, number)[-1] for topic in ('steps', 'lp_phases')}
+            steps, lp, t, structure = (
+                self.of_run(topic, number)[-1]
+                for topic in ('steps', 'lp_phases', 't_phases', 'structure')
+            )
             sizes = expected_sizes(
-                info.disks, info.vectors, len(last['steps'].steps), len(last['lp_phases'].phases)
+                info.disks,
+                info.vectors,
+                len(steps.steps),
+                len(lp.phases),
+                len(t.phases),
+                len(structure.nx),
             )
             for topic in sizes:
                 for message in self.of_run(topic, number):
                     written = io.BytesIO()
                     message.serialize(written)
-                    pairs = getattr(message, 'pairs', 0)
+                    pairs, means = getattr(message, 'pairs', 0), getattr(message, 'along', ())
                     names = 4 + len('box') + 4 + len(info.run_id)
                     self.assertEqual(
                         len(written.getvalue()) - names,
-                        sizes[topic] + pairs * (48 * info.disks + 17),
+                        sizes[topic] + pairs * (48 * info.disks + 17) + 16 * len(means),
                         topic,
                     )
 
@@ -226,7 +234,7 @@ class Recorded(unittest.TestCase):
         """Of the paper's scene: 8 waves along an axis or not, each T and LP, and the zero modes."""
         with open(GUIDE) as file:
             text = file.read()
-        sizes = expected_sizes(780, 1557, 17, 4 * 8 + 4 * 32)
+        sizes = expected_sizes(780, 1557, 17, 4 * 8 + 4 * 32, 4 * 2 + 4 * 8, 163)
         fields = [sizes['fields'], sizes['fields'] + 4 * 48 * 780]
         stated = dict(
             re.findall(r'^\| `(\w+)` \|.* \| ([0-9.]+(?: to [0-9.]+)?) kB \|$', text, re.MULTILINE)
@@ -239,6 +247,7 @@ class Recorded(unittest.TestCase):
             {topic: '%.3g' % (size / 1e3) for topic, size in sizes.items() if topic != 'fields'},
         )
         # every step found, T without pairs, LP with 2 along an axis and 4 else, once in ten reports
+        sizes.pop('structure')  # off unless asked for
         all_fields = 16 * sizes['fields'] + 4 * (2 + 4) * 48 * 780
         report = sum(size for topic, size in sizes.items() if topic != 'fields') + all_fields / 10
         most, seconds = re.search(
@@ -300,15 +309,17 @@ class Recorded(unittest.TestCase):
         self.assertIn('identical', compare.text())
 
 
-def expected_sizes(disks, vectors, steps, phases):
-    """Bytes of a message without frame_id and run_id, of fields without pairs: what the guide says,
-    and single numbers."""
+def expected_sizes(disks, vectors, steps, phases, t_phases, waves):
+    """Bytes of a message without frame_id and run_id, of fields without pairs, of structure without
+    means: what the guide says, and single numbers."""
     begin = 4 + 8 + 8  # seq, stamp, sim_time
     return dict(
         spectrum=begin + 8 + 8 + 5 * 8 + 4 + 5 * 4 + 40 * vectors,
         modes=begin + 8 + 4 + 4 + 89 * vectors,
         steps=begin + 8 + 8 + 4 + 96 * steps + 2 * 64 + 4 + 5 * 8,
         lp_phases=begin + 4 + 74 * phases,
+        t_phases=begin + 4 + 82 * t_phases,
+        structure=begin + 4 + 8 * 4 + 16 * waves + 68 * vectors,
         fields=begin + 29 + 8 * 4 + 64 * disks + 4 + 3 * 4 + 8 + 6 * 4,
         localization=begin + 4 + 4 + 3 * 4 + 24 * vectors,
         gas=begin + 10 * 8,

@@ -76,10 +76,13 @@ class Check(harness.Case):
         """Bytes of a report are those of the messages that a run publishes."""
         params = dict(MODES, observables=TOPICS, wait_for_subscribers=REPORT)
         last = {topic: got[-1] for topic, got in harness.whole_run(params, REPORT).items()}
-        want = sum(size_of(message) for message in last.values())
+        means = 16 * len(last['structure'].along)  # every field_interval
+        want = sum(size_of(message) for message in last.values()) - means
         said = checked(self.file_of(params)).stdout
         got = 1e3 * float(re.search(r'(\S+) kB a report', said).group(1))
         self.assertAlmostEqual(got / want, 1.0, delta=0.02)
+        got = 1e6 * float(re.search(r'(\S+) MB of structure factors every', said).group(1))
+        self.assertAlmostEqual(got / means, 1.0, delta=0.01)
         waves = re.search(r'(?m)^waves (.*)$', said).group(1).split()
         steps = {(s.nx, s.ny) for s in last['steps'].steps if s.nx + s.ny > 0}
         self.assertEqual(

@@ -105,6 +105,7 @@ class Arrays(Bags):
         for frame, elements in (
             (self.run_.steps, self.messages['steps'][-1].steps),
             (self.run_.phases, self.messages['lp_phases'][-1].phases),
+            (self.run_.t_phases, self.messages['t_phases'][-1].phases),
             (self.run_.modes, self.messages['modes'][-1].modes),
         ):
             self.assertEqual(len(frame), len(elements))
@@ -126,6 +127,11 @@ class Arrays(Bags):
         self.assertEqual(set(phases.step), {'LP(1,0)', 'LP(0,1)'})
         self.assertEqual(set(phases.modulation), {'cos kx x', 'sin kx x', 'cos ky y'})
         self.assertEqual(set(phases.state), {'tracked'})
+        still = self.run_.t_phases
+        self.assertEqual(list(still.step), ['T(1,0)'] * 2 + ['T(0,1)'] * 2)
+        self.assertEqual(list(still.modulation), ['cos kx x'] * 2 + ['cos ky y'] * 2)
+        self.assertEqual(list(still.diffusion_error.isna()), [True] * 2 + [False] * 2)
+        self.assertEqual(still.attrs['units']['diffusion'], 'rad^2/time unit')
 
     def test_course(self):
         turned = self.run_.course('lp_phases')['phase'].unstack()
@@ -233,12 +239,15 @@ class NotMeasured(Bags):
                 hdlyap.msg.Spectrum,
                 hdlyap.msg.Step,
                 hdlyap.msg.LpPhase,
+                hdlyap.msg.TPhase,
                 hdlyap.msg.RunStatus,
             )
             for name, field in fields.of(kind).items()
             if field.unknown
         }
-        self.assertLessEqual({'remaining_seconds', 'std_error', 'omega_error'}, unknown)
+        self.assertLessEqual(
+            {'remaining_seconds', 'std_error', 'omega_error', 'diffusion_error'}, unknown
+        )
         self.assertFalse(unknown & {'cos_theta', 'a', 'exponents', 'averaged_time'})
 
 

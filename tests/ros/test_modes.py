@@ -110,10 +110,10 @@ class Agreement(unittest.TestCase):
 
     def test_one_run(self):
         counts = {topic: len(messages) for topic, messages in self.messages.items()}
-        for topic in ('spectrum', 'modes', 'steps', 'lp_phases', 'hydro'):
+        for topic in set(OBSERVABLES) - {'fields', 'state'}:
             self.assertEqual(counts[topic], REPORTS, topic)
         times = [message.sim_time for message in self.messages['spectrum']]
-        for topic in ('modes', 'steps', 'lp_phases', 'hydro'):
+        for topic in ('modes', 'steps', 'lp_phases', 't_phases', 'hydro', 'structure'):
             self.assertEqual([message.sim_time for message in self.messages[topic]], times, topic)
         for topic, messages in self.messages.items():
             self.assertEqual({message.run_id for message in messages}, {self.info.run_id}, topic)
@@ -125,6 +125,7 @@ class Agreement(unittest.TestCase):
             modes=('modes', 240),
             steps=('steps', len(steps)),
             lp_phases=('phases', sum(2 * pairs**2 for s in steps if s.kind == Mode.LP)),
+            t_phases=('phases', sum(s.expected for s in steps if s.kind == Mode.T)),
             hydro=('responses', sum(pairs * s.expected for s in steps if s.kind != Mode.ZERO)),
         )
         for topic, (field, length) in lengths.items():
@@ -279,6 +280,27 @@ class Agreement(unittest.TestCase):
             turn = (phase.phase - math.atan2(phase.b, phase.a)) / (2 * math.pi)
             self.assertAlmostEqual(turn, round(turn))
 
+    def test_t_phases(self):
+        """Of the vectors of the T steps; they do not turn within 5 of their errors, which are known
+        here of none: beside what an LP phase turns by."""
+        steps = self.last('steps').steps
+        rate = min(p.omega for p in self.last('lp_phases').phases if p.state == LpPhase.TRACKED)
+        tracked = 0
+        for message in self.messages['t_phases']:
+            for phase in message.phases:
+                step = steps[phase.step]
+                self.assertEqual((step.kind, step.nx, step.ny), (Mode.T, phase.nx, phase.ny))
+                self.assertEqual(phase.modulation, LpPhase.COS_COS)
+                if phase.state == LpPhase.TRACKED:
+                    turn = (phase.phase - math.atan2(phase.b, phase.a)) / (2 * math.pi)
+                    self.assertAlmostEqual(turn, round(turn))
+                    self.assertGreater(math.hypot(phase.a, phase.b), 0.2)
+        for phase in self.last('t_phases').phases:
+            if phase.tracked_time > 10:
+                tracked += 1
+                self.assertLess(abs(phase.omega), max(5 * phase.omega_error, 0.5 * rate))
+        self.assertGreater(tracked, 1)
+
     def test_fields_follow_the_steps(self):
         got = [(field.sim_time, field.index) for field in self.messages['fields']]
         want = [
@@ -360,6 +382,49 @@ class Agreement(unittest.TestCase):
                 self.assertAlmostEqual(got.density, density)
                 self.assertAlmostEqual(got.energy, energy)
 
+    def test_structure_is_that_of_the_fields(self):
+        """Amplitudes along and across, of vectors whose fields there are; of waves along x."""
+        now = {message.sim_time: message for message in self.messages['structure']}
+        checked = 0
+        for field in self.messages['fields']:
+            message = now[field.sim_time]
+            n, peak = len(message.peak), message.peak[field.index - 1]
+            if peak == 0:
+                continue
+            k = message.wave_number[peak - 1]
+            self.assertAlmostEqual(k, 2 * math.pi * message.nx[peak - 1] / self.info.box_x)
+            self.assertEqual(message.ny[peak - 1], 0)
+            norm = math.sqrt(sum(u * u for u in (*field.dqx, *field.dqy)))
+            for bits, wave in enumerate((lambda x: -math.sin(k * x), lambda x: math.cos(k * x))):
+                along, across = (
+                    sum(wave(x) * u for x, u in zip(field.x, dq)) / norm
+                    for dq in (field.dqx, [-u for u in field.dqy])
+                )
+                at = bits * n + field.index - 1
+                self.assertAlmostEqual(message.amplitude_along[at], along)
+                self.assertAlmostEqual(message.amplitude_across[at], across)
+                checked += abs(along) + abs(across) > 0.5
+        self.assertGreater(checked, 2 * REPORTS)
+
+    def test_structure_finds_the_steps(self):
+        """Largest at the wave of the step of which a vector is most."""
+        message, steps = self.last('structure'), self.last('steps').steps
+        n, waves = len(message.peak), len(message.nx)
+        self.assertEqual((n, len(message.along)), (240, 240 * waves))
+        self.assertGreater(waves, len(self.info.wave_nx))
+        self.assertEqual(message.samples, self.last('modes').samples)
+        found = 0
+        for step in steps:
+            if not step.resolved or step.kind == Mode.ZERO or step.members > 1:
+                continue
+            factors = message.along if step.kind == Mode.LP else message.across
+            for index in range(step.first_index, step.last_index + 1):
+                own = [factors[wave * n + index - 1] for wave in range(waves)]
+                largest = own.index(max(own))
+                self.assertEqual((message.nx[largest], message.ny[largest]), (step.nx, step.ny))
+                found += 1
+        self.assertGreater(found, 5)
+
 
 def example(modes, number, step):
     """Index of the first vector of its set that belongs to a step, else of the first."""
@@ -432,9 +497,18 @@ class Demand(unittest.TestCase):
         calls = self.calls(['lp_phases'], observables=['lp_phases'])
         self.check(calls, calls['phases_add'], phases=True)
 
+    def test_t_phases(self):
+        calls = self.calls(['t_phases'], observables=['t_phases'])
+        self.check(calls, calls['phases_add'], phases=True)
+
     def test_fields(self):
         calls = self.calls(['fields'], observables=OBSERVABLES, field_interval=0.0)
         self.check(calls, calls['spectrum_sample'], pmodes=True)
+        self.assertGreaterEqual(calls['spectrum_sample'], REPORTS)
+
+    def test_structure(self):
+        calls = self.calls(['structure'], observables=['structure'], field_interval=5.0)
+        self.check(calls, calls['spectrum_sample'])
         self.assertGreaterEqual(calls['spectrum_sample'], REPORTS)
 
     def test_hydro(self):

@@ -101,7 +101,8 @@ class Subscribers(unittest.TestCase):
                 cost=REPORTS,
                 **{
                     topic: AVERAGED_REPORTS
-                    for topic in ('spectrum', 'modes', 'steps', 'lp_phases', 'hydro')
+                    for topic in harness.OBSERVABLES
+                    if topic not in ('fields', 'state')
                 },
             ),
         )

@@ -27,6 +27,7 @@
 #include "hdlyap/phases.h"
 #include "hdlyap/pmode.h"
 #include "hdlyap/hydro.h"
+#include "hdlyap/structure.h"
 /* covariant */
 #include "hdlyap/splitting.h"
 #include "hdlyap/covariant.h"

@@ -52,6 +52,9 @@ const double *hd_modes_average(const hd_modes *modes, int s, hd_weight which);
 const double *hd_modes_null_snapshot(const hd_modes *modes, int null);
 const double *hd_modes_null_average(const hd_modes *modes, int null);
 
+/** Norms of the dq halves in the snapshot; [n]. */
+const double *hd_modes_dq_norms(const hd_modes *modes);
+
 /** Snapshot of the least-squares coefficients of the normalised dq halves on the normalised field
  * at a column of hd_fields; [n]. */
 const double *hd_modes_coefficients(const hd_modes *modes, int column);

@@ -1,5 +1,6 @@
-/** LP dynamics: how the vectors of an LP step rotate between the L and the P field of each pair
- * [T13]. */
+/** How the vectors of a step move within pairs of its fields [T13]: those of an LP step rotate
+ * between the L and the P field of each modulation; those of a T step stay, but for diffusion,
+ * between the T fields of a cosine and of a sine. */
 #ifndef HDLYAP_PHASES_H
 #define HDLYAP_PHASES_H
 
@@ -9,39 +10,46 @@
 extern "C" {
 #endif
 
-typedef enum hd_lp_state {
-    HD_LP_UNRESOLVED, /**< the step is not resolved: nothing else is known */
-    HD_LP_WEAK,       /**< a^2 + b^2 too small for a phase at this time */
-    HD_LP_COARSE,     /**< the sample came too late to unwrap the phase: it begins anew */
-    HD_LP_TRACKED     /**< all is known */
-} hd_lp_state;
+typedef enum hd_phase_state {
+    HD_PHASE_UNRESOLVED, /**< the step is not resolved: nothing else is known */
+    HD_PHASE_WEAK,       /**< a^2 + b^2 too small for a phase at this time */
+    HD_PHASE_COARSE,     /**< the sample came too late to unwrap the phase: it begins anew */
+    HD_PHASE_TRACKED     /**< all is known */
+} hd_phase_state;
 
-/** One pair (L, P) of one modulation, and one vector of its step. */
-typedef struct hd_lp_phase {
+/** One pair of fields, and one vector of their step. */
+typedef struct hd_phase {
     int step;                 /**< of hd_steps */
-    unsigned char modulation; /**< HD_SIN_X | HD_SIN_Y */
+    unsigned char modulation; /**< HD_SIN_X | HD_SIN_Y: of both L and P; of T the first field's, the
+                                 other one's has a sine for a cosine, along x if that is periodic */
     int col; /**< the vector followed; it changes where vectors change places; -1 */
-    hd_lp_state state;
-    double a, b;        /**< least-squares coefficients on the normalised L and P field */
-    double phase;       /**< atan2(b, a), unwrapped since the tracking began [rad] */
-    double omega;       /**< its slope by regression [rad/time unit] */
+    hd_phase_state state;
+    double a, b;  /**< least-squares coefficients on the normalised fields: L and P, T and T */
+    double phase; /**< atan2(b, a), unwrapped since the tracking began [rad] */
+    double omega; /**< its slope by regression [rad/time unit] */
     double omega_error; /**< standard error; negative if not yet known */
     double time;        /**< tracked for so long [time units] */
-} hd_lp_phase;
+} hd_phase;
 
 typedef struct hd_phases hd_phases;
 
-HD_MUST_CHECK hd_status hd_phases_create(hd_phases **out, const hd_steps *steps);
+/** Of the steps of a kind, HD_MODE_LP or HD_MODE_T. HD_NO_MEMORY. */
+HD_MUST_CHECK hd_status hd_phases_create(hd_phases **out, const hd_steps *steps, hd_mode_kind kind);
 void hd_phases_free(hd_phases *phases);
 void hd_phases_clear(hd_phases *phases);
 
 /** Goes on to the snapshot in the steps' modes, taken at simulated time `time`. */
 void hd_phases_add(hd_phases *phases, const hd_steps *steps, double time);
 
-/** 2 d^2 for each LP subspace with d pairs, in the order of the steps: vectors outside, pairs
- * inside. Constant. */
+/** 2 d^2 for each subspace of the kind with d pairs, in the order of the steps: vectors outside,
+ * pairs inside. A single field (of T behind walls) is no pair. Constant. */
 int hd_phases_count(const hd_phases *phases);
-const hd_lp_phase *hd_phases_phase(const hd_phases *phases, int index);
+const hd_phase *hd_phases_phase(const hd_phases *phases, int index);
+
+/** D of a phase with the mean square 2 D t about omega t, from its blocks [rad^2/time unit], and
+ * its standard error; negative if not yet known. A phase that also trembles needs blocks that are
+ * longer than that takes: before, it is too large. */
+double hd_phases_diffusion(const hd_phases *phases, int index, double *error);
 
 /** |omega| / k of the tracked phases, weighted with their errors [sigma/time unit]. */
 typedef struct hd_velocity {
@@ -56,7 +64,7 @@ typedef struct hd_velocity {
 hd_velocity hd_phases_velocity(const hd_phases *phases);
 
 /** Number of slowest vectors among which all are whose phases are followed. */
-int hd_phases_vectors(const hd_steps *steps);
+int hd_phases_vectors(const hd_steps *steps, hd_mode_kind kind);
 
 /** Longest time from the last sample to the next that unwraps every resolved step safely; INFINITY
  * without one. Grows as the rates become known, by at most 2 from one sample to the next, and

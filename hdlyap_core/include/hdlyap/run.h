@@ -14,6 +14,7 @@
 #include "hdlyap/phases.h"
 #include "hdlyap/spectrum.h"
 #include "hdlyap/steps.h"
+#include "hdlyap/structure.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -136,7 +137,9 @@ const hd_frame *hd_run_frame(const hd_run *run);
 const hd_spectrum *hd_run_spectrum(const hd_run *run); /**< NULL without exponents */
 const hd_modes *hd_run_modes(const hd_run *run); /**< NULL unless observed, as the two below */
 const hd_steps *hd_run_steps(const hd_run *run);
-const hd_phases *hd_run_phases(const hd_run *run);
+const hd_phases *hd_run_phases(const hd_run *run);       /**< of the LP steps */
+const hd_phases *hd_run_t_phases(const hd_run *run);     /**< NULL unless observed */
+const hd_structure *hd_run_structure(const hd_run *run); /**< NULL unless observed */
 /** Simulated time of the phases; negative while none have been followed. */
 double hd_run_followed(const hd_run *run);
 const hd_covariant *hd_run_covariant(const hd_run *run); /**< NULL unless observed */

@@ -29,7 +29,7 @@ enum {
 enum { HD_WARMUP_AUTO = -1 };
 
 /** hd_scene_def.observe: what is computed beyond the exponents. Phases, fields and hydro need
- * steps, which need modes: these come with them. The gas needs no exponents. */
+ * steps, which need modes, as structure does: these come with them. The gas needs no exponents. */
 enum {
     HD_OBSERVE_MODES = 1,          /**< weights of every vector */
     HD_OBSERVE_STEPS = 2,          /**< degenerate sets, dispersion */
@@ -37,10 +37,12 @@ enum {
     HD_OBSERVE_FIELDS = 8,         /**< reconstructed P modes */
     HD_OBSERVE_HYDRO = 16,         /**< hydrodynamic response */
     HD_OBSERVE_COVARIANT = 32,     /**< covariant vectors; alone, it needs no modes */
-    HD_OBSERVE_GAS = 64,           /**< collision rate and pressure */
-    HD_OBSERVE_LOCALIZATION = 128, /**< how far the vectors spread over the disks */
-    HD_OBSERVE_ALL = 255,          /**< all of these */
-    HD_OBSERVE_WAVES = 63          /**< those that look at wave vectors */
+    HD_OBSERVE_T_PHASES = 64,      /**< phases of the T steps */
+    HD_OBSERVE_STRUCTURE = 128,    /**< structure factors, and amplitudes at every report */
+    HD_OBSERVE_GAS = 256,          /**< collision rate and pressure */
+    HD_OBSERVE_LOCALIZATION = 512, /**< how far the vectors spread over the disks */
+    HD_OBSERVE_ALL = 1023,         /**< all of these */
+    HD_OBSERVE_WAVES = 255         /**< those that look at wave vectors */
 };
 
 /** Where the triangles that covariant vectors need wait for the way back. */

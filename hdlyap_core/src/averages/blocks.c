@@ -202,6 +202,18 @@ double hd_blocks_error_of_turns(const hd_blocks *blocks)
     return error * sqrt(fmax(1.0 + 2.0 * memory, TREMBLING_MIN));
 }
 
+double hd_blocks_diffusion(const hd_blocks *blocks, double *error)
+{
+    double deviation[HD_BLOCKS_MAX];
+    const int count = blocks->count;
+    *error = -1.0;
+    if (count < HD_SPECTRUM_BLOCKS_MIN) return -1.0;
+    (void)deviations_of(blocks, &(hd_part){0, 1.0}, 1, deviation);
+    const double diffusion = 0.5 * variance_of(deviation, count) / whole_weight(blocks);
+    *error = diffusion * sqrt(2.0 / (count - 1.0));
+    return diffusion;
+}
+
 /* ---- file ---------------------------------------------------------------------------------- */
 
 void hd_blocks_archive(hd_blocks *blocks, hd_archive *archive)

@@ -40,6 +40,11 @@ double hd_blocks_error(const hd_blocks *blocks, const hd_part *parts, int count)
  * trembles: what a block has too much, the next has too little. */
 double hd_blocks_error_of_turns(const hd_blocks *blocks);
 
+/** D of such a phase, mean square 2 D weight about its mean rate, from all blocks, and its standard
+ * error; negative below HD_SPECTRUM_BLOCKS_MIN blocks. What trembles adds its mean square over the
+ * weight of a block. */
+double hd_blocks_diffusion(const hd_blocks *blocks, double *error);
+
 /** Standard error of a sum from deviations of its blocks from their mean, deviation[count], which
  * is used as workspace; count at most HD_BLOCKS_MAX. As hd_blocks_error. Deviations within
  * `rounding` have no memory. */

@@ -98,6 +98,15 @@ hd_status hd_communicator_share(hd_communicator *c, double *x, hd_shared s)
     return status;
 }
 
+hd_status hd_communicator_share_halves(hd_communicator *c, double *x, hd_shared carried, size_t all)
+{
+    hd_shared partners = carried;
+    partners.from_behind = 1;
+    const hd_status status = hd_communicator_share(c, x, carried);
+    if (status != HD_OK || all == carried.count) return status;
+    return hd_communicator_share(c, x + carried.count, partners);
+}
+
 hd_status hd_communicator_agree(hd_communicator *c, hd_status mine)
 {
     const int ranks = hd_communicator_ranks(c);

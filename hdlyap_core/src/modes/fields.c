@@ -10,20 +10,12 @@
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "modes/harmonics.h"
 #include "scene/null_space.h"
-
-/** cos(k u), sin(k u) and their derivatives, for nodes 0 .. nodes along one direction. */
-typedef struct table {
-    double offset; /**< of the coordinate: 1/2 behind a wall */
-    int nodes;
-    double k;           /**< of one node */
-    double *value;      /**< [2 (nodes + 1)]: cosine, sine of each node */
-    double *derivative; /**< same */
-} table;
 
 struct hd_fields {
     int disks, columns, stride, subspaces;
-    table along[2];
+    hd_harmonics along[2];
     hd_null_space null;
     hd_subspace *subspace; /**< [subspaces] */
     double *data;          /**< [2 disks * stride] */
@@ -62,23 +54,11 @@ static hd_status subspaces_create(hd_fields *fields, const hd_scene_def *def)
     return HD_OK;
 }
 
-static hd_status tables_create(hd_fields *fields, const hd_scene_def *def)
-{
-    for (int d = 0; d < 2; d++) {
-        table *t = &fields->along[d];
-        t->offset = def->boundary[d] == HD_REFLECTING ? 0.5 : 0.0;
-        t->k = hd_wave_component(def, d, 1);
-        t->value = hd_memory_alloc(2 * ((size_t)t->nodes + 1), sizeof(double));
-        t->derivative = hd_memory_alloc(2 * ((size_t)t->nodes + 1), sizeof(double));
-        if (!t->value || !t->derivative) return HD_NO_MEMORY;
-    }
-    return HD_OK;
-}
-
 static hd_status fields_prepare(hd_fields *fields, const hd_scene_def *def)
 {
     HD_TRY(subspaces_create(fields, def));
-    HD_TRY(tables_create(fields, def));
+    for (int d = 0; d < 2; d++)
+        HD_TRY(hd_harmonics_create(&fields->along[d], def, d, fields->along[d].nodes));
     fields->null = hd_null_space_of(def->boundary);
     fields->columns += HD_NULLS;
     fields->stride = (fields->columns + 7) / 8 * 8;
@@ -105,10 +85,7 @@ hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def)
 void hd_fields_free(hd_fields *fields)
 {
     if (!fields) return;
-    for (int d = 0; d < 2; d++) {
-        hd_memory_free(fields->along[d].value);
-        hd_memory_free(fields->along[d].derivative);
-    }
+    for (int d = 0; d < 2; d++) hd_harmonics_clear(&fields->along[d]);
     hd_memory_free(fields->subspace);
     hd_memory_free(fields->data);
     hd_memory_free(fields->norm);
@@ -116,17 +93,6 @@ void hd_fields_free(hd_fields *fields)
 }
 
 /* ---- sampling ------------------------------------------------------------------------------ */
-
-static void table_fill(table *t, double coordinate)
-{
-    for (int n = 0; n <= t->nodes; n++) {
-        const double k = t->k * n, angle = k * (coordinate - t->offset);
-        t->value[2 * n] = cos(angle);
-        t->value[2 * n + 1] = sin(angle);
-        t->derivative[2 * n] = -k * t->value[2 * n + 1];
-        t->derivative[2 * n + 1] = k * t->value[2 * n];
-    }
-}
 
 /** Fields of one modulation A = f(x) g(y) at one disk: T = curl A; L = grad A and P = p A. */
 static void sample_modulation(const hd_fields *fields, const hd_subspace *s, int c, const double *p,
@@ -149,7 +115,7 @@ static void sample_modulation(const hd_fields *fields, const hd_subspace *s, int
 static void sample_disk(hd_fields *fields, const double *q, const double *p, double *x, double *y)
 {
     const int null = fields->columns - HD_NULLS;
-    for (int d = 0; d < 2; d++) table_fill(&fields->along[d], q[d]);
+    for (int d = 0; d < 2; d++) hd_harmonics_fill(&fields->along[d], q[d]);
     for (int s = 0; s < fields->subspaces; s++)
         for (int c = 0; c < fields->subspace[s].modulations.count; c++)
             sample_modulation(fields, &fields->subspace[s], c, p, x, y);

@@ -1,4 +1,4 @@
-/** How far ahead the turns of one LP step are foreseen: its mean rate, and by how much its phases
+/** How far ahead the turns of one step are foreseen: its mean rate, and by how much its phases
  * have missed it [T13]. `unseen` is the longest time between samples without any
  * foresight. */
 #ifndef HD_FORESIGHT_H

@@ -250,20 +250,17 @@ hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const
 /** What is computed for each vector; all of it, for vectors that any rank has. */
 hd_status hd_modes_share(hd_modes *modes, hd_communicator *communicator, int width, int carried)
 {
-    const size_t stride = modes->stride, half = (size_t)carried, w = (size_t)width;
     const struct {
         double *array;
         size_t rows;
     } known[] = {{modes->snapshot, weight_rows(modes)},
                  {modes->coefficient, (size_t)hd_fields_columns(modes->fields)},
                  {modes->dq_norm, 1}};
-    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
-        const hd_shared own = {known[k].rows, stride, w, half, 0},
-                        partners = {known[k].rows, stride, w, half, 1};
-        HD_TRY(hd_communicator_share(communicator, known[k].array, own));
-        if (carried < modes->vectors)
-            HD_TRY(hd_communicator_share(communicator, known[k].array + half, partners));
-    }
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+        HD_TRY(hd_communicator_share_halves(
+            communicator, known[k].array,
+            (hd_shared){known[k].rows, modes->stride, (size_t)width, (size_t)carried, 0},
+            (size_t)modes->vectors));
     return HD_OK;
 }
 
@@ -319,6 +316,8 @@ const double *hd_modes_null_average(const hd_modes *modes, int null)
 {
     return null_of(modes, modes->average, null);
 }
+
+const double *hd_modes_dq_norms(const hd_modes *modes) { return modes->dq_norm; }
 
 const double *hd_modes_coefficients(const hd_modes *modes, int column)
 {

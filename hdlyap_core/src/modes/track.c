@@ -1,4 +1,4 @@
-/** Coefficients of one vector on one LP pair -> its phase [T13]. */
+/** Coefficients of one vector on one pair of fields -> its phase [T13]. */
 #include "modes/track.h"
 
 #include <limits.h>
@@ -6,14 +6,14 @@
 
 static const double PI = 3.14159265358979323846;
 
-void hd_track_restart(hd_track *t, hd_lp_state state)
+void hd_track_restart(hd_track *t, hd_phase_state state)
 {
-    const hd_lp_phase out = t->out;
-    t->out = (hd_lp_phase){.step = out.step,
-                           .modulation = out.modulation,
-                           .col = -1,
-                           .state = state,
-                           .omega_error = -1.0};
+    const hd_phase out = t->out;
+    t->out = (hd_phase){.step = out.step,
+                        .modulation = out.modulation,
+                        .col = -1,
+                        .state = state,
+                        .omega_error = -1.0};
     t->count = 0;
     hd_blocks_restart(&t->turns);
 }
@@ -53,8 +53,8 @@ static double slope_error(const hd_track *t)
 bool hd_track_add(hd_track *t, double complex z, double time, double omega, double gap)
 {
     const double strength = creal(z) * creal(z) + cimag(z) * cimag(z);
-    if (t->count > 0 && time - t->last > gap) hd_track_restart(t, HD_LP_WEAK);
-    t->out.state = strength < HD_TRACK_WEAK ? HD_LP_WEAK : HD_LP_TRACKED;
+    if (t->count > 0 && time - t->last > gap) hd_track_restart(t, HD_PHASE_WEAK);
+    t->out.state = strength < HD_TRACK_WEAK ? HD_PHASE_WEAK : HD_PHASE_TRACKED;
     if (strength < HD_TRACK_WEAK) return false;
     if (t->count == 0) {
         begin(t, time, carg(z));
@@ -77,8 +77,8 @@ void hd_track_archive(hd_track *t, hd_archive *archive, int vectors)
 {
     int state = (int)t->out.state;
     hd_archive_int(archive, "phase col", &t->out.col, -1, vectors - 1);
-    hd_archive_int(archive, "phase state", &state, HD_LP_UNRESOLVED, HD_LP_TRACKED);
-    t->out.state = (hd_lp_state)state;
+    hd_archive_int(archive, "phase state", &state, HD_PHASE_UNRESOLVED, HD_PHASE_TRACKED);
+    t->out.state = (hd_phase_state)state;
     double *const of_out[] = {&t->out.a,     &t->out.b,           &t->out.phase,
                               &t->out.omega, &t->out.omega_error, &t->out.time};
     double *const sums[] = {&t->last,       &t->begin,    &t->mean_t,

@@ -1,4 +1,4 @@
-/** The phase of one vector (slot) of an LP step and one pair, unwrapped [T13]. */
+/** The phase of one vector (slot) of a step and one pair, unwrapped [T13]. */
 #ifndef HD_TRACK_H
 #define HD_TRACK_H
 
@@ -12,7 +12,7 @@
 
 /** One slot and one pair. Slope by regression: running means and centred sums of time and phase. */
 typedef struct hd_track {
-    hd_lp_phase out;
+    hd_phase out;
     double last;  /**< time of the last phase */
     double begin; /**< of the tracking */
     long count;
@@ -22,7 +22,7 @@ typedef struct hd_track {
 } hd_track;
 
 /** Begins anew with the next coefficients; `state` is said until then. */
-void hd_track_restart(hd_track *t, hd_lp_state state);
+void hd_track_restart(hd_track *t, hd_phase_state state);
 
 /** z = a + i b at this time, with the sign of its slot; omega predicts the phase. After more than
  * `gap` without one it begins anew. True if the phase has gone on. */

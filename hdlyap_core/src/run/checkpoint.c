@@ -111,7 +111,9 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     hd_spectrum_archive(run->spectrum, archive);
     if (run->observer.modes) hd_modes_archive(run->observer.modes, archive);
     if (run->observer.steps) hd_steps_archive(run->observer.steps, archive);
-    if (run->observer.phases) hd_phases_archive(run->observer.phases, archive);
+    if (run->observer.structure) hd_structure_archive(run->observer.structure, archive);
+    for (int k = 0; k < HD_FOLLOWED; k++)
+        if (run->observer.phases[k]) hd_phases_archive(run->observer.phases[k], archive);
     if (run->shape) hd_localization_archive(run->shape, archive);
     if (run->windows.covariant) hd_covariant_archive(run->windows.covariant, archive);
 }

@@ -135,7 +135,7 @@ bool hd_run_is_windowing(const hd_run *run)
 /** What the next intervals are expected to be: a report that needs all vectors ends one. */
 static double expected_interval(const hd_run *run)
 {
-    const bool at_reports = run->observe & (HD_OBSERVE_HYDRO | HD_OBSERVE_FIELDS);
+    const bool at_reports = run->observe & (HD_OBSERVE_AT_REPORTS | HD_OBSERVE_FIELDS);
     const double sample = hd_run_sample_longest(run);
     const double most = at_reports ? fmin(sample, run->schedule.report_interval) : sample;
     return fmin(hd_interval_longest(&run->interval).length, most);

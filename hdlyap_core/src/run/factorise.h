@@ -7,8 +7,12 @@
 /** What modes are needed for. */
 enum {
     HD_OBSERVE_OF_MODES = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES |
-                          HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO
+                          HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO | HD_OBSERVE_T_PHASES |
+                          HD_OBSERVE_STRUCTURE
 };
+
+/** What needs all vectors at every report. */
+enum { HD_OBSERVE_AT_REPORTS = HD_OBSERVE_HYDRO | HD_OBSERVE_STRUCTURE };
 
 /** True while modes are looked at. */
 bool hd_run_is_observing(const hd_run *run);

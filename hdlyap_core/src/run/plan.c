@@ -25,10 +25,10 @@ static const double WHOLE_BLOCK = 1.05, IN_A_BLOCK = 2.0, IN_A_SAMPLE = 3.0;
 /** Longest time from one look at the phases to the next; INFINITY if nobody looks. */
 static double phases_sampling(const hd_run *run)
 {
-    const bool followed = hd_run_is_observing(run) && (run->observe & HD_OBSERVE_PHASES);
+    const unsigned phases = run->observe & HD_OBSERVE_OF_PHASES;
     const double wanted = run->scene.phase_interval;
-    if (!followed) return INFINITY;
-    const double needed = hd_phases_sampling(run->observer.phases, run->observer.steps);
+    if (!hd_run_is_observing(run) || !phases) return INFINITY;
+    const double needed = hd_observer_sampling(&run->observer, phases);
     return wanted > 0 ? fmin(wanted, needed) : needed;
 }
 
@@ -60,7 +60,7 @@ static double next_stop(const hd_run *run)
     const bool averaging = s->stage == HD_AVERAGING, observing = hd_run_is_observing(run);
     double stop = hd_schedule_stage_end(s);
     if (averaging && hd_spectrum_time(run->spectrum) == 0) stop = hd_schedule_cut(s);
-    if (observing && (run->observe & HD_OBSERVE_HYDRO)) stop = hd_schedule_cut(s);
+    if (observing && (run->observe & HD_OBSERVE_AT_REPORTS)) stop = hd_schedule_cut(s);
     if (observing && (run->observe & HD_OBSERVE_FIELDS))
         stop = fmin(stop, hd_schedule_next_multiple(s, run->in_force.field_interval));
     return stop;

@@ -20,7 +20,9 @@ const hd_frame *hd_run_frame(const hd_run *run) { return run->frame; }
 const hd_spectrum *hd_run_spectrum(const hd_run *run) { return run->spectrum; }
 const hd_modes *hd_run_modes(const hd_run *run) { return run->observer.modes; }
 const hd_steps *hd_run_steps(const hd_run *run) { return run->observer.steps; }
-const hd_phases *hd_run_phases(const hd_run *run) { return run->observer.phases; }
+const hd_phases *hd_run_phases(const hd_run *run) { return run->observer.phases[HD_FOLLOWED_LP]; }
+const hd_phases *hd_run_t_phases(const hd_run *run) { return run->observer.phases[HD_FOLLOWED_T]; }
+const hd_structure *hd_run_structure(const hd_run *run) { return run->observer.structure; }
 const hd_covariant *hd_run_covariant(const hd_run *run) { return run->windows.covariant; }
 const hd_gas *hd_run_gas(const hd_run *run) { return run->gas; }
 hd_localization *hd_run_localization(const hd_run *run) { return run->shape; }

@@ -9,6 +9,7 @@
 #include "base/check.h"
 #include "hdlyap/blas.h"
 #include "hdlyap/modes.h"
+#include "hdlyap/structure.h"
 #include "hdlyap/trajectory.h"
 #include "hdlyap/wave.h"
 #include "modes/track.h"
@@ -61,8 +62,10 @@ static counted fields_of(const hd_scene_def *def)
     counted all = {.subspaces = 2.0 * count};
     for (int k = 0; k < count && k < WAVES; k++) {
         const double pairs = hd_wave_pairs(&wave[k], def->boundary).count;
-        all.columns += hd_wave_transverse(&wave[k], def->boundary).count + 2.0 * pairs;
-        all.tracks += 2.0 * pairs * pairs;
+        const double t = hd_wave_transverse(&wave[k], def->boundary).count;
+        all.columns += t + 2.0 * pairs;
+        if (def->observe & HD_OBSERVE_PHASES) all.tracks += 2.0 * pairs * pairs;
+        if (def->observe & HD_OBSERVE_T_PHASES) all.tracks += 2.0 * floor(t / 2.0) * floor(t / 2.0);
     }
     if (count > WAVES) all.columns = OF_ONE * count;
     return all;
@@ -86,12 +89,23 @@ static double conjugate_bytes(const hd_scene_def *def, double ranks)
            (1.0 + 1.5 * signs + (whole ? rows / ranks : 0.0) + (gathered ? 1.5 * rows : 0.0));
 }
 
+/** Waves at once: 4 functions and 2 components each. */
+static double structure_bytes(const hd_scene_def *def, double n)
+{
+    const double waves = hd_structure_waves_of(def), at_once = 16.0;
+    const double harmonics = 4.0 * sqrt(waves);
+    return WORD *
+           (4.0 * waves * n + (9.0 * at_once + 9.0) * n + def->disks * (4.0 * at_once + harmonics));
+}
+
 static double observer_bytes(const hd_scene_def *def, const counted *of, double n)
 {
     const double track = sizeof(hd_track) + WORD * (HD_BLOCKS_MAX + 1.0);
-    const bool phases = def->observe & HD_OBSERVE_PHASES;
+    const bool phases = def->observe & HD_OBSERVE_OF_PHASES;
     const double looks = SLOW * (4.0 * def->disks + 4.0 * SLOW);
-    return modes_bytes(of, def->disks, n) + (phases ? of->tracks * track + WORD * looks : 0.0);
+    const double structure = def->observe & HD_OBSERVE_STRUCTURE ? structure_bytes(def, n) : 0.0;
+    return modes_bytes(of, def->disks, n) + structure +
+           (phases ? of->tracks * track + WORD * looks : 0.0);
 }
 
 /** Beside the windows. */

@@ -248,10 +248,11 @@ static hd_status measure_here(hd_run *run)
     const hd_columns own = hd_frame_columns(run->frame);
     const hd_trajectory *disks = run->advance.trajectory;
     if (!run->communicator)
-        return hd_observer_measure(&run->observer, hd_run_frame_columns(run), disks);
-    HD_TRY(hd_observer_measure(&run->observer, own, disks));
+        return hd_observer_measure(&run->observer, run->observe, hd_run_frame_columns(run), disks);
+    HD_TRY(hd_observer_measure(&run->observer, run->observe, own, disks));
     if (!run->conjugate) return HD_OK;
-    return hd_observer_measure(&run->observer, hd_conjugate_partners(run->conjugate, own), disks);
+    return hd_observer_measure(&run->observer, run->observe,
+                               hd_conjugate_partners(run->conjugate, own), disks);
 }
 
 /** The modes of an orthonormal frame. */
@@ -259,15 +260,15 @@ static hd_status measure(hd_run *run)
 {
     const double start = hd_clock_now();
     HD_TRY(hd_run_agree(run, measure_here(run)));
-    HD_TRY(hd_modes_share(run->observer.modes, run->communicator, hd_frame_stride(run->frame),
-                          run->carried));
+    HD_TRY(hd_observer_share(&run->observer, run->observe, run->communicator,
+                             hd_frame_stride(run->frame), run->carried));
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
 }
 
 static void follow_phases(hd_run *run)
 {
-    hd_phases_add(run->observer.phases, run->observer.steps, hd_run_time(run));
+    hd_observer_follow(&run->observer, run->observe, hd_run_time(run));
     run->followed = hd_run_time(run);
 }
 
@@ -276,9 +277,9 @@ static hd_status observe(hd_run *run)
 {
     HD_TRY(measure(run));
     const double start = hd_clock_now();
-    hd_modes_add(run->observer.modes);
+    hd_observer_add(&run->observer, run->observe);
     hd_steps_find(run->observer.steps, run->spectrum);
-    if (run->observe & HD_OBSERVE_PHASES) follow_phases(run);
+    if (run->observe & HD_OBSERVE_OF_PHASES) follow_phases(run);
     HD_TRY(hd_run_gather(run));
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
@@ -367,7 +368,7 @@ static hd_status find_slowest(hd_run *run, int count)
 /** The slowest vectors, if they are wanted and not known. */
 static hd_status look_around(hd_run *run, bool at_phases)
 {
-    const int phases = at_phases ? hd_phases_vectors(run->observer.steps) : 0;
+    const int phases = at_phases ? hd_observer_followed(&run->observer, run->observe) : 0;
     const int most = phases > hd_run_watched(run) ? phases : hd_run_watched(run);
     if (most == 0 || run->observer.known.count > 0) return HD_OK;
     if (is_measured(run)) {
@@ -414,7 +415,8 @@ static hd_status take_cut(hd_run *run)
     run->due.fields = averaging && (reached || multiple <= hd_schedule_cut(&run->schedule));
     run->due.stage_end = hd_schedule_pass(&run->schedule) & HD_ENDS_STAGE || reached;
     const bool first = averaging && run->spectrum && hd_spectrum_time(run->spectrum) == 0;
-    const bool ends = run->due.stage_end || first || hd_run_vectors_wanted(run);
+    const bool looked_at = hd_run_is_observing(run) && run->observe & HD_OBSERVE_AT_REPORTS;
+    const bool ends = run->due.stage_end || first || looked_at || hd_run_vectors_wanted(run);
     const bool carried = run->frame && run->schedule.stage != HD_EQUILIBRATING;
     HD_TRY(hd_run_compare_disks(run));
     if (!carried || !ends) return HD_OK;
@@ -490,8 +492,7 @@ void hd_run_observe(hd_run *run, unsigned stages)
     const unsigned now = stages & run->scene.observe, begun = now & ~run->observe;
     if (now == run->observe) return;
     hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_OBSERVE, .integer = (int)now});
-    if (begun & HD_OBSERVE_PHASES)
-        hd_phases_clear(run->observer.phases);                 /* not followed in between */
+    hd_observer_forget_phases(&run->observer, begun);          /* not followed in between */
     if (begun & HD_OBSERVE_COVARIANT) run->windows.due = true; /* nor this */
     run->observe = now;
 }

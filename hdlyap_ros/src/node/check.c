@@ -27,10 +27,10 @@ static const double of_slopes = 2.0;
 
 typedef struct trial {
     int disks;
-    double seconds;              /**< per time unit */
-    double interval;             /**< between orthonormalisations; NaN without exponents */
-    double errors_after;         /**< averaged time */
-    double steps, phases, pairs; /**< in messages; pairs of all LP steps */
+    double seconds;      /**< per time unit */
+    double interval;     /**< between orthonormalisations; NaN without exponents */
+    double errors_after; /**< averaged time */
+    double steps, phases, t_phases, pairs; /**< in messages; pairs of all LP steps */
 } trial;
 
 /* ---- the trial ------------------------------------------------------------------------------ */
@@ -75,6 +75,7 @@ static void count_messages(trial *out, const hd_run *run)
     if (!steps) return;
     out->steps = hd_steps_count(steps);
     if (hd_run_phases(run)) out->phases = hd_phases_count(hd_run_phases(run));
+    if (hd_run_t_phases(run)) out->t_phases = hd_phases_count(hd_run_t_phases(run));
     for (int s = 0; s < hd_steps_count(steps); s++) {
         const hd_step *step = hd_steps_step(steps, s);
         if (step->kind == HD_MODE_LP && !step->conjugate) out->pairs += step->expected / 2;
@@ -136,23 +137,31 @@ static hd_status try_scene(trial *out, const settings *set, char *message, size_
 /** Bytes of the messages of a report, but for fields. */
 static double report_bytes(const settings *set, const trial *t)
 {
-    const double n = hd_scene_vectors(&set->def);
-    const double of[TOPICS] = {
-        [TOPIC_SPECTRUM] = 162.0 + 40.0 * n,          [TOPIC_MODES] = 98.0 + 89.0 * n,
-        [TOPIC_STEPS] = 204.0 + 96.0 * t->steps,      [TOPIC_LP_PHASES] = 90.0 + 74.0 * t->phases,
-        [TOPIC_LOCALIZATION] = 98.0 + 24.0 * n,       [TOPIC_GAS] = 162.0,
-        [TOPIC_STATE] = 106.0 + 32.0 * set->def.disks};
+    const double n = hd_scene_vectors(&set->def), waves = hd_structure_waves_of(&set->def);
+    const double of[TOPICS] = {[TOPIC_SPECTRUM] = 162.0 + 40.0 * n,
+                               [TOPIC_MODES] = 98.0 + 89.0 * n,
+                               [TOPIC_STEPS] = 204.0 + 96.0 * t->steps,
+                               [TOPIC_LP_PHASES] = 90.0 + 74.0 * t->phases,
+                               [TOPIC_T_PHASES] = 90.0 + 82.0 * t->t_phases,
+                               [TOPIC_STRUCTURE] = 122.0 + 16.0 * waves + 68.0 * n,
+                               [TOPIC_LOCALIZATION] = 98.0 + 24.0 * n,
+                               [TOPIC_GAS] = 162.0,
+                               [TOPIC_STATE] = 106.0 + 32.0 * set->def.disks};
     double bytes = 220.0 + 110.0; /* cost, status */
     for (topic k = 0; k < TOPICS; k++)
         if (set->observables & topic_bit(k)) bytes += of[k];
     return bytes;
 }
 
-/** Of all steps, if all are found. */
+/** Of all steps, if all are found, and of the means in structure. */
 static double field_bytes(const settings *set, const trial *t)
 {
-    if (!(set->observables & topic_bit(TOPIC_FIELDS))) return 0.0;
-    return set->def.disks * (64.0 * t->steps + 48.0 * t->pairs);
+    const double waves = hd_structure_waves_of(&set->def), n = hd_scene_vectors(&set->def);
+    double bytes = 0.0;
+    if (set->observables & topic_bit(TOPIC_FIELDS))
+        bytes += set->def.disks * (64.0 * t->steps + 48.0 * t->pairs);
+    if (set->observables & topic_bit(TOPIC_STRUCTURE)) bytes += 16.0 * waves * n;
+    return bytes;
 }
 
 static void print_seconds(const char *name, double seconds)
@@ -194,6 +203,14 @@ static void print_speed(const settings *set, const trial *t)
     printf("\n");
 }
 
+/** What comes every field_interval. */
+static const char *of_interval(const settings *set)
+{
+    const bool fields = set->observables & topic_bit(TOPIC_FIELDS);
+    if (!(set->observables & topic_bit(TOPIC_STRUCTURE))) return "fields";
+    return fields ? "fields and structure factors" : "structure factors";
+}
+
 static void print_bag(const settings *set, const trial *t)
 {
     const double r = set->def.report_interval, fields = fmax(set->field_interval, r);
@@ -202,8 +219,8 @@ static void print_bag(const settings *set, const trial *t)
     const double paced = fmin(speed, reports_per_second * r);
     printf("bag       %.4g kB a report", 1e-3 * report_bytes(set, t));
     if (field_bytes(set, t) > 0)
-        printf(", at most %.3g MB of fields every %.3g time units", 1e-6 * field_bytes(set, t),
-               fields);
+        printf(", at most %.3g MB of %s every %.3g time units", 1e-6 * field_bytes(set, t),
+               of_interval(set), fields);
     if (set->def.duration > 0) printf(", %.3g MB in all", 1e-6 * set->def.duration * per_unit);
     printf(";\n          at most %.3g GB an hour if publishing and recording took no time, "
            "uncompressed\n",

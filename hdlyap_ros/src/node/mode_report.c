@@ -7,14 +7,15 @@
 #include "hdlyap/hydro.h"
 
 _Static_assert((int)HD_MODE_LP == (int)HDR_MODE_LP, "kinds as in the core");
-_Static_assert((int)HD_LP_TRACKED == (int)HDR_LP_PHASE_TRACKED, "states as in the core");
+_Static_assert((int)HD_PHASE_TRACKED == (int)HDR_LP_PHASE_TRACKED, "states as in the core");
 
 struct mode_report {
     const publishers *to;
-    uint32_t vectors, steps, phases, responses; /**< lengths of the arrays below */
+    uint32_t vectors, steps, phases, t_phases, responses; /**< lengths of the arrays below */
     hdr_mode *mode;
     hdr_step *step;
     hdr_lp_phase *phase;
+    hdr_t_phase *t_phase;
     hdr_hydro_mode *response;
     hd_hydro *hydro; /**< NULL unless hydro is asked for */
 };
@@ -24,17 +25,19 @@ static bool arrays_create(mode_report *m)
     m->mode = malloc((m->vectors + 1) * sizeof *m->mode);
     m->step = malloc((m->steps + 1) * sizeof *m->step);
     m->phase = malloc((m->phases + 1) * sizeof *m->phase);
+    m->t_phase = malloc((m->t_phases + 1) * sizeof *m->t_phase);
     m->response = malloc((m->responses + 1) * sizeof *m->response);
-    return m->mode && m->step && m->phase && m->response;
+    return m->mode && m->step && m->phase && m->t_phase && m->response;
 }
 
 static bool parts_create(mode_report *m, const hd_run *run, unsigned set)
 {
     const hd_steps *steps = hd_run_steps(run);
-    const hd_phases *phases = hd_run_phases(run);
+    const hd_phases *phases = hd_run_phases(run), *of_t = hd_run_t_phases(run);
     m->vectors = (uint32_t)hd_run_vectors(run);
     m->steps = (uint32_t)hd_steps_count(steps);
     m->phases = phases ? (uint32_t)hd_phases_count(phases) : 0;
+    m->t_phases = of_t ? (uint32_t)hd_phases_count(of_t) : 0;
     if (set & topic_bit(TOPIC_HYDRO)) {
         if (hd_hydro_create(&m->hydro, hd_run_scene(run), steps) != HD_OK) return false;
         m->responses = (uint32_t)hd_hydro_count(m->hydro);
@@ -60,6 +63,7 @@ void mode_report_free(mode_report *m)
     free(m->mode);
     free(m->step);
     free(m->phase);
+    free(m->t_phase);
     free(m->response);
     free(m);
 }
@@ -69,6 +73,7 @@ void mode_report_sizes(const mode_report *m, double *doubles)
     doubles[TOPIC_MODES] = 11.0 * m->vectors;
     doubles[TOPIC_STEPS] = 9.0 * m->steps;
     doubles[TOPIC_LP_PHASES] = 10.0 * m->phases;
+    doubles[TOPIC_T_PHASES] = 11.0 * m->t_phases;
     doubles[TOPIC_HYDRO] = 7.0 * m->responses;
 }
 
@@ -167,35 +172,73 @@ static bool fill_step(hdr_step *out, const hd_step *step)
                     step->gap + step->gap_error);
 }
 
-static bool fill_phase(hdr_lp_phase *out, const hd_lp_phase *phase, const hd_steps *steps)
+/** What is not known of a phase is NaN, of an error -1. */
+static hd_phase said_of(const hd_phase *phase)
+{
+    const bool resolved = phase->state != HD_PHASE_UNRESOLVED, begun = phase->time > 0;
+    hd_phase out = *phase;
+    if (!resolved) out.col = -1;
+    if (!resolved) out.a = out.b = NAN;
+    if (!resolved || (!begun && phase->state != HD_PHASE_TRACKED)) out.phase = NAN;
+    if (!resolved || !begun) out.omega = NAN;
+    out.omega_error = resolved ? error_of(phase->omega_error) : -1.0;
+    out.time = resolved ? phase->time : 0.0;
+    return out;
+}
+
+static bool phase_finite(const hd_phase *phase)
+{
+    return phase->state == HD_PHASE_UNRESOLVED ||
+           isfinite(phase->a + phase->b + phase->phase + phase->omega + phase->omega_error +
+                    phase->time);
+}
+
+static bool fill_phase(hdr_lp_phase *out, const hd_phase *phase, const hd_steps *steps)
 {
     const hd_step *step = hd_steps_step(steps, phase->step);
+    const hd_phase said = said_of(phase);
     *out = (hdr_lp_phase){
         .step = (uint32_t)phase->step,
         .nx = (uint32_t)step->wave.n[0],
         .ny = (uint32_t)step->wave.n[1],
         .modulation = phase->modulation,
+        .index = (uint32_t)(said.col + 1),
         .state = (uint8_t)phase->state,
-        .a = NAN,
-        .b = NAN,
-        .phase = NAN,
-        .omega = NAN,
-        .omega_error = -1.0,
-        .velocity = NAN,
+        .a = said.a,
+        .b = said.b,
+        .phase = said.phase,
+        .omega = said.omega,
+        .omega_error = said.omega_error,
+        .velocity = fabs(said.omega) / step->wave.number,
+        .tracked_time = said.time,
     };
-    if (phase->state == HD_LP_UNRESOLVED) return true;
-    out->index = (uint32_t)phase->col + 1;
-    out->a = phase->a;
-    out->b = phase->b;
-    out->omega_error = error_of(phase->omega_error);
-    out->tracked_time = phase->time;
-    if (phase->state == HD_LP_TRACKED || phase->time > 0) out->phase = phase->phase;
-    if (phase->time > 0) {
-        out->omega = phase->omega;
-        out->velocity = fabs(phase->omega) / step->wave.number;
-    }
-    return isfinite(phase->a + phase->b + phase->phase + phase->omega + phase->omega_error +
-                    phase->time);
+    return phase_finite(phase);
+}
+
+static bool fill_t_phase(hdr_t_phase *out, const hd_phases *phases, int index,
+                         const hd_steps *steps)
+{
+    const hd_phase *phase = hd_phases_phase(phases, index), said = said_of(phase);
+    const hd_step *step = hd_steps_step(steps, phase->step);
+    double error;
+    const double diffusion = hd_phases_diffusion(phases, index, &error);
+    *out = (hdr_t_phase){
+        .step = (uint32_t)phase->step,
+        .nx = (uint32_t)step->wave.n[0],
+        .ny = (uint32_t)step->wave.n[1],
+        .modulation = phase->modulation,
+        .index = (uint32_t)(said.col + 1),
+        .state = (uint8_t)phase->state,
+        .a = said.a,
+        .b = said.b,
+        .phase = said.phase,
+        .omega = said.omega,
+        .omega_error = said.omega_error,
+        .diffusion = error < 0.0 ? NAN : diffusion,
+        .diffusion_error = error_of(error),
+        .tracked_time = said.time,
+    };
+    return phase_finite(phase) && isfinite(diffusion + error);
 }
 
 static bool fill_response(hdr_hydro_mode *out, const hd_hydro_response *response,
@@ -298,22 +341,45 @@ static hd_status publish_steps(mode_report *m, const snapshot *now)
     return publishers_sent(hdr_steps_publish(m->to->publisher[TOPIC_STEPS], &message), TOPIC_STEPS);
 }
 
+/** Of the phases. */
+static double time_of_phases(const hd_run *run)
+{
+    const double followed = hd_run_followed(run);
+    return followed >= 0 ? followed : hd_run_time(run);
+}
+
 static hd_status publish_phases(mode_report *m, const snapshot *now)
 {
     const hd_run *run = now->run;
-    const double followed = hd_run_followed(run);
     const hdr_lp_phases message = {
         .header = message_header(),
         .run_id = m->to->run_id,
-        .sim_time = followed >= 0 ? followed : hd_run_time(run),
+        .sim_time = time_of_phases(run),
         .phases = {m->phase, m->phases},
     };
     for (uint32_t k = 0; k < m->phases; k++) {
-        const hd_lp_phase *phase = hd_phases_phase(hd_run_phases(run), (int)k);
+        const hd_phase *phase = hd_phases_phase(hd_run_phases(run), (int)k);
         if (!fill_phase(&m->phase[k], phase, hd_run_steps(run))) return HD_NOT_FINITE;
     }
     return publishers_sent(hdr_lp_phases_publish(m->to->publisher[TOPIC_LP_PHASES], &message),
                            TOPIC_LP_PHASES);
+}
+
+static hd_status publish_t_phases(mode_report *m, const snapshot *now)
+{
+    const hd_run *run = now->run;
+    const hd_steps *steps = hd_run_steps(run);
+    const hdr_t_phases message = {
+        .header = message_header(),
+        .run_id = m->to->run_id,
+        .sim_time = time_of_phases(run),
+        .phases = {m->t_phase, m->t_phases},
+    };
+    for (uint32_t k = 0; k < m->t_phases; k++)
+        if (!fill_t_phase(&m->t_phase[k], hd_run_t_phases(run), (int)k, steps))
+            return HD_NOT_FINITE;
+    return publishers_sent(hdr_t_phases_publish(m->to->publisher[TOPIC_T_PHASES], &message),
+                           TOPIC_T_PHASES);
 }
 
 static hd_status publish_hydro(mode_report *m, const snapshot *now)
@@ -338,6 +404,7 @@ hd_status mode_report_publish(mode_report *m, const snapshot *now, unsigned set)
     if (set & topic_bit(TOPIC_MODES)) status = publish_modes(m, now);
     if (status == HD_OK && (set & topic_bit(TOPIC_STEPS))) status = publish_steps(m, now);
     if (status == HD_OK && (set & topic_bit(TOPIC_LP_PHASES))) status = publish_phases(m, now);
+    if (status == HD_OK && (set & topic_bit(TOPIC_T_PHASES))) status = publish_t_phases(m, now);
     if (status == HD_OK && (set & topic_bit(TOPIC_HYDRO))) status = publish_hydro(m, now);
     return status;
 }

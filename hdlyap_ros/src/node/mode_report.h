@@ -1,5 +1,5 @@
-/** What the core knows of the modes -> the messages modes, steps, lp_phases and hydro. Owns the
- * buffers that they are written from, and the hydrodynamic response. */
+/** What the core knows of the modes -> the messages modes, steps, lp_phases, t_phases and hydro.
+ * Owns the buffers that they are written from, and the hydrodynamic response. */
 #ifndef HDLYAP_MODE_REPORT_H
 #define HDLYAP_MODE_REPORT_H
 

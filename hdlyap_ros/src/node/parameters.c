@@ -8,7 +8,8 @@
 #include "topic.h"
 
 #define OBSERVABLES                                                                                \
-    "spectrum, modes, steps, lp_phases, fields, hydro, covariant, localization, gas, state"
+    "spectrum, modes, steps, lp_phases, t_phases, fields, hydro, structure, covariant, "           \
+    "localization, gas, state"
 
 static const parameter name_row = {
     .name = "scene",
@@ -86,7 +87,8 @@ static const parameter rows[] = {
         .may_differ = true,
         .live = true,
         .text =
-            "Simulated time between fields. They come with the first report of the averaging, "
+            "Simulated time between fields, and between means in structure. They come with the "
+            "first report of the averaging, "
             "with the first one at or after each multiple of this, and with the last. The vectors "
             "are orthonormalised for each: often means slow.",
     },

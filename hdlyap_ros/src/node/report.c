@@ -13,6 +13,7 @@
 #include "publishers.h"
 #include "run_info.h"
 #include "slow_vectors_report.h"
+#include "structure_report.h"
 #include "subscriber_wait.h"
 
 _Static_assert((int)HD_LIMIT_NONE == (int)HDR_COST_LIMIT_NONE, "limits as in the core");
@@ -36,6 +37,7 @@ struct report {
     double *block;
     mode_report *modes;   /**< NULL unless some of its topics are asked for */
     field_report *fields; /**< NULL unless asked for, as the next */
+    structure_report *structure;
     covariant_report *covariant;
     localization_report *localization;
     slow_vectors_report *slow;
@@ -91,6 +93,9 @@ static bool parts_create(report *rep, const hd_run *run)
     if ((set & topic_bit(TOPIC_LOCALIZATION)) &&
         !localization_report_create(&rep->localization, &rep->out, run))
         return false;
+    if ((set & topic_bit(TOPIC_STRUCTURE)) &&
+        !structure_report_create(&rep->structure, &rep->out, run))
+        return false;
     return !(set & topic_bit(TOPIC_COVARIANT)) ||
            covariant_report_create(&rep->covariant, &rep->out, run);
 }
@@ -102,6 +107,7 @@ static hdr_status advertise(report *rep, hdr_node *ros)
                               [TOPIC_GAS] = GAS_REPORT_SIZE};
     if (rep->modes) mode_report_sizes(rep->modes, doubles);
     if (rep->fields) doubles[TOPIC_FIELDS] = field_report_size(rep->fields);
+    if (rep->structure) doubles[TOPIC_STRUCTURE] = structure_report_size(rep->structure);
     if (rep->covariant) doubles[TOPIC_COVARIANT] = covariant_report_size(rep->covariant);
     if (rep->localization)
         doubles[TOPIC_LOCALIZATION] = localization_report_size(rep->localization);
@@ -129,6 +135,7 @@ void report_free(report *rep)
     if (!rep) return;
     mode_report_free(rep->modes);
     field_report_free(rep->fields);
+    structure_report_free(rep->structure);
     covariant_report_free(rep->covariant);
     localization_report_free(rep->localization);
     slow_vectors_report_free(rep->slow);
@@ -348,6 +355,8 @@ static hd_status publish_due(report *rep, const hd_run *run)
         status = mode_report_publish(rep->modes, &now, set);
     if (status == HD_OK && (set & topic_bit(TOPIC_FIELDS)))
         status = field_report_publish(rep->fields, &now);
+    if (status == HD_OK && (set & topic_bit(TOPIC_STRUCTURE)))
+        status = structure_report_publish(rep->structure, &now);
     if (status != HD_OK || hd_run_stage(run) == HD_FINISHED) return status;
     const progress last = progress_of(run);
     return publish_progress(rep, &last, last.stage);

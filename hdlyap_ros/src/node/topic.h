@@ -10,8 +10,10 @@ typedef enum topic {
     TOPIC_MODES,
     TOPIC_STEPS,
     TOPIC_LP_PHASES,
+    TOPIC_T_PHASES,
     TOPIC_FIELDS,
     TOPIC_HYDRO,
+    TOPIC_STRUCTURE,
     TOPIC_COVARIANT,
     TOPIC_LOCALIZATION,
     TOPIC_GAS,
@@ -26,7 +28,8 @@ enum {
     TOPICS_ALWAYS = 1u << TOPIC_RUN_INFO | 1u << TOPIC_STATUS | 1u << TOPIC_COST,
     TOPICS_OBSERVABLE = ((1u << TOPICS) - 1) ^ TOPICS_ALWAYS,
     TOPICS_OF_MODES = 1u << TOPIC_MODES | 1u << TOPIC_STEPS | 1u << TOPIC_LP_PHASES |
-                      1u << TOPIC_FIELDS | 1u << TOPIC_HYDRO,
+                      1u << TOPIC_T_PHASES | 1u << TOPIC_FIELDS | 1u << TOPIC_HYDRO |
+                      1u << TOPIC_STRUCTURE,
     ALL_PUBLISHED = 1u << TOPICS /**< in a set of awaited topics: whatever the others are */
 };
 

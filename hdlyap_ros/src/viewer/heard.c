@@ -36,7 +36,8 @@ static bool has_transverse(const heard *h, const hdr_run_info *info)
 
 static void begin(heard *h, const hdr_run_info *info)
 {
-    static const char *const of_modes[] = {"modes", "steps", "lp_phases", "fields", "hydro"};
+    static const char *const of_modes[] = {"modes",  "steps", "lp_phases", "t_phases",
+                                           "fields", "hydro", "structure"};
     snprintf(h->run_id, sizeof h->run_id, "%s", info->run_id);
     snprintf(h->scene, sizeof h->scene, "%s", info->scene);
     h->disks = info->disks;

@@ -96,7 +96,7 @@ static void a_file_keeps_all(void **state)
         turn(&r, k % 2 ? 2.0 : 2.1);
     }
     hd_phases *read;
-    CHECK_OK(hd_phases_create(&read, r.w.steps));
+    CHECK_OK(hd_phases_create(&read, r.w.steps, HD_MODE_LP));
     FILE *file = tmpfile();
     assert_non_null(file);
     hd_archive out = hd_archive_writer(file);
@@ -133,8 +133,8 @@ static int slips(const rotating *r)
     int count = 0;
     for (int m = 0; m < 2 * r->d; m++)
         for (int c = 0; c < r->d; c++) {
-            const hd_lp_phase *phase = phase_of(r, m, c);
-            if (phase->state != HD_LP_TRACKED || phase->time < r->time) continue;
+            const hd_phase *phase = phase_of(r, m, c);
+            if (phase->state != HD_PHASE_TRACKED || phase->time < r->time) continue;
             const double start = atan2(r->im[m][c], r->re[m][c]);
             count += fabs(phase->phase - start - r->angle[m][c]) > PI;
         }
@@ -226,15 +226,15 @@ static void late_samples_begin_anew(void **state)
     }
     r.dt = 1.32 * sampling(&r);
     diffuse(&r, 2.0, 0.0);
-    assert_int_equal(phase_of(&r, 0, 0)->state, HD_LP_TRACKED);
+    assert_int_equal(phase_of(&r, 0, 0)->state, HD_PHASE_TRACKED);
     assert_true(sampling(&r) > 1.5 * UNSEEN);
     r.dt = 1.35 * sampling(&r);
     diffuse(&r, 2.0, 0.0);
-    assert_int_equal(phase_of(&r, 0, 0)->state, HD_LP_COARSE);
+    assert_int_equal(phase_of(&r, 0, 0)->state, HD_PHASE_COARSE);
     CHECK_CLOSE(sampling(&r), UNSEEN, 1e-12);
     r.dt = UNSEEN;
     diffuse(&r, 2.0, 0.0);
-    assert_int_equal(phase_of(&r, 0, 0)->state, HD_LP_TRACKED);
+    assert_int_equal(phase_of(&r, 0, 0)->state, HD_PHASE_TRACKED);
     CHECK_CLOSE(phase_of(&r, 0, 0)->time, UNSEEN, 1e-12);
     rotating_free(&r);
 }
@@ -256,7 +256,7 @@ static void check_honesty(const double *dt, int count, double *omega_ratio, doub
             diffuse(&r, omega, diffusion);
         }
         assert_int_equal(slips(&r), 0);
-        const hd_lp_phase *phase = phase_of(&r, 0, 0);
+        const hd_phase *phase = phase_of(&r, 0, 0);
         const hd_velocity v = hd_phases_velocity(r.phases);
         off[0] += pow(phase->omega - omega, 2.0) / REPEATS;
         off[1] += pow(v.v - omega / k, 2.0) / REPEATS;

@@ -34,11 +34,11 @@ static verdict follow(int d, double angle, double most, double noise)
     }
     for (int slot = 0; slot < 2 * d; slot++)
         for (int c = 0; c < d; c++) {
-            const hd_lp_phase *phase = phase_of(&r, slot, c);
+            const hd_phase *phase = phase_of(&r, slot, c);
             const double start = atan2(r.im[slot][c], r.re[slot][c]);
-            v.coarse += phase->state == HD_LP_COARSE;
-            if (phase->state == HD_LP_COARSE) assert_true(phase->omega_error < 0);
-            if (phase->state != HD_LP_TRACKED || phase->time < SAMPLES) continue;
+            v.coarse += phase->state == HD_PHASE_COARSE;
+            if (phase->state == HD_PHASE_COARSE) assert_true(phase->omega_error < 0);
+            if (phase->state != HD_PHASE_TRACKED || phase->time < SAMPLES) continue;
             v.tracked++;
             v.worst = fmax(v.worst, fabs(phase->phase - start - total));
             CHECK_CLOSE(phase->omega, angle, 0.1 * noise + ROUNDING);
@@ -182,9 +182,9 @@ static void check_vanishing_pair(int gone, double omega)
         scale_pair(&r, 0, re, im, near < FADING ? 1.0 - (near + 1.0) / FADING : 0.0);
         turn(&r, omega);
         for (int v = 0; v < 4; v++) {
-            const hd_lp_phase *phase = phase_of(&r, v, 0);
+            const hd_phase *phase = phase_of(&r, v, 0);
             assert_true(isfinite(phase->phase) && isfinite(phase->omega));
-            if (near >= FADING - 1) assert_int_equal(phase->state, HD_LP_WEAK);
+            if (near >= FADING - 1) assert_int_equal(phase->state, HD_PHASE_WEAK);
         }
     }
     scale_pair(&r, 0, re, im, 1.0);
@@ -196,8 +196,8 @@ static void check_vanishing_pair(int gone, double omega)
     assert_true(gone + 2 * FADING > GAP_MAX || whole == strong[0] + strong[1]);
     assert_true(gone <= GAP_MAX || whole == strong[1]);
     for (int k = 0; k < 8; k++) {
-        const hd_lp_phase *phase = phase_of(&r, k / 2, k % 2);
-        if (phase->state == HD_LP_TRACKED && phase->time > 1.0)
+        const hd_phase *phase = phase_of(&r, k / 2, k % 2);
+        if (phase->state == HD_PHASE_TRACKED && phase->time > 1.0)
             CHECK_CLOSE(phase->omega, omega, ROUNDING);
     }
     CHECK_CLOSE(hd_phases_velocity(r.phases).v * r.step->wave.number, fabs(omega), ROUNDING);

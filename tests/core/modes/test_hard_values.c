@@ -194,7 +194,7 @@ static void constant_steps_and_phases_have_no_error(void **state)
         check_normal(v.v);
         check_normal(v.v_error);
         for (int k = 0; k < hd_phases_count(r.phases); k++) {
-            const hd_lp_phase *phase = hd_phases_phase(r.phases, k);
+            const hd_phase *phase = hd_phases_phase(r.phases, k);
             check_normal(phase->omega);
             check_normal(phase->omega_error);
         }

@@ -19,10 +19,10 @@ static void check_rate(int d, double omega)
     assert_true(check_tracks(&r, omega * SAMPLES, SAMPLES, SAMPLES * ROUNDING) >= 2 * d);
     for (int v = 0; v < 2 * d; v++)
         for (int c = 0; c < d; c++) {
-            const hd_lp_phase *phase = phase_of(&r, v, c);
+            const hd_phase *phase = phase_of(&r, v, c);
             assert_int_equal(phase->step, r.step->subspace);
             assert_int_equal(phase->col, r.step->col + v);
-            if (phase->state != HD_LP_TRACKED) continue;
+            if (phase->state != HD_PHASE_TRACKED) continue;
             CHECK_CLOSE(remainder(phase->phase - atan2(phase->b, phase->a), 2.0 * PI), 0.0,
                         SAMPLES * ROUNDING);
             CHECK_CLOSE(phase->omega, omega, ROUNDING);
@@ -51,7 +51,7 @@ static void time_is_what_it_is_told(void **state)
     for (int k = 1; k <= 40; k++) {
         world_move(&r.w, 0.1);
         turn(&r, -1.7);
-        const hd_lp_phase *phase = phase_of(&r, 0, 0);
+        const hd_phase *phase = phase_of(&r, 0, 0);
         CHECK_CLOSE(phase->time, 0.25 * k, ROUNDING);
         CHECK_CLOSE(phase->omega, -1.7, 1e3 * ROUNDING / k);
         assert_true(k < 16 ? phase->omega_error < 0 : phase->omega_error >= 0);
@@ -67,7 +67,7 @@ static void phases_lie_in_order(void **state)
     def.max_mode_number = 1;
     world w = world_create(&def, 10, 1);
     hd_phases *phases;
-    CHECK_OK(hd_phases_create(&phases, w.steps));
+    CHECK_OK(hd_phases_create(&phases, w.steps, HD_MODE_LP));
     int index = 0;
     for (int k = 0; k < hd_steps_count(w.steps); k++) {
         const hd_step *step = hd_steps_step(w.steps, k);
@@ -75,10 +75,10 @@ static void phases_lie_in_order(void **state)
         const hd_modulations m = hd_fields_subspace(w.fields, step->subspace)->modulations;
         for (int v = 0; v < step->expected; v++)
             for (int c = 0; c < m.count; c++) {
-                const hd_lp_phase *phase = hd_phases_phase(phases, index++);
+                const hd_phase *phase = hd_phases_phase(phases, index++);
                 assert_int_equal(phase->step, k);
                 assert_int_equal(phase->modulation, m.bits[c]);
-                assert_int_equal(phase->state, HD_LP_UNRESOLVED);
+                assert_int_equal(phase->state, HD_PHASE_UNRESOLVED);
                 assert_int_equal(phase->col, -1);
                 assert_true(phase->omega_error < 0);
             }
@@ -116,9 +116,9 @@ static honesty honesty_of(double white, double diffusing, int samples)
             }
             turn(&r, omega);
         }
-        const hd_lp_phase *phase = phase_of(&r, 0, 0);
+        const hd_phase *phase = phase_of(&r, 0, 0);
         const hd_velocity v = hd_phases_velocity(r.phases);
-        assert_int_equal(phase->state, HD_LP_TRACKED);
+        assert_int_equal(phase->state, HD_PHASE_TRACKED);
         assert_int_equal(v.phases, 2);
         off[0] += pow(phase->omega - omega, 2.0) / REPEATS;
         off[1] += pow(v.v - omega / k, 2.0) / REPEATS;
@@ -216,7 +216,7 @@ static channel channel_create(void)
     def.max_mode_number = 2;
     channel ch = {.w = world_create(&def, 4, 1)};
     const double exponents[4] = {1.6, 1.6, 0.8, 0.8};
-    CHECK_OK(hd_phases_create(&ch.phases, ch.w.steps));
+    CHECK_OK(hd_phases_create(&ch.phases, ch.w.steps, HD_MODE_LP));
     for (int n = 0; n < 2; n++) {
         const int s = world_subspace(&ch.w, HD_MODE_LP, n + 1, 0);
         ch.k[n] = hd_fields_subspace(ch.w.fields, s)->wave.number;
@@ -328,7 +328,7 @@ static void shared_sets_turn_too(void **state)
     def.max_wave_number = hd_wave_component(&def, 0, 1);
     world w = world_create(&def, 4, 1);
     hd_phases *phases;
-    CHECK_OK(hd_phases_create(&phases, w.steps));
+    CHECK_OK(hd_phases_create(&phases, w.steps, HD_MODE_LP));
     const int both[] = {world_subspace(&w, HD_MODE_LP, 1, 0), world_subspace(&w, HD_MODE_LP, 0, 1)};
     double rotation[16], exponents[4] = {0.8, 0.8, 0.8, 0.8};
     world_span(&w, 0, both, 2, 0.0);
@@ -354,8 +354,8 @@ static void shared_sets_turn_too(void **state)
     /* other subspaces of the set overlap by N^(-1/2): coefficients are off by as much, at a fixed
      * phase */
     for (int k = 0; k < hd_phases_count(phases); k++) {
-        const hd_lp_phase *phase = hd_phases_phase(phases, k);
-        if (phase->state != HD_LP_TRACKED || phase->time < 50.0) continue;
+        const hd_phase *phase = hd_phases_phase(phases, k);
+        if (phase->state != HD_PHASE_TRACKED || phase->time < 50.0) continue;
         CHECK_CLOSE(phase->omega, 0.6, 0.02);
     }
     CHECK_CLOSE(hd_phases_velocity(phases).v, 0.6 / hd_wave_component(&def, 0, 1), 0.1);

@@ -55,13 +55,13 @@ static rotating interrupted(int d, double omega, int samples)
     r.strength[1] = 0.0;
     for (int t = 0; t < samples; t++) {
         turn(&r, omega);
-        assert_int_equal(phase_of(&r, 1, 0)->state, HD_LP_WEAK);
+        assert_int_equal(phase_of(&r, 1, 0)->state, HD_PHASE_WEAK);
         CHECK_CLOSE(phase_of(&r, 1, 0)->time, t < 16 ? 30.0 : 0.0, 0.0);
         assert_int_equal(phase_of(&r, 1, 0)->col, r.column[1]);
     }
     r.strength[1] = 1.0;
     turn(&r, omega);
-    assert_int_equal(phase_of(&r, 1, 0)->state, HD_LP_TRACKED);
+    assert_int_equal(phase_of(&r, 1, 0)->state, HD_PHASE_TRACKED);
     assert_int_equal(phase_of(&r, 1, 0)->col, r.column[1]);
     assert_true(strength_of(phase_of(&r, 1, 0)) >= WEAK);
     return r;
@@ -132,7 +132,7 @@ static void absence_of_all_vectors_is_survived(void **state)
 
 /* ---- beginning anew ------------------------------------------------------------------------ */
 
-static void check_all(const rotating *r, hd_lp_state state, double time)
+static void check_all(const rotating *r, hd_phase_state state, double time)
 {
     for (int v = 0; v < 2 * r->d; v++)
         for (int c = 0; c < r->d; c++) {
@@ -147,23 +147,23 @@ static void unresolved_steps_are_not_followed(void **state)
     rotating r = pairs(1);
     double exponents[2] = {2.4, 0.8};
     for (int t = 0; t < 20; t++) turn(&r, 0.5);
-    check_all(&r, HD_LP_TRACKED, 20.0);
+    check_all(&r, HD_PHASE_TRACKED, 20.0);
     hd_spectrum_clear(r.w.spectrum);
     world_stretch(&r.w, exponents);
     hd_steps_find(r.w.steps, r.w.spectrum);
     assert_false(r.step->resolved);
     for (int t = 0; t < 3; t++) {
         turn(&r, 0.5);
-        check_all(&r, HD_LP_UNRESOLVED, 0.0);
+        check_all(&r, HD_PHASE_UNRESOLVED, 0.0);
         assert_int_equal(phase_of(&r, 0, 0)->col, -1);
         assert_true(phase_of(&r, 0, 0)->omega_error < 0);
         assert_int_equal(hd_phases_velocity(r.phases).phases, 0);
     }
     find(&r, 2.4);
     turn(&r, 0.5);
-    check_all(&r, HD_LP_TRACKED, 0.0);
+    check_all(&r, HD_PHASE_TRACKED, 0.0);
     turn(&r, -0.5); /* nothing is left of the old rate */
-    check_all(&r, HD_LP_TRACKED, 1.0);
+    check_all(&r, HD_PHASE_TRACKED, 1.0);
     CHECK_CLOSE(phase_of(&r, 0, 0)->omega, -0.5, ROUNDING);
     rotating_free(&r);
 }
@@ -174,10 +174,10 @@ static void another_set_is_followed_anew(void **state)
     (void)state;
     hd_scene_def def = scene_in_box(30, 40.0, 1.5, R, P, 9);
     def.max_mode_number = 1;
-    rotating r = rotating_create(&def, 1, 0, 6, 2.4);
+    rotating r = rotating_create(&def, HD_MODE_LP, 1, 0, 6, 2.4);
     assert_int_equal(r.step->col, 4);
     for (int t = 0; t < 20; t++) turn(&r, 0.5);
-    check_all(&r, HD_LP_TRACKED, 20.0);
+    check_all(&r, HD_PHASE_TRACKED, 20.0);
     world_noise(&r.w);
     world_span(&r.w, 1, (const int[]){r.step->subspace}, 1, 0.0);
     hd_modes_clear(r.w.modes);
@@ -186,7 +186,7 @@ static void another_set_is_followed_anew(void **state)
     assert_int_equal(r.step->col, 1);
     for (int m = 0; m < 2; m++) r.column[m] = 1 + m;
     turn(&r, 0.5);
-    check_all(&r, HD_LP_TRACKED, 0.0);
+    check_all(&r, HD_PHASE_TRACKED, 0.0);
     assert_int_equal(phase_of(&r, 1, 0)->col, 2);
     rotating_free(&r);
 }
@@ -207,7 +207,7 @@ static void pieces_of_any_length_go_on(void **state)
             r.dt = lengths[k];
             turn(&r, 0.2);
             time += r.dt;
-            check_all(&r, HD_LP_TRACKED, r.time);
+            check_all(&r, HD_PHASE_TRACKED, r.time);
         }
     assert_int_equal(check_tracks(&r, 0.2 * time, time, time * ROUNDING), 2);
     CHECK_CLOSE(phase_of(&r, 0, 0)->omega, 0.2, ROUNDING);
@@ -215,10 +215,10 @@ static void pieces_of_any_length_go_on(void **state)
     r.dt = 1.01 / 0.75 * hd_phases_sampling(r.phases, r.w.steps);
     assert_true(r.dt > 12.6);
     turn(&r, 0.2);
-    check_all(&r, HD_LP_COARSE, 0.0);
+    check_all(&r, HD_PHASE_COARSE, 0.0);
     r.dt = 1.0;
     turn(&r, 0.2);
-    check_all(&r, HD_LP_TRACKED, 1.0);
+    check_all(&r, HD_PHASE_TRACKED, 1.0);
     rotating_free(&r);
 }
 
@@ -228,9 +228,9 @@ static void clear_begins_anew(void **state)
     rotating r = pairs(1);
     for (int t = 0; t < 20; t++) turn(&r, 0.5);
     hd_phases_clear(r.phases);
-    check_all(&r, HD_LP_UNRESOLVED, 0.0);
+    check_all(&r, HD_PHASE_UNRESOLVED, 0.0);
     turn(&r, 0.5);
-    check_all(&r, HD_LP_TRACKED, 0.0);
+    check_all(&r, HD_PHASE_TRACKED, 0.0);
     rotating_free(&r);
 }
 
@@ -244,7 +244,7 @@ static void coarse_samples_are_said_to_be(void **state)
     find(&r, 1.01 * PI / 1.25);
     for (int t = 0; t < 6; t++) {
         turn(&r, 0.5);
-        check_all(&r, HD_LP_COARSE, 0.0);
+        check_all(&r, HD_PHASE_COARSE, 0.0);
         assert_int_equal(phase_of(&r, 1, 0)->col, r.column[1]);
         assert_true(strength_of(phase_of(&r, 1, 0)) > 0.5);
         assert_true(phase_of(&r, 0, 0)->omega_error < 0);
@@ -252,13 +252,13 @@ static void coarse_samples_are_said_to_be(void **state)
     find(&r, 0.99 * PI / 1.25);
     turn(&r, 0.5);
     turn(&r, 0.5);
-    assert_int_equal(phase_of(&r, 0, 0)->state, HD_LP_TRACKED);
+    assert_int_equal(phase_of(&r, 0, 0)->state, HD_PHASE_TRACKED);
     CHECK_CLOSE(phase_of(&r, 0, 0)->omega, 0.5, ROUNDING);
     find(&r, 1.01 * PI / 1.25);
     turn(&r, 0.5);
     hd_steps_clear(r.w.steps); /* nothing is resolved: neither tracked nor coarse */
     turn(&r, 0.5);
-    check_all(&r, HD_LP_UNRESOLVED, 0.0);
+    check_all(&r, HD_PHASE_UNRESOLVED, 0.0);
     rotating_free(&r);
 }
 

@@ -60,11 +60,29 @@ static void exponents_are_those_of_one_rank(void **state)
     }
 }
 
+/** S is up to 60; the same peaks, or others that are as high. */
+static void expect_same_structure(const hd_structure *a, const hd_structure *b)
+{
+    const int n = hd_structure_vectors(a);
+    assert_int_equal(hd_structure_samples(a), hd_structure_samples(b));
+    assert_true(hd_structure_samples(a) > 0);
+    for (int col = 0; col < n; col++) {
+        for (int w = 0; w < hd_structure_waves(a); w++)
+            for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++)
+                CHECK_CLOSE(hd_structure_mean(a, w, e)[col], hd_structure_mean(b, w, e)[col], 1e-4);
+        assert_int_equal(hd_structure_peak(a, col), hd_structure_peak(b, col));
+        for (unsigned bits = 0; bits < 4; bits++)
+            CHECK_CLOSE(hd_structure_amplitude(a, HD_ALONG, bits)[col],
+                        hd_structure_amplitude(b, HD_ALONG, bits)[col], 1e-4);
+    }
+}
+
 /** The run has the same trajectory; its frame differs by rounding, and so by little as long as the
  * directions are those of the dynamics. */
 static void expect_modes_of_one_rank(int exponents)
 {
-    hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES);
+    hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES |
+                                               HD_OBSERVE_STRUCTURE);
     scene.exponents = exponents;
     hd_run *run, *alone = created(&scene);
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
@@ -87,6 +105,14 @@ static void expect_modes_of_one_rank(int exponents)
         assert_int_equal(hd_steps_step(a, k)->resolved, hd_steps_step(b, k)->resolved);
         assert_int_equal(hd_steps_step(a, k)->col, hd_steps_step(b, k)->col);
     }
+    for (int k = 0; k < hd_phases_count(hd_run_t_phases(alone)); k++) {
+        const hd_phase *x = hd_phases_phase(hd_run_t_phases(run), k);
+        const hd_phase *y = hd_phases_phase(hd_run_t_phases(alone), k);
+        assert_int_equal(x->state, y->state);
+        assert_int_equal(x->col, y->col);
+        CHECK_CLOSE(x->phase, y->phase, 1e-6);
+    }
+    expect_same_structure(hd_run_structure(run), hd_run_structure(alone));
     double cosine[2][4 * 60], ratio[2][4 * 60];
     hd_run_halves(run, cosine[0], ratio[0]);
     hd_run_halves(alone, cosine[1], ratio[1]);

@@ -31,8 +31,9 @@ static void expect_same_bytes(const bytes *a, const bytes *b)
 
 static void expect_same_phases(const hd_phases *a, const hd_phases *b)
 {
+    double errors[2];
     for (int k = 0; k < hd_phases_count(a); k++) {
-        const hd_lp_phase *x = hd_phases_phase(a, k), *y = hd_phases_phase(b, k);
+        const hd_phase *x = hd_phases_phase(a, k), *y = hd_phases_phase(b, k);
         assert_int_equal(x->state, y->state);
         assert_int_equal(x->col, y->col);
         CHECK_CLOSE(x->a, y->a, 0.0);
@@ -41,6 +42,9 @@ static void expect_same_phases(const hd_phases *a, const hd_phases *b)
         CHECK_CLOSE(x->omega, y->omega, 0.0);
         CHECK_CLOSE(x->omega_error, y->omega_error, 0.0);
         CHECK_CLOSE(x->time, y->time, 0.0);
+        CHECK_CLOSE(hd_phases_diffusion(a, k, &errors[0]), hd_phases_diffusion(b, k, &errors[1]),
+                    0.0);
+        CHECK_CLOSE(errors[0], errors[1], 0.0);
     }
     CHECK_CLOSE(hd_phases_velocity(a).v, hd_phases_velocity(b).v, 0.0);
 }
@@ -58,6 +62,15 @@ static void expect_same_modes(const hd_modes *a, const hd_modes *b)
             expect_same_doubles(hd_modes_snapshot(a, s, w), hd_modes_snapshot(b, s, w), n);
     for (int c = 0; c < hd_fields_columns(hd_modes_fields(a)); c++)
         expect_same_doubles(hd_modes_coefficients(a, c), hd_modes_coefficients(b, c), n);
+}
+
+static void expect_same_structure(const hd_structure *a, const hd_structure *b)
+{
+    assert_int_equal(hd_structure_samples(a), hd_structure_samples(b));
+    for (int w = 0; w < hd_structure_waves(a); w++)
+        for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++)
+            expect_same_doubles(hd_structure_mean(a, w, e), hd_structure_mean(b, w, e),
+                                hd_structure_vectors(a));
 }
 
 static void expect_same_spectrum(const hd_spectrum *a, const hd_spectrum *b, int n)
@@ -125,6 +138,8 @@ static void expect_same_state(hd_run *a, hd_run *b)
     if (hd_run_gas(a)) expect_same_gas(hd_run_gas(a), hd_run_gas(b));
     if (hd_run_localization(a))
         expect_same_localization(hd_run_localization(a), hd_run_localization(b), hd_run_vectors(a));
+    if (hd_run_t_phases(a)) expect_same_phases(hd_run_t_phases(a), hd_run_t_phases(b));
+    if (hd_run_structure(a)) expect_same_structure(hd_run_structure(a), hd_run_structure(b));
     const bytes of_a = kept_bytes(a), of_b = kept_bytes(b);
     expect_same_bytes(&of_a, &of_b);
     free(of_a.data);
@@ -210,7 +225,7 @@ static void what_was_compared_was_there(void **state)
     int tracked = 0, resolved = 0;
     const hd_phases *phases = hd_run_phases(run);
     for (int k = 0; k < hd_phases_count(phases); k++)
-        tracked += hd_phases_phase(phases, k)->state == HD_LP_TRACKED;
+        tracked += hd_phases_phase(phases, k)->state == HD_PHASE_TRACKED;
     for (int k = 0; k < hd_steps_count(hd_run_steps(run)); k++)
         resolved += hd_steps_step(hd_run_steps(run), k)->resolved;
     assert_true(hd_run_cost(run).slow_vector_samples > 0);

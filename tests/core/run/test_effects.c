@@ -6,7 +6,7 @@
 #include "hdlyap/hdlyap.h"
 #include "runs.h"
 
-enum { DISKS = 100, HALF = 2 * DISKS - 3, EVERYTHING = 31 };
+enum { DISKS = 100, HALF = 2 * DISKS - 3, EVERYTHING = 223 };
 
 static hd_scene_def small(int exponents, unsigned observe)
 {
@@ -88,7 +88,9 @@ static void bytes_are_those_of_the_vectors_asked_for(void **state)
 static void stages_have_memory_when_asked_for(void **state)
 {
     (void)state;
-    static const unsigned stages[] = {0, HD_OBSERVE_STEPS, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES};
+    static const unsigned stages[] = {0, HD_OBSERVE_STEPS, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES,
+                                      HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES,
+                                      EVERYTHING};
     double before = 0.0;
     for (size_t k = 0; k < sizeof stages / sizeof *stages; k++) {
         const double bytes = bytes_for(HD_EXPONENTS_POSITIVE, stages[k]);
@@ -115,6 +117,8 @@ static void what_is_not_asked_for_is_not_there(void **state)
         assert_null(hd_run_modes(run));
         assert_null(hd_run_steps(run));
         assert_null(hd_run_phases(run));
+        assert_null(hd_run_t_phases(run));
+        assert_null(hd_run_structure(run));
         hd_run_free(run);
     }
 }

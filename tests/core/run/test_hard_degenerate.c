@@ -10,7 +10,8 @@ static const double PI = 3.14159265358979323846;
 static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 
 static const unsigned EVERYTHING = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES |
-                                   HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO;
+                                   HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO | HD_OBSERVE_T_PHASES |
+                                   HD_OBSERVE_STRUCTURE;
 
 /* ---- few disks ----------------------------------------------------------------------------- */
 
@@ -124,8 +125,8 @@ static void watch_phases(watch *w, const hd_phases *phases)
 {
     assert_true(hd_phases_count(phases) <= TRACKS_MAX);
     for (int t = 0; t < hd_phases_count(phases); t++) {
-        const hd_lp_phase *phase = hd_phases_phase(phases, t);
-        const bool known = phase->state == HD_LP_TRACKED;
+        const hd_phase *phase = hd_phases_phase(phases, t);
+        const bool known = phase->state == HD_PHASE_TRACKED;
         if (known && w->time[t] >= 0 && phase->time > w->time[t]) {
             const double foreseen = phase->omega * (phase->time - w->time[t]);
             w->largest = fmax(w->largest, fabs(phase->phase - w->phase[t] - foreseen));

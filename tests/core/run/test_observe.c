@@ -120,6 +120,7 @@ static void check_same_exponents(hd_scene_def scene, unsigned observe, double bo
     assert_null(hd_run_modes(blind));
     assert_null(hd_run_steps(blind));
     assert_null(hd_run_phases(blind));
+    assert_null(hd_run_t_phases(blind));
     assert_true(hd_trajectory_collisions(hd_run_trajectory(looked)) ==
                 hd_trajectory_collisions(hd_run_trajectory(blind)));
     const double tolerance = bounds *
@@ -259,7 +260,7 @@ static void fields_are_due_now_and_then(void **state)
 static void check_none_coarse(const hd_run *run)
 {
     for (int k = 0; k < hd_phases_count(hd_run_phases(run)); k++)
-        assert_int_not_equal(hd_phases_phase(hd_run_phases(run), k)->state, HD_LP_COARSE);
+        assert_int_not_equal(hd_phases_phase(hd_run_phases(run), k)->state, HD_PHASE_COARSE);
 }
 
 /** Phases that nobody looked at for a while begin anew, and are not taken for coarse. */
@@ -278,9 +279,9 @@ static void a_look_away_begins_the_phases_anew(void **state)
         }
     }
     for (int k = 0; k < hd_phases_count(hd_run_phases(run)); k++) {
-        const hd_lp_phase *phase = hd_phases_phase(hd_run_phases(run), k);
+        const hd_phase *phase = hd_phases_phase(hd_run_phases(run), k);
         assert_true(phase->time < 50.5);
-        tracked += phase->state == HD_LP_TRACKED && phase->time > 20.0;
+        tracked += phase->state == HD_PHASE_TRACKED && phase->time > 20.0;
     }
     assert_true(tracked >= 4);
     hd_run_free(run);
@@ -292,7 +293,7 @@ static double tracked_for(const hd_run *run, const hd_step *step)
     const hd_phases *phases = hd_run_phases(run);
     double longest = 0.0;
     for (int k = 0; k < hd_phases_count(phases); k++) {
-        const hd_lp_phase *phase = hd_phases_phase(phases, k);
+        const hd_phase *phase = hd_phases_phase(phases, k);
         if (hd_steps_step(hd_run_steps(run), phase->step) == step)
             longest = fmax(longest, phase->time);
     }
@@ -439,8 +440,8 @@ static void check_rotation(const hd_run *run)
     const hd_phases *phases = hd_run_phases(run);
     int tracked[2] = {0, 0};
     for (int k = 0; k < hd_phases_count(phases); k++) {
-        const hd_lp_phase *phase = hd_phases_phase(phases, k);
-        if (phase->state != HD_LP_TRACKED || phase->time < 300.0) continue;
+        const hd_phase *phase = hd_phases_phase(phases, k);
+        if (phase->state != HD_PHASE_TRACKED || phase->time < 300.0) continue;
         assert_true(phase->omega > 0);
         assert_true(phase->omega_error > 0 && phase->omega_error < 0.1 * phase->omega);
         tracked[hd_steps_step(hd_run_steps(run), phase->step)->conjugate]++;

@@ -44,11 +44,14 @@ static hd_scene_def short_run(int disks, int exponents, unsigned observe)
 static void the_estimate_is_what_is_asked_for(void **state)
 {
     (void)state;
-    enum { MODES = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES };
+    enum { MODES = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES };
+    enum { STRUCTURE = MODES | HD_OBSERVE_STRUCTURE };
     hd_scene_def scene = short_run(300, HD_EXPONENTS_POSITIVE, 0);
     compare("positive half", &scene, 0.93, 1.07);
     scene = short_run(300, HD_EXPONENTS_POSITIVE, MODES);
     compare("with modes", &scene, 0.93, 1.07);
+    scene = short_run(300, HD_EXPONENTS_POSITIVE, STRUCTURE);
+    compare("with structure factors", &scene, 0.93, 1.07);
     scene = short_run(200, HD_EXPONENTS_ALL, MODES);
     compare("all exponents", &scene, 0.93, 1.07);
     scene = short_run(2000, 60, 0);

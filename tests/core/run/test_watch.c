@@ -34,9 +34,9 @@ static void check_same_phases(const hd_run *a, const hd_run *b)
 {
     int tracked = 0;
     for (int k = 0; k < hd_phases_count(hd_run_phases(a)); k++) {
-        const hd_lp_phase *x = hd_phases_phase(hd_run_phases(a), k);
-        const hd_lp_phase *y = hd_phases_phase(hd_run_phases(b), k);
-        tracked += x->state == HD_LP_TRACKED;
+        const hd_phase *x = hd_phases_phase(hd_run_phases(a), k);
+        const hd_phase *y = hd_phases_phase(hd_run_phases(b), k);
+        tracked += x->state == HD_PHASE_TRACKED;
         assert_int_equal(x->state, y->state);
         assert_true(x->phase == y->phase && x->omega == y->omega && x->time == y->time);
     }

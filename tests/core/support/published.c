@@ -69,6 +69,17 @@ static void check_modes(const hd_modes *modes)
         check_numbers(hd_modes_null_average(modes, null), n, "part in the null space");
 }
 
+static void check_structure(const hd_structure *s)
+{
+    const int n = hd_structure_vectors(s);
+    for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++) {
+        for (int w = 0; w < hd_structure_waves(s); w++)
+            check_numbers(hd_structure_mean(s, w, e), n, "structure factor");
+        for (unsigned bits = 0; bits < 4; bits++)
+            check_numbers(hd_structure_amplitude(s, e, bits), n, "amplitude");
+    }
+}
+
 static void check_dispersion(hd_dispersion fit)
 {
     const double x[] = {fit.c, fit.c_error, fit.c2, fit.c2_error, fit.misfit};
@@ -93,11 +104,14 @@ static void check_steps(const hd_run *run)
 
 static void check_phases(const hd_phases *phases)
 {
+    double error;
     for (int k = 0; k < hd_phases_count(phases); k++) {
-        const hd_lp_phase *phase = hd_phases_phase(phases, k);
+        const hd_phase *phase = hd_phases_phase(phases, k);
         const double x[] = {phase->a,     phase->b,           phase->phase,
                             phase->omega, phase->omega_error, phase->time};
         check_numbers(x, 6, "phase");
+        check_number(hd_phases_diffusion(phases, k, &error), "diffusion");
+        check_number(error, "error of the diffusion");
     }
     check_number(hd_phases_velocity(phases).v, "velocity");
     check_number(hd_phases_velocity(phases).v_error, "error of the velocity");
@@ -160,6 +174,8 @@ long check_published(const hd_run *run)
     if (hd_run_modes(run)) check_modes(hd_run_modes(run));
     if (hd_run_steps(run)) check_steps(run);
     if (hd_run_phases(run)) check_phases(hd_run_phases(run));
+    if (hd_run_t_phases(run)) check_phases(hd_run_t_phases(run));
+    if (hd_run_structure(run)) check_structure(hd_run_structure(run));
     if (hd_run_steps(run)) check_fields(run);
     return numbers;
 }

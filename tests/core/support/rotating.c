@@ -3,23 +3,29 @@
 #include "scenes.h"
 #include "testing.h"
 
-const hd_lp_phase *phase_of(const rotating *r, int slot, int c)
+const hd_phase *phase_of(const rotating *r, int slot, int c)
 {
     return hd_phases_phase(r->phases, r->first + slot * r->d + c);
 }
 
+/** L fields one after the other, then P fields; T fields in pairs. */
+int column_of(const rotating *r, int c, bool second)
+{
+    const int first = hd_fields_subspace(r->w.fields, r->step->subspace)->column;
+    return r->step->kind == HD_MODE_T ? first + 2 * c + second : first + c + (second ? r->d : 0);
+}
+
 static void write_vector(rotating *r, int m)
 {
-    const hd_subspace *s = hd_fields_subspace(r->w.fields, r->step->subspace);
     double dq[ROWS_MAX] = {0.0};
     for (int row = 0; row < world_rows(&r->w); row++)
         dq[row] = (1.0 - r->strength[m]) * random_normal(&r->w.random) / sqrt(world_rows(&r->w));
     for (int c = 0; c < r->d; c++) {
         const double cosine = cos(r->angle[m][c]), sine = sin(r->angle[m][c]);
         const double factor = r->sign[m] * r->strength[m];
-        world_add_field(&r->w, dq, s->column + c,
+        world_add_field(&r->w, dq, column_of(r, c, false),
                         factor * (cosine * r->re[m][c] - sine * r->im[m][c]));
-        world_add_field(&r->w, dq, s->column + r->d + c,
+        world_add_field(&r->w, dq, column_of(r, c, true),
                         factor * (sine * r->re[m][c] + cosine * r->im[m][c]));
     }
     world_write_mode(&r->w, r->column[m], dq, 1.0);
@@ -68,13 +74,14 @@ void begin(rotating *r)
     show(r);
 }
 
-rotating rotating_create(const hd_scene_def *def, int nx, int ny, int vectors, double exponent)
+rotating rotating_create(const hd_scene_def *def, hd_mode_kind kind, int nx, int ny, int vectors,
+                         double exponent)
 {
     rotating r = {.w = world_create(def, vectors, 1), .dt = 1.0};
-    const int s = world_subspace(&r.w, HD_MODE_LP, nx, ny);
+    const int s = world_subspace(&r.w, kind, nx, ny);
     r.step = hd_steps_step(r.w.steps, s);
     r.d = r.step->expected / 2;
-    CHECK_OK(hd_phases_create(&r.phases, r.w.steps));
+    CHECK_OK(hd_phases_create(&r.phases, r.w.steps, kind));
     while (hd_phases_phase(r.phases, r.first)->step != s) r.first++;
     world_span(&r.w, vectors - 2 * r.d, &s, 1, 0.0);
     world_look(&r.w);
@@ -98,25 +105,32 @@ rotating pairs_of(int d, int disks)
     if (d == 4) {
         def = scene_of(disks, 0.5, 0.8, HD_PERIODIC, HD_PERIODIC, 9);
         def.max_mode_number = 1;
-        return rotating_create(&def, 1, 1, 8, exponent);
+        return rotating_create(&def, HD_MODE_LP, 1, 1, 8, exponent);
     }
     def = scene_in_box(disks, disks / 0.75, 1.5, d == 1 ? HD_REFLECTING : HD_PERIODIC, HD_PERIODIC,
                        9);
     def.max_mode_number = 1;
-    return rotating_create(&def, 1, 0, 2 * d, exponent);
+    return rotating_create(&def, HD_MODE_LP, 1, 0, 2 * d, exponent);
 }
 
 rotating pairs(int d) { return pairs_of(d, d == 4 ? 60 : 30); }
 
-double strength_of(const hd_lp_phase *phase) { return phase->a * phase->a + phase->b * phase->b; }
+rotating t_pairs(int d)
+{
+    hd_scene_def def = scene_of(60, 0.5, 0.8, HD_PERIODIC, HD_PERIODIC, 9);
+    def.max_mode_number = 1;
+    return rotating_create(&def, HD_MODE_T, 1, d - 1, 2 * d, 2.4);
+}
+
+double strength_of(const hd_phase *phase) { return phase->a * phase->a + phase->b * phase->b; }
 
 int check_tracks(const rotating *r, double angle, double time, double tolerance)
 {
     int tracked = 0;
     for (int v = 0; v < 2 * r->d; v++)
         for (int c = 0; c < r->d; c++) {
-            const hd_lp_phase *phase = phase_of(r, v, c);
-            if (phase->state != HD_LP_TRACKED || phase->time != time) continue;
+            const hd_phase *phase = phase_of(r, v, c);
+            if (phase->state != HD_PHASE_TRACKED || phase->time != time) continue;
             const double start = atan2(r->im[v][c], r->re[v][c]);
             assert_true(strength_of(phase) >= WEAK);
             CHECK_CLOSE(phase->phase, start + angle, tolerance);

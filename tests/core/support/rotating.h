@@ -1,4 +1,5 @@
-/** Vectors of one LP step that turn between their L and P fields at a known rate. */
+/** Vectors of one step that turn between the fields of its pairs at a known rate: L and P, or T of
+ * a cosine and of a sine. */
 #ifndef HD_ROTATING_H
 #define HD_ROTATING_H
 
@@ -13,7 +14,7 @@ enum { VECTORS_MAX = 8, PAIRS_MAX = 4, ROWS_MAX = 800 };
 /** a^2 + b^2 below which there is no phase [T13]. */
 #define WEAK 0.05
 
-/** One LP step, alone in its frame. z[m][c]: of vector m and pair c at time 0; rows are
+/** One step, alone in its frame. z[m][c]: of vector m and pair c at time 0; rows are
  * orthonormal. */
 typedef struct rotating {
     world w;
@@ -28,11 +29,17 @@ typedef struct rotating {
     double time, dt;
 } rotating;
 
-/** LP(nx, ny) of this scene in the last columns of a frame of `vectors`; drawn and shown. */
-rotating rotating_create(const hd_scene_def *def, int nx, int ny, int vectors, double exponent);
+/** The step of this kind at (nx, ny) of this scene in the last columns of a frame of `vectors`;
+ * drawn and shown. */
+rotating rotating_create(const hd_scene_def *def, hd_mode_kind kind, int nx, int ny, int vectors,
+                         double exponent);
 /** 1, 2 or 4 pairs. The exponent allows turns up to 0.95 pi. */
 rotating pairs_of(int d, int disks);
 rotating pairs(int d);
+/** 1 or 2 pairs of a T step. */
+rotating t_pairs(int d);
+/** Column of the first or the second field of pair c. */
+int column_of(const rotating *r, int c, bool second);
 void rotating_free(rotating *r);
 
 /** Draws new vectors, at time 0. */
@@ -42,8 +49,8 @@ void turn(rotating *r, double omega);
 /** Exponents all alike, and the steps anew. */
 void find(rotating *r, double exponent);
 
-const hd_lp_phase *phase_of(const rotating *r, int slot, int c);
-double strength_of(const hd_lp_phase *phase);
+const hd_phase *phase_of(const rotating *r, int slot, int c);
+double strength_of(const hd_phase *phase);
 /** Every strong track turned by `angle` in all, tracked for so long. Returns how many there are. */
 int check_tracks(const rotating *r, double angle, double time, double tolerance);
 

@@ -7,8 +7,8 @@ import numpy as np
 
 from .reader import Missing
 
-FRAMES = ('results', 'spectrum', 'steps', 'modes', 'phases', 'covariant', 'localization')
-FRAMES += ('gas', 'cost', 'status')
+FRAMES = ('results', 'spectrum', 'steps', 'modes', 'phases', 't_phases', 'covariant')
+FRAMES += ('localization', 'gas', 'cost', 'status')
 OVER_TIME = '1/time unit'  # unit of what stands below Lyapunov indices
 
 

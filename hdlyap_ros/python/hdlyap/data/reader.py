@@ -13,18 +13,20 @@ from hdlyap.plots.progress import Progress
 
 RUN_INFO, SPECTRUM = 'hdlyap/RunInfo', 'hdlyap/Spectrum'
 STATUS, COST = 'hdlyap/RunStatus', 'hdlyap/Cost'
-MODES, STEPS, PHASES = 'hdlyap/Modes', 'hdlyap/Steps', 'hdlyap/LpPhases'
+MODES, STEPS = 'hdlyap/Modes', 'hdlyap/Steps'
+PHASES, T_PHASES = 'hdlyap/LpPhases', 'hdlyap/TPhases'
 FIELD, STATE = 'hdlyap/ModeField', 'hdlyap/State'
-COVARIANT, HYDRO = 'hdlyap/Covariant', 'hdlyap/Hydro'
+COVARIANT, HYDRO, STRUCTURE = 'hdlyap/Covariant', 'hdlyap/Hydro', 'hdlyap/Structure'
 LOCALIZATION, GAS = 'hdlyap/Localization', 'hdlyap/Gas'
-TYPES = (RUN_INFO, SPECTRUM, STATUS, COST, MODES, STEPS) + (PHASES, FIELD, STATE, COVARIANT, HYDRO)
-TYPES += (LOCALIZATION, GAS)
+TYPES = (RUN_INFO, SPECTRUM, STATUS, COST, MODES, STEPS, PHASES, T_PHASES)
+TYPES += (FIELD, STATE, COVARIANT, HYDRO, STRUCTURE, LOCALIZATION, GAS)
 NAME, PATH, LINE, LIST = 200, 4096, 8192, 4096  # longest text, path, error; most elements of a list
 PATHS = ('checkpoint', 'resume')
 # arrays of as many elements as the first of them
 ALIKE = {
     SPECTRUM: ('exponents', 'std_errors', 'local_exponents', 'cos_theta', 'dp_dq_ratio'),
     STATE: ('x', 'y', 'px', 'py'),
+    STRUCTURE: ('nx', 'ny', 'wave_number'),
     FIELD: ('x', 'y', 'px', 'py', 'dqx', 'dqy', 'dpx', 'dpy'),
     COVARIANT: ('exponents', 'std_errors', 'start_mismatch', 'widths', 'cos_theta'),
     LOCALIZATION: ('widths', 'std_errors', 'widths_now'),

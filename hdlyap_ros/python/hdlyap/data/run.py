@@ -11,7 +11,7 @@ from hdlyap import msg
 from hdlyap.plots import fits, run as common
 from hdlyap.plots.numbers import known
 
-from . import fields, reader, tables
+from . import fields, reader, structure, tables
 from .disks import Disks
 from .reader import Missing
 
@@ -20,8 +20,10 @@ TOPICS = {
     'modes': reader.MODES,
     'steps': reader.STEPS,
     'lp_phases': reader.PHASES,
+    't_phases': reader.T_PHASES,
     'fields': reader.FIELD,
     'hydro': reader.HYDRO,
+    'structure': reader.STRUCTURE,
     'covariant': reader.COVARIANT,
     'localization': reader.LOCALIZATION,
     'gas': reader.GAS,
@@ -34,6 +36,7 @@ FRAMES = {
     'modes': tables.of_modes,
     'steps': tables.of_steps,
     'lp_phases': tables.of_phases,
+    't_phases': tables.of_t_phases,
     'covariant': tables.arrays,
     'localization': tables.arrays,
     'gas': tables.of_gas,
@@ -57,10 +60,10 @@ Local = namedtuple('Local', 'times lengths exponents')
 class Run:
     """`info` is its run_info. Arrays have a row for each message: `times` (simulated),
     `averaged_times`, `exponents` and `std_errors` of the running means; `local` the samples. Frames
-    are of the last message: `spectrum`, `modes`, `steps`, `phases`, `covariant`, `localization`,
-    `gas`, `results`; or of all: `cost`, `status`, `course(topic)`. `state` has positions and
-    momenta, `fields` the last field of each vector. What was averaged before ~reset_average does
-    not count."""
+    are of the last message: `spectrum`, `modes`, `steps`, `phases`, `t_phases`, `covariant`,
+    `localization`, `gas`, `results`; or of all: `cost`, `status`, `course(topic)`. `structure` has
+    structure factors, `state` positions and momenta, `fields` the last field of each vector. What
+    was averaged before ~reset_average does not count."""
 
     def __init__(self, joined):
         self._joined = joined
@@ -144,6 +147,10 @@ class Run:
         return tables.of_phases(self.last('lp_phases'))
 
     @cached_property
+    def t_phases(self):
+        return tables.of_t_phases(self.last('t_phases'))
+
+    @cached_property
     def covariant(self):
         return tables.arrays(self.last('covariant'))
 
@@ -208,10 +215,24 @@ class Run:
         return tables.scalars(self._all('status'))
 
     def course(self, topic):
-        """Frame of all messages of 'spectrum', 'modes', 'steps', 'lp_phases', 'covariant',
-        'localization' or 'gas', by simulated time: course('lp_phases')['phase'].unstack() has a
-        column for each phase."""
+        """Frame of all messages of 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases',
+        'covariant', 'localization' or 'gas', by simulated time:
+        course('lp_phases')['phase'].unstack() has a column for each phase."""
         return tables.over_time(self._all(topic), FRAMES[topic])
+
+    @cached_property
+    def structure(self):
+        """The last mean structure factors: see structure.Structure."""
+        last = None
+        for message in self.messages('structure'):
+            last = message if len(message.along) else last
+        if last is None:
+            raise self._missing('structure with means')
+        return structure.Structure(last)
+
+    def amplitudes(self, indices, direction):
+        """Frame of all amplitudes of these vectors' waves, 'along' or 'across' k."""
+        return structure.amplitudes(self._all('structure'), list(indices), direction)
 
     # ---- disks and vectors ------------------------------------------------------------------
 
@@ -233,12 +254,12 @@ class Run:
     @cached_property
     def _lasts(self):
         """{type: Packed} of those that are small, so that the bag is read once for all."""
-        kinds = reader.MODES, reader.STEPS, reader.PHASES, reader.COVARIANT
+        kinds = reader.MODES, reader.STEPS, reader.PHASES, reader.T_PHASES, reader.COVARIANT
         kinds += reader.LOCALIZATION, reader.GAS
         return {packed.kind: packed for packed in self._joined.packed(kinds)}
 
     def has(self, topic):
-        """Whether there is a message of 'modes', 'steps', 'lp_phases', 'covariant',
+        """Whether there is a message of 'modes', 'steps', 'lp_phases', 't_phases', 'covariant',
         'localization' or 'gas'."""
         return TOPICS[topic] in self._lasts
 

@@ -69,9 +69,9 @@ def _blank(columns):
         blank = dict.fromkeys(below, ~columns['resolved'])
         if 'gap' in columns:
             blank['gap'] = columns['gap'] == 0
-    elif 'tracked_time' in columns:  # of an LpPhase
+    elif 'tracked_time' in columns:  # of an LpPhase or a TPhase
         blank = dict.fromkeys(('a', 'b'), columns['state'] == LpPhase.UNRESOLVED)
-        tracked = 'phase', 'omega', 'omega_error', 'velocity'
+        tracked = {'phase', 'omega', 'omega_error', 'velocity'} & columns.keys()
         blank.update(dict.fromkeys(tracked, columns['state'] != LpPhase.TRACKED))
     elif 'weight_now' in columns:  # of a Mode
         blank = dict.fromkeys(('wave_number', 'weight'), columns['kind'] == Mode.NONE)
@@ -128,16 +128,21 @@ def of_gas(message):
     return frame(columns, {}, index)
 
 
-def of_phases(message):
+def of_phases(message, kind='LP'):
     """By their number; the modulation as a formula."""
     phases = message.phases
     made = elements(phases, pandas.RangeIndex(len(phases), name='number'))
     if phases:
-        made['step'] = [steps.wave_name('LP', phase) for phase in phases]
+        made['step'] = [steps.wave_name(kind, phase) for phase in phases]
         made['modulation'] = [
             waves.plain_formula(phase.nx, phase.ny, phase.modulation) for phase in phases
         ]
     return made
+
+
+def of_t_phases(message):
+    """The same of the T steps."""
+    return of_phases(message, 'T')
 
 
 def over_time(messages, of):

@@ -1,6 +1,8 @@
 """bag file -> Recording: what one node said about its last run. Streams, keeps thinned courses of
 scalars and the last of everything else, so a bag may be far larger than the memory."""
 
+import numpy as np
+
 from hdlyap.data import joined, reader
 from hdlyap.data.reader import (
     COST,
@@ -13,6 +15,7 @@ from hdlyap.data.reader import (
     SPECTRUM,
     STATUS,
     STEPS,
+    STRUCTURE,
     RecordingError,
 )
 
@@ -21,9 +24,11 @@ from .numbers import known
 from .phases import PhaseCourse
 from .run import Run
 from .stages import PARTS
+from .structure import StructureCourse
 
 __all__ = ['RUN_INFO', 'SPECTRUM', 'RecordingError']  # of the reader, also known by these names
-TYPES = (RUN_INFO, SPECTRUM, STATUS, COST, STEPS, PHASES, FIELD, COVARIANT, LOCALIZATION, GAS)
+TYPES = (RUN_INFO, SPECTRUM, STATUS, COST, STEPS, PHASES, FIELD, COVARIANT, STRUCTURE)
+TYPES += (LOCALIZATION, GAS)
 LAST = (STEPS, COVARIANT, LOCALIZATION, GAS)  # of these the last one counts
 SMALLEST = 4  # exponents whose course is kept, counted back from the last positive one
 
@@ -31,8 +36,8 @@ SMALLEST = 4  # exponents whose course is kept, counted back from the last posit
 class Recording(Run):
     """The last run in the bag: its run_info, its last spectrum (None without exponents), the
     course of the averages since their last reset, the cost over time, and of the modes the last
-    steps (None if unrecorded), the last field of each vector, and the course of the LP phases,
-    and the last of covariant vectors, of widths, and of the gas."""
+    steps (None if unrecorded), the last field of each vector, the course of the LP phases and of
+    structure factors, and the last of covariant vectors, of widths, and of the gas."""
 
     def __init__(self, info, runs=1):
         self.info = info
@@ -40,6 +45,7 @@ class Recording(Run):
         self.spectrum = None
         self.began = {}  # simulated time of the first status of each stage
         self.phases = PhaseCourse()
+        self.structure = StructureCourse()
         self._history, self._costs = Course(), Course()
         self._last, self._fields = {}, {}
 
@@ -84,6 +90,8 @@ class Recording(Run):
             self._last[kind] = packed
         elif kind == FIELD:
             self._fields[packed.field_index()] = packed
+        elif kind == STRUCTURE:
+            self.structure.add(packed.message(np), self.positive_end)
         else:
             {
                 SPECTRUM: self._add_spectrum,

@@ -15,6 +15,7 @@ from . import (
     phases,
     spectrum,
     steps,
+    structure,
 )
 from .style import STYLE, plt, save
 
@@ -28,6 +29,7 @@ FIGURES = (
     p_mode,
     phases,
     localization,
+    structure,
     covariant_exponents,
     covariant_weights,
     covariant_angles,

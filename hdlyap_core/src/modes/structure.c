@@ -1,0 +1,393 @@
+/** Frame -> structure factors of every vector at every wave vector [T21].
+ *
+ * The sums over the disks of dq_x and dq_y times products of a cosine or sine of x and one of y are
+ * two matrix products, over the x and the y rows of the frame where they lie, some waves at a time:
+ * the sums of those stay in cache until they are amplitudes along and across k. */
+#include "hdlyap/structure.h"
+
+#include <cblas.h>
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/check.h"
+#include "base/memory.h"
+#include "hdlyap/modes.h"
+#include "modes/archived.h"
+#include "modes/harmonics.h"
+
+enum { AT_ONCE = 16, FUNCTIONS = HD_MODULATIONS_MAX, WIDTH = AT_ONCE * FUNCTIONS };
+
+/** A wave vector, and for each component of dq the columns of its functions: -1 where no amplitude
+ * needs one. */
+typedef struct planned {
+    hd_wave wave;
+    hd_modulations modulations[HD_DIRECTIONS];
+    int column[2][FUNCTIONS]; /**< by the bits of the function, among those of AT_ONCE waves */
+    double root;              /**< of 2 for each direction with walls and nodes */
+} planned;
+
+struct hd_structure {
+    int disks, vectors, waves, threads;
+    hd_harmonics along[2];
+    planned *plan;     /**< [waves] */
+    size_t stride;     /**< of every array over the vectors */
+    double *value[2];  /**< [disks][2 (nodes + 1)]: harmonics of each disk */
+    double *factor;    /**< [disks][WIDTH]: of one component and some waves */
+    double *sum[2];    /**< [WIDTH][stride]: of dq_x, dq_y times these */
+    double *snapshot;  /**< [waves][HD_DIRECTIONS][stride] */
+    double *mean;      /**< same, over samples */
+    double *amplitude; /**< [HD_DIRECTIONS][FUNCTIONS][stride] */
+    double *work;      /**< [AT_ONCE][stride] */
+    int *peak, *shown; /**< [vectors]: of the mean now, and when the snapshot was taken */
+    long samples;
+};
+
+/* ---- creation ------------------------------------------------------------------------------ */
+
+/** All waves that are sampled. */
+static hd_scene_def sampled(const hd_scene_def *def)
+{
+    hd_scene_def all = *def;
+    all.max_wave_number = hd_wave_limits_of(def).largest;
+    all.max_mode_number = 0;
+    return all;
+}
+
+int hd_structure_waves_of(const hd_scene_def *def)
+{
+    const hd_scene_def all = sampled(def);
+    return hd_waves(&all, NULL, 0);
+}
+
+/** The modulation whose derivative along d has these bits. */
+static unsigned other(unsigned bits, int d) { return bits ^ (d == 0 ? HD_SIN_X : HD_SIN_Y); }
+
+/** Along k the function of component d comes from the derivative of A along d, across from that
+ * along the other direction. */
+static unsigned function_of(unsigned bits, hd_direction e, int d)
+{
+    return other(bits, e == HD_ALONG ? d : 1 - d);
+}
+
+static void plan_columns(planned *p, int used[2])
+{
+    memset(p->column, -1, sizeof p->column);
+    for (int e = 0; e < HD_DIRECTIONS; e++)
+        for (int c = 0; c < p->modulations[e].count; c++)
+            for (int d = 0; d < 2; d++) {
+                const int from = e == HD_ALONG ? d : 1 - d; /* no derivative of a constant */
+                int *column =
+                    &p->column[d][function_of(p->modulations[e].bits[c], (hd_direction)e, d)];
+                if (*column < 0 && p->wave.n[from] > 0) *column = used[d]++;
+            }
+}
+
+static hd_status plan_waves(hd_structure *s, const hd_scene_def *def)
+{
+    const hd_scene_def all = sampled(def);
+    hd_wave *wave = hd_memory_alloc((size_t)s->waves + 1, sizeof *wave);
+    s->plan = hd_memory_alloc((size_t)s->waves + 1, sizeof *s->plan);
+    if (!wave || !s->plan) {
+        hd_memory_free(wave);
+        return HD_NO_MEMORY;
+    }
+    (void)hd_waves(&all, wave, s->waves);
+    for (int w = 0, used[2]; w < s->waves; w++) {
+        if (w % AT_ONCE == 0) used[0] = used[1] = 0;
+        s->plan[w] = (planned){.wave = wave[w],
+                               .modulations = {hd_wave_pairs(&wave[w], def->boundary),
+                                               hd_wave_transverse(&wave[w], def->boundary)}};
+        plan_columns(&s->plan[w], used);
+        s->plan[w].root = 1.0;
+        for (int d = 0; d < 2; d++) {
+            if (wave[w].n[d] > s->along[d].nodes) s->along[d].nodes = wave[w].n[d];
+            if (wave[w].n[d] > 0 && def->boundary[d] == HD_REFLECTING) s->plan[w].root *= sqrt(2.0);
+        }
+    }
+    hd_memory_free(wave);
+    return HD_OK;
+}
+
+static hd_status prepare(hd_structure *s, const hd_scene_def *def)
+{
+    const size_t disks = (size_t)def->disks, waves = (size_t)s->waves, n = s->stride;
+    HD_TRY(plan_waves(s, def));
+    for (int d = 0; d < 2; d++)
+        HD_TRY(hd_harmonics_create(&s->along[d], def, d, s->along[d].nodes));
+    struct {
+        double **array;
+        size_t size;
+    } wanted[] = {{&s->value[0], disks * 2 * ((size_t)s->along[0].nodes + 1)},
+                  {&s->value[1], disks * 2 * ((size_t)s->along[1].nodes + 1)},
+                  {&s->factor, disks * WIDTH},
+                  {&s->sum[0], WIDTH * n},
+                  {&s->sum[1], WIDTH * n},
+                  {&s->work, AT_ONCE * n},
+                  {&s->snapshot, waves * HD_DIRECTIONS * n + 1},
+                  {&s->mean, waves * HD_DIRECTIONS * n + 1},
+                  {&s->amplitude, HD_DIRECTIONS * FUNCTIONS * n}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
+        if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
+            return HD_NO_MEMORY;
+    s->peak = hd_memory_alloc((size_t)s->vectors, sizeof *s->peak);
+    s->shown = hd_memory_alloc((size_t)s->vectors, sizeof *s->shown);
+    if (!s->peak || !s->shown) return HD_NO_MEMORY;
+    hd_structure_clear(s);
+    return HD_OK;
+}
+
+hd_status hd_structure_create(hd_structure **out, const hd_scene_def *def, int vectors, int threads)
+{
+    HD_ASSERT(vectors >= 1 && threads >= 1);
+    hd_structure *s = hd_memory_alloc(1, sizeof *s);
+    *out = NULL;
+    if (!s) return HD_NO_MEMORY;
+    s->disks = def->disks;
+    s->vectors = vectors;
+    s->threads = threads;
+    s->waves = hd_structure_waves_of(def);
+    s->stride = (size_t)(vectors + 7) / 8 * 8;
+    const hd_status status = prepare(s, def);
+    if (status == HD_OK)
+        *out = s;
+    else
+        hd_structure_free(s);
+    return status;
+}
+
+void hd_structure_free(hd_structure *s)
+{
+    if (!s) return;
+    for (int d = 0; d < 2; d++) {
+        hd_harmonics_clear(&s->along[d]);
+        hd_memory_free(s->value[d]);
+        hd_memory_free(s->sum[d]);
+    }
+    hd_memory_free(s->plan);
+    hd_memory_free(s->factor);
+    hd_memory_free(s->snapshot);
+    hd_memory_free(s->mean);
+    hd_memory_free(s->amplitude);
+    hd_memory_free(s->work);
+    hd_memory_free(s->peak);
+    hd_memory_free(s->shown);
+    hd_memory_free(s);
+}
+
+/* ---- one snapshot -------------------------------------------------------------------------- */
+
+static void fill_values(hd_structure *s, const double *q)
+{
+    for (int d = 0; d < 2; d++) {
+        const size_t size = 2 * ((size_t)s->along[d].nodes + 1);
+        for (int j = 0; j < s->disks; j++) {
+            hd_harmonics_fill(&s->along[d], q[2 * j + d]);
+            memcpy(s->value[d] + (size_t)j * size, s->along[d].value, size * sizeof(double));
+        }
+    }
+}
+
+/** factor[disks][WIDTH] of component d at waves [from, to); returns how many columns there are. */
+static int fill_factors(hd_structure *s, int d, int from, int to)
+{
+    const size_t size[2] = {2 * ((size_t)s->along[0].nodes + 1),
+                            2 * ((size_t)s->along[1].nodes + 1)};
+    int columns = 0;
+    for (int w = from; w < to; w++)
+        for (unsigned bits = 0; bits < FUNCTIONS; bits++) {
+            const planned *p = &s->plan[w];
+            const int column = p->column[d][bits];
+            if (column < 0) continue;
+            const double *f = s->value[0] + 2 * p->wave.n[0] + (bits & HD_SIN_X);
+            const double *g = s->value[1] + 2 * p->wave.n[1] + (bits >> 1);
+            for (size_t j = 0; j < (size_t)s->disks; j++)
+                s->factor[j * WIDTH + (size_t)column] = f[j * size[0]] * g[j * size[1]];
+            columns++;
+        }
+    return columns;
+}
+
+static void sum_up(hd_structure *s, hd_columns v, int from, int to)
+{
+    for (int d = 0; d < 2; d++) {
+        const int columns = fill_factors(s, d, from, to);
+        if (columns == 0) continue;
+        cblas_dgemm(CblasRowMajor, CblasTrans, CblasNoTrans, columns, v.count, s->disks, 1.0,
+                    s->factor, WIDTH, v.data + (size_t)d * (size_t)v.stride, 4 * v.stride, 0.0,
+                    s->sum[d] + v.first, (int)s->stride);
+    }
+}
+
+/** Derivative of A along d over that of its other function, over |k|. */
+static double slope(const hd_wave *wave, unsigned bits, int d)
+{
+    const double part = wave->k[d] / wave->number;
+    return bits & (d == 0 ? HD_SIN_X : HD_SIN_Y) ? part : -part;
+}
+
+/** Row of the sums of component d times a function; NULL if it is not needed. */
+static const double *row_of(const hd_structure *s, const planned *p, unsigned bits, int d)
+{
+    return p->column[d][bits] < 0 ? NULL : s->sum[d] + (size_t)p->column[d][bits] * s->stride;
+}
+
+/** Amplitudes of one modulation, of vectors not yet normalised: along (A_x, A_y), across (A_y,
+ * -A_x).
+ */
+static void amplitudes(const hd_structure *s, double *out, const planned *p, hd_direction e,
+                       unsigned bits, hd_columns v)
+{
+    const double factor[2] = {e == HD_ALONG ? slope(&p->wave, bits, 0) : slope(&p->wave, bits, 1),
+                              e == HD_ALONG ? slope(&p->wave, bits, 1) : -slope(&p->wave, bits, 0)};
+    memset(out, 0, (size_t)v.count * sizeof *out);
+    for (int d = 0; d < 2; d++) {
+        const double *row = row_of(s, p, function_of(bits, e, d), d);
+        if (!row || factor[d] == 0.0) continue;
+        for (int l = 0; l < v.count; l++) out[l] += factor[d] * row[v.first + l];
+    }
+}
+
+static double *snapshot_of(const hd_structure *s, double *rows, int wave, hd_direction e)
+{
+    return rows + ((size_t)wave * HD_DIRECTIONS + (size_t)e) * s->stride;
+}
+
+/** Squares of one wave's amplitudes; they are kept for the vectors that have their peak there.
+ * work[count]. */
+static void measure_wave(hd_structure *s, double *work, int w, hd_columns v, const double *dq_norm)
+{
+    const double root = s->plan[w].root;
+    for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++) {
+        const hd_modulations *m = &s->plan[w].modulations[e];
+        double *out = snapshot_of(s, s->snapshot, w, e) + v.first;
+        memset(out, 0, (size_t)v.count * sizeof *out);
+        for (int c = 0; c < m->count; c++) {
+            double *kept = s->amplitude + ((size_t)e * FUNCTIONS + m->bits[c]) * s->stride;
+            amplitudes(s, work, &s->plan[w], e, m->bits[c], v);
+            for (int l = 0; l < v.count; l++) {
+                const double norm = dq_norm[v.first + l];
+                const double a = norm > HD_MODES_DQ_MIN ? root * work[l] / norm : 0.0;
+                out[l] += a * a;
+                if (s->peak[v.first + l] == w) kept[v.first + l] = a;
+            }
+        }
+    }
+}
+
+static void measure_waves(hd_structure *s, int from, int to, hd_columns v, const double *dq_norm)
+{
+#pragma omp parallel for schedule(static) num_threads(s->threads) if (s->threads > 1)
+    for (int w = from; w < to; w++)
+        measure_wave(s, s->work + (size_t)(w - from) * s->stride, w, v, dq_norm);
+}
+
+static bool all_finite(const double *x, size_t count)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < count; k++) sum += x[k];
+    return isfinite(sum);
+}
+
+hd_status hd_structure_measure(hd_structure *s, hd_columns v, const double *q,
+                               const double *dq_norm)
+{
+    HD_ASSERT(v.first >= 0 && v.first + v.count <= s->vectors);
+    const size_t size = (size_t)s->waves * HD_DIRECTIONS * s->stride;
+    memcpy(s->shown, s->peak, (size_t)s->vectors * sizeof *s->shown);
+    fill_values(s, q);
+    for (size_t row = 0; row < HD_DIRECTIONS * FUNCTIONS; row++)
+        memset(s->amplitude + row * s->stride + v.first, 0, (size_t)v.count * sizeof(double));
+    for (int from = 0; from < s->waves; from += AT_ONCE) {
+        const int to = from + AT_ONCE < s->waves ? from + AT_ONCE : s->waves;
+        sum_up(s, v, from, to);
+        measure_waves(s, from, to, v, dq_norm);
+    }
+    return all_finite(s->snapshot, size) ? HD_OK : HD_NOT_FINITE;
+}
+
+hd_status hd_structure_share(hd_structure *s, hd_communicator *communicator, int width, int carried)
+{
+    const size_t rows = (size_t)s->waves * HD_DIRECTIONS, n = (size_t)s->vectors;
+    hd_shared own = {rows, s->stride, (size_t)width, (size_t)carried, 0};
+    HD_TRY(hd_communicator_share_halves(communicator, s->snapshot, own, n));
+    own.rows = HD_DIRECTIONS * FUNCTIONS;
+    return hd_communicator_share_halves(communicator, s->amplitude, own, n);
+}
+
+/* ---- means --------------------------------------------------------------------------------- */
+
+static void find_peaks(hd_structure *s)
+{
+    double *largest = s->sum[0];
+    for (int l = 0; l < s->vectors; l++) largest[l] = 0.0;
+    for (int w = 0; w < s->waves; w++) {
+        const double *along = snapshot_of(s, s->mean, w, HD_ALONG), *across = along + s->stride;
+        for (int l = 0; l < s->vectors; l++)
+            if (along[l] + across[l] > largest[l]) {
+                largest[l] = along[l] + across[l];
+                s->peak[l] = w;
+            }
+    }
+}
+
+void hd_structure_add(hd_structure *s)
+{
+    const size_t size = (size_t)s->waves * HD_DIRECTIONS * s->stride;
+    s->samples++;
+    for (size_t k = 0; k < size; k++)
+        s->mean[k] += (s->snapshot[k] - s->mean[k]) / (double)s->samples;
+    find_peaks(s);
+}
+
+void hd_structure_clear(hd_structure *s)
+{
+    s->samples = 0;
+    memset(s->mean, 0, (size_t)s->waves * HD_DIRECTIONS * s->stride * sizeof *s->mean);
+    for (int l = 0; l < s->vectors; l++) s->peak[l] = s->shown[l] = -1;
+}
+
+/* ---- what can be read ---------------------------------------------------------------------- */
+
+long hd_structure_samples(const hd_structure *s) { return s->samples; }
+int hd_structure_vectors(const hd_structure *s) { return s->vectors; }
+int hd_structure_waves(const hd_structure *s) { return s->waves; }
+
+const hd_wave *hd_structure_wave(const hd_structure *s, int wave)
+{
+    HD_ASSERT(wave >= 0 && wave < s->waves);
+    return &s->plan[wave].wave;
+}
+
+const double *hd_structure_snapshot(const hd_structure *s, int wave, hd_direction e)
+{
+    HD_ASSERT(wave >= 0 && wave < s->waves && e < HD_DIRECTIONS);
+    return snapshot_of(s, s->snapshot, wave, e);
+}
+
+const double *hd_structure_mean(const hd_structure *s, int wave, hd_direction e)
+{
+    HD_ASSERT(wave >= 0 && wave < s->waves && e < HD_DIRECTIONS);
+    return snapshot_of(s, s->mean, wave, e);
+}
+
+int hd_structure_peak(const hd_structure *s, int col)
+{
+    HD_ASSERT(col >= 0 && col < s->vectors);
+    return s->shown[col];
+}
+
+const double *hd_structure_amplitude(const hd_structure *s, hd_direction e, unsigned modulation)
+{
+    HD_ASSERT(e < HD_DIRECTIONS && modulation < FUNCTIONS);
+    return s->amplitude + ((size_t)e * FUNCTIONS + modulation) * s->stride;
+}
+
+/** The snapshot belongs to this time alone. */
+void hd_structure_archive(hd_structure *s, hd_archive *archive)
+{
+    hd_archive_long(archive, "structure samples", &s->samples, 0, LONG_MAX / 2);
+    hd_archive_doubles(archive, "structure mean", s->mean,
+                       (size_t)s->waves * HD_DIRECTIONS * s->stride);
+    if (!archive->writing && hd_archive_good(archive) && s->samples > 0) find_peaks(s);
+}

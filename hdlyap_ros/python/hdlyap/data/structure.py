@@ -1,0 +1,56 @@
+"""Structure messages -> frames of the structure factors, and of amplitudes over time."""
+
+import numpy as np
+import pandas
+
+from hdlyap.plots import structure
+
+from . import fields, tables
+
+
+class Structure:
+    """`waves`: frame of nodes and wave numbers. `along`, `across`: mean structure factors, a row
+    for each Lyapunov index, a column for each wave. `peaks`: for each index the wave at which both
+    together are largest."""
+
+    def __init__(self, message):
+        means = structure.means_of(message)
+        index = pandas.RangeIndex(1, means.along.shape[1] + 1, name='index')
+        unit = {'wave_number': fields.of(message)['wave_number'].unit}
+        self.samples = means.samples
+        self.waves = tables.frame(
+            {'nx': means.nx, 'ny': means.ny, 'wave_number': means.wave_number}, unit
+        )
+        names = pandas.MultiIndex.from_arrays([means.nx, means.ny], names=['nx', 'ny'])
+        self.along = pandas.DataFrame(means.along.T, index, names)
+        self.across = pandas.DataFrame(means.across.T, index, names)
+        largest = np.argmax(means.along + means.across, axis=0)
+        vectors = np.arange(len(index))
+        self.peaks = tables.frame(
+            {
+                'nx': means.nx[largest],
+                'ny': means.ny[largest],
+                'wave_number': means.wave_number[largest],
+                'along': means.along[largest, vectors],
+                'across': means.across[largest, vectors],
+            },
+            unit,
+            index,
+        )
+
+
+def amplitudes(messages, indices, direction):
+    """Frame by simulated time, a column for each index and modulation (0: COS_COS ..); NaN while
+    the vector had another wave than in the end."""
+    times, rows, peaks = [], [], []
+    columns = np.array(indices) - 1
+    for message in messages:
+        times.append(message.sim_time)
+        rows.append(structure.amplitudes(message, direction)[:, columns])
+        peaks.append(np.array(message.peak)[columns])
+    rows = np.where((np.array(peaks) == peaks[-1])[:, np.newaxis], rows, np.nan)
+    names = pandas.MultiIndex.from_product([range(4), indices], names=['modulation', 'index'])
+    frame = pandas.DataFrame(
+        rows.reshape(len(rows), -1), pandas.Index(times, name='sim_time'), names
+    )
+    return frame.swaplevel(axis=1).sort_index(axis=1)

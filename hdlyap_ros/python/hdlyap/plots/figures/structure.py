@@ -1,0 +1,104 @@
+"""Structure factors: index against k, where each vector has its ridge; and the lines of the lowest
+steps in S(k, omega)."""
+
+import numpy as np
+from matplotlib.colors import LogNorm
+
+from .. import steps
+from ..numbers import with_error
+from ..structure import DIRECTIONS, frequencies, line, power
+from .style import INK, kind_colour, plt, scene
+
+NOISE = 0.5  # structure factor of a random vector
+TITLES = {'along': '(a) along $k$', 'across': '(b) across $k$'}
+OF_KIND = {steps.LP: 'along', steps.T: 'across'}
+
+
+def draw(recording):
+    means = recording.structure.means
+    if means is None:
+        return None
+    figure = plt.figure(figsize=(7, 6.2), constrained_layout=True)
+    grid = figure.add_gridspec(2, 2)
+    found = [block for block in steps.blocks(recording.steps) if len(block.steps) == 1]
+    for column, direction in enumerate(DIRECTIONS):
+        axes = figure.add_subplot(grid[0, column])
+        image = _ridge(axes, means, direction)
+        _classified(axes, found, direction)
+        axes.set_title(TITLES[direction], loc='left')
+        axes.set_xlabel('Lyapunov index')
+        axes.set_ylabel(r'wave number $k$  [$1/\sigma$]' if column == 0 else '')
+    figure.colorbar(image, ax=figure.axes[:2], label=r'$S(k)$')
+    _lines(figure.add_subplot(grid[1, :]), recording, found)
+    figure.suptitle(scene(recording.info), fontsize=9)
+    return figure
+
+
+def shells(means, direction):
+    """(k, S[k, vectors]): the largest of the waves with one k."""
+    factors = getattr(means, direction)
+    k = np.unique(np.round(means.wave_number, 9))
+    of = np.searchsorted(k, np.round(means.wave_number, 9))
+    largest = np.zeros((len(k), factors.shape[1]))
+    np.maximum.at(largest, of, factors)
+    return k, largest
+
+
+def _ridge(axes, means, direction):
+    k, largest = shells(means, direction)
+    around = np.concatenate(([0], k, [2 * k[-1] - (k[-2] if len(k) > 1 else 0)]))
+    edges = 0.5 * (around[1:] + around[:-1])
+    image = axes.pcolormesh(
+        np.arange(largest.shape[1] + 1) + 0.5,
+        edges,
+        np.maximum(largest, 1e-3),
+        norm=LogNorm(NOISE / 2, max(largest.max(), 2 * NOISE)),
+        cmap='magma_r',
+        rasterized=True,
+    )
+    axes.set_ylim(0, edges[-1])
+    return image
+
+
+def _classified(axes, found, direction):
+    """Rings where a step of this direction says that its vectors are."""
+    for block in found:
+        if OF_KIND.get(block.kind) == direction:
+            axes.plot(
+                0.5 * (block.first + block.last),
+                block.steps[0].wave_number,
+                'o',
+                markersize=6,
+                markerfacecolor='none',
+                markeredgecolor=kind_colour(block.kind),
+            )
+
+
+def _lines(axes, recording, found):
+    """Of the lowest T and LP step whose vectors' amplitudes are known."""
+    shown = set()
+    for block in found:
+        kind, indices = block.kind, range(block.first, block.last + 1)
+        if kind in shown or not recording.structure.has(indices):
+            continue
+        times, series = recording.structure.of(indices, OF_KIND[kind])
+        found_line = line(times, series)
+        if found_line is None:
+            continue
+        omega = frequencies(times)
+        values = power(times, series, omega)
+        label = rf'{block.name}: $\omega = {with_error(*found_line, decimals=4)}$'
+        axes.semilogy(omega, values, color=kind_colour(kind), label=label)
+        if kind == steps.LP and recording.steps.v_phases > 0:
+            axes.axvline(
+                recording.steps.v * block.steps[0].wave_number,
+                color=INK,
+                linestyle=':',
+                label=f'$v k$ of the phases, {block.name}',
+            )
+        shown.add(kind)
+    axes.set_title('(c)', loc='left')
+    axes.set_xlabel(r'$\omega$  [rad/time unit]')
+    axes.set_ylabel(r'$S(k, \omega)$')
+    if shown:
+        axes.legend()

@@ -1,0 +1,121 @@
+"""Structure messages -> the structure factors of every vector, the courses of the slowest vectors'
+amplitudes, and the line that these have in S(k, omega)."""
+
+from collections import namedtuple
+
+import numpy as np
+
+KEPT = 64  # slowest vectors of positive exponent whose amplitudes are kept
+FREQUENCIES = 400  # of a spectrum
+PIECES = 4  # of a course, for the error of its line
+REPORTS = 4 * PIECES  # of the shortest course that has a line
+FLOOR = 0.1  # of the largest power: what is below is no part of the line
+# mean structure factors: along and across have a row for each wave, a column for each vector
+Means = namedtuple('Means', 'samples nx ny wave_number along across')
+Line = namedtuple('Line', 'omega error')
+DIRECTIONS = 'along', 'across'
+
+
+class StructureCourse:
+    """means: the last ones, None without; the amplitudes of the slowest vectors at each report."""
+
+    def __init__(self):
+        self.means = None
+        self.first = 0  # Lyapunov index of the first vector that is kept
+        self._times, self._peaks, self._amplitudes = [], [], []
+
+    def add(self, msg, positive_end):
+        """msg with numpy arrays."""
+        means = means_of(msg)
+        self.means = self.means if means is None else means
+        end = min(positive_end, len(msg.peak))
+        self.first = max(0, end - KEPT) + 1
+        kept = slice(self.first - 1, end)
+        self._times.append(msg.sim_time)
+        self._peaks.append(np.array(msg.peak[kept], dtype=int))
+        self._amplitudes.append(np.stack([amplitudes(msg, e)[:, kept] for e in DIRECTIONS]))
+
+    def of(self, indices, direction):
+        """(times, amplitudes[times, series]) of these vectors as long as none had another wave
+        than in the end: as many series as vectors times modulations."""
+        if not self._times:
+            return np.empty(0), np.empty((0, 0))
+        columns = np.array([index - self.first for index in indices])
+        peaks = np.array(self._peaks)[:, columns]
+        other = np.flatnonzero((peaks != peaks[-1]).any(axis=1))
+        begin = other[-1] + 1 if len(other) else 0
+        found = np.array(self._amplitudes)[begin:, DIRECTIONS.index(direction)][..., columns]
+        return np.array(self._times[begin:]), found.reshape(len(found), -1)
+
+    def has(self, indices):
+        end = self.first + (len(self._peaks[-1]) if self._peaks else 0)
+        return bool(self._times) and min(indices) >= self.first and max(indices) < end
+
+
+def means_of(msg):
+    """Of a message with numpy arrays; None if it has none."""
+    if not len(msg.along):
+        return None
+    shape = len(msg.nx), len(msg.peak)
+    return Means(
+        msg.samples,
+        np.array(msg.nx, dtype=int),
+        np.array(msg.ny, dtype=int),
+        np.array(msg.wave_number),
+        np.array(msg.along).reshape(shape),
+        np.array(msg.across).reshape(shape),
+    )
+
+
+def amplitudes(msg, direction):
+    """A row for each modulation, a column for each vector."""
+    return np.array(getattr(msg, 'amplitude_' + direction)).reshape(4, len(msg.peak))
+
+
+def power(times, series, omega):
+    """S(k, omega) of series[times, ..], summed over them, at frequencies omega; times at any
+    distance. With Hann's window, so that a line does not leak into others. Summed over frequencies
+    of both signs, 2 pi / length apart, it is the mean square."""
+    times = times - times[0]
+    window = (1 - np.cos(2 * np.pi * times / times[-1])) * np.gradient(times)
+    turned = np.exp(-1j * np.outer(omega, times)) @ (window[:, np.newaxis] * series)
+    return (np.abs(turned) ** 2).sum(axis=1) / (1.5 * times[-1] ** 2)
+
+
+def frequencies(times):
+    """From 0 to the largest that reports at these times tell from a smaller one."""
+    return np.linspace(0, np.pi / np.median(np.diff(times)), FREQUENCIES)
+
+
+def line(times, series):
+    """Middle of the line with the largest power, half of its frequency to either side, and its
+    standard error from pieces of the course; None of a course that is too short. A line that is not
+    told from one at 0, as of what does not turn, is at 0 within what would be told."""
+    if len(times) < REPORTS or not (np.diff(times) > 0).all():
+        return None
+    whole = _middle(times, series, _largest(times, series))
+    if whole == 0:
+        return Line(0.0, _resolution(times))
+    pieces = np.array_split(np.arange(len(times)), PIECES)
+    parts = [_middle(times[piece], series[piece], whole) for piece in pieces]
+    return Line(whole, np.std(parts, ddof=1) / np.sqrt(PIECES))
+
+
+def _largest(times, series):
+    omega = frequencies(times)
+    largest = np.argmax(power(times, series, omega))
+    return omega[largest] if omega[largest] > _resolution(times) else 0.0
+
+
+def _resolution(times):
+    """Half of the width of a line of what turns evenly."""
+    return 4 * np.pi / (times[-1] - times[0])
+
+
+def _middle(times, series, about):
+    """Twice, as the first one moves what is looked at."""
+    for _ in range(2 if about > 0 else 0):
+        omega = about * np.linspace(0.5, 1.5, 301)
+        found = power(times, series, omega)
+        about = np.average(omega, weights=np.where(found > FLOOR * found.max(), found, 0.0))
+    return about

@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+"""Structure factors and their lines, of waves that are known."""
+
+import itertools
+import os
+import tempfile
+import unittest
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import hdlyap
+import made
+from hdlyap.msg import Structure
+from hdlyap.plots import figures, recording, structure
+
+OMEGA = made.VELOCITY  # times k
+WAVES = np.array([(1, 0), (0, 1), (1, 1), (2, 0)])
+
+
+class Lines(unittest.TestCase):
+    def setUp(self):
+        self.random = np.random.default_rng(5)
+
+    def times(self, count=400, uneven=0.0):
+        return np.cumsum(1.0 + uneven * self.random.uniform(-1, 1, count))
+
+    def turning(self, times, omega, diffusion=0.0):
+        steps = np.sqrt(2 * diffusion * np.gradient(times)) * self.random.normal(size=len(times))
+        phase = omega * times + np.cumsum(steps)
+        return np.stack([np.cos(phase), np.sin(phase)], axis=1)
+
+    def test_even_rotation(self):
+        """At any distance of the times; far below the distance of two frequencies."""
+        for omega, uneven in itertools.product((0.2, 0.77, 2.0), (0.0, 0.3)):
+            times = self.times(uneven=uneven)
+            found = structure.line(times, self.turning(times, omega))
+            self.assertAlmostEqual(found.omega, omega, delta=0.3 * 2 * np.pi / np.ptp(times))
+            self.assertLess(found.error, 0.05 * omega)
+
+    def test_errors_of_diffusing_phases(self):
+        """Deviations are as large as stated; 40 of them, each error from 4 pieces."""
+        off, stated = [], []
+        for _ in range(40):
+            times = self.times()
+            found = structure.line(times, self.turning(times, 0.8, diffusion=0.01))
+            off.append(found.omega - 0.8)
+            stated.append(found.error)
+        ratio = np.sqrt(np.mean(np.square(off)) / np.mean(np.square(stated)))
+        self.assertTrue(0.6 < ratio < 1.6, ratio)
+
+    def test_what_stands_still_is_at_zero(self):
+        times = self.times()
+        found = structure.line(times, self.turning(times, 0.0, diffusion=1e-4))
+        self.assertEqual(found, (0.0, 4 * np.pi / np.ptp(times)))
+        slow = structure.line(times, self.turning(times, 2 * found.error))
+        self.assertAlmostEqual(slow.omega, 2 * found.error, delta=0.2 * found.error)
+
+    def test_power_is_the_mean_square(self):
+        times = self.times()
+        series = self.turning(times, 0.8) + 0.1 * self.random.normal(size=(400, 2))
+        omega = 2 * np.pi / np.ptp(times) * np.arange(-200, 200)
+        total = structure.power(times, series, omega).sum()
+        self.assertAlmostEqual(total, (series**2).sum(axis=1).mean(), delta=0.03)
+
+    def test_no_line_without_a_course(self):
+        times = self.times(structure.REPORTS - 1)
+        self.assertIsNone(structure.line(times, self.turning(times, 0.8)))
+
+
+def message(info, sim_time, found, vectors=37, means=True):
+    """Vectors of these steps have their waves; LP turn by v k, T stand. Others are noise."""
+    factors = np.full((2, len(WAVES), vectors), 0.5)
+    peak = np.full(vectors, 4)
+    now = np.zeros((2, 4, vectors))
+    for one in found:
+        wave = int(np.flatnonzero((WAVES == (one.nx, one.ny)).all(axis=1))[0])
+        direction = 0 if one.kind == made.LP else 1
+        turned = OMEGA * one.wave_number * sim_time if one.kind == made.LP else 0.3
+        for index in range(one.first_index, one.last_index + 1):
+            phase = turned + 0.5 * np.pi * (index - one.first_index)
+            factors[direction, wave, index - 1] = 8.0
+            peak[index - 1] = wave + 1
+            now[direction, 0, index - 1] = np.cos(phase)
+            now[direction, 1, index - 1] = np.sin(phase)
+    k = np.hypot(*(2 * np.pi * WAVES / (info.box_x, info.box_y)).T)
+    return Structure(
+        run_id='one',
+        sim_time=sim_time,
+        samples=int(sim_time),
+        nx=WAVES[:, 0],
+        ny=WAVES[:, 1],
+        wave_number=k,
+        along=factors[0].ravel() if means else [],
+        across=factors[1].ravel() if means else [],
+        peak=peak,
+        amplitude_along=now[0].ravel(),
+        amplitude_across=now[1].ravel(),
+    )
+
+
+class Recorded(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder, self.bag = folder.name, os.path.join(folder.name, 'run.bag')
+        self.info = made.run_info()
+        self.found = [
+            made.step(self.info, made.T, 1, 0, 36, 37),
+            made.step(self.info, made.LP, 1, 0, 32, 35),
+        ]
+        exponents = np.linspace(9, 3, 37)
+        self.messages = [
+            message(self.info, 100.0 + t, self.found, means=t % 10 == 9) for t in range(60)
+        ]
+        made.write(
+            self.bag,
+            [
+                self.info,
+                made.spectrum(exponents, 60.0),
+                made.steps([*self.found, made.zero_modes()], 60.0),
+                *self.messages,
+            ],
+        )
+
+    def test_data(self):
+        run = hdlyap.load(self.bag)
+        last = self.messages[-1]
+        got = run.structure
+        self.assertEqual(got.samples, last.samples)
+        self.assertEqual(list(zip(got.waves.nx, got.waves.ny)), [tuple(wave) for wave in WAVES])
+        self.assertEqual(got.waves.attrs['units']['wave_number'], '1/sigma')
+        self.assertEqual(got.along.shape, (37, 4))
+        self.assertEqual(got.along.loc[33, (1, 0)], 8.0)
+        self.assertEqual(got.across.loc[33, (1, 0)], 0.5)
+        self.assertEqual(got.across.loc[37, (1, 0)], 8.0)
+        self.assertTrue((got.peaks.loc[32:, ['nx', 'ny']] == (1, 0)).all().all())
+        self.assertTrue(np.allclose(got.peaks.wave_number[32:], last.wave_number[0]))
+
+    def test_amplitudes(self):
+        self.messages[3].peak = list(self.messages[3].peak)
+        self.messages[3].peak[32] = 2
+        made.write(self.bag, [self.info, made.spectrum([3.0] * 37, 60.0), *self.messages])
+        got = hdlyap.load(self.bag).amplitudes([33, 34], 'along')
+        self.assertEqual(list(got.columns[:2]), [(33, 0), (33, 1)])
+        self.assertEqual(list(got.index), [one.sim_time for one in self.messages])
+        want = [np.array(one.amplitude_along).reshape(4, 37)[1, 32] for one in self.messages]
+        want[3] = np.nan
+        np.testing.assert_array_equal(got[33, 1], want)
+
+    def test_without_means(self):
+        made.write(
+            self.bag,
+            [
+                self.info,
+                made.spectrum([3.0] * 37, 60.0),
+                *(message(self.info, 100.0 + t, [], means=False) for t in range(3)),
+            ],
+        )
+        with self.assertRaisesRegex(Exception, 'no message of structure with means in it'):
+            hdlyap.load(self.bag).structure
+        self.assertIsNone(figures.structure.draw(recording.read([self.bag])))
+
+    def test_figure(self):
+        """The map has the numbers, the lines are at v k and at 0."""
+        figure = figures.structure.draw(recording.read([self.bag]))
+        self.addCleanup(plt.close, figure)
+        along, across, lines = figure.axes[0], figure.axes[1], figure.axes[-2]
+        if lines.get_title(loc='left') != '(c)':
+            lines = figure.axes[-1]
+        image = along.collections[0].get_array().reshape(-1, 37)
+        k = np.unique(np.round(self.messages[-1].wave_number, 9))
+        row = int(np.argmin(abs(k - self.messages[-1].wave_number[0])))
+        np.testing.assert_allclose(image[row, 31:35], 8.0)
+        np.testing.assert_allclose(image[row, 35:], 0.5)
+        np.testing.assert_allclose(across.collections[0].get_array().reshape(-1, 37)[row, 35:], 8.0)
+        self.assertEqual([line.get_xdata()[0] for line in along.lines], [33.5])
+        self.assertEqual([line.get_xdata()[0] for line in across.lines], [36.5])
+        found = {line.get_label().split(':')[0]: line for line in lines.lines}
+        peak = {
+            name: line.get_xdata()[np.argmax(line.get_ydata())]
+            for name, line in found.items()
+            if '(' in name and 'phases' not in name
+        }
+        self.assertEqual(set(peak), {'T(1,0)', 'LP(1,0)'})
+        self.assertEqual(peak['T(1,0)'], 0.0)
+        self.assertAlmostEqual(
+            peak['LP(1,0)'], OMEGA * self.found[1].wave_number, delta=2 * np.pi / 59
+        )
+
+    def test_a_wave_that_changes_begins_the_course_anew(self):
+        course = structure.StructureCourse()
+        for t, one in enumerate(self.messages):
+            one.peak = np.array(one.peak)
+            one.peak[32] = 2 if t < 7 else 1
+            one.amplitude_along = np.array(one.amplitude_along)
+            course.add(one, 37)
+        times, series = course.of([32, 33], 'along')
+        self.assertEqual((len(times), series.shape), (53, (53, 8)))
+        self.assertEqual(len(course.of([36, 37], 'across')[0]), 60)
+
+
+if __name__ == '__main__':
+    unittest.main()
