@@ -70,5 +70,14 @@ def pictures(test, part, bags):
     return names
 
 
+def rows(part, bags):
+    return [row for claim in part.claims(bags) for row in claim.rows]
+
+
 def by_quantity(part, bags):
-    return {row.quantity: row for row in part.rows(bags)}
+    return {row.quantity: row for row in rows(part, bags)}
+
+
+def verdicts(part, bags):
+    """{name of claim: its verdict} of those that are judged."""
+    return {claim.name: claim.verdict for claim in part.claims(bags) if claim.judged}

@@ -86,9 +86,7 @@ class Coordinates(Part):
             rows[f'cos Theta just {where} the zero modes, index {index}']
             for where, index in (('below', 37), ('above', 44))
         )
-        self.assertEqual(
-            (below.published, above.published, below.published_error), (1.0, -1.0, 0.02)
-        )
+        self.assertEqual((below.published, above.published, below.left_open), (1.0, -1.0, 0.02))
         self.assertEqual((below.verdict, above.verdict), ('agrees', 'differs'))
 
     def test_symmetric_vectors(self):
@@ -130,7 +128,7 @@ class Coordinates(Part):
             1 / (1 + symmetric_ratio**2) - 1 / (1 + 4 * symmetric_ratio**2),
             delta=ROUNDING,
         )
-        self.assertEqual((excess.verdict, excess.published_error), ('differs', ACCURACY))
+        self.assertEqual((excess.verdict, excess.left_open), ('differs', ACCURACY))
 
     def test_two_vectors_that_mix_leave_what_they_span(self):
         """Of |dq|^2 the one has more by what the other has less: no excess, though C and C'
