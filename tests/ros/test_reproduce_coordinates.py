@@ -171,6 +171,44 @@ class Coordinates(Part):
             rows['cos Theta just below the zero modes, index 1557'].verdict, 'not measured'
         )
 
+    def test_zero_modes_beside_their_neighbours(self):
+        """Their angle falls like the inverse of the age of the frame: 3 / age here."""
+
+        def change(cos, ratio, report):
+            age = spectrum(cos, ratio, 2.0 * (report + 1)).sim_time - made.run_info().equilibration
+            cos[END : END + 3] = 1 - 0.5 * (3.0 / age) ** 2
+            cos[END + 3 : END + 6] = -cos[END]
+
+        for far, verdict in ((0.98, 'differs'), (1.0, 'agrees')):
+
+            def nearer(cos, ratio, report, far=far):
+                change(cos, ratio, report)
+                cos[END - 1], cos[END + 6] = far, -far
+
+            bags = self.full(nearer)
+            claim = self.claims(bags)['cos Theta of the zero modes lies between these limits']
+            self.assertEqual((claim.verdict, claim.values), (verdict, 6))
+            row = self.rows(bags)['|cos Theta| of zero mode 41']
+            self.assertTrue(row.remark.startswith('cos Theta -0.9'), row.remark)
+            self.assertTrue(row.remark.endswith('of the frame: 3.00 to 3.00'), row.remark)
+
+    def test_cosines_of_steps(self):
+        rows = self.rows(self.full())
+        cos, _ = symmetric()
+        self.assertAlmostEqual(
+            rows['cos Theta of largest exponent'].measured, cos[0], delta=ROUNDING
+        )
+        self.assertAlmostEqual(
+            rows['cos Theta of the positive half, mean'].measured, cos[:END].mean(), delta=ROUNDING
+        )
+        steps = made.steps([made.step(made.run_info(), made.T, 1, 0, 36, 37)])
+        info = made.run_info(accuracy=ACCURACY)
+        spectra = [spectrum(*symmetric(), 2.0 * report) for report in range(1, REPORTS)]
+        bags = {'halves': self.bag('halves', [info, *spectra, steps])}
+        row = self.rows(bags)['cos Theta of T(1,0)']
+        self.assertAlmostEqual(row.measured, cos[35:37].mean(), delta=ROUNDING)
+        self.assertEqual(row.remark, 'indices 36-37')
+
     def test_figure(self):
         def change(cos, ratio, report):
             ratio[-5] *= 2

@@ -8,7 +8,7 @@ import made
 import recorded
 from made import LP, T
 from hdlyap.plots import paper
-from hdlyap.reproduce import crossing
+from hdlyap.reproduce import crossing, velocity
 from hdlyap.reproduce.parts import densities
 
 OFF = 1.01  # our slopes over the paper's fits
@@ -69,7 +69,10 @@ class Densities(unittest.TestCase):
         v = rows['v at density 0.7']
         self.assertAlmostEqual(v.measured, 1.08 * OFF * paper.slope_l(0.7), places=9)
         self.assertAlmostEqual(v.error, 0.002 * v.measured, places=9)
-        self.assertEqual(v.remark, '8 phases of LP(1,0); all 8 phases: 1.612(23)')  # of made.steps
+        over = 1.612 / velocity.of_fields(0.7)  # of made.steps
+        self.assertEqual(
+            v.remark, f'8 phases of LP(1,0); all 8 phases: 1.612(23), {over:.3f} Z / sqrt(2)'
+        )
         close = rows['v / c_L at density 0.5']
         self.assertAlmostEqual(close.measured, 1.0, places=9)
         self.assertAlmostEqual(close.error, np.hypot(0.001, 0.002), places=9)
@@ -79,6 +82,12 @@ class Densities(unittest.TestCase):
             above = rows[f'v / c_L at density {density}']
             self.assertEqual(above.cells()[1:3], ('above 1', said))
             self.assertEqual(above.verdict, 'agrees')
+
+    def test_velocity_of_the_fields(self):
+        """Of the equation of motion, beside what the last full run has measured."""
+        for line in recorded.table('08_densities'):
+            over = float(line['v_all']) / velocity.of_fields(float(line['density']))
+            self.assertAlmostEqual(over, 1.0, delta=0.03)
 
     def test_a_velocity_elsewhere_differs(self):
         far = run(0.5, velocity=1.05 * OFF * paper.slope_l(0.5))

@@ -1,6 +1,7 @@
-"""The velocity of LP modes beside the slope of their branch."""
+"""The velocity of LP modes beside the slope of their branch, and beside the equation of motion of
+the fields."""
 
-from math import hypot
+from math import hypot, pi, sqrt
 
 from hdlyap.plots import paper, steps
 
@@ -18,3 +19,9 @@ def over_slope(quantity, v, error, recording):
     relative = hypot(error / v, max(step.std_error, 0.0) / step.exponent)
     remark = f'c_L of {steps.name(step)}; {v / fitted:.3f} with that of the paper\'s fit'
     return Row(f'{quantity} / c_L', None, ratio, ratio * relative, remark=remark)
+
+
+def of_fields(density):
+    """[T13]: Z / sqrt(2), with Henderson's Z = P / (density kT)."""
+    eta = pi * density / 4
+    return (1 + eta**2 / 8) / (1 - eta) ** 2 / sqrt(2)

@@ -8,7 +8,7 @@ from hdlyap.plots import paper, steps
 from hdlyap.plots.figures.style import GREEN, GREY, KIND_COLOURS, plt
 from hdlyap.plots.numbers import with_error
 
-from .. import averages, crossing, slopes
+from .. import averages, crossing, slopes, velocity
 from ..row import ABOVE, EQUAL, INFERRED, Claim, Row
 
 TITLE = 'Slopes c_T, c_L and velocity v against the density, 780 disks, periodic'
@@ -137,16 +137,17 @@ def _slope_row(kind, one):
 
 def _velocity_row(one):
     v, error, count = one.v_all
-    remark = f'{one.phases} phases of LP(1,0)' + (
-        f'; all {count} phases: {with_error(v, error)}' if count else ''
-    )
+    remark = [f'{one.phases} phases of LP(1,0)']
+    if count:
+        over = v / velocity.of_fields(one.density)
+        remark.append(f'all {count} phases: {with_error(v, error)}, {over:.3f} Z / sqrt(2)')
     return Row(
         f'v at density {one.density:.1f}',
         None,
         one.v if one.phases else None,
         one.v_error,
         unit=UNIT,
-        remark=remark if one.phases else '',
+        remark='; '.join(remark) if one.phases else '',
     )
 
 
