@@ -197,9 +197,8 @@ class Recorded(unittest.TestCase):
         turned = self.turned(exchanged)
         self.assertLessEqual(
             {
-                'indices of the five smallest steps',
-                'indices of T(2,0) and LP(1,1), by their multiplicity beside what is stated',
-                'vector 1535 is an LP(1,1)',
+                'indices of the five smallest steps, and the step of vector 1535',
+                'indices of T(2,0) and LP(1,1), by their multiplicities beside what is stated',
                 CK,
                 *FITS,
                 *CURVES,

@@ -20,10 +20,14 @@ def claims(bags):
     stated = [_indices_row(step, found) for step in paper.INDICES]
     shown = next((one.name for one in found.values() if one.first <= SHOWN_LP <= one.last), None)
     named = Row(f'step of vector {SHOWN_LP}', 'LP(1,1)', shown if found else None)
-    yield Claim('indices of the five smallest steps', stated[:5], 'the same', PAPER)
-    yield Claim(f'vector {SHOWN_LP} is an LP(1,1)', [named], 'the same', PAPER)
     yield Claim(
-        'indices of T(2,0) and LP(1,1), by their multiplicity beside what is stated',
+        f'indices of the five smallest steps, and the step of vector {SHOWN_LP}',
+        [*stated[:5], named],
+        'the same',
+        PAPER,
+    )
+    yield Claim(
+        'indices of T(2,0) and LP(1,1), by their multiplicities beside what is stated',
         stated[5:],
         'the same',
         INFERRED,

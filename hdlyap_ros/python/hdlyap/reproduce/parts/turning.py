@@ -16,7 +16,7 @@ RUN = 'reflecting'
 QUARTER, LAST_DIGIT = 3.20, 0.005  # of a period, as its two snapshots are apart [time units]
 NEAR_ONE = 0.1  # taken as what the paper's 'near 1' leaves open
 WAVES = {(1, 0): 'the text\'s wave', (1, 1): 'the caption\'s wave'}
-SNAPSHOTS = 3  # of a wave in the figure
+SNAPSHOTS = 2  # of a wave in the figure
 SHOWN = 13.0  # of the course of (a, b): about a period [time units]
 SAME = 0.01  # part of the time between fields that two times called the same differ by at most
 
@@ -271,8 +271,7 @@ class Snapshot(modes.Panel):
 
 
 def _chosen(bag, one):
-    """Three fields of one vector, each QUARTER after the other, that are nearest to L, P, -L: the
-    paper's two snapshots, and a third that shows whether the second was a quarter's end."""
+    """Two fields of one vector, QUARTER apart, nearest to L and P: the snapshots of the paper."""
     series = _fields(bag, one) if one else {}
     times = sorted(series)
     best, chosen = -np.inf, []
@@ -312,7 +311,5 @@ def _fields(bag, one):
 
 def _snapshots(info, snapshots):
     figure = modes.draw_panels(snapshots, info)
-    figure.suptitle(
-        f'{scene(info)}, fields {QUARTER:.2f} apart: a vector nearest to L, P, $-$L', fontsize=9
-    )
+    figure.suptitle(f'{scene(info)}, fields {QUARTER:.2f} apart, nearest to L and P', fontsize=9)
     return figure
