@@ -110,16 +110,16 @@ def _head(commit, command):
     return (
         'Eckmann, Forster, Posch, Zabey, Lyapunov modes in hard-disk systems, '
         'J. Stat. Phys. 118, 813 (2005): published and measured.\n'
-        f'Made by {made}. In brackets: standard errors of the last digits; +-: what the criterion '
-        'leaves open.\n'
+        f'Made by {made}. In brackets: standard errors of the last digits, from blocks of time '
+        'unless a remark says from what; +-: what the criterion leaves open.\n'
         'A value agrees if published and measured number are apart by no more than that and '
-        f'{row.SIGMAS:g} standard errors.\n'
-        'Caught: the smallest deviation of the truth from what is published that would have made '
-        f'it differ, seen at {row.SEEN:g} sigma\n'
-        f'(what is left open and {row.SIGMAS + row.SEEN:g} standard errors). Where that is more '
-        f'than {row.TELLING:.0%} of the number, or than the value says is enough, it is not '
-        'decided.\n'
-        'A claim differs if one of its values does, and agrees if all of them do.'
+        f'{row.SIGMAS:g} standard errors. Caught: the smallest\n'
+        'deviation of the truth from what is published that would have made it differ, seen at '
+        f'{row.SEEN:g} sigma (what is left open and {row.SIGMAS + row.SEEN:g}\n'
+        f'standard errors). Where that is more than {row.TELLING:.0%} of the number, or than the '
+        'value says is enough, it is not decided.\n'
+        'A claim differs if one of its values does, and agrees if all of them do. Beside: without '
+        'a claim.'
     )
 
 
