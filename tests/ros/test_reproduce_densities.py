@@ -115,23 +115,6 @@ class Densities(unittest.TestCase):
         self.assertAlmostEqual(row.measured, np.mean(off), places=9)
         self.assertAlmostEqual(row.error, np.std(off, ddof=1) / 8**0.5, places=9)
 
-    def test_largest_errors(self):
-        rows = recorded.by_quantity(densities, bags())
-        for symbol, measured in (('c_T', 0.1), ('c_L', 0.1), ('v', 0.2)):
-            row = rows[f'largest error of {symbol}']
-            self.assertAlmostEqual(row.measured, measured, places=9)
-            self.assertEqual((row.published, row.verdict), (None, ''))
-            self.assertEqual(row.remark.partition(';')[0], 'demanded: 0.6 %, kept')
-
-    def test_an_error_too_large(self):
-        loose = run(0.3)
-        for step in loose.recording.steps.steps:
-            step.std_error *= 7
-        rows = recorded.by_quantity(densities, bags(density_03=loose))
-        row = rows['largest error of c_L']
-        self.assertAlmostEqual(row.measured, 0.7, places=9)
-        self.assertEqual(row.remark, 'demanded: 0.6 %, not kept; at density 0.3')
-
     def test_crossing(self):
         row = recorded.by_quantity(densities, bags())['c_T = c_L at density']
         low, high = crossing.of_fits_between()
@@ -174,11 +157,6 @@ class Densities(unittest.TestCase):
         ):
             verdict = rows[quantity].verdict
             self.assertEqual(verdict, 'not measured', quantity)
-        error = rows['largest error of c_T']
-        self.assertEqual(
-            (error.verdict, error.remark),
-            ('not measured', 'demanded: 0.6 %; not known at 2 densities'),
-        )
         self.assertEqual(recorded.pictures(self, densities, found), ['densities'])
 
     def test_nothing_at_all(self):

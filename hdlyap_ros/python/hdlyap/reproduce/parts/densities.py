@@ -15,7 +15,6 @@ TITLE = 'Slopes c_T, c_L and velocity v against the density, 780 disks, periodic
 RUNS = tuple(f'density_{tenths:02d}' for tenths in range(1, 9))
 CLOSE_BELOW = 0.6  # density: v is close to c_L well below it
 WITHIN = f'within {100 * paper.FIT_ACCURACY:g} %'
-DEMANDED = 0.2  # by this project, of the scatter of the fits: largest error
 UNIT = 'sigma/time unit'
 FITS = {'T': paper.slope_t, 'LP': paper.slope_l}
 SYMBOLS = {'T': 'c_T', 'LP': 'c_L'}
@@ -87,7 +86,7 @@ def claims(bags):
         [_crossing_row(found)],
         f'where fits that are off by {100 * paper.FIT_ACCURACY:g} % cross',
     )
-    yield Claim('v, and how well all are known', list(_beside(found)))
+    yield Claim('velocity', list(_beside(found)))
 
 
 def _beside(found):
@@ -96,11 +95,6 @@ def _beside(found):
     for one in found:
         if abs(one.density / CLOSE_BELOW - 1) <= EDGE:
             yield _ratio_row(one, None)
-    for kind, symbol in SYMBOLS.items():
-        points = [(one.branch[kind], one.density) for one in found if one.branch[kind]]
-        known = [(point.slope, point.slope_error, density) for point, density in points]
-        yield _error_row(symbol, known)
-    yield _error_row('v', [(one.v, one.v_error, one.density) for one in found if one.phases])
 
 
 def _mean_row(kind, found):
@@ -161,24 +155,6 @@ def _ratio_row(one, sense):
         error,
         paper.FIT_ACCURACY if sense == EQUAL else 0.0,
         sense=sense or EQUAL,
-    )
-
-
-def _error_row(symbol, values):
-    """Nothing that the paper says."""
-    demanded = 100 * DEMANDED * paper.FIT_ACCURACY
-    known = [(100 * error / value, density) for value, error, density in values if error > 0]
-    quantity, remark, short = (
-        f'largest error of {symbol}',
-        f'demanded: {demanded:g} %',
-        len(RUNS) - len(known),
-    )
-    if short:
-        return Row(quantity, unit='%', remark=f'{remark}; not known at {short} densities')
-    worst, density = max(known)
-    kept = 'kept' if worst <= demanded else 'not kept'
-    return Row(
-        quantity, None, worst, unit='%', remark=f'{remark}, {kept}; at density {density:.1f}'
     )
 
 
