@@ -239,8 +239,9 @@ class Made(Part):
             for step in found:
                 letters = ('T', 'TL') if step.kind == T else ('L', 'TL')
                 if (step.nx, step.ny) == (1, 0):
-                    messages.append(test_reproduce_fields.field(info, step, 0.9, *letters))
-                    fault(info, messages[-1])
+                    for t in (150.0, 170.0):
+                        messages.append(test_reproduce_fields.field(info, step, 0.9, *letters, t))
+                        fault(info, messages[-1])
             claims = self.verdicts(fields, 'periodic', messages)
             self.assertEqual(set(claims.values()), {verdict})
 

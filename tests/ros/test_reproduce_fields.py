@@ -65,7 +65,7 @@ class Waves(unittest.TestCase):
 class Averages(unittest.TestCase):
     def test_snapshots(self):
         self.assertEqual(averages.of_snapshots([1.0, 3.0]), (2.0, 1.0))
-        self.assertEqual(averages.of_snapshots([5.0]), (5.0, 0.0))
+        self.assertEqual(averages.of_snapshots([5.0]), (5.0, -1.0))
 
     def test_series_of_fours_is_as_long_as_its_fours(self):
         values = np.random.default_rng(1).normal(size=(10, 3))
@@ -74,7 +74,7 @@ class Averages(unittest.TestCase):
         np.testing.assert_allclose(error, values.std(axis=0, ddof=1) / np.sqrt(10), rtol=1e-12)
 
     def test_too_short_for_an_error(self):
-        self.assertEqual(averages.of_series([1.0, 2.0, 3.0]), (2.0, 0.0))
+        self.assertEqual(averages.of_series([1.0, 2.0, 3.0]), (2.0, -1.0))
 
 
 def by_hand(info, letter, x, y, momenta):

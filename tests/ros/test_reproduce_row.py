@@ -59,6 +59,7 @@ class Rows(unittest.TestCase):
                 (-0.29, 0.1, 'not decided'),
                 (-0.31, 0.1, 'differs'),
                 (0.01, 0.0, 'agrees'),
+                (0.31, -1.0, 'not decided'),  # error not known
                 (-0.01, 0.0, 'differs'),
             ):
                 one = Row('q', 2.0, 2.0 + way * off, error, sense=sense)

@@ -101,12 +101,14 @@ class Row:
     def _beside_a_limit(self):
         off = (self.measured - self.published) * (1 if self.sense == ABOVE else -1)
         sure = SIGMAS * self._known_error
-        return AGREES if off > sure else DIFFERS if off < -sure else UNDECIDED
+        if off < -sure:
+            return DIFFERS
+        return AGREES if off > sure and isfinite(self.power) else UNDECIDED
 
     def _beside_a_number(self):
         if abs(self.measured - self.published) > self.left_open + SIGMAS * self._known_error:
             return DIFFERS
-        return AGREES if self.power <= max(self.telling, 0.0) or not self.power else UNDECIDED
+        return AGREES if self.power <= self.telling else UNDECIDED
 
     @property
     def caught(self):
