@@ -14,7 +14,7 @@ from ..row import PAPER, Claim, Row
 TITLE = 'LP dynamics between reflecting walls: the modes turn from L to P'
 RUN = 'reflecting'
 QUARTER, LAST_DIGIT = 3.20, 0.005  # of a period, as its two snapshots are apart [time units]
-NEAR_ONE = 0.1  # taken as what the paper's 'near 1' leaves open
+NEAR_ONE = 0.1  # what near 1 is taken to leave open
 WAVES = {(1, 0): 'the text\'s wave', (1, 1): 'the caption\'s wave'}
 SNAPSHOTS = 2  # of a wave in the figure
 SHOWN = 13.0  # of the course of (a, b): about a period [time units]
