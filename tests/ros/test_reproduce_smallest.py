@@ -117,9 +117,11 @@ class Smallest(unittest.TestCase):
 
     def test_alike(self):
         for factor, verdict in ((1.02, 'differs'), (1.0, 'agrees')):
-            row = recorded.by_quantity(smallest, bags(reflecting=factor))[ALIKE]
-            self.assertAlmostEqual(row.measured, 100 * (factor - 1), places=6)
-            self.assertEqual((row.verdict, row.telling), (verdict, 3.0))
+            rows = recorded.by_quantity(smallest, bags(reflecting=factor))
+            for row in (rows[ALIKE], rows[ALIKE.replace('_T', '_L')]):
+                self.assertAlmostEqual(row.measured, 100 * (factor - 1), places=6)
+                self.assertEqual((row.verdict, row.telling), (verdict, 3.0))
+        self.assertTrue(row.remark.endswith('; between walls with LP(1,1)'))
 
     def test_hardly_known_is_not_alike(self):
         loose = bags()
@@ -185,7 +187,7 @@ class Smallest(unittest.TestCase):
 
     def test_table(self):
         ((name, header, lines),) = smallest.tables(bags())
-        self.assertEqual((name, len(lines)), ('smallest', 24))
+        self.assertEqual((name, len(lines)), ('smallest', 30))
         line = dict(zip(header, lines[6]))
         self.assertEqual(
             (line['boundaries'], line['disks'], line['kind'], line['step']),
