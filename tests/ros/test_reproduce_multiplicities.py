@@ -176,6 +176,19 @@ class Rows(unittest.TestCase):
         self.assertIn('192-195 are no stair', row.remark)
         self.assertEqual(rows['box: T(1,0)'].verdict, 'agrees')
 
+    def test_a_broken_stair_without_errors_may_be_whole(self):
+        found = run(
+            [(0.6, 2), (0.9, 3), (1.1, 1), (1.5, 1)],
+            (T, 1, 0, 196, 197, {}),
+            (LP, 1, 0, 192, 195, {}),
+        )
+        found.spectrum.std_errors = [-1.0] * len(found.spectrum.exponents)
+        rows = self.rows(found)
+        row = rows['box: LP(1,0)']
+        self.assertEqual((row.measured, row.verdict), (None, 'not measured'))
+        self.assertTrue(row.remark.endswith('are no stair, with errors that are not known'))
+        self.assertEqual(rows['box: T(1,0)'].verdict, 'agrees')
+
     def test_a_broken_stair_among_unknown_neighbours_is_not_counted(self):
         rows = self.rows(
             run([(0.6, 2), (0.9, 3), (1.1, 3)], (T, 1, 0, 196, 197, {}), (LP, 1, 0, 192, 195, {}))

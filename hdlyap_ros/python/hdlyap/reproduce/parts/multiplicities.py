@@ -90,11 +90,15 @@ class Level:
     @property
     def measured(self):
         """How many exponents there are: the number; as text those of the pieces, smallest exponents
-        first, if it breaks; None where vectors that no step was found for go on without a jump."""
-        if not self.stands_apart:
-            return None
+        first, if it breaks; None where vectors that no step was found for go on without a jump, or
+        where it may be whole, as errors are not known."""
         counts = [stair.count for stair in self.pieces]
-        return counts[0] if len(counts) == 1 else ' + '.join(map(str, counts))
+        if not counts or not self.stands_apart:
+            return None
+        if len(counts) == 1:
+            return counts[0]
+        is_known = all(stair.is_known for stair in self.pieces)
+        return ' + '.join(map(str, counts)) if is_known else None
 
     def _of(self, stair):
         """How many of a stair's vectors belong to the steps."""
@@ -176,6 +180,7 @@ def _level_row(recording, box, level):
         remark += f'; goes on without a jump in the other exponents of {indices}'
     elif len(level.pieces) > 1:
         remark += f'; the exponents {indices} are no stair'
+        remark += '' if level.measured else ', with errors that are not known'
     return Row(
         f'{box}: {level.name}', level.prescribed(recording.info), level.measured, remark=remark
     )
