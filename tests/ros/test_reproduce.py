@@ -273,6 +273,7 @@ class Page(Folder):
         self.assertIn(
             '\nOf 2 claims 2 agree, 0 differ, 0 are not decided, 0 are not measured; '
             '2 measured values are behind them.\n'
+            'Where their criteria come from: the paper: 0, inferred from the paper: 0, ours: 2.\n'
             '  part  1  agrees          1  it is small\n'
             '  part  2  agrees          1  it is small\n',
             text,

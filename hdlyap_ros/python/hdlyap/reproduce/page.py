@@ -148,7 +148,9 @@ def _verdicts(claims):
         f'  part {one.part:>2}  {one.verdict:<12}  {one.values:>3}  {one.name}' for one in judged
     ]
     said = f'Of {len(judged)} claims {counts}; {values} measured values are behind them.'
-    return '\n'.join([said, *lines])
+    sources = [one.criterion_of for one in judged]
+    whose = ', '.join(f'{source}: {sources.count(source)}' for source in row.SOURCES)
+    return '\n'.join([said, f'Where their criteria come from: {whose}.', *lines])
 
 
 def _times(chosen, runs, folder):

@@ -15,7 +15,7 @@ AGREES, DIFFERS, MISSING, SHOWN = 'agrees', 'differs', 'not measured', ''
 UNDECIDED = 'not decided'  # not apart, but a wrong value would not have been, either
 EQUAL, ABOVE, BELOW = '', 'above ', 'below '
 # where a criterion comes from
-PAPER, INFERRED, OURS = 'the paper', 'inferred from the paper', 'ours'
+SOURCES = PAPER, INFERRED, OURS = 'the paper', 'inferred from the paper', 'ours'
 HEADER = (
     'part',
     'claim',

@@ -93,7 +93,7 @@ def claims(bags):
         yield Claim(
             f'{SYMBOLS[branch.kind]} is alike for both boundaries',
             [_alike_row(branch)],
-            'our errors',
+            'the same within our errors',
         )
     yield Claim('slopes at k = 0', [_c_row(branch) for branch in branches])
 
