@@ -9,7 +9,7 @@ import sys
 import made
 from hdlyap.plots.figures import plt
 from hdlyap.reproduce import parts
-from hdlyap.reproduce.row import Row
+from hdlyap.reproduce.row import Claim, Row
 from hdlyap.runs import work
 
 
@@ -22,10 +22,11 @@ class Part:
     def runs(self, plan):
         return [self.name]
 
-    def rows(self, bags):
+    def claims(self, bags):
         if self.name == os.environ.get('HDLYAP_TEST_BROKEN'):
             raise ValueError('no such column')
-        yield Row('averaged time', 2.0, bags[self.name].recording.spectrum.averaged_time)
+        time = Row('averaged time', 2.0, bags[self.name].recording.spectrum.averaged_time)
+        yield Claim('so long', [time], 'the same')
 
     def figures(self, bags):
         yield self.name, plt.figure(figsize=(1, 1))

@@ -1,6 +1,9 @@
-"""What the parts of the reproduction read, without a bag: a run that is known exactly."""
+"""What the parts of the reproduction read, without a bag: a run that is known exactly, and the
+tables of the last full run."""
 
+import csv
 import itertools
+import os
 from math import sqrt
 
 import numpy as np
@@ -10,6 +13,8 @@ from hdlyap.plots.phases import PhaseCourse
 from hdlyap.plots.run import Run
 
 COUNTS = {made.T: 2, made.LP: 4}
+
+RESULTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/reproduction')
 
 
 class Recorded(Run):
@@ -70,5 +75,20 @@ def pictures(test, part, bags):
     return names
 
 
+def rows(part, bags):
+    return [row for claim in part.claims(bags) for row in claim.rows]
+
+
 def by_quantity(part, bags):
-    return {row.quantity: row for row in part.rows(bags)}
+    return {row.quantity: row for row in rows(part, bags)}
+
+
+def verdicts(part, bags):
+    """{name of claim: its verdict} of those that are judged."""
+    return {claim.name: claim.verdict for claim in part.claims(bags) if claim.judged}
+
+
+def table(name):
+    """Of doc/reproduction: {column: text} of each line."""
+    with open(os.path.join(RESULTS, name + '.csv')) as file:
+        return list(csv.DictReader(file))

@@ -24,13 +24,22 @@ class Part(unittest.TestCase):
         made.write(path, messages)
         return Bag(path)
 
+    def claims(self, bags):
+        """{name: Claim}"""
+        claims = list(self.of.claims(bags))
+        found = {claim.name: claim for claim in claims}
+        self.assertEqual(len(found), len(claims))
+        for claim in claims:
+            for line in claim.lines():
+                self.assertEqual(len(line), len(HEADER))
+        return found
+
     def rows(self, bags):
         """{quantity: Row}"""
-        rows = list(self.of.rows(bags))
+        rows = [row for claim in self.claims(bags).values() for row in claim.rows]
         found = {row.quantity: row for row in rows}
         self.assertEqual(len(found), len(rows))
         for row in rows:
-            self.assertEqual(len(row.values()), len(HEADER))
             row.cells()
         return found
 
@@ -57,7 +66,7 @@ class Part(unittest.TestCase):
 
     def measures_nothing(self, bags):
         """What a bag without the topics gives."""
-        for row in self.of.rows(bags):
+        for row in self.rows(bags).values():
             self.assertEqual(row.verdict, 'not measured', row.quantity)
         self.assertEqual(self.figures(bags), {})
         self.tables(bags)

@@ -22,9 +22,9 @@ import made
 from terminal import Terminal
 from hdlyap.msg import RunStatus
 from hdlyap.plots.figures import plt
-from hdlyap.reproduce import options, page, parts, plan, row
+from hdlyap.reproduce import options, page, parts, plan
 from hdlyap.runs.bag import Bag
-from hdlyap.reproduce.row import Row
+from hdlyap.reproduce.row import Claim, Row
 from hdlyap.runs import display, files, tree, work
 
 ROOT = os.path.realpath(os.path.join(made.SCRIPTS, '../..'))
@@ -219,81 +219,6 @@ class Bags(Folder):
             )
 
 
-class Rows(unittest.TestCase):
-    def test_verdicts(self):
-        nan = float('nan')
-        for published, measured, verdict in (
-            ((1.0, 0.0), (1.09, 0.031), 'agrees'),
-            ((1.0, 0.0), (1.09, 0.029), 'differs'),
-            ((1.0, 0.1), (1.19, 0.031), 'agrees'),
-            ((1.0, 0.1), (0.81, 0.029), 'differs'),
-            ((1.0, 0.1), (1.09, -1.0), 'agrees'),
-            ((1.0, 0.1), (1.11, nan), 'differs'),
-            ((1.0, 0.1), (1.11, float('inf')), 'differs'),
-            ((1558, 0), (1558, 0), 'agrees'),
-            ((1558, 0), (1557, 0), 'differs'),
-            (('a', 0), ('a', 0), 'agrees'),
-            (('a', 0), ('b', 0), 'differs'),
-            ((1.0, 0), (None, 0), 'not measured'),
-            ((1.0, 0), (nan, 0.1), 'not measured'),
-            ((None, 0), (1.0, 0.1), ''),
-            ((None, 0), (None, 0), 'not measured'),
-        ):
-            with self.subTest(published=published, measured=measured):
-                one = Row('q', published[0], measured[0], measured[1], published[1])
-                self.assertEqual(one.verdict, verdict)
-                self.assertEqual((one.cells()[4], one.values()[7]), (verdict, verdict))
-
-    def test_an_error_with_which_nothing_would_differ(self):
-        for published, measured, verdict in (
-            ((2.0, 0.0), (2.1, 0.066), 'agrees'),
-            ((2.0, 0.0), (2.1, 0.067), 'known too poorly'),  # a tenth
-            ((-2.0, 0.0), (-2.1, 0.067), 'known too poorly'),
-            ((2.0, 0.0), (9.0, 1.0), 'differs'),
-            ((2.0, 0.6), (2.1, 0.19), 'agrees'),
-            ((2.0, 0.6), (2.1, 0.21), 'known too poorly'),  # what is open
-            ((0.0, 0.3), (0.1, 0.09), 'agrees'),
-            ((0.0, 0.3), (0.1, 0.11), 'known too poorly'),
-            ((0.0, 0.0), (0.1, 9.0), 'agrees'),
-        ):  # nothing to go by
-            self.assertEqual(
-                Row('q', published[0], measured[0], measured[1], published[1]).verdict, verdict
-            )
-        for error, verdict in ((0.5, 'agrees'), (0.51, 'known too poorly'), (-1.0, 'agrees')):
-            self.assertEqual(Row('q', 0, 0.1, error, 0.2, enough=0.5).verdict, verdict)
-        self.assertEqual(Row('q', 100.0, 100.0, 0.6, enough=0.5).verdict, 'known too poorly')
-        self.assertEqual(Row('q', 'so', 'so', 9.0, enough=0.5).verdict, 'agrees')
-
-    def test_cells(self):
-        self.assertEqual(
-            Row('c', 3.285, 3.2316, 0.0043, 0.09855, 'sigma', 'why').cells(),
-            ('c', '3.285 +-0.099', '3.2316(43)', 'sigma', 'agrees', 'why'),
-        )
-        self.assertEqual(Row('n', 1558, 1557).cells()[1:3], ('1558', '1557'))
-        self.assertEqual(Row('k', 1.6, None).cells()[1:3], ('1.6', '-'))
-        self.assertEqual(Row('k', None, float('inf'), 1.0).cells()[1:3], ('-', '-'))
-
-    def test_values(self):
-        one = Row('c', 3.285, 3.23164567, 0.0043, 0.0985, 'sigma', 'why')
-        one.part = 2
-        self.assertEqual(
-            dict(zip(row.HEADER, one.values())),
-            dict(
-                part=2,
-                quantity='c',
-                published='3.285',
-                published_error='0.0985',
-                measured='3.231646',
-                error='0.0043',
-                unit='sigma',
-                verdict='agrees',
-                remark='why',
-            ),
-        )
-        self.assertEqual(Row('n', 'x', float('nan'), -1.0).values()[2:6], ('x', '', '', ''))
-        self.assertEqual(Row('n', 4, 0.5, -1.0).values()[2:6], (4, '', '0.5', ''))
-
-
 class Part:
     TITLE = 'a part'
 
@@ -303,9 +228,10 @@ class Part:
     def runs(self, plan):
         return [self.name]
 
-    def rows(self, bags):
-        yield Row('disks', 20, bags[self.name].info.disks)
-        yield Row('seed', None, None)
+    def claims(self, bags):
+        rows = [Row('disks', 20, bags[self.name].info.disks), Row('seed', None, None)]
+        yield Claim('it is small', rows, 'the same')
+        yield Claim('more', [Row('seed', None, 1)])
 
     def figures(self, bags):
         yield self.name, plt.figure(figsize=(1, 1))
@@ -334,14 +260,22 @@ class Page(Folder):
         text = self.write(self.parts)
         self.assertIn('Made by launch/reproduce.sh --quick at commit def. ', text)
         self.assertIn(
-            '\n1. a part\n  quantity  published  measured  unit  verdict       remark\n'
-            '  disks     20         20              agrees\n',
+            '\n1. a part\n'
+            '             published  measured  unit  verdict       caught     remark\n'
+            '  agrees: it is small (1 value; criterion, ours: the same)\n'
+            '      disks  20         20              agrees        any other\n'
+            '      seed   -          -               not measured\n'
+            '  beside: more\n'
+            '      seed   -          1\n',
             text,
         )
         self.assertIn('\npart 3: not drawn, the run three is missing\n', text)
         self.assertIn(
-            '\nof the rows with a published number 2 agree, 0 differ, 0 known too poorly, '
-            '0 not measured\n',
+            '\nOf 2 claims 2 agree, 0 differ, 0 are not decided, 0 are not measured; '
+            '2 measured values are behind them.\n'
+            'Where their criteria come from: the paper: 0, inferred from the paper: 0, ours: 2.\n'
+            '  part  1  agrees          1  it is small\n'
+            '  part  2  agrees          1  it is small\n',
             text,
         )
         self.assertRegex(
@@ -363,7 +297,11 @@ class Page(Folder):
         self.assertTrue(text.startswith(files.read(self.path('results', 'results.txt'))))
         self.assertEqual(files.read(self.path('results', '01_one.csv')), 'a,b\n1,"x,y"\n')
         self.assertEqual(
-            files.read(self.path('results', 'rows.csv')).splitlines()[1], '1,disks,20,,20,,,agrees,'
+            files.read(self.path('results', 'rows.csv')).splitlines()[1:4:2],
+            [
+                '1,it is small,the same,ours,agrees,disks,20,,20,,,agrees,any other,',
+                '1,more,,,,seed,,,1,,,,,',
+            ],
         )
 
     def test_some(self):

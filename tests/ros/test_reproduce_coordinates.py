@@ -86,9 +86,7 @@ class Coordinates(Part):
             rows[f'cos Theta just {where} the zero modes, index {index}']
             for where, index in (('below', 37), ('above', 44))
         )
-        self.assertEqual(
-            (below.published, above.published, below.published_error), (1.0, -1.0, 0.02)
-        )
+        self.assertEqual((below.published, above.published, below.left_open), (1.0, -1.0, 0.02))
         self.assertEqual((below.verdict, above.verdict), ('agrees', 'differs'))
 
     def test_symmetric_vectors(self):
@@ -130,7 +128,7 @@ class Coordinates(Part):
             1 / (1 + symmetric_ratio**2) - 1 / (1 + 4 * symmetric_ratio**2),
             delta=ROUNDING,
         )
-        self.assertEqual((excess.verdict, excess.published_error), ('differs', ACCURACY))
+        self.assertEqual((excess.verdict, excess.left_open), ('differs', ACCURACY))
 
     def test_two_vectors_that_mix_leave_what_they_span(self):
         """Of |dq|^2 the one has more by what the other has less: no excess, though C and C'
@@ -172,6 +170,44 @@ class Coordinates(Part):
         self.assertEqual(
             rows['cos Theta just below the zero modes, index 1557'].verdict, 'not measured'
         )
+
+    def test_zero_modes_beside_their_neighbours(self):
+        """Their angle falls like the inverse of the age of the frame: 3 / age here."""
+
+        def change(cos, ratio, report):
+            age = spectrum(cos, ratio, 2.0 * (report + 1)).sim_time - made.run_info().equilibration
+            cos[END : END + 3] = 1 - 0.5 * (3.0 / age) ** 2
+            cos[END + 3 : END + 6] = -cos[END]
+
+        for far, verdict in ((0.98, 'differs'), (1.0, 'agrees')):
+
+            def nearer(cos, ratio, report, far=far):
+                change(cos, ratio, report)
+                cos[END - 1], cos[END + 6] = far, -far
+
+            bags = self.full(nearer)
+            claim = self.claims(bags)['cos Theta of the zero modes lies between these limits']
+            self.assertEqual((claim.verdict, claim.values), (verdict, 6))
+            row = self.rows(bags)['|cos Theta| of zero mode 41']
+            self.assertTrue(row.remark.startswith('cos Theta -0.9'), row.remark)
+            self.assertTrue(row.remark.endswith('of the frame: 3.00 to 3.00'), row.remark)
+
+    def test_cosines_of_steps(self):
+        rows = self.rows(self.full())
+        cos, _ = symmetric()
+        self.assertAlmostEqual(
+            rows['cos Theta of largest exponent'].measured, cos[0], delta=ROUNDING
+        )
+        self.assertAlmostEqual(
+            rows['cos Theta of the positive half, mean'].measured, cos[:END].mean(), delta=ROUNDING
+        )
+        steps = made.steps([made.step(made.run_info(), made.T, 1, 0, 36, 37)])
+        info = made.run_info(accuracy=ACCURACY)
+        spectra = [spectrum(*symmetric(), 2.0 * report) for report in range(1, REPORTS)]
+        bags = {'halves': self.bag('halves', [info, *spectra, steps])}
+        row = self.rows(bags)['cos Theta of T(1,0)']
+        self.assertAlmostEqual(row.measured, cos[35:37].mean(), delta=ROUNDING)
+        self.assertEqual(row.remark, 'indices 36-37')
 
     def test_figure(self):
         def change(cos, ratio, report):

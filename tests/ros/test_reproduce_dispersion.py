@@ -27,24 +27,6 @@ class Dispersion(Part):
             made.unresolved(info, LP, 0, 1, 4),
         )
 
-    def test_slope_of_a_step_beside_the_papers(self):
-        info, bags = self.full()
-        k = made.wave_number(info, 1, 0)
-        row = self.rows(bags)['lambda / k of T(1,0)']
-        self.assertAlmostEqual(row.published, 3.285, delta=5e-4)
-        self.assertAlmostEqual(row.published_error, 0.03 * 3.285, delta=1e-4)
-        self.assertAlmostEqual(row.measured, 0.62 / k)
-        self.assertAlmostEqual(row.error, made.ERROR / k)
-        self.assertEqual(row.verdict, 'agrees')
-
-    def test_verdicts(self):
-        rows = self.rows(self.full()[1])
-        self.assertAlmostEqual(rows['lambda / k of LP(1,0)'].published, 4.624, delta=5e-4)
-        self.assertEqual(
-            [rows[f'lambda / k of {name}'].verdict for name in ('T(0,1)', 'LP(1,0)', 'LP(0,1)')],
-            ['differs', 'agrees', 'not measured'],
-        )
-
     def test_fits_are_the_runs(self):
         _, bags = self.full()
         rows = self.rows(bags)

@@ -115,7 +115,9 @@ def usual(boundaries=(PERIODIC, PERIODIC)):
 
 class Rows(unittest.TestCase):
     def rows(self, found):
-        return {row.quantity: row for row in part._step_rows(found, 'box')}
+        levels = part.levels(found)
+        rows = part._step_rows(found, 'box', levels) + [part._found_row(found, 'box', levels)]
+        return {row.quantity: row for row in rows}
 
     def test_counted(self):
         rows = self.rows(usual())
@@ -174,6 +176,19 @@ class Rows(unittest.TestCase):
         self.assertIn('192-195 are no stair', row.remark)
         self.assertEqual(rows['box: T(1,0)'].verdict, 'agrees')
 
+    def test_a_broken_stair_without_errors_may_be_whole(self):
+        found = run(
+            [(0.6, 2), (0.9, 3), (1.1, 1), (1.5, 1)],
+            (T, 1, 0, 196, 197, {}),
+            (LP, 1, 0, 192, 195, {}),
+        )
+        found.spectrum.std_errors = [-1.0] * len(found.spectrum.exponents)
+        rows = self.rows(found)
+        row = rows['box: LP(1,0)']
+        self.assertEqual((row.measured, row.verdict), (None, 'not measured'))
+        self.assertTrue(row.remark.endswith('are no stair, with errors that are not known'))
+        self.assertEqual(rows['box: T(1,0)'].verdict, 'agrees')
+
     def test_a_broken_stair_among_unknown_neighbours_is_not_counted(self):
         rows = self.rows(
             run([(0.6, 2), (0.9, 3), (1.1, 3)], (T, 1, 0, 196, 197, {}), (LP, 1, 0, 192, 195, {}))
@@ -203,8 +218,8 @@ class Rows(unittest.TestCase):
         self.assertEqual(rows['box: T(1,0)'].verdict, 'differs')
 
     def test_without_steps(self):
-        (row,) = part._step_rows(recorded.Recorded(made.run_info()), 'box')
-        self.assertEqual(row.verdict, 'not measured')
+        rows = self.rows(recorded.Recorded(made.run_info()))
+        self.assertEqual({row.verdict for row in rows.values()}, {'not measured'})
 
 
 class Zeros(unittest.TestCase):
@@ -249,7 +264,7 @@ class Zeros(unittest.TestCase):
             )
 
     def test_without_a_warm_up(self):
-        size = list(part._zero_rows(self.bag(4, warmup=0.0), 4, 'so'))[-1]
+        size = part._zero_rows(self.bag(4, warmup=0.0), 4, 'so')[-1]
         self.assertAlmostEqual(size.measured, 0.5)
 
     def test_another_number_differs(self):
@@ -308,7 +323,7 @@ class Whole(unittest.TestCase):
 
     def test_boxes_without_anything(self):
         bare = {name: recorded.Bag(recorded.Recorded(made.run_info())) for name in part.runs(None)}
-        self.assertEqual({row.verdict for row in part.rows(bare)}, {'not measured'})
+        self.assertEqual({row.verdict for row in recorded.rows(part, bare)}, {'not measured'})
         self.assertEqual(recorded.pictures(self, part, bare), [])
         self.assertEqual([lines for _, _, lines in part.tables(bare)], [[], []])
 

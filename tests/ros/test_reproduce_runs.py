@@ -117,7 +117,10 @@ class Reproduce(harness.Traced):
         self.assertEqual([a == b for a, b in zip(before, after)], [True, False, True])
         self.check_results(['first', 'refused', 'second', 'wide'])
         with open(self.path('results', 'rows.csv')) as file:
-            self.assertIn('\n3,averaged time,2,0,3,0,,differs,\n', file.read())
+            self.assertIn(
+                '\n3,so long,the same,ours,differs,averaged time,2,0,3,0,,differs,any other,\n',
+                file.read(),
+            )
         said = self.reproduce(runs)
         self.assertNotIn('runs done', said)
         self.assertEqual(self.times('first', 'second', 'wide'), after)

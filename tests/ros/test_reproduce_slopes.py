@@ -91,7 +91,7 @@ class Points(unittest.TestCase):
         self.assertEqual((point.name, point.members, point.remark), ('LP(1,0)+LP(0,1)', 8, ''))
         self.assertAlmostEqual(point.exponent, 0.325)
         self.assertAlmostEqual(point.error, 0.002)
-        self.assertEqual(slopes.find(run, LP, 1, 0).remark, 'shares its vectors with LP(0,1)')
+        self.assertEqual(slopes.find(run, LP, 1, 0).remark, '')  # of one wave number: no mixture
 
     def test_smallest_says_what_is_smaller_and_not_resolved(self):
         run = self.recorded(

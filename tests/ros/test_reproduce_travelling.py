@@ -36,11 +36,15 @@ class Travelling(Turned):
         self.assertAlmostEqual(ratio.measured, 1.0, 6)
         self.assertEqual((ratio.published, ratio.verdict), (None, ''))
         self.assertIn('locked within a quarter turn', ratio.remark)
-        self.assertIn('39.8 time units, towards +x, handedness +1.00', ratio.remark)
-        self.assertAlmostEqual(rows['front velocity, mean slope'].measured, 5.2, 6)
+        slope = rows['front velocity, mean slope']
+        self.assertIn('39.8 time units, towards +x, handedness +1.00', slope.remark)
+        self.assertAlmostEqual(slope.measured, 5.2, 6)
         self.assertAlmostEqual(rows['omega / k of LP(1,0), same run'].measured, 5.2, 6)
-        row = rows['front velocity against c_L']
-        self.assertEqual((row.measured, row.verdict), ('above c_L', 'agrees'))
+        over = rows['v / c_L']
+        self.assertAlmostEqual(over.measured, 5.2 / 4.6, 6)
+        # errors of the blocks' rates, and of the step
+        self.assertAlmostEqual(over.error / over.measured, made.ERROR / (4.6 * self.K), 6)
+        self.assertIn('1.124 with that of the paper', over.remark)
         self.assertLess(rows['unevenness of the front, rms'].measured, 1e-6)
 
     def test_towards_minus_x(self):
@@ -82,9 +86,11 @@ class Travelling(Turned):
         for t in self.TIMES:
             wave.amplitudes = right if t < half else left
             messages += course([t], wave)
-        row = self.rows(self.bag(self.INFO, *messages))['front velocity / (omega / k), same times']
-        self.assertAlmostEqual(row.measured, 1.0, 6)
-        self.assertIn('24.8 time units, towards +x', row.remark)
+        rows = self.rows(self.bag(self.INFO, *messages))
+        ratio = rows['front velocity / (omega / k), same times']
+        self.assertAlmostEqual(ratio.measured, 1.0, 6)
+        remark = rows['front velocity, mean slope'].remark
+        self.assertIn('24.8 time units, towards +x', remark)
 
     def test_handedness(self):
         for amplitudes, size in (
@@ -94,6 +100,13 @@ class Travelling(Turned):
         ):
             row = self.rows(self.measured(*amplitudes))['handedness of LP(1,0), mean size']
             self.assertAlmostEqual(row.measured, size, 9)
+            self.assertEqual(row.verdict, 'agrees')
+
+    def test_a_standing_wave_does_not_travel(self):
+        row = self.rows(self.measured(self.STANDING, self.STANDING))[
+            'handedness of LP(1,0), mean size'
+        ]
+        self.assertEqual(row.verdict, 'differs')
 
     def test_vector_tracked_throughout_is_chosen(self):
         bag = self.measured(
@@ -135,9 +148,7 @@ class Travelling(Turned):
 
     def test_nothing_measured(self):
         bag = self.bag(self.INFO, made.cost(1))
-        self.assertEqual(
-            {row.verdict for row in travelling.rows({travelling.RUN: bag})}, {'not measured'}
-        )
+        self.assertEqual({row.verdict for row in self.rows(bag).values()}, {'not measured'})
         self.assertEqual(self.figures(bag), {})
         self.assertEqual(self.tables(bag)['front'][1], [])
 

@@ -6,9 +6,9 @@ from collections import namedtuple
 from math import hypot, isclose, pi
 
 DISKS, DENSITY, ASPECT = 780, 0.8, 0.867
-FIT_ACCURACY = 0.03  # of the fitted slopes
+FIT_ACCURACY = 0.03  # ours: how well slopes are taken to be described by the fits
 FITS = 'fits of Eckmann, Forster, Posch, Zabey 2005'
-# kind, nodes, first and last index
+# kind, nodes, first and last index; those of the last two are inferred from their multiplicities
 INDICES = (
     ('T', 1, 0, 1556, 1557),
     ('T', 0, 1, 1554, 1555),
@@ -23,7 +23,7 @@ STEPS = INDICES[:5]  # small enough for slopes without curvature
 Branch = namedtuple('Branch', 'c c2')
 CURVES = {'T': Branch(1.412, 0.086), 'LP': Branch(1.422, 0.55)}
 CURVES_DENSITY = 0.4
-CURVES_DISKS, CURVES_ASPECTS = (400, 800), (0.5, 1.0)  # from, to; of the smallest steps
+CURVES_DISKS = (400, 800)  # from, to
 
 
 class Step:
@@ -61,11 +61,6 @@ def branches(info):
     if info.density <= DENSITY * (1 + 1e-6) and info.disks >= 400:
         return {'T': Branch(slope_t(info.density), None), 'LP': Branch(slope_l(info.density), None)}
     return {}
-
-
-def is_of_curves(disks, aspect):
-    """Whether the curves are fits through smallest steps of such boxes."""
-    return _within(disks, CURVES_DISKS) and _within(aspect, CURVES_ASPECTS)
 
 
 def _within(value, ends):

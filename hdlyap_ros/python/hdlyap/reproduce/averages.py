@@ -7,11 +7,11 @@ LEAST = 4
 
 
 def of_snapshots(values):
-    """(mean, standard error) of values so far apart in time that they do not know of each other; 0:
-    not known."""
+    """(mean, standard error) of values so far apart in time that they do not know of each other;
+    -1: not known."""
     values = np.asarray(values, dtype=float)
     if len(values) < 2:
-        return values.mean(axis=0), np.zeros_like(values[0])
+        return values.mean(axis=0), np.full_like(values[0], -1.0)
     return values.mean(axis=0), values.std(axis=0, ddof=1) / np.sqrt(len(values))
 
 
@@ -20,7 +20,7 @@ def of_series(values):
     values = np.asarray(values, dtype=float)
     count = min(BLOCKS, len(values) // 2)
     if count < LEAST:
-        return values.mean(axis=0), np.zeros_like(values[0])
+        return values.mean(axis=0), np.full_like(values[0], -1.0)
     length = len(values) // count
     blocks = (
         values[len(values) - count * length :]

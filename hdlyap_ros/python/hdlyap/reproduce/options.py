@@ -29,7 +29,7 @@ def parser():
     made.add_argument(
         '--quick',
         action='store_true',
-        help='shorter runs, larger errors: about ten minutes, not an hour',
+        help='shorter runs, larger errors: about a quarter of an hour, not forty minutes',
     )
     made.add_argument(
         '--part',

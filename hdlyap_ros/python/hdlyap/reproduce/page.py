@@ -13,7 +13,13 @@ from hdlyap.runs.bag import Bag
 from . import parts, row
 
 DPI = 130  # of PNG files small enough to be kept
-COLUMNS = ('quantity', 'published', 'measured', 'unit', 'verdict', 'remark')
+COLUMNS = ('', 'published', 'measured', 'unit', 'verdict', 'caught', 'remark')
+VERDICTS = {
+    row.AGREES: 'agree',
+    row.DIFFERS: 'differ',
+    row.UNDECIDED: 'are not decided',
+    row.MISSING: 'are not measured',
+}
 
 
 def contents(chosen, runs):
@@ -31,7 +37,7 @@ def write(chosen, runs, folder, commit, command, failed=None):
     results = os.path.join(folder, 'results')
     os.makedirs(results, exist_ok=True)
     bags = {name: Bag(run.bag(folder)) for name, run in runs.items() if run.done(folder)}
-    blocks, rows, missing = [_head(commit, command)], [], []
+    blocks, claims, missing = [], [], []
     with plt.rc_context(STYLE):
         for number, part in Progress('drawing').over(chosen, len(chosen)):
             try:
@@ -49,16 +55,14 @@ def write(chosen, runs, folder, commit, command, failed=None):
                 if failed is not None:
                     failed.append(missing[-1])
                 continue
-            rows += found
+            claims += found
             blocks.append(_block(number, part, found))
     blocks += ['\n'.join(missing)] if missing else []
-    blocks.append(_verdicts(rows))
     blocks.append(_times(chosen, runs, folder))
     which = _which(chosen)
-    files.write_csv(
-        os.path.join(results, f'rows{which}.csv'), row.HEADER, [one.values() for one in rows]
-    )
-    text = '\n\n'.join(blocks) + '\n'
+    lines = [line for one in claims for line in one.lines()]
+    files.write_csv(os.path.join(results, f'rows{which}.csv'), row.HEADER, lines)
+    text = '\n\n'.join([_head(commit, command), _verdicts(claims), *blocks]) + '\n'
     files.write(os.path.join(results, f'results{which}.txt'), text)
     return text + f'\nresults are in {results}'
 
@@ -83,7 +87,7 @@ def _trace(folder, number):
 
 
 def _part(number, part, runs, bags, results):
-    """Its rows; its figures and tables are written."""
+    """Its claims; its figures and tables are written."""
     absent = [name for name in part.runs(runs) if name not in bags]
     if absent:
         raise _Absent(
@@ -95,7 +99,7 @@ def _part(number, part, runs, bags, results):
         save(figure, results, f'{number:02d}_{name}', DPI)
     for name, header, lines in part.tables(bags):
         files.write_csv(os.path.join(results, f'{number:02d}_{name}.csv'), header, lines)
-    found = list(part.rows(bags))
+    found = list(part.claims(bags))
     for one in found:
         one.part = number
     return found
@@ -106,40 +110,47 @@ def _head(commit, command):
     return (
         'Eckmann, Forster, Posch, Zabey, Lyapunov modes in hard-disk systems, '
         'J. Stat. Phys. 118, 813 (2005): published and measured.\n'
-        f'Made by {made}. In brackets: standard errors of the last digits; +-: what the paper '
-        'leaves open.\n'
-        f'A row agrees if the numbers are apart by no more than that and {row.SIGMAS:g} standard '
-        'errors;\n'
-        f'it is known too poorly where so many exceed both what the paper leaves open and '
-        f'{row.TELLING:.0%} of the number, or what the row says is enough.'
+        f'Made by {made}. In brackets: standard errors of the last digits, from blocks of time '
+        'unless a remark says from what; +-: what the criterion leaves open.\n'
+        'A value agrees if published and measured number are apart by no more than that and '
+        f'{row.SIGMAS:g} standard errors. Caught: the smallest\n'
+        'deviation of the truth from what is published that would have made it differ, seen at '
+        f'{row.SEEN:g} sigma (what is left open and {row.SIGMAS + row.SEEN:g}\n'
+        f'standard errors). Where that is more than {row.TELLING:.0%} of the number, or than the '
+        'value says is enough, it is not decided.\n'
+        'A claim differs if one of its values does, and agrees if all of them do. Beside: without '
+        'a claim.'
     )
 
 
-def _block(number, part, rows):
-    cells = [COLUMNS] + [one.cells() for one in rows]
+def _block(number, part, claims):
+    """Under each claim its values."""
+    cells = [COLUMNS] + [one.cells() for claim in claims for one in claim.rows]
     widths = [max(len(line[i]) for line in cells) for i in range(len(COLUMNS) - 1)]
+
+    def line(cells):
+        padded = (f'{cell:<{width}}' for cell, width in zip(cells, widths))
+        return '      ' + '  '.join([*padded, cells[-1]]).rstrip()
+
+    lines = [line(COLUMNS)] if claims else []
+    for claim in claims:
+        lines += ['  ' + claim.heading, *(line(one.cells()) for one in claim.rows)]
+    return '\n'.join([f'{number}. {part.TITLE}', *lines])
+
+
+def _verdicts(claims):
+    """How many of them, and which."""
+    judged = [one for one in claims if one.judged]
+    given = [one.verdict for one in judged]
+    counts = ', '.join(f'{given.count(verdict)} {text}' for verdict, text in VERDICTS.items())
+    values = sum(one.values for one in judged)
     lines = [
-        '  '
-        + '  '.join([*(f'{cell:<{width}}' for cell, width in zip(line, widths)), line[-1]]).rstrip()
-        for line in cells
+        f'  part {one.part:>2}  {one.verdict:<12}  {one.values:>3}  {one.name}' for one in judged
     ]
-    return '\n'.join([f'{number}. {part.TITLE}', *(lines if rows else [])])
-
-
-def _verdicts(rows):
-    given = [one.verdict for one in rows if one.published is not None]
-    counts = [
-        (given.count(verdict), text)
-        for verdict, text in (
-            (row.AGREES, 'agree'),
-            (row.DIFFERS, 'differ'),
-            (row.POOR, row.POOR),
-            (row.MISSING, row.MISSING),
-        )
-    ]
-    return 'of the rows with a published number ' + ', '.join(
-        f'{count} {text}' for count, text in counts
-    )
+    said = f'Of {len(judged)} claims {counts}; {values} measured values are behind them.'
+    sources = [one.criterion_of for one in judged]
+    whose = ', '.join(f'{source}: {sources.count(source)}' for source in row.SOURCES)
+    return '\n'.join([said, f'Where their criteria come from: {whose}.', *lines])
 
 
 def _times(chosen, runs, folder):

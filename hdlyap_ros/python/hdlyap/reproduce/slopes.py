@@ -12,9 +12,9 @@ SAME = 1e-9  # relative: wave numbers of a square box
 
 
 class Point:
-    """A step of one run. members: vectors of its set. shares: steps that have them too. skipped:
-    steps of its kind with a smaller wave number that were not resolved, where the smallest was
-    asked for."""
+    """A step of one run. members: vectors of its set. shares: steps of another kind or wave number
+    that have them too, so that its exponent is a mixture. skipped: steps of its kind with a smaller
+    wave number that were not resolved, where the smallest was asked for."""
 
     def __init__(
         self, name, wave_number, exponent, error, members, remark='', shares=(), skipped=()
@@ -71,8 +71,8 @@ def smallest(recording, kind):
 
 
 def noted(points):
-    """How many of the points that a fit goes through share vectors, or are not the smallest step of
-    their run; empty if none does."""
+    """How many of the points share vectors, or are not the smallest step of their run; empty if
+    none does."""
     points = [point for point in points if point is not None]
     counts = (sum(bool(point.shares) for point in points), 'share vectors'), (
         sum(bool(point.skipped) for point in points),
@@ -102,8 +102,8 @@ def _point(recording, found, skipped=()):
         steps.name(step)
         for step in recording.steps.steps
         for one in found
-        if step.resolved and step.set == one.set
-    } - {steps.name(one) for one in found}
+        if step.resolved and step.set == one.set and not _is_alike(step, one)
+    }
     vectors = {index for one in found for index in range(one.first_index, one.last_index + 1)}
     return Point(
         '+'.join(steps.name(one) for one in found),
@@ -114,6 +114,12 @@ def _point(recording, found, skipped=()):
         shares=sorted(others),
         skipped=skipped,
     )
+
+
+def _is_alike(step, other):
+    """Of one branch and wave number, as x and y of a square box."""
+    same = abs(step.wave_number / other.wave_number - 1) <= SAME
+    return step.kind == other.kind and same
 
 
 def by_index(recording, kind, nx, ny):
@@ -185,15 +191,21 @@ def velocity(recording, nx, ny):
 
 
 def curve(points):
-    """The dispersion relation; None if there are not two wave numbers with known errors."""
-    points = [point for point in points if point is not None and point.error > 0]
+    """The dispersion relation of what is no mixture; None if there are not two wave numbers with
+    known errors."""
+    points = own(points)
     k, exponents, errors = (
         [getattr(point, name) for point in points] for name in ('wave_number', 'exponent', 'error')
     )
     return dispersion.Curve(k, exponents, errors) if dispersion.number_of(k) > 1 else None
 
 
+def own(points):
+    """Those of this branch alone, with known errors."""
+    return [point for point in points if point is not None and point.error > 0 and not point.shares]
+
+
 def span(points):
-    """Smallest and largest wave number; None without points."""
-    numbers = [point.wave_number for point in points if point is not None]
+    """Smallest and largest wave number of a curve; None without points."""
+    numbers = [point.wave_number for point in own(points)]
     return (min(numbers), max(numbers)) if numbers else None

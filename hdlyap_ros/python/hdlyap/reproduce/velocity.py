@@ -1,37 +1,27 @@
-"""The velocity of LP modes beside the slope of their branch."""
+"""The velocity of LP modes beside the slope of their branch, and beside the equation of motion of
+the fields."""
+
+from math import hypot, pi, sqrt
 
 from hdlyap.plots import paper, steps
 
-from .row import SIGMAS, Row
-
-ABOVE, NEAR, BELOW = 'above c_L', 'near c_L', 'below c_L'
-CROSSING = 0.6  # the paper: v is close to c_L below this density, above it beyond
+from .row import Row
 
 
-def against_slope(quantity, v, error, recording):
-    """Row: whether v lies above the paper's c_L by more than that is known to."""
-    info = recording.info
-    slope = paper.slope_l(info.density)
-    published = ABOVE if info.density > CROSSING else NEAR
-    if v is None:
-        return Row(f'{quantity} against c_L', published)
-    remark = (
-        f'v / c_L = {v / slope:.3f} with the paper\'s c_L = {slope:.3f} '
-        f'+-{100 * paper.FIT_ACCURACY:g} %'
-    )
+def over_slope(quantity, v, error, recording):
+    """Row: v / c_L with our slope of the smallest LP step; with that of the paper's fit as a
+    remark."""
     own = [step for _, step in steps.resolved_lp(recording.steps)] if recording.steps else []
-    if own:
-        remark += f', {v * own[0].wave_number / own[0].exponent:.3f} with our {steps.name(own[0])}'
-    return Row(
-        f'{quantity} against c_L',
-        published,
-        _word(v - slope, paper.FIT_ACCURACY * slope, SIGMAS * error),
-        remark=remark,
-    )
+    if v is None or not own:
+        return Row(f'{quantity} / c_L')
+    step, fitted = own[0], paper.slope_l(recording.info.density)
+    ratio = v * step.wave_number / step.exponent
+    relative = hypot(error / v, max(step.std_error, 0.0) / step.exponent)
+    remark = f'c_L of {steps.name(step)}; {v / fitted:.3f} with that of the paper\'s fit'
+    return Row(f'{quantity} / c_L', None, ratio, ratio * relative, remark=remark)
 
 
-def _word(off, scatter, uncertain):
-    """None where v is known less well than the slope, and so not told from it."""
-    if abs(off) > scatter + uncertain:
-        return ABOVE if off > 0 else BELOW
-    return NEAR if uncertain <= scatter else None
+def of_fields(density):
+    """[T13]: Z / sqrt(2), with Henderson's Z = P / (density kT)."""
+    eta = pi * density / 4
+    return (1 + eta**2 / 8) / (1 - eta) ** 2 / sqrt(2)

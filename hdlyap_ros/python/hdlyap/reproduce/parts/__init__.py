@@ -1,7 +1,8 @@
 """One file for each part of the paper, in its order. A part is a module with
   TITLE            a line
   runs(plan)       names of the runs that it needs, of those in plan
-  rows(bags)       row.Row of each published number; bags: {name: bag.Bag} of its runs
+  claims(bags)     row.Claim of each statement, with the row.Row it is judged by; bags: {name:
+                   bag.Bag} of its runs
   figures(bags)    (name, matplotlib figure)
   tables(bags)     (name, header, lines) of CSV files: the numbers behind the figures"""
 

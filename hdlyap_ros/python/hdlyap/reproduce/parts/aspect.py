@@ -1,23 +1,20 @@
 """Part 10: slopes against the aspect ratio at density 0.4 and one wave number, periodic and between
 walls."""
 
+import itertools
+
 import numpy as np
 
 from hdlyap.plots import paper, steps
 from hdlyap.plots.figures.style import KIND_COLOURS, plt
 
 from .. import slopes
-from ..row import Row
+from ..row import Claim, Scatter
 
 TITLE = 'Slopes c_T, c_L against the aspect ratio, density 0.4, k = 0.2'
 ASPECTS = ('025', '050', '075', '100')
 WAVE_NUMBER = 0.2
-UNIT = 'sigma/time unit'
-ENOUGH = (
-    1.0  # %: a third of the scatter of the fits; with a larger error, 'insensitive' says little
-)
-# the paper gives no error of these
-OPENS = f'{100 * paper.FIT_ACCURACY:g} %: that of the density fits'
+TELLING = 100 * paper.FIT_ACCURACY  # %: one box may be off by so much without being seen
 BESIDE = 0.012  # aspect ratio: so that error bars can be seen beside each other
 SYMBOLS = {'T': 'c_T', 'LP': 'c_L'}
 KINDS = {'T': steps.T, 'LP': steps.LP}
@@ -55,22 +52,29 @@ class Series:
         self.points = [slopes.find(recording, KINDS[kind], *nodes) for recording in recordings]
 
     @property
-    def is_smallest(self):
-        """Of its kind, in such boxes."""
-        return self.kind == 'T' or self.nodes == (1, 0)
+    def boundary(self):
+        return 'periodic' if self.which == 'periodic' else 'reflecting'
 
     @property
     def name(self):
-        boundary = 'periodic' if self.which == 'periodic' else 'reflecting'
-        return f'{SYMBOLS[self.kind]}, {boundary}, {self.kind}({self.nodes[0]},{self.nodes[1]})'
+        return (
+            f'{SYMBOLS[self.kind]}, {self.boundary}, {self.kind}({self.nodes[0]},{self.nodes[1]})'
+        )
 
     @property
     def known(self):
-        """(aspect, point) where the step was found with an error."""
+        """(aspect, point) where the step was found by itself, with an error."""
+        found = zip(self.aspects, self.points)
+        return [(aspect, point) for aspect, point in found if slopes.own([point])]
+
+    @property
+    def mixtures(self):
+        """What is left out of them, as text."""
+        found = zip(self.aspects, self.points)
         return [
-            (aspect, point)
-            for aspect, point in zip(self.aspects, self.points)
-            if point and point.error > 0
+            f'at A = {aspect:.2f} it {point.remark}'
+            for aspect, point in found
+            if point and point.shares
         ]
 
     def mean(self):
@@ -92,61 +96,28 @@ def _series(bags):
 # ---- rows ----------------------------------------------------------------------------------------
 
 
-def rows(bags):
-    for series in _series(bags):
-        for aspect, disks, point in zip(series.aspects, series.disks, series.points):
-            yield _slope_row(series, aspect, disks, point)
-        yield _constant_row(series)
+def claims(bags):
+    for boundary, series in itertools.groupby(_series(bags), lambda one: one.boundary):
+        yield Claim(
+            f'slopes do not depend on the aspect ratio, {boundary}',
+            [_scatter_row(one) for one in series],
+            'chi^2 from our errors',
+        )
 
 
-def _slope_row(series, aspect, disks, point):
-    published = fitted(series.kind, point.wave_number if point else WAVE_NUMBER)
-    quantity, bound, about = (
-        f'{series.name}, A = {aspect:.2f}',
-        paper.FIT_ACCURACY * published,
-        OPENS,
-    )
-    if not (series.is_smallest and paper.is_of_curves(disks, aspect)):
-        published, bound, about = None, 0.0, 'outside of the paper\'s range'
-    if point is None:
-        return Row(quantity, published, None, 0.0, bound, UNIT, f'N = {disks}; {about}')
-    remark = '; '.join(
-        filter(None, (f'N = {disks}, k = {point.wave_number:.4f}', about, point.remark))
-    )
-    return Row(quantity, published, point.slope, point.slope_error, bound, UNIT, remark)
-
-
-def _constant_row(series):
-    """The paper says 'insensitive', with the scatter of its fits."""
-    quantity, bound = (
-        f'{series.name}: largest deviation from the mean over A',
-        100 * paper.FIT_ACCURACY,
-    )
+def _scatter_row(series):
+    """The slopes themselves are in the table: outside of the range of the paper's curves."""
+    quantity = f'{series.name} about their mean'
     if len(series.known) < 2:
-        return Row(quantity, 0.0, None, 0.0, bound, '%', OPENS, ENOUGH)
+        return Scatter(quantity, None, 0, [], TELLING)
     mean, chi2 = series.mean()
-    points = [point for _, point in series.known]
+    errors = [100 * point.slope_error / mean for _, point in series.known]
     aspect, point = max(series.known, key=lambda one: abs(one[1].slope - mean))
-    return Row(
-        quantity,
-        0.0,
-        100 * (point.slope / mean - 1),
-        100 * point.slope_error / mean,
-        bound,
-        '%',
-        '; '.join(
-            filter(
-                None,
-                (
-                    f'at A = {aspect:.2f}; mean {mean:.4f} of {len(series.known)} boxes, '
-                    f'chi^2 {chi2:.1f} for {len(series.known) - 1}',
-                    slopes.noted(points),
-                    OPENS,
-                ),
-            )
-        ),
-        ENOUGH,
+    farthest = (
+        f'mean {mean:.4f}; farthest at A = {aspect:.2f}, {100 * (point.slope / mean - 1):+.2f} %'
     )
+    remark = '; '.join([farthest, *series.mixtures])
+    return Scatter(quantity, chi2, len(errors) - 1, errors, TELLING, remark)
 
 
 # ---- figure and table ----------------------------------------------------------------------------
@@ -221,7 +192,7 @@ def tables(bags):
     )
     yield 'aspect', header, [
         (
-            'periodic' if one.which == 'periodic' else 'reflecting',
+            one.boundary,
             f'{one.kind}({one.nodes[0]},{one.nodes[1]})',
             f'{aspect:g}',
             disks,

@@ -4,17 +4,18 @@ lengths."""
 import numpy as np
 from matplotlib import ticker
 
-from hdlyap.plots import paper, recording
+from hdlyap.plots import paper, recording, steps
 from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, ZERO, plt, scene
 
 from .. import averages, zeros
-from ..row import Row
+from ..row import BELOW, INFERRED, PAPER, Claim, Row
 
 TITLE = 'Angle and ratio of the dq and dp halves, all 4N vectors'
 READ_OFF = 0.02  # of cos Theta, which the paper says as seen in a plot
 FIRST_ZERO, LAST_ZERO = 1558, 1563  # of the paper's 780 disks
 BESIDE = 20  # vectors shown on either side of the zero modes
 UNIT = '1/time unit'
+ANGLES = 'cos Theta_l + cos Theta_(4N+1-l)'
 
 
 class Halves:
@@ -44,6 +45,9 @@ class Halves:
         cos = np.array([message.cos_theta for message in messages])
         ratio = np.array([message.dp_dq_ratio for message in messages])
         self.cos, self.cos_error = averages.of_series(cos)
+        age = np.array([message.sim_time for message in messages]) - self.info.equilibration
+        # constant where the angle falls like the inverse of the age of the frame
+        self.angle_by_age = age[:, None] * np.sqrt(2 * (1 - np.abs(cos)))
         half = slice(self.positive_end)
         self.sums = (cos + cos[:, ::-1])[:, half]
         self.ratio, other = ratio[:, half], ratio[:, ::-1][:, half]
@@ -63,36 +67,56 @@ def runs(plan):
     return ['halves']
 
 
-def rows(bags):
+def claims(bags):
     halves = Halves(bags['halves'])
     of_paper = halves.info.disks == paper.DISKS
-    yield _cos(halves, 'below', halves.positive_end, 1.0 if of_paper else None)
-    yield _cos(halves, 'above', halves.behind_zeros, -1.0 if of_paper else None)
-    yield from _zero_rows(halves, of_paper)
-    yield _mean(halves, 'ln(C / C\')', 0.0, lambda: np.log(halves.ratio / halves.conjugate))
-    yield _mean(halves, 'cos Theta_l + cos Theta_(4N+1-l)', 0.0, lambda: halves.sums)
-    yield _largest(halves, '|C / C\' - 1|', lambda: halves.ratio / halves.conjugate - 1)
-    yield _largest(halves, '|cos Theta_l + cos Theta_(4N+1-l)|', lambda: halves.sums)
-    yield Row(
-        'sum of |dq|^2 less |dp|^2 of the conjugates, positive half',
-        0.0,
-        float(np.abs(halves.excess[:, -1]).max()) if halves.is_known else None,
-        published_error=halves.info.accuracy,
-        remark='largest of all reports: what is apart by a gap is exact',
+    yield Claim(
+        'cos Theta is 1 just below the zero modes and -1 just above them',
+        [
+            _cos(halves, 'below', halves.positive_end, 1.0 if of_paper else None),
+            _cos(halves, 'above', halves.behind_zeros, -1.0 if of_paper else None),
+        ],
+        f'within {READ_OFF:g}, as read off a plot',
     )
+    yield Claim('the zero exponents are 1558-1563', _ends(halves, of_paper), 'the same', PAPER)
+    yield Claim(
+        'cos Theta of the zero modes lies between these limits',
+        _zero_rows(halves),
+        'farther from 1 and -1 than the modes beside them',
+        INFERRED,
+    )
+    yield Claim('cos Theta of steps', list(_step_rows(bags['halves'].recording, halves)))
+    yield Claim(
+        'C\' of the negative half is C of the positive half',
+        [
+            _mean(halves, 'ln(C / C\')', 0.0, lambda: np.log(halves.ratio / halves.conjugate)),
+            _mean(halves, ANGLES, 0.0, lambda: halves.sums),
+            Row(
+                'sum of |dq|^2 less |dp|^2 of the conjugates, positive half',
+                0.0,
+                float(np.abs(halves.excess[:, -1]).max()) if halves.is_known else None,
+                left_open=halves.info.accuracy,
+                remark='largest of all reports: what is apart by a gap is exact',
+            ),
+        ],
+        f'within {READ_OFF:g}; what a gap sets apart within the accuracy asked for',
+    )
+    yield Claim('vectors of close exponents, which have not settled', _unsettled(halves))
+
+
+def _unsettled(halves):
+    yield _largest(halves, '|C / C\' - 1|', lambda: halves.ratio / halves.conjugate - 1)
+    yield _largest(halves, f'|{ANGLES}|', lambda: halves.sums)
     yield Row(
         'pairing error, max |lambda_l + lambda_(4N+1-l)|',
         None,
         halves.pairing_error if halves.is_known else None,
         unit=UNIT,
-        remark='vectors of close exponents have not settled; '
-        f'all of the half: {halves.all_pairs:.1e}'
-        if halves.is_known
-        else '',
+        remark=f'all of the half: {halves.all_pairs:.1e}' if halves.is_known else '',
     )
 
 
-def _zero_rows(halves, of_paper):
+def _ends(halves, of_paper):
     """By the size of the exponents of all 4N vectors."""
     found = halves.zeros if halves.is_known else []
     ends = (int(found[0]), int(found[-1])) if len(found) else (None, None)
@@ -105,10 +129,54 @@ def _zero_rows(halves, of_paper):
         )
 
 
+def _zero_rows(halves):
+    """|cos Theta| of each beside the smaller one of the neighbours."""
+    indices = range(halves.positive_end + 1, halves.behind_zeros)
+    if not halves.is_known:
+        yield Row('|cos Theta| of the zero modes', 1.0, sense=BELOW)
+        return
+    limit = float(np.abs(halves.cos[[halves.positive_end - 1, halves.behind_zeros - 1]]).min())
+    for index in indices:
+        cos = float(halves.cos[index - 1])
+        angle = halves.angle_by_age[:, index - 1]
+        remark = (
+            f'cos Theta {cos:+.5f}; angle to the limit times the age of the frame: '
+            f'{angle.min():.2f} to {angle.max():.2f}'
+        )
+        yield _of_index(halves, f'|cos Theta| of zero mode {index}', index, limit, remark)
+
+
+def _of_index(halves, quantity, index, limit, remark):
+    at = index - 1
+    error = float(halves.cos_error[at])
+    return Row(quantity, limit, float(abs(halves.cos[at])), error, remark=remark, sense=BELOW)
+
+
+def _step_rows(recording, halves):
+    """Means over the vectors of each step of the positive half; they fluctuate together."""
+    if not halves.is_known:
+        yield Row('cos Theta of steps')
+        return
+    named = [('largest exponent', 1, 1)] + [
+        (block.name, block.first, block.last)
+        for block in steps.blocks(recording.steps)
+        if block.last <= halves.positive_end
+    ]
+    for name, first, last in named:
+        inside = slice(first - 1, last)
+        cos, error = float(halves.cos[inside].mean()), float(halves.cos_error[inside].max())
+        yield Row(f'cos Theta of {name}', None, cos, error, remark=f'indices {first}-{last}')
+    yield Row(
+        'cos Theta of the positive half, mean',
+        None,
+        float(halves.cos[: halves.positive_end].mean()),
+    )
+
+
 def _mean(halves, what, published, values):
     quantity = f'{what}, mean over the positive half'
     if not halves.is_known:
-        return Row(quantity, published, published_error=READ_OFF)
+        return Row(quantity, published, left_open=READ_OFF)
     mean, error = averages.of_series(values().mean(axis=1))
     return Row(quantity, published, float(mean), float(error), READ_OFF)
 
@@ -125,15 +193,14 @@ def _largest(halves, what, values):
         None,
         float(abs(mean[index])),
         float(error[index]),
-        remark=f'index {1 + index}; median of one report {np.median(np.abs(values())):.1e}; '
-        'vectors of close exponents have not settled',
+        remark=f'index {1 + index}; median of one report {np.median(np.abs(values())):.1e}',
     )
 
 
 def _cos(halves, where, index, published):
     quantity = f'cos Theta just {where} the zero modes, index {index}'
     if not halves.is_known:
-        return Row(quantity, published, published_error=READ_OFF)
+        return Row(quantity, published, left_open=READ_OFF)
     return Row(
         quantity,
         published,

@@ -1,13 +1,11 @@
 """Part 2: the dispersion relation of 780 disks, both branches, to second order."""
 
-from hdlyap.plots import fits, paper, steps
+from hdlyap.plots import fits, steps
 from hdlyap.plots.figures import dispersion as figure_of_dispersion
 
-from ..row import Row
+from ..row import Claim, Row
 
 TITLE = 'Dispersion relation of 780 disks, density 0.8'
-# the paper's slopes have no curvature: they are meant for the smallest steps
-SMALLEST = ('T(1,0)', 'T(0,1)', 'LP(1,0)', 'LP(0,1)')
 UNITS = {False: 'sigma/time unit', True: 'sigma^2/time unit'}
 
 
@@ -15,29 +13,16 @@ def runs(plan):
     return ['periodic']
 
 
-def rows(bags):
-    recording = bags['periodic'].recording
-    found = steps.resolved(recording.steps)
-    for published in paper.steps(recording.info):
-        if published.name in SMALLEST:
-            yield _slope(published, found.get(published.name))
-    for symbol, fit in zip(('c_T', 'c_L'), fits.of(recording.steps) or (None, None)):
-        for name in (symbol, symbol + '2'):
-            yield _fit(fit, name)
-
-
-def _slope(published, step):
-    """lambda / k of one step."""
-    k = published.wave_number
-    slope = published.fitted / k
-    return Row(
-        f'lambda / k of {published.name}',
-        slope,
-        step and step.exponent / k,
-        max(step.std_error, 0.0) / k if step else 0.0,
-        paper.FIT_ACCURACY * slope,
-        UNITS[False],
-        'c of the paper\'s fit at this density',
+def claims(bags):
+    """None: the paper's slopes are beside the steps' exponents in part 1."""
+    of_kinds = fits.of(bags['periodic'].recording.steps) or (None, None)
+    yield Claim(
+        'fits with curvature',
+        [
+            _fit(fit, name)
+            for symbol, fit in zip(('c_T', 'c_L'), of_kinds)
+            for name in (symbol, symbol + '2')
+        ],
     )
 
 

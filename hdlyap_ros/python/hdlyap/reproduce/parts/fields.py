@@ -9,7 +9,7 @@ from hdlyap.plots.figures.pattern import pattern
 from hdlyap.plots.figures.style import INK, plt, scene
 
 from .. import averages, projection
-from ..row import Row
+from ..row import ABOVE, BELOW, Claim, Row
 
 TITLE = 'Vector fields of T and LP modes'
 NODES = ((1, 0), (0, 1), (1, 1))
@@ -17,6 +17,7 @@ STEPS = [
     f'{kind}({nx},{ny})' for nx, ny in NODES for kind in ('T', 'LP')
 ]  # T and LP side by side in the figure
 PATTERN = 'T(1,1)'
+HALF, LITTLE = 0.5, 0.05  # of a vector, by its squared norm
 LIMIT = 2.5  # root mean squares shown
 WIDTH = 7.2  # of a figure [inch]
 GRID = 60  # points along a direction
@@ -26,14 +27,33 @@ def runs(plan):
     return ['periodic']
 
 
-def rows(bags):
+def claims(bags):
     found = _by_step(bags['periodic'])
-    for name in STEPS:
-        letters = 'T' if name.startswith('T') else 'LP'
-        yield _row(f'weight of {name} in its {letters} fields', bags, found.get(name), letters)
-    for name in STEPS:
-        if name.startswith('T'):
-            yield _row(f'weight of {name} in the L fields, curl-free', bags, found.get(name), 'L')
+    yield Claim(
+        'T and LP modes are the vector fields of their wave vectors',
+        [
+            _row(
+                f'weight of {name} in its {letters} fields',
+                bags,
+                found.get(name),
+                letters,
+                HALF,
+                ABOVE,
+            )
+            for name in STEPS
+            for letters in ['T' if name.startswith('T') else 'LP']
+        ],
+        f'more than {HALF:g} of a vector lies in them',
+    )
+    yield Claim(
+        'T modes are curls, which no gradient is part of',
+        [
+            _row(f'weight of {name} in the L fields', bags, found.get(name), 'L', LITTLE, BELOW)
+            for name in STEPS
+            if name.startswith('T')
+        ],
+        f'less than {LITTLE:g} of a vector lies in the L fields of its wave vector',
+    )
 
 
 def _by_step(bag):
@@ -45,9 +65,9 @@ def _by_step(bag):
     return found
 
 
-def _row(quantity, bags, fields, letters):
+def _row(quantity, bags, fields, letters, limit, sense):
     if not fields:
-        return Row(quantity)
+        return Row(quantity, limit, sense=sense)
     info = bags['periodic'].recording.info
     mean, error = averages.of_snapshots(
         [projection.weight(info, field, letters) for field in fields]
@@ -55,10 +75,11 @@ def _row(quantity, bags, fields, letters):
     chance = projection.chance(info, fields[0], letters)
     return Row(
         quantity,
-        None,
+        limit,
         float(mean),
         float(error),
         remark=f'{len(fields)} snapshots; by chance {chance:.4f}',
+        sense=sense,
     )
 
 

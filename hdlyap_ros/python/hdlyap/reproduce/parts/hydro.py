@@ -12,7 +12,7 @@ from hdlyap.plots.numbers import with_error
 from hdlyap.plots.recording import PHASES
 
 from .. import blocks, halves
-from ..row import SIGMAS, Row
+from ..row import SIGMAS, Claim, Row
 
 TITLE = 'Hydrodynamic table: response of density, momentum and energy to T, L and P modes'
 RUN = 'hydro'
@@ -44,27 +44,30 @@ def runs(plan):
     return [RUN]
 
 
-def rows(bags):
+def claims(bags):
     found = responses(bags[RUN])
-    for mode, there in TABLE.items():
-        for kind in KINDS:
-            words = {_word(found[wave], mode, kind) for wave in WAVES if wave in found}
-            word = (
-                BOTH
-                if words == {ZERO, NOT_ZERO}
-                else None
-                if None in words
-                else next(iter(words), None)
-            )
-            yield Row(
-                f'{NAMES[kind]}: {mode}',
-                NOT_ZERO if kind in there else ZERO,
-                word,
-                remark=_remark(found, mode, kind),
-            )
+    yield Claim(
+        'T excites momentum along curl A; L density, momentum along grad A and energy; P these but '
+        'density',
+        [_entry(found, mode, kind) for mode in TABLE for kind in KINDS],
+        f'zero is less than {100 * SMALL:g} % of the largest of a kind',
+    )
     info = bags[RUN].info
-    yield from halves.rows(
-        found, {wave: float(np.hypot(*waves.wave_vector(info, *wave))) for wave in found}
+    numbers = {wave: float(np.hypot(*waves.wave_vector(info, *wave))) for wave in found}
+    ratio, ahead, swing = halves.rows(found, numbers)
+    yield Claim('dp = C dq of LP modes, with C a number', [ratio, swing], 'within what rows say')
+    yield Claim('dp of LP modes is neither ahead nor behind', [ahead], f'within {halves.ANGLE} rad')
+
+
+def _entry(found, mode, kind):
+    words = {_word(found[wave], mode, kind) for wave in WAVES if wave in found}
+    word = next(iter(words), None) if len(words) < 2 else None if None in words else BOTH
+    return Row(
+        f'{NAMES[kind]}: {mode}',
+        NOT_ZERO if kind in TABLE[mode] else ZERO,
+        word,
+        remark=_remark(found, mode, kind),
+        caught=f'{100 * SMALL:g} % of the largest',
     )
 
 

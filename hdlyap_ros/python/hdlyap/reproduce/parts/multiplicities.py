@@ -7,7 +7,7 @@ from hdlyap.plots import steps
 from hdlyap.plots.figures.style import GREY, INK, bars, kind_colour, plt
 
 from .. import zeros
-from ..row import Row
+from ..row import PAPER, Claim, Row
 from ..stairs import stairs
 
 TITLE = 'Multiplicities of the steps and number of zero exponents, by the boundaries'
@@ -90,11 +90,15 @@ class Level:
     @property
     def measured(self):
         """How many exponents there are: the number; as text those of the pieces, smallest exponents
-        first, if it breaks; None where vectors that no step was found for go on without a jump."""
-        if not self.stands_apart:
-            return None
+        first, if it breaks; None where vectors that no step was found for go on without a jump, or
+        where it may be whole, as errors are not known."""
         counts = [stair.count for stair in self.pieces]
-        return counts[0] if len(counts) == 1 else ' + '.join(map(str, counts))
+        if not counts or not self.stands_apart:
+            return None
+        if len(counts) == 1:
+            return counts[0]
+        is_known = all(stair.is_known for stair in self.pieces)
+        return ' + '.join(map(str, counts)) if is_known else None
 
     def _of(self, stair):
         """How many of a stair's vectors belong to the steps."""
@@ -119,26 +123,45 @@ def levels(recording):
     return found
 
 
-def rows(bags):
-    for name, box in BOXES.items():
-        yield from _step_rows(bags[name].recording, box)
-    for name, (count, boundaries) in ZEROS.items():
-        yield from _zero_rows(bags[name], count, boundaries)
+def claims(bags):
+    found = {name: levels(bags[name].recording) for name in BOXES}
+    yield Claim(
+        'every step has as many exponents as the boundaries allow modulations',
+        [
+            row
+            for name in BOXES
+            for row in _step_rows(bags[name].recording, BOXES[name], found[name])
+        ],
+        'the same, of the steps that were resolved',
+        PAPER,
+    )
+    zero = [_zero_rows(bags[name], *about) for name, about in ZEROS.items()]
+    yield Claim(
+        '6, 4 or 2 exponents vanish, by the boundaries',
+        [rows[0] for rows in zero],
+        'the same',
+        PAPER,
+    )
+    yield Claim('zero modes', [row for rows in zero for row in rows[1:]])
+    yield Claim(
+        'steps found',
+        [_found_row(bags[name].recording, BOXES[name], found[name]) for name in BOXES],
+    )
 
 
-def _step_rows(recording, box):
-    found = levels(recording)
-    for level in found:
-        yield _level_row(recording, box, level)
+def _step_rows(recording, box, found):
     if not found:
-        yield Row(f'{box}: multiplicities', 'by the rule')
-        return
-    missed = [steps.name(step) for step in steps.unresolved(recording.steps)]
-    yield Row(
+        return [Row(f'{box}: multiplicities', 'by the rule')]
+    return [_level_row(recording, box, level) for level in found]
+
+
+def _found_row(recording, box, found):
+    missed = [steps.name(step) for step in steps.unresolved(recording.steps)] if found else []
+    return Row(
         f'{box}: steps found',
         None,
-        len(steps_of(found)),
-        remark='not resolved: ' + ' '.join(missed) if missed else 'all that were asked for',
+        len(steps_of(found)) if found else None,
+        remark='not resolved: ' + ' '.join(missed) if missed else '',
     )
 
 
@@ -157,6 +180,7 @@ def _level_row(recording, box, level):
         remark += f'; goes on without a jump in the other exponents of {indices}'
     elif len(level.pieces) > 1:
         remark += f'; the exponents {indices} are no stair'
+        remark += '' if level.measured else ', with errors that are not known'
     return Row(
         f'{box}: {level.name}', level.prescribed(recording.info), level.measured, remark=remark
     )
@@ -166,11 +190,11 @@ def _level_row(recording, box, level):
 
 
 def _zero_rows(bag, count, boundaries):
+    """How many vanish; then what is shown of them."""
     recording = bag.recording
     spectrum, zero = recording.spectrum, recording.steps and steps.zero_modes(recording.steps)
     if spectrum is None:
-        yield Row(f'zero exponents, {boundaries}', count)
-        return
+        return [Row(f'zero exponents, {boundaries}', count)]
     size, found = np.abs(spectrum.exponents), zeros.indices(recording.info, spectrum)
     vanish = np.isin(spectrum.first_index + np.arange(len(size)), found)
     remark = (
@@ -178,15 +202,15 @@ def _zero_rows(bag, count, boundaries):
     )
     if not vanish.all():
         remark += f'; the next is {size[~vanish].min():.2g}'
-    yield Row(f'zero exponents, {boundaries}', count, len(found), remark=remark)
-    yield _trace_row(zero, boundaries)
     scale = zeros.linear_growth(recording.info, spectrum.averaged_time)
-    yield Row(
+    largest = Row(
         f'largest zero exponent over ln(1 + t/w)/t, {boundaries}',
         None,
         float(size[vanish].max()) / scale if vanish.any() else None,
         remark=_course_remark(bag, len(found)),
     )
+    number = Row(f'zero exponents, {boundaries}', count, len(found), remark=remark)
+    return [number, _trace_row(zero, boundaries), largest]
 
 
 def _trace_row(zero, boundaries):

@@ -6,10 +6,11 @@ from hdlyap.plots import recording, steps
 from hdlyap.plots.figures import p_mode
 
 from .. import averages
-from ..row import Row
+from ..row import BELOW, EQUAL, PAPER, Claim, Row
 
 TITLE = 'P mode of LP(1,0), divided by the momenta'
 STEP = 'LP(1,0)'
+SMOOTHER = 0.8
 SNAPSHOTS = 'mean over {} snapshots, {} pairs each; error from their scatter'
 
 
@@ -38,44 +39,54 @@ def runs(plan):
     return ['periodic']
 
 
-def rows(bags):
-    shown = _shown(bags['periodic'])
+def claims(bags):
+    shown, times = _shown(bags['periodic']), _times(bags['periodic'])
+    yield Claim(
+        'phi_P,x / p_x and phi_P,y / p_y are one function A',
+        [_mean(times, 'ratio of the amplitudes on A', lambda one: one.ratio, 1.0)],
+        'a ratio of 1',
+        PAPER,
+    )
+    yield Claim(
+        'phi_P is not smooth, divided by the momenta it is',
+        [
+            _mean(
+                times,
+                f'scatter about A, phi_P,{name} / p_{name} over phi_P,{name}',
+                lambda one, axis=axis: one.after[axis].scatter / one.before[axis].scatter,
+                SMOOTHER,
+                BELOW,
+            )
+            for axis, name in enumerate('xy')
+        ],
+        f'the division takes the scatter about A (over its rms) to less than {SMOOTHER:g} of it',
+    )
     # single amplitudes are no test of the paper's 1: by least squares both axes are 1 together
+    yield Claim('amplitudes, scatter', list(_beside(shown, times)))
+
+
+def _beside(shown, times):
     for axis, name in enumerate('xy'):
         yield _amplitude(shown, axis, name)
-    yield Row(
-        'ratio of these amplitudes',
-        1.0,
-        shown and shown.ratio,
-        shown.ratio_error if shown else 0.0,
-        remark='tells more than both: weighted with p^2 they are 1 together, by least squares',
-    )
-    times = _times(bags['periodic'])
-    yield _mean(
-        times,
-        'amplitude along x / (1 - residual^2), mean',
-        None,
-        lambda one: one.after[0].amplitude / one.spanned,
-    )
-    yield _mean(
-        times,
-        'amplitude along y / (1 - residual^2), mean',
-        None,
-        lambda one: one.after[1].amplitude / one.spanned,
-    )
-    yield _mean(times, 'ratio of the amplitudes, mean', 1.0, lambda one: one.ratio)
-    yield _mean(
-        times, 'distance of the P field from the vectors, residual', None, lambda one: one.residual
-    )
+    ratio = (shown.ratio, shown.ratio_error) if shown else (None, 0.0)
+    yield Row('ratio of these amplitudes', None, *ratio, remark='of the figure alone')
+    for axis, name in enumerate('xy'):
+        yield _mean(
+            times,
+            f'amplitude along {name} / (1 - residual^2), mean',
+            lambda one, axis=axis: one.after[axis].amplitude / one.spanned,
+        )
+    yield _mean(times, 'distance of the P field from the vectors', lambda one: one.residual)
     for axis, name in enumerate('xy'):
         yield _mean(
             times,
             f'scatter of phi_P,{name} about A / its rms',
-            None,
-            lambda one: one.before[axis].scatter,
+            lambda one, axis=axis: one.before[axis].scatter,
         )
         yield _mean(
-            times, f'the same of phi_P,{name} / p_{name}', None, lambda one: one.after[axis].scatter
+            times,
+            f'the same of phi_P,{name} / p_{name}',
+            lambda one, axis=axis: one.after[axis].scatter,
         )
 
 
@@ -115,9 +126,9 @@ def _fields(bag):
     ]
 
 
-def _mean(times, quantity, published, number):
+def _mean(times, quantity, number, published=None, sense=EQUAL):
     if not times:
-        return Row(quantity, published)
+        return Row(quantity, published, sense=sense)
     mean, error = averages.of_snapshots(
         [np.mean([number(one) for one in pairs]) for pairs in times]
     )
@@ -127,6 +138,7 @@ def _mean(times, quantity, published, number):
         float(mean),
         float(error),
         remark=SNAPSHOTS.format(len(times), len(times[0])),
+        sense=sense,
     )
 
 

@@ -6,8 +6,8 @@ from hdlyap.plots.figures.style import BLUE, INK, VERMILION, plt, scene
 from hdlyap.plots.waves import SIN_X
 
 from .. import blocks, rotation
-from ..row import Row
-from ..velocity import against_slope
+from ..row import ABOVE, INFERRED, Claim, Row
+from ..velocity import over_slope
 
 TITLE = 'Travelling wave of the periodic LP dynamics'
 RUN = 'travelling'
@@ -16,6 +16,7 @@ SHOWN = 25.0  # of the space-time diagram [time units]
 FEWEST = 4  # blocks of time for an error
 LISTED = 20  # stretches in the table, the longest first
 LOCKED = 'no test: locked within a quarter turn by the choice of the stretch'
+STANDING = 0.1  # handedness: less is no wave that travels
 PLACES = 200  # of it, along x
 
 
@@ -114,33 +115,32 @@ def one_way(turning):
     return blocks.mean(np.nanmean(ways[:, known], axis=0))
 
 
-def rows(bags):
+def claims(bags):
     turning = rotation.read(bags[RUN]).get(WAVE)
     front = chosen(turning)
-    v, v_error = turning.velocity() if turning else (None, 0.0)
-    slope, slope_error = front.velocity() if front else (None, 0.0)
-    ratio, ratio_error = front.against_turns() if front else (None, 0.0)
-    remark = f'{front.length:.1f} time units, {_direction(front)}' if front else ''
-    locked = f'{LOCKED}; {remark}' if remark else LOCKED
-    yield Row('front velocity / (omega / k), same times', None, ratio, ratio_error, remark=locked)
-    yield Row(
-        'front velocity, mean slope',
-        None,
-        slope,
-        slope_error,
-        unit='sigma/time unit',
-        remark=remark,
-    )
-    yield Row('omega / k of LP(1,0), same run', None, v, v_error, unit='sigma/time unit')
-    yield against_slope('front velocity', slope, slope_error, bags[RUN].recording)
-    size, size_error = one_way(turning) if turning else (None, 0.0)
-    yield Row(
+    size, error = one_way(turning) if turning else (None, 0.0)
+    handed = Row(
         'handedness of LP(1,0), mean size',
-        None,
+        STANDING,
         size,
-        size_error,
-        remark='1: every vector runs one way; 1/2: random parts of both directions',
+        error,
+        remark='1: every vector runs one way; 1/2: random parts of both directions; 0: all stand',
+        sense=ABOVE,
     )
+    yield Claim('the L part travels', [handed], f'handedness above {STANDING:g}', INFERRED)
+    yield Claim('front and velocity', list(_front_rows(turning, front, bags[RUN].recording)))
+
+
+def _front_rows(turning, front, recording):
+    v, v_error = turning.velocity() if turning else (None, 0.0)
+    slope, error = front.velocity() if front else (None, 0.0)
+    remark = f'{front.length:.1f} time units, {_direction(front)}' if front else ''
+    unit = 'sigma/time unit'
+    yield Row('front velocity, mean slope', None, slope, error, unit=unit, remark=remark)
+    ratio = front.against_turns() if front else (None, 0.0)
+    yield Row('front velocity / (omega / k), same times', None, *ratio, remark=LOCKED)
+    yield Row('omega / k of LP(1,0), same run', None, v, v_error, unit=unit)
+    yield over_slope('v', v, v_error, recording)
     yield Row(
         'unevenness of the front, rms',
         None,

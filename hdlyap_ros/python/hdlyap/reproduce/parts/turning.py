@@ -6,20 +6,17 @@ from hdlyap.plots.figures import modes
 from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, plt, scene
 from hdlyap.plots.numbers import with_error
 from hdlyap.plots.recording import FIELD
-from hdlyap.plots.steps import LP
+from hdlyap.plots.steps import LP, name as step_name
 
 from .. import blocks, rotation
-from ..row import Row
+from ..row import PAPER, Claim, Row
 
 TITLE = 'LP dynamics between reflecting walls: the modes turn from L to P'
 RUN = 'reflecting'
 QUARTER, LAST_DIGIT = 3.20, 0.005  # of a period, as its two snapshots are apart [time units]
-NEAR_ONE = 0.1  # what "a^2 + b^2 is near 1" leaves open here
+NEAR_ONE = 0.1  # what near 1 is taken to leave open
 WAVES = {(1, 0): 'the text\'s wave', (1, 1): 'the caption\'s wave'}
-STRENGTHS = {
-    (1, 0): (1.0, 'the paper: near 1, taken as within 0.1'),
-    (1, 1): (None, 'ours alone: the paper says it of the mode that it shows'),
-}
+SNAPSHOTS = 2  # of a wave in the figure
 SHOWN = 13.0  # of the course of (a, b): about a period [time units]
 SAME = 0.01  # part of the time between fields that two times called the same differ by at most
 
@@ -28,54 +25,64 @@ def runs(plan):
     return [RUN]
 
 
-def rows(bags):
+def claims(bags):
     turning = rotation.read(bags[RUN])
     info = bags[RUN].info
     found = {wave: Quarters(turning.get(wave), info) for wave in WAVES}
-    for wave, one in found.items():
-        yield Row(
-            f'quarter period of {_name(wave)}',
-            QUARTER,
-            one.mean,
-            one.error,
-            LAST_DIGIT,
-            'time units',
-            f'{WAVES[wave]}; {one.remark}' if one.mean else '',
-        )
-    yield Row(
-        '3.20 is a quarter period of',
-        _name((1, 0)),
-        _owner(found),
-        remark='nearest in standard deviations of single quarters; text: LP(1,0), caption: LP(1,1)',
+    yield Claim(
+        '3.20 is a quarter of a period',
+        [_quarter_row(wave, one) for wave, one in found.items()],
+        'half of the last digit, for the text\'s wave or the caption\'s',
+        PAPER,
+        any_of=True,
     )
-    for wave, one in found.items():
-        yield Row(
-            f'single quarters of {_name(wave)}, standard deviation',
-            None,
-            one.spread,
-            one.spread_error,
-            unit='time units',
-        )
-    for name, mean, error in _uneven(found[1, 0]):
-        yield Row(
-            f'quarters of LP(1,0) from {name}',
-            None,
-            mean,
-            error,
-            unit='time units',
-            remark='from either sign to the next',
-        )
-    for wave in WAVES:
-        strength, error = turning[wave].strength() if wave in turning else (None, 0.0)
-        published, remark = STRENGTHS[wave]
-        yield Row(
-            f'a^2 + b^2 of {_name(wave)}, mean',
-            published,
-            strength,
-            error,
-            NEAR_ONE if published else 0.0,
-            remark=remark,
-        )
+    yield Claim(
+        'single quarters', [row for wave, one in found.items() for row in _single(wave, one)]
+    )
+    yield Claim(
+        'a^2 + b^2 is near 1',
+        [_strength_row(wave, turning.get(wave)) for wave in WAVES],
+        f'within {NEAR_ONE:g}, for the text\'s wave or the caption\'s',
+        any_of=True,
+    )
+
+
+def _quarter_row(wave, one):
+    return Row(
+        f'quarter period of {_name(wave)}',
+        QUARTER,
+        one.mean,
+        one.error,
+        LAST_DIGIT,
+        'time units',
+        f'{WAVES[wave]}; {one.remark}' if one.mean else '',
+    )
+
+
+def _single(wave, one):
+    yield Row(
+        f'standard deviation of {_name(wave)}',
+        None,
+        one.spread,
+        one.spread_error,
+        unit='time units',
+        remark=f'3.20 is {one.off:.1f} of them from the mean' if one.spread else '',
+    )
+    for name, mean, error in _uneven(one):
+        yield Row(f'{_name(wave)} from {name}', None, mean, error, unit='time units')
+
+
+def _strength_row(wave, one):
+    strength, error = one.strength() if one else (None, 0.0)
+    return Row(
+        f'a^2 + b^2 of {_name(wave)}, mean',
+        1.0,
+        strength,
+        error,
+        NEAR_ONE,
+        remark=WAVES[wave],
+        telling=1.5 * NEAR_ONE,
+    )
 
 
 def _name(wave):
@@ -98,12 +105,9 @@ class Quarters:
         self.error = self.mean * error / abs(omega)
         self._measure_spread(turning)
         k = turning.wave_number
-        scatter = (
-            f', or {self.off:.1f} standard deviations of single quarters' if self.spread else ''
-        )
         self.remark = (
             f'k = {k:.5f}, omega / k = {with_error(abs(omega) / k, error / k)}; '
-            f'3.20 is {100 * (QUARTER / self.mean - 1):+.1f} % off{scatter}; '
+            f'3.20 is {100 * (QUARTER / self.mean - 1):+.1f} % off; '
             f'{self._in_whole_box(turning, info):.3f} if centres reached the walls'
         )
 
@@ -153,21 +157,12 @@ def _uneven(one):
                 yield f'{name}, vector {number}', mean, error
 
 
-def _owner(found):
-    """The step among whose single quarters 3.20 is nearest to the mean; 'neither' beyond three
-    deviations. None unless all are measured: alone, one would be the nearest whatever it is."""
-    if not all(one.spread for one in found.values()):
-        return None
-    nearest = min(found, key=lambda wave: found[wave].off)
-    return _name(nearest) if found[nearest].off <= 3 else 'neither'
-
-
 def figures(bags):
     bag = bags[RUN]
     turning = rotation.read(bag)
     if any(wave in turning for wave in WAVES):
         yield 'circle', _circles(bag.info, turning)
-    snapshots = _chosen(bag, turning)
+    snapshots = [one for wave in WAVES for one in _chosen(bag, turning.get(wave))]
     if snapshots:
         yield 'quarters', _snapshots(bag.info, snapshots)
 
@@ -267,31 +262,29 @@ class Snapshot(modes.Panel):
 
     @property
     def title(self):
-        return f'$t={self.field.sim_time:.1f}$: $a={self.z.real:.2f}$, $b={self.z.imag:.2f}$'
+        place = f'$a={self.z.real:.2f}$, $b={self.z.imag:.2f}$'
+        return f'{step_name(self.field)}, $t={self.field.sim_time:.1f}$: {place}'
 
     @property
     def colour(self):
         return VERMILION
 
 
-def _chosen(bag, turning):
-    """Four fields of one vector of LP(1,0), each QUARTER after the other, that are nearest to L, P,
-    -L, -P."""
-    if (1, 0) not in turning:
-        return []
-    series = _fields(bag, turning[1, 0])
+def _chosen(bag, one):
+    """Two fields of one vector, QUARTER apart, nearest to L and P: the snapshots of the paper."""
+    series = _fields(bag, one) if one else {}
     times = sorted(series)
     best, chosen = -np.inf, []
     for time in times:
-        four = [_at(times, time + number * QUARTER) for number in range(4)]
-        if None in four or len({series[one].field.index for one in four}) > 1:
+        some = [_at(times, time + number * QUARTER) for number in range(SNAPSHOTS)]
+        if None in some or len({series[at].field.index for at in some}) > 1:
             continue
         score = sum(
-            (series[one].z * np.exp(-1j * number * rotation.QUARTER)).real
-            for number, one in enumerate(four)
+            (series[at].z * np.exp(-1j * number * rotation.QUARTER)).real
+            for number, at in enumerate(some)
         )
         if score > best:
-            best, chosen = score, four
+            best, chosen = score, some
     return [series[time] for time in chosen]
 
 
@@ -301,7 +294,7 @@ def _at(times, wanted):
 
 
 def _fields(bag, one):
-    """{time: Snapshot} of LP(1,0) where its coefficients are known."""
+    """{time: Snapshot} of the step where its coefficients are known."""
     found = {}
     for field in bag.messages(FIELD):
         if (field.kind, field.nx, field.ny) != (LP, one.nx, one.ny):
@@ -318,5 +311,5 @@ def _fields(bag, one):
 
 def _snapshots(info, snapshots):
     figure = modes.draw_panels(snapshots, info)
-    figure.suptitle(f'{scene(info)}, LP(1,0): a vector near L, P, $-$L and $-$P', fontsize=9)
+    figure.suptitle(f'{scene(info)}, fields {QUARTER:.2f} apart, nearest to L and P', fontsize=9)
     return figure
