@@ -32,7 +32,8 @@ static const box BOXES[] = {
     {0.4, 100, 4, HD_REFLECTING, 1.0, 800}, {0.6, 100, 4, HD_PERIODIC, 0.7, 700},
     {0.6, 240, 4, HD_PERIODIC, 0.7, 350},   {0.8, 100, 5, HD_PERIODIC, 0.4, 500},
     {0.8, 200, 5, HD_PERIODIC, 0.4, 400},   {0.8, 300, 3, HD_PERIODIC, 0.4, 300},
-    {0.8, 100, 5, HD_REFLECTING, 0.4, 500}, {0.8, 160, 5, HD_REFLECTING, 0.4, 300}};
+    {0.8, 500, 3, HD_PERIODIC, 0.5, 250},   {0.8, 100, 5, HD_REFLECTING, 0.4, 500},
+    {0.8, 160, 5, HD_REFLECTING, 0.4, 300}};
 enum { BOXES_ALL = sizeof BOXES / sizeof *BOXES };
 static const box QUICK = {0.6, 40, 3, HD_PERIODIC, 0.7, 200};
 
