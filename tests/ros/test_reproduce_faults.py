@@ -253,7 +253,8 @@ class Made(Part):
                 for phase in getattr(message, 'phases', ()):
                     phase.a, phase.b = phase.b, phase.a
             claims = self.verdicts(hydro, hydro.RUN, messages)
-            self.assertEqual(set(claims.values()), {verdict})
+            (table,) = (claims[name] for name in claims if name.startswith('T excites'))
+            self.assertEqual(table, verdict)
 
     def test_modulations_swapped(self):
         """The P mode of the cosine called that of the sine."""
