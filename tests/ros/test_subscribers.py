@@ -99,10 +99,7 @@ class Subscribers(unittest.TestCase):
                 state=REPORTS,
                 status=REPORTS,
                 cost=REPORTS,
-                **{
-                    topic: AVERAGED_REPORTS
-                    for topic in ('spectrum', 'modes', 'steps', 'lp_phases', 'hydro')
-                },
+                **{topic: AVERAGED_REPORTS for topic in harness.AVERAGES},
             ),
         )
 
