@@ -13,7 +13,7 @@ import callgrind  # noqa: E402
 
 VALGRIND, LOAD, CORE = sys.argv[1:4]
 NONE, POSITIVE, ALL = 0, -1, -2  # HD_EXPONENTS_*
-MODES, STEPS, PHASES, EVERYTHING, GAS, WIDTHS = 1, 2, 4, 31, 64, 128  # HD_OBSERVE_*
+MODES, STEPS, PHASES, EVERYTHING, GAS, WIDTHS = 1, 2, 4, 223, 256, 512  # HD_OBSERVE_*
 
 # sources of each stage; what is common to all is in none
 OF_TRAJECTORY = {'trajectory.c', 'prediction.c', 'contact.h', 'cells.c', 'queue.c'}

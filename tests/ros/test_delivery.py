@@ -91,7 +91,7 @@ class Delivery(unittest.TestCase):
         grid = [0.25 * (k + 1) for k in range(REPORTS)]
         for topic in ('state', 'status', 'cost'):
             self.assertEqual([message.sim_time for message in messages[topic]], grid, topic)
-        for topic in ('spectrum', 'modes', 'steps', 'lp_phases', 'hydro'):
+        for topic in harness.AVERAGES:
             self.assertEqual(
                 [message.sim_time for message in messages[topic]], grid[-AVERAGED_REPORTS:], topic
             )

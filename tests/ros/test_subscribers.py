@@ -99,11 +99,7 @@ class Subscribers(unittest.TestCase):
                 state=REPORTS,
                 status=REPORTS,
                 cost=REPORTS,
-                **{
-                    topic: AVERAGED_REPORTS
-                    for topic in harness.OBSERVABLES
-                    if topic not in ('fields', 'state')
-                },
+                **{topic: AVERAGED_REPORTS for topic in harness.AVERAGES},
             ),
         )
 
