@@ -6,8 +6,8 @@
 #include "scenes.h"
 
 enum {
-    KEPT_ALL = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES |
-               HD_OBSERVE_STRUCTURE
+    KEPT_ALL = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES,
+    KEPT_AT_REPORTS = KEPT_ALL | HD_OBSERVE_STRUCTURE /**< with all vectors at each */
 };
 /** Before the elements of an array in the bytes. */
 enum { KEPT_HEAD = HD_ARCHIVE_NAME + 16 };
