@@ -386,8 +386,11 @@ const double *hd_structure_amplitude(const hd_structure *s, hd_direction e, unsi
 /** The snapshot belongs to this time alone. */
 void hd_structure_archive(hd_structure *s, hd_archive *archive)
 {
+    const size_t size = (size_t)s->waves * HD_DIRECTIONS * s->stride;
     hd_archive_long(archive, "structure samples", &s->samples, 0, LONG_MAX / 2);
-    hd_archive_doubles(archive, "structure mean", s->mean,
-                       (size_t)s->waves * HD_DIRECTIONS * s->stride);
+    hd_archive_doubles(archive, "structure mean", s->mean, size);
+    bool positive = true;
+    for (size_t k = 0; k < size && hd_archive_good(archive); k++) positive &= s->mean[k] >= 0;
+    hd_archive_expect(archive, positive, "structure mean", "it is negative");
     if (!archive->writing && hd_archive_good(archive) && s->samples > 0) find_peaks(s);
 }

@@ -180,10 +180,10 @@ static void expect_uninterrupted(const hd_scene_def *def, int every, int least)
 static void a_resumed_run_is_the_uninterrupted_one(void **state)
 {
     (void)state;
-    hd_scene_def walls = kept_scene(24, 0.6, 0.5, HD_EXPONENTS_ALL, KEPT_ALL);
+    hd_scene_def walls = kept_scene(24, 0.6, 0.5, HD_EXPONENTS_ALL, KEPT_AT_REPORTS);
     walls.boundary[0] = walls.boundary[1] = HD_REFLECTING;
     hd_scene_def crowded = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE,
-                                      KEPT_ALL | HD_OBSERVE_FIELDS);
+                                      KEPT_AT_REPORTS | HD_OBSERVE_FIELDS);
     crowded.report_interval = 0.25;
     crowded.threads = 2;
     hd_scene_def looks = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL);

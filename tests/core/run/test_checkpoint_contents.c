@@ -120,6 +120,24 @@ static void contents_that_no_run_has_are_refused(void **state)
     hd_run_free(run);
 }
 
+static void structure_that_no_run_has_is_refused(void **state)
+{
+    (void)state;
+    const hd_scene_def def = kept_scene(10, 0.5, 0.3, HD_EXPONENTS_POSITIVE, KEPT_AT_REPORTS);
+    hd_run *run = kept_run(&def);
+    while (hd_structure_samples(hd_run_structure(run)) < 3) assert_int_equal(kept_steps(run, 1), 1);
+    const bytes b = kept_bytes(run);
+    static const nonsense_case cases[] = {
+        {"structure samples", 0, 0, -1, "out of its range"},
+        {"structure mean", 1, -1.0, 0, "negative"},
+        {"structure mean", 1, NAN, 0, "not finite"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        expect_nonsense_refused(&b, &cases[k]);
+    free(b.data);
+    hd_run_free(run);
+}
+
 /** Where nothing is pending: found by tests/fuzz. */
 static void reports_are_not_passed_twice(void **state)
 {
@@ -186,6 +204,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contents_that_no_run_has_are_refused),
+        cmocka_unit_test(structure_that_no_run_has_is_refused),
         cmocka_unit_test(reports_are_not_passed_twice),
         cmocka_unit_test(nonsense_is_survived),
     };

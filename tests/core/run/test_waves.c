@@ -154,11 +154,12 @@ static double middle_of(const series *x, int vectors, double from, double to)
 
 /** Power of LP(1,0) along k is at the rate at which its phases turn; where nothing turns there is
  * less of it. */
-static void structure_factors_see_the_classified_waves(void **state)
+static void check_line(hd_boundary along)
 {
-    (void)state;
     static series x;
     hd_scene_def scene = channel(HD_OBSERVE_PHASES | HD_OBSERVE_STRUCTURE);
+    scene.boundary[0] = along;
+    x.count = 0;
     scene.report_interval = 3.0;
     hd_run *run = created(&scene);
     const hd_step *step = NULL;
@@ -184,6 +185,13 @@ static void structure_factors_see_the_classified_waves(void **state)
     CHECK_CLOSE(found, omega, 6.0 * error);
     assert_true(power_at(&x, step->count, 0.0) < 0.3 * power_at(&x, step->count, found));
     hd_run_free(run);
+}
+
+static void structure_factors_see_the_classified_waves(void **state)
+{
+    (void)state;
+    check_line(HD_PERIODIC);
+    check_line(HD_REFLECTING);
 }
 
 int main(void)
