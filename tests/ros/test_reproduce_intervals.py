@@ -16,7 +16,7 @@ ACCURACY = 1e-8
 class Intervals(Part):
     of = intervals
 
-    def trial(self, interval, deviation=0.0, index=20, first=36, times=(10.0, 20.0), extra=()):
+    def trial(self, interval, deviation=0.0, index=20, first=36, times=(10.0, 20.0), only=2):
         """One run; its exponents are those of the time, and one of them is off."""
         info = made.run_info(interval=interval, accuracy=ACCURACY)
         messages = [info]
@@ -32,7 +32,7 @@ class Intervals(Part):
             exponents[index - 1] += deviation
             messages.append(made.spectrum(exponents, time))
         steps = [made.step(info, T, 1, 0, first, first + 1), made.step(info, LP, 1, 0, 32, 35)]
-        return self.bag(f'interval_{interval:g}', [*messages, made.steps(steps), *extra])
+        return self.bag(f'interval_{interval:g}', [*messages, made.steps(steps[:only])])
 
     def bags(self, *trials):
         return {f'interval_{number}': trial for number, trial in enumerate(trials)}
@@ -99,6 +99,14 @@ class Intervals(Part):
         )
         self.assertEqual((other.measured, other.verdict), ('1 differ', 'differs'))
         self.assertEqual(other.remark, '2 sets; differ: T(1,0)')
+
+    def test_a_step_found_in_one_run_alone(self):
+        long = self.trial(8.0, only=1)
+        row = self.rows(self.bags(self.trial(0.25), long))[
+            'indices of all steps, interval 8 (longest in use 2.50) and 0.25'
+        ]
+        self.assertEqual((row.measured, row.verdict), ('the same', 'agrees'))
+        self.assertEqual(row.remark, '1 sets; found in one run alone: LP(1,0)')
 
     def independent(self, interval, number, largest, error=0.01):
         """One run of them; its h_KS is twice the largest exponent, its T(1,0) a tenth."""

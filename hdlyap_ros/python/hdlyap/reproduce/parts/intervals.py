@@ -209,21 +209,19 @@ def _deviation(trials, trial):
 
 
 def _indices(first, trial):
-    """The indices of all steps, if both runs found any."""
+    """The indices of the steps that both runs found: one on the edge of being resolved may be found
+    in one of them, as they look at their vectors at other times."""
     quantity = f'indices of all steps, interval {trial.in_use} and {first.name}'
-    if not first.indices or not trial.indices:
+    both = sorted(set(first.indices) & set(trial.indices))
+    alone = sorted(set(first.indices) ^ set(trial.indices))
+    if not both:
         return Row(quantity, 'the same')
-    other = sorted(
-        name
-        for name in {**first.indices, **trial.indices}
-        if first.indices.get(name) != trial.indices.get(name)
-    )
-    return Row(
-        quantity,
-        'the same',
-        f'{len(other)} differ' if other else 'the same',
-        remark=f'{len(first.indices)} sets' + (f'; differ: {" ".join(other)}' if other else ''),
-    )
+    other = [name for name in both if first.indices[name] != trial.indices[name]]
+    remark = [f'{len(both)} sets']
+    remark += [f'differ: {" ".join(other)}'] if other else []
+    remark += [f'found in one run alone: {" ".join(alone)}'] if alone else []
+    measured = f'{len(other)} differ' if other else 'the same'
+    return Row(quantity, 'the same', measured, remark='; '.join(remark))
 
 
 def figures(bags):
