@@ -124,8 +124,8 @@ class Export(Tools):
         done = self.plot(self.bag, '--csv', self.csv)
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         run_ = hdlyap.load(self.bag)
-        names = ('results', 'spectrum', 'steps', 'phases', 'cost', 'status', 'exponents')
-        names += ('std_errors', 'local_exponents')
+        names = ('results', 'spectrum', 'steps', 'phases', 't_phases', 'cost', 'status')
+        names += ('exponents', 'std_errors', 'local_exponents')
         self.assertEqual(sorted(os.listdir(self.csv)), sorted(name + '.csv' for name in names))
         for name in ('spectrum', 'steps', 'phases', 'cost'):
             with open(os.path.join(self.csv, name + '.csv')) as file:

@@ -17,6 +17,7 @@
 #include "hdlyap/room.h"
 #include "run/factorise.h"
 #include "run/localize.h"
+#include "run/measure.h"
 #include "run/order.h"
 #include "run/plan.h"
 #include "run/ranks.h"
@@ -242,49 +243,6 @@ static bool target_reached(const hd_run *run)
     return target > 0 && run->spectrum && hd_run_smallest_error(run) <= target;
 }
 
-/** The modes of the vectors that this rank has, and of their partners. */
-static hd_status measure_here(hd_run *run)
-{
-    const hd_columns own = hd_frame_columns(run->frame);
-    const hd_trajectory *disks = run->advance.trajectory;
-    if (!run->communicator)
-        return hd_observer_measure(&run->observer, run->observe, hd_run_frame_columns(run), disks);
-    HD_TRY(hd_observer_measure(&run->observer, run->observe, own, disks));
-    if (!run->conjugate) return HD_OK;
-    return hd_observer_measure(&run->observer, run->observe,
-                               hd_conjugate_partners(run->conjugate, own), disks);
-}
-
-/** The modes of an orthonormal frame. */
-static hd_status measure(hd_run *run)
-{
-    const double start = hd_clock_now();
-    HD_TRY(hd_run_agree(run, measure_here(run)));
-    HD_TRY(hd_observer_share(&run->observer, run->observe, run->communicator,
-                             hd_frame_stride(run->frame), run->carried));
-    run->cost.modes += hd_clock_now() - start;
-    return HD_OK;
-}
-
-static void follow_phases(hd_run *run)
-{
-    hd_observer_follow(&run->observer, run->observe, hd_run_time(run));
-    run->followed = hd_run_time(run);
-}
-
-/** Modes, steps and phases of a measured state; what is asked for is enough for each. */
-static hd_status observe(hd_run *run)
-{
-    HD_TRY(measure(run));
-    const double start = hd_clock_now();
-    hd_observer_add(&run->observer, run->observe);
-    hd_steps_find(run->observer.steps, run->spectrum);
-    if (run->observe & HD_OBSERVE_OF_PHASES) follow_phases(run);
-    HD_TRY(hd_run_gather(run));
-    run->cost.modes += hd_clock_now() - start;
-    return HD_OK;
-}
-
 /** Takes up what has been asked for since. The averaging may end with it. */
 static void take_changes(hd_run *run)
 {
@@ -316,7 +274,7 @@ static hd_status end_sample(hd_run *run)
     hd_spectrum_sample(run->spectrum);
     if (run->gas) hd_gas_add(run->gas, run->advance.trajectory);
     HD_TRY(hd_run_localize(run));
-    return hd_run_is_observing(run) ? observe(run) : HD_OK;
+    return hd_run_is_observing(run) ? hd_run_measure_and_add(run) : HD_OK;
 }
 
 /** The sample also ends if that alone makes known what a watcher wants. */
@@ -372,11 +330,11 @@ static hd_status look_around(hd_run *run, bool at_phases)
     const int most = phases > hd_run_watched(run) ? phases : hd_run_watched(run);
     if (most == 0 || run->observer.known.count > 0) return HD_OK;
     if (is_measured(run)) {
-        HD_TRY(measure(run));
+        HD_TRY(hd_run_measure(run));
         return hd_run_gather(run);
     }
     HD_TRY(find_slowest(run, most));
-    if (phases > 0 && !is_measured(run)) follow_phases(run);
+    if (phases > 0 && !is_measured(run)) hd_run_follow_phases(run);
     return HD_OK;
 }
 
