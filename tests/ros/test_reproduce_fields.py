@@ -8,7 +8,8 @@ import made
 from made import LP, T
 from reproduced import Part
 from hdlyap.plots import waves
-from hdlyap.reproduce import averages, projection
+from hdlyap.plots.figures.modes import ARROW
+from hdlyap.reproduce import averages, pairs, projection
 from hdlyap.reproduce.parts import fields
 
 BOUNDARIES = ('periodic', 'reflecting')
@@ -186,13 +187,79 @@ class Fields(Part):
             [('T(1,0)', '150', '37', '0.90000'), ('T(1,0)', '170', '37', '0.80000')],
         )
 
-    def test_six_panels_and_two_patterns(self):
-        figures = self.figures(self.full())
-        titles = [axes.get_title() for axes in figures['fields'].axes]
-        self.assertEqual(
-            [title.split(',$')[0].split(', $')[0] for title in titles],
-            ['T(1,0)', 'LP(1,0)', 'T(0,1)', 'LP(0,1)', 'T(1,1)', 'LP(1,1)'],
+    def reconstructed(self, name, share, letter, distance=0.1):
+        """A run with one field of LP(1,0), so much of whose L modes, each, is in its last `letter`
+        field and none in others."""
+        info = made.run_info()
+        one = made.step(info, LP, 1, 0, 32, 35)
+        shown = field(info, one, share, letter, 'TL')
+        shown.l_x, shown.l_y = (2 * list(part) for part in (shown.dqx, shown.dqy))
+        later = field(info, one, share, letter, 'TL', 170.0)
+        later.l_x, later.l_y = shown.l_x, shown.l_y
+        shown.rotation_distance, later.rotation_distance = distance - 0.01, distance + 0.01
+        rows = self.rows({'periodic': self.bag(name, [info, shown, later])})
+        return (
+            rows['weight of the L modes of LP(1,0) in the T fields'],
+            rows['largest deviation of a singular value of Q from 1, LP(1,0)'],
         )
+
+    def test_curls_in_l_modes(self):
+        """By chance a vector of 20 disks has 0.05 of it in two fields."""
+        for letter, share, curl, verdict in (
+            ('L', 0.9, 0.0, 'agrees'),
+            ('T', 0.04, 0.04, 'agrees'),
+            ('T', 0.06, 0.06, 'differs'),
+            ('T', 0.9, 0.9, 'differs'),
+        ):
+            row, _ = self.reconstructed(f'{letter}{share}', share, letter)
+            self.assertAlmostEqual(row.measured, curl, delta=ROUNDING)
+            self.assertEqual((row.published, round(row.left_open, 9)), (0.0, 0.05))
+            self.assertEqual(row.verdict, verdict)
+
+    def test_every_pair_counts(self):
+        """The first pair is a gradient, the second one a curl."""
+        info = made.run_info()
+        one = made.step(info, LP, 1, 0, 32, 35)
+        gradient, curl = (field(info, one, 1.0, letter, 'TL') for letter in 'LT')
+        gradient.l_x, gradient.l_y = (
+            [*first, *second]
+            for first, second in ((gradient.dqx, curl.dqx), (gradient.dqy, curl.dqy))
+        )
+        weights = [
+            projection.weight(info, mode, letter)
+            for mode in pairs.modes(gradient, 'L')
+            for letter in 'LT'
+        ]
+        self.assertAlmostEqual(weights[0], 1.0, delta=ROUNDING)
+        self.assertAlmostEqual(weights[3], 1.0, delta=ROUNDING)
+        rows = self.rows({'periodic': self.bag('periodic', [info, gradient])})
+        self.assertAlmostEqual(
+            rows['weight of the L modes of LP(1,0) in the T fields'].measured,
+            np.mean(weights[1::2]),
+            delta=ROUNDING,
+        )
+
+    def test_rotated(self):
+        for distance, verdict in ((0.1, 'agrees'), (0.47, 'not decided'), (0.9, 'differs')):
+            _, row = self.reconstructed(f'q{distance}', 0.9, 'L', distance)
+            self.assertAlmostEqual(row.measured, distance)
+            self.assertAlmostEqual(row.error, 0.01)
+            self.assertEqual((row.published, row.verdict), (0.5, verdict))
+            self.assertIn('L 0.100, P 0.100', row.remark)
+
+    def test_nine_panels_and_two_patterns(self):
+        figures = self.figures(self.full())
+        panels = figures['fields'].axes
+        self.assertEqual(
+            [axes.get_title()[:6] for axes in panels],
+            [f'{letter}({nodes})' for nodes in ('1,0', '0,1', '1,1') for letter in 'TLP'],
+        )
+        shown = made.mode_field(made.run_info(), self.found(made.run_info())[5])
+        for axes, halves in zip(panels[-2:], ((shown.l_x, shown.l_y), (shown.p_x, shown.p_y))):
+            (arrows,) = [one for one in axes.collections if hasattr(one, 'U')]
+            values = np.array(halves)[:, : len(shown.x)]  # of the first pair
+            size = np.sqrt(np.mean(np.sum(values**2, axis=0)))
+            np.testing.assert_allclose([arrows.U, arrows.V], values * ARROW / size)
         wanted = made.mode_field(
             made.run_info(), self.found(made.run_info())[4], modulations=(0, 1)
         )

@@ -1,58 +1,63 @@
-"""Part 4: the vector fields of the T and LP modes of the smallest wave vectors, and T(1,1) as two
+"""Part 4: the vector fields of the T, L and P modes of the smallest wave vectors, and T(1,1) as two
 scalar patterns."""
 
 import numpy as np
 
-from hdlyap.plots import recording, steps
+from hdlyap.plots import recording, steps, waves
 from hdlyap.plots.figures import modes
 from hdlyap.plots.figures.pattern import pattern
-from hdlyap.plots.figures.style import INK, plt, scene
+from hdlyap.plots.figures.style import GREEN, INK, KIND_COLOURS, plt, scene
 
-from .. import averages, projection
+from .. import averages, pairs, projection
 from ..row import ABOVE, BELOW, Claim, Row
 
-TITLE = 'Vector fields of T and LP modes'
+TITLE = 'Vector fields of T, L and P modes'
+RUN = 'periodic'
 NODES = ((1, 0), (0, 1), (1, 1))
-STEPS = [
-    f'{kind}({nx},{ny})' for nx, ny in NODES for kind in ('T', 'LP')
-]  # T and LP side by side in the figure
+STEPS = [f'{kind}({nx},{ny})' for nx, ny in NODES for kind in ('T', 'LP')]
 PATTERN = 'T(1,1)'
-HALF, LITTLE = 0.5, 0.05  # of a vector, by its squared norm
+HALF = 0.5  # of a vector, by its squared norm
+NEARER = 0.5  # to a rotation, 0, than to what vectors of no step would give, 1
 LIMIT = 2.5  # root mean squares shown
 WIDTH = 7.2  # of a figure [inch]
 GRID = 60  # points along a direction
 
 
 def runs(plan):
-    return ['periodic']
+    return [RUN]
+
+
+# ---- claims --------------------------------------------------------------------------------------
 
 
 def claims(bags):
-    found = _by_step(bags['periodic'])
+    info, found = bags[RUN].recording.info, _by_step(bags[RUN])
+    of = {kind: [name for name in STEPS if name.startswith(kind + '(')] for kind in ('T', 'LP')}
     yield Claim(
         'T and LP modes are the vector fields of their wave vectors',
-        [
-            _row(
-                f'weight of {name} in its {letters} fields',
-                bags,
-                found.get(name),
-                letters,
-                HALF,
-                ABOVE,
-            )
-            for name in STEPS
-            for letters in ['T' if name.startswith('T') else 'LP']
-        ],
+        [_inside(info, name, kind, found.get(name)) for kind in of for name in of[kind]],
         f'more than {HALF:g} of a vector lies in them',
     )
     yield Claim(
-        'T modes are curls, which no gradient is part of',
+        'T modes are free of divergence',
         [
-            _row(f'weight of {name} in the L fields', bags, found.get(name), 'L', LITTLE, BELOW)
-            for name in STEPS
-            if name.startswith('T')
+            _none(info, f'weight of {name} in the L fields', 'L', [[one] for one in found[name]])
+            if name in found
+            else Row(f'weight of {name} in the L fields', 0.0)
+            for name in of['T']
         ],
-        f'less than {LITTLE:g} of a vector lies in the L fields of its wave vector',
+        'no more of them lies in the L fields of their wave vector than of a random vector',
+    )
+    yield Claim(
+        'L modes, reconstructed from the vectors of an LP step, are free of rotation',
+        [_no_curl(info, name, _reconstructed(found, name)) for name in of['LP']],
+        'no more of them lies in the T fields of their wave vector than of a random vector',
+    )
+    yield Claim(
+        'the vectors of an LP step are nearly its L and P modes, rotated',
+        [_rotated(name, _reconstructed(found, name)) for name in of['LP']],
+        f'singular values of Q are 1 but for less than {NEARER:g}; of random vectors they are '
+        'near 0',
     )
 
 
@@ -65,32 +70,100 @@ def _by_step(bag):
     return found
 
 
-def _row(quantity, bags, fields, letters, limit, sense):
+def _reconstructed(found, name):
+    """Fields of its vectors that have L and P modes beside them: its vectors are its own."""
+    return [field for field in found.get(name, ()) if field.pairs]
+
+
+def _inside(info, name, letters, fields):
+    quantity = f'weight of {name} in its {letters} fields'
     if not fields:
-        return Row(quantity, limit, sense=sense)
-    info = bags['periodic'].recording.info
-    mean, error = averages.of_snapshots(
-        [projection.weight(info, field, letters) for field in fields]
-    )
+        return Row(quantity, HALF, sense=ABOVE)
+    weights = [projection.weight(info, field, letters) for field in fields]
     chance = projection.chance(info, fields[0], letters)
+    remark = f'{len(fields)} snapshots; by chance {chance:.4f}'
+    return Row(quantity, HALF, *_mean(weights), remark=remark, sense=ABOVE)
+
+
+def _no_curl(info, name, fields):
+    quantity = f'weight of the L modes of {name} in the T fields'
+    if not fields:
+        return Row(quantity, 0.0)
+    return _none(info, quantity, 'T', [pairs.modes(field, 'L') for field in fields])
+
+
+def _none(info, quantity, letter, times):
+    """No more than chance. times: of each, the fields that are averaged before the error is
+    known."""
+    weights = [np.mean([projection.weight(info, one, letter) for one in now]) for now in times]
+    chance = projection.chance(info, times[0][0], letter)
+    remark = f'{len(times)} snapshots; by chance {chance:.4f}'
+    return Row(quantity, 0.0, *_mean(weights), left_open=chance, remark=remark)
+
+
+def _rotated(name, fields):
+    quantity = f'largest deviation of a singular value of Q from 1, {name}'
+    if not fields:
+        return Row(quantity, NEARER, sense=BELOW)
+    residuals = (
+        np.mean([getattr(one, part) for one in fields]) for part in ('residual_l', 'residual_p')
+    )
     return Row(
         quantity,
-        limit,
-        float(mean),
-        float(error),
-        remark=f'{len(fields)} snapshots; by chance {chance:.4f}',
-        sense=sense,
+        NEARER,
+        *_mean([field.rotation_distance for field in fields]),
+        remark=f'{len(fields)} snapshots; distance of the fields from the vectors: '
+        + 'L {:.3f}, P {:.3f}'.format(*residuals),
+        sense=BELOW,
     )
+
+
+def _mean(values):
+    mean, error = averages.of_snapshots(values)
+    return float(mean), float(error)
+
+
+# ---- figures and table ---------------------------------------------------------------------------
+
+
+class Panel:
+    """A reconstructed mode in place of modes.Panel."""
+
+    def __init__(self, mode):
+        self.field = mode
+        self.name = f'{mode.letter}({mode.nx},{mode.ny})'
+        self.title = f'{self.name}, $A=${waves.formula(mode.nx, mode.ny, mode.bits)}'
+        self.colour = KIND_COLOURS['LP'] if mode.letter == 'L' else GREEN
 
 
 def figures(bags):
-    run = bags['periodic'].recording
-    figure = modes.draw(run, STEPS)
-    if figure is not None:
+    run = bags[RUN].recording
+    panels = _panels(run)
+    if panels:
+        figure = modes.draw_panels(panels, run.info)
+        figure.suptitle(
+            f'{scene(run.info)}, $t={panels[0].field.sim_time:g}$: $\\delta q$ of T; '
+            'L and P modes, from all vectors of LP',
+            fontsize=9,
+        )
         yield 'fields', figure
     panel = next(iter(modes.named(run, [PATTERN])), None)
     if panel is not None:
         yield 'patterns', _patterns(panel, run.info)
+
+
+def _panels(run):
+    """Of each wave vector a T vector, and an L mode beside the P mode of the same modulation."""
+    found = []
+    for nx, ny in NODES:
+        found += modes.named(run, [f'T({nx},{ny})'])
+        for panel in modes.named(run, [f'LP({nx},{ny})']):
+            found += [Panel(pairs.modes(panel.field, letter)[0]) for letter in _letters(panel)]
+    return found
+
+
+def _letters(panel):
+    return 'LP' if panel.field.pairs else ''
 
 
 def _patterns(panel, info):
@@ -126,9 +199,9 @@ def _shape(field, info):
 
 
 def tables(bags):
-    info = bags['periodic'].recording.info
+    info = bags[RUN].recording.info
     lines = []
-    for name, fields in _by_step(bags['periodic']).items():
+    for name, fields in _by_step(bags[RUN]).items():
         if name in STEPS:
             lines += [
                 (
