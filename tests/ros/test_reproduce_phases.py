@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 
 import made
-from made import LP
+from made import LP, T
 from hdlyap.reproduce import blocks
 from hdlyap.reproduce.parts import phases
 from hdlyap.reproduce.row import Scatter
@@ -144,6 +144,57 @@ class Phases(Turned):
         name, index, bits, time, phase = lines[1]
         self.assertEqual((name, bits, time), ('LP(1,0)', 'cos cos', '3'))  # every other of 300
         self.assertAlmostEqual(float(phase), 1.5 * made.wave_number(self.INFO, 1, 0) * 3, 3)
+
+    T_STEPS = [made.step(INFO, T, 1, 0, 36, 37), made.step(INFO, T, 0, 1, 30, 31)]
+
+    def standing(self, name='T', omega=0.0, error=1e-3, members=1):
+        """LP(1,0) turns with 1.5 k, T modes with omega."""
+        found = [*self.FOUND, *self.T_STEPS]
+        self.T_STEPS[1].members = members
+        self.T_STEPS[1].set = self.FOUND[0].set if members > 1 else self.T_STEPS[1].first_index
+        messages = [made.t_phases(found, t, began=100.0) for t in (101.0, 102.0, 103.0, 104.0)]
+        for phase in messages[-1].phases:
+            phase.omega, phase.omega_error = omega, error
+        (wave,) = self.waves(1.5)
+        turning = course(self.TIMES, wave)
+        return super().bag(self.INFO, *turning, *messages, made.steps(found, 300.0))
+
+    def test_t_modes_that_stand_or_move(self):
+        """Between a vector of LP(1,0), 1.5, and 0."""
+        k = made.wave_number(self.INFO, 1, 0)
+        for omega, error, verdict in (
+            (0.0, 1e-3 * k, 'agrees'),
+            (0.0, 0.031 * k, 'not decided'),  # less than a tenth of 1.5 would not be seen
+            (0.004 * k, 1e-3 * k, 'differs'),
+            (-0.004 * k, 1e-3 * k, 'differs'),
+            (1.5 * k, 1e-3 * k, 'differs'),
+            (0.0, -1.0, 'not measured'),
+        ):
+            row = self.rows(self.standing(omega=omega, error=error))['omega / k of T(1,0)']
+            self.assertEqual(row.verdict, verdict)
+            if error > 0:
+                self.assertAlmostEqual(row.measured, omega / k, 12)
+                self.assertAlmostEqual(row.error, error / k, 12)
+
+    def test_diffusion_of_t_modes(self):
+        rows = self.rows(self.standing())
+        self.assertIn('D of its phase 0.00040(10) ', rows['omega / k of T(1,0)'].remark)
+
+    def test_mixed_t_steps_are_left_out(self):
+        rows = self.rows(self.standing(members=2))
+        self.assertIn('omega / k of T(1,0)', rows)
+        self.assertNotIn('omega / k of T(0,1)', rows)
+
+    def test_figure_of_t_modes(self):
+        """Times and phases of the first vector of each, and LP(1,0) beside them."""
+        lines = self.figures(self.standing())['standing'].axes[0].lines
+        (curve,) = [one for one in lines if len(one.get_xdata()) == 4][:1]
+        np.testing.assert_allclose(curve.get_xdata(), [101.0, 102.0, 103.0, 104.0])
+        np.testing.assert_allclose(curve.get_ydata(), 0.25)
+        begin, end = lines[-1].get_xdata()
+        turns = np.ptp(lines[-1].get_ydata())
+        rate = 1.5 * made.wave_number(self.INFO, 1, 0) / (2 * np.pi)
+        self.assertAlmostEqual(turns / (end - begin), rate, 3)
 
     def test_nothing_measured(self):
         bag = self.bag(self.INFO, made.cost(1))

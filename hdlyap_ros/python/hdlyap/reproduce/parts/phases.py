@@ -1,22 +1,26 @@
-"""Part 7: in the periodic system every phase turns evenly, at a rate in proportion to its wave
-number."""
+"""Part 7: in the periodic system every phase of an LP pair turns evenly, at a rate in proportion to
+its wave number; T modes stay where they are."""
 
 import numpy as np
 
 from hdlyap.plots import steps, waves
 from hdlyap.plots.figures import phases as figure_of_phases
+from hdlyap.plots.figures.style import GREY, INK, MEMBER_COLOURS, plt, scene
+from hdlyap.plots.numbers import with_error
 from hdlyap.plots.phases import regression
 
-from .. import rotation
-from ..row import Claim, Row, Scatter
+from .. import rotation, standing
+from ..row import TELLING, Claim, Row, Scatter
 from ..velocity import over_slope
 
-TITLE = 'Phases of LP pairs of the periodic system; their rate in proportion to k'
+TITLE = 'Phases of LP pairs of the periodic system, their rate in proportion to k; T modes stay'
 RUN = 'periodic'
 WINDOW = 50.0  # over which a phase that diffuses is compared with even turning [time units]
 KEPT = 200  # of a curve in the table
 SHORTEST = 10  # reports in it
 PRECISE = 2.0  # %: one of the steps may be off by so much without being seen
+SHOWN_TURNS = 2  # of an LP mode beside the T modes
+UNIT = 'sigma/time unit'
 MODULATIONS = ('cos cos', 'sin cos', 'cos sin', 'sin sin')
 
 
@@ -32,6 +36,11 @@ def claims(bags):
         'omega is in proportion to k',
         [Scatter('omega / k of the LP steps about their mean', *line.scatter, PRECISE)],
         'chi^2 from our errors',
+    )
+    yield Claim(
+        'T modes are stationary',
+        list(_standing_rows(standing.read(bag).values(), _slowest(turning))),
+        'omega / k is 0 within our error; a tenth of v of the LP modes would be seen',
     )
     yield Claim(
         'velocity', [*_velocity_rows(turning, line), over_slope('v', *line.v, bag.recording)]
@@ -53,10 +62,34 @@ def _velocity_rows(turning, line):
             None,
             v,
             error,
-            unit='sigma/time unit',
+            unit=UNIT,
             remark=f'k = {one.wave_number:.5f}{line.remark(v, error)}',
         )
-    yield Row('v, common', None, *line.v, unit='sigma/time unit')
+    yield Row('v, common', None, *line.v, unit=UNIT)
+
+
+def _slowest(turning):
+    """The Rotation of the smallest k whose velocity is known; None without one."""
+    known = [one for one in turning if one.velocity()[0]]
+    return min(known, key=lambda one: one.wave_number, default=None)
+
+
+def _standing_rows(found, beside):
+    """beside: Rotation of an LP step, or None."""
+    telling = None if beside is None else TELLING * beside.velocity()[0]
+    for one in found:
+        diffusion = one.diffusion()
+        about = f'D of its phase {with_error(*diffusion)} rad^2/time unit' if diffusion[0] else ''
+        yield Row(
+            f'omega / k of {one.name}',
+            0.0,
+            *one.velocity(),
+            unit=UNIT,
+            telling=telling,
+            remark=about,
+        )
+    if not found:
+        yield Row('omega / k of the T steps', 0.0, unit=UNIT)
 
 
 class Line:
@@ -137,6 +170,31 @@ def figures(bags):
     )
     if figure is not None:
         yield 'phases', figure
+    found = standing.read(bags[RUN])
+    if found:
+        yield 'standing', _figure_of_standing(bags[RUN], found)
+
+
+def _figure_of_standing(bag, found):
+    """Phases of T modes, and how fast those of the slowest LP step turn."""
+    figure, axes = plt.subplots(figsize=(5.6, 3.2), constrained_layout=True)
+    axes.axhline(0, color=GREY, linewidth=0.5)
+    times = []
+    for (wave, one), colour in zip(found.items(), MEMBER_COLOURS):
+        for time, phase in standing.course(bag, wave):
+            axes.plot(time, phase / (2 * np.pi), color=colour)
+            times += list(time[:1])
+        axes.plot([], [], color=colour, label=one.name)
+    beside = _slowest(rotation.read(bag).values())
+    if beside is not None and times:
+        rate = beside.velocity()[0] * beside.wave_number / (2 * np.pi)
+        ends = min(times) + np.array([0, SHOWN_TURNS / rate])
+        axes.plot(ends, [0, SHOWN_TURNS], '--', color=INK, label=f'{beside.name} turns')
+    axes.set_xlabel('simulated time  [time units]')
+    axes.set_ylabel(r'phase $/\,2\pi$')
+    axes.legend(loc='upper right')
+    figure.suptitle(scene(bag.recording.info), fontsize=9)
+    return figure
 
 
 def tables(bags):
