@@ -68,15 +68,16 @@ class Lines(unittest.TestCase):
         self.assertIsNone(structure.line(times, self.turning(times, 0.8)))
 
 
-def message(info, sim_time, found, vectors=37, means=True):
-    """Vectors of these steps have their waves; LP turn by v k, T stand. Others are noise."""
+def message(info, sim_time, found, vectors=37, means=True, omega=(OMEGA, 0.0)):
+    """Vectors of these steps have their waves; LP turn by v k, T stand, unless omega says otherwise
+    of LP and of T, over k. Others are noise."""
     factors = np.full((2, len(WAVES), vectors), 0.5)
     peak = np.full(vectors, 4)
     now = np.zeros((2, 4, vectors))
     for one in found:
         wave = int(np.flatnonzero((WAVES == (one.nx, one.ny)).all(axis=1))[0])
         direction = 0 if one.kind == made.LP else 1
-        turned = OMEGA * one.wave_number * sim_time if one.kind == made.LP else 0.3
+        turned = 0.3 + omega[direction] * one.wave_number * sim_time
         for index in range(one.first_index, one.last_index + 1):
             phase = turned + 0.5 * np.pi * (index - one.first_index)
             factors[direction, wave, index - 1] = 8.0

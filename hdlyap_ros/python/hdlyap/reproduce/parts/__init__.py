@@ -12,13 +12,16 @@ from . import (
     densities,
     dispersion,
     fields,
+    gas,
     hydro,
     intervals,
+    localization,
     multiplicities,
     p_mode,
     phases,
     smallest,
     spectrum,
+    structure,
     travelling,
     turning,
 )
@@ -38,6 +41,9 @@ PARTS = (
     hydro,
     travelling,
     intervals,
+    structure,
+    localization,
+    gas,
 )
 
 
