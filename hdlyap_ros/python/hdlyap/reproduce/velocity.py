@@ -1,9 +1,9 @@
 """The velocity of LP modes beside the slope of their branch, and beside the equation of motion of
 the fields."""
 
-from math import hypot, pi, sqrt
+from math import hypot, sqrt
 
-from hdlyap.plots import paper, steps
+from hdlyap.plots import equation, paper, steps
 
 from .row import Row
 
@@ -23,5 +23,4 @@ def over_slope(quantity, v, error, recording):
 
 def of_fields(density):
     """[T13]: Z / sqrt(2), with Henderson's Z = P / (density kT)."""
-    eta = pi * density / 4
-    return (1 + eta**2 / 8) / (1 - eta) ** 2 / sqrt(2)
+    return float(equation.compressibility(density)) / sqrt(2)
