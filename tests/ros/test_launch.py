@@ -70,7 +70,7 @@ class Launch(unittest.TestCase):
 
     def test_record_and_replay(self):
         """A bag of the same name is kept; the launch ends by itself, with the result of the run."""
-        with tempfile.TemporaryDirectory() as folder:
+        with tempfile.TemporaryDirectory(prefix="o'brien's runs ") as folder:
             with open(os.path.join(folder, 'q.bag'), 'w') as file:
                 file.write('of a year')
             run = self.roslaunch(
@@ -81,12 +81,13 @@ class Launch(unittest.TestCase):
                 'seed:=18446744073709551615',
                 'record:=true',
                 'bag:=q.bag',
+                'checkpoint:=' + os.path.join(folder, 'kept'),
             )
             self.assertEqual(run.wait(), 0, run.text())
             bag = os.path.join(folder, 'q.bag')
             self.check_bag(bag)
             self.check_result(run, 30, bag)
-            self.assertEqual(sorted(os.listdir(folder)), ['q.bag', 'q.bag.old'])
+            self.assertEqual(sorted(os.listdir(folder)), ['kept', 'q.bag', 'q.bag.old'])
             self.assertEqual(len(run.lines('q.bag was there already')), 1, run.text())
             with open(bag + '.old') as file:
                 self.assertEqual(file.read(), 'of a year')
@@ -204,6 +205,8 @@ class Launch(unittest.TestCase):
                 fields=fields,
                 hydro=0,
                 structure=0,
+                localization=0,
+                gas=0,
                 state=70,
                 status=70,
                 cost=70,

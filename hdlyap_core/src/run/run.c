@@ -398,8 +398,9 @@ static hd_status advance_disks(hd_run *run)
     take_changes(run);
     if (run->due.stage_end) return go_back(run, false);
     const bool sampled = run->gas && run->schedule.stage == HD_AVERAGING;
+    const double now = hd_run_time(run), cut = hd_schedule_cut(&run->schedule);
     const double end = sampled ? run->sample.begin + hd_run_sample_longest(run) : INFINITY;
-    const double cut = hd_schedule_cut(&run->schedule), stop = fmin(cut, end);
+    const double stop = fmin(cut, fmax(end, now)); /* a file may say that it is overdue */
     if (hd_advance_is_done(&run->advance)) hd_advance_make_plan(&run->advance, stop);
     HD_TRY(advance(run, NULL));
     if (sampled && hd_run_time(run) >= stop) {

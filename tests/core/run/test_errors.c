@@ -8,6 +8,7 @@
 #include "agreement.h"
 #include "runs.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -137,6 +138,37 @@ static void of_steps_that_share_a_set(void **state)
     free(h.numbers);
 }
 
+/** One exponent until its error is small enough: a run that ends where its error happens to look
+ * small states too little. Of normal numbers 5 % are beyond two errors, 0.3 % beyond three. */
+static void a_target_is_not_met_by_luck(void **state)
+{
+    (void)state;
+    enum { TIMES = 200 };
+    const double truth = 5.1067, of_truth = 0.0021; /* 40 runs of 4000 time units */
+    int beyond_two = 0, beyond_three = 0;
+    for (int seed = 1; seed <= TIMES; seed++) {
+        hd_scene_def scene = box(10, 0.7, hd_scene_def_default().aspect, HD_PERIODIC);
+        scene.equilibration = 5.0;
+        scene.warmup = 10.0;
+        scene.exponents = 1;
+        scene.observe = 0;
+        scene.duration = 20000.0;
+        scene.target_std_error = 0.1;
+        scene.seed = (uint64_t)seed;
+        hd_run *run = created(&scene);
+        while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+        const hd_spectrum *spectrum = hd_run_spectrum(run);
+        const double error = hd_spectrum_std_error(spectrum, 0);
+        const double off = fabs(hd_spectrum_exponent(spectrum, 0) - truth);
+        assert_true(hd_spectrum_time(spectrum) < 2000.0 && error <= scene.target_std_error);
+        beyond_two += off > 2.0 * hypot(error, of_truth);
+        beyond_three += off > 3.0 * hypot(error, of_truth);
+        hd_run_free(run);
+    }
+    print_message("%d of %d beyond two errors, %d beyond three\n", beyond_two, TIMES, beyond_three);
+    assert_true(beyond_two >= TIMES / 100 && beyond_two <= 17 && beyond_three <= 3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -144,6 +176,7 @@ int main(void)
         cmocka_unit_test(of_runs_just_long_enough),
         cmocka_unit_test(between_walls),
         cmocka_unit_test(of_steps_that_share_a_set),
+        cmocka_unit_test(a_target_is_not_met_by_luck),
     };
     return cmocka_run_group_tests_name("errors", tests, NULL, NULL);
 }
