@@ -367,7 +367,11 @@ hd_status hd_run_settle(hd_run *run) { return go_back(run, true); }
 static hd_status take_cut(hd_run *run)
 {
     const bool averaging = run->schedule.stage == HD_AVERAGING;
-    const bool reached = averaging && target_reached(run);
+    bool reached = averaging && target_reached(run);
+    if (reached && !is_measured(run)) { /* with the sample that ends here it may not be any more */
+        HD_TRY(end_early(run));
+        reached = target_reached(run);
+    }
     const double multiple = hd_schedule_next_multiple(&run->schedule, run->in_force.field_interval);
     run->due.report = true;
     run->due.fields = averaging && (reached || multiple <= hd_schedule_cut(&run->schedule));
