@@ -8,10 +8,12 @@
 
 from . import (
     aspect,
+    boxes,
     coordinates,
     densities,
     dispersion,
     fields,
+    fluctuations,
     hydro,
     intervals,
     multiplicities,
@@ -38,6 +40,8 @@ PARTS = (
     hydro,
     travelling,
     intervals,
+    boxes,
+    fluctuations,
 )
 
 
