@@ -228,6 +228,9 @@ class Boxes(Part):
         self.assertEqual((found[OTHERS], found[WALLED]), ('agrees', 'agrees'))
         row = rows['v over P / (sqrt 2 rho), narrow reflecting']
         self.assertAlmostEqual(row.measured, START - FALL * 2 * np.pi / 200, delta=5 * row.error)
+        # both waves of a square box
+        self.assertEqual(rows['v over P / (sqrt 2 rho), mixed'].remark, '1 waves of 1 boxes')
+        self.assertEqual(rows['v over P / (sqrt 2 rho), square'].remark, '2 waves of 1 boxes')
         slow = self.bags(lambda run, info, nodes: 0.93, infos=more())
         found = self.verdicts({**bags, **slow})
         self.assertEqual((found[OTHERS], found[WALLED]), ('differs', 'differs'))

@@ -50,8 +50,8 @@ class Growth(unittest.TestCase):
         rng = np.random.default_rng(2)
         trials = []
         for _ in range(300):
-            time = lengths(rng, 32)
-            trials.append(growth.Growth(time, white(time, 0.5, rng, 4), 7).of([8, 9]))
+            time = lengths(rng, 16)
+            trials.append(growth.Growth(time, white(time, 0.5, rng, 4), 7).of([7, 8, 9, 10]))
         values, errors = np.array(trials).T
         self.assertAlmostEqual(values.mean(), 0.5, delta=0.02)
         self.assertAlmostEqual(np.sqrt(np.mean(errors**2)) / values.std(), 1, delta=0.12)
