@@ -164,9 +164,38 @@ class Densities(unittest.TestCase):
         self.assertEqual({row.verdict for row in recorded.rows(densities, found)}, {'not measured'})
         self.assertEqual(recorded.pictures(self, densities, found), [])
 
+    def test_relations_to_c_l(self):
+        """Those of the fits are as straight as ours."""
+        rows = recorded.by_quantity(densities, bags())
+        row = rows['c_T over c_L, farthest from its straight line']
+        self.assertEqual((row.count, row.verdict), (8, 'agrees'))
+        slope = np.array([paper.slope_l(one / 10) for one in range(1, 9)])
+        other = np.array([paper.slope_t(one / 10) for one in range(1, 9)])
+        expected = np.polyfit(slope, other, 2, w=1 / other)[0] / OFF
+        found = rows['curvature of c_T over c_L, coefficient of c_L^2']
+        self.assertAlmostEqual(found.measured, expected, delta=0.2 * abs(expected))
+
+    def test_relations_without_a_density(self):
+        """Slopes of a mixture, and a velocity without an error, are left out."""
+        found = bags()
+        lone = found['density_03'].recording
+        lone.steps.steps[0].set = lone.steps.steps[1].set
+        for phase in found['density_05'].recording.phases.last.phases:
+            phase.omega_error = -1.0
+        rows = recorded.by_quantity(densities, found)
+        for symbol, count in (('c_T', 7), ('v', 6)):
+            row = rows[f'{symbol} over c_L, farthest from its straight line']
+            self.assertEqual(row.count, count)
+
     def test_table(self):
-        ((name, header, lines),) = densities.tables(bags())
+        (name, header, lines), (other, columns, scales) = densities.tables(bags())
         self.assertEqual((name, len(lines)), ('densities', 8))
+        self.assertEqual((other, len(scales)), ('scales', 8))
+        self.assertEqual({len(one) for one in scales}, {len(columns)})
+        numbers = dict(zip(columns, scales[6]))
+        k = made.wave_number(info_of(0.7), 1, 0)
+        self.assertEqual((numbers['k_min'], numbers['k_max']), (f'{k:.4g}',) * 2)
+        self.assertEqual(numbers['v'], f'{1.08 * OFF * paper.slope_l(0.7):.4g}')
         line = dict(zip(header, lines[6]))
         self.assertEqual(line['density'], '0.7')
         self.assertAlmostEqual(float(line['c_l']), OFF * paper.slope_l(0.7), places=4)

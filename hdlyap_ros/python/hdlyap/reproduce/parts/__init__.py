@@ -8,10 +8,12 @@
 
 from . import (
     aspect,
+    boxes,
     coordinates,
     densities,
     dispersion,
     fields,
+    fluctuations,
     gas,
     hydro,
     intervals,
@@ -44,6 +46,8 @@ PARTS = (
     structure,
     localization,
     gas,
+    boxes,
+    fluctuations,
 )
 
 

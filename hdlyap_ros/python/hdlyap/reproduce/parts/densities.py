@@ -8,7 +8,7 @@ from hdlyap.plots import paper, steps
 from hdlyap.plots.figures.style import GREEN, GREY, KIND_COLOURS, plt
 from hdlyap.plots.numbers import with_error
 
-from .. import averages, crossing, slopes, velocity
+from .. import averages, crossing, relations, scales, slopes, velocity
 from ..row import ABOVE, EQUAL, INFERRED, Claim, Row
 
 TITLE = 'Slopes c_T, c_L and velocity v against the density, 780 disks, periodic'
@@ -86,7 +86,24 @@ def claims(bags):
         [_crossing_row(found)],
         f'where fits that are off by {100 * paper.FIT_ACCURACY:g} % cross',
     )
+    yield from relations.claims(_triples(found), paper.FIT_ACCURACY)
     yield Claim('velocity', list(_beside(found)))
+
+
+def _triples(found):
+    """{what: (c_L, its error, what, its error) of the densities at which both are known}"""
+    return {
+        'c_T': [
+            (lp.slope, lp.slope_error, t.slope, t.slope_error)
+            for lp, t in ((one.branch['LP'], one.branch['T']) for one in found)
+            if slopes.own([lp]) and slopes.own([t])
+        ],
+        'v': [
+            (one.branch['LP'].slope, one.branch['LP'].slope_error, one.v, one.v_error)
+            for one in found
+            if slopes.own([one.branch['LP']]) and one.phases and isfinite(one.v_error)
+        ],
+    }
 
 
 def _beside(found):
@@ -332,7 +349,22 @@ def tables(bags):
         'v_all',
         'v_all_error',
     )
-    yield 'densities', header, [_line(one) for one in _all(bags)]
+    found = _all(bags)
+    yield 'densities', header, [_line(one) for one in found]
+    yield 'scales', scales.HEADER, [
+        scales.line(one.density, one.v if one.phases else None, _wave_numbers(bags[name].recording))
+        for name, one in zip(RUNS, found)
+    ]
+
+
+def _wave_numbers(recording):
+    """Of the resolved T and LP steps."""
+    message = recording.steps
+    return [
+        step.wave_number
+        for step in (message.steps if message else ())
+        if step.resolved and not step.conjugate and step.kind in (steps.T, steps.LP)
+    ]
 
 
 def _line(one):
