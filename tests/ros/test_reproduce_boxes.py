@@ -140,7 +140,7 @@ class Boxes(Part):
         row = rows['v over P / (sqrt 2 rho), density 0.1']
         k = 0.08  # about the mean of the waves
         self.assertAlmostEqual(row.measured, START - FALL * k, delta=5 * row.error)
-        self.assertEqual(row.remark, '3 waves of 1 boxes')
+        self.assertEqual(row.remark, 'waves: 3, boxes: 1')
         for claim in (LIMIT.format('periodic'), LIMIT.format('between walls')):
             for row in claims[claim].rows:
                 self.assertAlmostEqual(row.measured, START, delta=4 * row.error)
@@ -229,8 +229,8 @@ class Boxes(Part):
         row = rows['v over P / (sqrt 2 rho), narrow reflecting']
         self.assertAlmostEqual(row.measured, START - FALL * 2 * np.pi / 200, delta=5 * row.error)
         # both waves of a square box
-        self.assertEqual(rows['v over P / (sqrt 2 rho), mixed'].remark, '1 waves of 1 boxes')
-        self.assertEqual(rows['v over P / (sqrt 2 rho), square'].remark, '2 waves of 1 boxes')
+        self.assertEqual(rows['v over P / (sqrt 2 rho), mixed'].remark, 'waves: 1, boxes: 1')
+        self.assertEqual(rows['v over P / (sqrt 2 rho), square'].remark, 'waves: 2, boxes: 1')
         slow = self.bags(lambda run, info, nodes: 0.93, infos=more())
         found = self.verdicts({**bags, **slow})
         self.assertEqual((found[OTHERS], found[WALLED]), ('differs', 'differs'))

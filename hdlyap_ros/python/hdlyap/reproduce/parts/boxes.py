@@ -185,7 +185,7 @@ def _tenths(name):
 
 def _mean_row(name, found):
     value, error = mean(found)
-    remark = f'{len(found)} waves of {len({one.run for one in found})} boxes' if found else ''
+    remark = f'waves: {len(found)}, boxes: {len({one.run for one in found})}' if found else ''
     return Row(f'v over P / (sqrt 2 rho), {name}', 1.0, value, error, FALLS + HENDERSON, '', remark)
 
 
