@@ -69,15 +69,21 @@ END
 missing() { rosrun hdlyap reproduce --plan "$WORK/plan.yaml" --write --out "$WORK/out"; }
 
 # The key is offered by an agent: roslaunch asks for no other.
-# shellcheck disable=SC2016
+launched() {
+    local status=0
+    eval "$(ssh-agent -s)" && ssh-add -q "$WORK/key" && "$@" || status=1
+    ssh-agent -k
+    return "$status"
+}
+
 runs_on_both() {
     local runs
     cd "$WORK"
     unset ROS_HOSTNAME
     export ROS_IP=$NET.1 ROSLAUNCH_SSH_UNKNOWN=1
     runs=$(missing | tr '\n' ' ') && [[ $runs == 'periodic travelling ' ]] &&
-        ssh-agent bash -c 'ssh-add -q "$1" && exec roslaunch -p "$2" hdlyap reproduce.launch "runs:=$3" "folder:=$4" \
-            machine_file:=machines.launch machines:="m0 m1"' - "$WORK/key" "$(free_port)" "$runs" "$WORK/out" &&
+        launched roslaunch -p "$(free_port)" hdlyap reproduce.launch "runs:=$runs" "folder:=$WORK/out" \
+            machine_file:=machines.launch machines:="m0 m1" &&
         [[ -s out/periodic.bag && -s out/travelling.bag && -z $(missing) ]] && went_to_both
 }
 

@@ -27,10 +27,8 @@ void hd_localization_add(hd_localization *shape);
 
 long hd_localization_samples(const hd_localization *shape);
 
-/** Localisation width, [n], 1 / N .. 1: exp(<S>) / N with S = -sum m_i ln m_i, m_i = |dq_i|^2 +
- * |dp_i|^2 of disk i, <S> the mean over the samples (Taniguchi and Morriss, Phys. Rev. E 68, 046203
- * (2003)).
- */
+/** Localisation width, [n], 1 / N .. 1: exp(S) / N, S the mean over the samples of -sum m_i ln m_i,
+ * m_i = |dq_i|^2 + |dp_i|^2 of disk i (Taniguchi and Morriss, Phys. Rev. E 68, 046203 (2003)). */
 const double *hd_localization_widths(hd_localization *shape);
 /** Its standard error [T8]; negative while it cannot be known. O(blocks). */
 double hd_localization_width_error(const hd_localization *shape, int col);
