@@ -202,6 +202,12 @@ names_no_build_folder() {
     ! grep -rlF --exclude='*.pyc' "$WORK" "$STAGE"
 }
 
+# Before anything is built: catkin would give the path to a shell.
+refuses_a_folder() {
+    ! cmake -S "$ROOT" -B "$WORK/build (1)" >"$WORK/refused.log" 2>&1 &&
+        tr -s ' \n' ' ' <"$WORK/refused.log" | grep -qF 'build (1): must be without ( )'
+}
+
 own_environment "$WORK/home"
 stop_at_exit
 start roscore -p "${ROS_MASTER_URI##*:}" >"$WORK/roscore.log" 2>&1
@@ -229,4 +235,5 @@ check workspace_programs finds_programs "$SPACE/devel/setup.bash" "$SPACE/devel/
 check talks_in_workspace they_talk "$SPACE/devel/setup.bash"
 check destdir installs_below_destdir
 check no_build_folder names_no_build_folder
+check refuses_a_folder refuses_a_folder
 exit "$FAILED"
