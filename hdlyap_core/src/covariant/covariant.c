@@ -309,18 +309,6 @@ static hd_columns vectors_of(const hd_covariant *c)
     return (hd_columns){c->frame, c->vectors, 0, c->vectors};
 }
 
-/** Column-major: the null vectors [T9], `centre` of them. */
-static void fill_null(const hd_covariant *c, double *column)
-{
-    const hd_null_space null = hd_null_space_of(c->scene.boundary);
-    for (int k = 0; k < 2 * null.count; k++, column += c->rows) {
-        memset(column, 0, (size_t)c->rows * sizeof *column);
-        for (int j = 0; j < 2 * c->scene.disks; j++)
-            column[4 * (j / 2) + 2 * (k % 2) + j % 2] = hd_null_entry(null.axis[k / 2], j % 2,
-                                                                      c->p[j]);
-    }
-}
-
 /** NaN stays, which fmax would drop. */
 static void raise_to(double *most, double now)
 {
@@ -336,7 +324,8 @@ static hd_status measure_null(hd_covariant *c)
     for (int col = 0; col < c->centre; col++)
         cblas_dcopy(c->rows, c->frame + c->unstable + col, c->vectors,
                     columns + (size_t)col * (size_t)c->rows, 1);
-    fill_null(c, columns + (size_t)c->centre * (size_t)c->rows);
+    hd_null_space_fill(c->scene.boundary, c->p, c->scene.disks,
+                       columns + (size_t)c->centre * (size_t)c->rows);
     HD_TRY(hd_angles_between(c->null, c->angle, columns, covariant, exact));
     c->null_apart = c->angle[c->centre - 1];
     raise_to(&c->null_apart_most, c->null_apart);

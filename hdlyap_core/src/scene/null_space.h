@@ -2,6 +2,8 @@
 #ifndef HD_NULL_SPACE_H
 #define HD_NULL_SPACE_H
 
+#include <string.h>
+
 #include "hdlyap/scene.h"
 
 /** Those that a scene has, in the order of HD_NULL_*. */
@@ -22,6 +24,20 @@ static inline hd_null_space hd_null_space_of(const hd_boundary boundary[2])
 static inline double hd_null_entry(int axis, int d, double p)
 {
     return axis == HD_NULL_P ? p : (double)(axis == d);
+}
+
+/** column[2 count][4 disks]: each direction in dq and in dp; p[2 disks]: momenta. */
+static inline void hd_null_space_fill(const hd_boundary boundary[2], const double *p, int disks,
+                                      double *column)
+{
+    const hd_null_space null = hd_null_space_of(boundary);
+    const size_t rows = 4 * (size_t)disks;
+    for (int k = 0; k < 2 * null.count; k++, column += rows) {
+        memset(column, 0, rows * sizeof *column);
+        for (int j = 0; j < 2 * disks; j++)
+            column[4 * (j / 2) + 2 * (k % 2) + j % 2] = hd_null_entry(null.axis[k / 2], j % 2,
+                                                                      p[j]);
+    }
 }
 
 #endif
