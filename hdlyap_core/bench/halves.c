@@ -131,7 +131,7 @@ static void step_measure(harvest *h, sums *s, const hd_step *step, int index)
 {
     const hd_subspace *space = hd_fields_subspace(h->fields, step->subspace);
     hd_columns x = hd_run_frame_columns(h->run);
-    double complex z[VECTORS][PAIRS], w[VECTORS][PAIRS];
+    double complex z[VECTORS][PAIRS] = {{0.0}}, w[VECTORS][PAIRS];
     const int pairs = space->dimension / 2;
     x.data += step->col - x.first;
     x.first = step->col, x.count = step->count;

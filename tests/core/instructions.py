@@ -18,12 +18,13 @@ MODES, STEPS, PHASES, EVERYTHING, GAS, WIDTHS = 1, 2, 4, 223, 256, 512  # HD_OBS
 # sources of each stage; what is common to all is in none
 OF_TRAJECTORY = {'trajectory.c', 'prediction.c', 'contact.h', 'cells.c', 'queue.c'}
 OF_FRAME = {'frame.c', 'replay.c', 'ortho.c', 'panel.c', 'spectrum.c', 'blocks.c', 'blas.c'}
-OF_MODES = {'fields.c', 'modes.c'}
+OF_MODES = {'fields.c', 'harmonics.c', 'modes.c'}
 OF_STEPS = {'steps.c', 'sets.c'}
-OF_PHASES = {'phases.c'}
+OF_PHASES = {'phases.c', 'rotor.c', 'track.c', 'foresight.c'}
+OF_STRUCTURE = {'structure.c'}
 OF_GAS, OF_WIDTHS = {'gas.c'}, {'localization.c'}
 OF_CALLER = {'pmode.c', 'hydro.c', 'dispersion.c'}  # called by who publishes
-LATER = OF_MODES | OF_STEPS | OF_PHASES | OF_CALLER | OF_GAS | OF_WIDTHS
+LATER = OF_MODES | OF_STEPS | OF_PHASES | OF_STRUCTURE | OF_CALLER | OF_GAS | OF_WIDTHS
 LIBRARIES = ('blas', 'lapack', 'gomp')
 
 

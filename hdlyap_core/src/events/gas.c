@@ -121,7 +121,7 @@ hd_gas_means hd_gas_read(const hd_gas *gas)
     return m;
 }
 
-void hd_gas_archive(hd_gas *gas, hd_archive *archive, double now)
+void hd_gas_archive(hd_gas *gas, hd_archive *archive, double now, uint64_t collisions)
 {
     hd_archive_double(archive, "gas last time", &gas->last.time);
     hd_archive_doubles(archive, "gas last virial", gas->last.virial, 2);
@@ -130,6 +130,8 @@ void hd_gas_archive(hd_gas *gas, hd_archive *archive, double now)
     hd_archive_doubles(archive, "gas sum", gas->sum, SERIES);
     hd_archive_expect(archive, gas->last.time >= 0 && gas->last.time <= now, "gas last time",
                       "it does not fit the time");
+    hd_archive_expect(archive, gas->last.collisions <= collisions, "gas last collisions",
+                      "there were not so many");
     hd_archive_expect(archive, gas->time >= 0, "gas time", "it is negative");
     hd_blocks_archive(&gas->blocks, archive);
 }

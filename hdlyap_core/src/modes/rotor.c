@@ -126,7 +126,7 @@ static void slots_match(hd_rotor *r, const hd_step *step, const hd_modes *modes,
                 const double s = continuation(r, modes, v, step->col + m, dt);
                 const bool stays = step->col + m == r->slot_col[v] && r->sign[v] * s > 0;
                 const double score = fabs(s) + (stays ? PREFERENCE : 0.0);
-                if (score > best) best = score, sign = s, slot = v, column = m;
+                if (!(score <= best)) best = score, sign = s, slot = v, column = m;
             }
         taken[column] = done[slot] = true;
         r->slot_col[slot] = step->col + column;

@@ -102,7 +102,9 @@ static void parts_archive(hd_run *run, hd_archive *archive)
     hd_trajectory_archive(run->advance.trajectory, archive);
     hd_schedule_archive(&run->schedule, archive);
     hd_interval_archive(&run->interval, archive);
-    if (run->gas) hd_gas_archive(run->gas, archive, hd_run_time(run));
+    if (run->gas)
+        hd_gas_archive(run->gas, archive, hd_run_time(run),
+                       hd_trajectory_collisions(run->advance.trajectory));
     if (!run->frame || hd_communicator_agree(run->communicator, archive->status) != HD_OK) return;
     hd_event_log_archive(run->log, archive, run->scene.disks);
     const hd_status status = hd_frame_archive(run->frame, archive);

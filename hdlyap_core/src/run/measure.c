@@ -24,6 +24,7 @@ hd_status hd_run_measure(hd_run *run)
     HD_TRY(hd_run_agree(run, measure_here(run)));
     HD_TRY(hd_observer_share(&run->observer, run->observe, run->communicator,
                              hd_frame_stride(run->frame), run->carried));
+    if (run->communicator) run->observer.known.count = run->vectors; /* alike, whoever has them */
     run->cost.modes += hd_clock_now() - start;
     return HD_OK;
 }

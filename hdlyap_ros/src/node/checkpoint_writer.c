@@ -105,8 +105,8 @@ static bool identify(const char *path, file_identity *out)
     if (statx(AT_FDCWD, path, 0, STATX_INO | STATX_MTIME | STATX_BTIME, &now) != 0) return false;
     const bool known = now.stx_mask & STATX_BTIME;
     const struct statx_timestamp when = known ? now.stx_btime : now.stx_mtime;
-    *out = (file_identity){now.stx_dev_major, now.stx_dev_minor, now.stx_ino, when.tv_sec,
-                           when.tv_nsec};
+    *out = (file_identity){now.stx_dev_major, now.stx_dev_minor, now.stx_ino, known,
+                           when.tv_sec,       when.tv_nsec};
     return true;
 }
 
@@ -146,14 +146,16 @@ bool checkpoint_writer_due(const checkpoint_writer *k)
     return k->changed && k->due < INFINITY && clock_seconds() >= k->due;
 }
 
-/** Two runs must not take turns with one file. */
+/** Two runs must not take turns with one file: each makes a new one, under the same name. What is
+ * copied into the old one is not seen. */
 static bool is_mine(const checkpoint_writer *k)
 {
     const file_identity *own = &k->written;
     file_identity now;
     if (!identify(k->set->checkpoint, &now)) return true;
+    const bool same_time = now.seconds == own->seconds && now.nanoseconds == own->nanoseconds;
     return now.major == own->major && now.minor == own->minor && now.number == own->number &&
-           now.seconds == own->seconds && now.nanoseconds == own->nanoseconds;
+           (same_time || now.born != own->born);
 }
 
 static hd_status save(checkpoint_writer *k, hd_run *run)

@@ -3,6 +3,8 @@
 #ifndef HDLYAP_CHECKPOINT_WRITER_H
 #define HDLYAP_CHECKPOINT_WRITER_H
 
+#include <stdbool.h>
+
 #include "hdlyap/checkpoint.h"
 #include "settings.h"
 
@@ -18,6 +20,7 @@ typedef struct kept {
 typedef struct file_identity {
     unsigned major, minor; /**< of the device */
     unsigned long long number;
+    bool born; /**< which of both the time is */
     long long seconds;
     unsigned nanoseconds;
 } file_identity;

@@ -214,7 +214,9 @@ static bool look_after(app *a)
 static int finish(app *a)
 {
     worker_state state = worker_state_now(a->work);
-    if (state.status == HD_OK) state.status = worker_finish(a->work);
+    const hd_status finished = state.status == HD_OK ? worker_finish(a->work) : state.status;
+    state = worker_state_now(a->work); /* a file that was being written may be whole by now */
+    state.status = finished;
     diagnostics_publish(&a->diag, &state);
     log_end(&state);
     if (state.saving) hdr_log(HDR_ERROR, "checkpoint not written: the disk does not answer");

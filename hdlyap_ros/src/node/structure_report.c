@@ -87,6 +87,7 @@ hd_status structure_report_publish(structure_report *r, const snapshot *now)
     const bool means = hd_run_fields_due(now->run);
     const size_t numbers = means ? r->waves * r->vectors : 0, n = r->vectors;
     const uint32_t waves = (uint32_t)r->waves;
+    if (hd_structure_samples(s) == 0) return HD_OK;
     gather(r, s, means);
     const hdr_structure message = {
         .header = message_header(),

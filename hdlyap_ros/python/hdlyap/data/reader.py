@@ -33,6 +33,9 @@ ALIKE = {
 }
 
 
+AMPLITUDES = 'amplitude_along', 'amplitude_across'
+
+
 class RecordingError(Exception):
     """One line for the user: what is wrong with which bag."""
 
@@ -112,6 +115,12 @@ def _check(kind, message):
         raise Damaged(f'{kind}: no exponents')
     if kind == LOCALIZATION and not len(message.widths):
         raise Damaged(f'{kind}: no widths')
+    if kind == STRUCTURE:
+        n, waves = len(message.peak), len(message.nx)
+        means = {len(message.along), len(message.across)}
+        now = {len(getattr(message, name)) for name in AMPLITUDES}
+        if means not in ({0}, {n * waves}) or now != {4 * n}:
+            raise Damaged(f'{kind}: {sorted(means | now)} elements of {n} vectors, {waves} waves')
     if kind == RUN_INFO:
         sizes = message.density, message.aspect, message.box_x, message.box_y
         if not (message.disks and all(math.isfinite(size) and size > 0 for size in sizes)):

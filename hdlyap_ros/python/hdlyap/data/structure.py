@@ -45,10 +45,14 @@ def amplitudes(messages, indices, direction):
     times, rows, peaks = [], [], []
     columns = np.array(indices) - 1
     for message in messages:
+        most = len(message.peak)
+        if len(columns) and not 0 <= columns.min() <= columns.max() < most:
+            raise IndexError(f'indices {list(indices)}: must be from 1 to {most}')
         times.append(message.sim_time)
         rows.append(structure.amplitudes(message, direction)[:, columns])
         peaks.append(np.array(message.peak)[columns])
-    rows = np.where((np.array(peaks) == peaks[-1])[:, np.newaxis], rows, np.nan)
+    shown = (np.array(peaks) == peaks[-1]) & (np.array(peaks) > 0)  # 0: no wave yet
+    rows = np.where(shown[:, np.newaxis], rows, np.nan)
     names = pandas.MultiIndex.from_product([range(4), indices], names=['modulation', 'index'])
     frame = pandas.DataFrame(
         rows.reshape(len(rows), -1), pandas.Index(times, name='sim_time'), names
