@@ -14,8 +14,8 @@ import numpy as np
 import pandas
 
 import hdlyap
-import made
 from hdlyap.msg import Structure
+import made
 from made import LP, SCRIPTS, T
 from plotted import plot_bag
 from test_data import Bags
@@ -261,19 +261,25 @@ class Hostile(Tools):
         short.std_errors = short.std_errors[:-1]
         for name in ('exponents', 'std_errors', 'local_exponents', 'cos_theta', 'dp_dq_ratio'):
             setattr(empty, name, [])
-        unlike = Structure(run_id=info.run_id, peak=[0, 0], amplitude_along=[0.0] * 8)
         for said, messages in (
             ('its arrays have [36, 37] elements', [info, short]),
             ('no exponents', [info, empty]),
             ('0 disks', [made.run_info(disks=0), made.spectrum(HALF, 50.0)]),
             ('nan', [made.run_info(box_x=float('nan')), made.spectrum(HALF, 50.0)]),
-            ('elements of 2 vectors', [info, made.spectrum(HALF, 50.0), unlike]),
         ):
             bag = self.write('a', messages)
             for (status, _, error), fault in list(zip(self.all_tools(bag), (1, 2, 1)))[:2]:
                 self.assertEqual(status, fault)
                 self.assertIn('a.bag: damaged: ', error)
                 self.assertIn(said, error)
+
+    def test_structure_that_does_not_fit_together(self):
+        info = made.run_info()
+        unlike = Structure(run_id=info.run_id, peak=[0, 0], amplitude_along=[0.0] * 8)
+        bag = self.write('a', [info, made.spectrum(HALF, 50.0), unlike])
+        status, _, error = next(iter(self.all_tools(bag)))
+        self.assertEqual(status, 1)
+        self.assertIn('a.bag: damaged: hdlyap/Structure: [0, 8] elements of 2 vectors', error)
 
     def test_what_nobody_has_foreseen(self):
         """Of compare 1 says that runs differ; a mistake in it is no difference."""
