@@ -1,4 +1,4 @@
-"""Part 15 of the reproduction: boxes whose LP modes turn, and whose T modes grow, as is known."""
+"""Part 18 of the reproduction: boxes whose LP modes turn, and whose T modes grow, as is known."""
 
 import functools
 

@@ -1,4 +1,4 @@
-"""Part 16 of the reproduction: local exponents that fluctuate as is known."""
+"""Part 19 of the reproduction: local exponents that fluctuate as is known."""
 
 import unittest
 

@@ -8,7 +8,7 @@
 #include "base/check.h"
 
 static const double PI = 3.14159265358979323846;
-/** |omega| / lambda is at most about this: v / c_L is 1.14 at density 0.8, near 1 below 0.6. */
+/** |omega| / lambda is at most about this: v / c_L is 1.14 at density 0.8, 1.26 for long waves. */
 static const double RATE_PER_EXPONENT = 1.25;
 /** Sampling is refined when a step may turn by more than this part of pi, unless it is foreseen. */
 static const double SAFE = 0.75;

@@ -253,7 +253,7 @@ def _denser_row(bags, density):
     low, high = smallest.common([slopes.span(points) for points in both])
     walls = [bags[name].info for name in names[WALLS] if _t_points(bags, [name])]
     if None in curves or not low < high:
-        return Row(quantity, unit='%')
+        return Row(quantity, 0.0, unit='%')
     expected = float(np.mean([_higher(info) for info in walls]))
     difference, error = dispersion.mean_difference(*curves, low, high)
     inside = ', '.join(sorted({f'{pressure.inside(info):.3f}' for info in walls}))
