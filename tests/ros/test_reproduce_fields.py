@@ -68,6 +68,22 @@ class Averages(unittest.TestCase):
         self.assertEqual(averages.of_snapshots([1.0, 3.0]), (2.0, 1.0))
         self.assertEqual(averages.of_snapshots([5.0]), (5.0, -1.0))
 
+    def test_values_with_errors(self):
+        """Weights 1 and 4; chi^2 of 1, 3 with the errors 1, 1/2 about 2.6 is 2.56 + 0.64."""
+        mean, error, chi2 = averages.weighted([1.0, 3.0], [1.0, 0.5])
+        self.assertAlmostEqual(mean, 2.6)
+        self.assertAlmostEqual(chi2, 3.2)
+        self.assertAlmostEqual(error, np.sqrt(3.2 / 5))
+        self.assertAlmostEqual(averages.weighted([1.0, 1.0], [1.0, 0.5])[1], np.sqrt(1 / 5))
+
+    def test_quotient(self):
+        value, error = averages.quotient((6.0, 0.3), (2.0, 0.04))
+        self.assertAlmostEqual(value, 3.0)
+        self.assertAlmostEqual(error, 3 * np.hypot(0.05, 0.02))
+        for unknown in (-1.0, np.nan):
+            self.assertEqual(averages.quotient((6.0, 0.3), (2.0, unknown)), (3.0, -1.0))
+            self.assertEqual(averages.quotient((6.0, unknown), (2.0, 0.04)), (3.0, -1.0))
+
     def test_series_of_fours_is_as_long_as_its_fours(self):
         values = np.random.default_rng(1).normal(size=(10, 3))
         mean, error = averages.of_series(np.repeat(values, 4, axis=0))

@@ -8,6 +8,7 @@ import made
 from hdlyap.plots import waves
 from hdlyap.reproduce import halves
 from hdlyap.reproduce.parts import hydro
+from hdlyap.reproduce.row import UNDECIDED
 from test_reproduce_hydro import Run
 from turned import Turned
 
@@ -74,7 +75,10 @@ class Halves(unittest.TestCase):
             self.assertIn(f'{value:.4f}', remark)
 
     def test_without_errors(self):
-        self.assertEqual([row.error for row in rows(NUMBER, error=0.0)], [0.0, 0.0, 0.0])
+        """Not known: nothing is decided by them."""
+        found = rows(NUMBER, error=0.0)
+        self.assertEqual([row.error for row in found], [-1.0, -1.0, -1.0])
+        self.assertEqual({row.verdict for row in found}, {UNDECIDED})
 
 
 class OfABag(Turned):

@@ -15,6 +15,26 @@ def of_snapshots(values):
     return values.mean(axis=0), values.std(axis=0, ddof=1) / np.sqrt(len(values))
 
 
+def weighted(values, errors):
+    """(mean, its standard error, chi^2 about it) of independent values with these errors; the error
+    is larger where the values scatter more than theirs."""
+    values, errors = np.asarray(values, dtype=float), np.asarray(errors, dtype=float)
+    weights = errors**-2
+    mean = np.average(values, weights=weights)
+    chi2 = np.sum(weights * (values - mean) ** 2)
+    wider = max(1.0, chi2 / max(1, len(values) - 1))
+    return float(mean), float(np.sqrt(wider / weights.sum())), float(chi2)
+
+
+def quotient(above, below):
+    """(value, its standard error) of two (value, error) that do not know of each other; -1 if one
+    of these is not known."""
+    ratio = above[0] / below[0]
+    relative = [error / abs(value) for value, error in (above, below)]
+    known = all(np.isfinite(error) and error >= 0 for error in relative)
+    return float(ratio), float(abs(ratio) * np.hypot(*relative)) if known else -1.0
+
+
 def of_series(values):
     """The same of a series in which neighbours resemble each other: from the means of blocks."""
     values = np.asarray(values, dtype=float)

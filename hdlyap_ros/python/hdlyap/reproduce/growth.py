@@ -109,10 +109,7 @@ def indices(recording):
 def _of_step(recording, kind):
     """Indices of the steps of this kind with the smallest wave number; none if they share vectors
     with others."""
-    message = recording.steps
-    resolved = [
-        step for step in (message.steps if message else ()) if step.resolved and not step.conjugate
-    ]
+    resolved = list(steps.resolved(recording.steps).values())
     numbers = [step.wave_number for step in resolved if step.kind == kind]
     own = [
         step

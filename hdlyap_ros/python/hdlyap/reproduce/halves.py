@@ -22,6 +22,7 @@ import numpy as np
 
 from hdlyap.plots.numbers import with_error
 
+from . import averages
 from .row import Row
 
 # ours: what lies outside of the fields adds up to 3 % to the diagonal, and 0.01 rad
@@ -69,13 +70,16 @@ def _row(quantity, published, error, unit, matrices, of):
     ones = {wave: of(one.values, one.errors) for wave, one in matrices.items()}
     if not ones:
         return Row(quantity, published, None, 0.0, error, unit)
-    values, errors = np.array(list(ones.values())).T
-    weights = 1 / np.maximum(errors, 1e-12) ** 2
+    values, errors = zip(*ones.values())
+    if min(errors) > 0:
+        mean, of_mean, _ = averages.weighted(values, errors)
+    else:
+        mean, of_mean = float(np.mean(values)), -1.0
     return Row(
         quantity,
         published,
-        float(np.average(values, weights=weights)),
-        float(weights.sum() ** -0.5) if errors.all() else 0.0,
+        mean,
+        of_mean,
         error,
         unit,
         ', '.join(f'{with_error(*one)} at ({wave[0]},{wave[1]})' for wave, one in ones.items()),

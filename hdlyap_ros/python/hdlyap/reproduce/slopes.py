@@ -82,12 +82,7 @@ def noted(points):
 
 
 def _resolved(recording, kind):
-    message = recording.steps
-    return [
-        step
-        for step in (message.steps if message else ())
-        if step.resolved and step.kind == kind and not step.conjugate
-    ]
+    return [step for step in steps.resolved(recording.steps).values() if step.kind == kind]
 
 
 def _point(recording, found, skipped=()):

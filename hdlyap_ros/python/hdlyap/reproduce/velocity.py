@@ -1,10 +1,11 @@
 """The velocity of LP modes beside the slope of their branch, and beside the equation of motion of
 the fields."""
 
-from math import hypot, sqrt
+from math import sqrt
 
 from hdlyap.plots import equation, paper, steps
 
+from . import averages
 from .row import Row
 
 
@@ -15,10 +16,10 @@ def over_slope(quantity, v, error, recording):
     if v is None or not own:
         return Row(f'{quantity} / c_L')
     step, fitted = own[0], paper.slope_l(recording.info.density)
-    ratio = v * step.wave_number / step.exponent
-    relative = hypot(error / v, max(step.std_error, 0.0) / step.exponent)
+    k = step.wave_number
+    ratio = averages.quotient((v * k, error * k), (step.exponent, step.std_error))
     remark = f'c_L of {steps.name(step)}; {v / fitted:.3f} with that of the paper\'s fit'
-    return Row(f'{quantity} / c_L', None, ratio, ratio * relative, remark=remark)
+    return Row(f'{quantity} / c_L', None, *ratio, remark=remark)
 
 
 def of_fields(density):

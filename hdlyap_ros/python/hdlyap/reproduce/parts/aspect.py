@@ -3,12 +3,10 @@ walls."""
 
 import itertools
 
-import numpy as np
-
 from hdlyap.plots import paper, steps
 from hdlyap.plots.figures.style import KIND_COLOURS, plt
 
-from .. import slopes
+from .. import averages, slopes
 from ..row import Claim, Scatter
 
 TITLE = 'Slopes c_T, c_L against the aspect ratio, density 0.4, k = 0.2'
@@ -79,9 +77,9 @@ class Series:
 
     def mean(self):
         """(weighted mean slope, chi^2 of the slopes round it)"""
-        values, errors = np.array([(point.slope, point.slope_error) for _, point in self.known]).T
-        mean = np.average(values, weights=errors**-2)
-        return float(mean), float(np.sum(((values - mean) / errors) ** 2))
+        found = [(point.slope, point.slope_error) for _, point in self.known]
+        mean, _, chi2 = averages.weighted(*zip(*found))
+        return mean, chi2
 
 
 def fitted(kind, k):

@@ -8,7 +8,7 @@ import numpy as np
 from hdlyap.plots import dispersion, paper, steps
 from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, plt
 
-from .. import blocks, pressure, rotation, slopes
+from .. import averages, blocks, pressure, rotation, slopes, velocity
 from ..row import Claim, Row, Scatter
 from . import aspect, densities, smallest
 
@@ -54,7 +54,7 @@ class Wave:
     @property
     def bare(self):
         """The same over that of the pressure without walls."""
-        return self.v / (pressure.pressure(self.info.density) / self.info.density / 2**0.5)
+        return self.v / velocity.of_fields(self.info.density)
 
     @property
     def error(self):
@@ -118,13 +118,10 @@ def curve(found, which='ratio'):
 
 
 def mean(found):
-    """(weighted mean of v over that of the pressure, its error, larger where they scatter more)"""
+    """(weighted mean of v over that of the pressure, its error)"""
     if not found:
         return None, 0.0
-    ratios, errors = np.array([(one.ratio, one.error) for one in found]).T
-    value = np.average(ratios, weights=errors**-2)
-    chi2, freedom = np.sum(((ratios - value) / errors) ** 2), max(1, len(ratios) - 1)
-    return float(value), float(np.sqrt(max(1.0, chi2 / freedom) / np.sum(errors**-2)))
+    return averages.weighted(*zip(*[(one.ratio, one.error) for one in found]))[:2]
 
 
 # ---- rows ----------------------------------------------------------------------------------------
@@ -239,8 +236,8 @@ def _t_points(bags, names):
     found = []
     for name in names:
         recording = bags[name].recording
-        for step in recording.steps.steps if recording.steps else ():
-            if step.kind == steps.T and step.resolved and not step.conjugate:
+        for step in steps.resolved(recording.steps).values():
+            if step.kind == steps.T:
                 found.append(slopes.find(recording, steps.T, step.nx, step.ny))
     return slopes.own(found)
 

@@ -45,9 +45,7 @@ class Measured:
         lp = self.branch['LP']
         if lp is None or lp.error < 0 or not isfinite(self.v_error):
             return np.nan, np.nan
-        return self.v / lp.slope, self.v / lp.slope * hypot(
-            self.v_error / self.v, lp.error / lp.exponent
-        )
+        return averages.quotient((self.v, self.v_error), (lp.slope, lp.slope_error))
 
 
 def _step(recording, kind):
@@ -359,12 +357,8 @@ def tables(bags):
 
 def _wave_numbers(recording):
     """Of the resolved T and LP steps."""
-    message = recording.steps
-    return [
-        step.wave_number
-        for step in (message.steps if message else ())
-        if step.resolved and not step.conjugate and step.kind in (steps.T, steps.LP)
-    ]
+    found = steps.resolved(recording.steps).values()
+    return [step.wave_number for step in found if step.kind in (steps.T, steps.LP)]
 
 
 def _line(one):

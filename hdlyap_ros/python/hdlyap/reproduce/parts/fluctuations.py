@@ -7,7 +7,7 @@ import numpy as np
 from hdlyap.plots.figures.style import BLUE, GREEN, GREY, VERMILION, plt
 from hdlyap.plots.numbers import with_error
 
-from .. import growth
+from .. import growth, relations
 from ..row import Claim, Row
 from . import aspect, smallest
 
@@ -20,7 +20,6 @@ COLOURS = {
     growth.LAST_LP: GREEN,
 }
 SHOWN = 3  # boxes in the figure of all indices
-UNIT = '1/time unit'
 
 
 def runs(plan):
@@ -61,12 +60,8 @@ def power_of_disks(boxes, group):
     if len(set(known[:, 0])) < 3:
         return None, 0.0, len(known)
     x, y, errors = np.log(known[:, 0]), np.log(known[:, 1]), known[:, 2] / known[:, 1]
-    weights = errors**-2
-    x0, y0 = np.average(x, weights=weights), np.average(y, weights=weights)
-    inverse = 1 / np.sum(weights * (x - x0) ** 2)
-    slope = np.sum(weights * (x - x0) * (y - y0)) * inverse
-    chi2 = np.sum(weights * (y - y0 - slope * (x - x0)) ** 2) / (len(x) - 2)
-    return float(-slope), float(np.sqrt(max(1.0, chi2) * inverse)), len(known)
+    line = relations.Polynomial(np.column_stack([x, 0 * x, y, errors]), 1)
+    return float(-line.coefficients[0]), float(line.covariance[0, 0] ** 0.5), len(known)
 
 
 # ---- rows ----------------------------------------------------------------------------------------

@@ -1,12 +1,13 @@
 """Part 17: the disks as a gas, at the densities of part 8: pressure, collisions, sound."""
 
-from math import hypot, isfinite, sqrt
+from math import isfinite, sqrt
 
 import numpy as np
 
 from hdlyap.plots import equation
 from hdlyap.plots.figures.style import BLUE, GREY, INK, VERMILION, plt
 
+from .. import averages
 from ..row import Claim, Row
 from . import densities
 
@@ -41,10 +42,11 @@ class State:
     def rate_over_z(self):
         """The collision rate over the one that belongs to Z; both errors as if they knew nothing of
         each other."""
-        z, z_error = self.z
-        ratio = float(self.gas.collision_rate / equation.collision_rate(z))
-        parts = self.gas.collision_rate_error / self.gas.collision_rate, z_error / (z - 1)
-        return ratio, ratio * hypot(*parts) if min(parts) >= 0 else -1.0
+        (z, z_error), gas = self.z, self.gas
+        of_z = equation.collision_rate(z)
+        return averages.quotient(
+            (gas.collision_rate, gas.collision_rate_error), (of_z, of_z / (z - 1) * z_error)
+        )
 
 
 def _relative(gas, name, value):
@@ -124,15 +126,8 @@ def _beside(found):
 
 def _v_row(one):
     """[T13]: 1 if v is what the equation of motion of the fields gives."""
-    z, error = one.z
-    ratio = one.modes.v / z * sqrt(2)
-    relative = hypot(one.modes.v_error / one.modes.v, max(error, 0.0) / z)
-    return Row(
-        f'v over Z / sqrt(2) at density {one.density:.1f}',
-        None,
-        float(ratio),
-        float(ratio * relative),
-    )
+    ratio = averages.quotient((one.modes.v, one.modes.v_error), [part / sqrt(2) for part in one.z])
+    return Row(f'v over Z / sqrt(2) at density {one.density:.1f}', None, *ratio)
 
 
 def _sounds(known):

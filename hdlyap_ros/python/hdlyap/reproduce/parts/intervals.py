@@ -161,12 +161,11 @@ def _compared(trials):
         if None in means:
             yield Row(quantity, 0.0, unit='%', telling=TELLING)
             continue
-        (first, first_error), (second, second_error) = means
-        error = second / first * math.hypot(first_error / first, second_error / second)
+        ratio, error = averages.quotient(*means[::-1])
         yield Row(
             quantity,
             0.0,
-            100 * (second / first - 1),
+            100 * (ratio - 1),
             100 * error,
             unit='%',
             remark=f'{_named(long)} over {_named(short)}',

@@ -1,12 +1,13 @@
 """Part 16: how far Gram-Schmidt vectors spread over the disks, against their index."""
 
-from math import e, exp, hypot
+from math import e, exp
 
 import numpy as np
 
 from hdlyap.plots import steps
 from hdlyap.plots.figures import localization as figure_of_localization
 
+from .. import averages
 from ..row import ABOVE, BELOW, Claim, Row
 
 TITLE = 'Localisation of the vectors of the largest exponents'
@@ -82,10 +83,8 @@ def _ratio(message, first, second):
     if message is None or len(message.widths) < second:
         return Row(quantity, 1.0, sense=BELOW)
     rows = [_row('', message, [index]) for index in (first, second)]
-    ratio = rows[0].measured / rows[1].measured
-    known = all(row.error > 0 for row in rows)
-    error = ratio * hypot(*(row.error / row.measured for row in rows)) if known else -1.0
-    return Row(quantity, 1.0, ratio, error, sense=BELOW)
+    ratio = averages.quotient(*((row.measured, row.error) for row in rows))
+    return Row(quantity, 1.0, *ratio, sense=BELOW)
 
 
 def _beside(run):

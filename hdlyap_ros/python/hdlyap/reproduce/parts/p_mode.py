@@ -28,11 +28,8 @@ class Snapshot:
 
     @property
     def ratio(self):
-        return self.after[0].amplitude / self.after[1].amplitude
-
-    @property
-    def ratio_error(self):
-        return abs(self.ratio) * np.hypot(*(fit.error / fit.amplitude for fit in self.after))
+        """(value, standard error)"""
+        return averages.quotient(*((fit.amplitude, fit.error) for fit in self.after))
 
 
 def runs(plan):
@@ -43,7 +40,7 @@ def claims(bags):
     shown, times = _shown(bags['periodic']), _times(bags['periodic'])
     yield Claim(
         'phi_P,x / p_x and phi_P,y / p_y are one function A',
-        [_mean(times, 'ratio of the amplitudes on A', lambda one: one.ratio, 1.0)],
+        [_mean(times, 'ratio of the amplitudes on A', lambda one: one.ratio[0], 1.0)],
         'a ratio of 1',
         PAPER,
     )
@@ -68,7 +65,7 @@ def claims(bags):
 def _beside(shown, times):
     for axis, name in enumerate('xy'):
         yield _amplitude(shown, axis, name)
-    ratio = (shown.ratio, shown.ratio_error) if shown else (None, 0.0)
+    ratio = shown.ratio if shown else (None, 0.0)
     yield Row('ratio of these amplitudes', None, *ratio, remark='of the figure alone')
     for axis, name in enumerate('xy'):
         yield _mean(

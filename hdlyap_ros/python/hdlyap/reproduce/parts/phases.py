@@ -9,7 +9,7 @@ from hdlyap.plots.figures.style import GREY, INK, MEMBER_COLOURS, plt, scene
 from hdlyap.plots.numbers import with_error
 from hdlyap.plots.phases import regression
 
-from .. import rotation, standing
+from .. import averages, rotation, standing
 from ..row import TELLING, Claim, Row, Scatter
 from ..velocity import over_slope
 
@@ -102,12 +102,8 @@ class Line:
         self.v, self.scatter = (None, 0.0), (None, 0, [])
         if len(known) < 2:
             return
-        weights = known[:, 1] ** -2
-        v = float(np.average(known[:, 0], weights=weights))
-        chi2, freedom = float(np.sum(((known[:, 0] - v) / known[:, 1]) ** 2)), len(known) - 1
-        # where the steps scatter more than their errors allow, the error grows
-        self.v = v, float(np.sqrt(max(1.0, chi2 / freedom) / weights.sum()))
-        self.scatter = chi2, freedom, list(100 * known[:, 1] / known[:, 0])
+        *self.v, chi2 = averages.weighted(*known.T)
+        self.scatter = chi2, len(known) - 1, list(100 * known[:, 1] / known[:, 0])
 
     def remark(self, v, error):
         if not (self.v[0] and error):

@@ -1,7 +1,7 @@
 """Part 15: wave number and rotation of vectors from structure factors; no field is fitted."""
 
 from collections import namedtuple
-from math import hypot, isfinite
+from math import isfinite
 
 import numpy as np
 
@@ -9,6 +9,7 @@ from hdlyap.plots import steps, structure
 from hdlyap.plots.figures import structure as figure_of_structure
 from hdlyap.plots.figures.structure import OF_KIND
 
+from .. import averages
 from ..row import TELLING, Claim, Row
 
 TITLE = 'Structure factors of the vectors: wave numbers, and lines in S(k, omega)'
@@ -60,13 +61,11 @@ def _line_of_lp(one):
     quantity = OF_LP.format(one.name, one.boundary)
     if one.line is None or not isfinite(one.v[0]):
         return Row(quantity, 1.0, left_open=ACCURACY)
-    expected, relative = one.v[0] * one.wave_number, one.v[1] / one.v[0]
-    ratio = one.line.omega / expected
+    expected, error = (part * one.wave_number for part in one.v)
     return Row(
         quantity,
         1.0,
-        float(ratio),
-        float(hypot(one.line.error / expected, ratio * relative)),
+        *averages.quotient((one.line.omega, one.line.error), (expected, error)),
         left_open=ACCURACY,
         remark=f'omega {one.line.omega:.4f}, v k {expected:.4f} rad/time unit',
     )
