@@ -93,7 +93,8 @@ static double conjugate_bytes(const hd_scene_def *def, double ranks)
 static double structure_bytes(const hd_scene_def *def, double n)
 {
     const double waves = hd_structure_waves_of(def), at_once = 16.0;
-    const double harmonics = 4.0 * sqrt(waves);
+    const double longer = hd_wave_limits_of(def).node + 1.0, shorter = waves / longer + 1.0;
+    const double harmonics = 2.0 * (longer + shorter);
     return WORD *
            (4.0 * waves * n + (9.0 * at_once + 9.0) * n + def->disks * (4.0 * at_once + harmonics));
 }

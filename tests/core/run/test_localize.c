@@ -98,6 +98,42 @@ static void the_fastest_vector_is_the_narrowest(void **state)
     hd_run_free(run);
 }
 
+/** Widths of independent runs scatter as their errors say. */
+static void errors_are_those_of_seeds(void **state)
+{
+    (void)state;
+    enum { SEEDS = 40 };
+    static double width[SEEDS][VECTORS_MAX];
+    double stated = 0.0, square = 0.0;
+    int n = 0;
+    for (int seed = 0; seed < SEEDS; seed++) {
+        hd_scene_def scene = scene_of(8, 0.4, 0.5, HD_PERIODIC, HD_PERIODIC, (uint64_t)seed + 1);
+        scene.observe = HD_OBSERVE_LOCALIZATION;
+        scene.exponents = HD_EXPONENTS_POSITIVE;
+        scene.warmup = 20.0;
+        scene.duration = 200.0;
+        hd_run *run = created(&scene);
+        while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+        const hd_localization *shape = hd_run_localization(run);
+        n = hd_run_vectors(run);
+        for (int col = 0; col < n; col++) {
+            const double error = hd_localization_width_error(shape, col);
+            assert_true(error > 0);
+            width[seed][col] = hd_localization_widths(shape)[col];
+            stated += error * error / SEEDS;
+        }
+        hd_run_free(run);
+    }
+    for (int col = 0; col < n; col++) {
+        double mean = 0.0;
+        for (int seed = 0; seed < SEEDS; seed++) mean += width[seed][col] / SEEDS;
+        for (int seed = 0; seed < SEEDS; seed++)
+            square += pow(width[seed][col] - mean, 2.0) / (SEEDS - 1);
+    }
+    print_message("spread over seeds / stated error: %.2f\n", sqrt(square / stated));
+    CHECK_CLOSE(sqrt(square / stated), 1.0, 0.15);
+}
+
 /** Nothing is measured, and the exponents are those of a run that was not asked. */
 static void nothing_is_measured_while_nobody_looks(void **state)
 {
@@ -136,6 +172,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(widths_are_those_of_the_vectors),
         cmocka_unit_test(the_fastest_vector_is_the_narrowest),
+        cmocka_unit_test(errors_are_those_of_seeds),
         cmocka_unit_test(nothing_is_measured_while_nobody_looks),
         cmocka_unit_test(averages_begin_anew),
     };

@@ -52,6 +52,8 @@ static void the_estimate_is_what_is_asked_for(void **state)
     compare("with modes", &scene, 0.93, 1.07);
     scene = short_run(300, HD_EXPONENTS_POSITIVE, STRUCTURE);
     compare("with structure factors", &scene, 0.93, 1.07);
+    scene.aspect = 0.01;
+    compare("structure factors in a channel", &scene, 0.93, 1.07);
     scene = short_run(200, HD_EXPONENTS_ALL, MODES);
     compare("all exponents", &scene, 0.93, 1.07);
     scene = short_run(2000, 60, 0);

@@ -1,11 +1,12 @@
 """Structure messages -> the structure factors of every vector, the courses of the slowest vectors'
 amplitudes, and the line that these have in S(k, omega)."""
 
-from collections import namedtuple
+from collections import deque, namedtuple
 
 import numpy as np
 
 KEPT = 64  # slowest vectors of positive exponent whose amplitudes are kept
+LAST = 16384  # reports, 70 MB of amplitudes
 FREQUENCIES = 400  # of a spectrum
 PIECES = 4  # of a course, for the error of its line
 REPORTS = 4 * PIECES  # of the shortest course that has a line
@@ -17,12 +18,13 @@ DIRECTIONS = 'along', 'across'
 
 
 class StructureCourse:
-    """means: the last ones, None without; the amplitudes of the slowest vectors at each report."""
+    """means: the last ones, None without; the amplitudes of the slowest vectors at each
+    of the last reports."""
 
     def __init__(self):
         self.means = None
         self.first = 0  # Lyapunov index of the first vector that is kept
-        self._times, self._peaks, self._amplitudes = [], [], []
+        self._times, self._peaks, self._amplitudes = (deque(maxlen=LAST) for _ in range(3))
 
     def add(self, msg, positive_end):
         """msg with numpy arrays."""
@@ -45,7 +47,7 @@ class StructureCourse:
         other = np.flatnonzero((peaks != peaks[-1]).any(axis=1))
         begin = other[-1] + 1 if len(other) else 0
         found = np.array(self._amplitudes)[begin:, DIRECTIONS.index(direction)][..., columns]
-        return np.array(self._times[begin:]), found.reshape(len(found), -1)
+        return np.array(self._times)[begin:], found.reshape(len(found), -1)
 
     def has(self, indices):
         end = self.first + (len(self._peaks[-1]) if self._peaks else 0)

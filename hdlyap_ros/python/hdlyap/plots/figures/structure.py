@@ -97,7 +97,7 @@ def _lines(axes, recording, found):
                 label=f'$v k$ of the phases, {block.name}',
             )
         shown.add(kind)
-    axes.set_title('(c)', loc='left')
+    axes.set_title('(c) lines of the lowest steps', loc='left')
     axes.set_xlabel(r'$\omega$  [rad/time unit]')
     axes.set_ylabel(r'$S(k, \omega)$')
     if shown:
