@@ -280,19 +280,23 @@ static void walls_raise_the_pressure(void **state)
 static void errors_are_those_of_seeds(void **state)
 {
     (void)state;
-    enum { SEEDS = 64 };
-    double value[2][SEEDS], square[2] = {0, 0}, mean[2] = {0, 0}, score[2] = {0, 0};
+    enum { SEEDS = 64, NUMBERS = 4 };
+    double value[NUMBERS][SEEDS], square[NUMBERS] = {0}, mean[NUMBERS] = {0}, score[NUMBERS] = {0};
     if (HD_SANITIZED) skip();
     for (int seed = 0; seed < SEEDS; seed++) {
         const hd_scene_def def = scene_with(PERIODIC_BOTH, 64, 0.6, (uint64_t)seed + 5000);
         const hd_gas_means m = averaged(&def, 200, 10.0);
-        assert_true(m.pressure_error > 0 && m.collision_rate_error > 0);
-        value[0][seed] = m.pressure;
-        value[1][seed] = m.collision_rate;
-        square[0] += m.pressure_error * m.pressure_error / SEEDS;
-        square[1] += m.collision_rate_error * m.collision_rate_error / SEEDS;
+        const double means[NUMBERS] = {m.pressure, m.collision_rate, m.pressure_of[0],
+                                       m.pressure_of[1]};
+        const double errors[NUMBERS] = {m.pressure_error, m.collision_rate_error,
+                                        m.pressure_of_error[0], m.pressure_of_error[1]};
+        for (int k = 0; k < NUMBERS; k++) {
+            assert_true(errors[k] > 0);
+            value[k][seed] = means[k];
+            square[k] += errors[k] * errors[k] / SEEDS;
+        }
     }
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < NUMBERS; k++) {
         for (int seed = 0; seed < SEEDS; seed++) mean[k] += value[k][seed] / SEEDS;
         for (int seed = 0; seed < SEEDS; seed++)
             score[k] += (value[k][seed] - mean[k]) * (value[k][seed] - mean[k]) / (SEEDS - 1);
