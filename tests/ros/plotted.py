@@ -7,9 +7,12 @@ import re
 import runpy
 import subprocess
 import sys
+import tempfile
+import unittest
 from unittest import mock
 
-from hdlyap.plots import figures
+import made
+from hdlyap.plots import figures, recording
 from made import SCRIPTS
 
 PLOT_BAG = os.path.join(SCRIPTS, 'plot_bag')
@@ -57,3 +60,40 @@ def plot_bag_process(*arguments):
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
     )
+
+
+def files(*names):
+    return [f'{name}.{suffix}' for name in names for suffix in ('png', 'svg')]
+
+
+class Bags(unittest.TestCase):
+    how = staticmethod(plot_bag)
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = os.path.join(folder.name, 'run.bag')
+        self.out = os.path.join(folder.name, 'out')
+
+    def write(self, messages, **where):
+        made.write(self.path, messages, **where)
+
+    def recorded(self, *messages):
+        self.write(messages)
+        return recording.read(self.path)
+
+    def plot(self, *arguments):
+        return self.how(self.path, '--out', self.out, *arguments)
+
+    def succeeds(self, names, *arguments):
+        done = self.plot(*arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        self.assertEqual(sorted(os.listdir(self.out)), sorted(names))
+        return done.stdout
+
+    def refuses(self, reason, *arguments):
+        done = self.plot(*arguments)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn(reason, done.stderr)
+        self.assertFalse(os.path.exists(self.out))

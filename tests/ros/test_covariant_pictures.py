@@ -1,8 +1,6 @@
-"""Covariant vectors in plot_bag, from messages that are made here: what it prints, and what it
-draws."""
+"""Covariant vectors in plot_bag, from messages made here: what it prints and draws."""
 
 import os
-import tempfile
 import unittest
 
 import numpy as np
@@ -10,6 +8,7 @@ import numpy as np
 from hdlyap.msg import Cost, Spectrum, Steps
 
 import made
+import plotted
 from made import LP, T
 from hdlyap.plots import covariant, recording, report
 from hdlyap.plots.figures import (
@@ -104,13 +103,10 @@ def at(points, x):
     return points[points[:, 0] == x, 1][0]
 
 
-class Bags(unittest.TestCase):
+class Bags(plotted.Bags):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
+        super().setUp()
         self.addCleanup(plt.close, 'all')
-        self.path = os.path.join(folder.name, 'run.bag')
-        self.out = os.path.join(folder.name, 'out')
 
     def read(self, messages=None):
         made.write(self.path, everything() if messages is None else messages)
@@ -131,8 +127,7 @@ class Bags(unittest.TestCase):
         return kind.draw(self.read() if run is None else run).axes
 
     def names_drawn(self, run, on_paper):
-        """Of the figures that there are; on paper: they can also be drawn to the end, which takes a
-        while."""
+        """Of the figures that there are; on paper: drawn to the end, too, which takes a while."""
         for kind in FIGURES:
             figure = kind.draw(run)
             if figure is None:

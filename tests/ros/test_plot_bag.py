@@ -1,9 +1,9 @@
-"""plot_bag against bags that are made here: what it prints, what it writes, what it refuses."""
+"""plot_bag against bags that are made here: what it writes, what it refuses, and what it prints
+beside its table (test_plot_bag_table.py)."""
 
 import itertools
 import os
 import re
-import tempfile
 import tracemalloc
 import unittest
 
@@ -11,58 +11,21 @@ import numpy as np
 import rosbag
 import rospy
 
-from hdlyap.msg import LpPhases, ModeField, Step, Steps
+from hdlyap.msg import LpPhases, ModeField, Steps
 from std_msgs.msg import String
 
 import made
 from made import LP, T
-from hdlyap.plots import paper, recording, report, waves
+from hdlyap.plots import paper, recording, waves
 from hdlyap.plots.course import LIMIT, Course
 from hdlyap.plots.figures import localization, modes, p_mode, phases, plt
 from hdlyap.plots.numbers import with_error
-from plotted import plot_bag, plot_bag_process
-
-
-def files(*names):
-    return [f'{name}.{suffix}' for name in names for suffix in ('png', 'svg')]
+from plotted import Bags, files, plot_bag_process
 
 
 SPECTRUM_FILES = files('convergence', 'spectrum')
 COST_FILES = files('cost')
 MODES_FILES = files('dispersion', 'steps', 'modes', 'p_mode', 'phases')
-
-
-class Bags(unittest.TestCase):
-    how = staticmethod(plot_bag)
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.path = os.path.join(folder.name, 'run.bag')
-        self.out = os.path.join(folder.name, 'out')
-
-    def write(self, messages, **where):
-        made.write(self.path, messages, **where)
-
-    def recorded(self, *messages):
-        self.write(messages)
-        return recording.read(self.path)
-
-    def plot(self, *arguments):
-        return self.how(self.path, '--out', self.out, *arguments)
-
-    def succeeds(self, names, *arguments):
-        done = self.plot(*arguments)
-        self.assertEqual((done.returncode, done.stderr), (0, ''))
-        self.assertEqual(sorted(os.listdir(self.out)), sorted(names))
-        return done.stdout
-
-    def refuses(self, reason, *arguments):
-        done = self.plot(*arguments)
-        self.assertNotEqual(done.returncode, 0)
-        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-        self.assertIn(reason, done.stderr)
-        self.assertFalse(os.path.exists(self.out))
 
 
 class Exponents(Bags):
@@ -200,223 +163,6 @@ class Exponents(Bags):
         )
         self.assertEqual((run.info.run_id, run.spectrum.lambda_max), ('two', 3.0))
         self.assertEqual((run.steps, list(run.fields()), run.phases.last), (None, [], None))
-
-
-class Table(Bags):
-    """Made steps: c = 1.4 and 1.5, c2 = 0.1 and 0.5, in a box of 6.3246 x 6.3246: k = 0.99346."""
-
-    def lines(self, *messages):
-        """The text as {first word of a line: rest of its words}, and the text."""
-        text = report.report(self.recorded(*messages))
-        return {words[0]: words[1:] for words in map(str.split, text.splitlines()) if words}, text
-
-    def run_with(self, *known, info=None, **fields):
-        info = info or made.run_info()
-        message = made.steps(list(known))
-        for name, value in fields.items():
-            setattr(message, name, value)
-        return self.lines(info, made.spectrum(np.linspace(3, 1, 37), 50.0), message)
-
-    def test_steps(self):
-        info = made.run_info()
-        lines, text = self.run_with(
-            made.step(info, T, 1, 0, 36, 37),
-            made.step(info, LP, 1, 0, 32, 35, std_error=-1.0),
-            made.zero_modes(),
-        )
-        self.assertIn('at least 50 % of the expected multiplicity', text)
-        self.assertEqual(lines['T(1,0)'], ['36-37', '1.98', '2', '0.99346', '1.4895(20)'])
-        self.assertEqual(lines['LP(1,0)'], ['32-35', '3.96', '4', '0.99346', '1.98367'])
-        self.assertIn('zero modes not carried', text)
-        self.assertNotIn('resolved (', text)
-        self.assertNotIn('Eckmann', text)
-
-    def test_lowest_step_comes_first(self):
-        info = made.run_info()
-        _, text = self.run_with(made.step(info, LP, 1, 0, 32, 35), made.step(info, T, 1, 0, 36, 37))
-        self.assertLess(text.index('T(1,0)'), text.index('LP(1,0)'))
-
-    def test_steps_that_share_a_set(self):
-        info = made.run_info()
-        shared = {'set': 7, 'members': 2}
-        lines, text = self.run_with(
-            made.step(info, T, 1, 1, 26, 33, expected=4, multiplicity=3.9, **shared),
-            made.step(info, LP, 0, 1, 26, 33, expected=4, multiplicity=3.5, **shared),
-        )
-        self.assertEqual(lines['LP(0,1)+T(1,1)'], ['26-33', '7.40', '8'])
-        self.assertEqual(lines['T(1,1)'], ['3.90', '4', '1.40496', '2.1643(20)'])
-        self.assertEqual(lines['LP(0,1)'], ['3.50', '4', '0.99346', '1.9837(20)'])
-        self.assertIn('\n    T(1,1) ', text)
-
-    def test_whether_they_coincide(self):
-        info = made.run_info()
-        said = {
-            (Step.SHARING_UNKNOWN, Step.SHARING_UNKNOWN): [],
-            (Step.SHARING_COINCIDENT, Step.SHARING_COINCIDENT): ['coincide'],
-            (Step.SHARING_BLENDED, Step.SHARING_BLENDED): ['blended'],
-            (Step.SHARING_MIXING, Step.SHARING_COINCIDENT): ['coincide,', 'mixing'],
-        }
-        for (first, second), words in said.items():
-            shared = {'set': 7, 'members': 2, 'expected': 4, 'multiplicity': 3.5}
-            lines, _ = self.run_with(
-                made.step(info, T, 1, 1, 26, 33, sharing=first, **shared),
-                made.step(info, LP, 0, 1, 26, 33, sharing=second, **shared),
-            )
-            self.assertEqual(lines['LP(0,1)+T(1,1)'], ['26-33', '7.00', '8', *words])
-
-    def test_unresolved_steps_in_one_line(self):
-        info = made.run_info()
-        _, text = self.run_with(
-            made.step(info, T, 1, 0, 36, 37),
-            made.unresolved(info, LP, 2, 2, 8),
-            made.unresolved(info, T, 2, 2, 4),
-            made.zero_modes(),
-        )
-        self.assertIn('\n  not resolved (2): LP(2,2) T(2,2)\n', text)
-        _, text = self.run_with(*(made.unresolved(info, T, n, 10, 4) for n in range(100)))
-        line = next(line for line in text.splitlines() if 'not resolved (' in line)
-        self.assertRegex(line, r'^  not resolved \(100\): T\(0,10\) .* and \d+ more$')
-        self.assertLessEqual(len(line), 104)
-        self.assertEqual(line.count('T(') + int(line.split()[-2]), 100)
-
-    def test_zero_modes(self):
-        info = made.run_info()
-        text = report.report(
-            self.recorded(
-                info, made.spectrum(np.linspace(3, 0, 43), 50.0), made.steps([made.zero_modes(38)])
-            )
-        )
-        self.assertRegex(text, r'zero modes +38-43 +6\.00 +6 +0\.000100\(30\)')
-        text = report.report(
-            self.recorded(
-                info, made.spectrum(np.linspace(3, 0, 43), 50.0), made.steps([made.zero_modes()])
-            )
-        )
-        self.assertIn('zero modes not found', text)
-
-    def test_conjugate_half_in_one_line(self):
-        info = made.run_info()
-        step = made.step(info, T, 1, 0, 36, 37)
-        mirrored = made.step(info, T, 1, 0, 44, 45, conjugate=True, exponent=-step.exponent + 3e-6)
-        lost = made.unresolved(info, LP, 1, 0, 4)
-        lost.conjugate = True
-        _, text = self.run_with(step, mirrored, lost)
-        self.assertIn('half: 1 of 2 resolved, largest |sum with its partner| 3.0e-06', text)
-        self.assertEqual(text.count('T(1,0)'), 1)
-
-    def test_fits(self):
-        lines, text = self.run_with(made.step(made.run_info(), T, 1, 0, 36, 37))
-        self.assertEqual(lines['c_T'], ['1.400(12)'])
-        self.assertEqual(lines['c_T2'], ['0.100(34)'])
-        self.assertEqual(lines['c_L'], ['1.500(20)'])
-        self.assertEqual(lines['c_L2'], ['0.50(10)'])
-        self.assertEqual(lines['v'], ['1.612(23)'])
-        for basis, coefficient in (
-            ('T steps: c k + c2 k^2 over 3 wave numbers 0.9935 .. 1.987, misfit 1.2', 'c_T'),
-            ('LP steps: c k + c2 k^2 over 2 wave numbers 0.9935 .. 1.405', 'c_L'),
-            ('|omega| / k of the LP phases at 0.9935 .. 1.405, 8 of them, misfit 2.5', 'v'),
-        ):
-            self.assertIn(f'\n  {basis}\n  {coefficient} ', text)
-
-    def test_fits_with_too_little(self):
-        lines, text = self.run_with(
-            t_points=1, t_terms=1, t_k_max=0.99346, l_points=0, l_terms=0, v_phases=0
-        )
-        self.assertEqual(lines['c_T'], ['1.400(12)'])
-        self.assertIn('\n  T steps: c k over 1 wave number 0.9935, misfit 1.2\n', text)
-        self.assertNotIn('c_T2', lines)
-        self.assertIn('c_L   not known: no step resolved', text)
-        self.assertNotIn('c_L2', lines)
-        self.assertEqual(lines['v'], ['not', 'known'])
-
-    def test_paper_values_beside_the_fits(self):
-        slopes = (r'c_T .*2005, c k alone: 2\.535 \+-3 %', r'c_L .* alone: 3\.352 \+-3 %')
-        curves = (
-            r'c_T .*: 1\.412\n',
-            r'c_T2 .*: 0\.086\n',
-            r'c_L .*: 1\.422\n',
-            r'c_L2 .*: 0\.550\n',
-        )
-        for density, disks, there in (
-            (0.7, 400, slopes),
-            (0.4, 780, curves),
-            (0.7, 399, ()),
-            (0.81, 780, ()),
-        ):
-            _, text = self.run_with(info=made.run_info(disks=disks, density=density))
-            self.assertEqual(text.count('Eckmann'), len(there), (density, disks))
-            for pattern in there:
-                self.assertRegex(text, pattern)
-
-    def test_paper_scene(self):
-        info = made.paper_info()
-        known = [
-            made.step(info, kind, nx, ny, first, last)
-            for kind, nx, ny, first, last in ((T, 1, 0, 1556, 1557), (LP, 1, 0, 1550, 1553))
-        ]
-        for step, fitted in zip(known, (paper.slope_t(0.8), paper.slope_l(0.8))):
-            step.exponent = 0.99 * fitted * step.wave_number
-        lines, _ = self.lines(info, made.spectrum(np.linspace(6, 1, 1557), 50.0), made.steps(known))
-        self.assertEqual(
-            lines['T(1,0)'],
-            ['1556-1557', '1.98', '2', '0.18736', '0.6093(20)', '0.6155', '-1.00', '%'],
-        )
-        self.assertEqual(lines['LP(1,0)'][-3:], ['0.8664', '-1.00', '%'])
-
-    def test_lp_dynamics(self):
-        info = made.run_info()
-        step = made.step(info, LP, 1, 0, 32, 35)
-        message = made.lp_phases(info, [made.zero_modes(), step], 150.0)
-        for phase, (omega, error, state) in zip(
-            message.phases,
-            (
-                (1.50, 0.01, 3),
-                (-1.60, 0.02, 3),
-                (9.0, 0.01, 1),
-                (9.0, 0.01, 2),
-                (1.52, -1.0, 3),
-                (9.0, 0.01, 1),
-                (9.0, 0.01, 1),
-                (9.0, 0.01, 0),
-            ),
-        ):
-            phase.omega, phase.omega_error, phase.state = omega, error, state
-        lines, text = self.lines(
-            info,
-            made.spectrum(np.linspace(3, 1, 37), 50.0),
-            made.steps([made.zero_modes(), step]),
-            message,
-        )
-        # weights 4 : 1; the error is that of one phase: 0.01 / sqrt(5/4 / 2)
-        self.assertRegex(text, r'LP\(1,0\) +1\.520\(13\) +1\.530\(13\) +3 of 8')
-
-    def test_lp_step_without_a_tracked_phase(self):
-        info = made.run_info()
-        step = made.step(info, LP, 1, 0, 32, 35)
-        message = made.lp_phases(info, [step], 150.0)
-        for phase in message.phases:
-            phase.state = phase.WEAK
-        _, text = self.lines(info, made.spectrum([3.0], 50.0), made.steps([step]), message)
-        self.assertRegex(text, r'LP\(1,0\) +- +- +0 of 8')
-
-    def test_without_phases(self):
-        _, text = self.run_with(made.step(made.run_info(), LP, 1, 0, 32, 35))
-        self.assertNotIn('LP dynamics', text)
-
-    def test_cost_of_classification(self):
-        _, text = self.lines(
-            made.run_info(), made.spectrum([3.0], 50.0), made.steps([]), made.cost(200.0)
-        )
-        self.assertIn('took 5.0 % of the run (10.0 s of 200.0 s)', text)
-
-    def test_steps_before_any_average(self):
-        info = made.run_info()
-        _, text = self.lines(
-            info,
-            made.spectrum([3.0], 50.0),
-            made.steps([made.step(info, T, 1, 0, 36, 37)], averaged_time=0.0),
-        )
-        self.assertNotIn('steps', text)
 
 
 class Figures(Bags):
