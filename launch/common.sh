@@ -45,6 +45,7 @@ own_environment() {
     [[ -d ${HOME:-} && -w $HOME ]] || export HOME=$1
     export ROS_HOME=$1/ros ROS_LOG_DIR=$1/ros/log MPLCONFIGDIR=$1/matplotlib
     export PYTHONDONTWRITEBYTECODE=1
+    export PYTHONUTF8=1 # names of folders are, also where the locale has another encoding
 }
 
 free_port() {
@@ -58,7 +59,7 @@ build() {
     shift
     if ! is_configured "$dir"; then
         rm -rf "$dir/CMakeCache.txt" "$dir/CMakeFiles" "$dir/devel"
-        cmake -S "$ROOT" -B "$dir" -G "Unix Makefiles" -DPYTHON_EXECUTABLE=/usr/bin/python3 "$@"
+        cmake -S "$ROOT" -B "$dir" -G "Unix Makefiles" -DPYTHON_EXECUTABLE=/usr/bin/python3 "$@" || return
     fi
     cmake --build "$dir" -- -j "$(nproc)"
 }
