@@ -28,8 +28,11 @@ source_setup() {
     set -u
 }
 
+# can_write DIR: makes it, and its parents; the message of mkdir tells why not.
+can_write() { mkdir -p "$1" && { [[ -w $1 ]] || ! echo "$1: Permission denied" >&2; }; }
+
 # own_environment DIR: the system's python and ROS, a master of our own, and every file that
-# ROS, python or matplotlib writes under DIR.
+# ROS, python or matplotlib writes under DIR; what a home is needed for, too, where there is none.
 own_environment() {
     unset PYTHONPATH PYTHONHOME ROS_IP ROS_IPV6 ROS_NAMESPACE ROS_PACKAGE_PATH CMAKE_PREFIX_PATH
     unset LD_LIBRARY_PATH PKG_CONFIG_PATH # of a workspace that the shell has sourced
@@ -39,8 +42,10 @@ own_environment() {
     ROS_MASTER_URI=http://localhost:$(free_port)
     export ROS_MASTER_URI
     mkdir -p "$1"
+    [[ -d ${HOME:-} && -w $HOME ]] || export HOME=$1
     export ROS_HOME=$1/ros ROS_LOG_DIR=$1/ros/log MPLCONFIGDIR=$1/matplotlib
     export PYTHONDONTWRITEBYTECODE=1
+    export PYTHONUTF8=1 # names of folders are, also where the locale has another encoding
 }
 
 free_port() {
@@ -54,7 +59,7 @@ build() {
     shift
     if ! is_configured "$dir"; then
         rm -rf "$dir/CMakeCache.txt" "$dir/CMakeFiles" "$dir/devel"
-        cmake -S "$ROOT" -B "$dir" -G "Unix Makefiles" -DPYTHON_EXECUTABLE=/usr/bin/python3 "$@"
+        cmake -S "$ROOT" -B "$dir" -G "Unix Makefiles" -DPYTHON_EXECUTABLE=/usr/bin/python3 "$@" || return
     fi
     cmake --build "$dir" -- -j "$(nproc)"
 }

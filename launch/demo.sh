@@ -6,13 +6,14 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 usage() {
     cat <<END
-usage: demo.sh [--scene NAME] [--duration T] [--out DIR] [--no-install]
+usage: demo.sh [--scene NAME] [--duration T] [--out DIR] [--build DIR] [--no-install]
 Installs what is missing, builds, runs a scene under a ROS master of its own, records a bag and
 draws the figures.
   --scene NAME    one of: $(scenes)
                   (default: paper_periodic)
   --duration T    time units to average over (default: 200)
-  --out DIR       folder of the bag and the figures (default: build/demo/NAME)
+  --out DIR       folder of the bag and the figures (default: demo/NAME in that of the build)
+  --build DIR     folder of the build (default: build, in the clone)
   --no-install    do not install packages
 END
 }
@@ -24,10 +25,10 @@ scenes() {
 }
 
 parse() {
-    scene=paper_periodic duration=200 out='' install=yes
+    scene=paper_periodic duration=200 out='' build=$ROOT/build install=yes
     while (($#)); do
         case $1 in
-            --scene | --duration | --out)
+            --scene | --duration | --out | --build)
                 (($# > 1)) || die "$1 needs a value; --help lists the options" 2
                 printf -v "${1#--}" %s "$2"
                 shift 2
@@ -40,6 +41,7 @@ parse() {
     [[ -f $ROOT/launch/scenes/$scene.yaml ]] || die "unknown scene '$scene', choose from: $(scenes)" 2
     [[ $duration =~ ^[0-9]+(\.[0-9]+)?$ && $duration =~ [1-9] ]] ||
         die "--duration is '$duration', must be a positive number of time units" 2
+    BUILD=$(realpath -m -- "$build")
     out=$(realpath -m -- "${out:-$BUILD/demo/$scene}")
 }
 
@@ -78,10 +80,10 @@ finish_soon() {
     finish "$1"
 }
 
-BUILD=$ROOT/build
 parse "$@"
 LOG=$BUILD/log/demo_$scene.log
-mkdir -p "$BUILD/log" "$out"
+can_write "$BUILD/log" || die "the folder of the build must be one that can be written; --build DIR takes another"
+can_write "$out" || die "the folder of the results must be one that can be written; --out DIR takes another"
 stop_at_exit
 
 [[ $install == no ]] || "$ROOT/launch/install.sh" run

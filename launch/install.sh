@@ -65,13 +65,21 @@ is_installed() {
 }
 
 as_root() {
-    if ((EUID == 0)); then
+    if [[ $(id -u) == 0 ]]; then
         "$@"
     elif command -v sudo >/dev/null; then
         sudo "$@"
     else
-        die "needs root or sudo to install ${missing[*]}"
+        echo "neither root nor sudo" >&2
+        return 1
     fi
+}
+
+# A user's own umask would be apt's too, whose lists then nobody else could read.
+install_missing() {
+    umask 022
+    as_root apt-get update -q &&
+        as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"
 }
 
 if [[ ${1:-} == list && ${2:-} == @(debian|noetic) ]]; then
@@ -93,6 +101,5 @@ done
 ((${#missing[@]})) || exit 0
 
 say "installing ${missing[*]}"
-as_root apt-get update -q
-as_root env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -y -q --no-install-recommends "${missing[@]}"
+install_missing || die "${#missing[@]} packages are missing. Who may install them types, as root, this line:
+apt-get update && apt-get install -y --no-install-recommends ${missing[*]}"

@@ -36,7 +36,7 @@ parse() {
 
 PYTHON=/usr/bin/python3
 parse "$@"
-mkdir -p "$BUILD/log"
+can_write "$BUILD/log" || die "the folder of the build must be one that can be written: copy the clone"
 stop_at_exit
 [[ $install == no ]] || "$ROOT/launch/install.sh" run
 own_environment "$BUILD/home"

@@ -9,6 +9,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
 readonly WORK=$ROOT/build/check # not build/tests: cmake puts the folder tests there
 readonly LOGS=$WORK/log COUNTS=$WORK/counts SECOND=$WORK/second TAKEN=$WORK/taken
 export TMPDIR=$WORK/tmp XDG_RUNTIME_DIR=$WORK/runtime
+export LC_ALL=C.UTF-8 # of messages that tests read
+unset LANGUAGE
 export HDLYAP_SUITE=$$.$EPOCHREALTIME # marks its processes
 # Core and wrapper are compiled alone, for ROS and for the demo, each time the same: a cache of this run's own.
 readonly CACHE=(CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache "CCACHE_DIR=$WORK/ccache" CCACHE_NOHASHDIR=1
@@ -287,6 +289,7 @@ esac
 stop_at_exit
 trap end_lanes EXIT
 rm -rf "$WORK"
+can_write "$WORK" || die "the folder of the clone must be one that can be written"
 mkdir -p "$LOGS" "$TAKEN" "$TMPDIR"
 mkdir -m 700 "$XDG_RUNTIME_DIR"
 : >"$SECOND"

@@ -6,7 +6,7 @@ set -euo pipefail
 # shellcheck source=launch/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
 
-readonly WORK=$1 SETUP=$2 NET=10.213.77 BRIDGE=hdlyap$$
+readonly WORK=$1 SETUP=$2 NET=10.213.$(($$ % 254 + 1)) BRIDGE=hdlyap$$
 readonly MACHINES=("hdlyap$$a" "hdlyap$$b")
 mkdir -p "$WORK/out"
 # shellcheck source=tests/check.sh
@@ -49,7 +49,7 @@ daemons() {
 environment() {
     cat >"$WORK/env.sh" <<END
 #!/usr/bin/env bash
-export ROS_IP=\$(hostname -I | tr ' ' '\n' | grep -F $NET.) ROS_HOME=$WORK/ros TMPDIR=$TMPDIR
+export ROS_IP=\$(hostname -I | tr ' ' '\n' | grep -F $NET.) ROS_HOME="$WORK/ros" TMPDIR="$TMPDIR"
 unset ROS_HOSTNAME
 source "$SETUP"
 exec "\$@"
