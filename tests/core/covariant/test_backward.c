@@ -41,8 +41,9 @@ static double *copied(const hd_backward *backward, int n)
 }
 
 /** Tolerance: with u = DBL_EPSILON / 2 and n terms that are all positive, the length has n u / 2 of
- * its sum and 4 u of its terms and its root, whichever way BLAS goes; inverse and product add u each.
- * The square has all of it twice, and the sum here n u and u more: (2 n + 13) u at the worst. */
+ * its sum and 4 u of its terms and its root, whichever way BLAS goes; inverse and product add u
+ * each. The square has all of it twice, and the sum here n u and u more: (2 n + 13) u at the worst.
+ */
 static void check_upper_with_length_1(const double *c, int n)
 {
     const double tolerance = (n + 8) * DBL_EPSILON;
