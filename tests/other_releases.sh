@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # The two commands of README in a fresh minimal system of another Debian release, from a clean clone of what is committed. Ends
 # with a row for doc/platforms.md; fails if anything did. As root, with debootstrap; no part of the suite.
-#   other_releases.sh bullseye|bookworm|trixie [demo] [tests] [compilers]    which steps; demo and tests if none is named
-# compilers: core, its tests, node and viewer with each gcc and clang of the release; a warning fails.
+#   other_releases.sh bullseye|bookworm|trixie [demo] [tests] [compilers] [noetic]    which steps; demo and tests if none is named
+# compilers: core, its tests, node and viewer with each gcc and clang of the release; a warning fails. noetic: see
+# tests/noetic.sh, on bullseye alone and as the last step.
 # The mirror is that of apt, or HDLYAP_MIRROR. HDLYAP_RELEASES (/var/tmp/hdlyap_releases) keeps the base system and the
 # packages for the next time, the logs, and the system itself if something failed in it.
 set -euo pipefail
@@ -110,6 +111,12 @@ compilers() {
     done
 }
 
+noetic() {
+    NOETIC_CHECKS=failed
+    step noetic inside tests/noetic.sh || return 0
+    NOETIC_CHECKS="$(grep -c '^ok ' "$FOLDER/$RELEASE.noetic.log") passed, $SAID s"
+}
+
 # version PACKAGE: installed in the system, as its authors count it.
 # shellcheck disable=SC2016
 version() { inside dpkg-query -W -f '${source:Upstream-Version}' "$1" 2>/dev/null || echo '?'; }
@@ -120,17 +127,18 @@ first_number() { inside "$@" 2>/dev/null | grep -oE '[0-9]+(\.[0-9]+)+' | head -
 row() {
     printf '| %s ' "$RELEASE ($(cat "$SYSTEM/etc/debian_version"))" "$(version libroscpp-dev)" "$(first_number gcc -dumpfullversion)" \
         "$(first_number cmake --version)" "$(first_number python3 --version)" "$(version libopenblas-openmp-dev)" \
-        "${DEMO:-not run}" "${TESTS:-not run}" "${COMPILERS:-not run}" "$(date +%F)" "$(git -C "$ROOT" rev-parse --short HEAD)"
+        "${DEMO:-not run}" "${TESTS:-not run}" "${COMPILERS:-not run}" "${NOETIC_CHECKS:-not run}" "$(date +%F)" "$(git -C "$ROOT" rev-parse --short HEAD)"
     echo '|'
 }
 
-[[ $RELEASE == @(bullseye|bookworm|trixie) ]] || die "usage: other_releases.sh bullseye|bookworm|trixie [demo] [tests] [compilers]" 2
+[[ $RELEASE == @(bullseye|bookworm|trixie) ]] || die "usage: other_releases.sh bullseye|bookworm|trixie [demo] [tests] [compilers] [noetic]" 2
 ((EUID == 0)) || die "needs root, for debootstrap and chroot"
 for word in debootstrap unshare git; do command -v "$word" >/dev/null || die "needs $word"; done
 STEPS=("${@:2}")
 ((${#STEPS[@]})) || STEPS=(demo tests)
 for word in "${STEPS[@]}"; do
-    [[ $word == @(demo|tests|compilers) ]] || die "unknown step $word, choose from: demo tests compilers" 2
+    [[ $word == @(demo|tests|compilers|noetic) ]] || die "unknown step $word, choose from: demo tests compilers noetic" 2
+    [[ $word != noetic || $RELEASE == bullseye ]] || die "noetic needs GCC 9, which bullseye has" 2
 done
 git -C "$ROOT" diff --quiet HEAD || say "what is not committed is not tested"
 stop_at_exit
@@ -138,9 +146,9 @@ mkdir -p "$DEBS/partial"
 make_base
 make_system
 for word in "${STEPS[@]}"; do
-    case $word in demo) demo ;; tests) suite ;; compilers) compilers ;; esac
+    case $word in tests) suite ;; *) "$word" ;; esac
 done
-echo '| release | roscpp | GCC | CMake | Python | OpenBLAS | demo | tests | without warnings | date | commit |'
+echo '| release | roscpp | GCC | CMake | Python | OpenBLAS | demo | tests | without warnings | as Noetic | date | commit |'
 row
 if ((FAILED)); then
     say "the system is kept in $SYSTEM"
