@@ -93,8 +93,8 @@ with_compiler() {
         esac
         apt-get install -y -q --no-install-recommends ninja-build libcmocka-dev $needs
         rm -rf "build/$1"
-        cmake -S . -B "build/$1" -G Ninja -DPYTHON_EXECUTABLE=/usr/bin/python3 -DHDLYAP_CORE_TESTS=ON \
-            "-DCMAKE_C_COMPILER=$1" "-DCMAKE_CXX_COMPILER=$cxx" -DCMAKE_C_FLAGS=-Werror -DCMAKE_CXX_FLAGS=-Werror
+        set -- "$1" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DHDLYAP_CORE_TESTS=ON -DCMAKE_C_FLAGS=-Werror -DCMAKE_CXX_FLAGS=-Werror
+        cmake -S . -B "build/$1" -G Ninja "-DCMAKE_C_COMPILER=$1" "-DCMAKE_CXX_COMPILER=$cxx" "${@:2}"
         cmake --build "build/$1" -- -k 0
         cd "build/$1"
         ctest --output-on-failure -R "^core_golden$" | tee golden
