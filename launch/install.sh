@@ -2,7 +2,7 @@
 # The one list of the system packages of hdlyap. Installs those that are missing.
 #   install.sh messages|run|test   what messages and Python tools alone need (cmake -DHDLYAP_MESSAGES_ONLY=ON);
 #                                  run: what building and running all needs; test: what the tests need on top
-#   install.sh list debian|noetic  only prints both
+#   install.sh list debian|noetic  only prints both; A|B is the first of them that the release has
 set -euo pipefail
 # shellcheck source=launch/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -13,11 +13,11 @@ message_packages() {
         debian)
             echo catkin ros-message-generation ros-message-runtime libroscpp-dev \
                 ros-std-msgs libstd-msgs-dev python3-std-msgs python3-diagnostic-msgs \
-                python3-rospy python3-rosbag python3-roslaunch rosbash
+                python3-rospy python3-rosbag python3-roslaunch rosbash ros-environment
             ;;
         noetic)
             printf 'ros-noetic-%s\n' catkin message-generation message-runtime roscpp std-msgs diagnostic-msgs \
-                rospy rosbag roslaunch rosbash
+                rospy rosbag roslaunch rosbash ros-environment
             ;;
     esac
 }
@@ -39,7 +39,7 @@ test_packages() {
         black flake8 clang-format doxygen libopenmpi-dev openmpi-bin slurmctld slurmd slurm-client openssh-server iproute2
     case $1 in
         debian)
-            echo libclang-rt-dev librostest-dev python3-rostest python3-rostopic python3-rosnode \
+            echo 'libclang-rt-dev|libclang-common-11-dev' librostest-dev python3-rostest python3-rostopic python3-rosnode \
                 python3-rosservice python3-rosgraph python3-roslib python3-rosmaster python3-rosmsg rospack-tools \
                 python3-rosgraph-msgs catkin-lint
             ;;
@@ -64,6 +64,21 @@ is_installed() {
     [[ $(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
 }
 
+# Sets missing; of alternatives, the first that apt knows by now.
+find_missing() {
+    local names name
+    missing=()
+    for names in $wanted; do
+        for name in ${names//|/ }; do
+            ! is_installed "$name" || continue 2
+        done
+        for name in ${names//|/ }; do
+            [[ $names != *'|'* || -z $(apt-cache madison "$name" 2>/dev/null) ]] || break
+        done
+        missing+=("$name")
+    done
+}
+
 as_root() {
     if [[ $(id -u) == 0 ]]; then
         "$@"
@@ -78,8 +93,9 @@ as_root() {
 # A user's own umask would be apt's too, whose lists then nobody else could read.
 install_missing() {
     umask 022
-    as_root apt-get update -q &&
-        as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"
+    as_root apt-get update -q || return
+    find_missing # of alternatives, what apt has heard of just now
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"
 }
 
 if [[ ${1:-} == list && ${2:-} == @(debian|noetic) ]]; then
@@ -94,10 +110,7 @@ case ${1:-} in
     test) wanted="$(run_packages "$flavour") $(test_packages "$flavour")" ;;
     *) die "usage: install.sh messages|run|test|list debian|list noetic" 2 ;;
 esac
-missing=()
-for package in $wanted; do
-    is_installed "$package" || missing+=("$package")
-done
+find_missing
 ((${#missing[@]})) || exit 0
 
 say "installing ${missing[*]}"

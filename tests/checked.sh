@@ -33,9 +33,10 @@ under_threads() {
 }
 
 parallel_tests() {
-    local name
+    local name program
     for name in "${PARALLEL[@]}"; do
-        "$(find "$WORK/thread" -name "test_$name" -type f)"
+        program=$(find "$WORK/thread" -name "test_$name" -type f)
+        "$program"
     done
 }
 

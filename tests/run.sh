@@ -283,7 +283,8 @@ first() { ! mkdir "$TAKEN/$1" 2>/dev/null || stage "$@"; }
 INSTALL=yes
 case ${1:-} in
     --no-install) INSTALL=no ;;
-    '') "$ROOT/launch/install.sh" test ;;
+    # packages find no folder there yet
+    '') env -u TMPDIR -u XDG_RUNTIME_DIR "$ROOT/launch/install.sh" test ;;
     *) die "usage: run.sh [--no-install]" 2 ;;
 esac
 stop_at_exit

@@ -23,6 +23,7 @@ OF_ROS = dict(
     diagnostic_msgs='libdiagnostic-msgs-dev python3-diagnostic-msgs ros-diagnostic-msgs',
     message_generation='ros-message-generation',
     message_runtime='ros-message-runtime',
+    ros_environment='ros-environment',
     rosbag='python3-rosbag',
     rosbash='rosbash',
     roscpp='libroscpp-dev',
@@ -73,7 +74,8 @@ OF_SYSTEM = {
 # lint, a display
 TOOLS = set(
     'build-essential cmake procps libcmocka-dev shellcheck strace valgrind clang libomp-dev '
-    'libclang-rt-dev catkin-lint python3-catkin-lint xvfb libxtst6 imagemagick libgl1-mesa-dri '
+    'libclang-rt-dev|libclang-common-11-dev catkin-lint python3-catkin-lint xvfb libxtst6 '
+    'imagemagick libgl1-mesa-dri '
     'black flake8 clang-format doxygen slurmctld slurmd slurm-client openssh-server '
     'iproute2'.split()
 )

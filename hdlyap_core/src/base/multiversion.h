@@ -4,8 +4,12 @@
 #define HD_MULTIVERSION_H
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(HD_NO_MULTIVERSION)
+#if __has_attribute(target_clones) /* clang has it since 14 */
 #define HD_MULTIVERSION __attribute__((target_clones("avx512f", "fma", "default")))
-#else
+#endif
+#endif
+
+#ifndef HD_MULTIVERSION
 #define HD_MULTIVERSION
 #endif
 

@@ -1,6 +1,12 @@
 """Beside the messages (hdlyap.msg): recorded runs as arrays and frames (load, data), figures and
 tables of bags (plots), a terminal screen (follow), the paper measured again (reproduce)."""
 
+import sys
+import threading
+
+if sys.version_info[:2] == (3, 9):  # rospy 1.15.9 of Debian 11 still calls it by its former name
+    threading.Thread.isAlive = threading.Thread.is_alive
+
 
 def load(*bags, node=None, run=None):
     """What was recorded in a bag, or in several that belong together: see hdlyap.data.run.Run and

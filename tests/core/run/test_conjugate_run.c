@@ -112,7 +112,7 @@ static void check_spaces(hd_run *half, hd_run *whole)
     assert_int_equal(hd_covariant_windows(one), 7);
     assert_int_equal(hd_covariant_windows(other), 7);
     assert_int_equal(hd_splitting_samples(a), hd_splitting_samples(b));
-    for (int pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) {
+    for (hd_pair_of_spaces pair = 0; pair < HD_PAIRS_OF_SPACES; pair++) {
         const hd_angle_of_spaces *found = hd_splitting_angle(a, pair),
                                  *want = hd_splitting_angle(b, pair);
         CHECK_CLOSE(found->least, want->least, rounding);
