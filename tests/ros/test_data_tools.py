@@ -56,6 +56,28 @@ class Tools(Bags):
     def plot(self, *arguments):
         return plot_bag('--out', os.path.join(self.folder, 'out'), *arguments)
 
+    def check(self, name, *arguments, fault):
+        """The status, with one line if it is the one of a fault, and nothing for a terminal."""
+        status, out, error = tool(name, *arguments)
+        self.assertIn(status, {'compare': (0, 1, 2)}.get(name, (0, 1)))
+        for line in (out + error).splitlines():
+            self.assertTrue(line.isprintable(), line)
+            self.assertLess(len(line), 10000)
+        if error:
+            self.assertEqual(status, fault, error)
+            self.assertEqual(error.count('\n'), 1, error)
+            self.assertTrue(error.startswith(name + ': '))
+        return status, out, error
+
+    def all_tools(self, bag):
+        out = os.path.join(self.folder, 'out')
+        with mock.patch('hdlyap.plots.figures.draw_all', lambda *_: []):
+            return (
+                self.check('plot_bag', bag, '--out', out, fault=1),
+                self.check('compare', bag, bag, fault=2),
+                self.check('repeat', bag, fault=1),
+            )
+
 
 class Several(Tools):
     def test_seeds(self):
@@ -208,28 +230,6 @@ class Export(Tools):
 
 
 class Hostile(Tools):
-    def check(self, name, *arguments, fault):
-        """The status, with one line if it is the one of a fault, and nothing for a terminal."""
-        status, out, error = tool(name, *arguments)
-        self.assertIn(status, {'compare': (0, 1, 2)}.get(name, (0, 1)))
-        for line in (out + error).splitlines():
-            self.assertTrue(line.isprintable(), line)
-            self.assertLess(len(line), 10000)
-        if error:
-            self.assertEqual(status, fault, error)
-            self.assertEqual(error.count('\n'), 1, error)
-            self.assertTrue(error.startswith(name + ': '))
-        return status, out, error
-
-    def all_tools(self, bag):
-        out = os.path.join(self.folder, 'out')
-        with mock.patch('hdlyap.plots.figures.draw_all', lambda *_: []):
-            return (
-                self.check('plot_bag', bag, '--out', out, fault=1),
-                self.check('compare', bag, bag, fault=2),
-                self.check('repeat', bag, fault=1),
-            )
-
     def test_escapes_in_names(self):
         texts = dict.fromkeys(('scene', 'version', 'run_id', 'blas_kernel', 'exponents'), ESCAPE)
         info = made.run_info(**texts, observables=[ESCAPE])
@@ -248,6 +248,11 @@ class Hostile(Tools):
         for status, out, _ in self.all_tools(bag):
             self.assertEqual(status, 0)
             self.assertLess(len(out), 50000)
+
+    def test_cost_of_nothing(self):
+        """matplotlib warns of an axis from 0 to 0."""
+        done = self.plot(self.write('a', [made.run_info(), made.cost(0.0), made.cost(0.0)]))
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
 
     def test_formula_in_a_name(self):
         info = made.run_info(scene=r'a $\frac{ b $ $')

@@ -404,6 +404,30 @@ class Screens(unittest.TestCase):
         self.assertEqual([message.unpacked().lambda_max for _ in range(2)], [3.0, 3.0])
         self.assertEqual(Counted.unpacked, 1)
 
+    def test_damaged_bytes(self):
+        """Are no message: what was known before is not shown for it."""
+        shown = View()
+        fill(shown, dict(status=lazy(RunStatus)().deserialize(b'1234').unpacked(), cost=cost()))
+        self.assertEqual((shown.status, shown.cost), (None, None))
+
+    def test_nonsense(self):
+        """One line, and the key that ends it."""
+        spectrum = made.spectrum([3.0], 50.0)
+        spectrum.std_errors = []
+        said = 'what the node says makes no sense here: IndexError: '
+        for size in SIZES:
+            lines = drawn(view(spectrum=spectrum), size)
+            self.assertLessEqual(len(lines), size[1])
+            self.assertTrue(lines[0].startswith(said[: size[0]]))
+        progress = Progress.__new__(Progress)
+        progress.status, progress.spectrum = status(), None
+        progress.status.sim_time = '\x1b[2J'
+        progress.cost = cost(modes_seconds=1.0, wall_seconds=0.0)
+        self.assertEqual(len(progress.parts()), 1)
+        self.assertRegex(progress.parts()[0], '^what the node says makes no sense here: ValueError')
+        progress.status = status()
+        self.assertEqual(progress.parts()[-1], 'interval 2.37 (conditioning), repairs 4')
+
     def test_a_name_is_no_command(self):
         self.assertEqual(clean('a\033[2Jb\r\x9bc'), 'a?[2Jb??c')
 

@@ -124,6 +124,10 @@ class Frames(Bag):
             )
         self.assertEqual(number, 8)
 
+    def test_film_without_end(self):
+        with self.assertRaisesRegex(RecordingError, r'in 8e\+09 frames: must be less than'):
+            frames.Film(self.bag).count(1e-9)
+
     def test_between_two_reports(self):
         """What is known then: the report before."""
         times = [frame.time for frame in frames.Film(self.bag).frames(0.5)]

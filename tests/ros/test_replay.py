@@ -156,6 +156,10 @@ class Replayed(harness.Case):
         self.check_refused('not closed')
         os.remove(self.bag)
         self.check_refused('No such file')
+        evil = type('Evil', (RunInfo,), dict(_full_text='string 1; print("done"); X=a'))
+        with rosbag.Bag(self.bag, 'w') as bag:
+            bag.write('/hdlyap/run_info', evil(), rospy.Time(1))
+        self.check_refused('damaged: hdlyap/RunInfo: its definition has a line')
         for args in (('--pace', '0'), ('--rate', 'nan'), ('--rate', '2', '--pace', '2')):
             replay = self.replay(*args)
             self.assertEqual(replay.wait(), 2, replay.text())

@@ -1,6 +1,8 @@
 """plot_bag and compare: bags of several, unfinished, long and short runs."""
 
 import os
+import signal
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -12,7 +14,7 @@ from made import LP, T
 from terminal import Terminal
 from hdlyap.plots import recording, report, verdict
 from hdlyap.plots.comparison import Comparison
-from hdlyap.plots.figures import plt, steps as figure_of_steps
+from hdlyap.plots.figures import plt, spectrum as figure_of_spectrum, steps as figure_of_steps
 
 EXPONENTS = np.linspace(9, 3, 37)
 
@@ -124,6 +126,37 @@ class Steps(Bag):
         self.assertTrue(np.allclose(heights, [99.0, 92.5]), heights)
         off = bottom.containers[0][0].get_ydata()
         self.assertTrue(np.allclose(off, [1.0, -1.0]), off)
+
+
+class Far(Bag):
+    def test_indices_that_are_not_drawn(self):
+        """A step of 4 10^9 vectors must not take a while."""
+        info = made.run_info()
+        far = made.step(info, T, 1, 0, 30, 2**32 - 1)
+        run = self.recorded([info, made.spectrum(EXPONENTS, 50.0), made.steps([far])])
+        colours = figure_of_spectrum._colours(run, 20, 37)
+        self.assertEqual(list(colours), list(range(30, 38)))
+
+
+class Interrupted(Bag):
+    def test_while_something_is_imported(self):
+        """No traceback of it: ended by the signal."""
+        for name in ('rosbag', 'rospy', 'rospkg', 'roslaunch', 'roslib'):
+            with open(os.path.join(self.folder, name + '.py'), 'w') as file:
+                file.write('import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\n')
+                file.write('time.sleep(60)\n')
+        scripts = 'compare fit_dispersion follow hdlyap_run plot_bag record redraw repeat replay'
+        scripts += ' reproduce sweep sweep_table view'
+        path = os.pathsep.join([self.folder, os.environ['PYTHONPATH']])
+        for name in scripts.split():
+            ended = subprocess.run(
+                [sys.executable, os.path.join(made.SCRIPTS, name)],
+                env=dict(os.environ, PYTHONPATH=path),
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+            )
+            self.assertEqual((ended.returncode, ended.stdout), (-signal.SIGINT, ''), name)
 
 
 class Short(Bag):

@@ -13,7 +13,8 @@ from hdlyap.data.reader import RecordingError, plain
 def by(name, main, fault=1):
     """Of the tool of that name. fault: the exit status if something is wrong."""
     logging.getLogger('rosout').addHandler(logging.NullHandler())  # genpy's, of texts that are none
-    warnings.simplefilter('ignore', RuntimeWarning)  # numpy's, of numbers that no node says
+    for kind in (RuntimeWarning, UserWarning):  # numpy's and matplotlib's, of odd numbers
+        warnings.simplefilter('ignore', kind)
     try:
         status = main()
     except (RecordingError, OSError) as error:

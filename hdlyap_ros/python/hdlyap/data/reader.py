@@ -11,6 +11,8 @@ import rosbag
 
 from hdlyap.plots.progress import Progress
 
+from . import definitions
+
 RUN_INFO, SPECTRUM = 'hdlyap/RunInfo', 'hdlyap/Spectrum'
 STATUS, COST = 'hdlyap/RunStatus', 'hdlyap/Cost'
 MODES, STEPS = 'hdlyap/Modes', 'hdlyap/Steps'
@@ -98,14 +100,14 @@ class Packed:
                 blank.deserialize_numpy(self._data, numpy)
             else:
                 blank.deserialize(self._data)
-            _check(self.kind, blank)
+            check(self.kind, blank)
         except Exception as error:  # whatever a damaged byte makes of genpy
             raise _damaged(self.path, error)
         return blank
 
 
-def _check(kind, message):
-    """What all that reads a message relies on."""
+def check(kind, message):
+    """What all that reads a message relies on; Damaged if it does not hold."""
     lengths = {
         len(getattr(message, name, ())) for name in ALIKE.get(kind, ()) if hasattr(message, name)
     }
@@ -231,6 +233,7 @@ def _topics(bag, path, node, kinds):
 def _packed(bag, topics, at=None):
     """Of these topics; none without a topic."""
     if topics:
+        definitions.check(bag._get_connections(topics))
         found = bag.read_messages(topics=topics, start_time=at, end_time=at, raw=True)
         for _, raw, time in Progress('reading').over(found, bag.get_message_count(topics)):
             yield Packed(bag.filename, raw[0], raw[1], raw[-1], time)

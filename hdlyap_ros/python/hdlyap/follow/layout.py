@@ -12,7 +12,14 @@ SPACED = ('table', 'phases', 'cost', 'diagnosis', 'numbers', 'keys', 'progress')
 
 
 def lines(view, size, glyphs):
-    """At most as many as the screen has."""
+    """At most as many as the screen has; one that says so where a node makes no sense."""
+    try:
+        return _lines(view, size, glyphs)
+    except Exception as error:  # what no check has foreseen: a node may say anything
+        return [[(panels.nonsense(error), 'error')], [('q quit', 'faint')]][: size[1]]
+
+
+def _lines(view, size, glyphs):
     width, height = size
     wanted = {
         'head': panels.head(view, width),

@@ -14,6 +14,8 @@ from hdlyap.plots.numbers import clock
 from hdlyap.plots.stages import LIMITS, STAGES
 
 from .nodes import is_alive
+from .panels import nonsense
+from .screen import clean
 from .wrap import flow, wrapped
 
 LINE_PERIOD = 10.0  # seconds between lines where there is no terminal
@@ -49,6 +51,12 @@ class Progress:
 
     def parts(self):
         """Of the line."""
+        try:
+            return self._parts()
+        except Exception as error:  # what no check has foreseen: a node may say anything
+            return [clean(nonsense(error))]
+
+    def _parts(self):
         status = self.status
         parts = [STAGES.get(status.stage, '?'), f't = {status.sim_time:.1f}']
         if status.progress > 0:
@@ -67,7 +75,7 @@ class Progress:
                 f'interval {cost.interval:.3g} ({LIMITS.get(cost.interval_limit, "?")}), '
                 f'repairs {cost.repairs}'
             )
-        if cost.modes_seconds > 0:
+        if cost.modes_seconds > 0 and cost.wall_seconds > 0:
             share = 100 * cost.modes_seconds / cost.wall_seconds
             parts.append(f'classification {share:.0f} % of the time')
         return parts

@@ -21,6 +21,10 @@ PHASE_ROW = '  {:<9} {:<17} {:>6} {:>7}  {} {:<6}{:<14} {}'
 PHASE_HEAD = PHASE_ROW.format('LP phases', 'A', 'index', '|(a,b)|', ' ', '/2 pi', 'omega', 'v')
 
 
+def nonsense(error):
+    return f'what the node says makes no sense here: {type(error).__name__}: {error}'
+
+
 def head(view, width):
     """What runs."""
     info = view.info

@@ -85,8 +85,9 @@ class Watch:
 
 
 def fill(view, last):
-    """With the last messages of the topics, but those that are left of a run before the one that
-    the status is of."""
+    """With the last messages of the topics, but None and those that are left of a run before the
+    one that the status is of."""
+    last = {name: message for name, message in last.items() if message is not None}
     newest = last.get('status') or last.get('run_info')
     last = (
         {name: message for name, message in last.items() if message.run_id == newest.run_id}
@@ -130,8 +131,13 @@ def lazy(kind):
             return self
 
         def unpacked(self):
-            if self.message is None:
-                self.message = kind().deserialize(self.data)
+            """None if it is damaged."""
+            if self.data is not None:
+                try:
+                    self.message = kind().deserialize(self.data)
+                except Exception:  # whatever a damaged byte makes of genpy
+                    self.message = None
+                self.data = None
             return self.message
 
     return Lazy

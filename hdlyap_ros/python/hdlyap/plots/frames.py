@@ -9,6 +9,8 @@ from hdlyap.data.reader import FIELD, PHASES, STATE, STEPS, RecordingError
 
 from . import recording, steps
 
+MOST = 1e6  # frames of a film: ten of them a second are a day
+
 
 class Frame:
     """What is known at a time. Each has a time of its own: fields come seldom."""
@@ -94,7 +96,13 @@ class Film:
 
     def count(self, every):
         """Number of frames that are so much simulated time apart."""
-        return 1 + int((self.end - self.begin) / every + 1e-9)
+        count = (self.end - self.begin) / every
+        if not count < MOST:
+            raise RecordingError(
+                f'{self._run.name}: from t = {self.begin:g} to {self.end:g} in {count:.3g} frames: '
+                f'must be less than {MOST:g}; choose another pace'
+            )
+        return 1 + int(count + 1e-9)
 
     def frames(self, every):
         """What is known at each of those times, in one Frame."""

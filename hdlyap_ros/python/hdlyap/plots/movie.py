@@ -10,6 +10,8 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
+from hdlyap.data.reader import RecordingError
+
 from . import steps
 from .figures.style import BLUE, GREY, VERMILION, scene
 from .numbers import known, with_error
@@ -38,7 +40,7 @@ CODECS = {
 }
 
 
-class MovieError(Exception):
+class MovieError(RecordingError):
     """One line for the user: why there is no film."""
 
 

@@ -96,7 +96,7 @@ def _magnified_range(recording):
 def _small(axes, recording):
     spectrum = recording.spectrum
     first, last = _magnified_range(recording)
-    colours = _colours(recording)
+    colours = _colours(recording, first, last)
     for index in range(first, last + 1):
         i = index - spectrum.first_index
         axes.errorbar(
@@ -135,11 +135,11 @@ def _all_blocks(recording):
     return found + steps.blocks(message) + steps.blocks(message, conjugate=True)
 
 
-def _colours(recording):
-    """{index: colour} of the vectors of every step; without steps, of the paper's."""
+def _colours(recording, first, last):
+    """{index: colour} of the vectors of every step in that range; without steps, of the paper's."""
     colours = {}
     for block in _all_blocks(recording):
-        for index in range(block.first, block.last + 1):
+        for index in range(max(first, block.first), min(last, block.last) + 1):
             colours[index] = _block_colour(block)
     if recording.steps is None:
         for step in paper.steps(recording.info):
