@@ -9,11 +9,20 @@ by OPENBLAS_CORETYPE. What is not there is skipped by name; two variants must ha
 """
 import glob
 import os
+import platform
 import subprocess
 import sys
 
 LIBRARIES = ["openblas-openmp", "openblas-pthread", "openblas-serial", "reference"]
-FEATURES = {"Prescott": ["sse3"], "Haswell": ["avx2", "fma"], "SkylakeX": ["avx512f", "avx512vl"]}
+# by machine, with what the processor must have; an emulator may show its host in /proc/cpuinfo
+FEATURES = {
+    "x86_64": {
+        "Prescott": ["sse3"],
+        "Haswell": ["avx2", "fma"],
+        "SkylakeX": ["avx512f", "avx512vl"],
+    },
+    "aarch64": {"armv8": [], "cortexa57": [], "thunderx": []},
+}.get(platform.machine(), {})
 
 
 def processor():

@@ -7,7 +7,14 @@ file(GLOB SOURCES ${CORE}/src/base/*.c ${CORE}/src/scene/*.c ${CORE}/src/events/
 list(FILTER SOURCES EXCLUDE REGEX "/(blas|gas)\\.c$") # which no event knows of
 set(TESTS ${CMAKE_CURRENT_LIST_DIR}/support)
 set(EXACT -std=c11 -ffp-contract=off -fno-math-errno -fno-trapping-math)
-set(LEVELS "-O0" "-O2" "-O3 -march=native")
+# all that this processor can do; clang takes -mcpu=native for it on arm64, not -march
+cmake_host_system_information(RESULT machine QUERY OS_PLATFORM)
+if(machine MATCHES "^(aarch64|arm)")
+  set(NATIVE -mcpu=native)
+else()
+  set(NATIVE -march=native)
+endif()
+set(LEVELS "-O0" "-O2" "-O3 ${NATIVE}")
 file(MAKE_DIRECTORY ${WORK})
 
 function(expect_golden compiler level)
