@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the packages of debian/ in a fresh minimal system, and tries them in another one: installed, used by an ordinary user,
 # removed, after which no file may be left. As root, with debootstrap; no part of the suite.
-#   packages.sh [RELEASE]    of Debian (bookworm); the packages are then in build/packages
+#   packages.sh [RELEASE [FOLDER]]    of Debian (bookworm); packages of FOLDER are only tried. They are then in build/packages
 # shellcheck disable=SC2016
 set -euo pipefail
 # shellcheck source=launch/common.sh
@@ -137,11 +137,15 @@ rm -rf "$WORK"
 mkdir -p "$WORK"
 stop_at_exit
 make_base "$RELEASE"
-prepare_builder >"$WORK/builder.log" 2>&1 || die "the builder is not ready; its log is $WORK/builder.log"
-build_packages >"$WORK/build.log" 2>&1 || die "the build failed; its log is $WORK/build.log"
-check warnings warns_of_nothing
-check lintian lintian_is_content
-check build_folder names_no_build_folder
+if [[ -n ${2:-} ]]; then
+    cp "$2"/*.deb "$WORK"
+else
+    prepare_builder >"$WORK/builder.log" 2>&1 || die "the builder is not ready; its log is $WORK/builder.log"
+    build_packages >"$WORK/build.log" 2>&1 || die "the build failed; its log is $WORK/build.log"
+    check warnings warns_of_nothing
+    check lintian lintian_is_content
+    check build_folder names_no_build_folder
+fi
 prepare_user >"$WORK/user.log" 2>&1 || die "the user's system is not ready; its log is $WORK/user.log"
 files >"$WORK/files.before"
 check installs installs
