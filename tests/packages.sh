@@ -39,7 +39,7 @@ prepare_builder() {
 }
 
 build_packages() {
-    as_builder env -C "$TREE" "DEB_BUILD_OPTIONS=parallel=$(nproc)" dpkg-buildpackage -us -uc -b
+    as_builder env -C "$TREE" "DEB_BUILD_OPTIONS=parallel=$(nproc) noautodbgsym" dpkg-buildpackage -us -uc -b
     cp "$BUILDER${TREE%/*}"/*.deb "$WORK"
 }
 
