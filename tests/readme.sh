@@ -11,7 +11,7 @@ readonly WORK=$1 SETUP=$2
 FAILED=0
 
 readonly WRAPPER=$ROOT/doc/wrapper.md CORE=$ROOT/doc/core.md
-readonly DOCUMENTS=("$ROOT/README.md" "$ROOT/doc/user_guide.md" "$ROOT/doc/performance.md")
+readonly DOCUMENTS=("$ROOT/README.md" "$ROOT/CONTRIBUTING.md" "$ROOT/doc/user_guide.md" "$ROOT/doc/performance.md")
 
 # blocks LANGUAGE FILE...: the contents of the fenced blocks of that language.
 blocks() { awk -v fence="\`\`\`$1" '$0 == "```" { on = 0 } on { print } $0 == fence { on = 1 }' "${@:2}"; }
@@ -44,10 +44,10 @@ check() {
     fi
 }
 
-# Commands that other tests run: demo.sh, reproduce.sh, the suite itself, tests/ros/test_bags.py; the last one is done below,
-# for another folder.
+# Commands that other tests run: demo.sh, reproduce.sh, the suite itself, packages.sh, tests/ros/test_bags.py; the last one is
+# done below, for another folder.
 is_run_elsewhere() {
-    [[ $1 == @(launch/demo.sh*|launch/reproduce.sh*|tests/run.sh*|*replay*|source*) ]]
+    [[ $1 == @(launch/demo.sh*|launch/reproduce.sh*|tests/run.sh*|tests/packages.sh*|dpkg-buildpackage*|*replay*|source*) ]]
 }
 
 # A command as a user would type it, in the folder of the clone's copy.
@@ -160,8 +160,8 @@ c_program_prints_the_steps() {
 stop_at_exit
 mkdir -p "$WORK/clone"
 cd "$WORK/clone" # a copy, so that the documents' build folder is not the clone's
-cp -r "$ROOT"/{CMakeLists.txt,package.xml,hdlyap_core,msg,tests} .
-mkdir doc && cp "$ROOT/doc/own_figure.py" doc
+find "$ROOT" -mindepth 1 -maxdepth 1 ! -name build ! -name .git -exec cp -r -t . {} +
+mkdir -p build/check && ln -s "${SETUP%/.install/*}" build/check/ros
 block c hdlyap/hdlyap.h "$CORE" >steps.c
 block c /hdlyap/steps "$WRAPPER" >watch_steps.c
 block python rospy "$ROOT/README.md" >watch.py
