@@ -41,7 +41,7 @@ parallel_tests() {
 }
 
 readonly MEMCHECK=(valgrind --quiet --leak-check=full --errors-for-leak-kinds=definite
-    --show-leak-kinds=definite --error-exitcode=9)
+    --show-leak-kinds=definite --error-exitcode=9 "--suppressions=$ROOT/tests/log4cxx.supp")
 
 # 12 disks between walls, all vectors, modes, steps and phases, 5 time units
 core_in_valgrind() {

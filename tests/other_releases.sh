@@ -119,7 +119,7 @@ noetic() {
 
 # version PACKAGE: installed in the system, as its authors count it.
 # shellcheck disable=SC2016
-version() { inside dpkg-query -W -f '${source:Upstream-Version}' "$1" 2>/dev/null || echo '?'; }
+version() { inside dpkg-query -W -f '${source:Upstream-Version}' "$1" 2>/dev/null | sed 's|+.*||' || echo '?'; }
 
 # first_number COMMAND...: the first version that it prints.
 first_number() { inside "$@" 2>/dev/null | grep -oE '[0-9]+(\.[0-9]+)+' | head -n 1; }
