@@ -249,11 +249,6 @@ class Hostile(Tools):
             self.assertEqual(status, 0)
             self.assertLess(len(out), 50000)
 
-    def test_cost_of_nothing(self):
-        """matplotlib warns of an axis from 0 to 0."""
-        done = self.plot(self.write('a', [made.run_info(), made.cost(0.0), made.cost(0.0)]))
-        self.assertEqual((done.returncode, done.stderr), (0, ''))
-
     def test_formula_in_a_name(self):
         info = made.run_info(scene=r'a $\frac{ b $ $')
         bag = self.write('a', [info, made.spectrum(HALF, 50.0)])
