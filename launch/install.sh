@@ -90,7 +90,7 @@ as_root() {
     fi
 }
 
-# A user's own umask would be apt's too, whose lists then nobody else could read.
+# A user's own umask would be that of what the scripts of packages write, for everybody.
 install_missing() {
     umask 022
     as_root apt-get update -q || return

@@ -87,13 +87,13 @@ refused() {
 
 # by_cmake SOURCE BUILD, used PREFIX: what README says for a build by hand, and what is tried with it.
 by_cmake() {
-    echo "cmake -S $1 -B $2 -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_INSTALL_PREFIX=\$PWD/$2/.install
+    echo "cmake -S $1 -B $2 -DPYTHON_EXECUTABLE=/usr/bin/python3 \"-DCMAKE_INSTALL_PREFIX=\$PWD/$2/.install\"
         cmake --build $2 && cmake --install $2"
 }
 
 used() {
     echo "source $1/setup.bash
-        roslaunch hdlyap run.launch scene:=quick record:=true bag:=\$PWD/../run.bag
+        roslaunch hdlyap run.launch scene:=quick duration:=200 record:=true \"bag:=\$PWD/../run.bag\"
         rosrun hdlyap plot_bag ../run.bag --out ../figures"
 }
 
