@@ -83,7 +83,7 @@ files() {
         -o -path "$SYSTEM/var/lib/dpkg" -o -path "$SYSTEM/var/lib/apt" \) -prune -o -printf '%P %y %m %l\n' | sort
 }
 
-installs() { as_admin bash -c 'apt-get install -y -q --no-install-recommends --no-download /packages/*.deb'; }
+installs() { as_admin bash -c 'apt-get install -y -q --no-install-recommends /packages/*.deb'; }
 
 finds_package() { [[ $(as_user 'rospack find hdlyap') == /usr/share/hdlyap ]]; }
 
