@@ -93,12 +93,11 @@ with_compiler() {
         esac
         apt-get install -y -q --no-install-recommends ninja-build libcmocka-dev $needs
         rm -rf "build/$1"
-        set -- "$1" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DHDLYAP_CORE_TESTS=ON -DCMAKE_C_FLAGS=-Werror -DCMAKE_CXX_FLAGS=-Werror
-        cmake -S . -B "build/$1" -G Ninja "-DCMAKE_C_COMPILER=$1" "-DCMAKE_CXX_COMPILER=$cxx" "${@:2}"
+        set -- "$1" "-DCMAKE_C_COMPILER=$1" "-DCMAKE_CXX_COMPILER=$cxx" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCATKIN_ENABLE_TESTING=OFF
+        cmake -S . -B "build/$1" -G Ninja "${@:2}" -DHDLYAP_CORE_TESTS=ON -DCMAKE_C_FLAGS=-Werror -DCMAKE_CXX_FLAGS=-Werror
         cmake --build "build/$1" -- -k 0
-        cd "build/$1"
-        ctest --output-on-failure -R "^core_golden$" | tee golden
-        grep -q "100% tests passed, 0 tests failed out of 1$" golden' -- "$1"
+        golden=$(find "build/$1" -name test_golden -type f)
+        "$golden"' -- "$1"
 }
 
 compilers() {

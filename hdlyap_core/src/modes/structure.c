@@ -93,7 +93,7 @@ static hd_status plan_waves(hd_structure *s, const hd_scene_def *def)
         return HD_NO_MEMORY;
     }
     (void)hd_waves(&all, wave, s->waves);
-    for (int w = 0, used[2]; w < s->waves; w++) {
+    for (int w = 0, used[2] = {0, 0}; w < s->waves; w++) {
         if (w % AT_ONCE == 0) used[0] = used[1] = 0;
         s->plan[w] = (planned){.wave = wave[w],
                                .modulations = {hd_wave_pairs(&wave[w], def->boundary),
