@@ -45,7 +45,7 @@ core() {
 
 tests() {
     [[ -d $SYSTEM$CLONE/build/core ]] || core || return 0
-    step tests inside ctest --test-dir build/core --output-on-failure --timeout 7200 || true
+    step tests inside bash -c 'cd build/core && ctest --output-on-failure --timeout 7200' || true
     TESTS="$(grep -oE '[0-9]+ tests failed out of [0-9]+' "$FOLDER/$NAME.tests.log" || echo 'did not end'), $SAID s"
 }
 
