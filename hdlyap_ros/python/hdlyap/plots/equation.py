@@ -17,8 +17,13 @@ def compressibility(density):
     return (1 + eta**2 / 8) / (1 - eta) ** 2
 
 
+def contact_value(z, density):
+    """g(sigma) of a Z: Z - 1 = (pi / 2) rho g."""
+    return 2 * (np.asarray(z) - 1) / (pi * np.asarray(density))
+
+
 def collision_rate(z):
-    """Of each disk, that belongs to a Z: 2 sqrt(pi) rho g, with Z - 1 = (pi / 2) rho g."""
+    """Of each disk, that belongs to a Z: 2 sqrt(pi) rho g."""
     return 4 * (np.asarray(z) - 1) / sqrt(pi)
 
 
