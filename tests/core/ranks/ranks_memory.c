@@ -1,6 +1,5 @@
 /** What each of several ranks asks for, and what becomes of a run if one of them does not get it.
  */
-#define _GNU_SOURCE
 #include "hdlyap/room.h"
 #include "ledger.h"
 #include "runs.h"

@@ -114,7 +114,7 @@ static void errors_are_those_of_seeds(void **state)
         scene.duration = 200.0;
         hd_run *run = created(&scene);
         while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
-        const hd_localization *shape = hd_run_localization(run);
+        hd_localization *shape = hd_run_localization(run);
         n = hd_run_vectors(run);
         for (int col = 0; col < n; col++) {
             const double error = hd_localization_width_error(shape, col);
