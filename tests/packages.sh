@@ -2,7 +2,7 @@
 # Builds the packages of debian/ in a fresh minimal system, from a clean clone of what is committed, and tries them in another
 # one: installed, used by an ordinary user, removed, after which no file may be left. As root, with debootstrap; no part of the
 # suite.
-#   packages.sh [RELEASE [FOLDER]]    of Debian (bookworm); packages of FOLDER are only tried. They are then in build/packages
+#   packages.sh [RELEASE [FOLDER]]    of Debian (bookworm); packages of FOLDER are only tried. Those built are in build/packages
 # HDLYAP_MIRROR and HDLYAP_RELEASES: see tests/fresh_system.sh.
 # shellcheck disable=SC2016
 set -euo pipefail
@@ -12,6 +12,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
 source "$ROOT/tests/fresh_system.sh"
 
 readonly RELEASE=${1:-bookworm} WORK=$ROOT/build/packages
+readonly PACKAGES=${2:-$WORK}
 # shellcheck source=tests/check.sh
 source "$ROOT/tests/check.sh"
 
@@ -57,12 +58,12 @@ names_no_build_folder() {
 # of_packages FIELD: of all of them, without their own names.
 of_packages() {
     local package
-    for package in "$WORK"/*.deb; do dpkg-deb -f "$package" "$1"; done | tr ',' '\n' | grep -v hdlyap | sort -u | paste -sd ,
+    for package in "$PACKAGES"/*.deb; do dpkg-deb -f "$package" "$1"; done | tr ',' '\n' | grep -v hdlyap | sort -u | paste -sd ,
 }
 
 # What they need is there before: all that they bring, and nothing else, has to go with them.
 prepare_user() {
-    mkdir "$SYSTEM/packages" && cp "$WORK"/*.deb "$SYSTEM/packages" &&
+    mkdir "$SYSTEM/packages" && cp "$PACKAGES"/*.deb "$SYSTEM/packages" &&
         inside apt-get update -q &&
         inside apt-get satisfy -y -q --no-install-recommends "$(of_packages Depends)" &&
         inside apt-get install -y -q --no-install-recommends g++ cmake make pkg-config openmpi-bin iproute2 python3-rostopic python3-rosmsg &&
@@ -118,12 +119,10 @@ leaves_nothing() {
     diff "$WORK/files.before" "$WORK/files.after"
 }
 
-rm -rf "$WORK"
-mkdir -p "$WORK"
 stop_at_exit
-if [[ -n ${2:-} ]]; then
-    cp "$2"/*.deb "$WORK"
-else
+[[ -n ${2:-} ]] || rm -rf "$WORK"
+mkdir -p "$WORK"
+if [[ -z ${2:-} ]]; then
     fresh_system "$RELEASE" builder
     step prepare prepare_builder || die "the builder is not ready"
     step build build_packages || die "the build failed"
@@ -146,7 +145,7 @@ check scripts scripts_answer
 check core_in_c core_in_c
 check downstream downstream_talks
 check leaves_nothing leaves_nothing
-for package in "$WORK"/*.deb; do
+for package in "$PACKAGES"/*.deb; do
     printf '%9d bytes, %5d kB installed: %s\n' "$(stat -c %s "$package")" "$(dpkg-deb -f "$package" Installed-Size)" "$(basename "$package")"
 done
 leave_system
