@@ -47,6 +47,7 @@ lintian_is_content() { inside bash -c 'lintian --allow-root --fail-on error,warn
 # Nor a file that Python has compiled there.
 names_no_build_folder() {
     local package
+    mkdir -p "$WORK/unpacked"
     for package in "$WORK"/*.deb; do
         dpkg-deb -x "$package" "$WORK/unpacked/$(basename "$package" .deb)" || return
     done
@@ -58,7 +59,7 @@ names_no_build_folder() {
 # of_packages FIELD: of all of them, without their own names.
 of_packages() {
     local package
-    for package in "$PACKAGES"/*.deb; do dpkg-deb -f "$package" "$1"; done | tr ',' '\n' | grep -v hdlyap | sort -u | paste -sd ,
+    for package in "$PACKAGES"/*.deb; do dpkg-deb -f "$package" "$1"; done | tr ',' '\n' | sed '/hdlyap/d; s/^ *//; /^$/d' | sort -u | paste -sd ,
 }
 
 # What they need is there before: all that they bring, and nothing else, has to go with them.
