@@ -5,8 +5,7 @@
 #   other_machine.sh arm64 [core] [tests] [demo]    which steps; all if none is named
 # core: built there, a warning is an error; then the hash of the event log. tests: of the core; for which of them an emulator is too
 # slow or not the machine itself, doc/platforms.md says. demo: the first command of README.
-# The mirror is that of apt, or HDLYAP_MIRROR. HDLYAP_RELEASES (/var/tmp/hdlyap_releases) is used as by other_releases.sh;
-# HDLYAP_RELEASE (bookworm) is the release.
+# HDLYAP_RELEASE (bookworm) is the release; HDLYAP_MIRROR and HDLYAP_RELEASES: see tests/fresh_system.sh.
 set -euo pipefail
 # shellcheck source=launch/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
@@ -15,7 +14,6 @@ source "$ROOT/tests/fresh_system.sh"
 
 readonly TESTS_NEED=(build-essential cmake ninja-build pkg-config python3 libopenblas-openmp-dev liblapacke-dev zlib1g-dev
     libcmocka-dev)
-FAILED=0
 
 # The kernel starts the emulator for such programs, also in a chroot where it is not to be found (flag F).
 emulate() {
@@ -28,7 +26,6 @@ emulate() {
 # shellcheck disable=SC2016
 build_core() {
     inside bash -euc '
-        export DEBIAN_FRONTEND=noninteractive
         apt-get update -q
         apt-get install -y -q --no-install-recommends "$@"
         cmake -S . -B build/core -G Ninja -DHDLYAP_ROS=OFF -DHDLYAP_CORE_TESTS=ON -DCMAKE_C_FLAGS=-Werror
@@ -40,44 +37,23 @@ build_core() {
 
 core() {
     CORE=failed
-    step core build_core && CORE="passed, $SAID s"
+    step core build_core && CORE="passed, $SAID"
 }
 
 tests() {
     [[ -d $SYSTEM$CLONE/build/core ]] || core || return 0
     step tests inside bash -c 'cd build/core && ctest --output-on-failure --timeout 7200' || true
-    TESTS="$(grep -oE '[0-9]+ tests failed out of [0-9]+' "$FOLDER/$NAME.tests.log" || echo 'did not end'), $SAID s"
-}
-
-demo() {
-    local ended=passed
-    step demo inside launch/demo.sh --scene quick || ended=failed
-    DEMO="$ended, $SAID s"
-    grep '^lambda_max ' "$FOLDER/$NAME.demo.log" || { DEMO+=', no table' && FAILED=1; }
-}
-
-row() {
-    printf '| %s ' "$NAME ($(cat "$SYSTEM/etc/debian_version"))" "$(first_number gcc -dumpfullversion)" \
-        "$(version libopenblas-openmp-dev)" "${CORE:-not run}" "${TESTS:-not run}" "${DEMO:-not run}" "$(date +%F)" \
-        "$(git -C "$ROOT" rev-parse --short HEAD)"
-    echo '|'
+    TESTS="$(grep -oE '[0-9]+ tests failed out of [0-9]+' "$(log_of tests)" || echo 'did not end'), $SAID"
 }
 
 [[ ${1:-} == arm64 ]] || die "usage: other_machine.sh arm64 [core] [tests] [demo]" 2
-STEPS=("${@:2}")
+choose_steps 'core tests demo' "${@:2}"
 ((${#STEPS[@]})) || STEPS=(core tests demo)
-for word in "${STEPS[@]}"; do
-    [[ $word == @(core|tests|demo) ]] || die "unknown step $word, choose from: core tests demo" 2
-done
 stop_at_exit
 emulate aarch64
-fresh_system "${HDLYAP_RELEASE:-bookworm}" "$1"
+fresh_system "${HDLYAP_RELEASE:-bookworm}.$1"
 for word in "${STEPS[@]}"; do "$word" || true; done
-echo '| system | GCC | OpenBLAS | core | its tests | demo | date | commit |'
-row
-if ((FAILED)); then
-    say "the system is kept in $SYSTEM"
-else
-    rm -rf --one-file-system "$SYSTEM"
-fi
+row 'GCC | OpenBLAS | core | its tests | demo' "$(first_number gcc -dumpfullversion)" "$(version libopenblas-openmp-dev)" \
+    "${CORE:-not run}" "${TESTS:-not run}" "${DEMO:-not run}"
+leave_system
 exit "$FAILED"
