@@ -111,7 +111,7 @@ downstream_talks() {
         cmake --build downstream && cmake --install downstream' &&
         beside_a_master '. downstream/devel/setup.bash
             rosrun hdlyap_downstream talker & talker=$!
-            for name in listener listener.py; do timeout 60 rosrun hdlyap_downstream $name | tee /dev/stderr | head -n 1 | grep "^3\."; done
+            for name in listener listener.py; do timeout 60 rosrun hdlyap_downstream $name | head -n 1 | grep "^3\."; done
             kill $talker'
 }
 
