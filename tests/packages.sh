@@ -107,10 +107,11 @@ core_in_c() { as_user 'tests/install/check.sh /usr $PWD/consumer'; }
 
 # A catkin package with core, wrapper and messages in C, C++ and Python.
 downstream_talks() {
-    as_user 'cmake -S tests/downstream -B downstream && cmake --build downstream && cmake --install downstream --prefix $PWD/installed' &&
+    as_user 'cmake -S tests/downstream -B downstream -DCMAKE_INSTALL_PREFIX=$PWD/installed
+        cmake --build downstream && cmake --install downstream' &&
         beside_a_master '. downstream/devel/setup.bash
             rosrun hdlyap_downstream talker & talker=$!
-            for name in listener listener.py; do timeout 60 rosrun hdlyap_downstream $name | tee /dev/stderr | head -n 1 | grep "^3\."; done
+            for name in listener listener.py; do timeout 60 rosrun hdlyap_downstream $name | head -n 1 | grep "^3\."; done
             kill $talker'
 }
 

@@ -156,6 +156,16 @@ class Stop(unittest.TestCase):
                 self.assertTrue(harness.wait_until(lambda: node.lines('master at')), node.text())
                 self.stop(node)
 
+    def test_without_address(self):
+        """roscpp has one then, where somebody else's master may be."""
+        node = harness.Process(['env', '-u', 'ROS_MASTER_URI', harness.executable()])
+        self.addCleanup(node.stop)
+        found = harness.wait_until(
+            lambda: node.lines('master at http://localhost:11311') or node.lines('scene ')
+        )
+        self.assertTrue(found, node.text())
+        self.stop(node)
+
     def test_master_comes_later(self):
         port = harness.free_port()
         node = harness.Process([harness.executable()], ROS_MASTER_URI='http://localhost:%d' % port)

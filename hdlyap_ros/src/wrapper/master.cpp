@@ -10,7 +10,7 @@ void master_address_check(int argc, const char *const *argv)
 {
     static const std::string option = "__master:=";
     const char *from = std::getenv("ROS_MASTER_URI");
-    std::string address = from ? from : "", host, name = "ROS_MASTER_URI";
+    std::string address = from ? from : "http://localhost:11311", host, name = "ROS_MASTER_URI";
     uint32_t port = 0;
     for (int k = 1; k < argc; k++) {
         const std::string argument = argv[k];
