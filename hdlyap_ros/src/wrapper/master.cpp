@@ -9,8 +9,8 @@
 void master_address_check(int argc, const char *const *argv)
 {
     static const std::string option = "__master:=";
-    const char *from = std::getenv("ROS_MASTER_URI");
-    std::string address = from ? from : "http://localhost:11311", host, name = "ROS_MASTER_URI";
+    setenv("ROS_MASTER_URI", "http://localhost:11311", 0); // rospy's; not every roscpp has one
+    std::string address = std::getenv("ROS_MASTER_URI"), host, name = "ROS_MASTER_URI";
     uint32_t port = 0;
     for (int k = 1; k < argc; k++) {
         const std::string argument = argv[k];
