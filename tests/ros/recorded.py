@@ -13,6 +13,15 @@ from hdlyap.plots.phases import PhaseCourse
 from hdlyap.plots.run import Run
 
 COUNTS = {made.T: 2, made.LP: 4}
+# of part 9: disks, aspect ratio
+BOXES = {
+    '400_05': (400, 0.5),
+    '400_1': (400, 1.0),
+    '600_075': (600, 0.75),
+    '780_05': (780, 0.5),
+    '780_0867': (780, 0.867),
+    '780_1': (780, 1.0),
+}
 
 RESULTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/reproduction')
 

@@ -13,14 +13,6 @@ from reproduced import Part
 from turned import Wave, course
 
 BOTH = ('reflecting', 'reflecting')
-SMALLEST = {
-    '400_05': (400, 0.5),
-    '400_1': (400, 1.0),
-    '600_075': (600, 0.75),
-    '780_05': (780, 0.5),
-    '780_0867': (780, 0.867),
-    '780_1': (780, 1.0),
-}
 ASPECT = {
     'periodic': (99, 197, 296, 395),
     'walls_lp': (28, 56, 84, 112),
@@ -46,7 +38,7 @@ def shapes():
         f'density_{tenths:02d}': recorded.info(780, tenths / 10, 0.867) for tenths in range(1, 9)
     }
     for boundary, ends in (('periodic', ('periodic',) * 2), ('reflecting', BOTH)):
-        for box, (disks, aspect) in SMALLEST.items():
+        for box, (disks, aspect) in recorded.BOXES.items():
             name = boxes.smallest.run_of(boundary, box)
             found.setdefault(name, recorded.info(disks, 0.4, aspect, ends))
     for which, counts in ASPECT.items():

@@ -8,19 +8,14 @@ import made
 import recorded
 from made import LP, T
 from hdlyap.reproduce import growth
-from hdlyap.reproduce.parts import fluctuations
+from hdlyap.reproduce.parts import fluctuations, smallest
 
 SHAPES = {
     'aspect_025_periodic': (99, 0.25),
     'aspect_050_periodic': (197, 0.5),
     'aspect_075_periodic': (296, 0.75),
     'aspect_100_periodic': (395, 1.0),
-    'smallest_periodic_400_05': (400, 0.5),
-    'smallest_periodic_400_1': (400, 1.0),
-    'smallest_periodic_600_075': (600, 0.75),
-    'smallest_periodic_780_05': (780, 0.5),
-    'density_04': (780, 0.867),
-    'smallest_periodic_780_1': (780, 1.0),
+    **{smallest.run_of('periodic', box): shape for box, shape in recorded.BOXES.items()},
 }
 SAMPLES = 120
 

@@ -11,21 +11,14 @@ from hdlyap.plots import paper
 from hdlyap.reproduce import slopes
 from hdlyap.reproduce.parts import smallest
 
-SHAPES = {
-    '400_05': (400, 0.5),
-    '400_1': (400, 1.0),
-    '600_075': (600, 0.75),
-    '780_05': (780, 0.5),
-    '780_0867': (780, 0.867),
-    '780_1': (780, 1.0),
-}
 ERROR = 2e-4
 ALIKE = 'lambda_T: reflecting over periodic at equal k, less 1'
 
 
 def run(box, boundary, factor):
     """Steps on the paper's curves times a factor; T(1,1) is the smallest one between walls."""
-    info = recorded.info(*[SHAPES[box][0], 0.4, SHAPES[box][1]], boundaries=(boundary, boundary))
+    disks, aspect = recorded.BOXES[box]
+    info = recorded.info(disks, 0.4, aspect, boundaries=(boundary, boundary))
     waves = {
         'periodic': ((T, 1, 0), (LP, 1, 0), (LP, 0, 1)),
         'reflecting': ((T, 1, 1), (LP, 1, 0), (LP, 1, 1)),
@@ -53,7 +46,7 @@ def bags(**factors):
     return {
         smallest.run_of(boundary, box): run(box, boundary, factors.get(boundary, 1.0))
         for boundary in smallest.BOUNDARIES
-        for box in SHAPES
+        for box in recorded.BOXES
     }
 
 

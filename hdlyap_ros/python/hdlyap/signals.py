@@ -7,9 +7,6 @@ import signal
 import sys
 
 ASK = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
-# until one of the functions below is called, as in C: no traceback of whatever is imported just now
-if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def heeded():

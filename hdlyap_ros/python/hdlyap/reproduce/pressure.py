@@ -13,13 +13,15 @@ rho is the density inside, P Henderson's pressure there. kT = 1, sigma = 1."""
 from math import pi, sqrt
 
 import numpy as np
+from scipy.optimize import brentq
 
 from hdlyap.plots import equation
 
 ROW = sqrt(3) / 2  # beside each other by less, disks cannot pass, and only neighbours meet
 STEP = 1e-5  # relative, of derivatives
-LEVELS, POWERS = 60, 60  # places across a row; to the eigenvector of its largest eigenvalue
-HALVINGS = 50
+LEVELS = 60  # places across a row
+FULL = 0.99 * 4 / pi  # density of which eta is nearly 1
+LARGEST = 1e3  # force of a row
 
 
 def velocity(info, nx, ny):
@@ -40,16 +42,14 @@ def is_row(info):
 def inside(info):
     """Density away from the walls, of N disks in all; without walls the density."""
     area = info.box_x * info.box_y
-    low, high = info.disks / area, 2 * info.disks / area
+    mean = info.disks / area
     if not any(_walls(info)):
-        return low
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        if middle * area + adsorbed(middle) * _length(info) > info.disks:
-            high = middle
-        else:
-            low = middle
-    return 0.5 * (low + high)
+        return mean
+
+    def excess(density):
+        return density * area + adsorbed(density) * _length(info) - info.disks
+
+    return brentq(excess, mean, FULL)
 
 
 def pressure(density):
@@ -78,23 +78,14 @@ def of_row(number, height, is_reflecting):
     if not is_reflecting:
         apart = np.minimum(apart, height - apart)
     contact = np.sqrt(1 - apart**2)
-    low, high = number, 1e3
-    for _ in range(HALVINGS):
-        force = sqrt(low * high)
-        if _length_of_row(force, contact) * number > 1:
-            low = force
-        else:
-            high = force
+    force = brentq(lambda one: _length_of_row(one, contact) * number - 1, number, LARGEST)
     return float(force / number / sqrt(2))
 
 
 def _length_of_row(force, contact):
     """A disk: -d ln(eigenvalue) / dF = 1 / F + <s>."""
     weights = np.exp(-force * (contact - contact.min()))
-    last = np.ones(len(weights))
-    for _ in range(POWERS):
-        last = weights @ last
-        last /= last.max()
+    last = np.linalg.eigh(weights)[1][:, -1]
     shares = last[:, None] * weights * last
     return 1 / force + float((shares * contact).sum() / shares.sum())
 

@@ -20,14 +20,15 @@ class Polynomial:
         u, slope = self.x - self.middle, np.zeros(len(self.x))
         for _ in range(ROUNDS):
             self.errors = np.hypot(y_errors, slope * x_errors)
-            self.coefficients = np.polyfit(u, self.y, degree, w=1 / self.errors)
+            self.coefficients, covariance = np.polyfit(
+                u, self.y, degree, w=1 / self.errors, cov='unscaled'
+            )
             slope = np.polyval(np.polyder(self.coefficients), u)
-        powers = np.vander(u, degree + 1) / self.errors[:, None]
         self.freedom = len(self.x) - degree - 1
         off = (self.y - self.at(self.x)) / self.errors
         self.chi2 = float(off @ off)
         scatter = max(1.0, self.chi2 / self.freedom) if self.freedom else 1.0
-        self.covariance = scatter * np.linalg.inv(powers.T @ powers)
+        self.covariance = scatter * covariance
 
     def at(self, x):
         return np.polyval(self.coefficients, np.asarray(x) - self.middle)
