@@ -31,7 +31,8 @@ static uint64_t most_common(const number *numbers, int seeds, int stride)
 
 static column column_of(const number *numbers, int seeds, int stride, uint64_t of)
 {
-    column c = {.seed = room((size_t)seeds, sizeof *c.seed)};
+    /* unsigned: GCC 10 takes what is negative for possible, and warns */
+    column c = {.seed = room((unsigned)seeds, sizeof *c.seed)};
     for (int s = 0; s < seeds; s++) {
         const number *n = &numbers[s * stride];
         if (of == 0 || n->of != of) continue;
