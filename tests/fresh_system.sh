@@ -55,6 +55,7 @@ mirror() {
 inside() {
     # shellcheck disable=SC2016
     unshare --mount --pid --ipc --fork --kill-child bash -ec '
+        mount --bind "$0" "$0" # a root that is no mount is none to ip-netns
         mount --rbind /dev "$0/dev"
         mount -t tmpfs tmpfs "$0/dev/shm"
         mount -t tmpfs tmpfs "$0/run"

@@ -41,11 +41,12 @@ helps() {
 }
 
 writes_results() {
-    local file
+    local file commit
+    commit=$(commit_here) # none without git
     for file in "$OUT"/{periodic.bag,results/{01_spectrum.png,01_exponents.csv,rows*.csv}}; do
         [[ -s $file ]] || { echo "no $file" && return 1; }
     done
-    grep -q "reproduce.sh --part 1 .* at commit $(commit_here)" "$OUT"/results/results*.txt
+    grep -q "reproduce.sh --part 1 .*/plan.yaml${commit:+ at commit $commit}\. " "$OUT"/results/results*.txt
 }
 
 # does_nothing_again: the bag stays as it is.

@@ -30,19 +30,19 @@ SelectType=select/cons_tres
 SelectTypeParameters=CR_Core
 ReturnToService=2
 JobRequeue=1
-StateSaveLocation=$WORK/state
-SlurmdSpoolDir=$WORK/spool.%n
-SlurmctldPidFile=$WORK/slurmctld.pid
-SlurmdPidFile=$WORK/slurmd.%n.pid
-SlurmctldLogFile=$WORK/log/slurmctld
-SlurmdLogFile=$WORK/log/slurmd.%n
+StateSaveLocation="$WORK/state"
+SlurmdSpoolDir="$WORK/spool.%n"
+SlurmctldPidFile="$WORK/slurmctld.pid"
+SlurmdPidFile="$WORK/slurmd.%n.pid"
+SlurmctldLogFile="$WORK/log/slurmctld"
+SlurmdLogFile="$WORK/log/slurmd.%n"
 END
         for node in "${NODES[@]}"; do
             echo "NodeName=$node NodeAddr=127.0.0.1 Port=$(free_port) CPUs=2 RealMemory=4000"
         done
         echo "PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP"
     } >"$SLURM_CONF"
-    echo 'CgroupPlugin=cgroup/v1' >"$WORK/cgroup.conf"
+    [[ $(slurmctld -V) == *' 20.'* ]] || echo 'CgroupPlugin=cgroup/v1' >"$WORK/cgroup.conf" # 20.11 has no such word
 }
 
 idle() { [[ $(sinfo -h -N -o '%N %T' 2>/dev/null | grep -c ' idle$') == "${#NODES[@]}" ]]; }

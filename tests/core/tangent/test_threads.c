@@ -46,6 +46,23 @@ static void what_is_asked_for_is_not_doubted(void **state)
     assert_int_equal(hd_threads_most(1, 640, 317), 1);
 }
 
+/** Also after a product, before which OpenBLAS 0.3.29 thinks again. */
+static void as_many_compute_as_were_asked_for(void **state)
+{
+    (void)state;
+    hd_frame *frame;
+    hd_ortho *ortho;
+    CHECK_OK(hd_frame_create(&frame, 160, 317, 1, 2));
+    CHECK_OK(hd_ortho_create(&ortho, 4 * 160, 317));
+    for (int threads = 1; threads <= 2; threads++) {
+        hd_blas_use_threads(threads);
+        CHECK_OK(hd_ortho_step(ortho, frame, (hd_ortho_limits){1e7, 1.0, HD_NORM_FULL}));
+        assert_int_equal(hd_blas_query().threads, threads);
+    }
+    hd_ortho_free(ortho);
+    hd_frame_free(frame);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -53,6 +70,7 @@ int main(void)
         cmocka_unit_test(in_between_it_is_tried),
         cmocka_unit_test(large_frames_have_all_threads),
         cmocka_unit_test(what_is_asked_for_is_not_doubted),
+        cmocka_unit_test(as_many_compute_as_were_asked_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
