@@ -40,7 +40,7 @@ daemons() {
     mkdir -p /run/sshd # sshd wants it, for its child without rights
     for k in "${!MACHINES[@]}"; do
         start ip netns exec "${MACHINES[k]}" /usr/sbin/sshd -D -E "$WORK/sshd.$k" -f /dev/null -h "$WORK/host" -o PidFile=none \
-            -o "AuthorizedKeysFile=$WORK/authorized" -o PermitRootLogin=yes -o StrictModes=no -o "ListenAddress=$(address "$k")"
+            -o "AuthorizedKeysFile=\"$WORK/authorized\"" -o PermitRootLogin=yes -o StrictModes=no -o "ListenAddress=$(address "$k")"
         wait_for 20 listening "$(address "$k")" || return 1
     done
 }
@@ -58,7 +58,7 @@ END
     {
         echo '<launch>'
         for k in "${!MACHINES[@]}"; do
-            echo "<machine name=\"m$k\" address=\"$(address "$k")\" user=\"$(id -un)\" env-loader=\"$WORK/env.sh\" timeout=\"30\"/>"
+            echo "<machine name=\"m$k\" address=\"$(address "$k")\" user=\"$(id -un)\" env-loader=\"'$WORK/env.sh'\" timeout=\"30\"/>"
         done
         echo '</launch>'
     } >"$WORK/machines.launch"
