@@ -209,6 +209,18 @@ class Running(unittest.TestCase):
         terminal.press('\x03')
         self.assertEqual(terminal.wait(), 130)
 
+    def test_names_that_anybody_gave(self):
+        master = rosgraph.Master('/nobody', self.master.uri)
+        topic = '/\u202e' + 'n' * 10000 + '/status'
+        master.registerPublisher(topic, 'hdlyap/RunStatus', 'http://localhost:1')
+        self.addCleanup(master.unregisterPublisher, topic, 'http://localhost:1')
+        process = harness.Process(
+            [sys.executable, FOLLOW, '--node', 'other', '--timeout', '0.5'], **self.env
+        )
+        self.addCleanup(process.stop)
+        self.assertEqual(process.wait(), 1)
+        self.assertRegex(process.text(), r'there is /\?n{1990,}\.\.\.; waits')
+
     def test_says_what_it_waits_for(self):
         """At once, and how to start it; then goes on with what came."""
         port = harness.free_port()

@@ -160,6 +160,9 @@ class Replayed(harness.Case):
         with rosbag.Bag(self.bag, 'w') as bag:
             bag.write('/hdlyap/run_info', evil(), rospy.Time(1))
         self.check_refused('damaged: hdlyap/RunInfo: its definition has a line')
+        with rosbag.Bag(self.bag, 'w') as bag:
+            bag.write('/\x1b[2J/run_info', RunInfo(), rospy.Time(1))
+        self.check_refused(r'damaged: a topic /\?\[2J/run_info, which is no name')
         for args in (('--pace', '0'), ('--rate', 'nan'), ('--rate', '2', '--pace', '2')):
             replay = self.replay(*args)
             self.assertEqual(replay.wait(), 2, replay.text())

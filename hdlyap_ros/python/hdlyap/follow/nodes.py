@@ -11,8 +11,11 @@ import rospy
 
 from hdlyap.msg import RunStatus
 
+from . import screen
+
 ANSWER = 5.0  # seconds that a master or a node may take to answer
 SOON = 1.0  # the same while nothing is known of a master
+LIST = 2000  # letters at most of the names of nodes
 HOW = 'To start one: roslaunch hdlyap run.launch'
 # a question that could not be asked, or whose answer is none
 UNANSWERED = (
@@ -45,14 +48,20 @@ def wait_for_node(name, deadline):
         return name in found if name else bool(found)
 
     def missing():
-        others = f'; there is {", ".join(sorted(found))}' if found else ''
+        others = f'; there is {_listed(found)}' if found else ''
         return f'follow: no {name or "hdlyap_node"} that publishes a run_info{others}'
 
     if not _wait(look, deadline, missing):
         return None
     if name is None and len(found) > 1:
-        sys.exit(f'follow: several nodes, choose one with --node: {", ".join(sorted(found))}')
+        sys.exit(f'follow: several nodes, choose one with --node: {_listed(found)}')
     return name or found.pop()
+
+
+def _listed(names):
+    """Anybody may have given them."""
+    text = screen.clean(', '.join(sorted(names)))
+    return text if len(text) <= LIST else text[: LIST - 3] + '...'
 
 
 def _wait(is_there, deadline, missing):
