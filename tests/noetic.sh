@@ -40,7 +40,7 @@ prefix() {
     mkdir -p "$WORK/base"
     echo '<package format="2"><name>base</name><version>1.0.0</version><description>b</description><maintainer email="a@b.c">a</maintainer>
         <license>none</license><buildtool_depend>catkin</buildtool_depend></package>' >"$WORK/base/package.xml"
-    printf '%s\n' 'cmake_minimum_required(VERSION 3.16)' 'project(base NONE)' 'find_package(catkin REQUIRED)' 'catkin_package()' \
+    printf '%s\n' 'cmake_minimum_required(VERSION 3.16)' 'project(base C)' 'find_package(catkin REQUIRED)' 'catkin_package()' \
         >"$WORK/base/CMakeLists.txt"
     cmake -S "$WORK/base" -B "$WORK/base/build" "-DCMAKE_INSTALL_PREFIX=$NOETIC" -DPYTHON_EXECUTABLE=/usr/bin/python3
     cmake --install "$WORK/base/build"

@@ -147,8 +147,8 @@ outside() {
     mount --rbind /dev "$there/root/dev"
     mount --rbind /sys "$there/root/sys"
     mount -t tmpfs tmpfs "$there/root/tmp" -o mode=1777
-    mkdir -p "$there/root/$WORK"
-    mount --bind "$WORK" "$there/root/$WORK"
+    mkdir -p "$there/root/$ROOT" # below /tmp it is gone
+    mount --bind "$ROOT" "$there/root/$ROOT"
     exec chroot "$there/root" "$ROOT/tests/users.sh" --inside "$@"
 }
 
