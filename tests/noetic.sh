@@ -38,7 +38,7 @@ empty_packages() {
 prefix() {
     local name
     mkdir -p "$WORK/base"
-    echo '<package format="2"><name>base</name><version>1.0.0</version><description>b</description><maintainer email="a@b.c">a</maintainer>
+    echo '<package format="2"><name>base</name><version>1.0.0</version><description>b</description><maintainer email="a@localhost.org">a</maintainer>
         <license>none</license><buildtool_depend>catkin</buildtool_depend></package>' >"$WORK/base/package.xml"
     printf '%s\n' 'cmake_minimum_required(VERSION 3.16)' 'project(base C)' 'find_package(catkin REQUIRED)' 'catkin_package()' \
         >"$WORK/base/CMakeLists.txt"
@@ -63,9 +63,9 @@ mkdir -p "$NOETIC"
 launch/install.sh run # for Noetic, as the folder is there
 [[ -n $(dpkg-query -W 'ros-noetic-*') ]]
 prefix
-launch/demo.sh --scene quick
-[[ $(sed -n 's/^CMAKE_C_COMPILER:[^=]*=//p' build/CMakeCache.txt) == *gcc-9 ]]
-grep -q "$NOETIC" build/.install/_setup_util.py # what is sourced chains it
+launch/demo.sh --scene quick --build "$WORK/build"
+grep '^CMAKE_C_COMPILER:.*gcc-9$' "$WORK/build/CMakeCache.txt"
+grep "$NOETIC" "$WORK/build/.install/_setup_util.py" # what is sourced chains it
 
 own_environment "$WORK/home"
 build "$WORK/ros" -DCATKIN_ENABLE_TESTING=OFF "-DCMAKE_INSTALL_PREFIX=$WORK/ros/.install"
