@@ -280,6 +280,7 @@ can_ssh() {
 # first NAME COUNTER COMMAND...: the stage, in the lane that comes first.
 first() { ! mkdir "$TAKEN/$1" 2>/dev/null || stage "$@"; }
 
+[[ $ROOT != *[[:space:]]* ]] || die "$ROOT: catkin runs no tests in a folder with a blank in its name; builds and demo do there" 2
 INSTALL=yes
 case ${1:-} in
     --no-install) INSTALL=no ;;
