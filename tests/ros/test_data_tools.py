@@ -230,6 +230,12 @@ class Export(Tools):
 
 
 class Hostile(Tools):
+    def test_more_than_the_memory(self):
+        path = self.write('a', made.small_run())
+        with mock.patch('rosbag.Bag.read_messages', side_effect=MemoryError):
+            for _, _, error in self.all_tools(path):
+                self.assertIn('a.bag: needs more memory than there is', error)
+
     def test_escapes_in_names(self):
         texts = dict.fromkeys(('scene', 'version', 'run_id', 'blas_kernel', 'exponents'), ESCAPE)
         info = made.run_info(**texts, observables=[ESCAPE])

@@ -194,12 +194,14 @@ def opened(path):
         raise RecordingError(f'{path}: not a readable bag: {error}')
     except OSError as error:
         raise RecordingError(f'{path}: {error.strerror or error}{_unfinished(path)}')
+    except MemoryError:
+        raise RecordingError(f'{path}: needs more memory than there is')
     except Exception as error:  # whatever a damaged byte makes of rosbag and genpy
         raise _damaged(path, error)
 
 
 def _damaged(path, error):
-    return RecordingError(f'{path}: damaged: {error or type(error).__name__}')
+    return RecordingError(f'{path}: damaged: {str(error) or type(error).__name__}')
 
 
 def _unfinished(path):
