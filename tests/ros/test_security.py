@@ -35,6 +35,7 @@ SYSTEM = (
     '/etc/gai.conf',
     '/etc/localtime',
     '/etc/ssl/openssl.cnf',
+    '/usr/share/locale',
     '/usr/share/zoneinfo',
     '/lib',
     '/usr/lib',
@@ -278,7 +279,7 @@ class Security(unittest.TestCase):
 
 def paths_of(arguments):
     return [
-        text.encode().decode('unicode_escape')
+        text.encode().decode('unicode_escape').encode('latin-1').decode()
         for text in re.findall(r'"((?:[^"\\]|\\.)*)"', arguments)
     ]
 

@@ -3,6 +3,7 @@
 #include "master.hpp"
 
 #include <algorithm>
+#include <clocale>
 #include <cstdarg>
 #include <cstdio>
 #include <stdexcept>
@@ -128,6 +129,7 @@ hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *n
     stop_without_memory(memory_status);
     return hdr_guard([&] {
         stop_handlers_install(stop_seconds);
+        setlocale(LC_CTYPE, ""); /* or log4cxx writes a question mark for each byte beyond ASCII */
         master_address_check(*argc, argv);
         ros::init(*argc, argv, name, ros::init_options::NoSigintHandler);
         *out = node_start();
