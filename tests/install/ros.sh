@@ -187,7 +187,7 @@ workspace_builds() {
 # Configured once more, nothing is compiled again.
 workspace_builds_once() {
     cmake "$SPACE/build" && cmake --build "$SPACE/build" >"$WORK/again" &&
-        cat "$WORK/again" && ! grep -E 'Building|Linking' "$WORK/again"
+        cat "$WORK/again" && ! grep -E 'Building|Linking' "$WORK/again" | grep -v hdlyap_downstream # a user's own is not ours
 }
 
 installs_below_destdir() {
