@@ -282,7 +282,7 @@ TEST(freeing, again_and_again_under_load)
 TEST(freeing, waits_for_the_callback_that_runs)
 {
     seen s;
-    std::atomic<bool> freed{false};
+    std::atomic<bool> begun{false}, freed{false};
     hdr_publisher *publisher = advertise("~waits");
     hdr_subscriber *subscriber = subscribe("~waits", &s);
     s.held = true;
@@ -290,10 +290,12 @@ TEST(freeing, waits_for_the_callback_that_runs)
     publish(publisher, 1);
     EXPECT_TRUE(wait_until([&] { return s.inside.load(); }));
     std::thread other([&] {
+        begun = true;
         hdr_subscriber_free(subscriber);
         s.gone = true;
         freed = true;
     });
+    EXPECT_TRUE(wait_until([&] { return begun.load(); }));
     hdr_node_wait(0.05);
     EXPECT_FALSE(freed);
     s.held = false;
