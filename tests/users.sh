@@ -34,7 +34,7 @@ case_read_only() { typed u hdlyap "chmod -R a-w .; $(refused "$DEMO" 'build DIR 
 case_no_network() { offline && typed u hdlyap "$DEMO"; }
 case_no_network_by_hand() { offline && typed u hdlyap "$(by_cmake . build); $(used build/.install)"; }
 case_cmake() { typed u 'my work/hard disks' "$(by_cmake . build); $(used build/.install)"; }
-case_cmake_read_only() { typed u hdlyap "chmod -R a-w .; cd ..; $(by_cmake hdlyap ../b); $(used ../b/.install)"; }
+case_cmake_read_only() { typed u work/hdlyap "chmod -R a-w .; cd ..; $(by_cmake hdlyap b); $(used b/.install)"; }
 case_catkin() { typed u 'cat ws/src/hdlyap' "cd ../..; catkin_make; $(used devel)"; }
 case_suite() { typed u "${ODD// /_}" "tests/run.sh --no-install"; }
 case_suite_refused() { typed u "$ODD" "$(refused 'tests/run.sh --no-install' 'with a blank')"; }
