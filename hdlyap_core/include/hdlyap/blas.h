@@ -31,6 +31,10 @@ void hd_blas_restart_if_slow(char **argv);
 /** In calls from this thread from now on. */
 void hd_blas_use_threads(int threads);
 
+/** Threads of OpenMP that may call it at the same time, each for its own part of a product: those
+ * of hd_blas_use_threads where it uses OpenMP, too, and then gives each call one thread; else 1. */
+int hd_blas_threads_to_share(void);
+
 /** Of so many, the threads that OpenMP grants: fewer where OMP_THREAD_LIMIT or
  * OMP_MAX_ACTIVE_LEVELS says so. OpenBLAS would wait for the others for ever. */
 int hd_blas_threads_granted(int threads);

@@ -33,14 +33,18 @@ hd_blas hd_blas_query(void)
     return blas;
 }
 
+static bool uses_openmp(void) { return openblas_get_parallel && openblas_get_parallel() == OPENMP; }
+
 /** OMP_DYNAMIC would let OpenMP grant fewer threads now and then. OpenBLAS 0.3.29 takes OpenMP's
  * number at the next call, and forgets what it was told. */
 void hd_blas_use_threads(int threads)
 {
     omp_set_dynamic(0);
     if (openblas_set_num_threads) openblas_set_num_threads(threads);
-    if (openblas_get_parallel && openblas_get_parallel() == OPENMP) omp_set_num_threads(threads);
+    if (uses_openmp()) omp_set_num_threads(threads);
 }
+
+int hd_blas_threads_to_share(void) { return uses_openmp() ? omp_get_max_threads() : 1; }
 
 /** Asks rather than tries: threads that are begun for a trial take the room of those to come. */
 int hd_blas_threads_granted(int threads)

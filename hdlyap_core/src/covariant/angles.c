@@ -5,7 +5,6 @@
  * 1 do not know them. */
 #include "covariant/angles.h"
 
-#include <cblas.h>
 #include <float.h>
 #include <lapacke.h>
 #include <math.h>
@@ -13,6 +12,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "tangent/product.h"
 
 struct hd_angles {
     int rows, widest;
@@ -120,10 +120,10 @@ hd_status hd_angles_between(hd_angles *angles, double *angle, const double *c, h
            *cosine = angles->value[1];
     HD_TRY(orthonormalise(angles, qa, c, a));
     HD_TRY(orthonormalise(angles, qb, c, b));
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, a.count, b.count, rows, 1.0, qa, rows, qb,
-                rows, 0.0, angles->product, a.count);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, b.count, a.count, -1.0, qa, rows,
-                angles->product, a.count, 1.0, qb, rows);
+    hd_dgemm(CblasTrans, CblasNoTrans, a.count, b.count, rows, 1.0, qa, rows, qb, rows, 0.0,
+             angles->product, a.count);
+    hd_dgemm(CblasNoTrans, CblasNoTrans, rows, b.count, a.count, -1.0, qa, rows, angles->product,
+             a.count, 1.0, qb, rows);
     HD_TRY(singular_values(angles, sine, qb, rows, b.count));
     HD_TRY(singular_values(angles, cosine, angles->product, a.count, b.count));
     angles_of(angles, angle, b.count);

@@ -14,6 +14,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "tangent/product.h"
 
 enum { PANEL = 96 };
 
@@ -68,12 +69,11 @@ static void panel_block(hd_coupling *c, const hd_frame *frame, const double *fac
     double *y = c->y + (size_t)first * (size_t)n + col;
     const double *r = factor + (size_t)first * (size_t)n;
     if (count == 0) return;
-    cblas_dgemm(CblasRowMajor, CblasTrans, CblasNoTrans, width, count, c->rows, 1.0,
-                hd_frame_read(frame) + first, stride, hd_frame_read(c->frame) + col, stride, 0.0, y,
-                n);
+    hd_dgemm(CblasNoTrans, CblasTrans, count, width, c->rows, 1.0, hd_frame_read(c->frame) + col,
+             stride, hd_frame_read(frame) + first, stride, 0.0, y, n);
     if (later < n)
-        cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, width, count, n - later, -1.0,
-                    r + later, n, c->y + (size_t)later * (size_t)n + col, n, 1.0, y, n);
+        hd_dgemm(CblasNoTrans, CblasNoTrans, count, width, n - later, -1.0,
+                 c->y + (size_t)later * (size_t)n + col, n, r + later, n, 1.0, y, n);
     cblas_dtrsm(CblasRowMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, width, count, 1.0,
                 r + first, n, y, n);
 }

@@ -1,7 +1,7 @@
 /** Frame -> weights of every vector in every subspace [T11].
  *
  * With B (2N x D, row-major) the sampled fields of all subspaces and U (2N x n) the dq halves, the
- * overlaps B^T U are two dgemms, over the x and the y rows of the frame where they lie. Least
+ * overlaps B^T U are two products, over the x and the y rows of the frame where they lie. Least
  * squares on one subspace: its Gram matrix G = E L E^T (dgesvd), coefficients c = G^+ B^T u, weight
  * = |L^(-1/2) E^T B^T u|^2; directions that the disks do not sample (L below RANK) are left out.
  * The vectors stay in columns throughout. */
@@ -16,6 +16,7 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "modes/archived.h"
+#include "tangent/product.h"
 
 /** Eigenvalues of a Gram matrix of unit fields below this are unsampled directions, not small ones.
  */
@@ -102,10 +103,10 @@ static void overlaps(const hd_modes *modes, hd_columns v, int half, int column, 
 {
     const int fields = hd_fields_stride(modes->fields);
     for (int d = 0; d < 2; d++)
-        cblas_dgemm(CblasRowMajor, CblasTrans, CblasNoTrans, count, v.count, modes->disks, 1.0,
-                    hd_fields_data(modes->fields) + (size_t)d * (size_t)fields + column, 2 * fields,
-                    v.data + (size_t)(half + d) * (size_t)v.stride, 4 * v.stride, d, out + v.first,
-                    (int)modes->stride);
+        hd_dgemm(CblasNoTrans, CblasTrans, v.count, count, modes->disks, 1.0,
+                 v.data + (size_t)(half + d) * (size_t)v.stride, 4 * v.stride,
+                 hd_fields_data(modes->fields) + (size_t)d * (size_t)fields + column, 2 * fields, d,
+                 out + v.first, (int)modes->stride);
 }
 
 static void gram_fill(hd_modes *modes)

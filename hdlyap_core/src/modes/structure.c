@@ -5,7 +5,6 @@
  * the sums of those stay in cache until they are amplitudes along and across k. */
 #include "hdlyap/structure.h"
 
-#include <cblas.h>
 #include <limits.h>
 #include <math.h>
 #include <string.h>
@@ -15,6 +14,7 @@
 #include "hdlyap/modes.h"
 #include "modes/archived.h"
 #include "modes/harmonics.h"
+#include "tangent/product.h"
 
 enum { AT_ONCE = 16, FUNCTIONS = HD_MODULATIONS_MAX, WIDTH = AT_ONCE * FUNCTIONS };
 
@@ -213,9 +213,9 @@ static void sum_up(hd_structure *s, hd_columns v, int from, int to)
     for (int d = 0; d < 2; d++) {
         const int columns = fill_factors(s, d, from, to);
         if (columns == 0) continue;
-        cblas_dgemm(CblasRowMajor, CblasTrans, CblasNoTrans, columns, v.count, s->disks, 1.0,
-                    s->factor, WIDTH, v.data + (size_t)d * (size_t)v.stride, 4 * v.stride, 0.0,
-                    s->sum[d] + v.first, (int)s->stride);
+        hd_dgemm(CblasNoTrans, CblasTrans, v.count, columns, s->disks, 1.0,
+                 v.data + (size_t)d * (size_t)v.stride, 4 * v.stride, s->factor, WIDTH, 0.0,
+                 s->sum[d] + v.first, (int)s->stride);
     }
 }
 

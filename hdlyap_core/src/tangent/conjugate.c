@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "tangent/frame_state.h"
+#include "tangent/product.h"
 
 enum { PANEL = 16, PAIRS = 4 };
 
@@ -80,14 +81,13 @@ static void project(const panel *x, hd_frame *frame, const double *of)
 {
     const int stride = hd_frame_stride(frame);
     for (int col = 0; col < x->first; col += beside(x, frame, col))
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, beside(x, frame, col), x->width,
-                    x->rows, 1.0, hd_frame_vector(frame, col), stride, of, x->rows, 0.0,
-                    x->part + col, x->first);
+        hd_dgemm(CblasNoTrans, CblasNoTrans, beside(x, frame, col), x->width, x->rows, 1.0,
+                 hd_frame_vector(frame, col), stride, of, x->rows, 0.0, x->part + col, x->first);
     hd_communicator_sum(frame->communicator, x->part, (size_t)x->first * (size_t)x->width);
     for (int col = 0; col < x->first; col += beside(x, frame, col))
-        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, x->rows, x->width,
-                    beside(x, frame, col), 1.0, hd_frame_vector(frame, col), stride, x->part + col,
-                    x->first, col > 0, x->turned, x->rows);
+        hd_dgemm(CblasTrans, CblasNoTrans, x->rows, x->width, beside(x, frame, col), 1.0,
+                 hd_frame_vector(frame, col), stride, x->part + col, x->first, col > 0, x->turned,
+                 x->rows);
 }
 
 /** A -= Q Q^T A + (J Q)(J Q)^T A for the vectors before the panel; (J Q)^T A = -Q^T J A. */
@@ -278,8 +278,8 @@ double hd_conjugate_isotropy(hd_conjugate *c, const hd_frame *frame)
 {
     const hd_columns own = hd_frame_columns(frame);
     double sum = 0.0;
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, c->rows, 2 * PAIRS, own.count, 1.0,
-                own.data, own.stride, c->sign + own.first, c->half, 0.0, c->sum, c->rows);
+    hd_dgemm(CblasTrans, CblasNoTrans, c->rows, 2 * PAIRS, own.count, 1.0, own.data, own.stride,
+             c->sign + own.first, c->half, 0.0, c->sum, c->rows);
     hd_communicator_sum(frame->communicator, c->sum, 2 * PAIRS * (size_t)c->rows);
     for (int k = 0; k < PAIRS; k++) {
         const double *a = c->sum + 2 * (size_t)k * (size_t)c->rows;

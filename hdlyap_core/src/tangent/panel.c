@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/check.h"
+#include "tangent/product.h"
 
 /** A panel that is worse conditioned by itself gets a second Cholesky pass: its loss of
  * orthogonality, eps condition^2, multiplies what the later panels are cleaned of. */
@@ -68,9 +69,9 @@ static void inner_products_here(const hd_ortho *ortho, double *s, int lds, hd_pa
     const bool dq = ortho->norm == HD_NORM_DQ;
     const int parts = dq ? 2 : 1, step = dq ? 4 : 1;
     for (int part = 0; part < parts; part++)
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, y.width, x.width, ortho->rows / step,
-                    1.0, y.a + part * y.lda, step * y.lda, x.a + part * x.lda, step * x.lda,
-                    part > 0, s, lds);
+        hd_dgemm(CblasNoTrans, CblasTrans, y.width, x.width, ortho->rows / step, 1.0,
+                 y.a + part * y.lda, step * y.lda, x.a + part * x.lda, step * x.lda, part > 0, s,
+                 lds);
 }
 
 /** The same of all ranks. */
@@ -88,8 +89,8 @@ static void inner_products(const hd_ortho *ortho, double *s, int lds, hd_panel y
 /** A_y <- A_y - S A_x. */
 static void take_out(const hd_ortho *ortho, const double *s, int lds, hd_panel y, hd_panel x)
 {
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, y.width, ortho->rows, x.width, -1.0, s,
-                lds, x.a, x.lda, 1.0, y.a, y.lda);
+    hd_dgemm(CblasNoTrans, CblasNoTrans, y.width, ortho->rows, x.width, -1.0, s, lds, x.a, x.lda,
+             1.0, y.a, y.lda);
 }
 
 /** Entry of L of the present pass at a row and the panel's first column: of the first one, or of
@@ -258,9 +259,8 @@ static void panel_project(hd_ortho *ortho, hd_frame *frame, hd_panel x, int firs
             const double entry = s[(size_t)col * (size_t)count + (size_t)row];
             ortho->norm2[first + row] += entry * entry;
         }
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, HD_PROBES, x.width, -1.0, s,
-                count, ortho->probe + x.first, ortho->vectors, 1.0, ortho->probe + first,
-                ortho->vectors);
+    hd_dgemm(CblasNoTrans, CblasNoTrans, count, HD_PROBES, x.width, -1.0, s, count,
+             ortho->probe + x.first, ortho->vectors, 1.0, ortho->probe + first, ortho->vectors);
     for (int at = 0; at < count;) {
         const hd_panel part = panel_at(frame, first + at, count - at);
         take_out(ortho, s + at, count, part, x);

@@ -167,15 +167,19 @@ static void warn_of_threads(const hd_run *run)
                 granted + denied);
 }
 
+/** Before the run is made: of large systems that takes a while. */
+static void log_scene(const settings *set)
+{
+    double box[2];
+    hd_scene_box(&set->def, box);
+    hdr_log(HDR_INFO, "scene %s: %d disks in %.6g x %.6g", set->scene, set->def.disks, box[0],
+            box[1]);
+}
+
 static void log_start(const app *a)
 {
-    const hd_scene_def *def = &a->set.def;
     const hd_blas blas = hd_blas_query();
-    double box[2];
-    hd_scene_box(def, box);
-    hdr_log(HDR_INFO,
-            "scene %s: %d disks in %.6g x %.6g, %d vectors, %d threads; %s, kernel %s, %d threads",
-            a->set.scene, def->disks, box[0], box[1], hd_run_vectors(a->run),
+    hdr_log(HDR_INFO, "%d vectors, %d threads; %s, kernel %s, %d threads", hd_run_vectors(a->run),
             hd_run_threads(a->run), blas.library, blas.kernel, blas.threads);
     warn_of_threads(a->run);
     if (*a->set.resume)
@@ -241,7 +245,9 @@ static void app_free(app *a)
 static int run(app *a)
 {
     int status = read_settings(a);
-    if (status == EXIT_SUCCESS) status = create_run(a);
+    if (status != EXIT_SUCCESS) return status;
+    log_scene(&a->set);
+    status = create_run(a);
     if (status != EXIT_SUCCESS) return status;
     log_start(a);
     status = failed_status(advertise(a));
