@@ -40,6 +40,8 @@ class Launch(unittest.TestCase):
         self.assertTrue(listener.wait_for(lambda message: True), node.text())
         node.send(signal.SIGINT)
         self.assertEqual(node.wait(), 0, node.text())
+        announced = node.lines('makes 5997 vectors of 3000 disks orthonormal')
+        self.assertEqual(len(announced), scene == 'large', node.text())
         listener.close()
         info = listener.messages[0]
         self.assertEqual(info.scene, scene)

@@ -30,6 +30,8 @@ static const double stop_keeping_seconds = 12.0, stop_step_keeping_seconds = 10.
 /** How long the last messages of a finished run may take to reach a slow subscriber. */
 static const double linger_seconds = 5.0;
 static const double poll_seconds = 0.02;
+/** Entries of a frame whose beginning is announced. */
+static const double ENTRIES_MANY = 2e7;
 
 /** Everything that the node owns, in the order of its making. */
 typedef struct app {
@@ -108,6 +110,19 @@ static int first_field(const settings *set)
     return first;
 }
 
+/** Of some thousand disks it takes seconds, beside other jobs a minute. Not if it will be refused.
+ */
+static void log_creation(const hd_scene_def *def)
+{
+    char unused[512];
+    if (hd_scene_check(def, unused, sizeof unused) != HD_OK ||
+        hd_room_check(def, hd_room_available(), unused, sizeof unused) != HD_OK)
+        return;
+    const int vectors = hd_scene_carried(def);
+    if (4.0 * def->disks * vectors > ENTRIES_MANY)
+        hdr_log(HDR_INFO, "makes %d vectors of %d disks orthonormal", vectors, def->disks);
+}
+
 /** A run whose checkpoints could not be written is not begun. */
 static int create_run(app *a)
 {
@@ -117,8 +132,10 @@ static int create_run(app *a)
     if (status == HD_OK && *set->resume)
         status = hd_run_resume_shared(&a->run, set->resume, &set->def, a->ranks, message,
                                       sizeof message);
-    else if (status == HD_OK)
+    else if (status == HD_OK) {
+        log_creation(&set->def);
         status = hd_run_create_shared(&a->run, &set->def, a->ranks, message, sizeof message);
+    }
     if (*set->checkpoint || a->ranks) hdr_node_stop_within(stop_keeping_seconds);
     if (status == HD_OK) hd_run_fields_every(a->run, set->field_interval);
     if (status == HD_OK) hd_run_fields_from(a->run, first_field(set));
@@ -167,19 +184,15 @@ static void warn_of_threads(const hd_run *run)
                 granted + denied);
 }
 
-/** Before the run is made: of large systems that takes a while. */
-static void log_scene(const settings *set)
-{
-    double box[2];
-    hd_scene_box(&set->def, box);
-    hdr_log(HDR_INFO, "scene %s: %d disks in %.6g x %.6g", set->scene, set->def.disks, box[0],
-            box[1]);
-}
-
 static void log_start(const app *a)
 {
+    const hd_scene_def *def = &a->set.def;
     const hd_blas blas = hd_blas_query();
-    hdr_log(HDR_INFO, "%d vectors, %d threads; %s, kernel %s, %d threads", hd_run_vectors(a->run),
+    double box[2];
+    hd_scene_box(def, box);
+    hdr_log(HDR_INFO,
+            "scene %s: %d disks in %.6g x %.6g, %d vectors, %d threads; %s, kernel %s, %d threads",
+            a->set.scene, def->disks, box[0], box[1], hd_run_vectors(a->run),
             hd_run_threads(a->run), blas.library, blas.kernel, blas.threads);
     warn_of_threads(a->run);
     if (*a->set.resume)
@@ -245,9 +258,7 @@ static void app_free(app *a)
 static int run(app *a)
 {
     int status = read_settings(a);
-    if (status != EXIT_SUCCESS) return status;
-    log_scene(&a->set);
-    status = create_run(a);
+    if (status == EXIT_SUCCESS) status = create_run(a);
     if (status != EXIT_SUCCESS) return status;
     log_start(a);
     status = failed_status(advertise(a));
