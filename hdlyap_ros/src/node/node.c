@@ -161,7 +161,8 @@ static void on_parameter_set(void *context, const char *name, const char *text)
         hdr_log(HDR_WARN, "parameter %.100s was set, but %s", name, parameters_instead(name));
 }
 
-/** From here on the node can be seen by others. */
+/** From here on the node can be seen by others. The run begins once all of it is registered:
+ * another node of this name that takes over would have to end for what comes later. */
 static hdr_status advertise(app *a)
 {
     const char *kernel = hd_blas_query().kernel;
@@ -171,7 +172,8 @@ static hdr_status advertise(app *a)
     if (status == HDR_OK && !worker_create(&a->work, a->run, a->rep, &a->set, &a->keep))
         status = HDR_NO_MEMORY;
     if (status == HDR_OK) status = services_advertise(a->ros, a->work);
-    return status == HDR_OK ? hdr_params_watch(a->params, a->ros, on_parameter_set, a) : status;
+    if (status == HDR_OK) status = hdr_params_watch(a->params, a->ros, on_parameter_set, a);
+    return status == HDR_OK && !worker_begin(a->work) ? HDR_NO_MEMORY : status;
 }
 
 /** What the user limits by environment variables. */

@@ -34,6 +34,7 @@ struct worker {
     report *rep;
     settings *set;
     pthread_t thread;
+    bool begun;
     double due;        /**< wall time before which pace allows no further step; the thread's own */
     double examinable; /**< the same of the next examination; the thread's own */
     checkpoint_writer keep; /**< the thread's own */
@@ -310,16 +311,21 @@ bool worker_create(worker **out, hd_run *run, report *rep, settings *set,
     w->keep = *keep;
     w->state.checkpoint = w->keep.state;
     locks_create(w);
-    if (changes_create(&w->changes, set) && pthread_create(&w->thread, NULL, work, w) == 0)
-        return true;
+    if (changes_create(&w->changes, set)) return true;
     worker_free(w);
     *out = NULL;
     return false;
 }
 
+bool worker_begin(worker *w)
+{
+    w->begun = pthread_create(&w->thread, NULL, work, w) == 0;
+    return w->begun;
+}
+
 void worker_end(worker *w)
 {
-    if (!w) return;
+    if (!w || !w->begun) return;
     worker_stop(w);
     pthread_join(w->thread, NULL);
 }
