@@ -142,15 +142,15 @@ outside() {
     local there=$WORK/copy
     mkdir -p "$there"
     mount -t tmpfs -o "size=$SIZE" tmpfs "$there"
-    mkdir "$there"/{upper,work,root}
-    mount -t overlay -o "lowerdir=/,upperdir=$there/upper,workdir=$there/work" overlay "$there/root"
-    mount -t proc proc "$there/root/proc"
-    mount --rbind /dev "$there/root/dev"
-    mount --rbind /sys "$there/root/sys"
-    mount -t tmpfs tmpfs "$there/root/tmp" -o mode=1777
-    mkdir -p "$there/root/$ROOT" # below /tmp it is gone
-    mount --bind "$ROOT" "$there/root/$ROOT"
-    exec chroot "$there/root" "$ROOT/tests/users.sh" --inside "$@"
+    mkdir "$there"/{upper,work,system}
+    mount -t overlay -o "lowerdir=/,upperdir=$there/upper,workdir=$there/work" overlay "$there/system"
+    mount -t proc proc "$there/system/proc"
+    mount --rbind /dev "$there/system/dev"
+    mount --rbind /sys "$there/system/sys"
+    mount -t tmpfs tmpfs "$there/system/tmp" -o mode=1777
+    mkdir -p "$there/system/$ROOT" # below /tmp it is gone
+    mount --bind "$ROOT" "$there/system/$ROOT"
+    exec chroot "$there/system" "$ROOT/tests/users.sh" --inside "$@"
 }
 
 mapfile -t all < <(declare -F | sed -n 's/^declare -f case_//p')

@@ -8,8 +8,8 @@
 
 #include "hdlyap/blas.h"
 
-/** Multiply-adds that waking a thread is not worth. */
-static const double FEW = 1e6;
+/** Multiply-adds up to which OpenBLAS itself keeps to one thread. */
+static const double FEW = 262144.0;
 /** Entries of a piece that may be cut once more, so that a thread which is late holds up less. */
 static const double ENTRIES_MANY = 65536.0;
 enum { FINER = 4, EDGE = 16 /* rows and columns that kernels take at once, or a multiple */ };
@@ -22,8 +22,8 @@ static int edge_of(int size, int pieces)
     return ((size + pieces - 1) / pieces + EDGE - 1) / EDGE * EDGE;
 }
 
-/** Into how many the columns are cut, and the rows into count over it: pieces as square as can be
- * read the least. */
+/** Into how many the columns are cut, and the rows into count over it: the squarer a piece, the
+ * less of a and b it reads. */
 static int cuts_of_columns(int m, int n, int count)
 {
     int best = 1;

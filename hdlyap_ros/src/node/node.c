@@ -129,13 +129,12 @@ static int create_run(app *a)
     char message[512] = "";
     const settings *set = &a->set;
     hd_status status = checkpoint_writer_check(set, message, sizeof message);
+    if (status == HD_OK) log_creation(&set->def);
     if (status == HD_OK && *set->resume)
         status = hd_run_resume_shared(&a->run, set->resume, &set->def, a->ranks, message,
                                       sizeof message);
-    else if (status == HD_OK) {
-        log_creation(&set->def);
+    else if (status == HD_OK)
         status = hd_run_create_shared(&a->run, &set->def, a->ranks, message, sizeof message);
-    }
     if (*set->checkpoint || a->ranks) hdr_node_stop_within(stop_keeping_seconds);
     if (status == HD_OK) hd_run_fields_every(a->run, set->field_interval);
     if (status == HD_OK) hd_run_fields_from(a->run, first_field(set));

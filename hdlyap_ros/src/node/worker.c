@@ -325,9 +325,9 @@ bool worker_begin(worker *w)
 
 void worker_end(worker *w)
 {
-    if (!w || !w->begun) return;
-    worker_stop(w);
-    pthread_join(w->thread, NULL);
+    if (!w) return;
+    worker_stop(w); /* also for services that wait */
+    if (w->begun) pthread_join(w->thread, NULL);
 }
 
 void worker_free(worker *w)

@@ -10,8 +10,8 @@
 
 #include "testing.h"
 
-#include "tangent/product.h"
 #include "hdlyap/blas.h"
+#include "tangent/product.h"
 
 static atomic_int calls, alone; /**< of cblas_dgemm; outside of parallel regions */
 
@@ -109,12 +109,14 @@ static int pieces(shape s)
 static void a_piece_is_of_one_thread(void **state)
 {
     (void)state;
-    const shape small = {40, 40, 40}, even = {320, 160, 60}, large = {704, 1500, 8};
+    const shape small = {64, 64, 64}, next = {192, 64, 22}, even = {320, 160, 60},
+                large = {704, 1500, 8};
     const bool openmp = strcmp(hd_blas_query().threading, "openmp") == 0;
     for (int threads = 1; threads <= 4; threads++) {
         hd_blas_use_threads(threads);
         const bool cut = openmp && threads > 1;
         assert_int_equal(pieces(small), 1);
+        assert_int_equal(pieces(next), cut ? threads : 1);
         assert_int_equal(pieces(even), cut ? threads : 1);
         assert_int_equal(pieces(large), cut ? 4 * threads : 1);
     }
