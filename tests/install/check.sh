@@ -8,13 +8,10 @@ mkdir -p "$work"
 
 with_pkg_config() {
     local pc
-    local -a flags
     pc=$(find "$prefix" -name hdlyap_core.pc)
     export PKG_CONFIG_PATH=${pc%/*}
-    # shellcheck disable=SC2162 # a folder's letters beyond ASCII, and blanks, come with a backslash
-    read -a flags < <(pkg-config --cflags --libs hdlyap_core)
-    cc -std=c11 -Wall -Wextra -Werror "$here/consumer.c" "${flags[@]}" -o "$work/with_pkg_config" \
-        -Wl,-rpath,"$(pkg-config --variable=libdir hdlyap_core)"
+    pkg-config --cflags --libs hdlyap_core |
+        xargs cc -std=c11 -Wall -Wextra -Werror "$here/consumer.c" -o "$work/with_pkg_config" -Wl,-rpath,"${pc%/pkgconfig/*}"
     env -u LD_LIBRARY_PATH "$work/with_pkg_config"
 }
 

@@ -8,9 +8,11 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 import tempfile
 import threading
 import time
+import traceback
 import unittest
 import uuid
 import weakref
@@ -259,6 +261,21 @@ def whole_run(params, topics):
             listener.close()
     assert status == 0, node.text()
     return {topic: listener.messages for topic, listener in listeners.items()}
+
+
+@contextlib.contextmanager
+def told(self, *args, _subtest=unittest.TestCase.subTest, **named):
+    """subTest: of one that fails rosunit counts the failure, and tells neither which nor why."""
+    with _subtest(self, *args, **named):
+        try:
+            yield
+        except AssertionError:
+            print(self.id(), *args, named, file=sys.stderr)
+            traceback.print_exc()
+            raise
+
+
+unittest.TestCase.subTest = told
 
 
 class Case(unittest.TestCase):
