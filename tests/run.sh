@@ -7,6 +7,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
 
 readonly WORK=$ROOT/build/check # not build/tests: cmake puts the folder tests there
+readonly PREFIX="$WORK/a prefix σ" # a name that pkg-config writes in another way
 readonly LOGS=$WORK/log COUNTS=$WORK/counts SECOND=$WORK/second TAKEN=$WORK/taken
 export TMPDIR=$WORK/tmp XDG_RUNTIME_DIR=$WORK/runtime
 export LC_ALL=C.UTF-8 # of messages that tests read
@@ -31,13 +32,13 @@ without_ros() {
 
 core_build() {
     without_ros cmake -S "$ROOT" -B "$WORK/core" -G Ninja -DHDLYAP_ROS=OFF \
-        -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_INSTALL_PREFIX="$WORK/prefix" "$@"
+        -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_INSTALL_PREFIX="$PREFIX" "$@"
     without_ros cmake --build "$WORK/core" -- -j "$(nproc)"
 }
 
 core_install() {
     without_ros cmake --install "$WORK/core"
-    without_ros "$ROOT/tests/install/check.sh" "$WORK/prefix" "$WORK/install"
+    without_ros "$ROOT/tests/install/check.sh" "$PREFIX" "$WORK/install"
 }
 
 sanitizers_build() {

@@ -190,6 +190,12 @@ workspace_builds_once() {
         cat "$WORK/again" && ! grep -E 'Building|Linking' "$WORK/again" | grep -v hdlyap_downstream # a user's own is not ours
 }
 
+# shellcheck disable=SC2016
+compiles_by_hand() {
+    in_space "$SPACE/devel/setup.bash" bash -o pipefail -c 'pkg-config --cflags --libs hdlyap | xargs cc -o "$0" "$1"' \
+        "$WORK/watch_phase" "$SPACE/src/hdlyap/hdlyap_ros/examples/watch_phase.c"
+}
+
 installs_below_destdir() {
     DESTDIR=$STAGE cmake --install "$SPACE/build" &&
         [[ ! -e $ELSEWHERE && $(ls -A "$STAGE") == opt && $(ls -A "$STAGE/opt") == "${ELSEWHERE##*/}" ]] &&
@@ -233,6 +239,7 @@ check workspace run workspace_builds
 check workspace_builds_once workspace_builds_once
 check workspace_programs finds_programs "$SPACE/devel/setup.bash" "$SPACE/devel/lib/hdlyap"
 check talks_in_workspace they_talk "$SPACE/devel/setup.bash"
+check compiles_by_hand compiles_by_hand
 check destdir installs_below_destdir
 check no_build_folder names_no_build_folder
 check refuses_a_folder refuses_a_folder
