@@ -269,7 +269,7 @@ def told(self, *args, _subtest=unittest.TestCase.subTest, **named):
     with _subtest(self, *args, **named):
         try:
             yield
-        except AssertionError:
+        except Exception:
             print(self.id(), *args, named, file=sys.stderr)
             traceback.print_exc()
             raise
