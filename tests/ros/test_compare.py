@@ -200,12 +200,37 @@ class Differing(Pairs):
         self.assertEqual(verdict.verdict(comparison)[1], verdict.DIFFER)
 
     def test_what_is_no_number(self):
-        exponents = EXPONENTS.copy()
-        exponents[7] = np.nan
-        comparison = self.compared(run(), run(exponents))
-        one = comparison.exponents[7]
+        """Agrees with nothing, itself not either, whatever its error, also where nothing else would
+        be judged."""
+        eighth, half = EXPONENTS.copy(), list(EXPONENTS)
+        eighth[7] = np.nan
+        zeros, no_zeros = ([*half, *[zero] * 6, *-EXPONENTS[::-1]] for zero in (0.0, np.nan))
+        nothing = EXPONENTS * np.nan
+        for a, b, error, name in (
+            (EXPONENTS, eighth, ERROR, 'lambda_8'),
+            (EXPONENTS, eighth, np.inf, 'lambda_8'),
+            (EXPONENTS, eighth, -1.0, 'lambda_8'),
+            (eighth, eighth, ERROR, 'lambda_8'),
+            (EXPONENTS, nothing, np.inf, r'lambda_max .* \.\.\.'),
+            (EXPONENTS, EXPONENTS * np.inf, ERROR, r'lambda_max .* \.\.\.'),
+            (zeros, no_zeros, ERROR, 'lambda_38 .*'),
+        ):
+            comparison = self.compared(*(run(one, made_steps=[], error=error) for one in (a, b)))
+            text, status = verdict.verdict(comparison)
+            self.assertEqual(status, verdict.DIFFER)
+            self.assertRegex(text, f'^differ: no number in a or b: {name}$')
+            verdict.report(comparison)
+        one = self.compared(run(), run(eighth)).exponents[7]
         self.assertEqual((one.z, one.chance), (np.inf, 0.0))
-        self.assertEqual(verdict.verdict(comparison)[1], verdict.DIFFER)
+        made.write(self.a, run())
+        made.write(self.b, run(nothing, error=np.inf))
+        self.assertIn('\ndiffer: no number in a or b: lambda_max ', self.succeeds(1))
+
+    def test_errors_whose_squares_are_no_numbers(self):
+        for error in (1e-200, 1e200):
+            off, on = (Deviation('', (0.0, z * error), (error, error)) for z in (10.0, 0.1))
+            self.assertLess(off.chance, 1e-4)
+            self.assertGreater(on.chance, 0.9)
 
     def test_without_any_error(self):
         self.assertEqual(Deviation('', (1.0, 1.0), (0.0, 0.0)).z, 0.0)
@@ -364,6 +389,8 @@ class UnknownErrors(Pairs):
     def test_of_all(self):
         other = run(shifted(noise()), error=-1.0, made_steps=[])
         other[-1].t_points = other[-1].l_points = other[-1].v_phases = 0
+        self.cannot_compare('no quantity has a known error in both', run(), other)
+        other[1].std_errors = other[2].std_errors = [np.inf] * EXPONENTS.size
         self.cannot_compare('no quantity has a known error in both', run(), other)
 
 

@@ -5,17 +5,18 @@ from scipy.special import stdtr
 
 from .numbers import known
 
-FREEDOM = 7  # of an error: the node asks blocks for it only while there are at least 8
+FREEDOM = 7  # of an error, as of 8 blocks: the node asks 16, which may remember each other
 
 
 class Deviation:
     """A quantity of the runs a and b. Its z is the difference in standard errors; NaN while one of
-    the errors is not known. What is not judged is only shown; what the two values come from is in
-    `origins`."""
+    the errors is not known. What is not judged is only shown, unless it is no number: that never
+    agrees, whatever its error. What the two values come from is in `origins`."""
 
     def __init__(self, name, values, errors, judged=True, origins=()):
         self.name, self.values = name, values
-        self.judged, self.origins = judged, origins
+        self.is_number = bool(np.isfinite(values).all())
+        self.judged, self.origins = judged or not self.is_number, origins
         self.errors = known(errors)
         self.difference = values[1] - values[0]
         self.error = float(np.hypot(*self.errors))
@@ -23,23 +24,25 @@ class Deviation:
 
     @property
     def is_known(self):
-        return self.error >= 0
+        return bool(np.isfinite(self.error)) or not self.is_number
 
     @property
     def chance(self):
         """Probability of a difference as large between means over few blocks (Welch)."""
-        a, b = self.errors**2
-        spread = a * a + b * b
-        freedom = FREEDOM * (a + b) ** 2 / spread if spread > 0 else FREEDOM
+        if self.z == 0 or np.isinf(self.z):
+            return float(self.z == 0)
+        shares = (self.errors / self.error) ** 2  # their squares may be too large for a number
+        freedom = FREEDOM / float(np.sum(shares**2))
         return 2 * float(stdtr(freedom, -abs(self.z)))  # both tails of Student's t
 
     def _in_errors(self):
+        if not self.is_number:
+            return np.inf
         if not self.is_known:
             return np.nan
         if self.difference == 0:
             return 0.0
-        z = self.difference / self.error if self.error > 0 else np.inf
-        return np.inf if np.isnan(z) else z  # what is no number does not agree
+        return self.difference / self.error if self.error > 0 else np.inf
 
 
 def unlikeliest(deviations, count=1):

@@ -24,6 +24,9 @@ HEAD = ROW.format('', 'a', 'b', 'b - a', 'z', '{}')
 def verdict(comparison):
     """(text, exit status)"""
     deviations = comparison.deviations
+    odd = [one.name for one in deviations if not one.is_number]
+    if odd:
+        return f'differ: no number in a or b: {_short(odd)}', DIFFER
     if comparison.is_identical:
         return 'identical: the last spectrum and steps of both are the same in every bit', AGREE
     if not unlikeliest(deviations):
@@ -38,9 +41,9 @@ def verdict(comparison):
         f'(Bonferroni, and Student\'s t as if every error were of {FREEDOM + 1} blocks)'
     )
     found = '\n'.join([found, *_warnings(comparison)])
-    if chance < CHANCE:
-        return f'{found}\ndiffer: less than {CHANCE:g}', DIFFER
-    return f'{found}\nagree within their errors: not less than {CHANCE:g}', AGREE
+    if chance >= CHANCE:
+        return f'{found}\nagree within their errors: not less than {CHANCE:g}', AGREE
+    return f'{found}\ndiffer: less than {CHANCE:g}', DIFFER
 
 
 def _warnings(comparison):
