@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 import numpy as np
 import rosbag
@@ -209,6 +210,23 @@ class Arrays(Bags):
     def test_resets(self):
         run = self.load([made.run_info(), *(made.spectrum([3.0], t) for t in (0, 5, 6, 1, 2))])
         self.equal(run.averaged_times, [1, 2])
+
+
+class NoBag(Bags):
+    def test_no_name(self):
+        with self.assertRaisesRegex(RecordingError, '^no bag: name one or several$'):
+            hdlyap.load()
+
+    def test_no_file(self):
+        """What never ends, or never begins, is not read; nor is a file without an end of line."""
+        fifo = self.path('fifo')
+        os.mkfifo(fifo)
+        with open(self.path('endless'), 'wb') as file:
+            file.truncate(1 << 40)
+        with mock.patch('rosbag.Bag', side_effect=AssertionError):
+            for path in ('/dev/zero', '/dev/random', fifo, self.folder):
+                self.refuses(f'^{path}: not a readable bag: no regular file$', path)
+            self.refuses('endless.bag: not a readable bag: its first line is', file.name)
 
 
 class NotMeasured(Bags):

@@ -59,6 +59,8 @@ def runs(paths, node=None, number=None):
     paths = [
         os.fspath(path) for path in ([paths] if isinstance(paths, (str, os.PathLike)) else paths)
     ]
+    if not paths:
+        raise RecordingError('no bag: name one or several')
     paths = list({os.path.realpath(path): path for path in paths}.values())
     chosen = [_chosen(path, node, number) for path in paths]
     if len(chosen) == 1:

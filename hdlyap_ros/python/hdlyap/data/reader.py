@@ -5,6 +5,7 @@ come without control characters and cut, because they are anybody's."""
 import contextlib
 import math
 import os
+import stat
 import struct
 
 import rosbag
@@ -24,6 +25,7 @@ TYPES = (RUN_INFO, SPECTRUM, STATUS, COST, MODES, STEPS, PHASES, T_PHASES)
 TYPES += (FIELD, STATE, COVARIANT, HYDRO, STRUCTURE, LOCALIZATION, GAS)
 NAME, PATH, LINE, LIST = 200, 4096, 8192, 4096  # longest text, path, error; most elements of a list
 PATHS = ('checkpoint', 'resume')
+FIRST_LINE = 100  # bytes that the first line of a bag (#ROSBAG V2.0) never has
 # arrays of as many elements as the first of them
 ALIKE = {
     SPECTRUM: ('exponents', 'std_errors', 'local_exponents', 'cos_theta', 'dp_dq_ratio'),
@@ -181,6 +183,7 @@ def start(path):
 def opened(path):
     """The rosbag.Bag."""
     try:
+        _refuse_no_bag(path)
         with rosbag.Bag(path) as bag:
             yield bag
     except RecordingError:
@@ -198,6 +201,15 @@ def opened(path):
         raise RecordingError(f'{path}: needs more memory than there is')
     except Exception as error:  # whatever a damaged byte makes of rosbag and genpy
         raise _damaged(path, error)
+
+
+def _refuse_no_bag(path):
+    """What rosbag would wait for, or read without end, for the first line of a bag."""
+    if not stat.S_ISREG(os.stat(path).st_mode):
+        raise RecordingError(f'{path}: not a readable bag: no regular file')
+    with open(path, 'rb') as file:
+        if len(file.readline(FIRST_LINE)) == FIRST_LINE:
+            raise RecordingError(f'{path}: not a readable bag: its first line is not that of one')
 
 
 def _damaged(path, error):
