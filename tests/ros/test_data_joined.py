@@ -1,6 +1,7 @@
 """hdlyap.load of several bags: parts of one run, runs of several seeds, and what does not belong
 together."""
 
+import os
 import re
 import shutil
 import unittest
@@ -9,11 +10,14 @@ import numpy as np
 
 import hdlyap
 import made
+from hdlyap.data.joined import OF_ONE_RUN, UNSEEN
 from hdlyap.data.seeds import Seeds, mean
 from made import LP, T
 from test_data import Bags, state
 
 HALF = np.linspace(3, 1, 37)
+SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..')
+ROW = r'(?s)\nHD_\w+\(\s*(\w+),.*?\b(HD_AS_BEFORE|HD_MAY_DIFFER|HD_LIVE),'  # of parameters.inc
 
 
 def numbered(messages):
@@ -81,6 +85,63 @@ class OneRun(Bags):
         c = self.write('c', run([5], 'three', resumed_time=104.0))
         d = self.write('d', run([5], 'four', resumed_time=104.0))
         self.refuses('c.bag and .*d.bag were both resumed at time 104: leave one out', a, c, d)
+
+    def test_parts_of_two_runs(self):
+        """What a resumed run has as before is of one value in all parts."""
+        a = self.write('a', run(range(1, 7), observables=['spectrum', 'modes']))
+        for name, value, said in (
+            ('warmup', 20.0, r'warmup is 0\.0 and 20\.0'),
+            ('exponents', 'all', 'exponents is positive and all'),
+            ('interval', 0.5, r'interval is 0\.0 and 0\.5'),
+            ('observables', ['spectrum'], r"observables is \['modes'\] and \[\]"),
+        ):
+            of_b = {'observables': ['modes', 'state'], name: value}
+            b = self.write('b', run(range(5, 9), 'two', resumed_time=104.0, **of_b))
+            self.refuses(f'a.bag and .*b.bag are no parts of one run: {said}$', a, b)
+        of_b = {'observables': ['modes', 'state'], 'duration': 9.0, 'threads': 7}
+        b = self.write('b', run(range(5, 9), 'two', resumed_time=104.0, **of_b))
+        self.check(hdlyap.load(a, b), range(1, 9))
+
+    def test_what_parts_have_in_common(self):
+        """Is what the core and the node say."""
+        with open(os.path.join(SOURCES, 'hdlyap_core/include/hdlyap/parameters.inc')) as file:
+            found = re.findall(ROW, file.read())
+        as_before = {name for name, changes in found if changes == 'HD_AS_BEFORE'}
+        self.assertIn('seed', as_before)
+        self.assertEqual(as_before - {'observe'} | {'observables'}, set(OF_ONE_RUN))
+        with open(os.path.join(SOURCES, 'hdlyap_ros/src/node/topic.c')) as file:
+            unseen = set(re.findall(r'= \{"(\w+)", 0\}', file.read()))
+        self.assertEqual(unseen - {'run_info', 'status', 'cost'}, set(UNSEEN))
+
+    def test_averages_that_do_not_follow(self):
+        """Of two runs of one seed one was reset, before or after the checkpoint of the other."""
+
+        def part(name, times, begun, **info):
+            messages = run([], name, **info)
+            for time in times:
+                messages.append(made.spectrum(HALF, max(time - begun, 0.0), run_id=name))
+                messages[-1].sim_time = time
+            return self.write(name, numbered(messages))
+
+        late = {'resumed_time': 150.0}
+        for begun, first, again, averaged in (
+            (100.0, range(101, 151), 100.0, None),
+            (100.0, range(101, 141), 100.0, None),  # a tail was lost
+            (100.0, range(101, 141), 145.0, None),  # and a reset with it
+            (100.0, range(90, 101), 100.0, None),
+            (130.0, range(131, 151), 100.0, '20 at time 150 and over 51 at 151'),
+            (100.0, range(101, 151), 130.0, '50 at time 150 and over 21 at 151'),
+        ):
+            a = part('a', first, begun)
+            b = part('b', range(151, 161), again, **late)
+            if averaged is None:
+                self.assertEqual(hdlyap.load(a, b).averaged_times[-1], 160 - again)
+                continue
+            with self.assertRaisesRegex(
+                hdlyap.data.reader.RecordingError,
+                f'a.bag and .*b.bag are no parts of one run: averaged over {averaged}$',
+            ):
+                hdlyap.load(a, b).averaged_times
 
     def test_others(self):
         a = self.write('a', run([1, 2]))

@@ -12,6 +12,11 @@ from .reader import RecordingError
 # what bags that belong together have in common: all that decides what is measured
 SYSTEM = ('disks', 'density', 'aspect', 'boundary_x', 'boundary_y')
 MEASURED = SYSTEM + ('vectors', 'wave_nx', 'wave_ny')
+# what a resumed run has as before (HD_AS_BEFORE of hdlyap/parameters.inc), so parts of one run, too
+OF_ONE_RUN = SYSTEM + ('seed', 'exponents', 'equilibration', 'warmup', 'interval', 'accuracy')
+OF_ONE_RUN += ('phase_interval', 'max_wave_number', 'max_mode_number', 'observables')
+OF_ONE_RUN += ('covariant_window', 'covariant_transient', 'covariant_sampling')
+UNSEEN = ('spectrum', 'state')  # observables that change nothing in the core, and may differ
 SAME = 1e-9  # relative: parameters that were given as the same decimal number
 
 # one run in one file, up to a simulated time
@@ -36,6 +41,7 @@ class Joined:
         """Messages of these types but run_info, each once: a resumed run says again what the one
         before said after its checkpoint."""
         last = {}  # (run_id, type): the last number of a file before
+        averages = _Averages()
         for part in self.parts:
             newest = {}
             for packed in reader.messages(part.path, part.node, kinds):
@@ -44,6 +50,8 @@ class Joined:
                     continue
                 if packed.sim_time <= part.until and packed.seq > last.get(key, -1):
                     newest[key] = packed.seq
+                    if packed.kind == reader.SPECTRUM:
+                        averages.add(part, packed)
                     yield packed
             last.update(newest)
 
@@ -51,6 +59,28 @@ class Joined:
         """The same in the order of simulated time: a recorder mixes topics a little."""
         streams = (self.packed((kind,)) for kind in kinds)
         return heapq.merge(*streams, key=lambda packed: packed.sim_time)
+
+
+class _Averages:
+    """Of the parts of one run: each goes on averaging where the one before ended, or begins anew
+    later. Of two runs of one seed only one may have been reset."""
+
+    def __init__(self):
+        self._part, self._time, self._averaged, self._longest = None, 0.0, 0.0, 0.0
+
+    def add(self, part, packed):
+        time, averaged = packed.sim_time, packed.averaged_time
+        if self._averaged > 0 and part.run_id != self._part.run_id:
+            # averages end at most one interval before the report; some reports may be lost
+            late = self._longest + time - self._time
+            begun, before = time - averaged, self._time - self._averaged
+            if abs(begun - before) > late and begun < self._time - late:
+                raise RecordingError(
+                    f'{self._part.path} and {part.path} are no parts of one run: averaged over '
+                    f'{self._averaged:g} at time {self._time:g} and over {averaged:g} at {time:g}'
+                )
+        self._longest = max(self._longest, averaged - self._averaged)
+        self._part, self._time, self._averaged = part, time, averaged
 
 
 def runs(paths, node=None, number=None):
@@ -66,8 +96,7 @@ def runs(paths, node=None, number=None):
     if len(chosen) == 1:
         return [Joined([chosen[0][0]], chosen[0][1])]
     parts = [part for part, _ in chosen]
-    for part in parts[1:]:
-        refuse_other(parts[0], part)
+    _refuse_others(parts, MEASURED, 'do not belong together')
     seeds = {}
     for part in parts:
         seeds.setdefault(part.info.seed, []).append(part)
@@ -95,7 +124,7 @@ def _chosen(path, node, number):
 def different(a, b, names):
     """(name, value of a, value of b) of the first of them in which two run_infos differ; None."""
     for name in names:
-        values = [getattr(info, name, None) for info in (a, b)]
+        values = [_value(info, name) for info in (a, b)]
         if None in values:  # bags of another version
             continue
         both = all(isinstance(value, float) for value in values)
@@ -105,13 +134,21 @@ def different(a, b, names):
     return None
 
 
-def refuse_other(a, b):
-    found = different(a.info, b.info, MEASURED)
-    if found is not None:
-        name, one, other = found
-        raise RecordingError(
-            f'{a.path} and {b.path} do not belong together: {name} is {one} and {other}'
-        )
+def _value(info, name):
+    value = getattr(info, name, None)
+    if name != 'observables' or value is None:
+        return value
+    return [topic for topic in value if topic not in UNSEEN]
+
+
+def _refuse_others(parts, names, why):
+    for part in parts[1:]:
+        found = different(parts[0].info, part.info, names)
+        if found is not None:
+            name, one, other = found
+            raise RecordingError(
+                f'{parts[0].path} and {part.path} {why}: {name} is {one} and {other}'
+            )
 
 
 def _in_order(parts):
@@ -123,6 +160,7 @@ def _in_order(parts):
             f'{anew[0].path} and {anew[1].path} both begin with seed {anew[0].info.seed}: '
             'one trajectory twice, no two samples'
         )
+    _refuse_others(parts, OF_ONE_RUN, 'are no parts of one run')
     parts = sorted(parts, key=lambda part: (begun[part.run_id], reader.start(part.path)))
     for a, b in zip(parts, parts[1:]):
         if a.run_id != b.run_id and begun[a.run_id] == begun[b.run_id]:

@@ -85,6 +85,11 @@ class Packed:
     def sim_time(self):
         return struct.unpack_from('<d', self._data, self._after_run_id)[0]
 
+    @property
+    def averaged_time(self):
+        """Of a Spectrum: it follows sim_time."""
+        return struct.unpack_from('<d', self._data, self._after_run_id + 8)[0]
+
     def field_index(self):
         """Lyapunov index of a ModeField: it follows sim_time."""
         return struct.unpack_from('<I', self._data, self._after_run_id + 8)[0]
