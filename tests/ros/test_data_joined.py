@@ -5,8 +5,11 @@ import os
 import re
 import shutil
 import unittest
+import warnings
 
 import numpy as np
+from scipy.special import erf
+from scipy.stats import chi2 as chi_squared
 
 import hdlyap
 import made
@@ -188,7 +191,7 @@ class SeveralSeeds(Bags):
             made.write(paths[-1], messages)
         return hdlyap.load(*paths)
 
-    def messages(self, number, shift, time=50.0, **steps):
+    def messages(self, number, shift, time=50.0, error=0.1, **steps):
         info = made.run_info(run_id=str(number))
         of_run = {'run_id': str(number)}
         found = [
@@ -197,7 +200,7 @@ class SeveralSeeds(Bags):
         ]
         return [
             info,
-            made.spectrum(HALF + shift, time, error=0.1, **of_run),
+            made.spectrum(HALF + shift, time, error=error, **of_run),
             made.steps(found, time, **of_run),
         ]
 
@@ -239,16 +242,90 @@ class SeveralSeeds(Bags):
         self.assertNotIn('c_L', seeds.results.index)
 
     def test_errors_are_not_known(self):
-        values, errors = [[1.0], [2.0]], [[0.1], [np.nan]]
-        found = mean(np.array(values), np.array(errors), [1, 1])
-        self.assertEqual((found[0], found[2]), (1.5, 0.5))
-        self.assertTrue(np.isnan([found[1], found[3]]).all())
+        """Of one of two runs: it is left out. Of all: they are too few to tell it."""
+        for errors, expected in (
+            ([0.1, np.nan], [1.0, 0.1, np.nan, 0.0, 1]),
+            ([0.1, np.inf], [1.0, 0.1, np.nan, 0.0, 1]),
+            ([np.nan, np.nan], [1.5, np.nan, np.nan, np.nan, 2]),
+        ):
+            found = mean(np.array([[1.0], [2.0]]), np.array(errors)[:, None], [1, 1])
+            np.testing.assert_allclose(np.ravel(found), expected, rtol=1e-15)
 
-    def test_one_run(self):
-        found = mean(np.array([[1.0], [np.nan]]), np.array([[0.1], [np.nan]]), [1, 3])
-        self.assertEqual((found[0], found[4]), (1.0, 1))
-        self.assertAlmostEqual(found[1][0], 0.1)
-        self.assertTrue(np.isnan(found[2]))
+    def test_what_is_no_number(self):
+        """Makes the mean none, whatever its error; what is not there does not."""
+        errors = np.array([[0.1, 0.1, 0.1], [0.1, np.nan, np.nan]])
+        values = np.array([[1.0, 1.0, 1.0], [np.nan, np.inf, np.nan]])
+        found = mean(values, errors, [1, 3])[0]
+        self.assertFalse(np.isfinite(found).any(), found)
+        there = np.array([[True], [False]])
+        np.testing.assert_array_equal(mean(values, errors, [1, 3], there)[0], [1.0] * 3)
+
+    def test_short_run(self):
+        """As the long one alone; its name is told. Without the long one nothing knows an error."""
+        long = self.messages(1, 0.0, time=200.0)
+        short = self.messages(2, 3.0, time=0.001, error=-1.0)
+        with self.assertWarnsRegex(
+            UserWarning, r'/2\.bag, seed 2, is left out: .* over 0\.001, too'
+        ):
+            seeds = self.seeds(long, short)
+            self.assertEqual((seeds.seeds, seeds.averaged_time), (['1'], 200.0))
+        self.assertEqual(len(seeds.left_out), 1)
+        for frame in (seeds.spectrum, seeds.results):
+            self.assertEqual(frame.iloc[0, 0], 3.0)
+            self.assertAlmostEqual(frame.std_error.iloc[0], 0.1)
+            self.assertTrue(frame.scatter.isna().all())
+            self.assertEqual(set(frame.runs), {1})
+        with warnings.catch_warnings():
+            warnings.simplefilter('error')
+            seeds = self.seeds(self.messages(1, 0.0, error=-1.0), short)
+            self.assertEqual((seeds.seeds, seeds.left_out), (['1', '2'], []))
+            lambda_max = seeds.results.loc['lambda_max']
+        self.assertTrue(lambda_max[['std_error', 'scatter']].isna().all())
+
+    def test_coverage_of_unequal_runs(self):
+        """How often a mean is within one, two and five of its errors, the larger one of both.
+        Blocks are of length 1; below 16 of them an error is not known, below one a value is as far
+        off as that of one."""
+        rng, trials = np.random.default_rng(7), 20000
+        for lengths, runs, is_stated in (
+            ((200, 10), 1, True),
+            ((200, 0.001), 1, True),
+            ((200, 200), 2, True),
+            ((200, 50, 20, 5, 0.01), 3, True),
+            ((40,) * 5, 5, True),
+            ((10,) * 8, 8, False),
+            ((5, 10) * 4, 8, False),
+        ):
+            size, freedom = (len(lengths), trials), np.array(lengths)[:, None] - 1
+            sigma = np.maximum(freedom + 1, 1) ** -0.5
+            spread = np.sqrt(rng.chisquare(np.maximum(freedom, 1), size) / np.maximum(freedom, 1))
+            errors = np.where(freedom >= 15, sigma * spread, np.nan)
+            of_all, stated, scatter, chi2, count = mean(rng.normal(0, sigma, size), errors, lengths)
+            self.assertEqual(set(count), {runs}, lengths)
+            larger = np.fmax(stated, scatter)
+            # of the scatter in true errors, at evenly spaced chances: 0 of one run
+            places = (np.arange(2000) + 0.5) / 2000
+            ratio = np.sqrt(chi_squared.ppf(places, runs - 1) / (runs - 1)) if runs > 1 else 0
+            for width in (1, 2, 5):
+                share = np.mean(erf(width * np.maximum(is_stated, ratio) / np.sqrt(2)))
+                deviation = np.mean(abs(of_all) < width * larger) - share
+                allowed = 4 * np.sqrt(max(share * (1 - share), 1 / trials) / trials)
+                self.assertLess(abs(deviation), allowed, (lengths, width))
+            if is_stated:  # squared errors of L blocks divide by (L - 3) / (L - 1)
+                allowed = 4 * np.sqrt(2 * runs / trials)
+                self.assertGreaterEqual(chi2.mean(), (runs - 1) - allowed)
+                self.assertLessEqual(chi2.mean(), (runs - 1) * 19 / 17 + allowed)
+
+    def test_too_few_or_unlike_runs_of_unknown_error(self):
+        for lengths, is_known in (
+            ((10,) * 7, False),
+            ((10,) * 8, True),
+            ((10,) * 8 + (4,), False),
+            ((10,) * 8 + (5,), True),
+        ):
+            values = np.arange(len(lengths), dtype=float)[:, None]
+            _, stated, scatter, _, _ = mean(values, np.full_like(values, np.nan), lengths)
+            self.assertEqual((np.isnan(stated[0]), np.isnan(scatter[0])), (True, not is_known))
 
     def test_coverage(self):
         """Runs of 8 and of 16 blocks whose means and errors are known: how often the mean is within

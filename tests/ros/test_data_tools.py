@@ -132,6 +132,19 @@ class Several(Tools):
         self.assertEqual(status, 2)
         self.assertIn('3 bags: two, or --with between those of both sides', error)
 
+    def test_short_run(self):
+        """Is in no mean, and said to be in none."""
+        long, short = self.seed(1, 0.0), self.seed(2, 3.0, error=-1.0)
+        said = r'seed2\.bag, seed 2, is left out: averaged over 50, too short to know its errors\n'
+        done = self.plot(long, short)
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        self.assertRegex(done.stdout, r'\n  lambda_max +3\.00\(10\) +0\.1 +- +- +1\n')
+        self.assertRegex(done.stdout, said)
+        status, text, error = tool('compare', long, short, '--with', self.seed(3, 0.0))
+        self.assertEqual((status, error), (0, ''))
+        self.assertRegex(text, r'lambda_max +3\.00\(10\) +3\.00\(10\) ')
+        self.assertRegex(text, r'\na: .*' + said)
+
 
 class Export(Tools):
     def setUp(self):

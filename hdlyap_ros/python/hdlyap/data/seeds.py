@@ -1,13 +1,18 @@
 """Runs of one system with several seeds -> means over them, with their errors."""
 
+import warnings
 from functools import cached_property
 
 import numpy as np
 import pandas
 
 from . import joined, tables
-from .reader import RecordingError
+from .reader import Missing, RecordingError
 from .run import Run
+
+# The scatter of so many runs, the longest at most RATIO times the shortest, is an error where none
+# states one: known as well as compare takes one to be (plots.deviation.FREEDOM).
+FEWEST, RATIO = 8, 2.0
 
 
 def load(*bags, node=None, run=None):
@@ -23,12 +28,42 @@ class Seeds:
     and `gas` have means over them, weighted with the averaged times, and two errors: `std_error`
     from the errors that the runs state, `scatter` from how far the runs are apart (of n runs it is
     itself known to 1 / sqrt(2 n - 2)). `chi2` is of `runs` - 1 degrees of freedom; far above that
-    the runs are further apart than their errors allow."""
+    the runs are further apart than their errors allow. A run that is too short to know any of its
+    errors is in no mean: `left_out` names it."""
 
     def __init__(self, runs):
-        self.runs, self.info = runs, runs[0].info
+        self._all = runs
         self.paths = [path for run in runs for path in run.paths]
-        self.seeds = [run.info.seed for run in runs]
+
+    @property
+    def runs(self):
+        return self._split[0]
+
+    @property
+    def left_out(self):
+        return self._split[1]
+
+    @property
+    def info(self):
+        return self.runs[0].info
+
+    @property
+    def seeds(self):
+        return [run.info.seed for run in self.runs]
+
+    @cached_property
+    def _split(self):
+        """(runs that know an error, or all if none does; a line for each of the others)"""
+        taken = [run for run in self._all if _knows_errors(run)] or self._all
+        lines = [
+            f'{", ".join(run.paths)}, seed {run.info.seed}, is left out: averaged over '
+            f'{_measured(run)[1]:.3g}, too short to know its errors'
+            for run in self._all
+            if run not in taken
+        ]
+        for line in lines:
+            warnings.warn(line)  # tools print them
+        return taken, lines
 
     def __repr__(self):
         return f'<hdlyap runs of {self.info.disks} disks, seeds {", ".join(self.seeds)}>'
@@ -63,9 +98,8 @@ class Seeds:
         names = list(dict.fromkeys(name for one in frames for name in one.index))
         about = pandas.concat(frames)
         about = about[~about.index.duplicated()].loc[names, ['kind', 'nx', 'ny', 'wave_number']]
-        frames = [one.reindex(names) for one in frames]
-        made = self._mean(frames, 'exponent')
-        multiplicity = self._mean(frames, 'multiplicity')['multiplicity']
+        made = self._mean(frames, 'exponent', index=about.index)
+        multiplicity = self._mean(frames, 'multiplicity', index=about.index)['multiplicity']
         columns = {**about, 'multiplicity': multiplicity, **made}
         return tables.frame(columns, {'wave_number': '1/sigma', **made.attrs['units']}, made.index)
 
@@ -89,29 +123,57 @@ class Seeds:
     def _is_in_all(self, fit):
         return all(any(fit.is_like(other) for other in run.fits) for run in self.runs)
 
-    def _mean(self, frames, name, weights=None):
-        """Of a column of frames with the same rows, beside its errors; weights: averaged times."""
+    def _mean(self, frames, name, weights=None, index=None):
+        """Of a column of frames, beside its errors; weights: averaged times; index: the rows, of
+        which a frame may lack some, those of all frames without it."""
         weights = self._weights if weights is None else weights
+        index = frames[0].index if index is None else index
+        there = np.array([index.isin(one.index) for one in frames])
         values, errors = (
-            np.array([one[column] for one in frames], dtype=float) for column in (name, 'std_error')
+            np.array([one[column].reindex(index) for one in frames], dtype=float)
+            for column in (name, 'std_error')
         )
         columns = name, 'std_error', 'scatter', 'chi2', 'runs'
-        made = dict(zip(columns, mean(values, errors, weights)))
+        made = dict(zip(columns, mean(values, errors, weights, there)))
         units = dict.fromkeys(columns[:3], '1/time unit' if name == 'exponent' else '')
-        return tables.frame(made, units, frames[0].index)
+        return tables.frame(made, units, index)
 
 
-def mean(values, errors, weights):
-    """(mean, its error from those stated, its error from the scatter, chi^2, number) over the rows
-    in which a value is known. The weights are not 1 / errors^2: an error of few blocks is itself
-    uncertain, and by chance small ones would count too much."""
-    there = np.isfinite(values)
-    weights = np.where(there, np.asarray(weights, dtype=float)[:, None], 0.0)
-    count, total = there.sum(axis=0), weights.sum(axis=0)
+def _measured(run):
+    """(frame with errors, averaged time) of its exponents, or without any of its gas."""
+    try:
+        return run.spectrum, run.averaged_times[-1]
+    except Missing:
+        return run.gas, run.last('gas').averaged_time
+
+
+def _knows_errors(run):
+    try:
+        return np.isfinite(_measured(run)[0]['std_error']).any()
+    except Missing:
+        return True
+
+
+def mean(values, errors, weights, there=True):
+    """(mean, its error from those stated, its error from the scatter, chi^2, number) of each column
+    over the runs in which it is there and its error is known. A run that is too short for that has
+    a value that is further off than its weight says, and the scatter with it is no error: of two
+    runs (Student's t with one degree of freedom) every eighth mean is beyond five errors. If no run
+    knows the error, the mean is over all, and has one only of FEWEST runs or more, within RATIO.
+    The weights are not 1 / errors^2: an error of few blocks is itself uncertain, and by chance
+    small ones would count too much."""
+    known = there & np.isfinite(errors)
+    is_stated = known.any(axis=0)
+    # what is no number is not left out: then the mean is none either
+    used = np.where(is_stated, known | ~np.isfinite(values), True) & there
+    weights = np.asarray(weights, dtype=float)[:, None] * used
+    count, total = used.sum(axis=0), weights.sum(axis=0)
+    alike = weights.max(axis=0) <= RATIO * np.where(used, weights, np.inf).min(axis=0)
+    is_error = (count > 1) & (is_stated | (count >= FEWEST) & alike)
     with np.errstate(divide='ignore', invalid='ignore'):
-        of_all = np.where(there, weights * values, 0.0).sum(axis=0) / total
-        stated = np.sqrt(np.where(there, (weights * errors) ** 2, 0.0).sum(axis=0)) / total
-        squares = np.where(there, values - of_all, 0.0) ** 2
+        of_all = np.where(used, weights * values, 0.0).sum(axis=0) / total
+        stated = np.sqrt(np.where(used, (weights * errors) ** 2, 0.0).sum(axis=0)) / total
+        squares = np.where(used, values - of_all, 0.0) ** 2
         scatter = np.sqrt((weights * squares).sum(axis=0) / (total * (count - 1)))
-        chi2 = np.where(there, squares / errors**2, 0.0).sum(axis=0)
-    return of_all, stated, np.where(count > 1, scatter, np.nan), chi2, count
+        chi2 = np.where(used, squares / errors**2, 0.0).sum(axis=0)
+    return of_all, stated, np.where(is_error, scatter, np.nan), chi2, count

@@ -34,6 +34,7 @@ class Means(Run):
 
     def __init__(self, seeds):
         self.seeds = seeds
+        self.left_out = seeds.left_out
         self.info = copy.copy(seeds.info)
         self.info.seed, self.info.run_id = ', '.join(seeds.seeds), ''
         self.spectrum = self._spectrum()
@@ -87,13 +88,15 @@ class Means(Run):
         """What plot_bag prints of them beside the exponents: both errors and chi^2."""
         seeds = self.seeds
         count = len(seeds.runs)
-        lines = [f'means over {count} seeds, weighted with their averaged times', HEAD]
+        number = '1 seed' if count == 1 else f'{count} seeds'
+        lines = [f'means over {number}, weighted with their averaged times', HEAD]
         lines += [_row(name, row, 'value', row['basis']) for name, row in seeds.results.iterrows()]
         if self.steps is not None:
             lines += [_row(name, row, 'exponent') for name, row in seeds.steps.iterrows()]
         lost = [fit.symbol for fit in seeds.runs[0].fits if fit.symbol not in seeds.results.index]
         if lost:
             lines.append(f'  {", ".join(lost)}: of other forms or wave numbers in other runs')
+        lines += [f'  {line}' for line in self.left_out]
         return '\n'.join(lines)
 
 

@@ -119,6 +119,7 @@ def _remarks(comparison):
             'the same seed: where the runs share their trajectory their errors are no '
             'measure of their difference'
         )
+    lines += [f'{letter}: {line}' for letter, run in zip('ab', (a, b)) for line in run.left_out]
     lines += [f'no steps in {letter}' for letter, run in zip('ab', (a, b)) if run.steps is None]
     if lines:
         yield '\n'.join(lines)
