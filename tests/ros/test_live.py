@@ -263,9 +263,12 @@ class Live(harness.Case):
         )
 
     def test_resumed_after_a_change(self):
-        """A run that is taken up goes on as the one that was not ended."""
-        kept = os.path.join(self.folder, 'run.checkpoint')
-        params = dict(RUN, duration=90.0, field_interval=3.0)
+        """A run that is taken up goes on as the one that was not ended, with the changes of before
+        given again, too: those whose time has come are made."""
+        kept, end = (
+            os.path.join(self.folder, name) for name in ('run.checkpoint', 'end.checkpoint')
+        )
+        params = dict(RUN, duration=50.0, field_interval=3.0)
         node = self.started(dict(params, pace=SLOW, checkpoint=kept))
         self.until(BEGIN + 2.0)
         change = self.changed('report_interval=0.3')
@@ -278,10 +281,16 @@ class Live(harness.Case):
         info = second['run_info'][0]
         self.assertEqual((info.report_interval, info.duration), (0.3, 60.0))
         self.assertEqual(len(info.changes), 0)
-        texts = ['%r %s=%r' % (c.sim_time, c.name, c.value) for c in first['run_info'][-1].changes]
-        params.update(duration=90.0, report_interval=1.0, changes=texts)
-        whole = self.ends(self.started(params))
+        changes = first['run_info'][-1].changes
+        texts = ['%r %s=%r' % (c.sim_time, c.name, c.value) for c in changes]
+        params.update(duration=50.0, report_interval=1.0, changes=texts)
+        whole = self.ends(self.started(dict(params, checkpoint=end)))
         self.same({topic: first[topic] + second[topic] for topic in TOPICS}, whole)
+        ended = self.ends(self.started(dict(params, resume=end)))
+        self.assertEqual(ended['run_info'][0].duration, 60.0)
+        again = self.ends(self.started(dict(params, resume=kept)))
+        self.same(second, again)
+        self.assertEqual(again['run_info'][0].changes, changes)
 
     def test_modes_of_the_viewer(self):
         viewer = harness.start_viewer()

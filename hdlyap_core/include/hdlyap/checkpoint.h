@@ -1,9 +1,10 @@
 /** A run in a file: kept while it goes on, taken up again after whatever ended it.
  *
  * The file is a list of named arrays behind a head with format, length and checksum
- * (doc/survival.md). It holds disks, pending events, frame, averages, phases and what the intervals
- * have taught; so a run that was taken up has the same events bit for bit, and with the same number
- * of threads, BLAS kernels and stages observed the same exponents. */
+ * (doc/survival.md). It holds disks, pending events, frame, averages, phases, what the intervals
+ * have taught and what has been changed but does not hold yet; so a run that was taken up has the
+ * same events bit for bit, and with the same number of threads, BLAS kernels and stages observed
+ * the same exponents. */
 #ifndef HDLYAP_CHECKPOINT_H
 #define HDLYAP_CHECKPOINT_H
 
@@ -13,7 +14,7 @@
 extern "C" {
 #endif
 
-enum { HD_CHECKPOINT_FORMAT = 10, HD_CHECKPOINT_LABEL = 64 };
+enum { HD_CHECKPOINT_FORMAT = 11, HD_CHECKPOINT_LABEL = 64 };
 
 /** What a checkpoint says of itself. */
 typedef struct hd_checkpoint {

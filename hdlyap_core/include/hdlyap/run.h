@@ -79,7 +79,8 @@ bool hd_run_report_due(const hd_run *run);
 
 /** Fields are due with the first report at or after each multiple of so many time units since the
  * averaging began, 0 included, and with the last one; with 0 (as at first) at every report. The
- * first call holds at once, another one from hd_run_change_time on. Not kept in a checkpoint. */
+ * first call holds at once, another one from hd_run_change_time on. A run that goes on from a
+ * checkpoint has them as often as before, until its first call. */
 void hd_run_fields_every(hd_run *run, double interval);
 
 /** Of several ranks, each knows the vectors of the steps where fields are due: and from now on all

@@ -244,8 +244,9 @@ static long window_last(const hd_covariant *c)
 static bool is_complete(const hd_covariant *c)
 {
     const long last = window_last(c);
-    const double transient = c->scene.covariant_transient - CLOSE * c->scene.covariant_sampling;
-    return last < hd_history_end(c->past) && c->now >= hd_history_time(c->past, last) + transient;
+    const double transient = c->scene.covariant_transient;
+    const double least = transient - CLOSE * fmin(transient, c->scene.covariant_sampling);
+    return last < hd_history_end(c->past) && c->now >= hd_history_time(c->past, last) + least;
 }
 
 static void begin_way_back(hd_covariant *c)
@@ -292,12 +293,13 @@ double hd_covariant_due(const hd_covariant *c) { return c->due; }
 
 hd_status hd_covariant_state(hd_covariant *c, hd_columns frame, const hd_trajectory *trajectory)
 {
+    const double sampling = c->scene.covariant_sampling;
     if (!hd_covariant_wants_state(c) || hd_history_end(c->past) == hd_history_first(c->past))
         return HD_OK;
     hd_trajectory_state(trajectory, c->q, c->p);
     HD_TRY(hd_history_snapshot(c->past, frame, c->q, c->p));
-    while (c->due <= c->now + CLOSE * c->scene.covariant_sampling)
-        c->due += c->scene.covariant_sampling;
+    /* at once: a step can be less than rounding of the time */
+    c->due += sampling * (floor((c->now - c->due) / sampling + CLOSE) + 1.0);
     if (is_complete(c)) begin_way_back(c);
     return HD_OK;
 }

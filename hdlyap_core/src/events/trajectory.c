@@ -193,6 +193,23 @@ static hd_status turn_epoch(hd_trajectory *tr)
     return HD_OK;
 }
 
+static bool at_rest(const hd_trajectory *tr)
+{
+    for (int32_t i = 0; i < tr->motion.count; i++)
+        if (tr->motion.disk[i].p[0] != 0 || tr->motion.disk[i].p[1] != 0) return false;
+    return true;
+}
+
+/** Nothing happens to disks at rest, however long that lasts: whole epochs are passed at once. */
+static hd_status turn_epochs(hd_trajectory *tr, double t_end)
+{
+    HD_TRY(turn_epoch(tr));
+    const double left = t_end - tr->epoch_start;
+    if (left > tr->epoch_length && at_rest(tr))
+        tr->epoch_start += floor(left / tr->epoch_length) * tr->epoch_length;
+    return HD_OK;
+}
+
 hd_status hd_trajectory_extend(hd_trajectory *tr, hd_event_log *log, double t_end)
 {
     HD_ASSERT(t_end >= tr->now);
@@ -206,7 +223,7 @@ hd_status hd_trajectory_extend(hd_trajectory *tr, hd_event_log *log, double t_en
             tr->motion.queue.entry[i].key.t < tr->epoch_length) {
             HD_TRY(take_event(tr, log, i, t_begin - tr->epoch_start));
         } else if (end > tr->epoch_length) {
-            HD_TRY(turn_epoch(tr));
+            HD_TRY(turn_epochs(tr, t_end));
         } else {
             break;
         }

@@ -23,7 +23,9 @@ static double events_per_disk(const hd_advance *advance, const hd_scene_def *sce
 hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene)
 {
     HD_TRY(hd_trajectory_create(&advance->trajectory, scene));
-    advance->longest = 1e-3 / events_per_disk(advance, scene);
+    const double rate = events_per_disk(advance, scene);
+    advance->longest = 1e-3 / rate;
+    advance->bound = 8.0 * EVENTS_MAX / (scene->disks * rate);
     return HD_OK;
 }
 
@@ -45,11 +47,6 @@ double hd_advance_shortest(const hd_advance *advance)
 double hd_advance_longest(const hd_advance *advance)
 {
     return fmax(advance->longest, hd_advance_shortest(advance));
-}
-
-double hd_advance_bound(const hd_advance *advance, const hd_scene_def *scene)
-{
-    return 8.0 * EVENTS_MAX / (scene->disks * events_per_disk(advance, scene));
 }
 
 /** Equal shares of what is left until `stop`, none longer than `most`. */
@@ -77,8 +74,8 @@ static void learn(hd_advance *advance)
 {
     const double length = advance->plan.end - advance->plan.begin;
     const double events = fmax(1.0, (double)(events_so_far(advance) - advance->plan.events));
-    if (length > 0)
-        advance->longest = fmin(4.0 * fmax(length, advance->longest), length * EVENTS_MAX / events);
+    const double grown = fmin(4.0 * fmax(length, advance->longest), length * EVENTS_MAX / events);
+    if (length > 0) advance->longest = fmin(grown, advance->bound);
 }
 
 hd_status hd_advance_on(hd_advance *advance, hd_event_log *log, double most)

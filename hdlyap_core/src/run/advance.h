@@ -16,6 +16,7 @@ typedef struct hd_advance_plan {
 typedef struct hd_advance {
     hd_trajectory *trajectory;
     double longest; /**< time units; keeps to EVENTS_MAX, as far as the rate of events is known */
+    double bound; /**< of it: several times the events of the longest one, as this scene has them */
     hd_advance_plan plan;
 } hd_advance;
 
@@ -30,8 +31,6 @@ double hd_advance_now(const hd_advance *advance); /**< simulated time */
 double hd_advance_shortest(const hd_advance *advance);
 /** As far as the rate of events is known. */
 double hd_advance_longest(const hd_advance *advance);
-/** More than a run of this scene learns of that: several times the events of the longest one. */
-double hd_advance_bound(const hd_advance *advance, const hd_scene_def *scene);
 
 /** Plans from now to at most `stop`. */
 void hd_advance_make_plan(hd_advance *advance, double stop);

@@ -20,8 +20,11 @@ double hd_run_change_time(const hd_run *run)
 /** Of a run that does not stand at its end: until it holds, time goes on. */
 static hd_status check_duration(const hd_run *run, double duration, char *message, size_t size)
 {
-    const double least = hd_run_change_time(run) - run->schedule.start;
-    if (run->schedule.stage != HD_AVERAGING || duration == 0 || duration >= least) return HD_OK;
+    const double from = hd_run_change_time(run), least = from - run->schedule.start;
+    hd_schedule asked = run->schedule;
+    asked.length[HD_AVERAGING] = duration;
+    if (asked.stage != HD_AVERAGING || duration == 0 || hd_schedule_reaches(&asked, from))
+        return HD_OK;
     return hd_refuse(message, size,
                      "duration = %.15g: must be 0 or at least %.15g, averaged before it can change",
                      duration, least);
@@ -50,10 +53,12 @@ hd_status hd_run_change(hd_run *run, const hd_parameter *row, double value, char
 
 void hd_run_fields_every(hd_run *run, double interval)
 {
+    const bool said = run->fields_said;
     hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_FIELDS_EVERY, .number = interval});
-    run->field_interval = interval;
-    if (!run->fields_said) run->in_force.field_interval = interval;
-    run->in_force.changing |= run->fields_said;
-    run->sample.ends |= run->fields_said && is_averaging(run);
     run->fields_said = true;
+    if (interval == run->field_interval) return; /* of a run that goes on it may not hold yet */
+    run->field_interval = interval;
+    if (!said) run->in_force.field_interval = interval;
+    run->in_force.changing |= said;
+    run->sample.ends |= said && is_averaging(run);
 }

@@ -71,6 +71,21 @@ static void plan_archive(hd_advance_plan *plan, hd_archive *archive)
     hd_archive_bits(archive, "run advance events", &plan->events);
 }
 
+/** What has been asked for may not hold yet. */
+static void in_force_archive(hd_run *run, hd_archive *archive)
+{
+    hd_in_force *now = &run->in_force;
+    int changing = now->changing;
+    hd_archive_double(archive, "run target", &now->target_std_error);
+    hd_archive_double(archive, "run fields", &now->field_interval);
+    hd_archive_double(archive, "run fields asked", &run->field_interval);
+    hd_archive_int(archive, "run changing", &changing, 0, 1);
+    now->changing = changing;
+    hd_archive_expect(
+        archive, now->target_std_error >= 0 && now->field_interval >= 0 && run->field_interval >= 0,
+        "run fields", "it is negative");
+}
+
 static void numbers_archive(hd_run *run, hd_archive *archive)
 {
     int observe = (int)run->observe, reported = run->due.report, ends = run->sample.ends,
@@ -93,6 +108,7 @@ static void numbers_archive(hd_run *run, hd_archive *archive)
     hd_archive_double(archive, "run frame start", &run->clocks.frame_start_time);
     hd_archive_double(archive, "run condition max", &run->rounding.condition_max);
     hd_archive_double(archive, "run rounding", &run->rounding.sum);
+    in_force_archive(run, archive);
     clocks_archive(run, archive);
     cost_archive(run, archive);
 }
@@ -146,7 +162,7 @@ static void times_expect(const hd_run *run, hd_archive *archive)
                       "schedule", "it does not go on from this time");
     const bool pending = run->log && run->log->duration > 0;
     const double last = s->stage == HD_FINISHED ? now : hd_schedule_stage_end(s);
-    const double end = fmax(now, fmin(last, now + hd_advance_bound(&run->advance, &run->scene)));
+    const double end = fmax(now, fmin(last, now + run->advance.bound));
     hd_archive_expect(archive, run->sample.begin <= now && run->followed <= now, "run sample begin",
                       "it does not fit the time");
     hd_archive_expect(archive, run->interval_end <= end && (!pending || run->interval_end >= now),
@@ -285,14 +301,31 @@ static hd_status reopen(hd_run *run, char *message, size_t size)
                      run->scene.duration, averaged);
 }
 
-static hd_status restore(hd_run *run, hd_archive *archive, double time, char *message, size_t size)
+/** Another duration and target hold at once, another report interval from the next change on. */
+static void take_up_scene(hd_run *run, const hd_scene_def *kept)
+{
+    int count;
+    const hd_parameter *rows = hd_scene_parameters(&count);
+    for (int k = 0; k < count; k++)
+        if (rows[k].live &&
+            hd_parameter_value(&rows[k], &run->scene) != hd_parameter_value(&rows[k], kept))
+            run->in_force.changing = true;
+    if (run->scene.duration != kept->duration)
+        run->schedule.length[HD_AVERAGING] = hd_schedule_of(&run->scene).length[HD_AVERAGING];
+    if (run->scene.target_std_error != kept->target_std_error)
+        run->in_force.target_std_error = run->scene.target_std_error;
+}
+
+static hd_status restore(hd_run *run, hd_archive *archive, const hd_checkpoint *kept, char *message,
+                         size_t size)
 {
     numbers_archive(run, archive);
     parts_archive(run, archive);
-    hd_archive_expect(archive, hd_run_time(run) == time, "time", "it is not that of the disks");
+    hd_archive_expect(archive, hd_run_time(run) == kept->time, "time",
+                      "it is not that of the disks");
     if (hd_archive_end(archive) != HD_OK) return inconsistent(archive, message, size);
+    take_up_scene(run, &kept->scene);
     HD_TRY(reopen(run, message, size));
-    run->in_force.changing = true; /* another report interval is taken up */
     hd_run_save_accuracy(run);
     const double last = fmax(hd_run_time(run), hd_schedule_stage_end(&run->schedule));
     run->interval_end = fmin(run->interval_end, last); /* of a duration that has become shorter */
@@ -300,7 +333,7 @@ static hd_status restore(hd_run *run, hd_archive *archive, double time, char *me
     times_expect(run, archive);
     plan_expect(run, archive);
     /* else a file can ask for an advance without end */
-    const double bound = hd_advance_bound(&run->advance, &run->scene);
+    const double bound = run->advance.bound;
     run->advance.longest = fmin(run->advance.longest, bound);
     run->advance.plan.end = fmin(run->advance.plan.end, hd_run_time(run) + bound);
     return hd_archive_good(archive) ? HD_OK : inconsistent(archive, message, size);
@@ -342,7 +375,7 @@ hd_status hd_run_read(hd_run **out, hd_archive *archive, const hd_scene_def *sce
     hd_run *run = NULL;
     HD_TRY(hd_run_make(&run, &def, communicator, message, size));
     const hd_status status = hd_communicator_agree(communicator,
-                                                   restore(run, archive, head.time, message, size));
+                                                   restore(run, archive, &head, message, size));
     run->scene.threads = asked.threads;
     if (status == HD_OK)
         *out = run;

@@ -5,11 +5,16 @@
  * nothing of when the frame is orthonormalised. */
 #include "run/schedule.h"
 
+#include <float.h>
 #include <limits.h>
 #include <math.h>
 
-/** Ends that are this close, as a part of a report interval or of an interval, are one. */
+/** Ends that are this close are one: a report and the end of its stage as a part of a report
+ * interval that fits into the stage, an orthonormalisation and a cut as a part of its interval. */
 static const double CLOSE = 1e-6;
+/** The same of the present time and the end of the stage, as a part of it: what is left of a
+ * duration with 15 digits, which is 23 eps, and of some sums. */
+static const double ROUNDING = 64.0 * DBL_EPSILON;
 
 hd_schedule hd_schedule_of(const hd_scene_def *scene)
 {
@@ -60,10 +65,10 @@ double hd_schedule_snap(const hd_schedule *s, double now, double length)
  * made longer. */
 unsigned hd_schedule_pass(hd_schedule *s)
 {
-    const double last = hd_schedule_stage_end(s), close = CLOSE * s->report_interval;
+    const double last = hd_schedule_stage_end(s);
     const double whole = s->origin + ((double)s->reports + 1.0) * s->report_interval;
     const bool ends = hd_schedule_cut(s) >= last;
-    if (whole <= last + close) s->reports++;
+    if (whole <= last + CLOSE * s->report_interval) s->reports++;
     return ends ? HD_ENDS_REPORT | HD_ENDS_STAGE : HD_ENDS_REPORT;
 }
 
@@ -77,7 +82,12 @@ void hd_schedule_change(hd_schedule *s, const hd_scene_def *scene, double now)
 
 bool hd_schedule_is_over(const hd_schedule *s, double now)
 {
-    return now >= hd_schedule_stage_end(s) - CLOSE * s->report_interval;
+    return now >= hd_schedule_stage_end(s) * (1.0 - ROUNDING);
+}
+
+bool hd_schedule_reaches(const hd_schedule *s, double now)
+{
+    return now <= hd_schedule_stage_end(s) * (1.0 + ROUNDING);
 }
 
 double hd_schedule_next_multiple(const hd_schedule *s, double interval)
@@ -85,26 +95,31 @@ double hd_schedule_next_multiple(const hd_schedule *s, double interval)
     const double r = s->report_interval, gone = s->origin - s->start;
     const bool first = s->reports == 0 && s->origin == s->start;
     if (first || interval <= r) return hd_schedule_cut(s);
-    const double passed = floor((gone + (double)s->reports * r) / interval + CLOSE);
-    const double count = ceil(((passed + 1.0) * interval - gone) / r * (1.0 - CLOSE));
+    const double passed = floor((gone + ((double)s->reports + CLOSE) * r) / interval);
+    const double count = ceil(((passed + 1.0) * interval - gone) / r - CLOSE);
     return report_at(s, fmax(count, (double)s->reports + 1.0));
 }
 
 bool hd_schedule_reopen(hd_schedule *s, double now)
 {
-    const double last = hd_schedule_stage_end(s), close = CLOSE * s->report_interval;
-    if (s->stage == HD_FINISHED && now < last - close) s->stage = HD_AVERAGING;
+    const double last = hd_schedule_stage_end(s);
+    if (s->stage == HD_FINISHED && !hd_schedule_is_over(s, now)) s->stage = HD_AVERAGING;
     if (s->stage == HD_AVERAGING && now >= last) s->stage = HD_FINISHED;
-    return now <= last + close;
+    return hd_schedule_reaches(s, now);
 }
 
-/** What the scene does not say of it. */
+/** What the scene does not say of it: another duration or report interval may have been asked for,
+ * but not hold yet. */
 void hd_schedule_archive(hd_schedule *s, hd_archive *archive)
 {
     int stage = (int)s->stage;
     hd_archive_int(archive, "schedule stage", &stage, HD_EQUILIBRATING, HD_FINISHED);
     s->stage = (hd_stage)stage;
     hd_archive_double(archive, "schedule start", &s->start);
+    double duration = s->length[HD_AVERAGING] < INFINITY ? s->length[HD_AVERAGING] : 0.0;
+    hd_archive_double(archive, "schedule duration", &duration);
+    hd_archive_expect(archive, duration >= 0, "schedule duration", "it is negative");
+    s->length[HD_AVERAGING] = duration > 0 ? duration : INFINITY;
     hd_archive_double(archive, "schedule origin", &s->origin);
     hd_archive_double(archive, "schedule report interval", &s->report_interval);
     hd_archive_long(archive, "schedule reports", &s->reports, 0, LONG_MAX / 2);

@@ -41,8 +41,10 @@ unsigned hd_schedule_pass(hd_schedule *schedule);
 /** What a scene with another duration or report interval says of it, at any time: reports are
  * counted from now on if their interval changes. The time averaged must not exceed the duration. */
 void hd_schedule_change(hd_schedule *schedule, const hd_scene_def *scene, double now);
-/** True if the end of the stage is not ahead. */
+/** True if the end of the stage is not ahead, but for rounding. */
 bool hd_schedule_is_over(const hd_schedule *schedule, double now);
+/** True if it is not behind, but for rounding. */
+bool hd_schedule_reaches(const hd_schedule *schedule, double now);
 
 /** The next report that is the stage's first at or after a multiple of `interval` since its start
  * (the first report of all is, of 0), or its last; with 0 the next report. */

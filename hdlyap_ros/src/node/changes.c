@@ -13,18 +13,6 @@ static const double CLOSE = 1e-9;
 
 /* ---- list ---------------------------------------------------------------------------------- */
 
-bool changes_create(changes *out, const settings *set)
-{
-    char message[256];
-    const int count = set->changes.count;
-    *out = (changes){.list = calloc((size_t)count + 1, sizeof *out->list)};
-    if (!out->list) return false;
-    for (; out->count < count; out->count++)
-        (void)change_parse_timed(&out->list[out->count], set->changes.text[out->count], message,
-                                 sizeof message);
-    return true;
-}
-
 void changes_clear(changes *all) { free(all->list); }
 
 /** Moves one that waits to the end of those that are made. */
@@ -36,13 +24,49 @@ static void put_to_made(changes *all, int k)
     all->list[all->made++] = made;
 }
 
-/* ---- made ---------------------------------------------------------------------------------- */
-
 /** Of a live parameter, all of which are real numbers. */
 static double *value_of(settings *set, const parameter *p)
 {
     return (double *)((char *)set + p->offset + (p->row ? p->row->offset : 0));
 }
+
+/** In the settings alone. */
+static double *assign(change *c, settings *set, const parameter *p)
+{
+    double *value = value_of(set, p);
+    c->before = *value;
+    *value = c->value;
+    return value;
+}
+
+/** The first of those that wait for no later time than this; -1 if there is none. */
+static int first_until(const changes *all, double time)
+{
+    int first = -1;
+    for (int k = all->made; k < all->count; k++)
+        if (all->list[k].time <= time && (first < 0 || all->list[k].time < all->list[first].time))
+            first = k;
+    return first;
+}
+
+bool changes_create(changes *out, settings *set, double since)
+{
+    char message[256];
+    const int count = set->changes.count;
+    *out = (changes){.list = calloc((size_t)count + 1, sizeof *out->list)};
+    if (!out->list) return false;
+    for (; out->count < count; out->count++)
+        (void)change_parse_timed(&out->list[out->count], set->changes.text[out->count], message,
+                                 sizeof message);
+    for (int k; (k = first_until(out, since * (1.0 + CLOSE))) >= 0;) {
+        const parameter p = parameters_named(out->list[k].name);
+        (void)assign(&out->list[k], set, &p);
+        put_to_made(out, k);
+    }
+    return true;
+}
+
+/* ---- made ---------------------------------------------------------------------------------- */
 
 static bool is_ended(const hd_run *run, char *message, size_t size, const char *name)
 {
@@ -54,12 +78,10 @@ static bool is_ended(const hd_run *run, char *message, size_t size, const char *
 static bool make(change *c, settings *set, hd_run *run, char *message, size_t size)
 {
     const parameter p = parameters_named(c->name);
-    double *value = value_of(set, &p);
     if (is_ended(run, message, size, c->name)) return false;
     c->time = p.at_once ? hd_run_time(run) : hd_run_change_time(run);
     if (p.row && hd_run_change(run, p.row, c->value, message, size) != HD_OK) return false;
-    c->before = *value;
-    *value = c->value;
+    const double *value = assign(c, set, &p);
     if (value == &set->field_interval) hd_run_fields_every(run, *value);
     snprintf(message, size, "%s = %.15g from simulated time %.6g on, was %.15g", c->name, c->value,
              c->time, c->before);

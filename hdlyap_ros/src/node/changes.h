@@ -13,8 +13,9 @@ typedef struct changes {
     int count;
 } changes;
 
-/** Those of the settings, none of them made; false without memory. */
-bool changes_create(changes *out, const settings *set);
+/** Those of the settings. Of a run that goes on from a simulated time (negative: of none) the
+ * settings are as those up to then have made them. False without memory. */
+bool changes_create(changes *out, settings *set, double since);
 void changes_clear(changes *all);
 
 /** Changes a parameter, "NAME=VALUE", in the run and in the settings, and says in `message` since

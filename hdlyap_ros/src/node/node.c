@@ -40,6 +40,7 @@ typedef struct app {
     hdr_params *params;
     hd_checkpoint kept; /**< what is gone on from */
     settings set;
+    changes changes; /**< those that are still to be made and those that are made */
     hd_run *run;
     checkpoint_writer keep; /**< as the run begins; then the worker's */
     report *rep;
@@ -98,7 +99,9 @@ static int read_settings(app *a)
     }
     if (!settings_read(&a->set, a->params, *resume ? &a->kept : NULL, message, sizeof message))
         return refuse(message);
-    return EXIT_SUCCESS;
+    return changes_create(&a->changes, &a->set, *resume ? a->kept.time : -1.0)
+               ? EXIT_SUCCESS
+               : failed_status(HDR_NO_MEMORY);
 }
 
 /** Lowest column of the fields that are chosen by their number; beyond all if none is. */
@@ -167,8 +170,9 @@ static hdr_status advertise(app *a)
     const char *kernel = hd_blas_query().kernel;
     hdr_status status = report_create(&a->rep, a->ros, &a->set, a->run);
     if (status == HDR_OK) status = diagnostics_advertise(&a->diag, a->ros, a->rep, kernel);
-    if (status == HDR_OK) status = report_run_info(a->rep, a->run, &(changes){.made = 0});
-    if (status == HDR_OK && !worker_create(&a->work, a->run, a->rep, &a->set, &a->keep))
+    if (status == HDR_OK) status = report_run_info(a->rep, a->run, &a->changes);
+    if (status == HDR_OK &&
+        !worker_create(&a->work, a->run, a->rep, &a->set, &a->changes, &a->keep))
         status = HDR_NO_MEMORY;
     if (status == HDR_OK) status = services_advertise(a->ros, a->work);
     if (status == HDR_OK) status = hdr_params_watch(a->params, a->ros, on_parameter_set, a);
@@ -254,6 +258,7 @@ static void app_free(app *a)
     report_free(a->rep);
     hd_run_free(a->run);
     hdr_params_free(a->params);
+    changes_clear(&a->changes);
 }
 
 static int run(app *a)

@@ -33,12 +33,12 @@ struct worker {
     hd_run *run;
     report *rep;
     settings *set;
+    changes *changes;
     pthread_t thread;
     bool begun;
     double due;        /**< wall time before which pace allows no further step; the thread's own */
     double examinable; /**< the same of the next examination; the thread's own */
     checkpoint_writer keep; /**< the thread's own */
-    changes changes;        /**< the same */
 
     pthread_mutex_t lock;
     pthread_cond_t changed;
@@ -81,7 +81,7 @@ static void publish_changes(worker *w)
 {
     pthread_mutex_unlock(&w->lock);
     pthread_mutex_lock(&w->publishing);
-    if (!w->closed && report_run_info(w->rep, w->run, &w->changes) != HDR_OK)
+    if (!w->closed && report_run_info(w->rep, w->run, w->changes) != HDR_OK)
         hdr_log(HDR_WARN, "no run_info of the change: %s", hdr_error_text());
     pthread_mutex_unlock(&w->publishing);
     pthread_mutex_lock(&w->lock);
@@ -91,7 +91,7 @@ static void publish_changes(worker *w)
 static void answer_set(worker *w)
 {
     set_request *r = &w->set_asked;
-    r->made = changes_ask(&w->changes, w->set, w->run, r->assignment, r->message, r->size);
+    r->made = changes_ask(w->changes, w->set, w->run, r->assignment, r->message, r->size);
     r->waits = false;
     w->due = 0.0; /* of another pace */
     if (r->made) hdr_log(HDR_INFO, "set: %s", r->message);
@@ -180,7 +180,7 @@ static hd_status reset_if_asked(worker *w)
 
 static void change_if_due(worker *w)
 {
-    if (!changes_take(&w->changes, w->set, w->run)) return;
+    if (!changes_take(w->changes, w->set, w->run)) return;
     w->due = 0.0;
     pthread_mutex_lock(&w->lock);
     publish_changes(w);
@@ -299,7 +299,7 @@ static void locks_free(worker *w)
     pthread_mutex_destroy(&w->publishing);
 }
 
-bool worker_create(worker **out, hd_run *run, report *rep, settings *set,
+bool worker_create(worker **out, hd_run *run, report *rep, settings *set, changes *all,
                    const checkpoint_writer *keep)
 {
     worker *w = *out = calloc(1, sizeof *w);
@@ -307,14 +307,12 @@ bool worker_create(worker **out, hd_run *run, report *rep, settings *set,
     w->run = run;
     w->rep = rep;
     w->set = set;
+    w->changes = all;
     w->state.last = progress_of(run);
     w->keep = *keep;
     w->state.checkpoint = w->keep.state;
     locks_create(w);
-    if (changes_create(&w->changes, set)) return true;
-    worker_free(w);
-    *out = NULL;
-    return false;
+    return true;
 }
 
 bool worker_begin(worker *w)
@@ -334,7 +332,6 @@ void worker_free(worker *w)
 {
     if (!w) return;
     locks_free(w);
-    changes_clear(&w->changes);
     free(w);
 }
 

@@ -30,10 +30,10 @@ typedef struct worker_state {
 typedef struct worker worker;
 
 /** False if there is no memory for it. */
-bool worker_create(worker **out, hd_run *run, report *rep, settings *set,
+bool worker_create(worker **out, hd_run *run, report *rep, settings *set, changes *all,
                    const checkpoint_writer *keep);
-/** Starts the thread, which alone uses run and rep, and what may change of set, until worker_state
- * says WORKER_ENDED. False if the system has no thread for it. */
+/** Starts the thread, which alone uses run, rep and changes, and what may change of set, until
+ * worker_state says WORKER_ENDED. False if the system has no thread for it. */
 bool worker_begin(worker *w);
 /** Asks the thread to end and waits for the step that it is in. NULL is allowed. */
 void worker_end(worker *w);

@@ -1,5 +1,7 @@
 /** What is changed while a run goes on: when it holds, what is refused, and that the same change at
  * the same time gives the same bits. */
+#include <float.h>
+
 #include "kept.h"
 #include "testing.h"
 
@@ -77,9 +79,9 @@ static void expect_reports(double before, double after)
 static void reports_come_in_another_interval(void **state)
 {
     (void)state;
-    const double intervals[] = {0.1, 0.7, 1.0, 7.0};
-    for (int k = 0; k < 4; k++)
-        for (int l = 0; l < 4; l++)
+    const double intervals[] = {0.1, 0.7, 1.0, 7.0, 1e10};
+    for (int k = 0; k < 5; k++)
+        for (int l = 0; l < 5; l++)
             if (k != l) expect_reports(intervals[k], intervals[l]);
 }
 
@@ -114,11 +116,14 @@ static void the_duration_changes(void **state)
     expect_refused(run, "duration", -1.0, "duration = -1: must be from 0");
     expect_refused(run, "duration", 1.0, "duration = 1: must be 0 or at least");
     const double least = hd_run_change_time(run) - 23.0;
-    change(run, "duration", least); /* as soon as it can */
+    change(run, "duration", least * (1.0 - 20.0 * DBL_EPSILON)); /* as soon as it can, 15 digits */
     CHECK_CLOSE(ended(run), 23.0 + least, 1e-9);
     run = averaging(1.0, 20.0);
     change(run, "duration", 31.5);
     CHECK_CLOSE(ended(run), 54.5, 1e-9);
+    run = averaging(1e12, 20.0);
+    change(run, "duration", 31.3);
+    CHECK_CLOSE(ended(run), 54.3, 1e-9);
     run = averaging(1.0, 0.0);
     change(run, "duration", 10.0);
     CHECK_CLOSE(ended(run), 33.0, 1e-9);

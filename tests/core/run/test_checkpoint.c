@@ -195,7 +195,7 @@ static void a_finished_run_can_be_made_longer(void **state)
 static void the_duration_can_end_at_once(void **state)
 {
     (void)state;
-    static const double more[] = {0.0, 0.01, 0.1, 0.35, -1e-9};
+    static const double more[] = {0.0, 0.01, 0.1, 0.35, -5e-14}; /* of 20 with 15 digits */
     const hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL);
     hd_run *run = kept_run(&def);
     for (int k = 0; kept_steps(run, 1) == 1; k++) {

@@ -10,15 +10,6 @@
 #include "kept.h"
 #include "run/run_state.h"
 
-static hd_status status_of(const bytes *b, hd_run **run, char *message, size_t size)
-{
-    FILE *file = fmemopen(b->data, b->size, "rb");
-    hd_archive archive = hd_archive_reader(file, b->size);
-    const hd_status status = hd_run_read(run, &archive, NULL, NULL, message, size);
-    fclose(file);
-    return status;
-}
-
 /** Where an element of the first array of that name lies. */
 static char *element(const bytes *b, const char *name, size_t index)
 {
@@ -45,7 +36,7 @@ static void expect_nonsense_refused(const bytes *b, const nonsense_case *c)
     const int64_t integer = c->integer;
     memcpy(before, at, sizeof before);
     memcpy(at, c->real != 0 ? (const void *)&c->real : (const void *)&integer, sizeof before);
-    const hd_status status = status_of(b, &run, message, sizeof message);
+    const hd_status status = kept_read(&run, b, NULL, message, sizeof message);
     if (status != HD_FILE_FAULT || run || !strstr(message, c->word))
         fail_msg("%s[%zu]: %d, \"%s\" without \"%s\"", c->array, c->index, status, message,
                  c->word);
@@ -74,6 +65,9 @@ static void contents_that_no_run_has_are_refused(void **state)
         {"time", 0, 1.0, 0, "that of the disks"},
         {"run observe", 0, 0, 1024, "out of its range"},
         {"run interval end", 0, 1.0, 0, "interval end"},
+        {"run target", 0, -1.0, 0, "negative"},
+        {"run fields asked", 0, -1.0, 0, "negative"},
+        {"run changing", 0, 0, 2, "out of its range"},
         {"run advance longest", 0, -1.0, 0, "advance longest"},
         {"run advance begin", 0, 1e9, 0, "advance end"},
         {"run advance end", 0, 1e9, 0, "advance end"},
@@ -91,6 +85,7 @@ static void contents_that_no_run_has_are_refused(void **state)
         {"schedule stage", 0, 0, 4, "out of its range"},
         {"schedule start", 0, 1e9, 0, "schedule"},
         {"schedule reports", 0, 0, 0, "schedule"},
+        {"schedule duration", 0, -1.0, 0, "negative"},
         {"interval last", 0, -1.0, 0, "interval"},
         {"interval slope", 0, -1.0, 0, "interval"},
         {"log duration", 0, 1e9, 0, "log duration"},
@@ -112,7 +107,7 @@ static void contents_that_no_run_has_are_refused(void **state)
         {"phase state", 0, 0, 4, "out of its range"},
         {"phase col", 0, 0, 117, "out of its range"},
     };
-    CHECK_OK(status_of(&b, &again, message, sizeof message));
+    CHECK_OK(kept_read(&again, &b, NULL, message, sizeof message));
     hd_run_free(again);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
         expect_nonsense_refused(&b, &cases[k]);
@@ -154,8 +149,8 @@ static void reports_are_not_passed_twice(void **state)
     expect_nonsense_refused(&b, &twice);
     const double endless = 1e300;
     memcpy(element(&b, "run advance longest", 0), &endless, sizeof endless);
-    CHECK_OK(status_of(&b, &again, message, sizeof message));
-    assert_true(again->advance.longest <= hd_advance_bound(&again->advance, &again->scene));
+    CHECK_OK(kept_read(&again, &b, NULL, message, sizeof message));
+    assert_true(again->advance.longest <= again->advance.bound);
     free(b.data);
     hd_run_free(again);
     hd_run_free(run);
@@ -187,7 +182,7 @@ static void nonsense_is_survived(void **state)
             char before[8], message[512] = "";
             memcpy(before, whole.data + at, sizeof before);
             memcpy(whole.data + at, &nonsense[k], sizeof before);
-            const hd_status status = status_of(&whole, &run, message, sizeof message);
+            const hd_status status = kept_read(&run, &whole, NULL, message, sizeof message);
             assert_true(status == HD_OK || (!run && *message));
             for (int step = 0; run && step < 20; step++)
                 if (hd_run_advance(run) != HD_OK) break;

@@ -7,7 +7,7 @@
 
 #include "hdlyap/parameters.h"
 #include "hdlyap/run.h"
-#include "base/random.h"
+#include "draw.h"
 #include "scenes.h"
 #include "testing.h"
 
@@ -29,23 +29,11 @@ static const double OVERLAP_MAX = 1e-9;
 
 /* ---- random scenes ------------------------------------------------------------------------- */
 
-static double uniform(hd_random *random) { return 0.5 * (hd_random_symmetric(random) + 1.0); }
-
-static bool chance(hd_random *random, double probability) { return uniform(random) < probability; }
-
-static int one_of(hd_random *random, int count) { return (int)(uniform(random) * count); }
-
 static uint64_t bits(hd_random *random)
 {
     const double two_32 = 4294967296.0;
     const uint64_t high = (uint64_t)(uniform(random) * two_32);
     return high << 32 | (uint64_t)(uniform(random) * two_32);
-}
-
-static double log_uniform(hd_random *random, double least, double most)
-{
-    const double x = exp(log(least) + uniform(random) * log(most / least));
-    return fmin(fmax(x, least), most);
 }
 
 /** Values that scenes usually have here: small ones, which run fast. Of the others all that is

@@ -116,6 +116,41 @@ static void multiples_are_reached_once(void **state)
             expect_multiples(reports[r], intervals[k]);
 }
 
+/** However far apart reports are: a stage is over at its end, and not before; it is what it is to
+ * the rounding of a duration with 15 digits. */
+static void reports_do_not_end_a_stage(void **state)
+{
+    (void)state;
+    const double starts[] = {0.0, 23.0, 1e6};
+    for (double report = 1e-6; report <= 1e12; report *= 10.0)
+        for (int k = 0; k < 3; k++) {
+            const double start = starts[k], end = start + 30.0;
+            hd_schedule s = schedule_of(0.0, 30.0, report);
+            hd_schedule_enter(&s, HD_AVERAGING, start);
+            assert_false(hd_schedule_is_over(&s, start + 29.9999999));
+            assert_true(hd_schedule_is_over(&s, end));
+            assert_true(hd_schedule_is_over(&s, end * (1.0 - 32.0 * DBL_EPSILON)));
+            assert_false(hd_schedule_reopen(&s, start + 30.0000001));
+            s.stage = HD_FINISHED;
+            assert_true(hd_schedule_reopen(&s, end));
+            assert_int_equal(s.stage, HD_FINISHED);
+            assert_true(hd_schedule_reopen(&s, start + 29.9999999));
+            assert_int_equal(s.stage, HD_AVERAGING);
+        }
+}
+
+/** At the very report, however many there are between two multiples. */
+static void multiples_are_not_reached_early(void **state)
+{
+    (void)state;
+    for (double report = 1e-6; report < 1.0; report *= 10.0) {
+        hd_schedule s = schedule_of(0.0, 5000.0, report);
+        hd_schedule_enter(&s, HD_AVERAGING, 7.0);
+        (void)hd_schedule_pass(&s);
+        CHECK_CLOSE(hd_schedule_next_multiple(&s, 1000.0), 1007.0, 4.0 * DBL_EPSILON * 1007.0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -124,6 +159,8 @@ int main(void)
         cmocka_unit_test(an_end_that_falls_on_a_cut_is_the_cut),
         cmocka_unit_test(an_end_falls_on_a_cut_of_another_interval),
         cmocka_unit_test(multiples_are_reached_once),
+        cmocka_unit_test(reports_do_not_end_a_stage),
+        cmocka_unit_test(multiples_are_not_reached_early),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,6 +59,16 @@ bytes kept_bytes(hd_run *run)
     return b;
 }
 
+hd_status kept_read(hd_run **run, const bytes *b, const hd_scene_def *scene, char *message,
+                    size_t size)
+{
+    FILE *file = fmemopen(b->data, b->size, "rb");
+    hd_archive archive = hd_archive_reader(file, b->size);
+    const hd_status status = hd_run_read(run, &archive, scene, NULL, message, size);
+    fclose(file);
+    return status;
+}
+
 size_t kept_element_size(const char *type) { return type[0] == 'S' ? 1 : 8; }
 
 size_t kept_array_size(const char *name)

@@ -33,6 +33,9 @@ typedef struct bytes {
 } bytes;
 
 bytes kept_bytes(hd_run *run); /**< its arrays */
+/** As hd_run_read of them. */
+hd_status kept_read(hd_run **run, const bytes *b, const hd_scene_def *scene, char *message,
+                    size_t size);
 bytes kept_file(const char *path);
 
 /** Of the elements of the array that begins there. */

@@ -104,6 +104,25 @@ static void special_states_stay_finite(void **state)
     }
 }
 
+/** However long: nothing happens. */
+static void disks_at_rest_stay_there(void **state)
+{
+    (void)state;
+    const double p[2 * DISKS] = {0, -0.0};
+    for (int k = 0; k < 2 * SPECIALS; k++) {
+        const hd_boundary boundary = k % 2 ? HD_REFLECTING : HD_PERIODIC;
+        const hd_scene_def def = scene_in_box(DISKS, 8.0, 8.0, boundary, boundary, 1);
+        const double *q = SPECIAL[k / 2].q;
+        hd_trajectory *tr = started(&def, q, p);
+        double now[2 * DISKS];
+        for (double t = 1.0; t < 1e300; t *= 1e15) CHECK_OK(hd_trajectory_extend(tr, NULL, t));
+        hd_trajectory_state(tr, now, NULL);
+        assert_memory_equal(now, q, sizeof now);
+        assert_int_equal(hd_trajectory_collisions(tr) + hd_trajectory_wall_events(tr), 0);
+        hd_trajectory_free(tr);
+    }
+}
+
 /** At the origin, a zero of either sign, and on the far edge, which is the same place. */
 static void edges_of_the_box_are_one_place(void **state)
 {
@@ -241,6 +260,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(special_states_stay_finite),
+        cmocka_unit_test(disks_at_rest_stay_there),
         cmocka_unit_test(edges_of_the_box_are_one_place),
         cmocka_unit_test(denormal_vectors_are_carried_as_others),
         cmocka_unit_test(vectors_of_any_length_are_factored_or_refused),
