@@ -38,9 +38,9 @@ static reading read_run(const hd_run *run, double wall)
     const hd_velocity v = hd_phases_velocity(hd_run_phases(run));
     return (reading){.time = hd_spectrum_time(spectrum),
                      .wall = wall,
-                     .value = {hd_spectrum_lambda_max(spectrum), t.c, l.c, v.v},
-                     .error = {hd_spectrum_std_error(spectrum, 0), t.points > 0 ? t.c_error : -1.0,
-                               l.points > 0 ? l.c_error : -1.0, v.phases > 0 ? v.v_error : -1.0}};
+                     .value = {hd_spectrum_lambda_max(spectrum), t.c.value, l.c.value, v.v},
+                     .error = {hd_spectrum_std_error(spectrum, 0), t.c.sampling_error,
+                               l.c.sampling_error, v.phases > 0 ? v.v_error : -1.0}};
 }
 
 /** Readings are 4 % apart in time, once the first error is known. */

@@ -112,8 +112,8 @@ static number *read_dispersion(const hd_run *run, hd_mode_kind kind, number *out
         const hd_step *step = hd_steps_step(hd_run_steps(run), k);
         if (step->resolved && step->kind == kind) of |= bit(k);
     }
-    *out++ = (number){d.c, d.c_error, of};
-    *out++ = (number){d.c2, d.c2_error, d.points > 1 ? of : 0};
+    *out++ = (number){d.c.value, d.c.sampling_error, of};
+    *out++ = (number){d.c2.value, d.c2.sampling_error, d.points > 1 ? of : 0};
     return out;
 }
 

@@ -81,6 +81,10 @@ void hd_scene_box(const hd_scene_def *def, double box[2]);
  * Phys. 30, 971 (1975)) [time units]. */
 double hd_scene_sound_crossing(const hd_scene_def *def);
 
+/** Mean path of a disk between two collisions, by Enskog's theory with Henderson's pair correlation
+ * at contact: 1 / (2 sqrt(2) density g) [sigma]. */
+double hd_scene_mean_free_path(const hd_scene_def *def);
+
 /** Number of vanishing exponents: 6, 4 or 2 for both, one or no direction periodic. */
 int hd_scene_zero_exponents(const hd_scene_def *def);
 

@@ -45,18 +45,36 @@ typedef struct hd_step {
     double gap_error; /**< of it; negative if not yet known, 0 if alone */
 } hd_step;
 
-/** lambda = c k + c2 k^2, least squares weighted with the errors of the resolved steps. The errors
- * are those of c and c2 as averages: they know how the steps fluctuate together, not whether the
- * relation holds, which the misfit tells. */
+/** What long boxes at all densities say of lambda(k) = c k + c2 k^2 + c3 k^3 in any box [T12]. */
+typedef struct hd_relation {
+    double c2, c2_error; /**< of c2 / c, its standard error as an estimate [sigma] */
+    double c3, c3_error; /**< of c3 / c [sigma^2] */
+    double box_error;    /**< by which narrow edges and walls may move c, as a part of it */
+    double scatter; /**< of a well resolved step about the relation, as a part of its exponent */
+} hd_relation;
+
+/** Errors are standard errors, negative if not yet known. */
+typedef struct hd_coefficient {
+    double value;
+    double error;          /**< with all that the form of the relation leaves open */
+    double sampling_error; /**< of it, what another run of the same box may differ by */
+} hd_coefficient;
+
+/** lambda = c k + c2 k^2 + c3 k^3, least squares over the resolved steps, with c2 / c and c3 / c of
+ * long boxes as two more observations: one formula for one wave number and for many. Each step
+ * weighs by its standard error and its scatter. c is that of waves longer than the box. */
 typedef struct hd_dispersion {
-    int points; /**< distinct wave numbers; below 2 c2 is 0, below 1 also c */
-    int terms;  /**< of the relation: 2, c and c2; 1 from one wave number, c alone; 0 none */
+    int points;          /**< distinct wave numbers; 0: no fit, all below is 0 or unknown */
     double k_min, k_max; /**< smallest and largest wave number; 0 without one [1/sigma] */
-    double c, c_error;   /**< error negative if not yet known [sigma/time unit] */
-    double c2, c2_error; /**< [sigma^2/time unit] */
+    double prior_share;  /**< of c2 and c3, the part that long boxes say: 1 from one wave number,
+                            towards 0 where the steps tell them by themselves */
+    hd_coefficient c;    /**< [sigma/time unit] */
+    hd_coefficient c2;   /**< [sigma^2/time unit] */
+    hd_coefficient c3;   /**< [sigma^3/time unit] */
+    const hd_relation *in_long_boxes; /**< what it stands on beside the steps */
     double misfit; /**< root mean square deviation of the steps from the relation, per degree of
-                      freedom, in standard errors of the steps; negative if it has no freedom or
-                      they are not known. Far above 1: the relation does not hold so far */
+                      freedom, in units of error and scatter of a step; negative of a single step or
+                      if errors are not known. Far above 1: the relation does not hold so far */
 } hd_dispersion;
 
 typedef struct hd_steps hd_steps;
@@ -87,6 +105,12 @@ int hd_steps_of_vector(const hd_steps *steps, int col);
  * hd_spectrum_error_of_sum. `spectrum` as in hd_steps_find. */
 double hd_steps_error_of_sum(const hd_steps *steps, const hd_spectrum *spectrum,
                              double (*factor)(const hd_step *, const void *), const void *context);
+
+/** For the scene of the steps. kind: HD_MODE_T or HD_MODE_LP. */
+const hd_relation *hd_steps_relation(const hd_steps *steps, hd_mode_kind kind);
+/** By which a resolved T or LP step may stray from the relation, as a part of its exponent: more if
+ * multiplicity is missing, or weight lies in the columns of other steps. */
+double hd_steps_scatter(const hd_steps *steps, const hd_step *step);
 
 /** Of the steps found with this spectrum. kind: HD_MODE_T or HD_MODE_LP. */
 hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spectrum,

@@ -1,15 +1,25 @@
-/** Steps -> dispersion relation: weighted least squares for lambda = c k + c2 k^2 [T12]. Both
- * results are sums of factors times exponents, so their errors are those of such sums. */
-#include "hdlyap/steps.h"
-
+/** Steps -> dispersion relation lambda = c k + c2 k^2 + c3 k^3, with what long boxes say of c2 / c
+ * and c3 / c as two more observations [T12]. Results are sums of factors times exponents, so their
+ * errors are those of such sums, and what the form leaves open. */
+#include <lapacke.h>
 #include <math.h>
 
-/** Normal equations. */
+#include "base/check.h"
+#include "hdlyap/steps.h"
+
+enum { TERMS = 3 };
+
+/** Of the unknowns x: lambda = x_0 B(k) + x_1 k^2 + x_2 k^3, with B the relation of long boxes and
+ * x_1, x_2 in units of their widths there, where they are 0 +- 1. */
 typedef struct fit {
-    double kk, k3, k4; /**< sums of w k^2, w k^3, w k^4 */
-    int points;        /**< steps */
-    int wave_numbers;  /**< distinct ones */
+    const hd_relation *prior;
+    hd_mode_kind kind;
+    double inverse[TERMS * TERMS]; /**< of the normal equations: covariance if steps were
+                                      independent */
+    double unit[TERMS];
+    int points; /**< distinct wave numbers */
     double k_min, k_max;
+    const hd_steps *steps;
     bool weighted; /**< all errors are known */
 } fit;
 
@@ -31,96 +41,160 @@ static bool is_new(const hd_steps *steps, int index)
     return true;
 }
 
-static double weight_of(const hd_step *step, bool weighted)
+/** What a step strays by for itself [1/time unit]. */
+static double stray(const fit *f, const hd_step *step)
 {
-    return weighted ? 1.0 / (step->std_error * step->std_error) : 1.0;
+    return hd_steps_scatter(f->steps, step) * step->exponent;
 }
 
-static fit sums_of(const hd_steps *steps, hd_mode_kind kind)
+static double weight_of(const fit *f, const hd_step *step)
 {
-    fit f = {.weighted = true};
+    const double error = f->weighted ? step->std_error : 0.0, own = stray(f, step);
+    return 1.0 / (error * error + own * own);
+}
+
+static double relation_at(const hd_relation *prior, double k)
+{
+    return k * (1.0 + k * (prior->c2 + k * prior->c3));
+}
+
+static void row_of(const fit *f, double k, double out[TERMS])
+{
+    out[0] = relation_at(f->prior, k);
+    out[1] = f->unit[1] * k * k;
+    out[2] = f->unit[2] * k * k * k;
+}
+
+/** Which steps there are, and c with the curvature of long boxes, the unit of its errors. */
+static fit begin(const hd_steps *steps, hd_mode_kind kind)
+{
+    fit f = {
+        .prior = hd_steps_relation(steps, kind), .kind = kind, .steps = steps, .weighted = true};
+    double squares = 0.0, products = 0.0;
     for (int i = 0; i < hd_steps_count(steps); i++)
         if (counts(hd_steps_step(steps, i), kind))
             f.weighted &= hd_steps_step(steps, i)->std_error > 0;
     for (int i = 0; i < hd_steps_count(steps); i++) {
         const hd_step *step = hd_steps_step(steps, i);
         if (!counts(step, kind)) continue;
-        const double k = step->wave.number, w = weight_of(step, f.weighted);
+        const double k = step->wave.number, b = relation_at(f.prior, k), w = weight_of(&f, step);
         f.k_min = f.points == 0 ? k : fmin(f.k_min, k);
         f.k_max = fmax(f.k_max, k);
-        f.points++;
-        f.wave_numbers += is_new(steps, i);
-        f.kk += w * k * k;
-        f.k3 += w * k * k * k;
-        f.k4 += w * k * k * k * k;
+        f.points += is_new(steps, i);
+        squares += w * b * b;
+        products += w * b * step->exponent;
     }
+    const double c = f.points > 0 ? products / squares : 0.0;
+    f.unit[0] = 1.0;
+    f.unit[1] = f.prior->c2_error * c;
+    f.unit[2] = f.prior->c3_error * c;
     return f;
 }
 
-/** One wave number alone knows no curvature. */
-static int terms_of(const fit *f) { return f->wave_numbers < 2 ? f->wave_numbers : 2; }
+/** Normal equations, with both observations of long boxes, and their inverse. */
+static void solve(fit *f)
+{
+    double *n = f->inverse;
+    for (int m = 0; m < TERMS; m++) n[m * TERMS + m] = m > 0;
+    for (int i = 0; i < hd_steps_count(f->steps); i++) {
+        const hd_step *step = hd_steps_step(f->steps, i);
+        double row[TERMS];
+        if (!counts(step, f->kind)) continue;
+        row_of(f, step->wave.number, row);
+        for (int a = 0; a < TERMS; a++)
+            for (int b = 0; b < TERMS; b++)
+                n[a * TERMS + b] += weight_of(f, step) * row[a] * row[b];
+    }
+    int info = LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', TERMS, n, TERMS);
+    if (info == 0) info = LAPACKE_dpotri_work(LAPACK_COL_MAJOR, 'L', TERMS, n, TERMS);
+    HD_ASSERT(info == 0); /* squares, and 1 on two diagonals */
+    for (int a = 0; a < TERMS; a++)
+        for (int b = 0; b < a; b++) n[a * TERMS + b] = n[b * TERMS + a];
+}
 
-/** Of which result, c (power 1) or c2 (power 2), and from which steps. */
+/** Which result: the combination of unknowns that is c, c2 or c3. */
 typedef struct result {
     const fit *of;
-    hd_mode_kind kind;
-    int power;
+    double factor[TERMS]; /**< times the inverse */
 } result;
+
+static result result_of(const fit *f, int term)
+{
+    const double of_c[] = {1.0, f->prior->c2, f->prior->c3};
+    result r = {.of = f};
+    for (int m = 0; m < TERMS; m++)
+        r.factor[m] = of_c[term] * f->inverse[m] +
+                      (term > 0 ? f->unit[term] * f->inverse[term * TERMS + m] : 0.0);
+    return r;
+}
 
 /** Factor of a step's exponent in the result. */
 static double share(const hd_step *step, const void *context)
 {
     const result *r = context;
-    const fit *f = r->of;
-    if (!counts(step, r->kind)) return 0.0;
-    const double k = step->wave.number, wk = k * weight_of(step, f->weighted);
-    const double det = f->kk * f->k4 - f->k3 * f->k3;
-    if (terms_of(f) < 2) return wk / f->kk;
-    return r->power == 1 ? wk * (f->k4 - k * f->k3) / det : wk * (k * f->kk - f->k3) / det;
+    double row[TERMS], sum = 0.0;
+    if (!counts(step, r->of->kind)) return 0.0;
+    row_of(r->of, step->wave.number, row);
+    for (int m = 0; m < TERMS; m++) sum += r->factor[m] * row[m];
+    return sum * weight_of(r->of, step);
 }
 
-static double value_of(const hd_steps *steps, const result *r)
+/** Value and errors of one coefficient. */
+static hd_coefficient coefficient(const fit *f, const hd_spectrum *spectrum, int term)
 {
-    double sum = 0.0;
-    for (int i = 0; i < hd_steps_count(steps); i++)
-        sum += share(hd_steps_step(steps, i), r) * hd_steps_step(steps, i)->exponent;
-    return sum;
-}
-
-static double misfit_of(const hd_steps *steps, hd_mode_kind kind, const fit *f,
-                        const hd_dispersion *d)
-{
-    const int freedom = f->points - terms_of(f);
-    double chi2 = 0.0;
-    for (int i = 0; i < hd_steps_count(steps); i++) {
-        const hd_step *step = hd_steps_step(steps, i);
-        if (!counts(step, kind)) continue;
-        const double k = step->wave.number;
-        const double off = step->exponent - d->c * k - d->c2 * k * k;
-        chi2 += weight_of(step, f->weighted) * off * off;
+    const result r = result_of(f, term);
+    hd_coefficient out = {0.0, -1.0, -1.0};
+    double square = r.factor[1] * r.factor[1] + r.factor[2] * r.factor[2];
+    for (int i = 0; i < hd_steps_count(f->steps); i++) {
+        const hd_step *step = hd_steps_step(f->steps, i);
+        const double part = share(step, &r);
+        out.value += part * step->exponent;
+        if (part != 0) square += pow(part * stray(f, step), 2.0);
     }
-    return freedom > 0 && f->weighted ? sqrt(chi2 / freedom) : -1.0;
+    square += pow(f->prior->box_error * out.value, 2.0);
+    out.sampling_error = hd_steps_error_of_sum(f->steps, spectrum, share, &r);
+    if (out.sampling_error >= 0) out.error = hypot(out.sampling_error, sqrt(square));
+    return out;
+}
+
+/** Of steps and of both observations of long boxes. */
+static double misfit_of(const fit *f, const hd_dispersion *d)
+{
+    const double off[] = {(d->c2.value - f->prior->c2 * d->c.value) / f->unit[1],
+                          (d->c3.value - f->prior->c3 * d->c.value) / f->unit[2]};
+    double chi2 = off[0] * off[0] + off[1] * off[1];
+    int steps = 0;
+    for (int i = 0; i < hd_steps_count(f->steps); i++) {
+        const hd_step *step = hd_steps_step(f->steps, i);
+        if (!counts(step, f->kind)) continue;
+        const double k = step->wave.number;
+        const double fitted = k * (d->c.value + k * (d->c2.value + k * d->c3.value));
+        chi2 += weight_of(f, step) * pow(step->exponent - fitted, 2.0);
+        steps++;
+    }
+    return steps > 1 && f->weighted ? sqrt(chi2 / (steps - 1)) : -1.0;
 }
 
 hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spectrum,
                                   hd_mode_kind kind)
 {
-    const fit f = sums_of(steps, kind);
-    hd_dispersion d = {.points = f.wave_numbers,
-                       .terms = terms_of(&f),
+    const hd_coefficient none = {0.0, -1.0, -1.0};
+    fit f = begin(steps, kind);
+    hd_dispersion d = {.points = f.points,
                        .k_min = f.k_min,
                        .k_max = f.k_max,
-                       .c_error = -1.0,
-                       .c2_error = -1.0,
+                       .prior_share = 1.0,
+                       .in_long_boxes = f.prior,
+                       .c = none,
+                       .c2 = none,
+                       .c3 = none,
                        .misfit = -1.0};
     if (f.points == 0) return d;
-    const result c = {&f, kind, 1}, c2 = {&f, kind, 2};
-    d.c = value_of(steps, &c);
-    d.c_error = hd_steps_error_of_sum(steps, spectrum, share, &c);
-    if (d.terms > 1) {
-        d.c2 = value_of(steps, &c2);
-        d.c2_error = hd_steps_error_of_sum(steps, spectrum, share, &c2);
-    }
-    d.misfit = misfit_of(steps, kind, &f, &d);
+    solve(&f);
+    d.prior_share = 0.5 * (f.inverse[TERMS + 1] + f.inverse[2 * TERMS + 2]);
+    d.c = coefficient(&f, spectrum, 0);
+    d.c2 = coefficient(&f, spectrum, 1);
+    d.c3 = coefficient(&f, spectrum, 2);
+    d.misfit = misfit_of(&f, &d);
     return d;
 }

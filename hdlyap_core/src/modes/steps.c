@@ -9,6 +9,7 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "modes/archived.h"
+#include "modes/relation.h"
 #include "modes/sets.h"
 #include "modes/sharing.h"
 
@@ -25,6 +26,7 @@ struct hd_steps {
     hd_part *parts;      /**< [count * HD_SET_VECTORS_MAX], workspace */
     hd_company *company; /**< [count] */
     double warmup;       /**< of the frame, before any average */
+    hd_relation of_t, of_lp;
 };
 
 /* ---- creation ------------------------------------------------------------------------------ */
@@ -75,6 +77,8 @@ hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def, const hd_mode
     steps->vectors = hd_modes_vectors(modes);
     steps->rows = 4 * def->disks;
     steps->warmup = def->warmup;
+    steps->of_t = hd_relation_of(def, HD_MODE_T);
+    steps->of_lp = hd_relation_of(def, HD_MODE_LP);
     steps->subspaces = hd_fields_subspaces(fields);
     const bool all = steps->vectors == 4 * def->disks;
     steps->count = steps->subspaces * (all ? 2 : 1) + 1;
@@ -265,6 +269,11 @@ void hd_steps_find(hd_steps *steps, const hd_spectrum *spectrum)
 double hd_steps_threshold(void) { return HD_SET_THRESHOLD; }
 int hd_steps_count(const hd_steps *steps) { return steps->count; }
 const hd_modes *hd_steps_modes(const hd_steps *steps) { return steps->modes; }
+
+const hd_relation *hd_steps_relation(const hd_steps *steps, hd_mode_kind kind)
+{
+    return kind == HD_MODE_T ? &steps->of_t : &steps->of_lp;
+}
 
 const hd_step *hd_steps_step(const hd_steps *steps, int index)
 {

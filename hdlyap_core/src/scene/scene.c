@@ -33,6 +33,13 @@ double hd_scene_sound_crossing(const hd_scene_def *def)
     return fmax(box[0], box[1]) / sqrt(z + eta * slope + z * z);
 }
 
+double hd_scene_mean_free_path(const hd_scene_def *def)
+{
+    const double eta = 0.25 * 3.14159265358979323846 * def->density, free = 1.0 - eta;
+    const double g = (1.0 - 7.0 / 16.0 * eta) / (free * free);
+    return 1.0 / (2.0 * sqrt(2.0) * def->density * g);
+}
+
 int hd_scene_zero_exponents(const hd_scene_def *def)
 {
     return 2 + 2 * (def->boundary[0] == HD_PERIODIC) + 2 * (def->boundary[1] == HD_PERIODIC);

@@ -134,7 +134,7 @@ static bool fill_mode(hdr_mode *mode, const hd_run *run, int col)
     return weights_finite(mode);
 }
 
-static bool fill_step(hdr_step *out, const hd_step *step)
+static bool fill_step(hdr_step *out, const hd_steps *steps, const hd_step *step)
 {
     *out = (hdr_step){
         .kind = (uint8_t)step->kind,
@@ -148,6 +148,7 @@ static bool fill_step(hdr_step *out, const hd_step *step)
         .set = -1,
         .exponent = NAN,
         .std_error = -1.0,
+        .scatter = NAN,
         .set_time = NAN,
         .own_part = NAN,
         .gap = NAN,
@@ -162,6 +163,7 @@ static bool fill_step(hdr_step *out, const hd_step *step)
     out->exponent = step->exponent;
     out->std_error = error_of(step->std_error);
     out->sharing = (uint8_t)step->sharing;
+    if (step->kind != HD_MODE_ZERO) out->scatter = hd_steps_scatter(steps, step);
     out->set_time = step->set_time;
     out->own_part = step->own_part;
     if (step->sharing != HD_SHARING_ALONE) {
@@ -263,7 +265,8 @@ static bool fill_response(hdr_hydro_mode *out, const hd_hydro_response *response
 
 static bool is_finite(const hd_dispersion *fit)
 {
-    return isfinite(fit->c + fit->c_error + fit->c2 + fit->c2_error + fit->misfit);
+    return isfinite(fit->c.value + fit->c.error + fit->c2.value + fit->c2.error + fit->c3.value +
+                    fit->c3.error + fit->misfit);
 }
 
 static hd_status publish_modes(mode_report *m, const snapshot *now)
@@ -283,10 +286,19 @@ static hd_status publish_modes(mode_report *m, const snapshot *now)
 }
 
 /** What a fit says, NaN where there was none. */
-static double fitted(double value, int points, int needed)
-{
-    return points >= needed ? value : NAN;
-}
+static double fitted(double value, int points) { return points > 0 ? value : NAN; }
+
+/** The fields of a coefficient, and of the fit of one kind. */
+#define COEFFICIENT(name, d, c)                                                                    \
+    .name = fitted(d.c.value, d.points), .name##_error = error_of(d.c.error),                      \
+    .name##_sampling_error = error_of(d.c.sampling_error)
+#define FIT(x, d)                                                                                  \
+    .x##_points = (uint32_t)d.points, .x##_k_min = fitted(d.k_min, d.points),                      \
+    .x##_k_max = fitted(d.k_max, d.points), .x##_prior_share = d.prior_share,                      \
+    COEFFICIENT(c_##x, d, c), COEFFICIENT(c_##x##2, d, c2), COEFFICIENT(c_##x##3, d, c3),          \
+    .x##_misfit = error_of(d.misfit), .x##_long_c2 = d.in_long_boxes->c2,                          \
+    .x##_long_c2_error = d.in_long_boxes->c2_error, .x##_long_c3 = d.in_long_boxes->c3,            \
+    .x##_long_c3_error = d.in_long_boxes->c3_error, .x##_box_error = d.in_long_boxes->box_error
 
 static bool fill_steps(mode_report *m, hdr_steps *message, const hd_run *run)
 {
@@ -294,8 +306,8 @@ static bool fill_steps(mode_report *m, hdr_steps *message, const hd_run *run)
     const hd_phases *phases = hd_run_phases(run);
     const hd_velocity none = {.v_error = -1.0, .misfit = -1.0},
                       v = phases ? hd_phases_velocity(phases) : none;
-    const hd_dispersion t = hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_T);
-    const hd_dispersion l = hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_LP);
+    const hd_dispersion of_t = hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_T);
+    const hd_dispersion of_l = hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_LP);
     *message = (hdr_steps){
         .header = message_header(),
         .run_id = m->to->run_id,
@@ -303,34 +315,18 @@ static bool fill_steps(mode_report *m, hdr_steps *message, const hd_run *run)
         .averaged_time = hd_spectrum_time(hd_run_spectrum(run)),
         .threshold = hd_steps_threshold(),
         .steps = {m->step, m->steps},
-        .t_points = (uint32_t)t.points,
-        .t_terms = (uint32_t)t.terms,
-        .t_k_min = fitted(t.k_min, t.points, 1),
-        .t_k_max = fitted(t.k_max, t.points, 1),
-        .c_t = fitted(t.c, t.points, 1),
-        .c_t_error = t.points >= 1 ? error_of(t.c_error) : -1.0,
-        .c_t2 = fitted(t.c2, t.points, 2),
-        .c_t2_error = t.points >= 2 ? error_of(t.c2_error) : -1.0,
-        .t_misfit = error_of(t.misfit),
-        .l_points = (uint32_t)l.points,
-        .l_terms = (uint32_t)l.terms,
-        .l_k_min = fitted(l.k_min, l.points, 1),
-        .l_k_max = fitted(l.k_max, l.points, 1),
-        .c_l = fitted(l.c, l.points, 1),
-        .c_l_error = l.points >= 1 ? error_of(l.c_error) : -1.0,
-        .c_l2 = fitted(l.c2, l.points, 2),
-        .c_l2_error = l.points >= 2 ? error_of(l.c2_error) : -1.0,
-        .l_misfit = error_of(l.misfit),
+        FIT(t, of_t),
+        FIT(l, of_l),
         .v_phases = (uint32_t)v.phases,
-        .v_k_min = fitted(v.k_min, v.phases, 1),
-        .v_k_max = fitted(v.k_max, v.phases, 1),
-        .v = fitted(v.v, v.phases, 1),
+        .v_k_min = fitted(v.k_min, v.phases),
+        .v_k_max = fitted(v.k_max, v.phases),
+        .v = fitted(v.v, v.phases),
         .v_error = v.phases >= 1 ? error_of(v.v_error) : -1.0,
         .v_misfit = error_of(v.misfit),
     };
-    bool finite = isfinite(v.v + v.v_error + v.misfit) && is_finite(&t) && is_finite(&l);
+    bool finite = isfinite(v.v + v.v_error + v.misfit) && is_finite(&of_t) && is_finite(&of_l);
     for (uint32_t k = 0; k < m->steps && finite; k++)
-        finite = fill_step(&m->step[k], hd_steps_step(steps, (int)k));
+        finite = fill_step(&m->step[k], steps, hd_steps_step(steps, (int)k));
     return finite;
 }
 

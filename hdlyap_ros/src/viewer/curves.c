@@ -130,16 +130,21 @@ static void dispersion_range(plot *axes, const picture *p)
     for (int d = 0; d < 2; d++) axes->max[d] = plot_round_up(1.05 * most[d]);
 }
 
-/** lambda = c k + c2 k^2; c2 is NaN where it was not fitted. */
-static void fit_curve(const plot *axes, double c, double c2, int kind)
+static double relation(double k, double c, double c2, double c3)
+{
+    return k * (c + k * (c2 + k * c3));
+}
+
+/** c2 and c3 are NaN where they were not fitted. */
+static void fit_curve(const plot *axes, double c, double c2, double c3, int kind)
 {
     enum { PIECES = 40 };
-    const double bend = isnan(c2) ? 0.0 : c2;
+    const double bend = isnan(c2) ? 0.0 : c2, third = isnan(c3) ? 0.0 : c3;
     canvas_layer(axes->on, axes->ns, HDR_MARKER_LINE_LIST, palette_kind(kind),
                  FIT_LINE * axes->unit);
     for (int piece = 0; piece < PIECES; piece++) {
         const double k0 = axes->max[0] * piece / PIECES, k1 = axes->max[0] * (piece + 1) / PIECES;
-        const double y0 = c * k0 + bend * k0 * k0, y1 = c * k1 + bend * k1 * k1;
+        const double y0 = relation(k0, c, bend, third), y1 = relation(k1, c, bend, third);
         if (plot_contains(axes, k0, y0) && plot_contains(axes, k1, y1))
             canvas_line(axes->on, plot_x(axes, k0), plot_y(axes, y0), plot_x(axes, k1),
                         plot_y(axes, y1));
@@ -176,8 +181,9 @@ void curves_dispersion(canvas *on, const layout *l, const picture *p)
     dispersion_range(&axes, p);
     plot_axes(&axes, "dispersion: T blue, LP orange", "k [1/sigma]", "lambda");
     if (!p->steps) return;
-    if (p->steps->t_points > 0) fit_curve(&axes, p->steps->c_t, p->steps->c_t2, HDR_MODE_T);
-    if (p->steps->l_points > 0) fit_curve(&axes, p->steps->c_l, p->steps->c_l2, HDR_MODE_LP);
+    const hdr_steps *s = p->steps;
+    if (s->t_points > 0) fit_curve(&axes, s->c_t, s->c_t2, s->c_t3, HDR_MODE_T);
+    if (s->l_points > 0) fit_curve(&axes, s->c_l, s->c_l2, s->c_l3, HDR_MODE_LP);
     error_bars(&axes, p->steps);
     step_points(&axes, p->steps);
 }

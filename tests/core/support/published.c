@@ -82,8 +82,9 @@ static void check_structure(const hd_structure *s)
 
 static void check_dispersion(hd_dispersion fit)
 {
-    const double x[] = {fit.c, fit.c_error, fit.c2, fit.c2_error, fit.misfit};
-    check_numbers(x, 5, "dispersion");
+    const double x[] = {fit.c.value,  fit.c.error,  fit.c2.value, fit.c2.error,
+                        fit.c3.value, fit.c3.error, fit.misfit,   fit.prior_share};
+    check_numbers(x, 8, "dispersion");
 }
 
 static void check_steps(const hd_run *run)

@@ -65,8 +65,9 @@ class Run:
     structure factors, `state` positions and momenta, `fields` the last field of each vector. What
     was averaged before ~reset_average does not count."""
 
-    def __init__(self, joined):
+    def __init__(self, joined, form=None, k=None):
         self._joined = joined
+        self._form, self._k = form, k  # of the fits, see plots.fits.chosen
         self.info, self.paths = joined.info, joined.paths
 
     def __repr__(self):
@@ -165,23 +166,26 @@ class Run:
     @cached_property
     def results(self):
         """lambda_max, the sum of the positive exponents, and the fits over steps if there were
-        any, with what they stand on."""
+        any, with what they stand on. Of the error of a fit, sampling_error is what another run of
+        the same box may differ by."""
         last = self._averages.last
         about = common.Run()
         about.info, about.spectrum = self.info, last
         rate, none = fields.of(last)['lambda_max'].unit, ''
         rows = [
-            ('lambda_max', last.lambda_max, last.std_errors[0], rate, none),
-            (about.sum_name, last.ks_entropy, about.sum_error, rate, none),
+            ('lambda_max', last.lambda_max, *[last.std_errors[0]] * 2, rate, none),
+            (about.sum_name, last.ks_entropy, *[about.sum_error] * 2, rate, none),
         ]
         units = fields.of(msg.Steps)
         rows += [
-            (*of_value, units[of_value[0].lower()].unit, fit.basis)
+            (*of_value, sampling, units[of_value[0].lower()].unit, fit.basis)
             for fit in self.fits
-            for of_value in fit.values
+            for of_value, sampling in zip(fit.values, fit.sampling_errors)
         ]
-        made = pandas.DataFrame(rows, columns=['quantity', 'value', 'std_error', 'unit', 'basis'])
-        made['std_error'] = known(made['std_error'])
+        names = ['quantity', 'value', 'std_error', 'sampling_error', 'unit', 'basis']
+        made = pandas.DataFrame(rows, columns=names)
+        for name in ('std_error', 'sampling_error'):
+            made[name] = known(made[name])
         return made.set_index('quantity')
 
     @cached_property
@@ -269,7 +273,8 @@ class Run:
             return self._averages.last
         if not self.has(topic):
             raise self._missing(topic)
-        return self._lasts[TOPICS[topic]].message(np)
+        message = self._lasts[TOPICS[topic]].message(np)
+        return fits.chosen(message, self._form, self._k) if topic == 'steps' else message
 
     def _all(self, topic):
         found = list(self.messages(topic))

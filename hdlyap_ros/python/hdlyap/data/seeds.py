@@ -15,12 +15,13 @@ from .run import Run
 FEWEST, RATIO = 8, 2.0
 
 
-def load(*bags, node=None, run=None):
+def load(*bags, node=None, run=None, form=None, k=None):
     """A Run of one bag, or of bags that are parts of one run (split by rosbag, or resumed from a
     checkpoint); Seeds of bags of several seeds. Others are refused. node, run: which, if there are
-    several in a bag; run counts from 1, without it the last one is taken."""
-    found = joined.runs(bags, node, run)
-    return Run(found[0]) if len(found) == 1 else Seeds([Run(one) for one in found])
+    several in a bag; run counts from 1, without it the last one is taken. form, k: fits of another
+    form ('c k', 'c k + c2 k^2') than the node's, or over wave numbers from k[0] to k[1] alone."""
+    found = [Run(one, form, k) for one in joined.runs(bags, node, run)]
+    return found[0] if len(found) == 1 else Seeds(found)
 
 
 class Seeds:
@@ -106,11 +107,18 @@ class Seeds:
     @cached_property
     def results(self):
         """lambda_max, the sum of the positive exponents, and of the fits over steps those that
-        are of one form over the same wave numbers in all runs."""
+        are of one form over the same wave numbers in all runs. Seeds share what the form leaves
+        open: both errors have it in full."""
         frames = [run.results for run in self.runs]
         fits = [fit for fit in self.runs[0].fits if self._is_in_all(fit)]
         names = [*frames[0].index[:2], *(name for fit in fits for name, _, _ in fit.values)]
-        made = self._mean([one.loc[names] for one in frames], 'value')
+        frames = [one.loc[names] for one in frames]
+        sampled = [one.assign(std_error=one['sampling_error']) for one in frames]
+        made = self._mean(sampled, 'value')
+        of_form = np.max([_beyond(one) for one in frames], axis=0)
+        made['sampling_error'] = np.fmax(made['std_error'], made['scatter'])
+        for name in ('std_error', 'scatter'):
+            made[name] = np.hypot(made[name], of_form)
         return made.join(frames[0][['unit', 'basis']])
 
     @cached_property
@@ -137,6 +145,12 @@ class Seeds:
         made = dict(zip(columns, mean(values, errors, weights, there)))
         units = dict.fromkeys(columns[:3], '1/time unit' if name == 'exponent' else '')
         return tables.frame(made, units, index)
+
+
+def _beyond(frame):
+    """What is in errors beside sampling; 0 where they are not known."""
+    squares = frame['std_error'].to_numpy() ** 2 - frame['sampling_error'].to_numpy() ** 2
+    return np.sqrt(np.fmax(np.nan_to_num(squares), 0.0))
 
 
 def _measured(run):

@@ -131,18 +131,13 @@ def table(view):
     if not rows:
         return
     yield from step_table.layout(rows)
+    for fit in fits.of(message):
+        if fit.count:
+            phases = f', {fit.count} of them' if fit.symbol == 'v' else ''
+            yield f'  {fit.symbol:<4} {fit.measured}  {fit.basis}{phases}'
     missing = steps.unresolved(message)
-    found = [fitted(fit) for fit in fits.of(message) if fit.count]
     if missing:
-        found.append(f'{len(missing)} steps not resolved')
-    yield '  ' + '   '.join(found)
-
-
-def fitted(fit):
-    """With its form, and how much it stands on."""
-    of_what = 'LP phase' if fit.symbol == 'v' else 'wave number'
-    basis = f'{fit.count} {of_what}{"s" if fit.count > 1 else ""}'
-    return f'{fit.symbol} {fit.measured} (' + (f'{fit.form}, ' if fit.form else '') + f'{basis})'
+        yield f'  {len(missing)} steps not resolved'
 
 
 def start(node, bag, ended):

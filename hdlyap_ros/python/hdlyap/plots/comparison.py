@@ -155,9 +155,12 @@ def _pairs_of_fits(a, b):
 
 
 def _fits(pair):
-    """Deviations of what two fits of one form over the same wave numbers say; the fits are their
-    origins."""
+    """Deviations of what two fits of one form over the same wave numbers say, with the errors of
+    sampling: what the form leaves open is the same in both. The fits are their origins."""
+    a, b = pair
     return [
-        Deviation(name, (value, other), (error, others), origins=pair)
-        for (name, value, error), (_, other, others) in zip(*(fit.values for fit in pair))
+        Deviation(name, (value, other), errors, origins=pair)
+        for (name, value, _), (_, other, _), *errors in zip(
+            a.values, b.values, a.sampling_errors, b.sampling_errors
+        )
     ]

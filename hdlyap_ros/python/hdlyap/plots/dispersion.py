@@ -1,26 +1,38 @@
-"""Exponents of steps -> the dispersion relation lambda = c k + c2 k^2."""
+"""Exponents of steps -> the dispersion relation lambda = c k + c2 k^2 + c3 k^3, or its first
+terms."""
+
+from collections import namedtuple
 
 import numpy as np
 
+TERMS = 3
+
 
 class Curve:
-    """Of arrays, weighted with the errors; one wave number alone knows no curvature: c2 is 0.
-    Errors are multiplied by sqrt(chi^2 / freedom) where that exceeds 1, as those of the node."""
+    """Of arrays, weighted with the errors; terms: 1 or 2 (None: 2, or c alone of one wave number).
+    Errors are multiplied by sqrt(chi^2 / freedom) where that exceeds 1."""
 
-    def __init__(self, k, exponents, errors):
-        k, exponents, errors = map(np.asarray, (k, exponents, errors))
-        size = 2 if number_of(k) > 1 else 1
-        weights = errors**-2.0
-        powers = _powers(k)[:, :size]
+    prior_share = np.nan
+
+    def __init__(self, k, exponents, errors, terms=None):
+        k, exponents, errors = (np.array(list(one), dtype=float) for one in (k, exponents, errors))
+        self.terms = terms or min(2, number_of(k))
+        is_known = bool((errors > 0).all())
+        weights = errors**-2.0 if is_known else np.ones(len(k))
+        powers = _powers(k)[:, : self.terms]
         inverse = np.linalg.inv(powers.T @ (weights[:, None] * powers))
         coefficients = inverse @ powers.T @ (weights * exponents)
-        self.freedom = len(k) - size
+        self.freedom = len(k) - self.terms
         self.chi2 = float(weights @ (exponents - powers @ coefficients) ** 2)
-        scatter = max(1.0, self.chi2 / self.freedom if self.freedom else 1.0)
-        self.coefficients, self.covariance = np.zeros(2), np.zeros((2, 2))
-        self.coefficients[:size], self.covariance[:size, :size] = coefficients, scatter * inverse
-        self.c, self.c2 = self.coefficients
-        self.c_error, self.c2_error = np.sqrt(np.diag(self.covariance))
+        known = self.freedom > 0 and is_known
+        self.misfit = float(np.sqrt(self.chi2 / self.freedom)) if known else -1.0
+        self.coefficients, self.covariance = np.zeros(TERMS), np.zeros((TERMS, TERMS))
+        self.coefficients[: self.terms] = coefficients
+        self.covariance[: self.terms, : self.terms] = max(1.0, self.misfit) ** 2 * inverse
+        self.c, self.c2, _ = self.coefficients
+        self.errors = np.sqrt(np.diag(self.covariance)) if is_known else np.full(TERMS, -1.0)
+        self.c_error, self.c2_error, _ = self.errors
+        self.sampling_errors = self.errors
 
     @property
     def correlation(self):
@@ -31,6 +43,52 @@ class Curve:
         """(lambda, its error) at a wave number."""
         powers = _powers(k)
         return float(powers @ self.coefficients), float(np.sqrt(powers @ self.covariance @ powers))
+
+
+class LongBoxes(namedtuple('LongBoxes', 'c2 c2_error c3 c3_error box_error')):
+    """What a Steps message says of them: c2 / c and c3 / c with errors; the error of c of this box,
+    as a part of it."""
+
+    @classmethod
+    def of(cls, message, letter):
+        names = [f'{letter}_long_{name}' for name in cls._fields[:4]] + [f'{letter}_box_error']
+        return cls(*(getattr(message, name) for name in names))
+
+
+class WithLongBoxes:
+    """The fit of the node [T12], of independent steps: least squares over the steps, each with its
+    error and its scatter, and two more observations, c2 / c and c3 / c of long boxes."""
+
+    terms = TERMS
+
+    def __init__(self, k, exponents, errors, scatter, long):
+        k, exponents, errors, scatter = (
+            np.array(list(one), dtype=float) for one in (k, exponents, errors, scatter)
+        )
+        is_known = bool((errors > 0).all())
+        errors = errors if is_known else np.zeros(len(k))
+        weights = 1 / (errors**2 + (scatter * exponents) ** 2)
+        relation = _powers(k) @ (1.0, long.c2, long.c3)
+        size = (weights * relation * exponents).sum() / (weights * relation**2).sum()
+        rows = np.array([[-long.c2, 1.0, 0.0], [-long.c3, 0.0, 1.0]])
+        rows /= size * np.array([[long.c2_error], [long.c3_error]])
+        inverse = np.linalg.inv(_powers(k).T @ (weights[:, None] * _powers(k)) + rows.T @ rows)
+        shares = inverse @ _powers(k).T * weights
+        self.coefficients = shares @ exponents
+        form = (
+            np.diag(inverse)
+            - (shares**2) @ errors**2
+            + (long.box_error * self.coefficients) ** 2
+        )
+        sampling = np.sqrt((shares**2) @ errors**2)
+        unknown = np.full(TERMS, -1.0)
+        self.sampling_errors = sampling if is_known else unknown
+        self.errors = np.sqrt(sampling**2 + form) if is_known else unknown
+        left = np.diag(rows @ inverse @ rows.T)  # of the widths in long boxes
+        self.prior_share = float(left.mean())
+        off = np.append(exponents - _powers(k) @ self.coefficients, rows @ self.coefficients)
+        chi2 = float(np.append(weights, (1.0, 1.0)) @ off**2)
+        self.misfit = np.sqrt(chi2 / (len(k) - 1)) if len(k) > 1 and is_known else -1.0
 
 
 def number_of(k):
@@ -50,4 +108,4 @@ def mean_difference(one, other, low, high, samples=101):
 
 
 def _powers(k):
-    return np.stack([k, k * k], axis=-1)
+    return np.stack([k, k * k, k**3], axis=-1)

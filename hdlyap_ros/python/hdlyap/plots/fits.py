@@ -1,18 +1,21 @@
-"""Steps message -> its fits, each with what it stands on: the relation, and the wave numbers. c of
-c k alone has the curvature in it, and both forms move with the wave numbers that they go through:
-only fits on the same basis measure the same."""
+"""Steps message -> its fits, each with what it stands on: the relation, its wave numbers, and how
+much of its curvature long boxes say. `chosen` makes fits of another form or over other wave
+numbers."""
 
-from math import isclose
+import copy
+from math import isclose, isnan, nan
 
-from . import steps
+from . import dispersion, steps
 from .numbers import stated, with_error
 
 SAME = 1e-9  # relative: wave numbers of one box
-RELATIONS = {1: 'c k', 2: 'c k + c2 k^2'}  # by the number of terms
+# by the number of terms: the node fits three, with what long boxes say of c2 and c3
+RELATIONS = {1: 'c k', 2: 'c k + c2 k^2', 3: 'c k + c2 k^2 + c3 k^3'}
+KINDS = {'t': steps.T, 'l': steps.LP}
 
 
 class Fit:
-    """Of one kind of step: c and c2, or v of the LP phases. count: wave numbers, of v phases;
+    """Of one kind of step: c, c2 and c3, or v of the LP phases. count: wave numbers, of v phases;
     0 without a fit."""
 
     def __init__(self, message, letter, kind):
@@ -25,14 +28,19 @@ class Fit:
         # older bags: of all steps that could be in it
         self.k_min = getattr(message, f'{letter}_k_min', min(waves, default=0.0))
         self.k_max = getattr(message, f'{letter}_k_max', max(waves, default=0.0))
+        self.prior_share = getattr(message, f'{letter}_prior_share', nan)
         # those of v are in LpPhases
-        self.waves = [] if letter == 'v' else waves
-        self.terms = 1 if letter == 'v' else getattr(message, f'{letter}_terms', min(self.count, 2))
-        names = [letter] if letter == 'v' else [f'c_{letter}', f'c_{letter}2'][: self.terms]
-        # (name, value, error) of each coefficient
+        self.waves = [] if letter == 'v' else [k for k in waves if self.k_min <= k <= self.k_max]
+        names = _coefficients(message, letter, self.count)
+        self.terms = len(names)
+        # (name, value, error) of each, and what another run of the same box may differ by
         self.values = [
             (name[0] + name[1:].upper(), getattr(message, name), getattr(message, name + '_error'))
-            for name in names[: self.count]
+            for name in names
+        ]
+        self.sampling_errors = [
+            getattr(message, name + '_sampling_error', error)
+            for name, (_, _, error) in zip(names, self.values)
         ]
 
     @property
@@ -44,12 +52,16 @@ class Fit:
 
     @property
     def basis(self):
-        """What it stands on: form and wave numbers."""
+        """What it stands on: form, wave numbers, lever arm, share of long boxes."""
         if self.symbol == 'v':
             return f'|omega| / k of the LP phases at {self._range()}'
         waves = 'wave number' + ('s' if self.count > 1 else '')
         comma = '' if self.is_recorded else ','
-        return f'{self.form}{comma} over {self.count} {waves} {self._range()}'
+        basis = f'{self.form}{comma} over {self.count} {waves} {self._range()}'
+        if self.count > 1:
+            basis += f' (lever arm {self.k_max / self.k_min:.3g})'
+        share = 100 * self.prior_share
+        return basis if isnan(share) else f'{basis}, {share:.0f} % of the curvature from long boxes'
 
     @property
     def measured(self):
@@ -78,11 +90,112 @@ def of(message):
     return [Fit(message, 't', steps.T), Fit(message, 'l', steps.LP), Fit(message, 'v', steps.LP)]
 
 
+def alone(message, fit, terms):
+    """A dispersion.Curve of c k, or of c k + c2 k^2, over the steps of a fit; None if their errors
+    are not known."""
+    found = _fitted(message, fit.kind, (fit.k_min, fit.k_max))
+    if not found or min(step.std_error for step in found) <= 0:
+        return None
+    return dispersion.Curve(*_columns(found), terms)
+
+
+def chosen(message, form=None, k=None):
+    """A copy of a Steps message whose fits are of `form` (a value of RELATIONS; None: the node's)
+    over the steps with wave numbers from k[0] to k[1] (None: all). Errors are those of independent
+    steps. ValueError for another form, or a range in which there is none."""
+    if message is None or form is None and k is None:
+        return message
+    if form not in (None, *RELATIONS.values()):
+        wanted = ', '.join(map(repr, RELATIONS.values()))
+        raise ValueError(f'form {form!r}: must be one of {wanted}')
+    if k is not None and not 0 <= k[0] <= k[1]:
+        raise ValueError(f'k from {k[0]:g} to {k[1]:g}: must go up, from 0 or above')
+    terms = {words: number for number, words in RELATIONS.items()}.get(form, 3)
+    message = copy.copy(message)
+    for letter, kind in KINDS.items():
+        found = _fitted(message, kind, k)
+        for name, value in _fit(message, letter, found, terms).items():
+            setattr(message, name, value)
+    return message
+
+
+def add_arguments(parser):
+    """--form and --k of a command; choice(args) is then what chosen() takes."""
+    parser.add_argument(
+        '--form',
+        choices=list(RELATIONS.values()),
+        help='of the fits to steps (default: %(choices)s, the last with what long boxes say)',
+    )
+    parser.add_argument(
+        '--k',
+        nargs=2,
+        type=float,
+        metavar=('FROM', 'TO'),
+        help='fits over wave numbers in this range alone [1/sigma]',
+    )
+
+
+def choice(args):
+    return args.form, args.k
+
+
+def _fit(message, letter, found, terms):
+    """{field: value} of a fit to these steps."""
+    waves = [step.wave_number for step in found]
+    made = {
+        f'{letter}_points': dispersion.number_of(waves),
+        f'{letter}_k_min': min(waves, default=nan),
+        f'{letter}_k_max': max(waves, default=nan),
+        f'{letter}_prior_share': nan,
+        f'{letter}_misfit': -1.0,
+    }
+    for name in _names(letter):
+        made.update({name: nan, f'{name}_error': -1.0, f'{name}_sampling_error': -1.0})
+    if not found:
+        return made
+    if terms == 3:
+        long = dispersion.LongBoxes.of(message, letter)
+        curve = dispersion.WithLongBoxes(*_columns(found), [step.scatter for step in found], long)
+        made[f'{letter}_prior_share'] = curve.prior_share
+    else:
+        curve = dispersion.Curve(*_columns(found), min(terms, made[f'{letter}_points']))
+    made[f'{letter}_misfit'] = curve.misfit
+    fitted = zip(_names(letter), curve.coefficients, curve.errors, curve.sampling_errors)
+    for name, value, error, sampling in list(fitted)[: curve.terms]:
+        made.update({name: value, f'{name}_error': error, f'{name}_sampling_error': sampling})
+    return made
+
+
+def _names(letter):
+    return [f'c_{letter}', f'c_{letter}2', f'c_{letter}3']
+
+
+def _coefficients(message, letter, count):
+    """Names of those that are fitted; of older bags two, of one wave number one."""
+    if letter == 'v':
+        return ['v'][:count]
+    if hasattr(message, f'c_{letter}3'):
+        return [name for name in _names(letter) if not isnan(getattr(message, name))][: 3 * count]
+    return _names(letter)[: getattr(message, f'{letter}_terms', min(count, 2))][:count]
+
+
+def _fitted(message, kind, k=None):
+    """The steps of a fit: resolved ones of the positive half."""
+    low, high = k or (0.0, float('inf'))
+    return [
+        step
+        for step in steps.resolved(message).values()
+        if step.kind == kind and low * (1 - SAME) <= step.wave_number <= high * (1 + SAME)
+    ]
+
+
+def _columns(found):
+    return zip(*((step.wave_number, step.exponent, step.std_error) for step in found))
+
+
 def _waves(message, kind):
     """Distinct wave numbers of the resolved steps of the positive half, smallest first."""
-    found = sorted(
-        step.wave_number for step in steps.resolved(message).values() if step.kind == kind
-    )
+    found = sorted(step.wave_number for step in _fitted(message, kind))
     return [
         k
         for place, k in enumerate(found)

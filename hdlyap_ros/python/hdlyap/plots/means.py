@@ -13,14 +13,17 @@ from .numbers import with_error
 from .run import Run
 
 
-def read(paths, node=None, types=recording.TYPES, number=None):
-    """The Recording of bags of one run, or the Means of bags of several seeds."""
+def read(paths, node=None, types=recording.TYPES, number=None, choice=(None, None)):
+    """The Recording of bags of one run, or the Means of bags of several seeds; choice: of the fits,
+    see fits.chosen."""
     found = joined.runs(paths, node, number)
     if len(found) == 1:
-        return recording.of(found[0], types)
+        made = recording.of(found[0], types)
+        made.choice = choice
+        return made
     from hdlyap.data import run, seeds  # only here: pandas takes a while
 
-    return Means(seeds.Seeds([run.Run(one) for one in found]))
+    return Means(seeds.Seeds([run.Run(one, *choice) for one in found]))
 
 
 ROW = '  {:<16} {:>15} {:>15} {:>15} {:>12} {:>4}  {}'
@@ -82,6 +85,8 @@ class Means(Run):
         for name in results.index[2:]:
             setattr(message, name.lower(), results['value'][name])
             setattr(message, name.lower() + '_error', error[name])
+            if hasattr(message, name.lower() + '_sampling_error'):
+                setattr(message, name.lower() + '_sampling_error', results['sampling_error'][name])
         message.t_misfit = message.l_misfit = message.v_misfit = -1.0
 
     def table(self):

@@ -20,7 +20,19 @@ INDICES = (
 )
 STEPS = INDICES[:5]  # small enough for slopes without curvature
 # lambda = c k + c2 k^2; c2 is None where only a slope is given
-Branch = namedtuple('Branch', 'c c2')
+
+
+class Branch(namedtuple('Branch', 'c c2')):
+    @property
+    def coefficients(self):
+        return [value for value in self if value is not None]
+
+    @property
+    def terms(self):
+        """Of its form."""
+        return len(self.coefficients)
+
+
 CURVES = {'T': Branch(1.412, 0.086), 'LP': Branch(1.422, 0.55)}
 CURVES_DENSITY = 0.4
 CURVES_DISKS = (400, 800)  # from, to

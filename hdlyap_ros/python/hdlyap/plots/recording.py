@@ -19,6 +19,7 @@ from hdlyap.data.reader import (
     RecordingError,
 )
 
+from . import fits
 from .course import Course
 from .numbers import known
 from .phases import PhaseCourse
@@ -58,7 +59,7 @@ class Recording(Run):
     @property
     def steps(self):
         """The last Steps message since averaging began; None if there is none."""
-        return self._averaged(STEPS)
+        return fits.chosen(self._averaged(STEPS), *self.choice)
 
     @property
     def covariant(self):

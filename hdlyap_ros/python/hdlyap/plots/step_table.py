@@ -144,15 +144,18 @@ def _conjugates(message, half):
 
 
 def _fits(recording):
-    lines = ['fits over the resolved steps [sigma/time unit, sigma^2/time unit], k [1/sigma]']
+    lines = ['fits over the resolved steps [sigma/time unit, sigma^2/time unit ..], k [1/sigma]']
     branches = paper.branches(recording.info)
     for fit in fits.of(recording.steps):
-        lines += _fit_lines(fit, branches.get(steps.NAMES[fit.kind]))
+        lines += _fit_lines(fit)
+        branch = branches.get(steps.NAMES[fit.kind])
+        if branch and fit.count and fit.symbol != 'v':
+            lines += _beside_paper(fit, fits.alone(recording.steps, fit, branch.terms), branch)
     return '\n'.join(line.rstrip() for line in lines)
 
 
-def _fit_lines(fit, branch):
-    """What it stands on, and beside each coefficient the paper's."""
+def _fit_lines(fit):
+    """What it stands on, and its coefficients."""
     if not fit.count:
         why = '' if fit.symbol == 'v' else ': no step resolved'
         return [f'  {fit.symbol:<5} not known{why}']
@@ -162,21 +165,19 @@ def _fit_lines(fit, branch):
         else f'{steps.NAMES[fit.kind]} steps: {fit.basis}'
     )
     misfit = f', misfit {fit.misfit:.1f}' if fit.misfit >= 0 else ''
-    lines = []
-    for (name, value, error), published in zip(
-        fit.values, (branch and branch.c, branch and branch.c2)
-    ):
-        beside = '' if fit.symbol == 'v' else _published(published, branch)
-        lines.append(f'  {name:<5} {with_error(value, error):<15}{beside}')
-    return [f'  {basis}{misfit}', *lines]
+    values = [f'  {name:<5} {with_error(value, error)}' for name, value, error in fit.values]
+    return [f'  {basis}{misfit}', *values]
 
 
-def _published(value, branch):
-    if not value:
-        return ''
-    if branch.c2 is None:
-        return f'Eckmann et al. 2005, c k alone: {value:.3f} +-{100 * paper.FIT_ACCURACY:.0f} %'
-    return f'Eckmann et al. 2005: {value:.3f}'
+def _beside_paper(fit, curve, branch):
+    """The paper's form, over the same waves, beside its values."""
+    if curve is None:
+        return
+    accuracy = f' +-{100 * paper.FIT_ACCURACY:.0f} %' if branch.terms == 1 else ''
+    yield f'  by {fits.RELATIONS[branch.terms]} alone over the same waves, as Eckmann et al. 2005'
+    columns = zip(fit.values, curve.coefficients, curve.errors, branch.coefficients)
+    for (name, _, _), value, error, published in columns:
+        yield f'  {name:<5} {with_error(value, error):<15}{published:.3f}{accuracy}'
 
 
 def _lp_dynamics(recording):

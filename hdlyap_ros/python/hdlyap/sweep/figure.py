@@ -6,7 +6,6 @@ from hdlyap.plots.figures.style import GREY, MEMBER_COLOURS, plt
 import numpy as np
 
 from .points import FITTED, QUANTITIES, varied
-from .table import Marks
 
 LABELS = {
     'disks': 'number of disks $N$',
@@ -38,9 +37,8 @@ def draw(points):
     figure, panels = plt.subplots(
         rows, columns, figsize=(3.1 * columns, 2.7 * rows + 0.9), squeeze=False
     )
-    marks = Marks(points)
     for name, axes in zip(shown, panels.flat):
-        _panel(axes, name, x, series, marks)
+        _panel(axes, name, x, series)
     for axes in panels.flat[len(shown) :]:
         axes.remove()
     figure.suptitle(', '.join(_said(name, value) for name, value in fixed.items()), fontsize=9)
@@ -75,11 +73,10 @@ def _places(points, x):
     return {value: value for value in values}, None
 
 
-def _panel(axes, name, x, series, marks):
+def _panel(axes, name, x, series):
     every = list(itertools.chain(*series.values()))
     places, words = _places(every, x)
     width = max(places.values()) - min(places.values())
-    marked = len({p.values[name].fit.basis for p in every if name in p.values and name in FITTED})
     for number, points in enumerate(series.values()):
         shift = APART * width * (number - (len(series) - 1) / 2)
         for point in points:
@@ -87,8 +84,6 @@ def _panel(axes, name, x, series, marks):
                 value = point.values[name]
                 place = places[point.system[x]] + shift
                 _point(axes, place, value, number)
-                if marked > 1:
-                    _mark(axes, place, value, marks, number)
     axes.margins(y=0.12)
     axes.set_xlim(*_limits(list(places.values()), words))
     if words:
@@ -98,27 +93,13 @@ def _panel(axes, name, x, series, marks):
     axes.set_ylabel(NAMES[name])
 
 
-def _mark(axes, place, value, marks, number):
-    """Those of two series on either side."""
-    side = 1 if number % 2 else -1
-    axes.annotate(
-        marks.of(value.fit).strip(),
-        (place, value.value),
-        xytext=(4 * side, 3),
-        textcoords='offset points',
-        ha='left' if number % 2 else 'right',
-        fontsize=6,
-        color=GREY,
-    )
-
-
 def _limits(places, words):
     margin = 0.5 if words else 0.15 * (max(places) - min(places))
     return min(places) - margin, max(places) + margin
 
 
 def _point(axes, place, value, number):
-    """Open if the fit is c k alone, which has the curvature in c."""
+    """Open if the fit is c k or c k + c2 k^2 alone, which have the rest of the curvature in c."""
     colour, marker = _look(number)
     axes.errorbar(
         place,
@@ -134,7 +115,7 @@ def _point(axes, place, value, number):
 
 
 def _is_open(value):
-    return value.fit is not None and value.fit.symbol != 'v' and value.fit.terms < 2
+    return value.fit is not None and value.fit.symbol != 'v' and value.fit.terms < 3
 
 
 def _look(number):
@@ -146,9 +127,7 @@ def _explain(figure, panels, series, points):
     lines = ['error bars: one standard error, over seeds the larger one of stated and scatter']
     values = [point.values[name] for point in points for name in FITTED if name in point.values]
     if any(map(_is_open, values)):
-        lines.append('open: fit of c k alone; filled: of c k + c2 k^2')
-    if len({value.fit.basis for value in values}) > 1:
-        lines.append('[1], [2] ..: fits of different form or wave numbers, as in sweep.txt')
+        lines.append('open: the rest of the curvature is in c; the form is in sweep.txt')
     handles = []
     if len(series) > 1:
         for number, label in enumerate(series):

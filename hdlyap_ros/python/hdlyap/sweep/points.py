@@ -34,9 +34,9 @@ class Value(namedtuple('Value', 'value std_error scatter chi2 runs fit')):
 class Point:
     """The runs of one system."""
 
-    def __init__(self, paths):
+    def __init__(self, paths, choice=(None, None)):
         """RecordingError if they have no averages, or do not belong together."""
-        self._system = seeds.load(*paths)
+        self._system = seeds.load(*paths, form=choice[0], k=choice[1])
         self.info = self._system.info
         self.runs = getattr(self._system, 'runs', [self._system])
         self.values = self._values()  # {quantity: Value} of those that were measured
@@ -80,6 +80,11 @@ class Point:
         )
 
     @property
+    def left_out(self):
+        """A line for each run that is in no mean."""
+        return getattr(self._system, 'left_out', [])
+
+    @property
     def unlike(self):
         """Of which the seeds have fits that are not of one form over the same wave numbers."""
         found = {fit.symbol for run in self.runs for fit in run.fits}
@@ -103,7 +108,7 @@ def varied(points):
     return [name for name in values if name not in fixed], fixed
 
 
-def read(paths):
+def read(paths, choice=(None, None)):
     """([Point] in the order of their systems, a line for each bag or system that cannot be
     read)"""
     systems, wrong = {}, []
@@ -117,7 +122,7 @@ def read(paths):
     points = []
     for _, of_one in sorted(systems.items()):
         try:
-            points.append(Point(of_one))
+            points.append(Point(of_one, choice))
         except RecordingError as error:
             wrong.append(str(error))
     return points, wrong

@@ -10,9 +10,10 @@ from . import figure, points, table
 NAME = 'sweep'
 
 
-def write(paths, folder=None):
-    """Of these bags, files only into a folder. A line for each that cannot be used."""
-    found, wrong = points.read(paths)
+def write(paths, folder=None, choice=(None, None)):
+    """Of these bags, files only into a folder; choice: of the fits, see plots.fits.chosen. A line
+    for each that cannot be used."""
+    found, wrong = points.read(paths, choice)
     if not found:
         return wrong
     lines = '\n'.join(table.text(found))

@@ -9,7 +9,7 @@ from .points import FITTED, QUANTITIES, varied
 
 
 class Marks:
-    """A number for each form and range of wave numbers that a fit stands on, as they appear."""
+    """A number for all that a fit stands on, as they appear."""
 
     def __init__(self, points):
         self._numbers = {}
@@ -26,7 +26,7 @@ class Marks:
     def explained(self):
         """Lines; none without a fit."""
         if self._numbers:
-            yield 'fits of different numbers have not the same form or wave numbers k [1/sigma]:'
+            yield 'what the fits stand on; wave numbers k [1/sigma]:'
         for basis, number in self._numbers.items():
             yield f'  [{number}] {basis}'
 
@@ -50,6 +50,7 @@ def text(points):
         ],
     )
     yield from marks.explained()
+    yield from (line for point in points for line in point.left_out)
     if any(point.unlike for point in points):
         yield 'unlike: fits of the seeds have not the same form or wave numbers'
     if has_seeds:

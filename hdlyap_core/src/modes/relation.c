@@ -1,0 +1,54 @@
+/** Scene -> what is known of lambda(k) before its steps are measured [T12].
+ *
+ * Curvature was measured in long and wide boxes at densities from 0.2 to 0.8, what edges do in
+ * boxes with walls and in narrow ones. In a thin gas k l decides, l the mean free path, else k
+ * sigma. */
+#include "modes/relation.h"
+
+#include <math.h>
+
+/** Of c3 / c: how far densities lie off the formula. */
+static const double OFF = 0.1;
+/** Walls move c by about WALL sigma / edge, and each step by WALL_OWN of that for itself. */
+static const double WALL = 0.25, WALL_OWN = 0.6;
+/** Dense disks in a narrow box stand in rows, which fit its edge or do not: CROWDED (sigma /
+ * edge)^4 at the density DENSE. */
+static const double CROWDED = 7.0, DENSE = 0.8;
+/** A step strays by MISSING times the square of the part of its multiplicity that is missing, and
+ * by ELSEWHERE times the part of its weight that lies in the columns of other steps. */
+static const double MISSING = 0.02, ELSEWHERE = 0.006;
+
+static double walls_of(const hd_scene_def *def, const double box[2])
+{
+    double square = 0.0;
+    for (int d = 0; d < 2; d++)
+        if (def->boundary[d] == HD_REFLECTING) square += WALL * WALL / (box[d] * box[d]);
+    return sqrt(square);
+}
+
+hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
+{
+    const bool t = kind == HD_MODE_T;
+    const double l = hd_scene_mean_free_path(def);
+    double box[2];
+    hd_scene_box(def, box);
+    const double walls = walls_of(def, box), edge = fmin(box[0], box[1]), square = edge * edge;
+    const double rows = CROWDED * pow(def->density / DENSE, 8.0) / (square * square);
+    const double narrow = hypot((t ? 0.1 : 0.25) / square, rows);
+    hd_relation r = {
+        .c2 = t ? 0.02 : 0.11 + 0.16 * l,
+        .c2_error = t ? 0.007 : 0.02 + 0.02 * l,
+        .c3 = t ? 0.05 + 1.3 * l * l : 0.55 + 2.0 * l * l,
+        .box_error = hypot(walls, narrow),
+        .scatter = hypot(t ? 0.001 : 0.002, WALL_OWN * walls),
+    };
+    r.c3_error = OFF * r.c3 + (t ? 0.01 : 0.0);
+    return r;
+}
+
+double hd_steps_scatter(const hd_steps *steps, const hd_step *step)
+{
+    const double missing = 1.0 - step->multiplicity / step->expected;
+    const double own = hypot(MISSING * missing * missing, ELSEWHERE * (1.0 - step->own_part));
+    return hypot(hd_steps_relation(steps, step->kind)->scatter, own);
+}
