@@ -121,7 +121,8 @@ def _in_order(parts):
             f'{anew[0].path} and {anew[1].path} both begin with seed {anew[0].info.seed}: '
             'one trajectory twice, no two samples'
         )
-    parts = sorted(parts, key=lambda part: (begun[part.run_id], reader.start(part.path)))
+    # no clock's time: that may be set back
+    parts = sorted(parts, key=lambda part: (begun[part.run_id], reader.start(*part[:3])))
     for a, b in zip(parts, parts[1:]):
         if a.run_id != b.run_id and begun[a.run_id] == begun[b.run_id]:
             raise RecordingError(
