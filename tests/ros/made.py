@@ -151,7 +151,8 @@ def exponent(info, kind, nx, ny):
 
 
 def step(info, kind, nx, ny, first, last, **fields):
-    """A resolved step of its own, whose fields are all found."""
+    """A resolved step of its own, whose fields are all found; of LP it turns as its phases do."""
+    omega = VELOCITY * wave_number(info, nx, ny) if kind == LP else np.nan
     made = Step(
         kind=kind,
         nx=nx,
@@ -166,10 +167,19 @@ def step(info, kind, nx, ny, first, last, **fields):
         members=1,
         exponent=exponent(info, kind, nx, ny),
         std_error=ERROR,
+        omega=omega,
+        omega_error=0.01 * omega if kind == LP else -1.0,
     )
     for name, value in fields.items():
         setattr(made, name, value)
     return made
+
+
+def turn(found, omega, error):
+    """The LP steps of these that are resolved."""
+    for one in found:
+        if one.kind == LP and one.resolved:
+            one.omega, one.omega_error = omega, error
 
 
 def unresolved(info, kind, nx, ny, expected):
@@ -181,6 +191,8 @@ def unresolved(info, kind, nx, ny, expected):
         expected=expected,
         set=-1,
         std_error=-1.0,
+        omega=np.nan,
+        omega_error=-1.0,
     )
 
 
