@@ -86,12 +86,12 @@ struct scene {
         for (uint32_t k = 0; k < n; k++) exponents.push_back(6.0 - 5.0 * k / n);
         p.has_exponents = true;
         p.exponents = {exponents.data(), n, 1};
-        step.push_back({HDR_MODE_T, 1, 0, 0.2, false, true, 2, n - 1, n, 1.9, 0, 1, 1.05, 0.01, 0,
-                        1.0, 1.0, 0.0, 0.0});
-        step.push_back({HDR_MODE_LP, 1, 0, 0.2, false, true, 4, n - 5, n - 2, 3.5, 1, 1, 1.1, -1, 0,
-                        1.0, 1.0, 0.0, 0.0});
-        step.push_back(
-            {HDR_MODE_LP, 0, 1, 0.3, false, false, 4, 0, 0, 0, -1, 0, 0, 0, 0, 1.0, 1.0, 0.0, 0.0});
+        step.push_back({HDR_MODE_T, 1,    0,    0.2, false, true, 2,   n - 1, n,   1.9,  0,
+                        1,          1.05, 0.01, 0,   1.0,   1.0,  0.0, 0.0,   0.0, -1.0, 0.0});
+        step.push_back({HDR_MODE_LP, 1,   0,  0.2, false, true, 4,   n - 5, n - 2, 3.5,  1,
+                        1,           1.1, -1, 0,   1.0,   1.0,  0.0, 0.0,   0.0,   -1.0, 0.0});
+        step.push_back({HDR_MODE_LP, 0, 1, 0.3, false, false, 4,   0,   0,   0,    -1,
+                        0,           0, 0, 0,   1.0,   1.0,   0.0, 0.0, 0.0, -1.0, 0.0});
         steps.steps = {step.data(), static_cast<uint32_t>(step.size())};
         steps.t_points = 2, steps.c_t = 3.2, steps.c_t_error = 0.1, steps.c_t2 = 0.2;
         steps.l_points = 1, steps.c_l = 4.2, steps.c_l_error = -1;
@@ -102,8 +102,9 @@ struct scene {
     void more_steps(uint32_t count)
     {
         for (uint32_t k = 0; k < count; k++)
-            step.push_back({HDR_MODE_T, 2, k, 0.3, false, true, 1, 90 - k, 90 - k, 1, int(k), 1,
-                            1.2 + 0.05 * k, 0.01, 0, 1.0, 1.0, 0.0, 0.0});
+            step.push_back({HDR_MODE_T, 2,   k,      0.3, false,          true, 1, 90 - k,
+                            90 - k,     1,   int(k), 1,   1.2 + 0.05 * k, 0.01, 0, 1.0,
+                            1.0,        0.0, 0.0,    0.0, -1.0,           0.0});
         steps.steps = {step.data(), static_cast<uint32_t>(step.size())};
     }
 };

@@ -151,7 +151,8 @@ def exponent(info, kind, nx, ny):
 
 
 def step(info, kind, nx, ny, first, last, **fields):
-    """A resolved step of its own, whose fields are all found."""
+    """A resolved step of its own, whose fields are all found; of LP it turns as its phases do."""
+    omega = VELOCITY * wave_number(info, nx, ny) if kind == LP else np.nan
     made = Step(
         kind=kind,
         nx=nx,
@@ -166,10 +167,19 @@ def step(info, kind, nx, ny, first, last, **fields):
         members=1,
         exponent=exponent(info, kind, nx, ny),
         std_error=ERROR,
+        omega=omega,
+        omega_error=0.01 * omega if kind == LP else -1.0,
     )
     for name, value in fields.items():
         setattr(made, name, value)
     return made
+
+
+def turn(found, omega, error):
+    """The LP steps of these that are resolved."""
+    for one in found:
+        if one.kind == LP and one.resolved:
+            one.omega, one.omega_error = omega, error
 
 
 def unresolved(info, kind, nx, ny, expected):
@@ -181,6 +191,8 @@ def unresolved(info, kind, nx, ny, expected):
         expected=expected,
         set=-1,
         std_error=-1.0,
+        omega=np.nan,
+        omega_error=-1.0,
     )
 
 
@@ -202,6 +214,11 @@ def zero_modes(first=None):
     )
 
 
+def long_boxes(letter, c2, error):
+    names = 'long_c2', 'long_c2_error', 'long_c3', 'long_c3_error', 'box_error'
+    return dict(zip((f'{letter}_{name}' for name in names), (c2, error, 2 * c2, error, 0.002)))
+
+
 def steps(made, averaged_time=50.0, run_id='one'):
     return Steps(
         run_id=run_id,
@@ -210,23 +227,35 @@ def steps(made, averaged_time=50.0, run_id='one'):
         threshold=0.5,
         steps=made,
         t_points=3,
-        t_terms=2,
         t_k_min=0.99346,
         t_k_max=1.98692,
+        t_prior_share=0.25,
         c_t=1.4,
         c_t_error=0.012,
+        c_t_sampling_error=0.004,
         c_t2=0.1,
         c_t2_error=0.034,
+        c_t2_sampling_error=0.02,
+        c_t3=0.2,
+        c_t3_error=0.05,
+        c_t3_sampling_error=0.03,
         t_misfit=1.25,
         l_points=2,
-        l_terms=2,
         l_k_min=0.99346,
         l_k_max=1.40496,
+        l_prior_share=0.5,
         c_l=1.5,
         c_l_error=0.02,
+        c_l_sampling_error=0.01,
         c_l2=0.5,
         c_l2_error=0.1,
+        c_l2_sampling_error=0.05,
+        c_l3=0.7,
+        c_l3_error=0.1,
+        c_l3_sampling_error=0.06,
         l_misfit=-1.0,
+        **long_boxes('t', 0.02, 0.01),
+        **long_boxes('l', 0.15, 0.03),
         v_phases=8,
         v_k_min=0.99346,
         v_k_max=1.40496,

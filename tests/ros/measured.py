@@ -66,6 +66,9 @@ def _steps(message):
         alone = ('gap',) if step.sharing == step.SHARING_ALONE else ()
         for name in alone if step.resolved else OF_STEPS:
             yield f'steps[{k}].{name}'
+        has_begun = step.omega_error >= 0 or not math.isnan(step.omega)
+        if not (step.resolved and step.kind == Mode.LP and has_begun):
+            yield f'steps[{k}].omega'
     for letter, points in (('t', message.t_points), ('l', message.l_points)):
         yield from [f'c_{letter}', f'{letter}_k_min', f'{letter}_k_max'] if points < 1 else []
         yield from [f'c_{letter}2'] if points < 2 else []

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -16,6 +17,8 @@
 #include "hdlyap/run.h"
 #include "hdlyap_ros/markers.h"
 #include "base/memory.h"
+
+enum { STEPS_TO_JUMP = 10 };
 
 static atomic_long steps, overlaps, states, halves, measures, phases, pmodes, hydros, samples,
     widths, allocations;
@@ -45,6 +48,26 @@ hd_status hd_run_advance(hd_run *run)
         return HD_ILL_CONDITIONED;
     next(&real, "hd_run_advance");
     return real(run);
+}
+
+/** PROBE_CLOCK_JUMP: seconds by which the machine's clock is set once the run goes on. */
+int clock_gettime(clockid_t clock, struct timespec *now)
+{
+    int (*real)(clockid_t, struct timespec *);
+    next(&real, "clock_gettime");
+    const int status = real(clock, now);
+    if (clock == CLOCK_REALTIME && atomic_load(&steps) >= STEPS_TO_JUMP)
+        now->tv_sec += (time_t)number("PROBE_CLOCK_JUMP");
+    return status;
+}
+
+int gettimeofday(struct timeval *restrict now, void *restrict zone)
+{
+    struct timespec time;
+    (void)zone;
+    const int status = clock_gettime(CLOCK_REALTIME, &time);
+    *now = (struct timeval){time.tv_sec, time.tv_nsec / 1000};
+    return status;
 }
 
 /** PROBE_FSYNC_AFTER: files that the disk has taken before it does not answer any more. */

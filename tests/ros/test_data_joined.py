@@ -8,6 +8,8 @@ import unittest
 import warnings
 
 import numpy as np
+import rosbag
+import rospy
 from scipy.special import erf
 from scipy.stats import chi2 as chi_squared
 
@@ -67,8 +69,20 @@ class OneRun(Bags):
         made.write(self.path('b'), [messages[0], *messages[10:]], start=60)
         for paths in ((a, self.path('b')), (self.path('b'), a)):
             self.check(hdlyap.load(*paths), range(1, 9))
+        made.write(a, messages[:10], start=3600)  # the clock was set back after it
+        self.check(hdlyap.load(a, self.path('b')), range(1, 9))
         shutil.copy(a, self.path('copy'))
         self.check(hdlyap.load(a, self.path('copy'), self.path('b'), a), range(1, 9))
+
+    def test_clock_set_back(self):
+        """In a recorder's file, which has the messages as they come, but their times in order."""
+        a = self.write('a', run(range(1, 9)))
+        with rosbag.Bag(a) as whole, rosbag.Bag(self.path('b'), 'w') as bag:
+            for topic, message, time in whole.read_messages():
+                bag.write(topic, message, rospy.Time((time.secs - 15) % 3600 + 1))
+            for index in bag._curr_chunk_connection_indexes.values():
+                index.sort(key=lambda entry: entry.time)
+        self.check(hdlyap.load(self.path('b')), range(1, 9))
 
     def test_resumed(self):
         """The first went on beyond its last checkpoint."""

@@ -245,7 +245,7 @@ class Export(Tools):
 class Hostile(Tools):
     def test_more_than_the_memory(self):
         path = self.write('a', made.small_run())
-        with mock.patch('rosbag.Bag.read_messages', side_effect=MemoryError):
+        with mock.patch('rosbag.Bag._read_message', side_effect=MemoryError):
             for _, _, error in self.all_tools(path):
                 self.assertIn('a.bag: needs more memory than there is', error)
 

@@ -56,8 +56,18 @@ class Faults(unittest.TestCase):
         return node, cost
 
     def test_no_address_of_a_master(self):
-        addresses = ('', 'http://localhost', 'ftp://localhost:1', 'http://:1', 'http://host:70000')
-        for address in addresses:
+        hosts = 'http://localhost', 'http://:1', 'http://a b:1', 'http://a@b:1', 'http://[::1]:1'
+        ports = [
+            'http://localhost:' + port for port in ('', '0', '70000', '1x', '1/x', '1/?', '-1')
+        ]
+        schemes = (
+            '',
+            'localhost:1',
+            'ftp://localhost:1',
+            'https://localhost:1',
+            ' http://localhost:1',
+        )
+        for address in (*schemes, *hosts, *ports):
             for argument in ([], ['__master:=' + address]):
                 own = 'http://localhost:1' if argument else address
                 ended = subprocess.run(

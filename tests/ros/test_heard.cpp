@@ -43,10 +43,10 @@ struct hearing {
 
     void steps(bool resolved)
     {
-        step.assign({{HDR_MODE_T, 1, 0, 0.6, false, resolved, 2, 7, 8, 2, 0, 1, 1.5, -1, 0, 1.0,
-                      1.0, 0.0, 0.0},
-                     {HDR_MODE_LP, 0, 1, 0.6, false, resolved, 2, 5, 6, 2, 1, 1, 1.8, -1, 0, 1.0,
-                      1.0, 0.0, 0.0}});
+        step.assign({{HDR_MODE_T, 1,   0,  0.6, false, resolved, 2,   7,   8,   2,    0,
+                      1,          1.5, -1, 0,   1.0,   1.0,      0.0, 0.0, 0.0, -1.0, 0.0},
+                     {HDR_MODE_LP, 0,   1,  0.6, false, resolved, 2,   5,   6,   2,    1,
+                      1,           1.8, -1, 0,   1.0,   1.0,      0.0, 0.0, 0.0, -1.0, 0.0}});
         hdr_steps message = {};
         message.run_id = "run", message.steps = {step.data(), 2};
         heard_steps(&h, &message);

@@ -263,6 +263,18 @@ class Agreement(unittest.TestCase):
         self.assertLessEqual(min(velocities), steps.v)
         self.assertLessEqual(steps.v, max(velocities))
 
+    def test_velocity_is_that_of_the_steps(self):
+        """Their mean, each with its error, to rounding."""
+        counts = set()
+        for m in self.messages['steps']:
+            known = [(s.omega, s.omega_error, s.wave_number) for s in m.steps if s.omega_error > 0]
+            counts.add(len(known))
+            if m.v_phases:
+                omega, error, k = np.array(known).T
+                v = np.average(abs(omega) / k, weights=(k / error) ** 2)
+                self.assertAlmostEqual(m.v, v, delta=1e-12 * v)
+        self.assertGreater(max(counts), 1)
+
     def check_phase(self, phase, step):
         self.assertEqual((step.kind, step.nx, step.ny), (Mode.LP, phase.nx, phase.ny))
         self.assertIn(phase.modulation, (LpPhase.COS_COS, LpPhase.SIN_COS))

@@ -5,6 +5,7 @@ time."""
 import os
 import signal
 import statistics
+import tempfile
 import time
 import unittest
 
@@ -181,6 +182,46 @@ class Nodes(unittest.TestCase):
         self.addCleanup(timer.shutdown)
         self.check_simulated_time()
         self.assertIs(rospy.get_param('/use_sim_time'), True)
+
+    def test_the_clock_is_set(self):
+        """By an hour in the midst of a run, forwards and backwards: nothing waits for it, and all
+        that is measured goes on."""
+        with tempfile.TemporaryDirectory() as folder:
+            for jump in (3600, -3600):
+                self.check_clock(jump, os.path.join(folder, 'kept%d' % jump))
+
+    def check_clock(self, jump, kept):
+        params = dict(RUN, duration=0.0, pace=PACE, checkpoint=kept, checkpoint_interval=0.2)
+        jumps = dict(LD_PRELOAD=harness.probe_library(), PROBE_CLOCK_JUMP=str(jump))
+        heard = []
+        subscriber = rospy.Subscriber('/diagnostics', DiagnosticArray, heard.append)
+        self.addCleanup(subscriber.unregister)
+        run = Run(self, params, '/jump_%s' % ('ahead' if jump > 0 else 'back'), **jumps)
+        begin = time.monotonic()
+
+        def has_jumped(header):
+            return abs(header.stamp.to_sec() - jump - time.time()) < 600
+
+        def reports():
+            return [message for message in run.messages['cost'] if has_jumped(message.header)]
+
+        self.assertTrue(harness.wait_until(lambda: reports() and os.path.exists(kept)))
+        before, known = os.stat(kept).st_mtime_ns, len(heard)
+        rospy.set_param(run.name + '/density', 0.1)
+        self.assertTrue(harness.wait_until(lambda: run.node.lines('density')))
+        self.assertTrue(harness.wait_until(lambda: os.stat(kept).st_mtime_ns > before))
+        self.assertTrue(harness.wait_until(lambda: len(heard) > known + 1))
+        self.assertTrue(has_jumped(heard[known + 1].header))
+        values = {pair.key: pair.value for pair in heard[known + 1].status[0].values}
+        self.assertGreater(float(values['collisions per second']), 0)
+        run.node.send(signal.SIGINT)
+        self.assertEqual(run.node.wait(), 0, run.node.text())
+        first, last = reports()[0], reports()[-1]
+        simulated, wall = (
+            getattr(last, name) - getattr(first, name) for name in ('sim_time', 'wall_seconds')
+        )
+        self.assertLess(last.wall_seconds, time.monotonic() - begin)
+        self.assertLess(simulated, PACE * (wall + 1))  # a second of delay may be made up
 
     def test_parameters_are_echoed(self):
         """And what is below the node's name on the parameter server stays what was set there."""

@@ -175,7 +175,7 @@ class Table(Bags):
 
     def test_lp_dynamics(self):
         info = made.run_info()
-        step = made.step(info, LP, 1, 0, 32, 35)
+        step = made.step(info, LP, 1, 0, 32, 35, omega=-1.61, omega_error=0.012)
         message = made.lp_phases(info, [made.zero_modes(), step], 150.0)
         for phase, (omega, error, state) in zip(
             message.phases,
@@ -191,18 +191,17 @@ class Table(Bags):
             ),
         ):
             phase.omega, phase.omega_error, phase.state = omega, error, state
-        lines, text = self.lines(
-            info,
-            made.spectrum(np.linspace(3, 1, 37), 50.0),
-            made.steps([made.zero_modes(), step]),
-            message,
-        )
+        said = info, made.spectrum([3.0], 50.0), made.steps([made.zero_modes(), step]), message
+        _, text = self.lines(*said)
+        self.assertRegex(text, r'LP\(1,0\) +1\.610\(12\) +1\.621\(12\) +3 of 8')
+        made.turn([step], -1.0, -1.0)  # of a bag of before, as it is replayed
+        _, text = self.lines(*said)
         # weights 4 : 1; the error is that of one phase: 0.01 / sqrt(5/4 / 2)
         self.assertRegex(text, r'LP\(1,0\) +1\.520\(13\) +1\.530\(13\) +3 of 8')
 
     def test_lp_step_without_a_tracked_phase(self):
         info = made.run_info()
-        step = made.step(info, LP, 1, 0, 32, 35)
+        step = made.step(info, LP, 1, 0, 32, 35, omega=np.nan, omega_error=-1.0)
         message = made.lp_phases(info, [step], 150.0)
         for phase in message.phases:
             phase.state = phase.WEAK

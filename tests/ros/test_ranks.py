@@ -198,6 +198,16 @@ class Ranks(harness.Case):
         self.assertEqual(status, 3, said)
         self.assertIn('another rank: out of memory', said)
 
+    def test_without_mpi(self):
+        """Told once, by the one whose status mpirun ends with."""
+        with tempfile.TemporaryDirectory() as folder:
+            open(os.path.join(folder, 'libhdlyap_mpi.so.0'), 'w').close()  # found first
+            paths = folder + ':' + os.environ.get('LD_LIBRARY_PATH', '')
+            node = self.start(SHORT, command=mpirun(4), LD_LIBRARY_PATH=paths, **ENVIRONMENT)
+            self.assertEqual(node.wait(harness.SOON), 2, node.text())
+        self.assertEqual(len(node.lines('FATAL')), 1, node.text())
+        self.assertEqual(len(node.lines('ranks = 4: must be 1, as this build has no MPI (')), 1)
+
     def test_checkpoint(self):
         """Kept by two, it goes on with one."""
         with tempfile.TemporaryDirectory() as folder:

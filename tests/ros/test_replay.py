@@ -45,11 +45,13 @@ class Replayed(harness.Case):
         self.bag = os.path.join(folder.name, 'run.bag')
         self.heard = []  # (wall time, type, simulated time)
 
-    def record(self, *runs):
+    def record(self, *runs, ahead=0):
+        """ahead: messages of each run before the clock is set back by an hour."""
         with rosbag.Bag(self.bag, 'w') as bag:
             for number, run_id in enumerate(runs):
                 for k, (topic, message) in enumerate(run(run_id)):
-                    bag.write(topic, message, rospy.Time(10 * (number + 1), 1000000 * k))
+                    seconds = 10 * (number + 1) + (3600 if k < ahead else 0)
+                    bag.write(topic, message, rospy.Time(seconds, 1000000 * k))
 
     def listen_to(self, *topics):
         kinds = dict(run_info=RunInfo, status=RunStatus, state=State)
@@ -86,6 +88,17 @@ class Replayed(harness.Case):
         self.assertGreater(walls[-1] - walls[0], 0.95 * (REPORTS - 1) / 20)
         self.assertGreater(walls[REPORTS // 2] - walls[0], 0.95 * (REPORTS // 2) / 20)
         self.assertIn('replay: at the end, t = 30', replay.text())
+
+    def test_clock_set_back(self):
+        """What follows takes its time, too: 15 ms of 30 messages, ten times as slow."""
+        self.record('one', ahead=2 + REPORTS)
+        self.listen_to('state', 'status')
+        replay = self.replay('--rate', '0.1')
+        self.assertEqual(replay.wait(), 0, replay.text())
+        self.assertTrue(harness.wait_until(lambda: len(self.heard) == 2 * REPORTS))
+        self.assertEqual(self.times('state'), list(range(1, REPORTS + 1)))
+        walls = [wall for wall, name, _ in self.heard if name == 'state']
+        self.assertGreater(walls[-1] - walls[REPORTS // 2], 0.95 * (REPORTS // 2 - 1) / 100)
 
     def test_from_some_time_on(self):
         self.record('one')

@@ -41,8 +41,7 @@ def run(density, resolved=(T, LP), levels=None, velocity=None, first_t=1556):
     ]
     phases = made.lp_phases(info, found, 50.0)
     v = velocity or OFF * paper.slope_l(density) * V_OVER_C.get(density, 1.0)
-    for phase in phases.phases:
-        phase.omega, phase.omega_error = v * k, 0.002 * v * k
+    made.turn(found, v * k, 0.002 * v * k)
     spectrum = recorded.stairs(info, levels or [(exponents[T], 2), (exponents[LP], 4)])
     return recorded.Bag(recorded.Recorded(info, made.steps(found), spectrum, phases))
 
@@ -180,8 +179,7 @@ class Densities(unittest.TestCase):
         found = bags()
         lone = found['density_03'].recording
         lone.steps.steps[0].set = lone.steps.steps[1].set
-        for phase in found['density_05'].recording.phases.last.phases:
-            phase.omega_error = -1.0
+        found['density_05'].recording.steps.steps[1].omega_error = -1.0
         rows = recorded.by_quantity(densities, found)
         for symbol, count in (('c_T', 7), ('v', 6)):
             row = rows[f'{symbol} over c_L, farthest from its straight line']

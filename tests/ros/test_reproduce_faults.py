@@ -115,8 +115,7 @@ def of_densities(fault):
             for kind, column, first in ((T, 'c_t', 1556), (LP, 'c_l', 1550))
         ]
         phases = made.lp_phases(info, found, 50.0)
-        for phase in phases.phases:
-            phase.omega, phase.omega_error = k * float(line['v']), k * float(line['v_error'])
+        made.turn(found, k * float(line['v']), k * float(line['v_error']))
         bags[name] = bag_of(info, found, fault)
         bags[name].recording.phases.add(phases)
     return bags

@@ -26,7 +26,7 @@ typedef struct hd_phase {
     hd_phase_state state;
     double a, b;  /**< least-squares coefficients on the normalised fields: L and P, T and T */
     double phase; /**< atan2(b, a), unwrapped since the tracking began [rad] */
-    double omega; /**< its slope by regression [rad/time unit] */
+    double omega; /**< its slope by regression, of this one alone [rad/time unit] */
     double omega_error; /**< standard error; negative if not yet known */
     double time;        /**< tracked for so long [time units] */
 } hd_phase;
@@ -51,7 +51,11 @@ const hd_phase *hd_phases_phase(const hd_phases *phases, int index);
  * longer than that takes: before, it is too large. */
 double hd_phases_diffusion(const hd_phases *phases, int index, double *error);
 
-/** |omega| / k of the tracked phases, weighted with their errors [sigma/time unit]. */
+/** Mean rate of the tracked phases of a step [rad/time unit], and its standard error, negative if
+ * not yet known. False, and nothing is said, while none has turned. */
+HD_MUST_CHECK bool hd_phases_rate(const hd_phases *phases, int step, double *omega, double *error);
+
+/** |omega| / k of the steps, by their mean rates, weighted with the errors [sigma/time unit]. */
 typedef struct hd_velocity {
     int phases; /**< tracked phases that went into it; 0: nothing known */
     double k_min,

@@ -3,6 +3,7 @@
 #define _GNU_SOURCE /* sched_getaffinity */
 #include "hdlyap/blas.h"
 
+#include <limits.h>
 #include <omp.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -112,6 +113,19 @@ static bool calm_threads(void)
     return setenv("GOMP_SPINCOUNT", "2000", 1) == 0;
 }
 
+#if defined(__linux__)
+/** By its path, whose last part is what ps and killall call the process; by what it is where that
+ * path leads to nothing any more. */
+static void restart(char **argv)
+{
+    static const char self[] = "/proc/self/exe";
+    char path[PATH_MAX] = "";
+    if (readlink(self, path, sizeof path - 1) > 0) execv(path, argv);
+    execv(self, argv);
+    perror("hdlyap: could not restart with faster BLAS kernels"); /* go on with the slow ones */
+}
+#endif
+
 void hd_blas_restart_if_slow(char **argv)
 {
 #if defined(__linux__)
@@ -122,8 +136,7 @@ void hd_blas_restart_if_slow(char **argv)
     if (!kernel && !calmed) return;
     setenv(once, "1", 1);
     if (kernel) setenv("OPENBLAS_CORETYPE", kernel, 1);
-    execv("/proc/self/exe", argv);
-    perror("hdlyap: could not restart with faster BLAS kernels"); /* go on with the slow ones */
+    restart(argv);
 #else
     (void)argv;
 #endif

@@ -161,6 +161,18 @@ static double rate_error(const hd_rotor *r)
     return hd_deviations_error(deviation + first, r->blocks->count - first, rounding);
 }
 
+bool hd_phases_rate(const hd_phases *phases, int step, double *omega, double *error)
+{
+    for (int k = 0; k < phases->rotors; k++) {
+        const hd_rotor *r = &phases->rotor[k];
+        if (r->step != step || !(r->turning > 0)) continue;
+        *omega = r->turned / r->turning;
+        *error = rate_error(r);
+        return true;
+    }
+    return false;
+}
+
 /** Mean over the steps, weighted with their errors; its own error knows how they turn together. */
 hd_velocity hd_phases_velocity(const hd_phases *phases)
 {

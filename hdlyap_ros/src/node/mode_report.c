@@ -71,7 +71,7 @@ void mode_report_free(mode_report *m)
 void mode_report_sizes(const mode_report *m, double *doubles)
 {
     doubles[TOPIC_MODES] = 11.0 * m->vectors;
-    doubles[TOPIC_STEPS] = 9.0 * m->steps;
+    doubles[TOPIC_STEPS] = 15.0 * m->steps;
     doubles[TOPIC_LP_PHASES] = 10.0 * m->phases;
     doubles[TOPIC_T_PHASES] = 11.0 * m->t_phases;
     doubles[TOPIC_HYDRO] = 7.0 * m->responses;
@@ -134,6 +134,16 @@ static bool fill_mode(hdr_mode *mode, const hd_run *run, int col)
     return weights_finite(mode);
 }
 
+/** NULL: no phases are followed. */
+static bool fill_rate(hdr_step *out, const hd_phases *phases, int step)
+{
+    double omega, error;
+    if (!phases || !out->resolved || !hd_phases_rate(phases, step, &omega, &error)) return true;
+    out->omega = omega;
+    out->omega_error = error_of(error);
+    return isfinite(omega + error);
+}
+
 static bool fill_step(hdr_step *out, const hd_steps *steps, const hd_step *step)
 {
     *out = (hdr_step){
@@ -153,6 +163,8 @@ static bool fill_step(hdr_step *out, const hd_steps *steps, const hd_step *step)
         .own_part = NAN,
         .gap = NAN,
         .gap_error = -1.0,
+        .omega = NAN,
+        .omega_error = -1.0,
     };
     if (!step->resolved) return true;
     out->first_index = (uint32_t)step->col + 1;
@@ -326,7 +338,8 @@ static bool fill_steps(mode_report *m, hdr_steps *message, const hd_run *run)
     };
     bool finite = isfinite(v.v + v.v_error + v.misfit) && is_finite(&of_t) && is_finite(&of_l);
     for (uint32_t k = 0; k < m->steps && finite; k++)
-        finite = fill_step(&m->step[k], steps, hd_steps_step(steps, (int)k));
+        finite = fill_step(&m->step[k], steps, hd_steps_step(steps, (int)k)) &&
+                 fill_rate(&m->step[k], phases, (int)k);
     return finite;
 }
 

@@ -15,15 +15,20 @@ typedef void end_function(hd_communicator *ranks);
 
 static void *library;
 
-/** Open MPI, and what speaks PMI or PMIx, as srun and MPICH do. */
-static int ranks_said(void)
+/** Open MPI, and what speaks PMI or PMIx, as MPICH and srun do. */
+static const char *const sizes[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"};
+static const char *const here[] = {"OMPI_COMM_WORLD_LOCAL_RANK", "MPI_LOCALRANKID",
+                                   "SLURM_LOCALID"};
+enum { STARTERS = sizeof sizes / sizeof *sizes };
+
+/** What it says by the first of these that is more than least; least if none is. */
+static int said(const char *const *names, int least)
 {
-    static const char *const names[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"};
-    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+    for (int k = 0; k < STARTERS; k++) {
         const char *text = getenv(names[k]);
-        if (text && atoi(text) > 1) return atoi(text);
+        if (text && atoi(text) > least) return atoi(text);
     }
-    return 1;
+    return least;
 }
 
 /** A function of the library; POSIX says how to make one of a pointer. */
@@ -36,11 +41,13 @@ static bool find(void *function, const char *name)
 
 bool ranks_join(hd_communicator **out, int *argc, char ***argv, char *message, size_t size)
 {
-    const int ranks = ranks_said();
+    const int ranks = said(sizes, 1);
     begin_function *begin;
     *out = NULL;
     if (ranks == 1) return true;
     if (!find(&begin, "hd_mpi_begin")) {
+        *message = '\0';
+        if (said(here, 0) > 0) return false; /* the first one of this machine tells it */
         snprintf(message, size, "ranks = %d: must be 1, as this build has no MPI (%s)", ranks,
                  dlerror());
         return false;

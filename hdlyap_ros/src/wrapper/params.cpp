@@ -15,33 +15,8 @@
 
 using XmlRpc::XmlRpcValue;
 
-std::string param_text(XmlRpcValue &value)
-{
-    std::ostringstream text;
-    if (value.getType() == XmlRpcValue::TypeString) return value;
-    if (value.getType() != XmlRpcValue::TypeArray) return value.write(text), text.str();
-    for (int k = 0; k < value.size(); k++) text << (k ? ", " : "") << param_text(value[k]);
-    return "[" + text.str() + "]";
-}
-
 namespace
 {
-struct entry {
-    XmlRpcValue value;
-    std::string text;                 /**< of a string its contents, of a list as YAML has it */
-    std::vector<std::string> strings; /**< of a list of strings */
-    std::vector<const char *> list;   /**< pointers into strings */
-    std::vector<int> integers;        /**< of a list of integers */
-};
-
-bool is_list(XmlRpcValue &value, XmlRpcValue::Type type)
-{
-    if (value.getType() != XmlRpcValue::TypeArray) return false;
-    for (int k = 0; k < value.size(); k++)
-        if (value[k].getType() != type) return false;
-    return true;
-}
-
 /** An integer if it is one from end to end, otherwise a string; without the spaces around it. */
 XmlRpcValue item_of(const std::string &text)
 {
@@ -69,6 +44,49 @@ XmlRpcValue listed(XmlRpcValue &value)
         list[k] = item_of(item);
     }
     return list;
+}
+
+/** In as few digits as tell it from every other number. */
+std::string number_text(double number)
+{
+    std::ostringstream text;
+    for (int digits = 6; digits <= 17; digits++) {
+        text.str("");
+        text.precision(digits);
+        text << number;
+        if (std::strtod(text.str().c_str(), nullptr) == number) break;
+    }
+    return text.str();
+}
+} // namespace
+
+std::string param_text(XmlRpcValue &given)
+{
+    std::ostringstream text;
+    XmlRpcValue value = listed(given);
+    if (value.getType() == XmlRpcValue::TypeString) return value;
+    if (value.getType() == XmlRpcValue::TypeDouble) return number_text(value);
+    if (value.getType() != XmlRpcValue::TypeArray) return value.write(text), text.str();
+    for (int k = 0; k < value.size(); k++) text << (k ? ", " : "") << param_text(value[k]);
+    return "[" + text.str() + "]";
+}
+
+namespace
+{
+struct entry {
+    XmlRpcValue value;
+    std::string text;                 /**< of a string its contents, of a list as YAML has it */
+    std::vector<std::string> strings; /**< of a list of strings */
+    std::vector<const char *> list;   /**< pointers into strings */
+    std::vector<int> integers;        /**< of a list of integers */
+};
+
+bool is_list(XmlRpcValue &value, XmlRpcValue::Type type)
+{
+    if (value.getType() != XmlRpcValue::TypeArray) return false;
+    for (int k = 0; k < value.size(); k++)
+        if (value[k].getType() != type) return false;
+    return true;
 }
 
 entry make_entry(XmlRpcValue &given)

@@ -67,6 +67,7 @@ static void phases_lie_in_order(void **state)
     def.max_mode_number = 1;
     world w = world_create(&def, 10, 1);
     hd_phases *phases;
+    double rate, error;
     CHECK_OK(hd_phases_create(&phases, w.steps, HD_MODE_LP));
     int index = 0;
     for (int k = 0; k < hd_steps_count(w.steps); k++) {
@@ -87,6 +88,8 @@ static void phases_lie_in_order(void **state)
     assert_int_equal(hd_phases_velocity(phases).phases, 0);
     CHECK_CLOSE(hd_phases_velocity(phases).k_max, 0.0, 0.0);
     assert_true(hd_phases_velocity(phases).v_error < 0);
+    for (int k = 0; k < hd_steps_count(w.steps); k++)
+        assert_false(hd_phases_rate(phases, k, &rate, &error));
     hd_phases_free(phases);
     world_free(&w);
 }
@@ -116,8 +119,12 @@ static honesty honesty_of(double white, double diffusing, int samples)
             }
             turn(&r, omega);
         }
+        double rate, error;
         const hd_phase *phase = phase_of(&r, 0, 0);
         const hd_velocity v = hd_phases_velocity(r.phases);
+        assert_true(hd_phases_rate(r.phases, phase->step, &rate, &error)); /* of the only step */
+        CHECK_CLOSE(v.v, fabs(rate) / k, ROUNDING);
+        CHECK_CLOSE(v.v_error, error / k, ROUNDING);
         assert_int_equal(phase->state, HD_PHASE_TRACKED);
         assert_int_equal(v.phases, 2);
         off[0] += pow(phase->omega - omega, 2.0) / REPEATS;

@@ -178,10 +178,18 @@ def messages(path, node=None, kinds=TYPES, at=None):
         yield from _packed(bag, _topics(bag, path, node, kinds), at)
 
 
-def start(path):
-    """Time of its first message."""
-    with opened(path) as bag:
-        return bag.get_start_time()
+def start(path, node, run_id):
+    """Simulated time of the first message of a run in it."""
+    later = messages(path, node, [kind for kind in TYPES if kind != RUN_INFO])
+    return next((packed.sim_time for packed in later if packed.run_id == run_id), math.inf)
+
+
+def recorded(bag, topics=None, at=None):
+    """(topic, raw message, time), in the order in which they came: rosbag itself goes by times, and
+    mixes them where the clock was set back."""
+    index = bag._get_entries(bag._get_connections(topics))
+    places = sorted(entry.position for entry in index if at is None or entry.time == at)
+    return (bag._read_message(place, raw=True) for place in places)
 
 
 @contextlib.contextmanager
@@ -253,6 +261,6 @@ def _packed(bag, topics, at=None):
     """Of these topics; none without a topic."""
     if topics:
         definitions.check(bag._get_connections(topics))
-        found = bag.read_messages(topics=topics, start_time=at, end_time=at, raw=True)
+        found = recorded(bag, topics, at)
         for _, raw, time in Progress('reading').over(found, bag.get_message_count(topics)):
             yield Packed(bag.filename, raw[0], raw[1], raw[-1], time)

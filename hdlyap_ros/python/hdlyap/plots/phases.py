@@ -3,7 +3,7 @@
 import numpy as np
 
 from .course import Course
-from .numbers import known
+from .numbers import known, stated
 
 SHORTEST = 3  # points of a curve
 
@@ -58,8 +58,16 @@ def regression(time, phase):
     return start + slope * (time - time[0])
 
 
+def turning(step, phases):
+    """(|omega|, its error, number of tracked phases) of a step and its phases."""
+    if stated(step, 'omega') == -1.0:
+        return mean_omega(phases)
+    tracked = sum(phase.state == phase.TRACKED for phase in phases)
+    return abs(step.omega), float(known(step.omega_error)), tracked
+
+
 def mean_omega(phases):
-    """(|omega|, its error, number) over the tracked phases of one step, weighted with their
+    """Of bags whose steps do not say it: over the slopes of the tracked phases, weighted with their
     errors. The vectors of a step move together, so their errors do not average out."""
     omega = np.array(
         [[abs(phase.omega), phase.omega_error] for phase in phases if phase.state == phase.TRACKED]

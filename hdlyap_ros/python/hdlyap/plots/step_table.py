@@ -1,10 +1,12 @@
 """Recording -> the table of steps: what they are, their exponents, fits, LP dynamics, cost."""
 
+from math import isfinite
+
 from hdlyap.msg import Step
 
 from . import fits, paper, steps
 from .numbers import stated, with_error
-from .phases import mean_omega
+from .phases import turning
 
 WIDTH = 100  # of a line with a list of names
 COLUMNS = (
@@ -185,20 +187,17 @@ def _lp_dynamics(recording):
     if recording.phases.last is None:
         return
     lines = [
-        'LP dynamics: rotation of the vectors between L and P [rad/time unit, ' 'sigma/time unit]',
+        'LP dynamics: rotation of the vectors between L and P [rad/time unit, sigma/time unit]',
         f'  {"step":<14} {"omega":<15} {"v = omega / k":<15} phases tracked',
     ]
     for number, step in steps.resolved_lp(recording.steps):
         phases = [recording.phases.last.phases[i] for i in recording.phases.of_step(number)]
-        omega, error, tracked = mean_omega(phases)
-        if not tracked:
-            lines.append(f'  {steps.name(step):<14} {"-":<15} {"-":<15} 0 of {len(phases)}')
-            continue
-        k = step.wave_number
-        lines.append(
-            f'  {steps.name(step):<14} {with_error(omega, error):<15} '
-            f'{with_error(omega / k, error / k):<15} {tracked} of {len(phases)}'
-        )
+        omega, error, tracked = turning(step, phases)
+        k, cells = step.wave_number, ('-', '-')
+        if isfinite(omega):
+            cells = with_error(omega, error), with_error(omega / k, error / k)
+        name, (omega, v) = steps.name(step), cells
+        lines.append(f'  {name:<14} {omega:<15} {v:<15} {tracked} of {len(phases)}')
     if len(lines) > 2:
         yield '\n'.join(lines)
 

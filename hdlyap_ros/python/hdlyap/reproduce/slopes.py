@@ -179,8 +179,8 @@ def velocity(recording, nx, ny):
     )
     if last is None or wave is None:
         return np.nan, np.nan, 0
-    omega, error, count = phases.mean_omega(
-        [phase for phase in last.phases if (phase.nx, phase.ny) == (nx, ny)]
+    omega, error, count = phases.turning(
+        wave, [phase for phase in last.phases if (phase.nx, phase.ny) == (nx, ny)]
     )
     return omega / wave.wave_number, error / wave.wave_number, count
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .. import steps
-from ..phases import apart, mean_omega, regression
+from ..phases import apart, regression, turning
 from ..numbers import with_error
 from .style import MEMBER_COLOURS, plt, scene, thinned
 
@@ -71,6 +71,7 @@ def _label(recording, number, speeds):
 
 def _speed(recording, number):
     phases = [recording.phases.last.phases[i] for i in recording.phases.of_step(number)]
-    omega, error, tracked = mean_omega(phases)
-    k = recording.steps.steps[number].wave_number
-    return (omega / k, error / k) if tracked else None
+    step = recording.steps.steps[number]
+    omega, error, _ = turning(step, phases)
+    k = step.wave_number
+    return (omega / k, error / k) if np.isfinite(omega) else None
