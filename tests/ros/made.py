@@ -1,6 +1,7 @@
 """Messages of hdlyap_node made up for tests: a run whose modes are known exactly."""
 
 import itertools
+import math
 import os
 
 import genpy.dynamic
@@ -214,6 +215,9 @@ def zero_modes(first=None):
     )
 
 
+K = 2 * math.pi / math.sqrt(40)  # of T(1,0) in the box of run_info
+
+
 def long_boxes(letter, c2, error):
     names = 'long_c2', 'long_c2_error', 'long_c3', 'long_c3_error', 'box_error'
     return dict(zip((f'{letter}_{name}' for name in names), (c2, error, 2 * c2, error, 0.002)))
@@ -227,8 +231,8 @@ def steps(made, averaged_time=50.0, run_id='one'):
         threshold=0.5,
         steps=made,
         t_points=3,
-        t_k_min=0.99346,
-        t_k_max=1.98692,
+        t_k_min=K,
+        t_k_max=2 * K,
         t_prior_share=0.25,
         c_t=1.4,
         c_t_error=0.012,
@@ -241,8 +245,8 @@ def steps(made, averaged_time=50.0, run_id='one'):
         c_t3_sampling_error=0.03,
         t_misfit=1.25,
         l_points=2,
-        l_k_min=0.99346,
-        l_k_max=1.40496,
+        l_k_min=K,
+        l_k_max=math.sqrt(2) * K,
         l_prior_share=0.5,
         c_l=1.5,
         c_l_error=0.02,

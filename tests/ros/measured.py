@@ -7,7 +7,7 @@ import math
 
 from hdlyap.msg import Cost, LpPhase, Mode, RunStatus
 
-OF_STEPS = ('multiplicity', 'exponent', 'set_time', 'own_part', 'gap')
+OF_STEPS = ('multiplicity', 'exponent', 'scatter', 'set_time', 'own_part', 'gap')
 OF_RESPONSES = ('density', 'along', 'across', 'energy')
 OF_LP = ('weight_l', 'weight_p')
 
@@ -64,14 +64,21 @@ def _modes(message):
 def _steps(message):
     for k, step in enumerate(message.steps):
         alone = ('gap',) if step.sharing == step.SHARING_ALONE else ()
+        alone += ('scatter',) if step.kind == Mode.ZERO else ()
         for name in alone if step.resolved else OF_STEPS:
             yield f'steps[{k}].{name}'
         has_begun = step.omega_error >= 0 or not math.isnan(step.omega)
         if not (step.resolved and step.kind == Mode.LP and has_begun):
             yield f'steps[{k}].omega'
     for letter, points in (('t', message.t_points), ('l', message.l_points)):
-        yield from [f'c_{letter}', f'{letter}_k_min', f'{letter}_k_max'] if points < 1 else []
-        yield from [f'c_{letter}2'] if points < 2 else []
+        names = [
+            f'c_{letter}',
+            f'c_{letter}2',
+            f'c_{letter}3',
+            f'{letter}_k_min',
+            f'{letter}_k_max',
+        ]
+        yield from names if points < 1 else []
     if message.v_phases == 0:
         yield from ('v', 'v_k_min', 'v_k_max')
 

@@ -135,7 +135,7 @@ class Agreeing(Pairs):
         self.assertEqual(largest, comparison.exponents[int(np.argmax(abs(z)))])
         # 37 exponents, their sum, two steps, five fits
         self.assertEqual(
-            chance_of_largest(comparison.deviations), (min(1.0, 45 * largest.chance), 45)
+            chance_of_largest(comparison.deviations), (min(1.0, 47 * largest.chance), 47)
         )
         self.assertEqual(verdict.verdict(comparison)[1], verdict.AGREE)
 
@@ -151,7 +151,7 @@ class Agreeing(Pairs):
         self.assertRegex(text, fr'\n  lambda_max +9\.000\(10\) .* {z[0]:+.2f}')
         self.assertRegex(text, r'\n  T\(1,0\) .* \+0\.00  36-37: 1\.98 and 1\.98 of 2\n')
         self.assertRegex(
-            text, r'\n  c_T +1\.400\(12\) .* over 3 wave numbers 0\.9935 \.\. 1\.987\n'
+            text, r'\n  c_T +1\.4000\(40\) .* over 3 wave numbers 0\.9935 \.\. 1\.987 .*\n'
         )
         self.assertIn(f'chi^2 / exponent {np.mean(z * z):.2f};', text)
         self.assertIn('exponents: 37 of 37 compared, 0 of unknown error, 0 zero', text)
@@ -180,7 +180,7 @@ class Differing(Pairs):
         made.write(self.a, run())
         made.write(self.b, run(shifted(z), seed='2'))
         text = self.succeeds(1)
-        self.assertIn('\nleast likely of 45: lambda_21, z = -10.00, ', text)
+        self.assertIn('\nleast likely of 47: lambda_21, z = -10.00, ', text)
         self.assertIn('\ndiffer: ', text)
         after_head = text[text.index('largest deviations') :].splitlines()[2]
         self.assertRegex(after_head, r'  lambda_21 +.* -10\.00  \d\.\de-0\d')
@@ -246,7 +246,8 @@ class Steps(Pairs):
         info = made.run_info()
         comparison = self.compared(run(), run(made_steps=found(info)[::-1]))
         self.assertEqual(
-            self.names(comparison), ['T(1,0)', 'LP(1,0)', 'c_T', 'c_T2', 'c_L', 'c_L2', 'v']
+            self.names(comparison),
+            ['T(1,0)', 'LP(1,0)', 'c_T', 'c_T2', 'c_T3', 'c_L', 'c_L2', 'c_L3', 'v'],
         )
         self.assertEqual({one.z for one in comparison.steps}, {0.0})
 
@@ -257,7 +258,7 @@ class Steps(Pairs):
         )
         self.assertEqual(comparison.found_once, (['T(1,0)'], ['T(2,0)']))
         # the T curve is through other points
-        self.assertEqual(self.names(comparison), ['LP(1,0)', 'c_L', 'c_L2', 'v'])
+        self.assertEqual(self.names(comparison), ['LP(1,0)', 'c_L', 'c_L2', 'c_L3', 'v'])
         text = verdict.report(comparison)
         self.assertIn(
             '\n  resolved in a alone: T(1,0)\n  resolved in b alone: T(2,0)\n  c_T is not', text
@@ -304,7 +305,7 @@ class Fits(Pairs):
         comparison = self.compared(a, b)
         self.assertEqual([one.symbol for one, _ in comparison.apart], [symbol])
         self.assertFalse([one for one in comparison.fits if one.name.startswith(symbol)])
-        self.assertEqual(len(comparison.fits) + (1 if symbol == 'v' else 2), 5)
+        self.assertEqual(len(comparison.fits) + (1 if symbol == 'v' else 3), 7)
         text = verdict.report(comparison)
         self.assertRegex(text, rf'\n  {symbol} is not compared: {reason}(\n|$)')
         self.assertEqual(verdict.verdict(comparison)[1], verdict.AGREE)
@@ -313,15 +314,23 @@ class Fits(Pairs):
         """26 errors apart, which means nothing."""
         other = run()
         line = other[-1]
-        line.l_points, line.l_terms, line.l_k_max = 1, 1, line.l_k_min
-        line.c_l, line.c_l2, line.c_l2_error = 5.01, 0.0, -1.0
+        line.l_points, line.l_prior_share, line.l_k_max = 1, np.nan, line.l_k_min
+        line.c_l, line.c_l2, line.c_l3 = 5.01, np.nan, np.nan
         self.check_apart(
             'c_L',
-            r'a 1\.500\(20\), c k \+ c2 k\^2 over 2 wave numbers 0\.9935 \.\. 1\.405; '
+            r'a 1\.500\(20\), c k \+ c2 k\^2 \+ c3 k\^3 over 2 wave numbers 0\.9935 \.\. 1\.405 '
+            r'.*; '
             r'b 5\.010\(20\), c k over 1 wave number 0\.9935',
             run(),
             other,
         )
+
+    def test_errors_of_sampling(self):
+        """What the form leaves open is the same in both."""
+        other = run()
+        other[-1].c_t += 0.012
+        found = {one.name: one for one in self.compared(run(), other).fits}
+        self.assertAlmostEqual(found['c_T'].z, 0.012 / np.hypot(0.004, 0.004), 9)
 
     def test_of_another_range(self):
         for field in ('t_k_min', 't_k_max', 'v_k_min', 'v_k_max'):
@@ -345,7 +354,7 @@ class Fits(Pairs):
         pair = [run(made_steps=[made.step(info, T, *n, 36, 37)]) for n in ((1, 0), (0, 1))]
         comparison = self.compared(*pair)
         self.assertEqual(comparison.apart, [])
-        self.assertEqual(len(comparison.fits), 5)
+        self.assertEqual(len(comparison.fits), 7)
 
     def test_of_a_bag_of_before(self):
         """Its form follows from its wave numbers, and is said not to be recorded."""
@@ -355,17 +364,19 @@ class Fits(Pairs):
 
             def __init__(self, message):
                 for name in message.__slots__:
-                    if not re.search('_(terms|k_min|k_max)$', name):
+                    if not re.search(r'_(k_min|k_max|prior_share)$|_[tl]3', name):
                         setattr(self, name, getattr(message, name))
 
         info = made.run_info()
         waves = [made.step(info, T, n, 0, 38 - 2 * n, 39 - 2 * n) for n in (1, 2)]
         message = made.steps(waves)
         message.t_points, message.t_k_max, message.l_points = 2, waves[1].wave_number, 0
-        message.t_k_min = waves[0].wave_number
+        message.t_k_min, message.c_t3 = waves[0].wave_number, np.nan
         (new, *_), (old, *_) = fits.of(message), fits.of(Before(message))
         self.assertTrue(new.is_like(old) and old.is_like(new))
-        self.assertEqual(old.basis, 'form not recorded, over 2 wave numbers 0.9935 .. 1.987')
+        self.assertEqual(
+            old.basis, 'form not recorded, over 2 wave numbers 0.9935 .. 1.987 (lever arm 2)'
+        )
         self.assertEqual(old.values, new.values)
         message.t_points, message.steps = 1, waves[:1]
         line = fits.of(Before(message))[0]
@@ -384,7 +395,7 @@ class UnknownErrors(Pairs):
         self.assertIn('exponents: 35 of 37 compared, 2 of unknown error', text)
         self.assertRegex(text, r'\n  lambda_max .* +-\n')
         self.assertRegex(text, r'\n  h_KS .* +-\n')
-        self.assertEqual(chance_of_largest(comparison.deviations)[1], 35 + 2 + 5)
+        self.assertEqual(chance_of_largest(comparison.deviations)[1], 35 + 2 + 7)
 
     def test_of_all(self):
         other = run(shifted(noise()), error=-1.0, made_steps=[])

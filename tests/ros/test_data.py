@@ -248,7 +248,9 @@ class NotMeasured(Bags):
         steps = made.steps([])
         steps.t_points, steps.l_points, steps.v_phases = 1, 0, 0
         run = self.load([made.run_info(), made.spectrum([3.0], 5.0), steps])
-        self.assertEqual(list(run.results.index), ['lambda_max', 'sum of exponents', 'c_T'])
+        self.assertEqual(
+            list(run.results.index), ['lambda_max', 'sum of exponents', 'c_T', 'c_T2', 'c_T3']
+        )
 
     def test_fields_that_are_minus_one_while_unknown(self):
         unknown = {

@@ -79,6 +79,33 @@ class Tools(Bags):
             )
 
 
+class Fits(Tools):
+    def test_another_form(self):
+        """Of exponents 2 k + 0.3 k^2 at three wave numbers: of all, and of the first two."""
+        info = made.run_info()
+        found = [made.step(info, T, n, 0, 38 - 2 * n, 39 - 2 * n) for n in (1, 2, 3)]
+        for step in found:
+            step.exponent = (2 + 0.3 * step.wave_number) * step.wave_number
+        path = self.path('curved.bag')
+        made.write(path, [info, made.spectrum(np.linspace(3, 1, 37), 50.0), made.steps(found)])
+        curved = hdlyap.load(path, form='c k + c2 k^2').results
+        np.testing.assert_allclose(curved['value'][['c_T', 'c_T2']], [2, 0.3], rtol=1e-9)
+        self.assertNotIn('c_T3', curved.index)
+        self.assertNotIn('c_L', curved.index)
+        two = hdlyap.load(path, form='c k', k=(0, 2.1 * made.K)).results
+        between = [2 + 0.3 * n * made.K for n in (1, 2)]
+        self.assertTrue(between[0] < two['value']['c_T'] < between[1])
+        self.assertIn('c k over 2 wave numbers 0.9935 .. 1.987', two['basis']['c_T'])
+        done = self.plot(path, '--form', 'c k', '--k', '0', '2.1')
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        self.assertIn('\n  T steps: c k over 2 wave numbers 0.9935 .. 1.987 (lever', done.stdout)
+        with self.assertRaisesRegex(hdlyap.RecordingError, "form 'k': must be one of"):
+            hdlyap.load(path, form='k').results
+        done = self.plot(path, '--k', '2', '1')
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('k from 2 to 1: must go up', done.stderr)
+
+
 class Several(Tools):
     def test_seeds(self):
         done = self.plot(*(self.seed(k, shift) for k, shift in enumerate((-0.1, 0.0, 0.4))))
@@ -87,7 +114,7 @@ class Several(Tools):
         # the scatter is 0.1528, the stated error 0.1 / sqrt(3)
         self.assertRegex(done.stdout, r'\n  lambda_max +3\.10\(15\) +0\.058 +0\.15 +7\.00 +3\n')
         self.assertRegex(done.stdout, r'\n  T\(1,0\) +1\.10\(15\) +0\.058 +0\.15 +7\.00 +3\n')
-        self.assertRegex(done.stdout, r'\n  c_T +1\.4000\(69\) +0\.0069 +0 +0\.00 +3  c k')
+        self.assertRegex(done.stdout, r'\n  c_T +1\.400\(12\) +0\.012 +0\.011 +0\.00 +3  c k')
         self.assertRegex(done.stdout, r'    37   1\.10000  0\.15275\n')
         names = {'spectrum.png', 'steps.png', 'dispersion.png'}
         self.assertEqual(

@@ -12,6 +12,7 @@ import harness
 import measured
 from harness import MODES, OBSERVABLES
 from hdlyap.msg import LpPhase, Mode
+from hdlyap.plots import fits
 
 REPORTS = 20  # of MODES, while averaging
 ROUNDING = 1e-9
@@ -29,43 +30,31 @@ class Errors(unittest.TestCase):
         cls.spectrum, cls.steps = messages['spectrum'][-1], messages['steps'][-1]
 
     def check_fit(self, letter, kind):
-        """With weights 1 / error^2. An error is at most that of steps that all move together."""
-        points, c, c_error, c2, c2_error, misfit = (
-            getattr(self.steps, name.replace('*', letter))
-            for name in ('*_points', 'c_*', 'c_*_error', 'c_*2', 'c_*2_error', '*_misfit')
-        )
-        fitted = [s for s in self.steps.steps if s.resolved and s.kind == kind and s.ny == 0]
-        self.check_basis(letter, [s.wave_number for s in fitted])
-        k, exponent, error = np.array(
-            [(s.wave_number, s.exponent, s.std_error) for s in fitted]
-        ).transpose()
-        self.assertEqual(points, len(fitted))
-        self.assertGreater(error.min(), 0.0)
-        powers = np.array([k, k * k][: 2 if points > 1 else 1]) / error
-        inverse = np.linalg.pinv(powers.transpose())
-        found = [c, c2][: len(powers)]
-        np.testing.assert_allclose(inverse @ (exponent / error), found, rtol=1e-9)
-        most = abs(inverse).sum(axis=1)
-        for value, bound in zip((c_error, c2_error), most):
-            self.assertGreater(value, 0.01 * bound)
-            self.assertLess(value, 1.5 * bound)  # blocks may be joined differently
-        freedom = points - len(powers)
-        off = exponent / error - found @ powers
-        want = math.sqrt(off @ off / freedom) if freedom else -1.0
-        self.assertAlmostEqual(misfit, want, delta=1e-6 * abs(want))
-        return freedom
-
-    def check_basis(self, letter, wave_numbers):
-        """What the fit says that it stands on."""
-        self.assertEqual(
-            [getattr(self.steps, f'{letter}_{name}') for name in ('terms', 'k_min', 'k_max')],
-            [min(len(wave_numbers), 2), min(wave_numbers), max(wave_numbers)],
-        )
+        """Beside that of the tools, in numpy, which takes the steps as independent: the same but
+        for the errors of sampling, at most those of steps that all move together."""
+        again = fits.chosen(self.steps, k=(0.0, math.inf))
+        for name in ('points', 'k_min', 'k_max', 'prior_share', 'misfit'):
+            here, there = (getattr(message, f'{letter}_{name}') for message in (self.steps, again))
+            np.testing.assert_allclose(here, there, rtol=1e-9, err_msg=name)
+        for name in (f'c_{letter}', f'c_{letter}2', f'c_{letter}3'):
+            (value, error, sampling), (wanted, *errors) = (
+                [getattr(message, name + ending) for ending in ('', '_error', '_sampling_error')]
+                for message in (self.steps, again)
+            )
+            np.testing.assert_allclose(value, wanted, rtol=1e-9)
+            of_form, wanted = (x * x - y * y for x, y in ((error, sampling), errors))
+            np.testing.assert_allclose(of_form, wanted, rtol=1e-6)
+            points = getattr(self.steps, f'{letter}_points')
+            self.assertGreater(sampling, 0.01 * errors[1])
+            # blocks may be joined differently
+            self.assertLess(sampling, 1.5 * math.sqrt(points) * errors[1])
+        return points
 
     def test_fits(self):
         m = self.steps
         of_t, of_l = self.check_fit('t', Mode.T), self.check_fit('l', Mode.LP)
-        self.assertGreater(of_t, of_l)  # the one has a misfit, the other has none
+        self.assertGreater(of_t, of_l)
+        self.assertLess(m.t_prior_share, m.l_prior_share)
         self.assertTrue(0.0 < m.v_error < 0.05 * m.v and m.v_misfit >= 0.0)
         self.assertEqual((m.v_k_min, m.v_k_max), (m.l_k_min, m.l_k_max))
 

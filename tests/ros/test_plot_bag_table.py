@@ -119,44 +119,53 @@ class Table(Bags):
         self.assertEqual(lines['c_T'], ['1.400(12)'])
         self.assertEqual(lines['c_T2'], ['0.100(34)'])
         self.assertEqual(lines['c_L'], ['1.500(20)'])
+        self.assertEqual(lines['c_T3'], ['0.200(50)'])
         self.assertEqual(lines['c_L2'], ['0.50(10)'])
         self.assertEqual(lines['v'], ['1.612(23)'])
+        relation, long = 'c k + c2 k^2 + c3 k^3', '% of the curvature from long boxes'
         for basis, coefficient in (
-            ('T steps: c k + c2 k^2 over 3 wave numbers 0.9935 .. 1.987, misfit 1.2', 'c_T'),
-            ('LP steps: c k + c2 k^2 over 2 wave numbers 0.9935 .. 1.405', 'c_L'),
+            (
+                f'T steps: {relation} over 3 wave numbers 0.9935 .. 1.987 (lever arm 2), '
+                f'25 {long}, misfit 1.2',
+                'c_T',
+            ),
+            (
+                f'LP steps: {relation} over 2 wave numbers 0.9935 .. 1.405 (lever arm 1.41), '
+                f'50 {long}',
+                'c_L',
+            ),
             ('|omega| / k of the LP phases at 0.9935 .. 1.405, 8 of them, misfit 2.5', 'v'),
         ):
             self.assertIn(f'\n  {basis}\n  {coefficient} ', text)
 
     def test_fits_with_too_little(self):
         lines, text = self.run_with(
-            t_points=1, t_terms=1, t_k_max=0.99346, l_points=0, l_terms=0, v_phases=0
+            t_points=1, t_prior_share=1.0, t_k_max=0.99346, l_points=0, v_phases=0
         )
         self.assertEqual(lines['c_T'], ['1.400(12)'])
-        self.assertIn('\n  T steps: c k over 1 wave number 0.9935, misfit 1.2\n', text)
-        self.assertNotIn('c_T2', lines)
+        self.assertRegex(text, r' over 1 wave number 0\.9935, 100 % of .* boxes, misfit 1\.2\n')
         self.assertIn('c_L   not known: no step resolved', text)
         self.assertNotIn('c_L2', lines)
         self.assertEqual(lines['v'], ['not', 'known'])
 
     def test_paper_values_beside_the_fits(self):
-        slopes = (r'c_T .*2005, c k alone: 2\.535 \+-3 %', r'c_L .* alone: 3\.352 \+-3 %')
-        curves = (
-            r'c_T .*: 1\.412\n',
-            r'c_T2 .*: 0\.086\n',
-            r'c_L .*: 1\.422\n',
-            r'c_L2 .*: 0\.550\n',
-        )
+        """By its form, c k alone or with the curvature: of exponents 2.3 k + 0.2 k^2."""
+        slopes = r'by c k alone over the same waves\n  c_T   2\.6\d+\(\d+\) +Eck.*: 2\.535 \+-3 %\n'
+        curves = r'by c k \+ c2 k\^2 alone .*\n  c_T   2\.300.* 1\.412\n  c_T2  0\.2.* 0\.086\n'
         for density, disks, there in (
             (0.7, 400, slopes),
             (0.4, 780, curves),
-            (0.7, 399, ()),
-            (0.81, 780, ()),
+            (0.7, 399, None),
+            (0.81, 780, None),
         ):
-            _, text = self.run_with(info=made.run_info(disks=disks, density=density))
-            self.assertEqual(text.count('Eckmann'), len(there), (density, disks))
-            for pattern in there:
-                self.assertRegex(text, pattern)
+            info = made.run_info(disks=disks, density=density)
+            waves = [made.step(info, T, n, 0, 38 - 2 * n, 39 - 2 * n) for n in (1, 2)]
+            k = waves[0].wave_number
+            for wave in waves:
+                wave.exponent = (2.3 + 0.2 * wave.wave_number) * wave.wave_number
+            _, text = self.run_with(*waves, info=info, t_k_min=k, t_k_max=2 * k)
+            self.assertEqual('Eckmann' in text, there is not None, (density, disks))
+            self.assertRegex(text, there or 'fits')
 
     def test_paper_scene(self):
         info = made.paper_info()

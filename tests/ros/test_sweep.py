@@ -8,6 +8,7 @@ import os
 import signal
 import tempfile
 import unittest
+from math import nan
 from xml.etree import ElementTree
 
 import rosbag
@@ -119,11 +120,13 @@ class Results(InFolder):
 
     def test_fits_on_different_bases_are_marked(self):
         """Of one form over the same wave numbers they share their number; a line explains each."""
-        one_wave = dict(t_points=1, t_terms=1, t_k_max=0.99346, l_points=0, v_phases=0)
+        one_wave = dict(t_points=1, t_k_max=made.K, t_prior_share=nan, l_points=0, v_phases=0)
+        one_wave.update(c_t2=nan, c_t3=nan)
         found = self.read(self.bag('b', 0.5), self.bag('a', 0.4), self.bag('c', 0.6, **one_wave))
         lines = list(table.text(found))
         self.assertEqual(lines[0], 'the same in all: disks 20, aspect 1, boundary periodic')
         fits = '1.400(12) [1] 1.500(20) [2] 1.612(23) [3]'
+        relation, long = 'c k + c2 k^2 + c3 k^3', '% of the curvature from long boxes'
         self.assertEqual(
             [line.split() for line in lines[2:5]],
             [
@@ -134,8 +137,8 @@ class Results(InFolder):
         self.assertEqual(
             lines[6:],
             [
-                '  [1] c k + c2 k^2 over 3 wave numbers 0.9935 .. 1.987',
-                '  [2] c k + c2 k^2 over 2 wave numbers 0.9935 .. 1.405',
+                f'  [1] {relation} over 3 wave numbers 0.9935 .. 1.987 (lever arm 2), 25 {long}',
+                f'  [2] {relation} over 2 wave numbers 0.9935 .. 1.405 (lever arm 1.41), 50 {long}',
                 '  [3] |omega| / k of the LP phases at 0.9935 .. 1.405',
                 '  [4] c k over 1 wave number 0.9935',
             ],
@@ -159,7 +162,7 @@ class Results(InFolder):
         not of one form in all is none."""
         paths = [self.bag(f'p{k}', seed=str(k), value=9 + 0.1 * k) for k in (1, 2, 3)]
         walls = [self.bag('r1', boundary='reflecting', seed='1')]
-        walls += [self.bag('r2', boundary='reflecting', seed='2', t_terms=1)]
+        walls += [self.bag('r2', boundary='reflecting', seed='2', c_t2=nan, c_t3=nan)]
         found = self.read(*walls, *paths)
         self.assertEqual([len(point.runs) for point in found], [3, 2])
         lines = list(table.text(found))

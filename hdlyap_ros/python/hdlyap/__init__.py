@@ -8,9 +8,9 @@ if sys.version_info[:2] == (3, 9):  # rospy 1.15.9 of Debian 11 still calls it b
     threading.Thread.isAlive = threading.Thread.is_alive
 
 
-def load(*bags, node=None, run=None):
+def load(*bags, node=None, run=None, form=None, k=None):
     """What was recorded in a bag, or in several that belong together: see hdlyap.data.run.Run and
-    hdlyap.data.seeds.Seeds."""
+    hdlyap.data.seeds.Seeds, and hdlyap.data.seeds.load of the rest."""
     from hdlyap.data import seeds  # only here: pandas takes a while
 
-    return seeds.load(*bags, node=node, run=run)
+    return seeds.load(*bags, node=node, run=run, form=form, k=k)

@@ -161,12 +161,14 @@ static double coefficients_apart(const hd_run *a, const hd_run *b, int slowest)
 }
 
 /** Between two orthonormalisations, from the slowest vectors alone, beside those of a run that
- * orthonormalises for every report: fields are looked at. Off by what single precision leaves
- * astray. */
+ * orthonormalises for every report: fields are looked at. Each vector is off by the residual at which
+ * the iteration stops [T16], and by those of the slower ones that it was made orthogonal to: 3.4e-3
+ * with the kernels of SkylakeX, 5.3e-3 with those of Haswell. */
 static void a_look_sees_what_a_measured_state_shows(void **state)
 {
     (void)state;
     enum { SLOWEST = 8 };
+    static const double residual = 3e-3;
     hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
     scene.duration = 200.0;
     hd_run *looking = created(&scene);
@@ -188,7 +190,7 @@ static void a_look_sees_what_a_measured_state_shows(void **state)
                   hd_run_cost(measuring).orthonormalisations, worst);
     assert_true(hd_run_cost(looking).slow_vector_samples > 50);
     assert_int_equal(hd_run_cost(measuring).slow_vector_samples, 0);
-    assert_true(worst > 0.0 && worst < 5e-3);
+    assert_true(worst > 0.0 && worst < residual * sqrt(SLOWEST));
     hd_run_free(looking);
     hd_run_free(measuring);
 }

@@ -72,7 +72,7 @@ def _times(view):
 
 
 def numbers(view, width, height):
-    """Exponents, and fits with their forms; where there is room, with their wave numbers too."""
+    """Exponents, and fits; where there is room, with what they stand on."""
     cells = [f'{name} {value}' for name, value in _numbers(view)]
     return flow(cells, width) + flow(_fits(view, height >= ROOMY), width)
 
@@ -97,8 +97,9 @@ def _fits(view, with_waves):
     for fit in fits.of(message):
         if fit.count:
             _, value, error = fit.values[0]
-            basis = fit.basis if with_waves else fit.form
-            yield f'{fit.symbol} {_measured(value, error)}' + (f' ({basis})' if basis else '')
+            yield f'{fit.symbol} {_measured(value, error)}' + (
+                f' ({fit.basis})' if with_waves else ''
+            )
 
 
 def table(view, width):

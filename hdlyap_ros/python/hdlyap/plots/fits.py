@@ -5,6 +5,8 @@ numbers."""
 import copy
 from math import isclose, isnan, nan
 
+from hdlyap.data.reader import RecordingError
+
 from . import dispersion, steps
 from .numbers import stated, with_error
 
@@ -30,7 +32,7 @@ class Fit:
         self.k_max = getattr(message, f'{letter}_k_max', max(waves, default=0.0))
         self.prior_share = getattr(message, f'{letter}_prior_share', nan)
         # those of v are in LpPhases
-        self.waves = [] if letter == 'v' else [k for k in waves if self.k_min <= k <= self.k_max]
+        self.waves = [] if letter == 'v' else [k for k in waves if self._has(k)]
         names = _coefficients(message, letter, self.count)
         self.terms = len(names)
         # (name, value, error) of each, and what another run of the same box may differ by
@@ -68,6 +70,9 @@ class Fit:
         """Its first coefficient."""
         return with_error(*self.values[0][1:])
 
+    def _has(self, k):
+        return self.k_min * (1 - SAME) <= k <= self.k_max * (1 + SAME)
+
     def _range(self):
         ends = dict.fromkeys(f'{k:.4g}' for k in (self.k_min, self.k_max))
         return ' .. '.join(ends)
@@ -102,14 +107,14 @@ def alone(message, fit, terms):
 def chosen(message, form=None, k=None):
     """A copy of a Steps message whose fits are of `form` (a value of RELATIONS; None: the node's)
     over the steps with wave numbers from k[0] to k[1] (None: all). Errors are those of independent
-    steps. ValueError for another form, or a range in which there is none."""
+    steps. RecordingError for another form, or a range that does not go up."""
     if message is None or form is None and k is None:
         return message
     if form not in (None, *RELATIONS.values()):
         wanted = ', '.join(map(repr, RELATIONS.values()))
-        raise ValueError(f'form {form!r}: must be one of {wanted}')
+        raise RecordingError(f'form {form!r}: must be one of {wanted}')
     if k is not None and not 0 <= k[0] <= k[1]:
-        raise ValueError(f'k from {k[0]:g} to {k[1]:g}: must go up, from 0 or above')
+        raise RecordingError(f'k from {k[0]:g} to {k[1]:g}: must go up, from 0 or above')
     terms = {words: number for number, words in RELATIONS.items()}.get(form, 3)
     message = copy.copy(message)
     for letter, kind in KINDS.items():
@@ -175,7 +180,8 @@ def _coefficients(message, letter, count):
     if letter == 'v':
         return ['v'][:count]
     if hasattr(message, f'c_{letter}3'):
-        return [name for name in _names(letter) if not isnan(getattr(message, name))][: 3 * count]
+        c, *others = _names(letter)
+        return [c, *(name for name in others if not isnan(getattr(message, name)))][: 3 * count]
     return _names(letter)[: getattr(message, f'{letter}_terms', min(count, 2))][:count]
 
 

@@ -176,10 +176,11 @@ def _beside_paper(fit, curve, branch):
     if curve is None:
         return
     accuracy = f' +-{100 * paper.FIT_ACCURACY:.0f} %' if branch.terms == 1 else ''
-    yield f'  by {fits.RELATIONS[branch.terms]} alone over the same waves, as Eckmann et al. 2005'
+    yield f'  by {fits.RELATIONS[branch.terms]} alone over the same waves'
     columns = zip(fit.values, curve.coefficients, curve.errors, branch.coefficients)
     for (name, _, _), value, error, published in columns:
-        yield f'  {name:<5} {with_error(value, error):<15}{published:.3f}{accuracy}'
+        ours = with_error(value, error)
+        yield f'  {name:<5} {ours:<15}Eckmann et al. 2005: {published:.3f}{accuracy}'
 
 
 def _lp_dynamics(recording):
