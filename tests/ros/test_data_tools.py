@@ -14,6 +14,7 @@ import numpy as np
 import pandas
 
 import hdlyap
+from hdlyap.data.reader import RecordingError
 from hdlyap.msg import Structure
 import made
 from made import LP, SCRIPTS, T
@@ -99,7 +100,7 @@ class Fits(Tools):
         done = self.plot(path, '--form', 'c k', '--k', '0', '2.1')
         self.assertEqual((done.returncode, done.stderr), (0, ''))
         self.assertIn('\n  T steps: c k over 2 wave numbers 0.9935 .. 1.987 (lever', done.stdout)
-        with self.assertRaisesRegex(hdlyap.RecordingError, "form 'k': must be one of"):
+        with self.assertRaisesRegex(RecordingError, "form 'k': must be one of"):
             hdlyap.load(path, form='k').results
         done = self.plot(path, '--k', '2', '1')
         self.assertEqual(done.returncode, 1)
