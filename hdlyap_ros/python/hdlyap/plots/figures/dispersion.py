@@ -73,12 +73,10 @@ def _branch(axes, info, fit, end):
 
 
 def _fit_label(fit):
-    """Its coefficients; c alone says that it is."""
-    label = ', '.join(
-        f'${name[0]}_{{{name[2:]}}}={with_error(value, error, decimals=3)}$'
-        for name, value, error in fit.values
-    )
-    return label + (', $c\\,k$ alone' if fit.terms == 1 else '')
+    """Its slope; another form than the usual says that it is one."""
+    name, value, error = fit.values[0]
+    label = f'${name[0]}_{{{name[2:]}}}={with_error(value, error, decimals=3)}$'
+    return label + (f' by {fit.form}' if fit.terms < 3 else '')
 
 
 def _wave_axis(axes, points, end):
