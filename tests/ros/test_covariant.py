@@ -374,14 +374,14 @@ class Faults(Case):
                 interval='auto',
                 covariant_window=50.0,
                 duration=0.0,
-                covariant_memory=0.003,
+                covariant_memory=0.005,
             )
         )
         self.refused(
             node,
             3,
             'at simulated time 30',
-            'covariant_memory = 0.003 GB',
+            'covariant_memory = 0.005 GB',
             'covariant_window = 50 ',
             'triangles and',
             ' need 0.00',

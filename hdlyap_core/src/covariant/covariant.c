@@ -66,10 +66,11 @@ struct hd_covariant {
 
 static hd_history_def past_of(const hd_scene_def *def, double interval)
 {
-    /* each ends with a look */
+    /* each ends with a look, and so does an interval where one is due */
     const double both = def->covariant_window + def->covariant_transient +
                         2.0 * def->covariant_sampling;
-    const double intervals = ceil(SPARE * both / interval) + 8.0,
+    const double of_look = fmax(1.0, ceil(def->covariant_sampling / interval));
+    const double intervals = ceil(SPARE * both / def->covariant_sampling * of_look) + 8.0,
                  looks = ceil(both / def->covariant_sampling) + 4.0;
     const double most = 1e9; /* far beyond any room */
     return (hd_history_def){.disks = def->disks,

@@ -69,8 +69,9 @@ static double next_stop(const hd_run *run)
 /** The next time at which covariant vectors are looked at. */
 static double next_snapshot(const hd_run *run)
 {
-    const double due = hd_run_is_windowing(run) ? hd_windows_due(&run->windows) : INFINITY;
-    return due > hd_run_time(run) ? due : INFINITY;
+    const double now = hd_run_time(run);
+    const double due = hd_run_is_windowing(run) ? hd_windows_due(&run->windows, now) : INFINITY;
+    return due > now ? due : INFINITY;
 }
 
 /** A little shorter, if that saves a look or a measured state before the phases must be known. */

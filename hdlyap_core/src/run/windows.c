@@ -19,6 +19,7 @@ hd_status hd_windows_create(hd_windows *windows, const hd_scene_def *scene, hd_o
         !(windows->gathered = hd_memory_alloc(vectors, sizeof *windows->gathered)))
         return HD_NO_MEMORY;
     windows->due = true;
+    windows->sampling = scene->covariant_sampling;
     return hd_covariant_create(&windows->covariant, scene, threads);
 }
 
@@ -82,9 +83,9 @@ hd_status hd_windows_end(hd_windows *windows, const hd_frame *frame,
                  hd_covariant_state(windows->covariant, all_of(windows, frame), trajectory));
 }
 
-double hd_windows_due(const hd_windows *windows)
+double hd_windows_due(const hd_windows *windows, double now)
 {
-    return windows->due ? INFINITY : hd_covariant_due(windows->covariant);
+    return windows->due ? now + windows->sampling : hd_covariant_due(windows->covariant);
 }
 
 bool hd_windows_is_going(const hd_windows *windows)

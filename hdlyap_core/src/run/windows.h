@@ -8,6 +8,7 @@ typedef struct hd_windows {
     hd_covariant *covariant;       /**< NULL unless the scene observes them */
     hd_communicator *communicator; /**< NULL: a single rank. Others do the same on the way back */
     double *gathered;              /**< [4N * n], vectors of all ranks; NULL of a single one */
+    double sampling;               /**< from the beginning of a window to its first look */
     bool due;                      /**< one begins with the next interval */
     double seconds;                /**< wall seconds spent here */
 } hd_windows;
@@ -36,8 +37,8 @@ HD_MUST_CHECK hd_status hd_windows_add(hd_windows *windows, const hd_ortho *orth
 HD_MUST_CHECK hd_status hd_windows_end(hd_windows *windows, const hd_frame *frame,
                                        const hd_trajectory *trajectory);
 
-/** Simulated time of the next look; INFINITY before a window has begun. */
-double hd_windows_due(const hd_windows *windows);
+/** Simulated time of the next look, `now` where an interval begins: a window may begin with it. */
+double hd_windows_due(const hd_windows *windows, double now);
 
 /** True while there is a way back to go. */
 bool hd_windows_is_going(const hd_windows *windows);

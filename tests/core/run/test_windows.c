@@ -144,6 +144,28 @@ static void a_reset_begins_anew(void **state)
     }
 }
 
+/** The first one, too, where intervals would be longer than what lies between two; and there is
+ * room for those that looks cut short. */
+static void looks_come_when_they_are_due(void **state)
+{
+    (void)state;
+    const double interval[] = {0.0, 1.8};
+    for (int k = 0; k < 4; k++) {
+        hd_scene_def scene = small();
+        scene.density = 0.1;
+        scene.interval = interval[k / 2];
+        scene.report_interval = 1000.0;
+        hd_run *run = created(&scene);
+        if (k % 2) step_to(run, 10.0);
+        if (k % 2) CHECK_OK(hd_run_reset_average(run));
+        const double start = k % 2 ? hd_run_time(run) : averaging_start(run);
+        while (hd_covariant_windows(hd_run_covariant(run)) == 0) CHECK_OK(hd_run_advance(run));
+        assert_int_equal(hd_covariant_lost(hd_run_covariant(run)), 0);
+        check_windows(run, 1, start);
+        hd_run_free(run);
+    }
+}
+
 /** What nobody looked at is no part of a window. */
 static void a_window_begins_when_somebody_looks_again(void **state)
 {
@@ -313,6 +335,7 @@ int main(void)
         cmocka_unit_test(windows_are_counted),
         cmocka_unit_test(the_forward_pass_stays_as_it_is),
         cmocka_unit_test(a_reset_begins_anew),
+        cmocka_unit_test(looks_come_when_they_are_due),
         cmocka_unit_test(a_window_begins_when_somebody_looks_again),
         cmocka_unit_test(a_blink_gives_up_the_window),
         cmocka_unit_test(exponents_agree_with_the_forward_ones),
