@@ -53,6 +53,12 @@ typedef struct hd_relation {
     double scatter; /**< of a well resolved step about the relation, as a part of its exponent */
 } hd_relation;
 
+/** kind: HD_MODE_T or HD_MODE_LP. */
+hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind);
+/** What c of such a box is left open by, however long it is averaged, as a part of it: from its
+ * longest wave of this kind, well resolved; INFINITY if the scene asks for none. */
+double hd_relation_open(const hd_scene_def *def, hd_mode_kind kind);
+
 /** Errors are standard errors, negative if not yet known. */
 typedef struct hd_coefficient {
     double value;

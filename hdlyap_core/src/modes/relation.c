@@ -3,7 +3,7 @@
  * Curvature was measured in long and wide boxes at densities from 0.2 to 0.8, what edges do in
  * boxes with walls and in narrow ones. In a thin gas k l decides, l the mean free path, else k
  * sigma. */
-#include "modes/relation.h"
+#include "hdlyap/steps.h"
 
 #include <math.h>
 
@@ -44,6 +44,31 @@ hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
     };
     r.c3_error = OFF * r.c3 + (t ? 0.01 : 0.0);
     return r;
+}
+
+/** Wave number of the longest wave with fields of a kind; INFINITY if the scene asks for none. */
+static double longest_of(const hd_scene_def *def, hd_mode_kind kind)
+{
+    const double sampled = hd_wave_limits_of(def).largest, asked = def->max_wave_number;
+    const double limit = asked > 0 ? fmin(asked, sampled) : sampled;
+    double longest = INFINITY;
+    for (int n = 1; n < 4; n++) {
+        const int nx = n & 1, ny = n >> 1;
+        const double k[2] = {hd_wave_component(def, 0, nx), hd_wave_component(def, 1, ny)};
+        const hd_wave wave = {{nx, ny}, {k[0], k[1]}, hypot(k[0], k[1])};
+        const hd_modulations found = kind == HD_MODE_T ? hd_wave_transverse(&wave, def->boundary)
+                                                       : hd_wave_pairs(&wave, def->boundary);
+        if (found.count > 0 && wave.number <= limit) longest = fmin(longest, wave.number);
+    }
+    return longest;
+}
+
+double hd_relation_open(const hd_scene_def *def, hd_mode_kind kind)
+{
+    const hd_relation r = hd_relation_of(def, kind);
+    const double k = longest_of(def, kind);
+    const double curved = hypot(r.c2_error * k, r.c3_error * k * k);
+    return hypot(r.box_error, hypot(r.scatter, curved));
 }
 
 double hd_steps_scatter(const hd_steps *steps, const hd_step *step)

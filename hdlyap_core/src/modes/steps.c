@@ -9,7 +9,6 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "modes/archived.h"
-#include "modes/relation.h"
 #include "modes/sets.h"
 #include "modes/sharing.h"
 

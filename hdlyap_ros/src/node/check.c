@@ -244,6 +244,14 @@ static void print_waves(const settings *set)
     printf("\n");
 }
 
+/** What no averaging takes away. */
+static void print_open(const char *begin, const hd_scene_def *def, hd_mode_kind kind)
+{
+    const double open = hd_relation_open(def, kind);
+    if (open < INFINITY)
+        printf("%s some %.2g %%, which this box and its waves leave open.\n", begin, 100.0 * open);
+}
+
 static void print_errors(const settings *set, const trial *t)
 {
     const double before = set->def.equilibration + hd_scene_warmup(&set->def);
@@ -252,9 +260,12 @@ static void print_errors(const settings *set, const trial *t)
            "units of averaging (",
            steps);
     print_seconds("", (before + steps) * t->seconds);
-    printf(" from the start);\n          of c_T and c_L about 1 %% after %.3g (", slopes);
+    printf(" from the start);\n          of c_T and c_L about 1 %% of sampling after %.3g (",
+           slopes);
     print_seconds("", (before + slopes) * t->seconds);
     printf("). An estimate, from runs of 780 disks.\n");
+    print_open("          Beside it, of c_T", &set->def, HD_MODE_T);
+    print_open("          Beside it, of c_L", &set->def, HD_MODE_LP);
     if (set->def.duration > 0 && set->def.duration < steps)
         printf("          The duration is too short for any error.\n");
 }
