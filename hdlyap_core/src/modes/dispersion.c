@@ -23,9 +23,12 @@ typedef struct fit {
     bool weighted; /**< all errors are known */
 } fit;
 
+/** An exponent below this is none: weights are up to 1e6 over its square. */
+static const double SMALLEST = 1e-100;
+
 static bool counts(const hd_step *step, hd_mode_kind kind)
 {
-    return step->resolved && step->kind == kind && !step->conjugate;
+    return step->resolved && step->kind == kind && !step->conjugate && step->exponent > SMALLEST;
 }
 
 /** Square boxes have one wave number twice. */

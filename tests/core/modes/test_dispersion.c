@@ -345,6 +345,23 @@ static void equal_wave_numbers_are_one_point(void **state)
     }
 }
 
+/** Nor do exponents that are none. */
+static void vanishing_exponents_do_not_count(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        double exponents[VECTORS], none[2][NODES_MAX] = {{1.0, 1.0}, {k * -1.0, 1.0}};
+        world w = channel(exponents, 2);
+        plant(&w, exponents, 2, none, false);
+        feed(&w, exponents, 0.0, 1);
+        assert_true(world_step(&w, HD_MODE_LP, 1, 0)->resolved);
+        const hd_dispersion d = hd_steps_dispersion(w.steps, w.spectrum, HD_MODE_LP);
+        assert_int_equal(d.points, 1);
+        CHECK_CLOSE(d.c.value, truth[1][0], ALGEBRA);
+        world_free(&w);
+    }
+}
+
 /** Steps of the negative half are the same steps once more. */
 static void conjugate_steps_do_not_count(void **state)
 {
@@ -377,6 +394,7 @@ int main(void)
         cmocka_unit_test(half_a_multiplicity_weighs_less),
         cmocka_unit_test(unresolved_steps_do_not_count),
         cmocka_unit_test(equal_wave_numbers_are_one_point),
+        cmocka_unit_test(vanishing_exponents_do_not_count),
         cmocka_unit_test(conjugate_steps_do_not_count),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -191,7 +191,9 @@ def _fitted(message, kind, k=None):
     return [
         step
         for step in steps.resolved(message).values()
-        if step.kind == kind and low * (1 - SAME) <= step.wave_number <= high * (1 + SAME)
+        if step.kind == kind
+        and step.exponent > 0
+        and low * (1 - SAME) <= step.wave_number <= high * (1 + SAME)
     ]
 
 
