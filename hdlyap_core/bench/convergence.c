@@ -39,8 +39,8 @@ static reading read_run(const hd_run *run, double wall)
     return (reading){.time = hd_spectrum_time(spectrum),
                      .wall = wall,
                      .value = {hd_spectrum_lambda_max(spectrum), t.c.value, l.c.value, v.v},
-                     .error = {hd_spectrum_std_error(spectrum, 0), t.c.sampling_error,
-                               l.c.sampling_error, v.phases > 0 ? v.v_error : -1.0}};
+                     .error = {hd_spectrum_std_error(spectrum, 0), t.c_sampling_error,
+                               l.c_sampling_error, v.phases > 0 ? v.v_error : -1.0}};
 }
 
 /** Readings are 4 % apart in time, once the first error is known. */

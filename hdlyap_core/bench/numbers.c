@@ -80,12 +80,12 @@ static void rows_of_steps(const hd_run *run, rows *r)
 
 int numbers_rows(const hd_run *run, row_of_numbers *out)
 {
-    static const char *const singles[] = {"c_T", "c2 of T", "c_L", "c2 of LP", "v"};
+    static const char *const singles[] = {"c_T", "c_L", "v"};
     rows r = {.row = out};
     row_add(&r, "exponents", positive(run));
     row_add(&r, "h_KS", 1);
     if (hd_run_steps(run)) {
-        for (int k = 0; k < 5; k++) row_add(&r, singles[k], 1);
+        for (int k = 0; k < 3; k++) row_add(&r, singles[k], 1);
         rows_of_steps(run, &r);
     }
     if (!hd_run_covariant(run)) return r.count;
@@ -112,8 +112,7 @@ static number *read_dispersion(const hd_run *run, hd_mode_kind kind, number *out
         const hd_step *step = hd_steps_step(hd_run_steps(run), k);
         if (step->resolved && step->kind == kind) of |= bit(k);
     }
-    *out++ = (number){d.c.value, d.c.sampling_error, of};
-    *out++ = (number){d.c2.value, d.c2.sampling_error, d.points > 1 ? of : 0};
+    *out++ = (number){d.c.value, d.c_sampling_error, of};
     return out;
 }
 

@@ -316,7 +316,7 @@ def expected_sizes(disks, vectors, steps, phases, t_phases, waves):
     return dict(
         spectrum=begin + 8 + 8 + 5 * 8 + 4 + 5 * 4 + 40 * vectors,
         modes=begin + 8 + 4 + 4 + 89 * vectors,
-        steps=begin + 8 + 8 + 4 + 120 * steps + 2 * 148 + 4 + 5 * 8,
+        steps=begin + 8 + 8 + 4 + 120 * steps + 2 * 132 + 4 + 5 * 8,
         lp_phases=begin + 4 + 74 * phases,
         t_phases=begin + 4 + 82 * t_phases,
         structure=begin + 4 + 8 * 4 + 16 * waves + 68 * vectors,

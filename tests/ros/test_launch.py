@@ -119,7 +119,9 @@ class Launch(unittest.TestCase):
         result = run.text().split('result of /')[-1]
         self.assertRegex(result, r'averaged %s.* time units, lambda_max [0-9.]+' % averaged)
         self.assertRegex(result, r'(?m)^ +T\(1,0\) .* [0-9.]+')
-        self.assertRegex(result, r'(?m)^  c_T [0-9.()]+ \(c k( \+ c2 k\^2)?, \d+ wave number')
+        self.assertRegex(
+            result, r'(?m)^  c_T  [0-9.()]+  c k \+ c2 k\^2 \+ c3 k\^3 over \d+ wave number'
+        )
         for word in words:
             self.assertIn(word, result)
 

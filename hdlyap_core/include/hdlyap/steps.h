@@ -59,11 +59,10 @@ hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind);
  * longest wave of this kind, well resolved; INFINITY if the scene asks for none. */
 double hd_relation_open(const hd_scene_def *def, hd_mode_kind kind);
 
-/** Errors are standard errors, negative if not yet known. */
+/** The error is a standard error with all that the form of the relation leaves open; negative if
+ * not yet known. */
 typedef struct hd_coefficient {
-    double value;
-    double error;          /**< with all that the form of the relation leaves open */
-    double sampling_error; /**< of it, what another run of the same box may differ by */
+    double value, error;
 } hd_coefficient;
 
 /** lambda = c k + c2 k^2 + c3 k^3, least squares over the resolved steps, with c2 / c and c3 / c of
@@ -75,8 +74,9 @@ typedef struct hd_dispersion {
     double prior_share;  /**< of c2 and c3, the part that long boxes say: 1 from one wave number,
                             towards 0 where the steps tell them by themselves */
     hd_coefficient c;    /**< [sigma/time unit] */
-    hd_coefficient c2;   /**< [sigma^2/time unit] */
-    hd_coefficient c3;   /**< [sigma^3/time unit] */
+    double c_sampling_error; /**< of its error, what another run of the same box may differ by */
+    hd_coefficient c2;       /**< [sigma^2/time unit] */
+    hd_coefficient c3;       /**< [sigma^3/time unit] */
     const hd_relation *in_long_boxes; /**< what it stands on beside the steps */
     double misfit; /**< root mean square deviation of the steps from the relation, per degree of
                       freedom, in units of error and scatter of a step; negative of a single step or

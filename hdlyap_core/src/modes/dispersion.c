@@ -142,11 +142,12 @@ static double share(const hd_step *step, const void *context)
     return sum * weight_of(r->of, step);
 }
 
-/** Value and errors of one coefficient. */
-static hd_coefficient coefficient(const fit *f, const hd_spectrum *spectrum, int term)
+/** One coefficient; of its error, that of sampling with the weights held fixed. */
+static hd_coefficient coefficient(const fit *f, const hd_spectrum *spectrum, int term,
+                                  double *sampling)
 {
     const result r = result_of(f, term);
-    hd_coefficient out = {0.0, -1.0, -1.0};
+    hd_coefficient out = {0.0, -1.0};
     double square = r.factor[1] * r.factor[1] + r.factor[2] * r.factor[2];
     for (int i = 0; i < hd_steps_count(f->steps); i++) {
         const hd_step *step = hd_steps_step(f->steps, i);
@@ -155,8 +156,8 @@ static hd_coefficient coefficient(const fit *f, const hd_spectrum *spectrum, int
         if (part != 0) square += pow(part * stray(f, step), 2.0);
     }
     square += pow(f->prior->box_error * out.value, 2.0);
-    out.sampling_error = hd_steps_error_of_sum(f->steps, spectrum, share, &r);
-    if (out.sampling_error >= 0) out.error = hypot(out.sampling_error, sqrt(square));
+    *sampling = hd_steps_error_of_sum(f->steps, spectrum, share, &r);
+    if (*sampling >= 0) out.error = hypot(*sampling, sqrt(square));
     return out;
 }
 
@@ -181,7 +182,8 @@ static double misfit_of(const fit *f, const hd_dispersion *d)
 hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spectrum,
                                   hd_mode_kind kind)
 {
-    const hd_coefficient none = {0.0, -1.0, -1.0};
+    const hd_coefficient none = {0.0, -1.0};
+    double of_curvature; /* of that the form decides: weights, which fluctuate, count as much */
     fit f = begin(steps, kind);
     hd_dispersion d = {.points = f.points,
                        .k_min = f.k_min,
@@ -189,15 +191,16 @@ hd_dispersion hd_steps_dispersion(const hd_steps *steps, const hd_spectrum *spec
                        .prior_share = 1.0,
                        .in_long_boxes = f.prior,
                        .c = none,
+                       .c_sampling_error = -1.0,
                        .c2 = none,
                        .c3 = none,
                        .misfit = -1.0};
     if (f.points == 0) return d;
     solve(&f);
     d.prior_share = 0.5 * (f.inverse[TERMS + 1] + f.inverse[2 * TERMS + 2]);
-    d.c = coefficient(&f, spectrum, 0);
-    d.c2 = coefficient(&f, spectrum, 1);
-    d.c3 = coefficient(&f, spectrum, 2);
+    d.c = coefficient(&f, spectrum, 0, &d.c_sampling_error);
+    d.c2 = coefficient(&f, spectrum, 1, &of_curvature);
+    d.c3 = coefficient(&f, spectrum, 2, &of_curvature);
     d.misfit = misfit_of(&f, &d);
     return d;
 }

@@ -302,15 +302,15 @@ static double fitted(double value, int points) { return points > 0 ? value : NAN
 
 /** The fields of a coefficient, and of the fit of one kind. */
 #define COEFFICIENT(name, d, c)                                                                    \
-    .name = fitted(d.c.value, d.points), .name##_error = error_of(d.c.error),                      \
-    .name##_sampling_error = error_of(d.c.sampling_error)
+    .name = fitted(d.c.value, d.points), .name##_error = error_of(d.c.error)
 #define FIT(x, d)                                                                                  \
     .x##_points = (uint32_t)d.points, .x##_k_min = fitted(d.k_min, d.points),                      \
     .x##_k_max = fitted(d.k_max, d.points), .x##_prior_share = d.prior_share,                      \
-    COEFFICIENT(c_##x, d, c), COEFFICIENT(c_##x##2, d, c2), COEFFICIENT(c_##x##3, d, c3),          \
-    .x##_misfit = error_of(d.misfit), .x##_long_c2 = d.in_long_boxes->c2,                          \
-    .x##_long_c2_error = d.in_long_boxes->c2_error, .x##_long_c3 = d.in_long_boxes->c3,            \
-    .x##_long_c3_error = d.in_long_boxes->c3_error, .x##_box_error = d.in_long_boxes->box_error
+    .c_##x##_sampling_error = error_of(d.c_sampling_error), COEFFICIENT(c_##x, d, c),              \
+    COEFFICIENT(c_##x##2, d, c2), COEFFICIENT(c_##x##3, d, c3), .x##_misfit = error_of(d.misfit),  \
+    .x##_long_c2 = d.in_long_boxes->c2, .x##_long_c2_error = d.in_long_boxes->c2_error,            \
+    .x##_long_c3 = d.in_long_boxes->c3, .x##_long_c3_error = d.in_long_boxes->c3_error,            \
+    .x##_box_error = d.in_long_boxes->box_error
 
 static bool fill_steps(mode_report *m, hdr_steps *message, const hd_run *run)
 {

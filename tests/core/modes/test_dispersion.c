@@ -94,7 +94,7 @@ static void exact_data_give_the_truth(void **state)
             CHECK_CLOSE(d.c2.value, c * truth[kind][1], ALGEBRA);
             CHECK_CLOSE(d.c3.value, c * truth[kind][2], ALGEBRA);
             CHECK_CLOSE(d.c.error, -1.0, 0.0); /* one sample tells none */
-            CHECK_CLOSE(d.c.sampling_error, -1.0, 0.0);
+            CHECK_CLOSE(d.c_sampling_error, -1.0, 0.0);
             CHECK_CLOSE(d.misfit, -1.0, 0.0);
         }
         world_free(&w);
@@ -122,10 +122,10 @@ static void one_point_stands_on_long_boxes(void **state)
         CHECK_CLOSE(d.c.value, c, ALGEBRA);
         CHECK_CLOSE(d.c2.value, c * r->c2, ALGEBRA);
         CHECK_CLOSE(d.prior_share, 1.0, 1e-9);
-        CHECK_CLOSE(d.c.sampling_error, step->std_error / b, ALGEBRA);
+        CHECK_CLOSE(d.c_sampling_error, step->std_error / b, ALGEBRA);
         CHECK_CLOSE(d.c.error, hypot(step->std_error / b, c * hypot(own, r->box_error)), ALGEBRA);
         /* what no averaging takes away, of a step with all of its multiplicity and small k */
-        const double open = sqrt(d.c.error * d.c.error - d.c.sampling_error * d.c.sampling_error);
+        const double open = sqrt(d.c.error * d.c.error - d.c_sampling_error * d.c_sampling_error);
         CHECK_CLOSE(hd_relation_open(&def, kinds[kind]), open / c, 0.02 * open / c);
     }
     world_free(&w);
@@ -228,8 +228,8 @@ static void misfits_are_told_from_errors(void **state)
     world_free(&w);
 }
 
-/** Deviation of c from the truth in units of the stated error, squared: of sampling alone (of c2,
- * too), or of all that the error is said to hold: curvature and scatter are drawn anew, too. */
+/** Deviations of c and c2 from the truth in units of their errors, squared: of sampling alone (c),
+ * or of all that the errors are said to hold: curvature and scatter are drawn anew, too. */
 static void deviations(world *w, double *exponents, bool drawn, double square[2][2])
 {
     double strays[2][NODES_MAX], box[2] = {1.0, 1.0};
@@ -249,8 +249,8 @@ static void deviations(world *w, double *exponents, bool drawn, double square[2]
         const hd_dispersion d = hd_steps_dispersion(w->steps, w->spectrum, kinds[kind]);
         const double c = truth[kind][0], off = d.c.value - c;
         assert_int_equal(d.points, NODES_MAX);
-        square[kind][0] += pow(off / (drawn ? d.c.error : d.c.sampling_error), 2.0);
-        square[kind][1] += pow((d.c2.value - c * truth[kind][1]) / d.c2.sampling_error, 2.0);
+        square[kind][0] += pow(off / (drawn ? d.c.error : d.c_sampling_error), 2.0);
+        square[kind][1] += pow((d.c2.value - c * truth[kind][1]) / d.c2.error, 2.0);
     }
 }
 
@@ -264,7 +264,7 @@ static void errors_are_honest(void **state)
         feed(&w, exponents, 0.05, 256);
         for (int repeat = 0; repeat < REPEATS; repeat++) deviations(&w, exponents, drawn, square);
         for (int kind = 0; kind < 2; kind++)
-            for (int m = 0; m < (drawn ? 1 : 2); m++) {
+            for (int m = 0; m < (drawn ? 2 : 1); m++) {
                 const double rms = sqrt(square[kind][m] / REPEATS);
                 print_message("rms deviation of %s: %.2f errors\n", m ? "c2" : "c", rms);
                 /* 300 numbers: 4 %; errors from 64 blocks or fewer: some more */
@@ -340,7 +340,7 @@ static void equal_wave_numbers_are_one_point(void **state)
         const double of_step = world_step(&w, HD_MODE_T, 1, 0)->std_error / lambda(0, k) *
                                truth[0][0];
         if (nodes == 0) /* both are one set */
-            CHECK_CLOSE(d.c.sampling_error, of_step, 1e-3 * of_step);
+            CHECK_CLOSE(d.c_sampling_error, of_step, 1e-3 * of_step);
         world_free(&w);
     }
 }

@@ -60,8 +60,8 @@ static double deviation(const hd_run *run, int kind, double density)
     if (d.points == 0) return NAN;
     const double z = (d.c.value - wanted) / hypot(d.c.error, KNOWN[kind] * wanted);
     print_message("  c_%c %.4f(%.4f), of it sampling %.4f, long waves %.4f: %+.2f errors\n",
-                  kind == 0 ? 'T' : 'L', d.c.value, d.c.error, d.c.sampling_error, wanted, z);
-    assert_true(d.c.sampling_error > 0.0 && d.c.error > d.c.sampling_error);
+                  kind == 0 ? 'T' : 'L', d.c.value, d.c.error, d.c_sampling_error, wanted, z);
+    assert_true(d.c_sampling_error > 0.0 && d.c.error > d.c_sampling_error);
     return z;
 }
 

@@ -161,9 +161,9 @@ static double coefficients_apart(const hd_run *a, const hd_run *b, int slowest)
 }
 
 /** Between two orthonormalisations, from the slowest vectors alone, beside those of a run that
- * orthonormalises for every report: fields are looked at. Each vector is off by the residual at which
- * the iteration stops [T16], and by those of the slower ones that it was made orthogonal to: 3.4e-3
- * with the kernels of SkylakeX, 5.3e-3 with those of Haswell. */
+ * orthonormalises for every report: fields are looked at. Each vector is off by the residual at
+ * which the iteration stops [T16], and by those of the slower ones that it was made orthogonal
+ * to: 3.4e-3 with the kernels of SkylakeX, 5.3e-3 with those of Haswell. */
 static void a_look_sees_what_a_measured_state_shows(void **state)
 {
     (void)state;

@@ -166,8 +166,8 @@ class Run:
     @cached_property
     def results(self):
         """lambda_max, the sum of the positive exponents, and the fits over steps if there were
-        any, with what they stand on. Of the error of a fit, sampling_error is what another run of
-        the same box may differ by."""
+        any, with what they stand on. Of the error of c, sampling_error is what another run of the
+        same box may differ by."""
         last = self._averages.last
         about = common.Run()
         about.info, about.spectrum = self.info, last

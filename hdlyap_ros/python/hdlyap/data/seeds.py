@@ -113,7 +113,7 @@ class Seeds:
         fits = [fit for fit in self.runs[0].fits if self._is_in_all(fit)]
         names = [*frames[0].index[:2], *(name for fit in fits for name, _, _ in fit.values)]
         frames = [one.loc[names] for one in frames]
-        sampled = [one.assign(std_error=one['sampling_error']) for one in frames]
+        sampled = [one.assign(std_error=_of_sampling(one)) for one in frames]
         made = self._mean(sampled, 'value')
         of_form = np.max([_beyond(one) for one in frames], axis=0)
         made['sampling_error'] = np.fmax(made['std_error'], made['scatter'])
@@ -147,9 +147,15 @@ class Seeds:
         return tables.frame(made, units, index)
 
 
+def _of_sampling(frame):
+    """0 of what the form of a fit decides."""
+    errors, sampling = frame['std_error'], frame['sampling_error']
+    return sampling.where(sampling.notna() | errors.isna(), 0.0)
+
+
 def _beyond(frame):
     """What is in errors beside sampling; 0 where they are not known."""
-    squares = frame['std_error'].to_numpy() ** 2 - frame['sampling_error'].to_numpy() ** 2
+    squares = frame['std_error'] ** 2 - _of_sampling(frame) ** 2
     return np.sqrt(np.fmax(np.nan_to_num(squares), 0.0))
 
 

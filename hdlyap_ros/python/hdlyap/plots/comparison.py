@@ -3,6 +3,8 @@
 import copy
 import io
 
+import numpy as np
+
 from . import fits, steps
 from .deviation import Deviation
 from .recording import RecordingError
@@ -156,11 +158,13 @@ def _pairs_of_fits(a, b):
 
 def _fits(pair):
     """Deviations of what two fits of one form over the same wave numbers say, with the errors of
-    sampling: what the form leaves open is the same in both. The fits are their origins."""
-    a, b = pair
-    return [
-        Deviation(name, (value, other), errors, origins=pair)
-        for (name, value, _), (_, other, _), *errors in zip(
-            a.values, b.values, a.sampling_errors, b.sampling_errors
-        )
-    ]
+    sampling where they are stated: what the form leaves open is the same in both. The fits are
+    their origins."""
+    found = []
+    for place, ((name, value, error), (_, other, others)) in enumerate(
+        zip(*(f.values for f in pair))
+    ):
+        sampling = [fit.sampling_errors[place] for fit in pair]
+        errors = (error, others) if np.isnan(sampling).any() else sampling
+        found.append(Deviation(name, (value, other), errors, origins=pair))
+    return found

@@ -32,7 +32,7 @@ class Curve:
         self.c, self.c2, _ = self.coefficients
         self.errors = np.sqrt(np.diag(self.covariance)) if is_known else np.full(TERMS, -1.0)
         self.c_error, self.c2_error, _ = self.errors
-        self.sampling_errors = self.errors
+        self.c_sampling_error = self.c_error
 
     @property
     def correlation(self):
@@ -81,9 +81,8 @@ class WithLongBoxes:
             + (long.box_error * self.coefficients) ** 2
         )
         sampling = np.sqrt((shares**2) @ errors**2)
-        unknown = np.full(TERMS, -1.0)
-        self.sampling_errors = sampling if is_known else unknown
-        self.errors = np.sqrt(sampling**2 + form) if is_known else unknown
+        self.errors = np.sqrt(sampling**2 + form) if is_known else np.full(TERMS, -1.0)
+        self.c_sampling_error = sampling[0] if is_known else -1.0
         left = np.diag(rows @ inverse @ rows.T)  # of the widths in long boxes
         self.prior_share = float(left.mean())
         off = np.append(exponents - _powers(k) @ self.coefficients, rows @ self.coefficients)

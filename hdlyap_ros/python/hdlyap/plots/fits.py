@@ -35,15 +35,16 @@ class Fit:
         self.waves = [] if letter == 'v' else [k for k in waves if self._has(k)]
         names = _coefficients(message, letter, self.count)
         self.terms = len(names)
-        # (name, value, error) of each, and what another run of the same box may differ by
+        # (name, value, error) of each, and what another run of the same box may differ by; NaN of
+        # what the form decides
         self.values = [
             (name[0] + name[1:].upper(), getattr(message, name), getattr(message, name + '_error'))
             for name in names
         ]
-        self.sampling_errors = [
-            getattr(message, name + '_sampling_error', error)
-            for name, (_, _, error) in zip(names, self.values)
-        ]
+        self.sampling_errors = [error for _, _, error in self.values]
+        if not isnan(self.prior_share):
+            sampling = getattr(message, f'c_{letter}_sampling_error')
+            self.sampling_errors = [sampling, nan, nan][: self.terms]
 
     @property
     def form(self):
@@ -153,9 +154,10 @@ def _fit(message, letter, found, terms):
         f'{letter}_k_max': max(waves, default=nan),
         f'{letter}_prior_share': nan,
         f'{letter}_misfit': -1.0,
+        f'c_{letter}_sampling_error': -1.0,
     }
     for name in _names(letter):
-        made.update({name: nan, f'{name}_error': -1.0, f'{name}_sampling_error': -1.0})
+        made.update({name: nan, f'{name}_error': -1.0})
     if not found:
         return made
     if terms == 3:
@@ -165,9 +167,10 @@ def _fit(message, letter, found, terms):
     else:
         curve = dispersion.Curve(*_columns(found), min(terms, made[f'{letter}_points']))
     made[f'{letter}_misfit'] = curve.misfit
-    fitted = zip(_names(letter), curve.coefficients, curve.errors, curve.sampling_errors)
-    for name, value, error, sampling in list(fitted)[: curve.terms]:
-        made.update({name: value, f'{name}_error': error, f'{name}_sampling_error': sampling})
+    made[f'c_{letter}_sampling_error'] = curve.c_sampling_error
+    fitted = zip(_names(letter), curve.coefficients, curve.errors)
+    for name, value, error in list(fitted)[: curve.terms]:
+        made.update({name: value, f'{name}_error': error})
     return made
 
 
