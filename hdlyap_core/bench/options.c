@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char *base_name(const char *path)
 {
@@ -49,6 +50,11 @@ void options_read(int argc, char **argv, const option *list)
             exit(2);
         }
         if (o->text) *o->text = argv[k];
+        if (strcmp(o->name, "--out") == 0 && access(argv[k], W_OK | X_OK) != 0) {
+            fprintf(stderr, "%s: --out = %s: must be a folder that can be written\n", program,
+                    argv[k]);
+            exit(2);
+        }
         if (o->count) *o->count = (int)number_of(program, o, argv[k]);
         if (o->number) *o->number = number_of(program, o, argv[k]);
     }

@@ -170,13 +170,14 @@ class Bench(unittest.TestCase):
             'sound',
             'dilute',
         ):
-            run = subprocess.run(
-                [os.path.join(PROGRAMS, 'hdlyap_' + command), '--nonsense'],
-                stderr=subprocess.PIPE,
-                universal_newlines=True,
-                check=False,
-            )
-            self.assertEqual((run.returncode, run.stderr.count('\n')), (2, 1), command)
+            for given in (['--nonsense'], ['--out', '/nowhere']):
+                run = subprocess.run(
+                    [os.path.join(PROGRAMS, 'hdlyap_' + command), *given],
+                    stderr=subprocess.PIPE,
+                    universal_newlines=True,
+                    check=False,
+                )
+                self.assertEqual((run.returncode, run.stderr.count('\n')), (2, 1), command)
 
 
 if __name__ == '__main__':

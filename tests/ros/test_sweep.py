@@ -288,6 +288,7 @@ class Sweep(InFolder):
         again = self.sweep(*given)
         self.assertNotIn('runs done', again)
         self.assertEqual(said[said.index('the same') :], again[again.index('the same') :])
+        self.assertRegex(self.sweep(*given, '--form', 'c k'), r'\n  \[1\] c k over \d wave')
 
     def test_one_fails(self):
         """It is named, the others go on; in a namespace, all topics are in the bags; then it is
