@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
-# The node and the parallel parts of the core under the address, leak and thread sanitizers and valgrind.
-#   checked.sh WORK_FOLDER CORE_BUILD ROS_BUILD    the plain builds are for valgrind, and for the messages
+# The node under the address and leak sanitizers; it and the parallel parts of the core under the thread sanitizer and valgrind.
+#   checked.sh build WORK_FOLDER                      with the address sanitizer
+#   checked.sh life first|second WORK_FOLDER ROS_BUILD   of that node, one or all; the plain build is for the messages
+#   checked.sh rest WORK_FOLDER ROS_BUILD CORE_BUILD   the plain builds are for valgrind
 set -euo pipefail
 # shellcheck source=launch/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
 
-readonly WORK=$1 CORE=$2 ROS=$3
+readonly MODE=$1
+[[ $MODE != life ]] || { readonly TIER=$2 && shift; }
+readonly WORK=$2 ROS=${3:-} CORE=${4:-}
 readonly PARALLEL=(frame ortho threads two_threads) # tests of the core
 mkdir -p "$WORK"
 # shellcheck source=tests/check.sh
@@ -48,23 +52,29 @@ core_in_valgrind() {
     "${MEMCHECK[@]}" "$(find "$CORE" -name hdlyap_load -type f)" 12 0.7 1 0 1 -2 7 7 5
 }
 
-# live NAME COMMAND...: a node's short life, see sanitized.py.
+# live TIER NAME COMMAND...: a node's short life, see sanitized.py.
 live() {
     "$ROOT/tests/ros/sanitized.py" "$@"
 }
 
 node_of() { find "$1" -path '*/devel/lib/hdlyap/hdlyap_node' -type f; }
 
+stop_at_exit
 own_environment "$WORK/home"
+if [[ $MODE == build ]]; then
+    build_with address gcc g++ hdlyap_node
+    exit
+fi
 source_setup "$ROS/devel/setup.bash"
 # what a node sets by starting itself once more, which valgrind and the sanitizers do not need
 export HDLYAP_RESTARTED=1 GOMP_SPINCOUNT=2000
-stop_at_exit
-check address_build build_with address gcc g++ hdlyap_node
-check thread_build build_with thread clang clang++ hdlyap_node "${PARALLEL[@]/#/hdlyap_test_}"
-check address_node run live address "$(node_of "$WORK/address")"
-check thread_core run under_threads parallel_tests
-check thread_node run under_threads live thread "$(node_of "$WORK/thread")"
-check valgrind_core run core_in_valgrind
-check valgrind_node run live valgrind "${MEMCHECK[@]}" "$(node_of "$ROS")"
+if [[ $MODE == life ]]; then
+    check address_node run live "$TIER" address "$(node_of "$WORK/address")"
+else
+    check thread_build build_with thread clang clang++ hdlyap_node "${PARALLEL[@]/#/hdlyap_test_}"
+    check thread_core run under_threads parallel_tests
+    check thread_node run under_threads live second thread "$(node_of "$WORK/thread")"
+    check valgrind_core run core_in_valgrind
+    check valgrind_node run live second valgrind "${MEMCHECK[@]}" "$(node_of "$ROS")"
+fi
 exit "$FAILED"

@@ -1,12 +1,11 @@
 #!/usr/bin/env bash
 # Tests launch/demo.sh as a user meets it, on the scene that takes seconds.
-#   demo.sh WORK_FOLDER
+#   demo.sh first|second WORK_FOLDER    first: one run and what is refused
 set -euo pipefail
 # shellcheck source=launch/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
 
-readonly WORK=$1
-FAILED=0
+readonly TIER=$1 WORK=$2
 mkdir -p "$WORK/home" "$WORK/foreign"
 # another python3 first on PATH, as pyenv and conda have it, that knows no ROS
 printf '#!/bin/sh\necho "foreign python3" >&2\nexit 97\n' >"$WORK/foreign/python3"
@@ -14,18 +13,8 @@ chmod +x "$WORK/foreign/python3"
 
 readonly DEMO=(env "HOME=$WORK/home" "PATH=$WORK/foreign:$PATH" "$ROOT/launch/demo.sh" --no-install)
 
-# check NAME COMMAND...
-check() {
-    local name=$1
-    shift
-    if "$@"; then
-        echo "ok $name"
-    else
-        cat "$LOG"
-        echo "FAILED $name"
-        FAILED=1
-    fi
-}
+# shellcheck source=tests/check.sh
+source "$ROOT/tests/check.sh"
 
 gives_status() {
     local wanted=$1 status=0
@@ -34,7 +23,7 @@ gives_status() {
     [[ $status == "$wanted" ]]
 }
 
-demo() { "${DEMO[@]}" "$@" >"$LOG" 2>&1; }
+demo() { "${DEMO[@]}" "$@" 2>&1 | tee "$LOG"; }
 
 # No process of a demo is left; they are known by the folder that ROS was given.
 none_is_left() {
@@ -74,11 +63,17 @@ interrupted() {
 }
 
 stop_at_exit
+LOG=$WORK/refused.log
+check refuses_a_scene gives_status 2 demo --scene nowhere
+check refuses_an_option gives_status 2 demo --bogus
 LOG=$WORK/first.log
 check runs gives_status 0 demo --scene quick --duration 100 --out "$WORK/out"
 check writes_all_files is_complete "$WORK/out" spectrum convergence steps dispersion modes cost
 check prints_the_table grep -q '^lambda_max' "$LOG"
 check names_a_step has_step 'T\(1,0\)'
+check leaves_home_alone test -z "$(ls -A "$WORK/home")"
+[[ $TIER == second ]] || exit "$FAILED"
+
 LOG=$WORK/channel.log
 check runs_a_channel gives_status 0 demo --scene narrow --duration 1200 --out "$WORK/channel"
 check names_an_lp_step has_step 'LP\(1,0\)'
@@ -86,10 +81,6 @@ check writes_lp_figures is_complete "$WORK/channel" spectrum steps dispersion mo
 LOG=$WORK/second.log
 check runs_again gives_status 0 demo --scene quick --duration 100 --out "$WORK/out"
 check builds_once gives_status 1 grep -E 'Building|Linking' "$ROOT/build/log/build.log"
-check leaves_home_alone test -z "$(ls -A "$WORK/home")"
-LOG=$WORK/refused.log
-check refuses_a_scene gives_status 2 demo --scene nowhere
-check refuses_an_option gives_status 2 demo --bogus
 LOG=$WORK/int.log
 check ends_on_int gives_status 130 interrupted INT as_background_job
 check leaves_nothing_after_int none_is_left

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Every test of hdlyap, built afresh below build/check. Its last line is 'N passed, N failed'. The machine may be busy: tests
-# of core and node, of tools and README that fail run once more, alone; what passes then counts, but is named.
-#   run.sh [--no-install]
+# The tests of hdlyap, built afresh below build/check; the last line is 'N passed, N failed'. tests/README.md says what lies
+# where.
+#   run.sh [--all] [--no-install]    without --all: the first tier, for after a change; what each stage is stands below
 set -euo pipefail
 # shellcheck source=launch/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
 
 readonly WORK=$ROOT/build/check # not build/tests: cmake puts the folder tests there
 readonly PREFIX="$WORK/a prefix σ" # a name that pkg-config writes in another way
-readonly LOGS=$WORK/log COUNTS=$WORK/counts SECOND=$WORK/second TAKEN=$WORK/taken
+readonly LOGS=$WORK/log COUNTS=$WORK/counts TAKEN=$WORK/taken
 export TMPDIR=$WORK/tmp XDG_RUNTIME_DIR=$WORK/runtime
 export LC_ALL=C.UTF-8 # of messages that tests read
 unset LANGUAGE
@@ -18,6 +18,35 @@ readonly CACHE=(CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=cca
     "CCACHE_BASEDIR=$ROOT")
 export "${CACHE[@]}"
 
+# ---- the table of stages: name, which is its function's; how its log is counted; its tier; what comes before it. A stage that
+# ---- waits for other programs goes before one that only computes, and a long one before a short one.
+
+readonly STAGES='
+shell_scripts     one      first  -
+library           one      first  -
+ros_build         one      first  library
+core_build        one      first  library
+ros_tests         catkin   first  ros_build
+life_build        one      first  ros_build
+life              checks   first  life_build
+demo              checks   first  ros_build
+core_tests        ctest    first  core_build,blas
+tools_tests       unittest first  ros_build
+lint              one      first  -
+format            one      first  -
+blas              one      second -
+checked           checks   second ros_build,core_build
+readme            checks   second ros_build
+sanitizers_build  one      second core_build
+sanitizers_tests  ctest    second sanitizers_build
+downstream        checks   second ros_build
+reproduce         checks   second demo
+slurm             checks   second ros_build
+ssh               checks   second ros_build
+core_install      checks   second core_build
+fuzz              checks   second -
+doxygen           one      second ros_build
+'
 # ---- the stages ------------------------------------------------------------------------------
 
 shell_scripts() {
@@ -30,11 +59,14 @@ without_ros() {
     env -i HOME="$HOME" PATH=/usr/bin:/bin LC_ALL=C.UTF-8 "TMPDIR=$TMPDIR" "HDLYAP_SUITE=$HDLYAP_SUITE" "${CACHE[@]}" "$@"
 }
 
-core_build() {
+# First, so that nobody compiles at the same time what is then in the cache.
+library() {
     without_ros cmake -S "$ROOT" -B "$WORK/core" -G Ninja -DHDLYAP_ROS=OFF \
-        -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_INSTALL_PREFIX="$PREFIX" "$@"
-    without_ros cmake --build "$WORK/core" -- -j "$(nproc)"
+        -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_INSTALL_PREFIX="$PREFIX"
+    without_ros cmake --build "$WORK/core" --target hdlyap_core -- -j "$(nproc)"
 }
+
+core_build() { without_ros cmake --build "$WORK/core" -- -j "$(nproc)"; }
 
 core_install() {
     without_ros cmake --install "$WORK/core"
@@ -48,28 +80,27 @@ sanitizers_build() {
 }
 
 # Installed, it would take the place of the OpenBLAS in use: one more to compare with, in a folder of its own.
-other_blas() {
+blas() {
     mkdir -p "$WORK/blas"
     cd "$WORK/blas"
     apt-get download libopenblas0-pthread
     dpkg -x libopenblas0-pthread_*.deb .
 }
+can_blas() { [[ $INSTALL == yes ]]; }
 
-core_ctest() {
+core_tests() {
     local folders=("$WORK"/blas/usr/lib/*/)
     HDLYAP_BLAS=${folders[0]} run_ctest "$WORK/core" "$(nproc)"
 }
 
-# run_ctest FOLDER JOBS: what fails once more, with a log of its own.
+sanitizers_tests() { run_ctest "$WORK/sanitizers" "$(nproc)"; }
+
+# run_ctest FOLDER JOBS: those of the tier.
 run_ctest() {
-    local log status=0
-    log=$LOGS/$(basename "$1").second.log
+    local -a choice=()
+    [[ $TIER == second ]] || choice=(-LE second_tier)
     cd "$1"
-    ctest --output-on-failure -j "$2" && return
-    say "what failed, once more: $log"
-    ctest --rerun-failed --output-on-failure -j 1 >"$log" 2>&1 || status=$?
-    sed -nE 's|^ *[0-9]+/[0-9]+ Test +#[0-9]+: (.*[^ .]) \.+ +Passed .*|passed on the second try: \1|p' "$log"
-    return "$status"
+    ctest --output-on-failure -j "$2" "${choice[@]}"
 }
 
 ros_build() {
@@ -88,33 +119,47 @@ ros_tests() {
     catkin_test_results --verbose "$WORK/ros/test_results"
 }
 
-# Those of tests/ros that no rostest runs, each file in a process of its own; files with a failure once more.
-plot_tests() {
+# The node, and the parallel parts of the core, with sanitizers.
+life_build() { "$ROOT/tests/checked.sh" build "$WORK/checked"; }
+life() { "$ROOT/tests/checked.sh" life "$TIER" "$WORK/checked" "$WORK/ros"; }
+checked() { "$ROOT/tests/checked.sh" rest "$WORK/checked" "$WORK/ros" "$WORK/core"; }
+
+# Those of tests/ros that no rostest runs, each file in a process of its own.
+tools_tests() {
     local file folder=$WORK/unittest status=0
     source_setup "$WORK/ros/devel/setup.bash"
     cd "$ROOT/tests/ros"
     mkdir -p "$folder"
     # shellcheck disable=SC2016
     for file in test_*.py; do
-        grep -qF "\"$file\"" ./*.test || echo "${file%.py}"
-    done | env "FOLDER=$folder" xargs -P "$(nproc)" -I MODULE sh -c '
-        python3 -m unittest -v MODULE >"$FOLDER/MODULE.log" 2>&1 || mv "$FOLDER/MODULE.log" "$FOLDER/MODULE.first"' ||
+        grep -qF "\"$file\"" ./*.test || [[ $TIER == first ]] && grep -qxF '# Second tier: tests/run.sh --all' "$file" ||
+            echo "${file%.py}"
+    done | env "FOLDER=$folder" xargs -P "$(nproc)" -I MODULE sh -c 'python3 -m unittest -v MODULE >"$FOLDER/MODULE.log" 2>&1' ||
         status=1
-    for file in "$folder"/*.first; do
-        [[ ! -e $file ]] || unittest_again "${file%.first}" || status=1
-    done
     cat "$folder"/*.log
     return "$status"
 }
 
-# unittest_again FOLDER/MODULE
-unittest_again() {
-    say "what failed, once more: $1.first"
-    python3 -m unittest -v "$(basename "$1")" >"$1.log" 2>&1 || return 1
-    echo "passed on the second try: $(basename "$1")"
-}
+# Both build in one folder: one after the other.
+demo() { "$ROOT/tests/demo.sh" "$TIER" "$WORK/demo"; }
+reproduce() { "$ROOT/tests/reproduce.sh" "$WORK/reproduce"; }
+
+readme() { "$ROOT/tests/readme.sh" "$WORK/readme" "$WORK/ros/.install/setup.bash"; }
 
 downstream() { "$ROOT/tests/install/ros.sh" "$WORK/downstream" "$WORK/ros" "$WORK/ros/.install"; }
+
+fuzz() { without_ros "$ROOT/tests/fuzz/run.sh" "$WORK/fuzz"; }
+
+slurm() { "$ROOT/tests/slurm.sh" "$WORK/slurm" "$WORK/ros/.install/setup.bash"; }
+# A Slurm of the suite's own needs root.
+can_slurm() { ((EUID == 0)) && command -v slurmctld slurmd srun >/dev/null; }
+
+ssh() { "$ROOT/tests/ssh.sh" "$WORK/ssh" "$WORK/ros/.install/setup.bash"; }
+# Nor do machines of its own go without root: they are network namespaces on a bridge.
+can_ssh() {
+    ((EUID == 0)) && command -v sshd ip >/dev/null && ip netns add "hdlyap$$" && ip netns del "hdlyap$$" &&
+        ip link add "hdlyap$$" type bridge && ip link del "hdlyap$$"
+} 2>/dev/null
 
 lint() {
     # the folder of a clone may have any name
@@ -125,6 +170,7 @@ lint() {
 sources() { find . \( -name build -o -name .git \) -prune -o -type f \( "$@" \) -print; }
 
 # As the formatters of Debian 12 have it, whose versions differ in details.
+can_format() { [[ $(clang-format --version) == *' 14.'* ]]; }
 format() {
     local -a in_c in_python
     cd "$ROOT"
@@ -135,13 +181,13 @@ format() {
 }
 
 # The public headers, as they are installed: of parameters and names that do not exist.
-public_headers() {
+doxygen() {
     mkdir -p "$WORK/doxygen"
     cd "$WORK/ros/.install/include"
     {
         cat "$ROOT/tests/doxygen/Doxyfile"
         printf "%s\n" "INPUT = hdlyap hdlyap_ros" "INCLUDE_PATH = ." "OUTPUT_DIRECTORY = $WORK/doxygen"
-    } | doxygen - >"$WORK/doxygen/said" 2>&1
+    } | command doxygen - >"$WORK/doxygen/said" 2>&1
     cat "$WORK/doxygen/said"
     [[ ! -s $WORK/doxygen/said ]] && python3 "$ROOT/tests/doxygen/names.py" "$WORK/doxygen/xml"
 }
@@ -169,11 +215,10 @@ count_one() { echo 1 0; }
 
 count_ctest() {
     awk 'match($0, /[0-9]+ tests? failed out of [0-9]+/) { split(substr($0, RSTART), word); total = word[6]; failed = word[1] }
-         /^passed on the second try: / { failed-- }
          END { print total + 0, failed + 0 }' "$1"
 }
 
-# of the last try of each, whose results replace the first ones; a test that was skipped has not passed
+# a test that was skipped has not passed
 count_catkin() {
     sed -nE 's/^Summary: ([0-9]+) tests, ([0-9]+) errors, ([0-9]+) failures, ([0-9]+) skipped.*/\1 \2 \3 \4/p' \
         "$1" | awk '{ print $1, $2 + $3 + $4 }'
@@ -188,19 +233,18 @@ count_checks() {
     awk '/^ok / { ok++ } /^FAILED / { failed++ } END { print ok + failed + 0, failed + 0 }' "$1"
 }
 
-# stage NAME COUNTER COMMAND...
+# stage NAME COUNTER
 stage() {
-    local name=$1 counter=$2 log=$LOGS/$1.log status=0 total=0 failed=0 TIMEFORMAT='%0R %0U %0S'
-    shift 2
-    { time run "$@" >"$log" 2>&1; } 2>"$log.time" || status=$?
-    read -r total failed < <("count_$counter" "$log") || true
+    local name=$1 log=$LOGS/$1.log status=0 total=0 failed=0 TIMEFORMAT='%0R %0U %0S'
+    { time run "$name" >"$log" 2>&1; } 2>"$log.time" || status=$?
+    read -r total failed < <("count_$2" "$log") || true
     # neither a crash behind the last test nor a run without tests is a success
     if ((total == 0 || status != 0 && failed == 0)); then
         failed=1
         total=$((total > 0 ? total : 1))
     fi
     report "$name" $((total - failed)) "$failed" "$log" >"$log.report"
-    flock "$COUNTS" cat "$log.report" # in one piece: the other lane reports too
+    flock "$COUNTS" cat "$log.report" # in one piece: other workers report too
 }
 
 # report NAME PASSED FAILED LOG: with seconds, and those of processors, where they were measured.
@@ -209,108 +253,90 @@ report() {
     read -r seconds user system < <(tail -n 1 "$4.time" 2>/dev/null) || true
     echo "$2 $3" >>"$COUNTS"
     printf '%-18s %4d passed %4d failed %5d s %5d s of processors\n' "${@:1:3}" "$seconds" $((user + system))
-    grep '^passed on the second try: ' "$4" | tee -a "$SECOND" || true
     if (($3)); then
         tail -n 60 "$4"
         say "all of it is in $4"
     fi
 }
 
-has_reported() { [[ -s $LOGS/$1.log.report ]]; }
+# ---- workers, each with one stage at a time: all processors are busy, also while a stage waits for ROS -----------------------
 
-# ---- two lanes beside each other: what computes, and what mostly waits for ROS -----------------
-
-# lane FUNCTION: its stages one after the other, in a process that ends what it has started.
-lane() {
-    CHILDREN=()
-    stop_at_exit
-    "$1"
+# choose: the rows of the tier that this machine can run, as TABLE; what it can't is said.
+choose() {
+    local name counter tier needs
+    TABLE=()
+    while read -r name counter tier needs; do
+        [[ $tier == first || $TIER == second ]] || continue
+        if declare -F "can_$name" >/dev/null && ! "can_$name"; then
+            say "$name: skipped, this machine or this user can't"
+        else
+            TABLE+=("$name $counter ${needs//,/ }")
+        fi
+    done < <(grep . <<<"$STAGES")
 }
 
-# A lane stops its own; unlike stop, which insists after a while, this leaves it the time.
-end_lanes() {
+# is_ready NEED...: have these reported, as far as they are in the tier?
+is_ready() {
+    local need
+    for need; do
+        [[ $need == - || -s $LOGS/$need.log.report || " ${TABLE[*]%% *} " != *" $need "* ]] || return 1
+    done
+}
+
+# worker: takes the first stage that is ready, until none is left, in a process that ends what it has started.
+worker() {
+    local row name counter needs left=1
+    CHILDREN=()
+    stop_at_exit
+    while ((left)); do
+        left=0
+        for row in "${TABLE[@]}"; do
+            read -r name counter needs <<<"$row"
+            [[ ! -d $TAKEN/$name ]] || continue
+            left=1
+            # shellcheck disable=SC2086
+            if is_ready $needs && mkdir "$TAKEN/$name" 2>/dev/null; then
+                stage "$name" "$counter"
+                continue 2
+            fi
+        done
+        sleep 0.3
+    done
+}
+
+# A worker stops its own; unlike stop, which insists after a while, this leaves it the time.
+end_workers() {
     local pid
     for pid in "${CHILDREN[@]}"; do kill -TERM "$pid" 2>/dev/null || true; done
     for pid in "${CHILDREN[@]}"; do wait "$pid" || true; done
 }
 
-# gives way: the other lane holds a node to what it does within a second
-core_lane() {
-    renice -n 5 "$BASHPID" >/dev/null
-    stage core_build one core_build
-    [[ $INSTALL == no ]] || stage other_blas one other_blas
-    stage core_tests ctest core_ctest
-    stage core_install checks core_install
-    stage sanitizers_build one sanitizers_build
-    stage sanitizers_tests ctest run_ctest "$WORK/sanitizers" "$(nproc)"
-    stage fuzz checks without_ros "$ROOT/tests/fuzz/run.sh" "$WORK/fuzz"
-    until has_reported ros_build || ! is_running "$ros"; do sleep 1; done
-    either_lane
-}
-
-ros_lane() {
-    stage ros_build one ros_build
-    stage ros_tests catkin ros_tests
-    either_lane
-}
-
-# What needs both builds, the longest first. Demo and reproduce build in one folder: one after the other.
-either_lane() {
-    first checked checks "$ROOT/tests/checked.sh" "$WORK/checked" "$WORK/core" "$WORK/ros"
-    first readme checks "$ROOT/tests/readme.sh" "$WORK/readme" "$WORK/ros/.install/setup.bash"
-    first demo checks flock -o "$TAKEN.build" "$ROOT/tests/demo.sh" "$WORK/demo"
-    first downstream checks downstream
-    first plot_tests unittest plot_tests
-    ! can_slurm || first slurm checks "$ROOT/tests/slurm.sh" "$WORK/slurm" "$WORK/ros/.install/setup.bash"
-    ! can_ssh || first ssh checks "$ROOT/tests/ssh.sh" "$WORK/ssh" "$WORK/ros/.install/setup.bash"
-    first reproduce checks flock -o "$TAKEN.build" "$ROOT/tests/reproduce.sh" "$WORK/reproduce"
-    first lint one lint
-    [[ $(clang-format --version) != *' 14.'* ]] || first format one format
-    first doxygen one public_headers
-}
-
-# A Slurm of the suite's own needs root.
-can_slurm() { ((EUID == 0)) && command -v slurmctld slurmd srun >/dev/null; }
-
-# Nor do machines of its own go without root: they are network namespaces on a bridge.
-can_ssh() {
-    ((EUID == 0)) && command -v sshd ip >/dev/null && ip netns add "hdlyap$$" && ip netns del "hdlyap$$" &&
-        ip link add "hdlyap$$" type bridge && ip link del "hdlyap$$"
-} 2>/dev/null
-
-# first NAME COUNTER COMMAND...: the stage, in the lane that comes first.
-first() { ! mkdir "$TAKEN/$1" 2>/dev/null || stage "$@"; }
-
 [[ $ROOT != *[[:space:]]* ]] || die "$ROOT: catkin runs no tests in a folder with a blank in its name; builds and demo do there" 2
-INSTALL=yes
-case ${1:-} in
-    --no-install) INSTALL=no ;;
-    # packages find no folder there yet
-    '') env -u TMPDIR -u XDG_RUNTIME_DIR "$ROOT/launch/install.sh" test ;;
-    *) die "usage: run.sh [--no-install]" 2 ;;
-esac
+TIER=first INSTALL=yes
+for option; do
+    case $option in
+        --all) TIER=second ;;
+        --no-install) INSTALL=no ;;
+        *) die "usage: run.sh [--all] [--no-install]" 2 ;;
+    esac
+done
+# packages find no folder there yet
+[[ $INSTALL == no ]] || env -u TMPDIR -u XDG_RUNTIME_DIR "$ROOT/launch/install.sh" test
 stop_at_exit
-trap end_lanes EXIT
+trap end_workers EXIT
 rm -rf "$WORK"
 can_write "$WORK" || die "the folder of the clone must be one that can be written"
 mkdir -p "$LOGS" "$TAKEN" "$TMPDIR"
 mkdir -m 700 "$XDG_RUNTIME_DIR"
-: >"$SECOND"
 : >"$TAKEN.since"
 own_environment "$WORK/home"
 
-stage shell_scripts one shell_scripts
-whole=0
-start lane ros_lane
-ros=$CHILD
-start lane core_lane
-finish "$CHILD" || whole=1
-finish "$ros" || whole=1
-stage warnings one warnings
-stage leftovers one leftovers
-can_ssh || say "ssh: skipped, needs root, openssh-server and iproute2"
-can_slurm || say "slurm: skipped, needs root, slurmctld, slurmd and slurm-client"
-((!whole)) || report "end of a lane" 0 1 "$COUNTS"
+SECONDS=0 whole=0
+choose
+for ((k = 0; k <= $(nproc); k++)); do start worker; done
+for pid in "${CHILDREN[@]}"; do finish "$pid" || whole=1; done
+for name in warnings leftovers; do stage "$name" one; done
+((!whole)) || report "end of a worker" 0 1 "$COUNTS"
+printf '%d s of wall time on %d processors\n' "$SECONDS" "$(nproc)"
 
-cat "$SECOND"
 awk '{ passed += $1; failed += $2 } END { print passed " passed, " failed + 0 " failed"; exit failed > 0 }' "$COUNTS"

@@ -2,9 +2,12 @@
 """Short lives of a node that is checked while it runs: subscribed to, paused, reset, stopped by
 Ctrl-C or at its end.
 
-sanitized.py NAME NODE          a build with sanitizers
-sanitized.py NAME COMMAND... NODE   run by a command (valgrind), which is too slow to be stopped
-within a second Prints what the node says, and 'ok NAME' if it ended as it should: the checks end it
+sanitized.py first NAME NODE    a build with sanitizers: one life
+sanitized.py second NAME NODE   and one that is stopped, and one that goes on with that
+sanitized.py second NAME COMMAND... NODE   run by a command (valgrind), which is too slow to be
+stopped within a second
+
+Prints what the node says, and 'ok NAME' if it ended as it should: the checks end it
 otherwise.
 """
 
@@ -93,25 +96,25 @@ def live(command, params, stopped=False):
             listener.close()
 
 
-def lives(command, checkpoint):
+def lives(tier, command, checkpoint):
     """Of a command each is slow; of a build one that ends by itself, one that is stopped, one that
     resumes the other's."""
     if len(command) > 1:
         return [live(command, dict(LITTLE, checkpoint=checkpoint))]
     whole = dict(WHOLE, checkpoint=checkpoint)
-    return [
-        live(command, dict(whole, duration=40.0, pace=20.0)),
-        live(command, dict(whole, duration=0.0), stopped=True),
-        live(command, dict(whole, duration=0.0, resume=checkpoint), stopped=True),
-    ]
+    statuses = [live(command, dict(whole, duration=40.0, pace=20.0))]
+    if tier == 'second':
+        statuses.append(live(command, dict(whole, duration=0.0), stopped=True))
+        statuses.append(live(command, dict(whole, duration=0.0, resume=checkpoint), stopped=True))
+    return statuses
 
 
-def main(name, *command):
+def main(tier, name, *command):
     master = harness.Master()
     os.environ['ROS_MASTER_URI'] = master.uri
     rospy.init_node('sanitized', disable_rosout=True)
     with tempfile.TemporaryDirectory() as folder:
-        statuses = lives(command, os.path.join(folder, 'kept'))
+        statuses = lives(tier, command, os.path.join(folder, 'kept'))
     rospy.signal_shutdown('done')
     master.stop()
     print(('FAILED ' if any(statuses) else 'ok ') + name)
