@@ -11,7 +11,7 @@ readonly WORK=$1 SETUP=$2
 FAILED=0
 
 readonly WRAPPER=$ROOT/doc/wrapper.md CORE=$ROOT/doc/core.md
-readonly DOCUMENTS=("$ROOT/README.md" "$ROOT/CONTRIBUTING.md" "$ROOT/doc/user_guide.md" "$ROOT/doc/performance.md")
+readonly DOCUMENTS=("$ROOT/README.md" "$ROOT/tests/README.md" "$ROOT/CONTRIBUTING.md" "$ROOT/doc/user_guide.md" "$ROOT/doc/performance.md")
 
 # blocks LANGUAGE FILE...: the contents of the fenced blocks of that language.
 blocks() { awk -v fence="\`\`\`$1" '$0 == "```" { on = 0 } on { print } $0 == fence { on = 1 }' "${@:2}"; }
