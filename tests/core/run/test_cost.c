@@ -1,0 +1,92 @@
+/** What a run says of its own time, by a clock that the test moves. */
+#include "base/clock.h"
+#include "run/run_state.h"
+
+#include "runs.h"
+#include "testing.h"
+
+static double now;  /* seconds */
+static double tick; /* by which each look moves it on */
+
+/** In place of the core's. */
+double hd_clock_now(void) { return now += tick; }
+
+static hd_scene_def short_scene(void)
+{
+    hd_scene_def scene = hd_scene_def_default();
+    scene.disks = 20;
+    scene.density = 0.7;
+    scene.aspect = 1.0;
+    scene.exponents = HD_EXPONENTS_POSITIVE;
+    scene.equilibration = 5.0;
+    scene.warmup = 10.0;
+    scene.duration = 40.0;
+    scene.report_interval = 1.0;
+    return scene;
+}
+
+enum {
+    SINCE = 100,
+    EQUILIBRATION = 5,
+    END = 55,
+    SECONDS = 3 /* for a time unit, with the frame */
+};
+
+static hd_run *started(double by)
+{
+    const hd_scene_def scene = short_scene();
+    now = SINCE;
+    tick = by;
+    return created(&scene);
+}
+
+/** Of sums of intervals, relative. */
+static const double ROUNDING = 1e-10;
+
+/** As the frame is carried at one pace, what is predicted is what is taken. */
+static void the_rest_takes_what_the_frame_has_taken(void **state)
+{
+    (void)state;
+    hd_run *run = started(0.0);
+    while (hd_run_stage(run) != HD_FINISHED) {
+        CHECK_OK(hd_run_advance(run));
+        const double time = hd_run_time(run);
+        const double taken = fmax(time - EQUILIBRATION, 0.0) * SECONDS;
+        now = SINCE + taken;
+        const hd_cost cost = hd_run_cost(run);
+        CHECK_CLOSE(cost.wall, taken, ROUNDING * END * SECONDS);
+        CHECK_CLOSE(cost.progress, time / END, ROUNDING);
+        CHECK_CLOSE(cost.remaining, time > EQUILIBRATION ? SECONDS * (END - time) : -1.0,
+                    ROUNDING * SECONDS * END);
+    }
+    hd_run_free(run);
+}
+
+/** Each stage looks at the clock before and after: it takes a second each time that it runs. */
+static void each_stage_has_its_own_seconds(void **state)
+{
+    (void)state;
+    hd_run *run = started(1.0);
+    long advances = 0;
+    for (; hd_run_stage(run) != HD_FINISHED; advances++) CHECK_OK(hd_run_advance(run));
+    const hd_cost cost = hd_run_cost(run);
+    const double intervals = (double)cost.orthonormalisations;
+    assert_true(intervals > 10 && intervals < (double)advances);
+    CHECK_CLOSE(cost.events, (double)advances, 0.0);
+    CHECK_CLOSE(cost.replay, intervals, 0.0);
+    CHECK_CLOSE(cost.ortho, intervals, 0.0);
+    CHECK_CLOSE(cost.spectrum, intervals, 0.0);
+    CHECK_CLOSE(cost.modes + cost.covariant + cost.communication, 0.0, 0.0);
+    CHECK_CLOSE(cost.events_per_second * cost.events,
+                (double)hd_trajectory_collisions(hd_run_trajectory(run)), 1e-6);
+    hd_run_free(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_rest_takes_what_the_frame_has_taken),
+        cmocka_unit_test(each_stage_has_its_own_seconds),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
