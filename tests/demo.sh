@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Tests launch/demo.sh as a user meets it, on the scene that takes seconds.
-#   demo.sh first|second WORK_FOLDER    first: one run and what is refused
+#   demo.sh first|second WORK_FOLDER BUILD    first: one run, in that build, and what is refused; second: all, built afresh
 set -euo pipefail
 # shellcheck source=launch/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
@@ -11,7 +11,8 @@ mkdir -p "$WORK/home" "$WORK/foreign"
 printf '#!/bin/sh\necho "foreign python3" >&2\nexit 97\n' >"$WORK/foreign/python3"
 chmod +x "$WORK/foreign/python3"
 
-readonly DEMO=(env "HOME=$WORK/home" "PATH=$WORK/foreign:$PATH" "$ROOT/launch/demo.sh" --no-install)
+DEMO=(env "HOME=$WORK/home" "PATH=$WORK/foreign:$PATH" "$ROOT/launch/demo.sh" --no-install)
+[[ $TIER == second ]] || DEMO+=(--build "$3")
 
 # shellcheck source=tests/check.sh
 source "$ROOT/tests/check.sh"

@@ -141,7 +141,7 @@ tools_tests() {
 }
 
 # Both build in one folder: one after the other.
-demo() { "$ROOT/tests/demo.sh" "$TIER" "$WORK/demo"; }
+demo() { "$ROOT/tests/demo.sh" "$TIER" "$WORK/demo" "$WORK/ros"; }
 reproduce() { "$ROOT/tests/reproduce.sh" "$WORK/reproduce"; }
 
 readme() { "$ROOT/tests/readme.sh" "$WORK/readme" "$WORK/ros/.install/setup.bash"; }
