@@ -4,7 +4,8 @@
 FAILED=0
 
 check() {
-    local name=$1 log=$WORK/$1.log
+    local name=$1 log=${1//[^[:alnum:]_.-]/_}
+    log=$WORK/${log:0:100}.log
     shift
     if "$@" >"$log" 2>&1; then
         echo "ok $name"

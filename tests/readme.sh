@@ -8,10 +8,12 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
 
 readonly WORK=$1 SETUP=$2
-FAILED=0
 
 readonly WRAPPER=$ROOT/doc/wrapper.md CORE=$ROOT/doc/core.md
 readonly DOCUMENTS=("$ROOT/README.md" "$ROOT/tests/README.md" "$ROOT/CONTRIBUTING.md" "$ROOT/doc/user_guide.md" "$ROOT/doc/performance.md")
+
+# shellcheck source=tests/check.sh
+source "$ROOT/tests/check.sh"
 
 # blocks LANGUAGE FILE...: the contents of the fenced blocks of that language.
 blocks() { awk -v fence="\`\`\`$1" '$0 == "```" { on = 0 } on { print } $0 == fence { on = 1 }' "${@:2}"; }
@@ -27,18 +29,6 @@ block() {
 # commands: one a line, each once, without comments.
 commands() {
     { blocks bash "${DOCUMENTS[@]}" && block bash watch_steps "$WRAPPER"; } | sed -E 's/ *#.*//; /^$/d' | awk '!seen[$0]++'
-}
-
-# check NAME COMMAND...
-check() {
-    local log=$WORK/log
-    if "${@:2}" >"$log" 2>&1; then
-        echo "ok $1"
-    else
-        tail -n 30 "$log"
-        echo "FAILED $1"
-        FAILED=1
-    fi
 }
 
 # Commands that other tests run: demo.sh, reproduce.sh, the suite itself, packages.sh, tests/ros/test_bags.py; the last one is

@@ -3,42 +3,29 @@
 #   run.sh WORK_FOLDER
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-work=$1
+readonly WORK=$1
+# shellcheck source=tests/check.sh
+source "$here/../check.sh"
 
 build() {
-    cmake -S "$here" -B "$work/build" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS=-O1
-    cmake --build "$work/build" -- -j "$(nproc)"
+    cmake -S "$here" -B "$WORK/build" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS=-O1
+    cmake --build "$WORK/build" -- -j "$(nproc)"
 }
 
 # fuzz TARGET RUNS OPTION...: a leak, an input that takes 10 s or 2 GB of memory are findings too.
 fuzz() {
-    local target=$1 runs=$2 corpus=$work/corpus/$1
+    local target=$1 runs=$2 corpus=$WORK/corpus/$1
     shift 2
     mkdir -p "$corpus"
-    "$work/build/$target" -runs="$runs" -seed=1 -timeout=10 -rss_limit_mb=2048 \
-        -artifact_prefix="$work/$target-" "$@" "$corpus"
+    "$WORK/build/$target" -runs="$runs" -seed=1 -timeout=10 -rss_limit_mb=2048 \
+        -artifact_prefix="$WORK/$target-" "$@" "$corpus"
 }
 
-# check NAME COMMAND...
-check() {
-    local name=$1
-    shift
-    if "$@" >"$work/$name.log" 2>&1; then
-        grep -E 'DONE' "$work/$name.log" || true
-        echo "ok $name"
-    else
-        tail -n 40 "$work/$name.log"
-        echo "FAILED $name"
-        failed=1
-    fi
-}
-
-failed=0
-rm -rf "$work/corpus"
-mkdir -p "$work/corpus/fuzz_checkpoint"
+rm -rf "$WORK/corpus"
+mkdir -p "$WORK/corpus/fuzz_checkpoint"
 # few threads and no pool: what a file asks for is not this machine's to give
-export OMP_THREAD_LIMIT=2 OPENBLAS_NUM_THREADS=1 HDLYAP_SEEDS=$work/corpus/fuzz_checkpoint
+export OMP_THREAD_LIMIT=2 OPENBLAS_NUM_THREADS=1 HDLYAP_SEEDS=$WORK/corpus/fuzz_checkpoint
 check fuzz_build build
 check fuzz_settings fuzz fuzz_settings 60000 -max_len=400 -len_control=0
 check fuzz_checkpoint fuzz fuzz_checkpoint 20000
-exit "$failed"
+exit "$FAILED"
