@@ -1,7 +1,10 @@
-/** Which kernels are taken for which processor, and the restart. */
+/** Which kernels are taken for which processor, the restart, and room for threads. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include "testing.h"
 
@@ -31,6 +34,33 @@ static void the_library_says_what_it_is(void **state)
     assert_non_null(blas.kernel);
     hd_blas_use_threads(1);
     assert_int_equal(hd_blas_query().threads, 1);
+}
+
+static size_t asked; /* bytes of address space that nobody is to use, last */
+static size_t at_most = SIZE_MAX;
+
+/** In place of the library's. */
+void *mmap(void *place, size_t size, int protection, int flags, int file, off_t offset)
+{
+    if (protection == PROT_NONE) {
+        asked = size;
+        if (size > at_most) return MAP_FAILED;
+    }
+    return (void *)syscall(SYS_mmap, place, size, protection, flags, file, offset);
+}
+
+/** Each thread has a buffer and a stack of its own. */
+static void room_is_for_each_thread(void **state)
+{
+    (void)state;
+    CHECK_OK(hd_blas_room(1));
+    const size_t one = asked;
+    CHECK_OK(hd_blas_room(7));
+    assert_true(one > 0 && asked == 7 * one);
+    at_most = 7 * one;
+    CHECK_OK(hd_blas_room(7));
+    assert_int_equal(hd_blas_room(8), HD_NO_MEMORY);
+    at_most = SIZE_MAX;
 }
 
 /** Kernels of OpenBLAS that run on every processor of this kind, and that hardly one would get by
@@ -99,9 +129,8 @@ int main(int argc, char **argv)
     if (argc > 1 && strcmp(argv[1], "kernel") == 0) return print_kernel(argv);
     self = argv[0];
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(old_kernels_are_noticed),
-        cmocka_unit_test(the_library_says_what_it_is),
-        cmocka_unit_test(a_users_choice_is_kept),
+        cmocka_unit_test(old_kernels_are_noticed),  cmocka_unit_test(the_library_says_what_it_is),
+        cmocka_unit_test(room_is_for_each_thread),  cmocka_unit_test(a_users_choice_is_kept),
         cmocka_unit_test(a_restart_keeps_the_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
