@@ -19,7 +19,7 @@ source "$ROOT/tests/check.sh"
 build_with() {
     local sanitizer=$1 c=$2 cxx=$3
     shift 3
-    cmake -S "$ROOT" -B "$WORK/$sanitizer" -G Ninja -DPYTHON_EXECUTABLE=/usr/bin/python3 \
+    ROS_LANG_DISABLE=genlisp:genpy cmake -S "$ROOT" -B "$WORK/$sanitizer" -G Ninja -DPYTHON_EXECUTABLE=/usr/bin/python3 \
         "-DCMAKE_C_COMPILER=$c" "-DCMAKE_CXX_COMPILER=$cxx" -DCMAKE_BUILD_TYPE=Debug \
         -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 -DHDLYAP_CORE_TESTS=ON \
         "-DHDLYAP_SANITIZE=$sanitizer"

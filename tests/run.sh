@@ -12,6 +12,7 @@ readonly LOGS=$WORK/log COUNTS=$WORK/counts TAKEN=$WORK/taken
 export TMPDIR=$WORK/tmp XDG_RUNTIME_DIR=$WORK/runtime
 export LC_ALL=C.UTF-8 # of messages that tests read
 unset LANGUAGE
+export ROS_LANG_DISABLE=genlisp # messages that no test reads
 export HDLYAP_SUITE=$$.$EPOCHREALTIME # marks its processes
 # Core and wrapper are compiled alone, for ROS and for the demo, each time the same: a cache of this run's own.
 readonly CACHE=(CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache "CCACHE_DIR=$WORK/ccache" CCACHE_NOHASHDIR=1
