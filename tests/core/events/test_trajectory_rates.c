@@ -51,9 +51,8 @@ static estimate rate_per_disk(const hd_scene_def *def, double pair_events)
 }
 
 /** [T2] is good to a percent below freezing; 400 disks differ from infinitely many by 1/N. */
-static void enskog_with_henderson(void **state)
+TEST(enskog_with_henderson)
 {
-    (void)state;
     const double density[] = {0.1, 0.3, 0.5, 0.7}, allowed = 0.01;
     for (size_t k = 0; k < 4; k++) {
         hd_scene_def def = scene_of(400, density[k], 0.9, HD_PERIODIC, HD_PERIODIC, 21);
@@ -67,9 +66,8 @@ static void enskog_with_henderson(void **state)
 }
 
 /** The collision rate that the trajectory itself reports is this estimate, in pair events. */
-static void reported_estimate(void **state)
+TEST(reported_estimate)
 {
-    (void)state;
     const hd_scene_def def = scene_of(400, 0.5, 0.9, HD_PERIODIC, HD_PERIODIC, 21);
     hd_trajectory *tr;
     CHECK_OK(hd_trajectory_create(&tr, &def));
@@ -81,9 +79,8 @@ static void reported_estimate(void **state)
 /** Published with one standard error in the last digit: "collisions per disk and time" count the
  * participations of a disk, two for each pair event (half of them would be off by a factor of
  * two). */
-static void independent_codes(void **state)
+TEST(independent_codes)
 {
-    (void)state;
     const struct {
         int disks;
         double density, rate, error;
@@ -127,9 +124,8 @@ static estimate mean_impact(const hd_scene_def *def, double pair_events)
     return estimate_of(block);
 }
 
-static void impact_is_exact(void **state)
+TEST(impact_is_exact)
 {
-    (void)state;
     const int disks[] = {16, 100, 16, 4};
     const double density[] = {0.7, 0.5, 0.05, 0.3};
     for (size_t k = 0; k < 4; k++) {
@@ -138,15 +134,4 @@ static void impact_is_exact(void **state)
         assert_true(impact.error < 5e-3 * impact.mean);
         CHECK_CLOSE(impact.mean, exact_mean_impact(disks[k]), Z * impact.error);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(enskog_with_henderson),
-        cmocka_unit_test(reported_estimate),
-        cmocka_unit_test(independent_codes),
-        cmocka_unit_test(impact_is_exact),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

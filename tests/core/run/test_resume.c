@@ -59,10 +59,9 @@ static unsigned drawn_observables(hd_random *random, const hd_scene_def *def)
 
 static hd_scene_def drawn(hd_random *random)
 {
-    hd_scene_def def = hd_scene_def_default();
-    def.disks = 2 + (int)(28.0 * pow(uniform(random), 2.0));
-    def.density = log_uniform(random, 0.02, 0.9);
-    def.aspect = log_uniform(random, 0.1, 10.0);
+    hd_scene_def def = scene(.disks = 2 + (int)(28.0 * pow(uniform(random), 2.0)),
+                             .density = log_uniform(random, 0.02, 0.9),
+                             .aspect = log_uniform(random, 0.1, 10.0));
     for (int d = 0; d < 2; d++) def.boundary[d] = (hd_boundary)one_of(random, 2);
     def.seed = (uint64_t)one_of(random, 1 << 30);
     def.exponents = drawn_exponents(random, def.disks);

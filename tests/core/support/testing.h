@@ -28,4 +28,14 @@ static inline void check_close(double got, double want, double tolerance, const 
 /** The call returned HD_OK. */
 #define CHECK_OK(call) assert_string_equal(hd_status_text(call), hd_status_text(HD_OK))
 
+/** A test of this program, TEST(what_it_says) { .. }: it runs in its turn, by being there. */
+#define TEST(name)                                                                                 \
+    static void name(void **state_);                                                               \
+    __attribute__((constructor)) static void name##_is_there(void) { tests_add(#name, name); }     \
+    static void name(void **state_ __attribute__((unused)))
+
+void tests_add(const char *name, CMUnitTestFunction test);
+/** All of them, or those whose name fits; the number of failures. */
+int tests_run(const char *filter);
+
 #endif
