@@ -94,5 +94,5 @@ int main(int argc, char **argv)
 {
     if (argc > 1 && strcmp(argv[1], "kernel") == 0) return print_kernel(argv);
     self = argv[0];
-    return tests_run(NULL);
+    return tests_run(argc > 1 ? argv[1] : NULL);
 }

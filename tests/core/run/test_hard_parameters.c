@@ -1,4 +1,4 @@
-/** Ten thousand random scenes, possible and impossible: each runs, or is refused by the name of a
+/** Thousands of random scenes, possible and impossible: each runs, or is refused by the name of a
  * parameter. */
 #include <float.h>
 #include <limits.h>
@@ -11,7 +11,7 @@
 #include "runs.h"
 #include "testing.h"
 
-enum { SETS = HD_SANITIZED ? 2000 : 10000, LINE = 256, PARAMETERS_MAX = 100 };
+enum { LINE = 256, PARAMETERS_MAX = 100 };
 
 /** A run is followed for so long: the first steps are short, each at most four times the one
  * before. */
@@ -272,12 +272,12 @@ static const char *scene_fault(hd_random *random, const hd_scene_def *def, tally
     return fault;
 }
 
-static void report(const tally *seen)
+static void report(const tally *seen, int sets)
 {
     print_message(
         "of %d scenes %d ran (%d of them as far as averages), %d were refused, %d were too "
         "large to be run here\n  refused by",
-        SETS, seen->run, seen->averaged, seen->refused, seen->large);
+        sets, seen->run, seen->averaged, seen->refused, seen->large);
     int count;
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) print_message(" %s %d", rows[k].name, seen->refused_by[k]);
@@ -287,9 +287,10 @@ static void report(const tally *seen)
 TEST(each_runs_or_is_refused_by_name)
 {
     hd_random random = hd_random_seeded(20260801, 0);
+    const int sets = HD_SANITIZED ? 2000 : second_tier() ? 10000 : 4000;
     tally seen = {0};
     int faults = 0;
-    for (int number = 0; number < SETS; number++) {
+    for (int number = 0; number < sets; number++) {
         const hd_scene_def def = drawn(&random);
         const char *fault = scene_fault(&random, &def, &seen);
         if (!fault) continue;
@@ -297,10 +298,10 @@ TEST(each_runs_or_is_refused_by_name)
         print_error("  %s\n", fault);
         faults++;
     }
-    report(&seen);
+    report(&seen, sets);
     assert_int_equal(faults, 0);
-    assert_true(seen.run >= SETS / 10 && seen.refused >= SETS / 10);
-    assert_true(seen.averaged >= SETS / 20);
+    assert_true(seen.run >= sets / 10 && seen.refused >= sets / 10);
+    assert_true(seen.averaged >= sets / 20);
 }
 
 /** Steps until the run ends; fails if one goes nowhere, or takes more events than it should. */

@@ -14,7 +14,7 @@
 #include "run/run_state.h"
 #include "same.h"
 
-enum { RUNS = HD_SANITIZED ? 30 : 300, STEPS = 400 };
+enum { RUNS = HD_SANITIZED ? 30 : 120, RUNS_OF_SECOND_TIER = 300, STEPS = 400 };
 
 /** Enough of disks without exponents, which take some 1e5 in a step. */
 static const uint64_t EVENTS = 300000;
@@ -251,7 +251,8 @@ static void a_resumed_run_is_the_uninterrupted_one(void **state)
 
 int main(int count, char **argument)
 {
-    const size_t runs = count > 1 ? (size_t)strtoul(argument[1], NULL, 10) : RUNS;
+    const size_t usual = second_tier() ? RUNS_OF_SECOND_TIER : RUNS;
+    const size_t runs = count > 1 ? (size_t)strtoul(argument[1], NULL, 10) : usual;
     const uint64_t first = count > 2 ? strtoull(argument[2], NULL, 10) : 1;
     struct CMUnitTest *tests = calloc(runs, sizeof *tests);
     struct named {

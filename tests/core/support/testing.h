@@ -6,7 +6,9 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdbool.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include <cmocka.h>
 
@@ -27,6 +29,10 @@ static inline void check_close(double got, double want, double tolerance, const 
 
 /** The call returned HD_OK. */
 #define CHECK_OK(call) assert_string_equal(hd_status_text(call), hd_status_text(HD_OK))
+
+/** In the second tier a test tries as many cases of a kind as it has; in the first one some of
+ * them. CMake sets the variable. */
+static inline bool second_tier(void) { return getenv("HDLYAP_SECOND_TIER") != NULL; }
 
 /** A test of this program, TEST(what_it_says) { .. }: it runs in its turn, by being there. */
 #define TEST(name)                                                                                 \
