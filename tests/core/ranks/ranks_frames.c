@@ -180,8 +180,4 @@ TEST(what_is_dependent_is_said_by_all)
     frames_free(&f);
 }
 
-int main(int argc, char **argv)
-{
-    if (!ranks_begin(argc, argv)) return 77;
-    return ranks_end(tests_run(NULL));
-}
+int main(int argc, char **argv) { return ranks_main(argc, argv); }

@@ -63,8 +63,4 @@ TEST(what_one_does_not_get_ends_all)
     }
 }
 
-int main(int argc, char **argv)
-{
-    if (!ranks_begin(argc, argv)) return 77;
-    return ranks_end(tests_run(NULL));
-}
+int main(int argc, char **argv) { return ranks_main(argc, argv); }

@@ -412,8 +412,4 @@ TEST(what_they_cannot_carry_is_refused)
     assert_non_null(strstr(message, "all_independent"));
 }
 
-int main(int argc, char **argv)
-{
-    if (!ranks_begin(argc, argv)) return 77;
-    return ranks_end(tests_run(NULL));
-}
+int main(int argc, char **argv) { return ranks_main(argc, argv); }

@@ -86,7 +86,7 @@ static void catch_up(hd_run *run, double time)
 }
 
 /** Of the slowest vectors as a set, against those of a twin that is orthonormalised at this time: a
- * tenth of the looks may be a thousandth off the set (test_tail). */
+ * tenth of the looks may be a thousandth off the set (test_slow_vectors). */
 TEST(each_step_ends_with_the_vectors_wanted)
 {
     hd_scene_def scene = scene_from(long_box(30.0), .report_interval = 0.25);
