@@ -49,7 +49,7 @@ readonly MEMCHECK=(valgrind --quiet --leak-check=full --errors-for-leak-kinds=de
 
 # 12 disks between walls, all vectors, modes, steps and phases, 5 time units
 core_in_valgrind() {
-    "${MEMCHECK[@]}" "$(find "$CORE" -name hdlyap_load -type f)" 12 0.7 1 0 1 -2 7 7 5
+    "${MEMCHECK[@]}" "$(find "$CORE" -name hdlyap_load -type f)" 12 0.7 1 0 1 -2 7 5
 }
 
 # live TIER NAME COMMAND...: a node's short life, see sanitized.py.

@@ -91,6 +91,7 @@ can_blas() { [[ $INSTALL == yes ]]; }
 
 core_tests() {
     local folders=("$WORK"/blas/usr/lib/*/)
+    [[ $TIER == first ]] || export HDLYAP_SECOND_TIER=1 # more cases of a kind
     HDLYAP_BLAS=${folders[0]} run_ctest "$WORK/core" "$(nproc)"
 }
 

@@ -53,9 +53,8 @@ static verdict judge(double memory, int samples, uint64_t seed)
 
 /** Whether the series is white, slow (correlation time 1.5, 4.5 or 20) or anticorrelated; where it
  * is at least 13 independent numbers long. The noise of 16 blocks alone makes the ratio 1.07. */
-static void errors_see_the_memory(void **state)
+TEST(errors_see_the_memory)
 {
-    (void)state;
     static const struct {
         double memory;
         int samples;
@@ -100,9 +99,8 @@ static void increments(double out[2], double diffusing, int samples, uint64_t se
 
 /** Numbers of variance 1/3. Diffusing: sqrt(1/3n), and so it is stated. Trembling: the mean is off
  * by sqrt(2/3) / n; stated is, from 24 to 47 blocks, 4 to 7 times that, as [T8] says. */
-static void errors_of_what_only_trembles_are_too_large(void **state)
+TEST(errors_of_what_only_trembles_are_too_large)
 {
-    (void)state;
     const double KNOWN_TO = 0.06; /* 2000 series know each to 2 % */
     for (int samples = 256; samples <= 4096; samples *= 4) {
         double got[2];
@@ -118,9 +116,8 @@ static void errors_of_what_only_trembles_are_too_large(void **state)
 
 /* ---- what is known ------------------------------------------------------------------------- */
 
-static void few_samples_give_no_error(void **state)
+TEST(few_samples_give_no_error)
 {
-    (void)state;
     hd_blocks blocks;
     CHECK_OK(hd_blocks_create(&blocks, 1, 0.0));
     for (int k = 0; k < HD_SPECTRUM_BLOCKS_MIN - 1; k++) {
@@ -135,9 +132,8 @@ static void few_samples_give_no_error(void **state)
 }
 
 /** A ramp: each block says what the next one will be. */
-static void a_memory_as_long_as_the_series_gives_no_error(void **state)
+TEST(a_memory_as_long_as_the_series_gives_no_error)
 {
-    (void)state;
     for (int samples = 16; samples < 1000; samples += 61) {
         hd_blocks blocks;
         CHECK_OK(hd_blocks_create(&blocks, 1, 0.0));
@@ -147,9 +143,8 @@ static void a_memory_as_long_as_the_series_gives_no_error(void **state)
     }
 }
 
-static void a_constant_has_error_zero(void **state)
+TEST(a_constant_has_error_zero)
 {
-    (void)state;
     hd_blocks blocks;
     CHECK_OK(hd_blocks_create(&blocks, 2, 0.0));
     for (int k = 0; k < 100; k++) hd_blocks_add(&blocks, (double[]){3.0, k % 2 ? 1.0 : -1.0}, 1.0);
@@ -159,9 +154,8 @@ static void a_constant_has_error_zero(void **state)
 }
 
 /** In few blocks and in many: unknown is something else. */
-static void what_is_no_number_has_no_error(void **state)
+TEST(what_is_no_number_has_no_error)
 {
-    (void)state;
     for (int samples = 20; samples <= 200; samples += 90) {
         hd_blocks blocks;
         CHECK_OK(hd_blocks_create(&blocks, 1, 0.0));
@@ -176,9 +170,8 @@ static void what_is_no_number_has_no_error(void **state)
 /* ---- sums ---------------------------------------------------------------------------------- */
 
 /** x; y = -x; z, as large and on its own: what is added up knows what goes together. */
-static void sums_know_what_goes_together(void **state)
+TEST(sums_know_what_goes_together)
 {
-    (void)state;
     enum { SAMPLES = 96 * 64 + 1 }; /* 48 blocks and a sample */
     static const struct {
         hd_part part[3];
@@ -202,9 +195,8 @@ static void sums_know_what_goes_together(void **state)
 }
 
 /** Samples of different weights: a mean per weight of exactly 2 has no error. */
-static void means_are_per_weight(void **state)
+TEST(means_are_per_weight)
 {
-    (void)state;
     hd_blocks blocks;
     CHECK_OK(hd_blocks_create(&blocks, 1, 0.0));
     for (int k = 0; k < 77; k++) {
@@ -218,9 +210,8 @@ static void means_are_per_weight(void **state)
 /* ---- blocks -------------------------------------------------------------------------------- */
 
 /** They hold everything but for the block that is being filled, and are equally long. */
-static void blocks_hold_the_whole_history(void **state)
+TEST(blocks_hold_the_whole_history)
 {
-    (void)state;
     hd_blocks blocks;
     CHECK_OK(hd_blocks_create(&blocks, 1, 2.5));
     int most = 0;
@@ -242,9 +233,8 @@ static void blocks_hold_the_whole_history(void **state)
     hd_blocks_clear(&blocks);
 }
 
-static void a_series_can_be_forgotten(void **state)
+TEST(a_series_can_be_forgotten)
 {
-    (void)state;
     hd_blocks blocks;
     CHECK_OK(hd_blocks_create(&blocks, 2, 0.0));
     for (int k = 0; k < 20; k++) hd_blocks_add(&blocks, (double[]){k, 1.0}, 1.0);
@@ -254,21 +244,4 @@ static void a_series_can_be_forgotten(void **state)
         CHECK_CLOSE(hd_blocks_sum(&blocks, k)[1], 1.0, 0.0);
     }
     hd_blocks_clear(&blocks);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(errors_see_the_memory),
-        cmocka_unit_test(errors_of_what_only_trembles_are_too_large),
-        cmocka_unit_test(few_samples_give_no_error),
-        cmocka_unit_test(a_memory_as_long_as_the_series_gives_no_error),
-        cmocka_unit_test(a_constant_has_error_zero),
-        cmocka_unit_test(what_is_no_number_has_no_error),
-        cmocka_unit_test(sums_know_what_goes_together),
-        cmocka_unit_test(means_are_per_weight),
-        cmocka_unit_test(blocks_hold_the_whole_history),
-        cmocka_unit_test(a_series_can_be_forgotten),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,9 +3,8 @@
 
 #include "hdlyap/spectrum.h"
 
-static void means_are_weighted_by_time(void **state)
+TEST(means_are_weighted_by_time)
 {
-    (void)state;
     hd_spectrum *s;
     CHECK_OK(hd_spectrum_create(&s, 4, 2, 0.0));
     CHECK_CLOSE(hd_spectrum_exponent(s, 0), 0.0, 0.0);
@@ -38,9 +37,8 @@ static void expect_no_local(const hd_spectrum *s)
 }
 
 /** Each sample is told once, together with those that have ended since the last time. */
-static void local_exponents_are_of_the_samples_since(void **state)
+TEST(local_exponents_are_of_the_samples_since)
 {
-    (void)state;
     hd_spectrum *s;
     CHECK_OK(hd_spectrum_create(&s, 4, 2, 0.0));
     hd_spectrum_add(s, (const double[]){6.0, -1.0}, 2.0);
@@ -62,9 +60,8 @@ static void local_exponents_are_of_the_samples_since(void **state)
     hd_spectrum_free(s);
 }
 
-static void all_exponents_show_the_pairing_error(void **state)
+TEST(all_exponents_show_the_pairing_error)
 {
-    (void)state;
     hd_spectrum *s;
     CHECK_OK(hd_spectrum_create(&s, 4, 4, 0.0));
     hd_spectrum_add(s, (const double[]){3.0, 1.0, -1.25, -3.0}, 1.0);
@@ -75,9 +72,8 @@ static void all_exponents_show_the_pairing_error(void **state)
 }
 
 /** Alternating series: mean and naive error known; the error must shrink, not the mean. */
-static void the_error_is_that_of_the_samples(void **state)
+TEST(the_error_is_that_of_the_samples)
 {
-    (void)state;
     hd_spectrum *s;
     CHECK_OK(hd_spectrum_create(&s, 4, 1, 0.0));
     for (int k = 0; k < 64; k++) { /* de Bruijn-like: no memory at any length */
@@ -88,15 +84,4 @@ static void the_error_is_that_of_the_samples(void **state)
     CHECK_CLOSE(hd_spectrum_exponent(s, 0), 63.0 / 64.0, 1e-14);
     assert_true(hd_spectrum_std_error(s, 0) > 0 && hd_spectrum_std_error(s, 0) < 0.2);
     hd_spectrum_free(s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(means_are_weighted_by_time),
-        cmocka_unit_test(local_exponents_are_of_the_samples_since),
-        cmocka_unit_test(all_exponents_show_the_pairing_error),
-        cmocka_unit_test(the_error_is_that_of_the_samples),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

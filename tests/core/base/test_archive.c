@@ -38,9 +38,8 @@ static hd_archive written(FILE *file, sample s)
     return a;
 }
 
-static void what_is_written_is_read(void **state)
+TEST(what_is_written_is_read)
 {
-    (void)state;
     FILE *file = tmpfile();
     hd_archive a = written(file, EXAMPLE);
     assert_int_equal(a.status, HD_OK);
@@ -75,9 +74,8 @@ static hd_archive read_changed(sample s, int more, long place, const void *bytes
     return a;
 }
 
-static void what_is_wrong_is_named(void **state)
+TEST(what_is_wrong_is_named)
 {
-    (void)state;
     enum { HEAD = HD_ARCHIVE_NAME + 16, WHOLE = HEAD + 16 + HEAD, LARGE = WHOLE + 8 + HEAD };
     enum { END_OF_TEXT = LARGE + 8 + HEAD + 8 + HEAD + TEXT - 1, COUNT = END_OF_TEXT + 1 + HEAD };
     const double nan = NAN;
@@ -117,9 +115,8 @@ static void what_is_wrong_is_named(void **state)
     }
 }
 
-static void what_is_no_number_is_not_written(void **state)
+TEST(what_is_no_number_is_not_written)
 {
-    (void)state;
     FILE *file = tmpfile();
     sample bad = EXAMPLE;
     bad.x[1] = INFINITY;
@@ -127,14 +124,4 @@ static void what_is_no_number_is_not_written(void **state)
     assert_int_equal(hd_archive_end(&a), HD_NOT_FINITE);
     assert_string_equal(a.name, "x");
     fclose(file);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_written_is_read),
-        cmocka_unit_test(what_is_wrong_is_named),
-        cmocka_unit_test(what_is_no_number_is_not_written),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

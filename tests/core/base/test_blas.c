@@ -10,9 +10,8 @@
 
 #include "hdlyap/blas.h"
 
-static void old_kernels_are_noticed(void **state)
+TEST(old_kernels_are_noticed)
 {
-    (void)state;
     assert_string_equal(hd_blas_better_kernel("Prescott", 1, 1), "SkylakeX");
     assert_string_equal(hd_blas_better_kernel("Prescott", 1, 0), "Haswell");
     assert_string_equal(hd_blas_better_kernel("Haswell", 1, 1), "SkylakeX");
@@ -25,9 +24,8 @@ static void old_kernels_are_noticed(void **state)
     assert_null(hd_blas_better_kernel("unknown", 1, 1)); /* not OpenBLAS */
 }
 
-static void the_library_says_what_it_is(void **state)
+TEST(the_library_says_what_it_is)
 {
-    (void)state;
     const hd_blas blas = hd_blas_query();
     assert_true(blas.cores >= 1 && blas.threads >= 1);
     assert_non_null(blas.library);
@@ -50,9 +48,8 @@ void *mmap(void *place, size_t size, int protection, int flags, int file, off_t 
 }
 
 /** Each thread has a buffer and a stack of its own. */
-static void room_is_for_each_thread(void **state)
+TEST(room_is_for_each_thread)
 {
-    (void)state;
     CHECK_OK(hd_blas_room(1));
     const size_t one = asked;
     CHECK_OK(hd_blas_room(7));
@@ -99,9 +96,8 @@ static void run_child(const char *environment, char *line, int size)
     assert_int_equal(pclose(pipe), 0);
 }
 
-static void a_users_choice_is_kept(void **state)
+TEST(a_users_choice_is_kept)
 {
-    (void)state;
     char line[256], setting[80], expected[64];
     if (!OLD || strcmp(hd_blas_query().kernel, "unknown") == 0) skip();
     snprintf(setting, sizeof setting, "OMP_WAIT_POLICY=passive OPENBLAS_CORETYPE=%s", OLD);
@@ -114,9 +110,8 @@ static void a_users_choice_is_kept(void **state)
 }
 
 /** That killall and pgrep know, whatever the link that it was started by is called. */
-static void a_restart_keeps_the_name(void **state)
+TEST(a_restart_keeps_the_name)
 {
-    (void)state;
     char line[256];
     run_child("-u OPENBLAS_CORETYPE", line, sizeof line);
 #if defined(__linux__)
@@ -128,10 +123,5 @@ int main(int argc, char **argv)
 {
     if (argc > 1 && strcmp(argv[1], "kernel") == 0) return print_kernel(argv);
     self = argv[0];
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(old_kernels_are_noticed),  cmocka_unit_test(the_library_says_what_it_is),
-        cmocka_unit_test(room_is_for_each_thread),  cmocka_unit_test(a_users_choice_is_kept),
-        cmocka_unit_test(a_restart_keeps_the_name),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return tests_run(argc > 1 ? argv[1] : NULL);
 }

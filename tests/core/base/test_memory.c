@@ -12,9 +12,8 @@ static const size_t SIZES[] = {1,        7,       63,      64, 65, 4096, 100000,
                                1u << 20, 3000001, 1u << 21};
 enum { SIZE_COUNT = sizeof SIZES / sizeof *SIZES };
 
-static void blocks_are_aligned_and_zero(void **state)
+TEST(blocks_are_aligned_and_zero)
 {
-    (void)state;
     for (int round = 0; round < 3; round++)
         for (int k = 0; k < SIZE_COUNT; k++) {
             unsigned char *block = hd_memory_alloc(SIZES[k], 1);
@@ -26,18 +25,16 @@ static void blocks_are_aligned_and_zero(void **state)
         }
 }
 
-static void count_times_size(void **state)
+TEST(count_times_size)
 {
-    (void)state;
     double *block = hd_memory_alloc(1000, sizeof *block);
     assert_non_null(block);
     for (int k = 0; k < 1000; k++) block[k] = k; /* all of it is ours: the sanitizer watches */
     hd_memory_free(block);
 }
 
-static void nothing_is_something(void **state)
+TEST(nothing_is_something)
 {
-    (void)state;
     void *none = hd_memory_alloc(0, 8), *empty = hd_memory_alloc(8, 0);
     assert_non_null(none);
     assert_non_null(empty);
@@ -47,9 +44,8 @@ static void nothing_is_something(void **state)
     hd_memory_free(NULL);
 }
 
-static void overflow_gives_null(void **state)
+TEST(overflow_gives_null)
 {
-    (void)state;
     const size_t most = SIZE_MAX;
     const size_t pairs[][2] = {
         {most, 1},         {1, most},           {most, most},   {most / 2 + 1, 2},
@@ -60,23 +56,12 @@ static void overflow_gives_null(void **state)
     assert_int_equal(hd_memory_allocations(), before);
 }
 
-static void allocations_are_counted(void **state)
+TEST(allocations_are_counted)
 {
-    (void)state;
     const size_t before = hd_memory_allocations();
     void *first = hd_memory_alloc(3, 3), *second = hd_memory_alloc(1, 1 << 21);
     assert_int_equal(hd_memory_allocations(), before + 2);
     hd_memory_free(first);
     hd_memory_free(second);
     assert_int_equal(hd_memory_allocations(), before + 2);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(blocks_are_aligned_and_zero), cmocka_unit_test(count_times_size),
-        cmocka_unit_test(nothing_is_something),        cmocka_unit_test(overflow_gives_null),
-        cmocka_unit_test(allocations_are_counted),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

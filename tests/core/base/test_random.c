@@ -29,9 +29,8 @@ static const struct {
      {-0x1.2edced3db2888p-2, -0x1.fa2102fa773eap-1, 0x1.7359f05bc75e0p-3, -0x1.1bcd48dde408ap-1}},
 };
 
-static void known_first_values(void **state)
+TEST(known_first_values)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof KNOWN / sizeof *KNOWN; k++) {
         hd_random random = hd_random_seeded(KNOWN[k].seed, KNOWN[k].stream);
         for (int n = 0; n < 4; n++) {
@@ -42,9 +41,8 @@ static void known_first_values(void **state)
     }
 }
 
-static void multiples_of_2_to_minus_52_in_range(void **state)
+TEST(multiples_of_2_to_minus_52_in_range)
 {
-    (void)state;
     hd_random random = hd_random_seeded(3, 0);
     int fine = 0; /* ones that need the last of the 53 bits */
     for (int k = 0; k < 100000; k++) {
@@ -56,9 +54,8 @@ static void multiples_of_2_to_minus_52_in_range(void **state)
 }
 
 /** Moments of the uniform distribution on [-1, 1): 0, 1/3; neighbours are uncorrelated. */
-static void moments(void **state)
+TEST(moments)
 {
-    (void)state;
     enum { N = 1000000 };
     hd_random random = hd_random_seeded(4, 0);
     double sum = 0, square = 0, product = 0, before = 0;
@@ -74,9 +71,8 @@ static void moments(void **state)
     CHECK_CLOSE(product / N, 0.0, Z / 3.0 / sqrt(N));
 }
 
-static void seeds_and_streams_differ(void **state)
+TEST(seeds_and_streams_differ)
 {
-    (void)state;
     enum { N = 30 };
     double first[N * N];
     for (int k = 0; k < N * N; k++) {
@@ -84,15 +80,4 @@ static void seeds_and_streams_differ(void **state)
         first[k] = hd_random_symmetric(&random);
         for (int before = 0; before < k; before++) assert_true(first[before] != first[k]);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_first_values),
-        cmocka_unit_test(multiples_of_2_to_minus_52_in_range),
-        cmocka_unit_test(moments),
-        cmocka_unit_test(seeds_and_streams_differ),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,9 +17,8 @@ static const hd_status ALL[] = {
 };
 enum { STATUSES = sizeof ALL / sizeof *ALL };
 
-static void every_status_has_its_own_text(void **state)
+TEST(every_status_has_its_own_text)
 {
-    (void)state;
     for (int k = 0; k < STATUSES; k++) {
         const char *text = hd_status_text(ALL[k]);
         assert_true(text != NULL && strlen(text) > 1 && !strchr(text, '\n'));
@@ -30,9 +29,8 @@ static void every_status_has_its_own_text(void **state)
     assert_int_equal(HD_OK, 0);
 }
 
-static void unknown_status_has_a_text(void **state)
+TEST(unknown_status_has_a_text)
 {
-    (void)state;
     assert_string_equal(hd_status_text((hd_status)STATUSES), "unknown status");
     assert_string_equal(hd_status_text((hd_status)12345), "unknown status");
 }
@@ -44,9 +42,8 @@ static hd_status pass_on(hd_status status, int *went_on)
     return HD_OK;
 }
 
-static void try_returns_what_failed(void **state)
+TEST(try_returns_what_failed)
 {
-    (void)state;
     for (int k = 0; k < STATUSES; k++) {
         int went_on = 0;
         assert_int_equal(pass_on(ALL[k], &went_on), ALL[k]);
@@ -68,9 +65,8 @@ static void remember(const char *condition, const char *file, int line)
     longjmp(caught, 1);
 }
 
-static void handler_is_told_condition_and_place(void **state)
+TEST(handler_is_told_condition_and_place)
 {
-    (void)state;
     const int line = __LINE__ + 4;
     hd_assert_handler_replace(remember);
     if (setjmp(caught) == 0) {
@@ -101,9 +97,8 @@ static void break_contract(hd_assert_handler handler)
 }
 
 /** With the default handler, and with one that returns in spite of what it promised. */
-static void broken_contract_never_goes_on(void **state)
+TEST(broken_contract_never_goes_on)
 {
-    (void)state;
     const hd_assert_handler handlers[] = {NULL, returns};
     for (int k = 0; k < 2; k++) {
         const pid_t child = fork();
@@ -113,16 +108,4 @@ static void broken_contract_never_goes_on(void **state)
         assert_true(waitpid(child, &status, 0) == child);
         assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_status_has_its_own_text),
-        cmocka_unit_test(unknown_status_has_a_text),
-        cmocka_unit_test(try_returns_what_failed),
-        cmocka_unit_test(handler_is_told_condition_and_place),
-        cmocka_unit_test(broken_contract_never_goes_on),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

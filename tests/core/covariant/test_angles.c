@@ -54,9 +54,8 @@ static double *made(const double *angle, double part)
     return c;
 }
 
-static void known_angles_are_found(void **state)
+TEST(known_angles_are_found)
 {
-    (void)state;
     const double angle[B] = {1e-9, 1e-4, 0.01, PI / 4 - 1e-6, PI / 4 + 1e-6, 1.5, PI / 2};
     const double parts[] = {0.0, 0.5, 0.9};
     hd_angles *angles;
@@ -74,9 +73,8 @@ static void known_angles_are_found(void **state)
     hd_angles_free(angles);
 }
 
-static void one_vector_and_another(void **state)
+TEST(one_vector_and_another)
 {
-    (void)state;
     double c[2 * ROWS] = {0}, found;
     hd_angles *angles;
     CHECK_OK(hd_angles_create(&angles, ROWS, 1));
@@ -92,9 +90,8 @@ static void one_vector_and_another(void **state)
 }
 
 /** The first columns of a triangle: as if nobody knew what they span. */
-static void first_columns_of_a_triangle_span_coordinates(void **state)
+TEST(first_columns_of_a_triangle_span_coordinates)
 {
-    (void)state;
     hd_random random = hd_random_seeded(3, 1);
     double c[ROWS * ROWS] = {0}, found[ROWS], want[ROWS];
     hd_angles *angles;
@@ -111,9 +108,8 @@ static void first_columns_of_a_triangle_span_coordinates(void **state)
     hd_angles_free(angles);
 }
 
-static void dependent_columns_are_refused(void **state)
+TEST(dependent_columns_are_refused)
 {
-    (void)state;
     const double angle[B] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7}, wrong[] = {NAN, INFINITY};
     hd_angles *angles;
     CHECK_OK(hd_angles_create(&angles, ROWS, A));
@@ -127,15 +123,4 @@ static void dependent_columns_are_refused(void **state)
         free(c);
     }
     hd_angles_free(angles);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_angles_are_found),
-        cmocka_unit_test(one_vector_and_another),
-        cmocka_unit_test(first_columns_of_a_triangle_span_coordinates),
-        cmocka_unit_test(dependent_columns_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -72,9 +72,8 @@ static void check_well_conditioned(const double *c, int n)
     free(x);
 }
 
-static void a_start_leans_out_of_each_span(void **state)
+TEST(a_start_leans_out_of_each_span)
 {
-    (void)state;
     enum { N = 300 };
     hd_backward *one = started(N, 1), *same = started(N, 1), *other = started(N, 2);
     check_upper_with_length_1(hd_backward_read(one), N);
@@ -89,9 +88,8 @@ static void a_start_leans_out_of_each_span(void **state)
 
 /** R c = c' exp(growth), for sizes on both sides of a panel's width; nothing below the diagonal is
  * read. */
-static void each_vector_is_mapped_onto_the_later_one(void **state)
+TEST(each_vector_is_mapped_onto_the_later_one)
 {
-    (void)state;
     const int sizes[] = {1, 2, 17, 95, 96, 97, 250};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         const int n = sizes[k];
@@ -120,9 +118,8 @@ static void each_vector_is_mapped_onto_the_later_one(void **state)
 
 /** The same triangle again and again: C converges to its eigenvectors as the ratio of neighbouring
  * eigenvalues, the growth to their logarithms, from any start. */
-static void converges_to_eigenvectors(void **state)
+TEST(converges_to_eigenvectors)
 {
-    (void)state;
     enum { N = 12, STEPS = 60 };
     const double decay = 0.5;
     hd_backward *one = started(N, 1), *other = started(N, 2);
@@ -150,9 +147,8 @@ static void converges_to_eigenvectors(void **state)
     hd_backward_free(other);
 }
 
-static void apart_is_the_sine(void **state)
+TEST(apart_is_the_sine)
 {
-    (void)state;
     const double angles[] = {0.0, 1e-15, 1e-9, 0.3, 1.2, 1.57};
     for (size_t k = 0; k < sizeof angles / sizeof *angles; k++)
         for (int sign = -1; sign <= 1; sign += 2) {
@@ -168,9 +164,8 @@ static void apart_is_the_sine(void **state)
         }
 }
 
-static void what_is_no_number_is_refused(void **state)
+TEST(what_is_no_number_is_refused)
 {
-    (void)state;
     enum { N = 5 };
     const double wrong[] = {NAN, 0.0, INFINITY};
     for (int at = 0; at < N; at++)
@@ -184,9 +179,8 @@ static void what_is_no_number_is_refused(void **state)
         }
 }
 
-static void triangles_are_packed(void **state)
+TEST(triangles_are_packed)
 {
-    (void)state;
     for (int n = 1; n < 9; n++) {
         double *r = triangle(n, 0.1, 1), *packed = malloc(hd_triangle_size(n) * sizeof *packed);
         double *again = malloc((size_t)(n * n) * sizeof *again);
@@ -200,17 +194,4 @@ static void triangles_are_packed(void **state)
         free(packed);
         free(again);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_start_leans_out_of_each_span),
-        cmocka_unit_test(each_vector_is_mapped_onto_the_later_one),
-        cmocka_unit_test(converges_to_eigenvectors),
-        cmocka_unit_test(apart_is_the_sine),
-        cmocka_unit_test(what_is_no_number_is_refused),
-        cmocka_unit_test(triangles_are_packed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -51,9 +51,8 @@ static void check_symmetric(const double *y, int half)
 }
 
 /** Below and above the width of a panel. */
-static void half_of_it_and_a_coupling_are_the_triangle_of_all(void **state)
+TEST(half_of_it_and_a_coupling_are_the_triangle_of_all)
 {
-    (void)state;
     const int sizes[] = {3, 10, 60};
     const hd_boundary y[] = {HD_PERIODIC, HD_REFLECTING, HD_PERIODIC};
     for (int s = 0; s < 3; s++) {
@@ -74,9 +73,8 @@ static void half_of_it_and_a_coupling_are_the_triangle_of_all(void **state)
 }
 
 /** Entries of Y stay as they are however long the interval is: those of X grow with it. */
-static void long_intervals_keep_a_coupling_small(void **state)
+TEST(long_intervals_keep_a_coupling_small)
 {
-    (void)state;
     const hd_scene_def scene = scene_of(10, 0.5, 0.9, HD_PERIODIC, HD_PERIODIC, 5);
     conjugates x = conjugates_of(&scene);
     hd_coupling *coupling;
@@ -96,13 +94,4 @@ static void long_intervals_keep_a_coupling_small(void **state)
     assert_true(most < 100.0);
     hd_coupling_free(coupling);
     conjugates_free(&x);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(half_of_it_and_a_coupling_are_the_triangle_of_all),
-        cmocka_unit_test(long_intervals_keep_a_coupling_small),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

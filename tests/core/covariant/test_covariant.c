@@ -8,9 +8,8 @@
 
 static hd_scene_def few(int disks, hd_boundary x, hd_boundary y)
 {
-    hd_scene_def scene = scene_of(disks, 0.5, 0.9, x, y, 3);
-    scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
-    return scene;
+    return scene(.disks = disks, .density = 0.5, .aspect = 0.9, .boundary[0] = x, .boundary[1] = y,
+                 .seed = 3, .exponents = HD_EXPONENTS_ALL_INDEPENDENT);
 }
 
 /* ---- carried by the tangent flow ----------------------------------------------------------- */
@@ -70,9 +69,8 @@ static int check_covariance(const passage *one, const passage *other, int from, 
     return good;
 }
 
-static void vectors_are_carried_into_vectors(void **state)
+TEST(vectors_are_carried_into_vectors)
 {
-    (void)state;
     const hd_boundary boundary[][2] = {
         {HD_PERIODIC, HD_PERIODIC}, {HD_PERIODIC, HD_REFLECTING}, {HD_REFLECTING, HD_REFLECTING}};
     for (int k = 0; k < 3; k++) {
@@ -91,9 +89,8 @@ static void vectors_are_carried_into_vectors(void **state)
 /** The first l vectors span what those of Q do, and det C is the product of its diagonal: over any
  * time their growth sums to that of their volume, sum ln R_kk, but for what their own volume in
  * that span changes. */
-static void growth_sums_to_that_of_the_volume(void **state)
+TEST(growth_sums_to_that_of_the_volume)
 {
-    (void)state;
     const hd_scene_def scene = few(6, HD_PERIODIC, HD_PERIODIC);
     passage x = passage_of(&scene, 1, 100, 300, 0.3);
     hd_backward *c = passage_back(&x, 300, 200, 1);
@@ -122,9 +119,8 @@ static void growth_sums_to_that_of_the_volume(void **state)
 
 /** What two starts differ by in the second vector shrinks, on the way back, just as its growth
  * stays behind the first one's: by exp -sum (ln R_11 - ln R_22). */
-static void starts_meet_as_their_exponents_say(void **state)
+TEST(starts_meet_as_their_exponents_say)
 {
-    (void)state;
     const hd_scene_def scene = few(4, HD_PERIODIC, HD_PERIODIC);
     passage x = passage_of(&scene, 1, 100, 400, 0.25);
     const int transient[] = {4, 20, 40, 80, 120};
@@ -243,12 +239,10 @@ static void intersect(double *v, const hd_exact *forwards, const hd_exact *backw
 /** The Oseledec splitting by its definition: what the past has made grow, cut with what the future
  * lets grow no more. Q is known to eps condition; a vector that hardly leans out of those before it
  * is known less. */
-static void intersections_of_past_and_future_are_the_same(void **state)
+TEST(intersections_of_past_and_future_are_the_same)
 {
-    (void)state;
     enum { AT = 500, N = 16, POSITIVE = 5 };
-    hd_scene_def scene = few(4, HD_PERIODIC, HD_PERIODIC);
-    scene.aspect = 1.0;
+    hd_scene_def scene = scene_from(few(4, HD_PERIODIC, HD_PERIODIC), .aspect = 1.0);
     passage x = passage_of(&scene, 1, 0, 2 * AT, 0.25);
     exact_frame *forwards = converged(&x, AT, false), *backwards = converged(&x, AT, true);
     hd_backward *c = passage_back(&x, 2 * AT, AT, 1);
@@ -267,15 +261,4 @@ static void intersections_of_past_and_future_are_the_same(void **state)
     exact_free(forwards);
     exact_free(backwards);
     passage_free(&x);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(vectors_are_carried_into_vectors),
-        cmocka_unit_test(growth_sums_to_that_of_the_volume),
-        cmocka_unit_test(starts_meet_as_their_exponents_say),
-        cmocka_unit_test(intersections_of_past_and_future_are_the_same),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,8 +36,8 @@ static double rounding_of(const forward *x) { return 64.0 * DBL_EPSILON * INTERV
 
 static forward *started(int exponents)
 {
-    hd_scene_def scene = scene_of(DISKS, 0.5, 0.9, HD_PERIODIC, HD_PERIODIC, 3);
-    scene.exponents = exponents;
+    hd_scene_def scene = scene(.disks = DISKS, .density = 0.5, .aspect = 0.9, .seed = 3,
+                               .exponents = exponents);
     forward *x = calloc(1, sizeof *x);
     x->f = forward_started(&scene, 1);
     for (int warmup = 0; warmup < 20; warmup++) forward_interval(&x->f, 0.5);
@@ -153,17 +153,15 @@ static void check_rings(int exponents)
     freed(x);
 }
 
-static void what_was_left_comes_back(void **state)
+TEST(what_was_left_comes_back)
 {
-    (void)state;
     check_rings(HD_EXPONENTS_ALL_INDEPENDENT);
     check_rings(5);
     check_rings(1);
 }
 
-static void a_past_is_full_with_so_many_intervals(void **state)
+TEST(a_past_is_full_with_so_many_intervals)
 {
-    (void)state;
     forward *x = started(HD_EXPONENTS_ALL_INDEPENDENT);
     while (x->end < INTERVALS) add(x, 0.2, false);
     for (int way = 0; way < PASTS; way++) {
@@ -177,9 +175,8 @@ static void a_past_is_full_with_so_many_intervals(void **state)
 }
 
 /** Also in the middle of a stretch, and what was read before it. */
-static void a_new_beginning_forgets_everything(void **state)
+TEST(a_new_beginning_forgets_everything)
 {
-    (void)state;
     forward *x = started(HD_EXPONENTS_ALL_INDEPENDENT);
     for (int again = 0; again < 4; again++) {
         for (int way = 0; way < PASTS; way++) {
@@ -196,9 +193,8 @@ static void a_new_beginning_forgets_everything(void **state)
 
 /** By what is in it: triangles, and snapshots of vectors and disks. Recomputed ones need less, once
  * there are many. */
-static void the_room_is_stated(void **state)
+TEST(the_room_is_stated)
 {
-    (void)state;
     const int n = 4 * DISKS;
     hd_history_def def = def_of(0, n);
     const double snapshots = 8.0 * SNAPSHOTS * (n * n + n);
@@ -213,9 +209,8 @@ static void the_room_is_stated(void **state)
 }
 
 /** Beyond the first round a past takes no more memory; the events of a recomputed one vary. */
-static void a_ring_takes_its_memory_once(void **state)
+TEST(a_ring_takes_its_memory_once)
 {
-    (void)state;
     forward *x = started(HD_EXPONENTS_ALL_INDEPENDENT);
     const int n = forward_vectors(&x->f);
     double *factor = malloc((size_t)(n * n) * sizeof *factor);
@@ -238,16 +233,4 @@ static void a_ring_takes_its_memory_once(void **state)
     }
     free(factor);
     freed(x);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_was_left_comes_back),
-        cmocka_unit_test(a_past_is_full_with_so_many_intervals),
-        cmocka_unit_test(a_new_beginning_forgets_everything),
-        cmocka_unit_test(the_room_is_stated),
-        cmocka_unit_test(a_ring_takes_its_memory_once),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

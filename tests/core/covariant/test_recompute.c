@@ -11,9 +11,8 @@ enum { DISKS = 8, STRETCH = 4, SLOTS = 5 * STRETCH, KEPT = SLOTS - STRETCH, INTE
 
 static hd_scene_def small(int exponents)
 {
-    hd_scene_def scene = scene_of(DISKS, 0.5, 0.9, HD_PERIODIC, HD_REFLECTING, 3);
-    scene.exponents = exponents;
-    return scene;
+    return scene(.disks = DISKS, .density = 0.5, .aspect = 0.9, .boundary[1] = HD_REFLECTING,
+                 .seed = 3, .exponents = exponents);
 }
 
 static hd_recompute *created(int disks, int vectors, long slots, long stretch)
@@ -107,9 +106,8 @@ static void check_ring(int exponents)
     freed(k);
 }
 
-static void triangles_are_those_of_the_forward_pass(void **state)
+TEST(triangles_are_those_of_the_forward_pass)
 {
-    (void)state;
     check_ring(HD_EXPONENTS_ALL_INDEPENDENT);
     check_ring(HD_EXPONENTS_POSITIVE);
     check_ring(1);
@@ -163,9 +161,8 @@ static void pair_freed(pair *p)
 }
 
 /** One event just at the cut, one at the log's end: both are the second piece's. */
-static void an_event_at_a_cut_is_the_next_piece_s(void **state)
+TEST(an_event_at_a_cut_is_the_next_piece_s)
 {
-    (void)state;
     const double times[] = {0.0, 0.25, 0.5, 1.0}, cut[] = {0.0, 0.5, 1.0};
     pair p = pair_created();
     hd_event_log log;
@@ -187,9 +184,8 @@ static void an_event_at_a_cut_is_the_next_piece_s(void **state)
 
 /** What Cholesky cannot factor takes reflections, in the forward pass as here; the next slot goes
  * on from there. */
-static void a_grazing_slot_takes_the_stable_step(void **state)
+TEST(a_grazing_slot_takes_the_stable_step)
 {
-    (void)state;
     const double times[] = {0.2, 0.5, 0.8};
     pair p = pair_created();
     hd_event_log log;
@@ -217,9 +213,8 @@ static void a_grazing_slot_takes_the_stable_step(void **state)
 }
 
 /** Twice the stretch or half of it needs more. */
-static void the_stretch_needs_the_fewest_numbers(void **state)
+TEST(the_stretch_needs_the_fewest_numbers)
 {
-    (void)state;
     for (long slots = 64; slots <= 65536; slots *= 32)
         for (int vectors = 50; vectors <= 400; vectors *= 2) {
             hd_recompute_def def = {.rows = 400, .vectors = vectors, .threads = 1, .slots = slots};
@@ -233,15 +228,4 @@ static void the_stretch_needs_the_fewest_numbers(void **state)
             assert_true(best == 1 || hd_recompute_doubles(&def) > least);
         }
     assert_int_equal(hd_recompute_stretch(2, 400, 1), 2);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(triangles_are_those_of_the_forward_pass),
-        cmocka_unit_test(an_event_at_a_cut_is_the_next_piece_s),
-        cmocka_unit_test(a_grazing_slot_takes_the_stable_step),
-        cmocka_unit_test(the_stretch_needs_the_fewest_numbers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

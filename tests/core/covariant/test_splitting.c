@@ -110,9 +110,8 @@ static void add_all(hd_splitting *s)
     }
 }
 
-static void known_angles_are_found(void **state)
+TEST(known_angles_are_found)
 {
-    (void)state;
     const truth t = truth_of();
     hd_splitting *s = created(N, UNSTABLE, CENTRE);
     const double last[3] = {alpha_of(SAMPLES - 1), PI / 2, beta_of(SAMPLES - 1)};
@@ -133,9 +132,8 @@ static void known_angles_are_found(void **state)
 }
 
 /** Neighbours of length 1 a tiny angle apart: their cosine would not know it. */
-static void small_angles_keep_their_digits(void **state)
+TEST(small_angles_keep_their_digits)
 {
-    (void)state;
     double c[4] = {1.0, 0.0, cos(1e-9), sin(1e-9)};
     hd_splitting *s = created(2, 2, 0);
     CHECK_OK(hd_splitting_add(s, c));
@@ -144,9 +142,8 @@ static void small_angles_keep_their_digits(void **state)
     hd_splitting_free(s);
 }
 
-static void dependent_vectors_are_refused(void **state)
+TEST(dependent_vectors_are_refused)
 {
-    (void)state;
     double c[N * N];
     hd_splitting *s = created(N, UNSTABLE, CENTRE);
     fill(c, 1.0, 1.0, 0.0);
@@ -173,9 +170,8 @@ static void check_order(const hd_splitting *s, double growth[TIMES][MANY], int t
     }
 }
 
-static void order_violations_are_counted(void **state)
+TEST(order_violations_are_counted)
 {
-    (void)state;
     double growth[TIMES][MANY];
     hd_random random = hd_random_seeded(8, 0);
     hd_splitting *s = created(MANY, MANY, 0);
@@ -194,15 +190,4 @@ static void order_violations_are_counted(void **state)
     hd_splitting_grow(s, growth[0]);
     check_order(s, growth, 1);
     hd_splitting_free(s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_angles_are_found),
-        cmocka_unit_test(small_angles_keep_their_digits),
-        cmocka_unit_test(dependent_vectors_are_refused),
-        cmocka_unit_test(order_violations_are_counted),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

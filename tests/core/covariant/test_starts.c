@@ -84,9 +84,8 @@ static int check_vectors(hd_starts *half, hd_starts *whole)
     return good;
 }
 
-static void vectors_are_those_of_all_triangles(void **state)
+TEST(vectors_are_those_of_all_triangles)
 {
-    (void)state;
     const hd_boundary boundary[][2] = {
         {HD_PERIODIC, HD_PERIODIC}, {HD_PERIODIC, HD_REFLECTING}, {HD_REFLECTING, HD_REFLECTING}};
     for (int b = 0; b < 3; b++) {
@@ -120,9 +119,8 @@ static void vectors_are_those_of_all_triangles(void **state)
 
 /** C is symplectic in the coordinates (Q, J Q): each vector has a product with its conjugate alone.
  * Its columns are of length 1, and it is a triangle. */
-static void vectors_have_products_with_their_conjugates_alone(void **state)
+TEST(vectors_have_products_with_their_conjugates_alone)
 {
-    (void)state;
     const hd_scene_def scene = scene_of(DISKS, 0.5, 0.9, HD_PERIODIC, HD_PERIODIC, 4);
     history *h = passed(&scene);
     hd_starts *s = begun(true);
@@ -149,13 +147,4 @@ static void vectors_have_products_with_their_conjugates_alone(void **state)
         }
     hd_starts_free(s);
     freed(h);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(vectors_are_those_of_all_triangles),
-        cmocka_unit_test(vectors_have_products_with_their_conjugates_alone),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,9 +8,8 @@ enum { DOUBLES = 1000, MOST = 50 };
 
 static double number(long record, int k) { return 1e3 * (double)record + k; }
 
-static void records_come_back(void **state)
+TEST(records_come_back)
 {
-    (void)state;
     hd_store *store;
     CHECK_OK(hd_store_create(&store, DOUBLES, MOST));
     for (int again = 0; again < 2; again++) { /* a record may be put anew */
@@ -27,22 +26,12 @@ static void records_come_back(void **state)
 }
 
 /** What is put anew takes nothing. */
-static void memory_is_taken_as_needed(void **state)
+TEST(memory_is_taken_as_needed)
 {
-    (void)state;
     hd_store *store;
     CHECK_OK(hd_store_create(&store, DOUBLES, 1000000));
     const size_t before = hd_memory_allocations();
     for (long k = 0; k < 20; k++) assert_non_null(hd_store_put(store, k % 10));
     assert_int_equal(hd_memory_allocations() - before, 10);
     hd_store_free(store);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(records_come_back),
-        cmocka_unit_test(memory_is_taken_as_needed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

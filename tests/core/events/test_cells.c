@@ -36,9 +36,8 @@ static void check_line(const hd_cells *cells, int d, const int (*near)[3], const
         }
 }
 
-static void neighbours_in_periodic_lines(void **state)
+TEST(neighbours_in_periodic_lines)
 {
-    (void)state;
     const int near1[][3] = {{0, 0, 0}}, shift1[][3] = {{-1, 0, 1}};
     const int near2[][3] = {{1, 0, 1}, {0, 1, 0}}, shift2[][3] = {{-1, 0, 0}, {0, 0, 1}};
     const int near3[][3] = {{2, 0, 1}, {0, 1, 2}, {1, 2, 0}};
@@ -51,9 +50,8 @@ static void neighbours_in_periodic_lines(void **state)
     }
 }
 
-static void neighbours_between_walls(void **state)
+TEST(neighbours_between_walls)
 {
-    (void)state;
     const int near1[][3] = {{1, 0, 1}}, near2[][3] = {{2, 0, 1}, {0, 1, 2}};
     const int near3[][3] = {{3, 0, 1}, {0, 1, 2}, {1, 2, 3}}, shift[3][3] = {{0}};
     const int(*near[])[3] = {near1, near2, near3};
@@ -69,9 +67,8 @@ static void neighbours_between_walls(void **state)
 }
 
 /** Lines leave no gap, and cells are wide enough that contacts stay within neighbours. */
-static void lines_cover_the_box(void **state)
+TEST(lines_cover_the_box)
 {
-    (void)state;
     const double edge[] = {1.0 + 1e-9, 1.9, 2.1, 7.3, 123.4, 4e4}, margin = 1e-7;
     for (size_t k = 0; k < sizeof edge / sizeof *edge; k++) {
         hd_cells cells = created(12, 31.0, edge[k], HD_PERIODIC);
@@ -91,9 +88,8 @@ static void lines_cover_the_box(void **state)
 
 /** Thin gas: about as many cells as disks, however large the box; so memory and search stay small.
  */
-static void number_of_cells_follows_disks(void **state)
+TEST(number_of_cells_follows_disks)
 {
-    (void)state;
     const double density[] = {1.0, 0.1, 1e-3, 1e-9}, aspect[] = {1.0, 0.01, 100.0};
     for (int k = 0; k < 12; k++) {
         const hd_scene_def def = scene_of(10000, density[k % 4], aspect[k % 3], HD_PERIODIC,
@@ -126,9 +122,8 @@ static int listed_anywhere(const hd_cells *cells, int32_t i)
     return found;
 }
 
-static void disks_are_booked_where_they_are(void **state)
+TEST(disks_are_booked_where_they_are)
 {
-    (void)state;
     enum { N = 200 };
     hd_cells cells = created(N, 25.0, 17.0, HD_PERIODIC);
     static hd_disk disks[N];
@@ -151,9 +146,8 @@ static void disks_are_booked_where_they_are(void **state)
 }
 
 /** Round the box in each direction: back in the first cell, one box edge further. */
-static void crossing_counts_the_turns(void **state)
+TEST(crossing_counts_the_turns)
 {
-    (void)state;
     for (int columns = 1; columns <= 5; columns++)
         for (int k = 0; k < 4; k++) {
             const int d = k % 2, side = k < 2 ? 0 : 2, turn = side - 1;
@@ -175,9 +169,8 @@ static void crossing_counts_the_turns(void **state)
 
 /** Any number of disks in a cell, joining and leaving in all orders: each is listed where it is,
  * once. */
-static void crowds_come_and_go(void **state)
+TEST(crowds_come_and_go)
 {
-    (void)state;
     enum { N = 12, STEPS = 20000 };
     hd_random random = hd_random_seeded(9, 0);
     hd_cells cells = created(N, 40.0, 40.0, HD_PERIODIC);
@@ -201,18 +194,4 @@ static void crowds_come_and_go(void **state)
     }
     assert_true(fullest > 2 * HD_CELL_DISKS);
     hd_cells_clear(&cells);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(neighbours_in_periodic_lines),
-        cmocka_unit_test(neighbours_between_walls),
-        cmocka_unit_test(lines_cover_the_box),
-        cmocka_unit_test(number_of_cells_follows_disks),
-        cmocka_unit_test(disks_are_booked_where_they_are),
-        cmocka_unit_test(crossing_counts_the_turns),
-        cmocka_unit_test(crowds_come_and_go),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,9 +57,8 @@ static void check_alike(hd_trajectory *early, hd_trajectory *late)
 }
 
 /** The clock alone is set. */
-static void a_state_goes_on_alike_at_any_time(void **state)
+TEST(a_state_goes_on_alike_at_any_time)
 {
-    (void)state;
     const double shift[] = {LATE, ldexp(1.0, 40)}; /* 1e12, whose last digit is 2^-12 */
     for (int k = 0; k < 2 * SCENES; k++) {
         const hd_scene_def def = scene_number(k / 2);
@@ -75,9 +74,8 @@ static void a_state_goes_on_alike_at_any_time(void **state)
 
 /** Really run until then: what is read of the disks at the end of an epoch starts a trajectory that
  * is the same. */
-static void a_late_state_goes_on_as_at_the_start(void **state)
+TEST(a_late_state_goes_on_as_at_the_start)
 {
-    (void)state;
     const double end = HD_SANITIZED ? LATE / 64.0 : LATE;
     hd_scene_def def = scene_number(0);
     double q[20], p[20];
@@ -91,13 +89,4 @@ static void a_late_state_goes_on_as_at_the_start(void **state)
     check_alike(early, late);
     hd_trajectory_free(early);
     hd_trajectory_free(late);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_state_goes_on_alike_at_any_time),
-        cmocka_unit_test(a_late_state_goes_on_as_at_the_start),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

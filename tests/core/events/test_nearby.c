@@ -124,9 +124,8 @@ static void check_box(double lx, double ly, hd_boundary boundary, int crowd)
     hd_cells_clear(&cells);
 }
 
-static void everybody_around_is_seen_once(void **state)
+TEST(everybody_around_is_seen_once)
 {
-    (void)state;
     const double edge[] = {1.7, 2.3, 3.4, 8.0, 30.0};
     const int crowd[] = {0, 4, HD_NEARBY_MAX + HD_CELL_DISKS - 1, HD_NEARBY_MAX + HD_CELL_DISKS,
                          50};
@@ -138,9 +137,8 @@ static void everybody_around_is_seen_once(void **state)
 }
 
 /** An image is where it is said to be: within the reach of the cells around, whatever the wraps. */
-static void images_are_in_reach(void **state)
+TEST(images_are_in_reach)
 {
-    (void)state;
     static hd_disk disks[DISKS];
     const hd_scene_def def = scene_in_box(DISKS, 12.0, 9.0, HD_PERIODIC, HD_PERIODIC, 1);
     hd_random random = hd_random_seeded(4, 0);
@@ -214,9 +212,8 @@ static int check_contacts(hd_nearby *near, const hd_disk *disks, int32_t i)
     return as_early;
 }
 
-static void contacts_are_those_of_single_pairs(void **state)
+TEST(contacts_are_those_of_single_pairs)
 {
-    (void)state;
     static hd_disk disks[DISKS];
     hd_random random = hd_random_seeded(6, 0);
     hd_nearby near;
@@ -233,9 +230,8 @@ static void contacts_are_those_of_single_pairs(void **state)
 }
 
 /** The earliest twice, at any two places. */
-static void ties_are_told(void **state)
+TEST(ties_are_told)
 {
-    (void)state;
     static hd_disk disks[DISKS];
     hd_random random = hd_random_seeded(7, 0);
     const double box[2] = {9.0, 7.0};
@@ -258,9 +254,8 @@ static void ties_are_told(void **state)
 }
 
 /** Touching within rounding while approaching: at once; while parting, or at rest: never. */
-static void touching_disks_meet_at_once(void **state)
+TEST(touching_disks_meet_at_once)
 {
-    (void)state;
     const double box[2] = {9.0, 9.0}, closer = 1.0 - 2.0 * DBL_EPSILON;
     const hd_disk disks[] = {{.q = {0, 0}, .p = {1, 0}, .t = 0.25},
                              {.q = {1.0 + 0.25, 0}, .p = {0, 0}, .t = 0.25},
@@ -278,9 +273,8 @@ static void touching_disks_meet_at_once(void **state)
 }
 
 /** Past each other at exactly a diameter: no contact; a little closer: one. */
-static void grazing_disks_pass(void **state)
+TEST(grazing_disks_pass)
 {
-    (void)state;
     const double box[2] = {9.0, 9.0};
     const hd_disk disks[] = {
         {.p = {1, 0}}, {.q = {3.0, 1.0}}, {.q = {3.0, -1.0}}, {.q = {3.0, 1.0 - DBL_EPSILON}}};
@@ -289,14 +283,4 @@ static void grazing_disks_pass(void **state)
     assert_int_equal(hd_nearby_contacts(contact, &near, disks, 0, box), 2);
     assert_true(isnan(contact[0]) && isnan(contact[1]));
     assert_true(contact[2] > 2.9 && contact[2] < 3.0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(everybody_around_is_seen_once),      cmocka_unit_test(images_are_in_reach),
-        cmocka_unit_test(contacts_are_those_of_single_pairs), cmocka_unit_test(ties_are_told),
-        cmocka_unit_test(touching_disks_meet_at_once),        cmocka_unit_test(grazing_disks_pass),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

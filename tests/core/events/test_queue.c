@@ -71,9 +71,8 @@ static hd_queue created(int32_t disks)
     return queue;
 }
 
-static void random_puts_like_a_sorted_list(void **state)
+TEST(random_puts_like_a_sorted_list)
 {
-    (void)state;
     hd_random random = hd_random_seeded(5, 0);
     hd_queue queue = created(DISKS);
     for (int round = 0; round < 50; round++) {
@@ -97,9 +96,8 @@ static void random_puts_like_a_sorted_list(void **state)
 }
 
 /** Equal times: by kind, then i, then j, in whatever order they were put. */
-static void ties_by_kind_then_disks(void **state)
+TEST(ties_by_kind_then_disks)
 {
-    (void)state;
     enum { N = 11, MOST = INT32_MAX };
     const hd_queue_key order[N] = {
         key_of(1.0, 0, 1, 9),    key_of(1.0, 0, 2, 3),  key_of(1.0, 0, 2, 4),
@@ -120,9 +118,8 @@ static void ties_by_kind_then_disks(void **state)
         }
 }
 
-static void order_is_read_back(void **state)
+TEST(order_is_read_back)
 {
-    (void)state;
     const int32_t number[] = {0, 1, 77, INT32_MAX - 2};
     for (int32_t kind = 0; kind < 4; kind++)
         for (int a = 0; a < 4; a++)
@@ -135,9 +132,8 @@ static void order_is_read_back(void **state)
             }
 }
 
-static void beyond_the_horizon_is_forgotten(void **state)
+TEST(beyond_the_horizon_is_forgotten)
 {
-    (void)state;
     const double beyond[] = {HORIZON, HORIZON * 1.5, 1e300, INFINITY, NAN};
     for (size_t k = 0; k < sizeof beyond / sizeof *beyond; k++) {
         hd_queue queue = created(2);
@@ -157,9 +153,8 @@ static void beyond_the_horizon_is_forgotten(void **state)
 }
 
 /** The last moment before the horizon is not lost, for any number of buckets. */
-static void last_moment_is_kept(void **state)
+TEST(last_moment_is_kept)
 {
-    (void)state;
     for (int32_t disks = 2; disks < 2000; disks += 1 + disks / 3) {
         hd_queue queue = created(disks);
         hd_queue_put(&queue, 1, key_of(nextafter(HORIZON, 0.0), 0, 0, 1));
@@ -169,18 +164,16 @@ static void last_moment_is_kept(void **state)
 }
 
 /** hd_queue_next looks, it does not take. */
-static void next_does_not_consume(void **state)
+TEST(next_does_not_consume)
 {
-    (void)state;
     hd_queue queue = created(3);
     hd_queue_put(&queue, 2, key_of(1.0, 0, 0, 2));
     for (int k = 0; k < 3; k++) assert_int_equal(hd_queue_next(&queue), 2);
     hd_queue_clear(&queue);
 }
 
-static void restart_forgets_everything(void **state)
+TEST(restart_forgets_everything)
 {
-    (void)state;
     hd_queue queue = created(3);
     assert_int_equal(hd_queue_next(&queue), -1);
     for (int round = 0; round < 3; round++) {
@@ -196,18 +189,4 @@ static void restart_forgets_everything(void **state)
         assert_int_equal(hd_queue_next(&queue), 1);
     }
     hd_queue_clear(&queue);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_puts_like_a_sorted_list),
-        cmocka_unit_test(ties_by_kind_then_disks),
-        cmocka_unit_test(order_is_read_back),
-        cmocka_unit_test(beyond_the_horizon_is_forgotten),
-        cmocka_unit_test(last_moment_is_kept),
-        cmocka_unit_test(next_does_not_consume),
-        cmocka_unit_test(restart_forgets_everything),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

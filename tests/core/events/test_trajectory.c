@@ -118,9 +118,8 @@ static void check_equal_pieces(const whole *w, size_t pieces)
     free(cut);
 }
 
-static void intervals_of_equal_length(void **state)
+TEST(intervals_of_equal_length)
 {
-    (void)state;
     for (int k = 0; k < SCENES; k++) {
         whole w = whole_run(k, 3000.0);
         check_equal_pieces(&w, 1);
@@ -131,9 +130,8 @@ static void intervals_of_equal_length(void **state)
 }
 
 /** None is lost or doubled. */
-static void intervals_cut_at_events(void **state)
+TEST(intervals_cut_at_events)
 {
-    (void)state;
     for (int k = 0; k < SCENES; k++) {
         whole w = whole_run(k, 2000.0);
         double *cut = calloc(3 * w.log->count, sizeof *cut);
@@ -152,9 +150,8 @@ static void intervals_cut_at_events(void **state)
     }
 }
 
-static void event_at_the_end_belongs_to_the_next_interval(void **state)
+TEST(event_at_the_end_belongs_to_the_next_interval)
 {
-    (void)state;
     const hd_scene_def def = scene_in_box(2, 8.0, 8.0, HD_PERIODIC, HD_PERIODIC, 1);
     const double q[] = {2.0, 2.0, 5.0, 2.0}, p[] = {1, 0, -1, 0};
     hd_trajectory *tr;
@@ -172,9 +169,8 @@ static void event_at_the_end_belongs_to_the_next_interval(void **state)
 
 /** Epochs are a power of two long: cuts at all multiples of every candidate, and a bit around them.
  */
-static void intervals_cut_at_epochs(void **state)
+TEST(intervals_cut_at_epochs)
 {
-    (void)state;
     for (int k = 0; k < SCENES; k++) {
         whole w = whole_run(k, 200.0 * scene_number(k).disks);
         for (double epoch = ldexp(1.0, -4); epoch < w.t_end; epoch *= 2.0) {
@@ -194,9 +190,8 @@ static void intervals_cut_at_epochs(void **state)
     }
 }
 
-static void log_may_be_left_out(void **state)
+TEST(log_may_be_left_out)
 {
-    (void)state;
     for (int k = 0; k < SCENES; k++) {
         whole w = whole_run(k, 3000.0);
         hd_trajectory *tr = created(&w.def);
@@ -211,9 +206,8 @@ static void log_may_be_left_out(void **state)
     }
 }
 
-static void log_times_never_fall(void **state)
+TEST(log_times_never_fall)
 {
-    (void)state;
     for (int k = 0; k < SCENES; k++) {
         whole w = whole_run(k, 20000.0);
         for (size_t e = 1; e < w.log->count; e++)
@@ -234,9 +228,8 @@ static void check_unit_vectors(const hd_event *e)
                                       : e->n[1] == 1 && e->p[1] != 0);
 }
 
-static void events_are_approaching_unit_contacts(void **state)
+TEST(events_are_approaching_unit_contacts)
 {
-    (void)state;
     for (int k = 0; k < SCENES; k++) {
         whole w = whole_run(k, 20000.0);
         for (size_t e = 0; e < w.log->count; e++) check_unit_vectors(&w.log->event[e]);
@@ -245,9 +238,8 @@ static void events_are_approaching_unit_contacts(void **state)
 }
 
 /** Late times: an interval far from 0 is resolved as finely as the first one. */
-static void late_intervals_lose_nothing(void **state)
+TEST(late_intervals_lose_nothing)
 {
-    (void)state;
     const hd_scene_def def = scene_of(2, 0.01, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
     hd_trajectory *tr = created(&def);
     hd_event_log *log = new_log();
@@ -264,9 +256,8 @@ static void late_intervals_lose_nothing(void **state)
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
-static void starts_at_rest_of_the_centre(void **state)
+TEST(starts_at_rest_of_the_centre)
 {
-    (void)state;
     for (int k = 0; k < SCENES; k++) {
         const hd_scene_def def = scene_number(k);
         hd_trajectory *tr = created(&def);
@@ -283,14 +274,12 @@ static void starts_at_rest_of_the_centre(void **state)
     }
 }
 
-static void seeds_differ_and_repeat(void **state)
+TEST(seeds_differ_and_repeat)
 {
-    (void)state;
     const uint64_t seed[] = {1, 1, 2};
     double *p[3];
     for (int k = 0; k < 3; k++) {
-        hd_scene_def def = scene_number(2);
-        def.seed = seed[k];
+        hd_scene_def def = scene_from(scene_number(2), .seed = seed[k]);
         hd_trajectory *tr = created(&def);
         p[k] = state_of(tr);
         hd_trajectory_free(tr);
@@ -311,9 +300,8 @@ static hd_status start(hd_boundary boundary, const double q[4], const double p[4
     return status;
 }
 
-static void prepared_states_are_checked(void **state)
+TEST(prepared_states_are_checked)
 {
-    (void)state;
     const double bad[] = {NAN, INFINITY, -INFINITY, -0.001, 8.001, 1e300};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
         for (int c = 0; c < 4; c++) {
@@ -332,9 +320,8 @@ static void prepared_states_are_checked(void **state)
 }
 
 /** Depth 1e-9 is where rounding ends and overlap begins; also through an edge, and never a wall. */
-static void overlap_is_refused(void **state)
+TEST(overlap_is_refused)
 {
-    (void)state;
     const double p[4] = {0}, allowed = 1e-9;
     const double touching[] = {2.0, 2.0, 3.0, 2.0},
                  shallow[] = {2.0, 2.0, 3.0 - 0.9 * allowed, 2.0};
@@ -350,9 +337,8 @@ static void overlap_is_refused(void **state)
     assert_int_equal(start(HD_REFLECTING, by_the_walls, p), HD_OK);
 }
 
-static void refused_scenes_give_nothing(void **state)
+TEST(refused_scenes_give_nothing)
 {
-    (void)state;
     hd_scene_def def = hd_scene_def_default();
     hd_trajectory *tr = (hd_trajectory *)&def;
     def.density = 1.15;
@@ -362,9 +348,8 @@ static void refused_scenes_give_nothing(void **state)
     hd_event_log_free(NULL);
 }
 
-static void resting_disks_rest(void **state)
+TEST(resting_disks_rest)
 {
-    (void)state;
     const hd_scene_def def = scene_in_box(2, 8.0, 8.0, HD_REFLECTING, HD_PERIODIC, 1);
     const double q[] = {2.0, 2.0, 3.0, 2.0}, p[4] = {0};
     double after[4];
@@ -379,9 +364,8 @@ static void resting_disks_rest(void **state)
 
 /* ---- memory and size ----------------------------------------------------------------------- */
 
-static void warm_log_allocates_nothing(void **state)
+TEST(warm_log_allocates_nothing)
 {
-    (void)state;
     for (int k = 0; k < SCENES; k++) {
         const hd_scene_def def = scene_number(k);
         hd_trajectory *tr = created(&def);
@@ -397,9 +381,8 @@ static void warm_log_allocates_nothing(void **state)
     }
 }
 
-static void a_million_disks(void **state)
+TEST(a_million_disks)
 {
-    (void)state;
     const hd_scene_def def = scene_of(1000000, 0.7, 0.8, HD_PERIODIC, HD_REFLECTING, 1);
     hd_trajectory *tr = created(&def);
     hd_event_log *log = new_log();
@@ -409,27 +392,4 @@ static void a_million_disks(void **state)
     assert_true(hd_trajectory_collisions(tr) > 50000);
     hd_event_log_free(log);
     hd_trajectory_free(tr);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(intervals_of_equal_length),
-        cmocka_unit_test(intervals_cut_at_events),
-        cmocka_unit_test(intervals_cut_at_epochs),
-        cmocka_unit_test(log_may_be_left_out),
-        cmocka_unit_test(log_times_never_fall),
-        cmocka_unit_test(late_intervals_lose_nothing),
-        cmocka_unit_test(event_at_the_end_belongs_to_the_next_interval),
-        cmocka_unit_test(events_are_approaching_unit_contacts),
-        cmocka_unit_test(starts_at_rest_of_the_centre),
-        cmocka_unit_test(seeds_differ_and_repeat),
-        cmocka_unit_test(prepared_states_are_checked),
-        cmocka_unit_test(overlap_is_refused),
-        cmocka_unit_test(refused_scenes_give_nothing),
-        cmocka_unit_test(resting_disks_rest),
-        cmocka_unit_test(warm_log_allocates_nothing),
-        cmocka_unit_test(a_million_disks),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

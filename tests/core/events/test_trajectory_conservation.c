@@ -7,7 +7,7 @@
 
 /** What the project promises over 10^7 collisions. */
 static const double ENERGY_DRIFT = 1e-11, MOMENTUM_DRIFT = 1e-10;
-static const double LONG_RUN = HD_SANITIZED ? 2e5 : 1e7, MEDIUM_RUN = HD_SANITIZED ? 1e5 : 5e5;
+static const double MEDIUM_RUN = HD_SANITIZED ? 1e5 : 5e5;
 enum { SAMPLES = 200 };
 
 /** Two coordinates of size L, each with four roundings (motion, folding) of at most eps L / 2. */
@@ -59,16 +59,15 @@ static void check_run(const hd_scene_def *def, double collisions)
     free(work);
 }
 
-static void ten_million_collisions(void **state)
+TEST(ten_disks_for_long)
 {
-    (void)state;
+    const double collisions = HD_SANITIZED ? 2e5 : second_tier() ? 1e7 : 2e6;
     const hd_scene_def def = scene_of(10, 0.5, 0.8, HD_PERIODIC, HD_PERIODIC, 11);
-    check_run(&def, LONG_RUN);
+    check_run(&def, collisions);
 }
 
-static void ten_disks_each_boundary(void **state)
+TEST(ten_disks_each_boundary)
 {
-    (void)state;
     for (int b = 1; b < 4; b++) {
         const hd_scene_def def = scene_of(10, 0.5, 0.8, b & 1 ? HD_REFLECTING : HD_PERIODIC,
                                           b & 2 ? HD_REFLECTING : HD_PERIODIC, 11);
@@ -76,18 +75,16 @@ static void ten_disks_each_boundary(void **state)
     }
 }
 
-static void the_papers_disks(void **state)
+TEST(the_papers_disks)
 {
-    (void)state;
     const hd_scene_def periodic = hd_scene_def_default();
     const hd_scene_def walls = scene_of(780, 0.8, 0.867, HD_REFLECTING, HD_REFLECTING, 5);
     check_run(&periodic, MEDIUM_RUN);
     check_run(&walls, MEDIUM_RUN);
 }
 
-static void dense_and_narrow(void **state)
+TEST(dense_and_narrow)
 {
-    (void)state;
     const hd_scene_def dense = scene_of(90, 1.1, 0.8660254, HD_PERIODIC, HD_PERIODIC, 5);
     const hd_scene_def narrow = scene_in_box(12, 20.0, 1.1, HD_PERIODIC, HD_PERIODIC, 5);
     const hd_scene_def channel = scene_in_box(12, 20.0, 1.1, HD_PERIODIC, HD_REFLECTING, 5);
@@ -97,19 +94,8 @@ static void dense_and_narrow(void **state)
 }
 
 /** A long chain: coordinates a thousand diameters large. */
-static void large_coordinates(void **state)
+TEST(large_coordinates)
 {
-    (void)state;
     const hd_scene_def def = scene_in_box(500, 4000.0, 1.5, HD_PERIODIC, HD_REFLECTING, 5);
     check_run(&def, 0.1 * MEDIUM_RUN);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ten_million_collisions), cmocka_unit_test(ten_disks_each_boundary),
-        cmocka_unit_test(the_papers_disks),       cmocka_unit_test(dense_and_narrow),
-        cmocka_unit_test(large_coordinates),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -128,9 +128,8 @@ static void check_encounter(const encounter *e)
     hd_trajectory_free(tr);
 }
 
-static void every_impact_angle_and_image(void **state)
+TEST(every_impact_angle_and_image)
 {
-    (void)state;
     int hits = 0, misses = 0;
     for (int a = 0; a < ANGLES; a++)
         for (int k = 0; k < IMPACTS; k++)
@@ -147,9 +146,8 @@ static void every_impact_angle_and_image(void **state)
 }
 
 /** 1 - b from 1e-1 down to where rounding decides. */
-static void grazing(void **state)
+TEST(grazing)
 {
-    (void)state;
     for (double gap = 0.1; gap > 1e3 * DBL_EPSILON * LX; gap *= 0.3)
         for (int a = 0; a < ANGLES; a++)
             for (int side = -1; side <= 1; side += 2) {
@@ -194,9 +192,8 @@ static void check_wall(const hd_scene_def *def, int direction, int high, double 
     hd_trajectory_free(tr);
 }
 
-static void every_wall_and_angle(void **state)
+TEST(every_wall_and_angle)
 {
-    (void)state;
     enum { WALL_ANGLES = 50 };
     const hd_scene_def def = scene_in_box(2, LX, LY, HD_REFLECTING, HD_REFLECTING, 1);
     for (int wall = 0; wall < 4; wall++)
@@ -206,9 +203,8 @@ static void every_wall_and_angle(void **state)
 
 /** Between walls a pair never meets through an image: both close to opposite walls, moving
  * outwards. */
-static void no_image_through_a_wall(void **state)
+TEST(no_image_through_a_wall)
 {
-    (void)state;
     const hd_scene_def def = scene_in_box(2, LX, LY, HD_REFLECTING, HD_PERIODIC, 1);
     const double q[] = {0.75, 3.0, LX - 0.75, 3.0}, p[] = {-1, 0, 1, 0};
     hd_trajectory *tr;
@@ -217,15 +213,4 @@ static void no_image_through_a_wall(void **state)
     assert_true(hd_trajectory_collisions(tr) == 0);
     assert_true(hd_trajectory_wall_events(tr) == 2);
     hd_trajectory_free(tr);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_impact_angle_and_image),
-        cmocka_unit_test(grazing),
-        cmocka_unit_test(every_wall_and_angle),
-        cmocka_unit_test(no_image_through_a_wall),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

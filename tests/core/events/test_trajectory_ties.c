@@ -112,9 +112,8 @@ static void square_lattice(hd_boundary boundary, momentum_of momentum)
     check_all(&def, q, p, 5.0);
 }
 
-static void square_lattices(void **state)
+TEST(square_lattices)
 {
-    (void)state;
     const momentum_of momenta[] = {head_on_along_x, rows_against_each_other, checkerboard,
                                    into_quadrants};
     for (size_t k = 0; k < sizeof momenta / sizeof *momenta; k++) {
@@ -124,9 +123,8 @@ static void square_lattices(void **state)
 }
 
 /** Touching rows: Newton's cradle along y in every column, closed through the edge. */
-static void touching_columns(void **state)
+TEST(touching_columns)
 {
-    (void)state;
     enum { COLUMNS = 4, ROWS = 8, N = COLUMNS * ROWS };
     const hd_scene_def def = scene_in_box(N, 6.0, 10.0, HD_PERIODIC, HD_PERIODIC, 1);
     double q[2 * N], p[2 * N];
@@ -142,9 +140,8 @@ static void touching_columns(void **state)
 /* ---- few disks ----------------------------------------------------------------------------- */
 
 /** Two disks hit a resting third from both sides at the same instant, along x and obliquely. */
-static void three_meet_at_once(void **state)
+TEST(three_meet_at_once)
 {
-    (void)state;
     const double start[][2] = {{3.0, 0.0}, {0.0, 2.5}, {2.0, 2.0}, {3.0, 0.5}};
     const hd_boundary both[] = {HD_PERIODIC, HD_REFLECTING};
     for (size_t k = 0; k < 4 * 2; k++) {
@@ -160,9 +157,8 @@ static void three_meet_at_once(void **state)
 
 /** A mirror pair behind a third: contacts (0, 2) and (1, 2) at the same instant, (0, 2) is first.
  */
-static void ties_go_by_index(void **state)
+TEST(ties_go_by_index)
 {
-    (void)state;
     const hd_scene_def def = scene_in_box(3, 16.0, 8.0, HD_PERIODIC, HD_PERIODIC, 1);
     const double q[] = {4.0, 3.25, 4.0, 4.75, 8.0, 4.0}, p[] = {1, 0, 1, 0, -1, 0};
     hd_trajectory *tr = started(&def, q, p);
@@ -180,9 +176,8 @@ static void ties_go_by_index(void **state)
 }
 
 /** Into a corner along the diagonal: both walls at once, out again the way it came. */
-static void disk_in_a_corner(void **state)
+TEST(disk_in_a_corner)
 {
-    (void)state;
     const double sign[][2] = {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
     const hd_scene_def def = scene_in_box(2, 8.0, 8.0, HD_REFLECTING, HD_REFLECTING, 1);
     for (int k = 0; k < 4; k++) {
@@ -207,9 +202,8 @@ static void disk_in_a_corner(void **state)
 }
 
 /** A pair contact and a wall at the same instant: the pair is first. */
-static void pair_goes_before_wall(void **state)
+TEST(pair_goes_before_wall)
 {
-    (void)state;
     const hd_scene_def def = scene_in_box(3, 8.0, 8.0, HD_REFLECTING, HD_REFLECTING, 1);
     const double q[] = {1.5, 2.0, 4.0, 4.0, 7.0, 4.0}, p[] = {-1, 0, 1, 0, -1, 0};
     hd_event_log *log;
@@ -227,9 +221,8 @@ static void pair_goes_before_wall(void **state)
 }
 
 /** Half a narrow box apart: contact through two images at the same instant. */
-static void two_images_at_once(void **state)
+TEST(two_images_at_once)
 {
-    (void)state;
     const hd_scene_def def = scene_in_box(2, 6.0, 1.5, HD_PERIODIC, HD_PERIODIC, 1);
     const double q[] = {1.0, 0.25, 4.0, 1.0}, p[] = {1, 0, -1, 0};
     check_conserved(&def, q, p, 50.0);
@@ -239,18 +232,16 @@ static void two_images_at_once(void **state)
 
 /** The edge of a cell in x and a wall in y at the same instant: cells leave no trace in the order.
  */
-static void wall_at_a_cell_edge(void **state)
+TEST(wall_at_a_cell_edge)
 {
-    (void)state;
     const hd_scene_def def = scene_in_box(3, 8.0, 8.0, HD_REFLECTING, HD_REFLECTING, 1);
     const double q[] = {3.0, 6.5, 6.0, 6.5, 2.0, 2.0}, p[] = {1, 1, 0, 1, 0, 0};
     twin_compare(started(&def, q, p), &def, 2);
 }
 
 /** What only a broken state can show: it is named. */
-static void a_broken_state_is_refused(void **state)
+TEST(a_broken_state_is_refused)
 {
-    (void)state;
     hd_scene_def def = scene_in_box(2, 8.0, 8.0, HD_PERIODIC, HD_PERIODIC, 1);
     const double q[] = {2.0, 2.0, 2.5, 2.0}, p[] = {1, 0, -1, 0}, fast[] = {1e7, 0, 0, 0};
     const double apart[] = {2.0, 2.0, 5.0, 2.0};
@@ -259,16 +250,4 @@ static void a_broken_state_is_refused(void **state)
     assert_int_equal(hd_trajectory_create_from(&tr, &def, apart, fast), HD_REFUSED);
     def.density = 0.0;
     assert_int_equal(hd_trajectory_create_from(&tr, &def, apart, p), HD_REFUSED);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(square_lattices),           cmocka_unit_test(touching_columns),
-        cmocka_unit_test(three_meet_at_once),        cmocka_unit_test(ties_go_by_index),
-        cmocka_unit_test(disk_in_a_corner),          cmocka_unit_test(pair_goes_before_wall),
-        cmocka_unit_test(two_images_at_once),        cmocka_unit_test(wall_at_a_cell_edge),
-        cmocka_unit_test(a_broken_state_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

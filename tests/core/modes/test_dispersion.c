@@ -47,8 +47,8 @@ static void plant(world *w, double *exponents, int nodes, double factor[2][NODES
 /** A channel of T(n,0) and LP(n,0), n = 1 .. nodes; exponents [VECTORS] of the truth. */
 static world channel(double *exponents, int nodes)
 {
-    hd_scene_def def = scene_in_box(DISKS, 80.0, 1.5, HD_PERIODIC, HD_PERIODIC, 6);
-    def.max_mode_number = nodes;
+    hd_scene_def def = scene_from(scene_in_box(DISKS, 80.0, 1.5, HD_PERIODIC, HD_PERIODIC, 6),
+                                  .max_mode_number = nodes);
     world w = world_create(&def, VECTORS, 1);
     exponents_falling(&w, exponents);
     as_in_long_boxes(w.steps);
@@ -74,9 +74,8 @@ static void feed(world *w, const double *exponents, double noise, int samples)
     hd_steps_find(w->steps, w->spectrum);
 }
 
-static void exact_data_give_the_truth(void **state)
+TEST(exact_data_give_the_truth)
 {
-    (void)state;
     double exponents[VECTORS];
     for (int nodes = 1; nodes <= NODES_MAX; nodes++) {
         world w = channel(exponents, nodes);
@@ -102,9 +101,8 @@ static void exact_data_give_the_truth(void **state)
 }
 
 /** One wave number knows no curvature: c from it, errors of curvature by hand. */
-static void one_point_stands_on_long_boxes(void **state)
+TEST(one_point_stands_on_long_boxes)
 {
-    (void)state;
     double exponents[VECTORS];
     hd_scene_def def = scene_in_box(DISKS, 80.0, 1.5, HD_PERIODIC, HD_PERIODIC, 6);
     world w = channel(exponents, 1);
@@ -198,9 +196,8 @@ static void check_against_twin(const world *w, hd_mode_kind kind)
     CHECK_CLOSE(got.misfit, misfit, 1e-6 * fabs(misfit) + 1e-10); /* of exact points: rounding */
 }
 
-static void fits_are_those_of_least_squares(void **state)
+TEST(fits_are_those_of_least_squares)
 {
-    (void)state;
     double exponents[VECTORS];
     for (int nodes = 1; nodes <= NODES_MAX; nodes++) {
         world w = channel(exponents, nodes);
@@ -213,9 +210,8 @@ static void fits_are_those_of_least_squares(void **state)
 }
 
 /** Steps off the curve by 5 %, of errors of 0.1 %: the fit says that it does not fit. */
-static void misfits_are_told_from_errors(void **state)
+TEST(misfits_are_told_from_errors)
 {
-    (void)state;
     double exponents[VECTORS], off[2][NODES_MAX];
     world w = channel(exponents, NODES_MAX);
     for (int n = 0; n < NODES_MAX; n++) off[0][n] = off[1][n] = n % 2 ? 0.95 : 1.05;
@@ -254,9 +250,8 @@ static void deviations(world *w, double *exponents, bool drawn, double square[2]
     }
 }
 
-static void errors_are_honest(void **state)
+TEST(errors_are_honest)
 {
-    (void)state;
     enum { REPEATS = 300 };
     for (int drawn = 0; drawn < 2; drawn++) {
         double exponents[VECTORS], square[2][2] = {{0.0}};
@@ -275,9 +270,8 @@ static void errors_are_honest(void **state)
 }
 
 /** What is missing of its multiplicity, and what lies in the columns of others, in quadrature. */
-static void half_a_multiplicity_weighs_less(void **state)
+TEST(half_a_multiplicity_weighs_less)
 {
-    (void)state;
     double exponents[VECTORS];
     world w = channel(exponents, 2);
     feed(&w, exponents, 0.0, 1);
@@ -294,9 +288,8 @@ static void half_a_multiplicity_weighs_less(void **state)
 
 /* ---- which steps count --------------------------------------------------------------------- */
 
-static void unresolved_steps_do_not_count(void **state)
+TEST(unresolved_steps_do_not_count)
 {
-    (void)state;
     double exponents[VECTORS];
     world w = channel(exponents, NODES_MAX);
     exponents[VECTORS - 10] *= 3.0; /* of LP(2,0), in 18 .. 21 */
@@ -311,9 +304,8 @@ static void unresolved_steps_do_not_count(void **state)
 }
 
 /** T(1,0) and T(0,1) of a square box: one wave number. */
-static void equal_wave_numbers_are_one_point(void **state)
+TEST(equal_wave_numbers_are_one_point)
 {
-    (void)state;
     for (int nodes = 0; nodes < 2; nodes++) {
         hd_scene_def def = scene_of(100, 0.5, 1.0, HD_PERIODIC, HD_PERIODIC, 4);
         double exponents[VECTORS];
@@ -346,9 +338,8 @@ static void equal_wave_numbers_are_one_point(void **state)
 }
 
 /** Nor do exponents that are none. */
-static void vanishing_exponents_do_not_count(void **state)
+TEST(vanishing_exponents_do_not_count)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         double exponents[VECTORS], none[2][NODES_MAX] = {{1.0, 1.0}, {k * -1.0, 1.0}};
         world w = channel(exponents, 2);
@@ -363,11 +354,10 @@ static void vanishing_exponents_do_not_count(void **state)
 }
 
 /** Steps of the negative half are the same steps once more. */
-static void conjugate_steps_do_not_count(void **state)
+TEST(conjugate_steps_do_not_count)
 {
-    (void)state;
-    hd_scene_def def = scene_in_box(DISKS, 80.0, 1.5, HD_PERIODIC, HD_PERIODIC, 6);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene_from(scene_in_box(DISKS, 80.0, 1.5, HD_PERIODIC, HD_PERIODIC, 6),
+                                  .max_mode_number = 1);
     static double exponents[4 * DISKS];
     world w = world_create(&def, 4 * DISKS, 1);
     for (int col = 0; col < 4 * DISKS; col++) exponents[col] = 3.0 - col / 40.0;
@@ -381,21 +371,4 @@ static void conjugate_steps_do_not_count(void **state)
     assert_true(hd_steps_step(w.steps, 3 + s)->conjugate);
     assert_int_equal(hd_steps_dispersion(w.steps, w.spectrum, HD_MODE_T).points, 0);
     world_free(&w);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exact_data_give_the_truth),
-        cmocka_unit_test(one_point_stands_on_long_boxes),
-        cmocka_unit_test(fits_are_those_of_least_squares),
-        cmocka_unit_test(misfits_are_told_from_errors),
-        cmocka_unit_test(errors_are_honest),
-        cmocka_unit_test(half_a_multiplicity_weighs_less),
-        cmocka_unit_test(unresolved_steps_do_not_count),
-        cmocka_unit_test(equal_wave_numbers_are_one_point),
-        cmocka_unit_test(vanishing_exponents_do_not_count),
-        cmocka_unit_test(conjugate_steps_do_not_count),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -104,11 +104,7 @@ static void check_definition(sample *s, const hd_subspace *m, int c)
     }
 }
 
-static void fields_are_those_of_their_modulations(void **state)
-{
-    (void)state;
-    for_all(check_definition);
-}
+TEST(fields_are_those_of_their_modulations) { for_all(check_definition); }
 
 /* ---- as vector fields ---------------------------------------------------------------------- */
 
@@ -144,11 +140,7 @@ static void check_derivatives(sample *s, const hd_subspace *m, int c)
     }
 }
 
-static void t_has_no_divergence_and_l_no_curl(void **state)
-{
-    (void)state;
-    for_all(check_derivatives);
-}
+TEST(t_has_no_divergence_and_l_no_curl) { for_all(check_derivatives); }
 
 /** Disks at a wall: no displacement through it. sin(n pi (1 + eps)), times k. */
 static void check_walls(sample *s, const hd_subspace *m, int c)
@@ -166,11 +158,7 @@ static void check_walls(sample *s, const hd_subspace *m, int c)
     }
 }
 
-static void nothing_goes_through_a_wall(void **state)
-{
-    (void)state;
-    for_all(check_walls);
-}
+TEST(nothing_goes_through_a_wall) { for_all(check_walls); }
 
 /** The same far away: one box further. */
 static void check_period(sample *s, const hd_subspace *m, int c)
@@ -188,11 +176,7 @@ static void check_period(sample *s, const hd_subspace *m, int c)
     }
 }
 
-static void fields_have_the_period_of_the_box(void **state)
-{
-    (void)state;
-    for_all(check_period);
-}
+TEST(fields_have_the_period_of_the_box) { for_all(check_period); }
 
 /* ---- columns ------------------------------------------------------------------------------- */
 
@@ -208,9 +192,8 @@ static double square(const hd_fields *fields, int column)
 
 static const double NORM = ROWS * DBL_EPSILON;
 
-static void columns_have_norm_1(void **state)
+TEST(columns_have_norm_1)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         const sample s = sampled(k & 1 ? R : P, k & 2 ? R : P, 2);
         const int null = hd_fields_columns(s.fields) - HD_NULLS;
@@ -226,9 +209,8 @@ static void columns_have_norm_1(void **state)
 }
 
 /** Uniform along a periodic direction, and the momenta. */
-static void null_fields(void **state)
+TEST(null_fields)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         const sample s = sampled(k & 1 ? R : P, k & 2 ? R : P, 1);
         const int null = hd_fields_columns(s.fields) - HD_NULLS;
@@ -242,9 +224,8 @@ static void null_fields(void **state)
 }
 
 /** Sines at disks that all sit on their nodes: zero, not NaN, and well again afterwards. */
-static void a_field_that_vanishes_stays_zero(void **state)
+TEST(a_field_that_vanishes_stays_zero)
 {
-    (void)state;
     sample s = sampled(P, P, 1);
     double q[ROWS] = {0.0};
     hd_fields_sample(s.fields, q, s.p);
@@ -263,9 +244,8 @@ static void a_field_that_vanishes_stays_zero(void **state)
 
 /** All subspaces side by side in ascending k, T before LP, then the null fields; none of dimension
  * 0. */
-static void columns_lie_in_order(void **state)
+TEST(columns_lie_in_order)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         const sample s = sampled(k & 1 ? R : P, k & 2 ? R : P, 2);
         int column = 0;
@@ -290,9 +270,8 @@ static void columns_lie_in_order(void **state)
 }
 
 /** 8 waves of 2 nodes: 6 T(n) of 4 and so on [T10]. */
-static void dimensions_add_up(void **state)
+TEST(dimensions_add_up)
 {
-    (void)state;
     const int want[] = {4 * (2 + 4) + 4 * (4 + 8), 2 * (1 + 2) + 2 * 2 + 4 * (2 + 4),
                         2 * (1 + 2) + 2 * 2 + 4 * (2 + 4), 4 * 2 + 4 * (1 + 2)};
     for (int k = 0; k < 4; k++) {
@@ -302,20 +281,4 @@ static void dimensions_add_up(void **state)
         assert_int_equal(hd_fields_columns(s.fields) - HD_NULLS, want[k] + extra);
         hd_fields_free(s.fields);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fields_are_those_of_their_modulations),
-        cmocka_unit_test(t_has_no_divergence_and_l_no_curl),
-        cmocka_unit_test(nothing_goes_through_a_wall),
-        cmocka_unit_test(fields_have_the_period_of_the_box),
-        cmocka_unit_test(columns_have_norm_1),
-        cmocka_unit_test(null_fields),
-        cmocka_unit_test(a_field_that_vanishes_stays_zero),
-        cmocka_unit_test(columns_lie_in_order),
-        cmocka_unit_test(dimensions_add_up),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

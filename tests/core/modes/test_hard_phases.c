@@ -53,9 +53,8 @@ static verdict follow(int d, double angle, double most, double noise)
 
 /** v / c_L is 1.14 at most, 1.25 is allowed for: whatever the rate below that, up to pi between
  * samples it is tracked, from pi on it is coarse. */
-static void turns_up_to_pi_are_tracked_and_coarse_beyond(void **state)
+TEST(turns_up_to_pi_are_tracked_and_coarse_beyond)
 {
-    (void)state;
     static const double parts[] = {0.5,    0.75,  0.9,  0.97, 0.999, 0.9999,
                                    1.0001, 1.001, 1.03, 1.25, 2.0,   3.9};
     static const double ratios[] = {-1.25, -1.14, -0.5, 0.0, 0.5, 1.0, 1.14, 1.25};
@@ -91,9 +90,8 @@ static void check_noise(double most, double fastest, double *worst, int *tracked
 /** A run samples every 0.75 pi at most; 5 % more for exponents that are not yet known. From 0.95 pi
  * on, which no measured velocity reaches before it is called coarse, the first samples could fall
  * on the other side of pi. */
-static void noise_does_not_lose_turns(void **state)
+TEST(noise_does_not_lose_turns)
 {
-    (void)state;
     int tracked = 0;
     double worst = 0.0;
     check_noise(1.05 * 0.75 * PI, 1.0, &worst, &tracked);
@@ -115,9 +113,8 @@ static void exchange(rotating *r, int a, int b, double sign)
 
 /** Two vectors change places, and one of them its sign, within steps that turn as far as a run lets
  * them. */
-static void exchanges_within_far_turns_are_followed(void **state)
+TEST(exchanges_within_far_turns_are_followed)
 {
-    (void)state;
     static const double parts[] = {-0.95, -0.75, -0.6, 0.6, 0.75, 0.95};
     for (int d = 1; d <= 4; d *= 2)
         for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
@@ -134,9 +131,8 @@ static void exchanges_within_far_turns_are_followed(void **state)
 }
 
 /** A sign flip of every vector at every second sample, alone or all at once. */
-static void sign_flips_do_not_turn_a_phase(void **state)
+TEST(sign_flips_do_not_turn_a_phase)
 {
-    (void)state;
     for (int d = 1; d <= 4; d *= 2)
         for (int together = 0; together < 2; together++) {
             rotating r = pairs(d);
@@ -204,24 +200,11 @@ static void check_vanishing_pair(int gone, double omega)
     rotating_free(&r);
 }
 
-static void a_pair_that_vanishes_comes_back_with_its_turns(void **state)
+TEST(a_pair_that_vanishes_comes_back_with_its_turns)
 {
-    (void)state;
     for (int gone = 1; gone <= 25; gone += gone == 8 ? 9 : 1)
         for (int sense = -1; sense <= 1; sense += 2) {
             check_vanishing_pair(gone, sense * 0.3);
             check_vanishing_pair(gone, sense * 0.75 * PI);
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(turns_up_to_pi_are_tracked_and_coarse_beyond),
-        cmocka_unit_test(noise_does_not_lose_turns),
-        cmocka_unit_test(exchanges_within_far_turns_are_followed),
-        cmocka_unit_test(sign_flips_do_not_turn_a_phase),
-        cmocka_unit_test(a_pair_that_vanishes_comes_back_with_its_turns),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -38,8 +38,8 @@ static void write_vectors(lp_step *s, double noise)
 static lp_step lp_step_create(void)
 {
     const double exponents[DIMENSION] = {1, 1, 1, 1};
-    hd_scene_def def = scene_of(DISKS, 0.5, 0.8, HD_PERIODIC, HD_PERIODIC, 8);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 8,
+                             .max_mode_number = 1);
     lp_step s = {.w = world_create(&def, DIMENSION, 1)};
     s.subspace = hd_fields_subspace(s.w.fields, world_subspace(&s.w, HD_MODE_LP, 1, 0));
     s.step = world_step(&s.w, HD_MODE_LP, 1, 0);
@@ -101,9 +101,8 @@ static double check_divided(lp_step *s, const double *p)
 }
 
 /** One component of one momentum after the other, from 1 down to 1e-12 and to 0. */
-static void tiny_components_are_finite_and_the_rest_is_right(void **state)
+TEST(tiny_components_are_finite_and_the_rest_is_right)
 {
-    (void)state;
     lp_step s = lp_step_create();
     double moving[ROWS], worst = 0.0;
     memcpy(moving, s.w.p, sizeof moving);
@@ -120,9 +119,8 @@ static void tiny_components_are_finite_and_the_rest_is_right(void **state)
 }
 
 /** One, a quarter, half and all but eight of the disks at rest. */
-static void disks_at_rest_are_finite_and_the_rest_is_right(void **state)
+TEST(disks_at_rest_are_finite_and_the_rest_is_right)
 {
-    (void)state;
     static const int resting[] = {1, 16, 32, 56};
     lp_step s = lp_step_create();
     double moving[ROWS];
@@ -141,9 +139,8 @@ static void disks_at_rest_are_finite_and_the_rest_is_right(void **state)
 /** Noise in the vectors, which a disk at rest has too, is not blown up: the mode there times p /
  * (p^2 + eps) is nothing at p = 0, and falls with p below sqrt(eps). At the other disks all is as
  * if the disk moved on. */
-static void noise_is_not_blown_up_where_a_disk_rests(void **state)
+TEST(noise_is_not_blown_up_where_a_disk_rests)
 {
-    (void)state;
     lp_step s = lp_step_create();
     double p[ROWS], out[ROWS];
     memcpy(p, s.w.p, sizeof p);
@@ -169,9 +166,8 @@ static void noise_is_not_blown_up_where_a_disk_rests(void **state)
 /** One disk alone moves: the P fields of both modulations are the same but for a factor, the
  * vectors dependent but for rounding. Refused, or finite fields that still are combinations of the
  * vectors; how far from a rotation is told. */
-static void one_moving_disk_is_refused_or_finite(void **state)
+TEST(one_moving_disk_is_refused_or_finite)
 {
-    (void)state;
     lp_step s = lp_step_create();
     double p[ROWS] = {0.0}, out[ROWS];
     p[6] = 1.0, p[7] = -0.5;
@@ -186,24 +182,11 @@ static void one_moving_disk_is_refused_or_finite(void **state)
     lp_step_free(&s);
 }
 
-static void without_momenta_there_is_no_p_mode(void **state)
+TEST(without_momenta_there_is_no_p_mode)
 {
-    (void)state;
     lp_step s = lp_step_create();
     const double p[ROWS] = {0.0};
     look(&s, p, 0.0);
     assert_false(hd_pmode_reconstruct(s.pmode, s.step, s.w.modes, hd_frame_columns(s.w.frame)));
     lp_step_free(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tiny_components_are_finite_and_the_rest_is_right),
-        cmocka_unit_test(disks_at_rest_are_finite_and_the_rest_is_right),
-        cmocka_unit_test(noise_is_not_blown_up_where_a_disk_rests),
-        cmocka_unit_test(one_moving_disk_is_refused_or_finite),
-        cmocka_unit_test(without_momenta_there_is_no_p_mode),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,7 +8,7 @@
 #include "hdlyap/phases.h"
 #include "published.h"
 #include "rotating.h"
-#include "scenes.h"
+#include "runs.h"
 #include "synthetic.h"
 
 static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
@@ -71,11 +71,10 @@ static void check_weights(const world *w, const weights *got, const weights *wan
 
 /** Down to 1e-140 a half counts as any other; below the square root of the smallest numbers it is
  * none. */
-static void a_tiny_dq_half_has_its_weights_or_none(void **state)
+TEST(a_tiny_dq_half_has_its_weights_or_none)
 {
-    (void)state;
-    hd_scene_def def = scene_of(DISKS, 0.5, 0.8, P, P, 3);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 3,
+                             .max_mode_number = 1);
     world w = world_create(&def, VECTORS, 1);
     static double dq[VECTORS][ROWS];
     for (int col = 0; col < VECTORS; col++) {
@@ -96,11 +95,10 @@ static void a_tiny_dq_half_has_its_weights_or_none(void **state)
 }
 
 /** The same for dp, of which no weight knows. */
-static void a_tiny_dp_half_changes_no_weight(void **state)
+TEST(a_tiny_dp_half_changes_no_weight)
 {
-    (void)state;
-    hd_scene_def def = scene_of(DISKS, 0.5, 0.8, P, R, 3);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .boundary[1] = R,
+                             .seed = 3, .max_mode_number = 1);
     world w = world_create(&def, VECTORS, 1);
     static double dq[VECTORS][ROWS];
     for (int col = 0; col < VECTORS; col++) world_add_field(&w, dq[col], col, 0.5);
@@ -125,11 +123,10 @@ static void a_tiny_dp_half_changes_no_weight(void **state)
 }
 
 /** Denormal entries among normal ones: as if they were zero. */
-static void denormal_entries_are_zeros(void **state)
+TEST(denormal_entries_are_zeros)
 {
-    (void)state;
-    hd_scene_def def = scene_of(DISKS, 0.5, 0.8, P, P, 3);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 3,
+                             .max_mode_number = 1);
     world w = world_create(&def, VECTORS, 1);
     static double dq[2][VECTORS][ROWS];
     for (int col = 0; col < VECTORS; col++) world_add_field(&w, dq[0][col], col, 0.5);
@@ -154,9 +151,8 @@ static void denormal_entries_are_zeros(void **state)
 /* ---- constant and short series ------------------------------------------------------------- */
 
 /** Zero variance: the error is zero, or not known while there are too few samples. */
-static void constant_series_have_no_error(void **state)
+TEST(constant_series_have_no_error)
 {
-    (void)state;
     static const double values[] = {0.0, 1.0, -3.7, 1e-300, 1e-12, 1e12};
     enum { SERIES = sizeof values / sizeof *values };
     hd_spectrum *spectrum;
@@ -176,9 +172,8 @@ static void constant_series_have_no_error(void **state)
 }
 
 /** The exponents of a step and their fit, all alike at all times; a phase that does not move. */
-static void constant_steps_and_phases_have_no_error(void **state)
+TEST(constant_steps_and_phases_have_no_error)
 {
-    (void)state;
     rotating r = pairs(2);
     double exponents[2 * VECTORS_MAX];
     exponents_flat(exponents, 0, hd_frame_vectors(r.w.frame), 2.4);
@@ -211,10 +206,9 @@ static long check_reports(const hd_scene_def *scene, long *numbers)
 {
     hd_run *run = NULL;
     long reports = 0;
-    CHECK_OK(hd_run_create(&run, scene, NULL, 0));
+    run = created(scene);
     *numbers += check_published(run); /* before anything is known */
-    while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_advance(run));
+    while (going_on(run)) {
         if (!hd_run_report_due(run)) continue;
         *numbers += check_published(run);
         reports++;
@@ -228,9 +222,8 @@ static long check_reports(const hd_scene_def *scene, long *numbers)
 /** One vector, the positive half and all of them; reports far more often than collisions, far less
  * often than the run lasts, at no multiple of it; no equilibration, no warm-up, hardly any
  * duration. */
-static void odd_intervals_publish_only_numbers(void **state)
+TEST(odd_intervals_publish_only_numbers)
 {
-    (void)state;
     static const double intervals[] = {1e-4, 0.37, 1.0, 7.7, 1e6}, durations[] = {1e-3, 1.0, 10.3};
     static const int exponents[] = {1, HD_EXPONENTS_POSITIVE, HD_EXPONENTS_ALL};
     long runs = 0, reports = 0, numbers = 0;
@@ -240,28 +233,16 @@ static void odd_intervals_publish_only_numbers(void **state)
                 for (int start = 0; start < 2; start++) {
                     if (durations[d] / intervals[i] > 2e4)
                         continue; /* a report each 1e-4 of 1 is enough */
-                    hd_scene_def scene = scene_of(16, 0.5, 0.1, P, start ? R : P, 2);
-                    scene.exponents = exponents[e];
-                    scene.equilibration = scene.warmup = start ? 0.05 : 0.0;
-                    scene.duration = durations[d];
-                    scene.report_interval = intervals[i];
-                    scene.observe = 31;
-                    scene.threads = 1;
+                    hd_scene_def scene = scene(.disks = 16, .density = 0.5, .aspect = 0.1,
+                                               .boundary[1] = start ? R : P, .seed = 2,
+                                               .exponents = exponents[e],
+                                               .equilibration = start ? 0.05 : 0.0,
+                                               .warmup = start ? 0.05 : 0.0,
+                                               .duration = durations[d],
+                                               .report_interval = intervals[i], .observe = 31,
+                                               .threads = 1);
                     reports += check_reports(&scene, &numbers);
                     runs++;
                 }
     print_message("%ld runs, %ld reports, %ld numbers\n", runs, reports, numbers);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_tiny_dq_half_has_its_weights_or_none),
-        cmocka_unit_test(a_tiny_dp_half_changes_no_weight),
-        cmocka_unit_test(denormal_entries_are_zeros),
-        cmocka_unit_test(constant_series_have_no_error),
-        cmocka_unit_test(constant_steps_and_phases_have_no_error),
-        cmocka_unit_test(odd_intervals_publish_only_numbers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

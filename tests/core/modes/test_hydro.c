@@ -78,8 +78,8 @@ static void check_response(const world *w, const hd_hydro_response *r)
 /** All steps of one node at the end of the frame; dp at random. */
 static world all_steps(hd_boundary x, hd_boundary y, double *exponents, int vectors)
 {
-    hd_scene_def def = scene_of(DISKS, 0.5, 0.8, x, y, 5);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
+                             .boundary[1] = y, .seed = 5, .max_mode_number = 1);
     world w = world_create(&def, vectors, 1);
     exponents_falling(&w, exponents);
     for (int s = 0, col = vectors; s < hd_fields_subspaces(w.fields); s++) {
@@ -118,9 +118,8 @@ static void check_entries(const world *w, const hd_hydro *hydro)
     assert_int_equal(hd_hydro_count(hydro), index);
 }
 
-static void responses_are_derivatives(void **state)
+TEST(responses_are_derivatives)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         double exponents[30];
         world w = all_steps(k & 1 ? R : P, k & 2 ? R : P, exponents, 30);
@@ -137,9 +136,8 @@ static void responses_are_derivatives(void **state)
 }
 
 /** What is not resolved has no responses; a vector that belongs to nobody neither. */
-static void only_vectors_of_resolved_steps_respond(void **state)
+TEST(only_vectors_of_resolved_steps_respond)
 {
-    (void)state;
     double exponents[30];
     world w = all_steps(P, P, exponents, 30);
     hd_hydro *hydro;
@@ -212,8 +210,8 @@ static void add_responses(table *sum, const hd_hydro *hydro, const int subspace[
 /** Averages over independent states of a periodic box at wave vector (nx, ny). */
 static void average(table *sum, int nx, int ny, double *k)
 {
-    hd_scene_def def = scene_of(DISKS, 0.5, 0.8, P, P, 5);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 5,
+                             .max_mode_number = 1);
     const int modulations = nx && ny ? 4 : 2, vectors = 3 * modulations;
     world w = world_create(&def, vectors, 1);
     const int subspace[] = {world_subspace(&w, HD_MODE_T, nx, ny),
@@ -273,9 +271,8 @@ static void check_table(const table *sum, int modulations, double k)
         }
 }
 
-static void the_table_of_the_paper(void **state)
+TEST(the_table_of_the_paper)
 {
-    (void)state;
     const char *names[] = {"T", "L", "P"};
     const int nodes[][2] = {{1, 0}, {0, 1}, {1, 1}};
     static table sum;
@@ -291,14 +288,4 @@ static void the_table_of_the_paper(void **state)
         }
         check_table(&sum, modulations, k);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(responses_are_derivatives),
-        cmocka_unit_test(only_vectors_of_resolved_steps_respond),
-        cmocka_unit_test(the_table_of_the_paper),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,11 +17,10 @@ enum { DISKS = 100, ROWS = 2 * DISKS, DIMENSION_MAX = 8 };
  * ten. */
 static const double ALGEBRA = 10.0 * ROWS * DBL_EPSILON / 0.3;
 
-static hd_scene_def scene(hd_boundary x, hd_boundary y)
+static hd_scene_def dense(hd_boundary x, hd_boundary y)
 {
-    hd_scene_def def = scene_of(DISKS, 0.5, 0.8, x, y, 3);
-    def.max_mode_number = 2;
-    return def;
+    return scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .boundary[0] = x, .boundary[1] = y,
+                 .seed = 3, .max_mode_number = 2);
 }
 
 /* ---- independent least squares ------------------------------------------------------------- */
@@ -94,11 +93,10 @@ static void write_mixtures(world *w)
     }
 }
 
-static void weights_are_those_of_least_squares(void **state)
+TEST(weights_are_those_of_least_squares)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
-        const hd_scene_def def = scene(k & 1 ? R : P, k & 2 ? R : P);
+        const hd_scene_def def = dense(k & 1 ? R : P, k & 2 ? R : P);
         world w = world_create(&def, 10, 1);
         write_mixtures(&w);
         world_look(&w);
@@ -177,12 +175,11 @@ static void check_truth(world *w, int subspace, double noise)
     }
 }
 
-static void known_mixtures_come_back(void **state)
+TEST(known_mixtures_come_back)
 {
-    (void)state;
     const double noise[] = {0.0, 1e-3, 0.02};
     for (int k = 0; k < 4; k++) {
-        const hd_scene_def def = scene(k & 1 ? R : P, k & 2 ? R : P);
+        const hd_scene_def def = dense(k & 1 ? R : P, k & 2 ? R : P);
         world w = world_create(&def, 1, 1);
         for (int repeat = 0; repeat < 8; repeat++, world_move(&w, 1.0))
             for (int s = 0; s < hd_fields_subspaces(w.fields); s++)
@@ -192,10 +189,9 @@ static void known_mixtures_come_back(void **state)
 }
 
 /** One field alone: weight 1 in its own subspace, L or P where it belongs. */
-static void single_fields_are_named(void **state)
+TEST(single_fields_are_named)
 {
-    (void)state;
-    const hd_scene_def def = scene(P, R);
+    const hd_scene_def def = dense(P, R);
     world w = world_create(&def, 1, 1);
     for (int s = 0; s < hd_fields_subspaces(w.fields); s++) {
         const hd_subspace *subspace = hd_fields_subspace(w.fields, s);
@@ -257,15 +253,14 @@ static void disks_at_rest(world *w)
     world_place(w, q, none);
 }
 
-static void fields_that_coincide_count_once(void **state)
+TEST(fields_that_coincide_count_once)
 {
-    (void)state;
     void (*const arrange[])(world *) = {momenta_alike, momenta_distinct, momenta_indistinct,
                                         disks_on_nodes, disks_at_rest};
     const double CONDITION[] = {1.0, 1e3, 1e5, 1.0,
                                 1.0}; /* 1 / eigenvalue; 1e-5 of overlap left out */
     for (int k = 0; k < 5; k++) {
-        const hd_scene_def def = scene(P, P);
+        const hd_scene_def def = dense(P, P);
         world w = world_create(&def, 6, 1);
         arrange[k](&w);
         write_mixtures(&w);
@@ -279,11 +274,10 @@ static void fields_that_coincide_count_once(void **state)
 }
 
 /** 8 disks: eight fields in 16 dimensions. */
-static void few_disks(void **state)
+TEST(few_disks)
 {
-    (void)state;
-    hd_scene_def def = scene_of(8, 0.3, 1.0, P, P, 2);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = 8, .density = 0.3, .aspect = 1.0, .seed = 2,
+                             .max_mode_number = 1);
     world w = world_create(&def, 12, 1);
     write_mixtures(&w);
     world_look(&w);
@@ -321,10 +315,9 @@ static void check_null(const world *w, double x, double y, double p)
     CHECK_CLOSE(hd_modes_null_snapshot(w->modes, HD_NULL_P)[0], p, ALGEBRA);
 }
 
-static void zero_modes_have_their_parts(void **state)
+TEST(zero_modes_have_their_parts)
 {
-    (void)state;
-    const hd_scene_def def = scene(P, P);
+    const hd_scene_def def = dense(P, P);
     world w = world_create(&def, 1, 1);
     const double none[HD_NULLS] = {0.0};
     for (int f = 0; f < HD_NULLS; f++) {
@@ -343,10 +336,9 @@ static void zero_modes_have_their_parts(void **state)
 }
 
 /** A vector without a dq half is nobody's, but may be a zero mode. */
-static void momenta_alone_have_no_weight(void **state)
+TEST(momenta_alone_have_no_weight)
 {
-    (void)state;
-    const hd_scene_def def = scene(P, P);
+    const hd_scene_def def = dense(P, P);
     world w = world_create(&def, 1, 1);
     write_null(&w, (const double[]){0, 0, 0}, (const double[]){1, 0, 0}, 0.0);
     for (int s = 0; s < hd_fields_subspaces(w.fields); s++)
@@ -355,11 +347,10 @@ static void momenta_alone_have_no_weight(void **state)
 }
 
 /** Behind walls only dq = p and dp = p. */
-static void walls_take_uniform_motion_away(void **state)
+TEST(walls_take_uniform_motion_away)
 {
-    (void)state;
     for (int k = 1; k < 4; k++) {
-        const hd_scene_def def = scene(k & 1 ? R : P, k & 2 ? R : P);
+        const hd_scene_def def = dense(k & 1 ? R : P, k & 2 ? R : P);
         world w = world_create(&def, 1, 1);
         write_null(&w, (const double[]){0, 0, 1}, (const double[]){0, 0, 1}, 0.0);
         CHECK_CLOSE(hd_modes_null_snapshot(w.modes, HD_NULL_P)[0], 1.0, ALGEBRA);
@@ -373,12 +364,11 @@ static void walls_take_uniform_motion_away(void **state)
 
 /* ---- averages, threads, bad numbers -------------------------------------------------------- */
 
-static void averages_are_means_of_snapshots(void **state)
+TEST(averages_are_means_of_snapshots)
 {
-    (void)state;
     enum { SAMPLES = 7, VECTORS = 9 };
     const double MEAN = SAMPLES * DBL_EPSILON;
-    const hd_scene_def def = scene(P, R);
+    const hd_scene_def def = dense(P, R);
     world w = world_create(&def, VECTORS, 1);
     const int s = world_subspace(&w, HD_MODE_LP, 1, 1);
     double sum[VECTORS][HD_WEIGHTS] = {{0.0}}, null[VECTORS] = {0.0};
@@ -407,11 +397,10 @@ static void averages_are_means_of_snapshots(void **state)
     world_free(&w);
 }
 
-static void two_threads_see_the_same(void **state)
+TEST(two_threads_see_the_same)
 {
-    (void)state;
     enum { VECTORS = 300 };
-    const hd_scene_def def = scene(P, P);
+    const hd_scene_def def = dense(P, P);
     world one = world_create(&def, VECTORS, 1), two = world_create(&def, VECTORS, 2);
     world_look(&one);
     world_look(&two);
@@ -424,11 +413,10 @@ static void two_threads_see_the_same(void **state)
     world_free(&two);
 }
 
-static void what_is_not_finite_is_refused(void **state)
+TEST(what_is_not_finite_is_refused)
 {
-    (void)state;
     enum { VECTORS = 5 };
-    const hd_scene_def def = scene(P, P);
+    const hd_scene_def def = dense(P, P);
     world w = world_create(&def, VECTORS, 1);
     const double bad[] = {NAN, INFINITY};
     for (int k = 0; k < 2; k++)
@@ -442,22 +430,4 @@ static void what_is_not_finite_is_refused(void **state)
     world_noise(&w);
     CHECK_OK(hd_modes_measure(w.modes, hd_frame_columns(w.frame), w.q, w.p));
     world_free(&w);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(weights_are_those_of_least_squares),
-        cmocka_unit_test(known_mixtures_come_back),
-        cmocka_unit_test(single_fields_are_named),
-        cmocka_unit_test(fields_that_coincide_count_once),
-        cmocka_unit_test(few_disks),
-        cmocka_unit_test(zero_modes_have_their_parts),
-        cmocka_unit_test(momenta_alone_have_no_weight),
-        cmocka_unit_test(walls_take_uniform_motion_away),
-        cmocka_unit_test(averages_are_means_of_snapshots),
-        cmocka_unit_test(two_threads_see_the_same),
-        cmocka_unit_test(what_is_not_finite_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,7 +7,7 @@
 #include "scenes.h"
 
 static const double PI = 3.14159265358979323846;
-static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
+static const hd_boundary R = HD_REFLECTING;
 
 /* ---- clean rotation ------------------------------------------------------------------------ */
 
@@ -31,9 +31,8 @@ static void check_rate(int d, double omega)
     rotating_free(&r);
 }
 
-static void a_rotation_gives_its_omega_back(void **state)
+TEST(a_rotation_gives_its_omega_back)
 {
-    (void)state;
     const double rates[] = {0.0, 0.003, 0.4, 0.5 * PI, 0.9 * PI};
     for (int d = 1; d <= 4; d *= 2)
         for (int k = 0; k < 5; k++) {
@@ -43,9 +42,8 @@ static void a_rotation_gives_its_omega_back(void **state)
 }
 
 /** With dt of its own and disks that move; 16 samples before an error is known. */
-static void time_is_what_it_is_told(void **state)
+TEST(time_is_what_it_is_told)
 {
-    (void)state;
     rotating r = pairs(2);
     r.dt = 0.25;
     for (int k = 1; k <= 40; k++) {
@@ -60,11 +58,10 @@ static void time_is_what_it_is_told(void **state)
 }
 
 /** Vectors outside, pairs inside, all LP steps one after the other. */
-static void phases_lie_in_order(void **state)
+TEST(phases_lie_in_order)
 {
-    (void)state;
-    hd_scene_def def = scene_of(60, 0.5, 0.8, P, R, 9);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = 60, .density = 0.5, .aspect = 0.8, .boundary[1] = R,
+                             .seed = 9, .max_mode_number = 1);
     world w = world_create(&def, 10, 1);
     hd_phases *phases;
     double rate, error;
@@ -138,9 +135,8 @@ static honesty honesty_of(double white, double diffusing, int samples)
 
 /** Regression and error are made for it: 100 repetitions know the ratio to 7 %, 16 to 31 blocks
  * their mean error to 3 % below; the samples beyond the last whole block to 10 %. */
-static void errors_of_diffusing_phases_are_honest(void **state)
+TEST(errors_of_diffusing_phases_are_honest)
 {
-    (void)state;
     const int samples[] = {60, 400};
     for (int k = 0; k < 2; k++) {
         const honesty h = honesty_of(0.0, 0.2, samples[k]);
@@ -152,9 +148,8 @@ static void errors_of_diffusing_phases_are_honest(void **state)
 }
 
 /** Both at once, as LP modes do. */
-static void errors_of_trembling_phases_are_never_too_small(void **state)
+TEST(errors_of_trembling_phases_are_never_too_small)
 {
-    (void)state;
     const honesty white = honesty_of(0.1, 0.0, 400), both = honesty_of(0.1, 0.1, 400);
     print_message("white noise: omega %.3f, v %.3f stated errors; diffusing too: %.2f, %.2f\n",
                   white.omega, white.velocity, both.omega, both.velocity);
@@ -167,9 +162,8 @@ static void errors_of_trembling_phases_are_never_too_small(void **state)
 }
 
 /** Turns by 0.9 pi, and noise that would cross over without a prediction. */
-static void predictions_unwrap_far_turns(void **state)
+TEST(predictions_unwrap_far_turns)
 {
-    (void)state;
     enum { SAMPLES = 400 };
     const double omega = 0.9 * PI, noise = 0.15;
     rotating r = pairs(2);
@@ -190,9 +184,8 @@ static void predictions_unwrap_far_turns(void **state)
 
 /** Vectors that turn the slower the more of them lies in the fields, as at low density: what their
  * whole turns on average is less than their phases show. */
-static void strength_that_goes_with_the_rate_is_no_bias(void **state)
+TEST(strength_that_goes_with_the_rate_is_no_bias)
 {
-    (void)state;
     enum { SAMPLES = 400 };
     const double omega = 0.7, unevenness = 0.4;
     rotating r = pairs(1);
@@ -219,8 +212,7 @@ typedef struct channel {
 
 static channel channel_create(void)
 {
-    hd_scene_def def = scene_in_box(40, 50.0, 1.5, R, R, 9);
-    def.max_mode_number = 2;
+    hd_scene_def def = scene_from(scene_in_box(40, 50.0, 1.5, R, R, 9), .max_mode_number = 2);
     channel ch = {.w = world_create(&def, 4, 1)};
     const double exponents[4] = {1.6, 1.6, 0.8, 0.8};
     CHECK_OK(hd_phases_create(&ch.phases, ch.w.steps, HD_MODE_LP));
@@ -274,9 +266,8 @@ static hd_velocity velocity_of(channel *ch, const double omega[2], const double 
 
 /** Weighted: one step is known ten times as well as the other, so the mean is as good as that one.
  */
-static void velocity_is_the_weighted_mean_of_the_steps(void **state)
+TEST(velocity_is_the_weighted_mean_of_the_steps)
 {
-    (void)state;
     enum { REPEATS = 100 };
     channel ch = channel_create();
     const double v = 3.0, noise[2] = {0.015, 0.15};
@@ -298,9 +289,8 @@ static void velocity_is_the_weighted_mean_of_the_steps(void **state)
 }
 
 /** Steps that contradict each other by 0.5, of errors of 0.001 / sqrt(200) and more. */
-static void contradictions_are_a_misfit(void **state)
+TEST(contradictions_are_a_misfit)
 {
-    (void)state;
     channel ch = channel_create();
     const double noise[2] = {0.001 * ch.k[0], 0.001 * ch.k[1]};
     const double omega[2] = {3.0 * ch.k[0], 3.5 * ch.k[1]};
@@ -313,9 +303,8 @@ static void contradictions_are_a_misfit(void **state)
     channel_free(&ch);
 }
 
-static void sampling_follows_the_largest_exponent(void **state)
+TEST(sampling_follows_the_largest_exponent)
 {
-    (void)state;
     channel ch = channel_create();
     CHECK_CLOSE(hd_phases_sampling(ch.phases, ch.w.steps), 0.75 * PI / (1.25 * 1.6), ROUNDING);
     hd_spectrum_clear(ch.w.spectrum);
@@ -328,9 +317,8 @@ static void sampling_follows_the_largest_exponent(void **state)
 }
 
 /** LP(1,0) and LP(0,1) of a square box share their set and turn alike: each still has a rate. */
-static void shared_sets_turn_too(void **state)
+TEST(shared_sets_turn_too)
 {
-    (void)state;
     hd_scene_def def = scene_of(60, 0.5, 1.0, R, R, 9);
     def.max_wave_number = hd_wave_component(&def, 0, 1);
     world w = world_create(&def, 4, 1);
@@ -369,22 +357,4 @@ static void shared_sets_turn_too(void **state)
     assert_true(hd_phases_velocity(phases).phases >= 2);
     hd_phases_free(phases);
     world_free(&w);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_rotation_gives_its_omega_back),
-        cmocka_unit_test(time_is_what_it_is_told),
-        cmocka_unit_test(phases_lie_in_order),
-        cmocka_unit_test(errors_of_diffusing_phases_are_honest),
-        cmocka_unit_test(errors_of_trembling_phases_are_never_too_small),
-        cmocka_unit_test(predictions_unwrap_far_turns),
-        cmocka_unit_test(strength_that_goes_with_the_rate_is_no_bias),
-        cmocka_unit_test(velocity_is_the_weighted_mean_of_the_steps),
-        cmocka_unit_test(contradictions_are_a_misfit),
-        cmocka_unit_test(sampling_follows_the_largest_exponent),
-        cmocka_unit_test(shared_sets_turn_too),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

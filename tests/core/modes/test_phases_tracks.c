@@ -26,9 +26,8 @@ static void check_columns(const rotating *r)
         for (int c = 0; c < r->d; c++) assert_int_equal(phase_of(r, v, c)->col, r->column[v]);
 }
 
-static void exchanges_do_not_break_the_tracks(void **state)
+TEST(exchanges_do_not_break_the_tracks)
 {
-    (void)state;
     const double rates[] = {0.0, 0.7, -2.0};
     for (int d = 1; d <= 4; d *= 2)
         for (int k = 0; k < 3; k++) {
@@ -68,9 +67,8 @@ static rotating interrupted(int d, double omega, int samples)
 }
 
 /** All vectors jump by 0.85 rad now and then: further from where they were than from each other. */
-static void jumps_are_no_exchanges(void **state)
+TEST(jumps_are_no_exchanges)
 {
-    (void)state;
     for (int d = 1; d <= 4; d *= 2) {
         rotating r = pairs(d);
         double angle = 0.0;
@@ -85,9 +83,8 @@ static void jumps_are_no_exchanges(void **state)
     }
 }
 
-static void short_absences_keep_the_count_of_turns(void **state)
+TEST(short_absences_keep_the_count_of_turns)
 {
-    (void)state;
     for (int d = 1; d <= 2; d++)
         for (int samples = 1; samples <= 15; samples += 2) {
             rotating r = interrupted(d, 1.3, samples);
@@ -100,9 +97,8 @@ static void short_absences_keep_the_count_of_turns(void **state)
         }
 }
 
-static void long_absences_begin_anew(void **state)
+TEST(long_absences_begin_anew)
 {
-    (void)state;
     for (int d = 1; d <= 2; d++) {
         rotating r = interrupted(d, 1.3, 20);
         CHECK_CLOSE(phase_of(&r, 1, 0)->time, 0.0, 0.0);
@@ -116,9 +112,8 @@ static void long_absences_begin_anew(void **state)
 }
 
 /** Nothing but noise for a while: the rate of the whole step is not spoiled. */
-static void absence_of_all_vectors_is_survived(void **state)
+TEST(absence_of_all_vectors_is_survived)
 {
-    (void)state;
     rotating r = pairs_of(1, 400);
     for (int t = 0; t < 50; t++) turn(&r, 1.3);
     r.strength[0] = r.strength[1] = 0.0;
@@ -141,9 +136,8 @@ static void check_all(const rotating *r, hd_phase_state state, double time)
         }
 }
 
-static void unresolved_steps_are_not_followed(void **state)
+TEST(unresolved_steps_are_not_followed)
 {
-    (void)state;
     rotating r = pairs(1);
     double exponents[2] = {2.4, 0.8};
     for (int t = 0; t < 20; t++) turn(&r, 0.5);
@@ -169,11 +163,9 @@ static void unresolved_steps_are_not_followed(void **state)
 }
 
 /** The same step in other columns. */
-static void another_set_is_followed_anew(void **state)
+TEST(another_set_is_followed_anew)
 {
-    (void)state;
-    hd_scene_def def = scene_in_box(30, 40.0, 1.5, R, P, 9);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene_from(scene_in_box(30, 40.0, 1.5, R, P, 9), .max_mode_number = 1);
     rotating r = rotating_create(&def, HD_MODE_LP, 1, 0, 6, 2.4);
     assert_int_equal(r.step->col, 4);
     for (int t = 0; t < 20; t++) turn(&r, 0.5);
@@ -194,9 +186,8 @@ static void another_set_is_followed_anew(void **state)
 /** Samples at other distances, as pieces of a schedule that changes: a slow step, for which 12.5
  * time units would do without any knowledge of its rate, goes on; known, twice the mean distance
  * and a third more will. Far shorter ones count, too: what came before them is not forgotten. */
-static void pieces_of_any_length_go_on(void **state)
+TEST(pieces_of_any_length_go_on)
 {
-    (void)state;
     const double lengths[] = {1.0,       2.0, 4.0, 8.0, 12.5, 7.0,  0.6 * 7.0,
                               0.4 * 7.0, 7.0, 5.0, 2.5, 0.1,  0.01, 12.5};
     rotating r = pairs(1);
@@ -222,9 +213,8 @@ static void pieces_of_any_length_go_on(void **state)
     rotating_free(&r);
 }
 
-static void clear_begins_anew(void **state)
+TEST(clear_begins_anew)
 {
-    (void)state;
     rotating r = pairs(1);
     for (int t = 0; t < 20; t++) turn(&r, 0.5);
     hd_phases_clear(r.phases);
@@ -236,9 +226,8 @@ static void clear_begins_anew(void **state)
 
 /** 1.25 lambda dt above pi: no phase, at no sample, until the samples are close enough; a and b are
  * known. Three samples do not tell the rate. */
-static void coarse_samples_are_said_to_be(void **state)
+TEST(coarse_samples_are_said_to_be)
 {
-    (void)state;
     rotating r = pairs(1);
     for (int t = 0; t < 3; t++) turn(&r, 0.5);
     find(&r, 1.01 * PI / 1.25);
@@ -260,21 +249,4 @@ static void coarse_samples_are_said_to_be(void **state)
     turn(&r, 0.5);
     check_all(&r, HD_PHASE_UNRESOLVED, 0.0);
     rotating_free(&r);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exchanges_do_not_break_the_tracks),
-        cmocka_unit_test(jumps_are_no_exchanges),
-        cmocka_unit_test(short_absences_keep_the_count_of_turns),
-        cmocka_unit_test(long_absences_begin_anew),
-        cmocka_unit_test(absence_of_all_vectors_is_survived),
-        cmocka_unit_test(unresolved_steps_are_not_followed),
-        cmocka_unit_test(another_set_is_followed_anew),
-        cmocka_unit_test(pieces_of_any_length_go_on),
-        cmocka_unit_test(clear_begins_anew),
-        cmocka_unit_test(coarse_samples_are_said_to_be),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

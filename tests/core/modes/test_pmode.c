@@ -57,8 +57,8 @@ static void write_vectors(reconstruction *r, double noise)
 /** LP(1,0), LP(0,1) or LP(1,1): 4 vectors, or 8. */
 static reconstruction reconstruction_create(int nx, int ny, bool on_lattice, double noise)
 {
-    hd_scene_def def = scene_of(DISKS, 0.5, 0.8, HD_PERIODIC, HD_PERIODIC, 8);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = DISKS, .density = 0.5, .aspect = 0.8, .seed = 8,
+                             .max_mode_number = 1);
     reconstruction r = {.dimension = nx && ny ? 8 : 4};
     const double exponents[DIMENSION_MAX] = {1, 1, 1, 1, 1, 1, 1, 1};
     r.w = world_create(&def, r.dimension, 1);
@@ -88,9 +88,8 @@ static const int nodes[][2] = {{1, 0}, {0, 1}, {1, 1}};
 
 /* ---- exact rotations ----------------------------------------------------------------------- */
 
-static void a_rotation_is_found(void **state)
+TEST(a_rotation_is_found)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         reconstruction r = reconstruction_create(nodes[k][0], nodes[k][1], true, 0.0);
         const int n = r.dimension;
@@ -110,9 +109,8 @@ static void a_rotation_is_found(void **state)
 
 /** At disks anywhere the fields are not orthonormal: vector m has length |B turn_m| before it gets
  * 1, so Q = (lengths) (turn), whose singular values are the lengths. */
-static void lengths_are_the_distance_from_a_rotation(void **state)
+TEST(lengths_are_the_distance_from_a_rotation)
 {
-    (void)state;
     reconstruction r = reconstruction_create(1, 1, false, 0.0);
     double distance = 0.0;
     assert_true(reconstruct(&r));
@@ -161,9 +159,8 @@ static void check_field(const reconstruction *r, int c)
     CHECK_CLOSE(hd_pmode_residual(r->pmode, c), sqrt(off), ALGEBRA);
 }
 
-static void modes_are_those_of_least_squares(void **state)
+TEST(modes_are_those_of_least_squares)
 {
-    (void)state;
     for (int k = 0; k < 3; k++)
         for (int on_lattice = 0; on_lattice < 2; on_lattice++) {
             reconstruction r = reconstruction_create(nodes[k][0], nodes[k][1], on_lattice, 0.4);
@@ -175,9 +172,8 @@ static void modes_are_those_of_least_squares(void **state)
 
 /** Vectors of length sqrt(1 + noise^2) of which noise stands across: sin of the angle between. The
  * noise of 128 numbers is known to 6 %, and 4 of its 128 directions lie within. */
-static void noise_raises_the_residual(void **state)
+TEST(noise_raises_the_residual)
 {
-    (void)state;
     const double noises[] = {0.01, 0.1, 0.5};
     for (int k = 0; k < 3; k++) {
         reconstruction r = reconstruction_create(1, 0, true, noises[k]);
@@ -199,9 +195,8 @@ static double mean_square(const double *p)
 }
 
 /** P / p is A but for p^2 / (p^2 + eps): exactly so. */
-static void divided_by_the_momenta_it_is_the_modulation(void **state)
+TEST(divided_by_the_momenta_it_is_the_modulation)
 {
-    (void)state;
     for (int k = 0; k < 6; k++) {
         reconstruction r = reconstruction_create(nodes[k % 3][0], nodes[k % 3][1], k > 2, 0.0);
         const int d = r.dimension / 2;
@@ -223,9 +218,8 @@ static void divided_by_the_momenta_it_is_the_modulation(void **state)
 }
 
 /** Momenta near zero, and at it: finite, and no larger than the noise there over 2 sqrt(eps). */
-static void tiny_momenta_stay_finite(void **state)
+TEST(tiny_momenta_stay_finite)
 {
-    (void)state;
     reconstruction r = reconstruction_create(1, 0, false, 0.0);
     double q[ROWS], p[ROWS], out[ROWS];
     memcpy(q, r.w.q, sizeof q);
@@ -250,9 +244,8 @@ static void tiny_momenta_stay_finite(void **state)
 
 /* ---- what cannot be reconstructed ---------------------------------------------------------- */
 
-static void only_lp_steps_of_their_own(void **state)
+TEST(only_lp_steps_of_their_own)
 {
-    (void)state;
     reconstruction r = reconstruction_create(1, 0, true, 0.0);
     hd_step step = *r.step;
     step.kind = HD_MODE_T;
@@ -268,18 +261,4 @@ static void only_lp_steps_of_their_own(void **state)
     write_vectors(&r, 0.0);
     assert_false(reconstruct(&r));
     reconstruction_free(&r);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_rotation_is_found),
-        cmocka_unit_test(lengths_are_the_distance_from_a_rotation),
-        cmocka_unit_test(modes_are_those_of_least_squares),
-        cmocka_unit_test(noise_raises_the_residual),
-        cmocka_unit_test(divided_by_the_momenta_it_is_the_modulation),
-        cmocka_unit_test(tiny_momenta_stay_finite),
-        cmocka_unit_test(only_lp_steps_of_their_own),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

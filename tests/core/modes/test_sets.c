@@ -24,9 +24,8 @@ static void check_vectors(const world *w)
     assert_int_equal(named, 0);
 }
 
-static void clean_steps_are_found(void **state)
+TEST(clean_steps_are_found)
 {
-    (void)state;
     const double noises[] = {0.0, 0.3};
     for (int m = 0; m < 2; m++) {
         double exponents[VECTORS];
@@ -51,9 +50,8 @@ static void clean_steps_are_found(void **state)
     }
 }
 
-static void equal_exponents_do_not_join_what_the_weights_part(void **state)
+TEST(equal_exponents_do_not_join_what_the_weights_part)
 {
-    (void)state;
     double exponents[VECTORS];
     world w = steps_in_place(exponents, 0.0);
     exponents_flat(exponents, 36, 24, 0.4);
@@ -63,9 +61,8 @@ static void equal_exponents_do_not_join_what_the_weights_part(void **state)
     world_free(&w);
 }
 
-static void noise_has_no_name(void **state)
+TEST(noise_has_no_name)
 {
-    (void)state;
     double exponents[VECTORS];
     const hd_scene_def def = scene_of_places(0.8);
     world w = world_create(&def, VECTORS, 1);
@@ -78,9 +75,8 @@ static void noise_has_no_name(void **state)
 }
 
 /** Half of the multiplicity is the threshold: noise as long as the field leaves half. */
-static void weak_steps_are_not_resolved(void **state)
+TEST(weak_steps_are_not_resolved)
 {
-    (void)state;
     const double noises[] = {0.7, 1.4}; /* weight about 0.68 and 0.36 */
     for (int m = 0; m < 2; m++) {
         double exponents[VECTORS];
@@ -97,11 +93,10 @@ static void weak_steps_are_not_resolved(void **state)
 }
 
 /** Few disks: random vectors already have d / 2N = 1/4 of 8 fields, of the rest half is asked. */
-static void chance_does_not_resolve_a_step(void **state)
+TEST(chance_does_not_resolve_a_step)
 {
-    (void)state;
-    hd_scene_def def = scene_of(16, 0.5, 0.8, P, P, 4);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = 16, .density = 0.5, .aspect = 0.8, .seed = 4,
+                             .max_mode_number = 1);
     double exponents[VECTORS];
     int between = 0, resolved = 0;
     for (int k = 0; k <= 60; k++) {
@@ -125,12 +120,11 @@ static void chance_does_not_resolve_a_step(void **state)
 
 /** Random vectors have d / 2N of their weight in d dimensions, each: a window of D columns has the
  * trace D d / 2N, however many of them belong to the subspace. */
-static void chance_grows_with_the_window(void **state)
+TEST(chance_grows_with_the_window)
 {
-    (void)state;
     enum { DRAWS = 400, COLUMNS = 12 };
-    hd_scene_def def = scene_of(12, 0.5, 0.8, P, P, 4);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = 12, .density = 0.5, .aspect = 0.8, .seed = 4,
+                             .max_mode_number = 1);
     world w = world_create(&def, COLUMNS, 1);
     for (int k = 0; k < PLACES; k++) {
         const int s = subspace_of(&w, k), d = world_dimension(&w, s);
@@ -148,11 +142,10 @@ static void chance_grows_with_the_window(void **state)
 
 /** Twelve disks: two steps in a window of 8 to 12 columns have 1/3 to 1/2 of what is expected by
  * chance alone. Were each held against its own 2, 4 or 8 dimensions, 2517 steps would be found. */
-static void chance_resolves_no_shared_set(void **state)
+TEST(chance_resolves_no_shared_set)
 {
-    (void)state;
-    hd_scene_def def = scene_of(12, 0.5, 0.8, P, P, 4);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = 12, .density = 0.5, .aspect = 0.8, .seed = 4,
+                             .max_mode_number = 1);
     world w = world_create(&def, 21, 1);
     double exponents[VECTORS];
     int shared = 0;
@@ -169,11 +162,9 @@ static void chance_resolves_no_shared_set(void **state)
 }
 
 /** Three disks: any four vectors look like LP(1,0), whose fields fill 4 of 6 dimensions. */
-static void fields_that_fill_the_space_name_nothing(void **state)
+TEST(fields_that_fill_the_space_name_nothing)
 {
-    (void)state;
-    hd_scene_def def = scene_in_box(3, 12.0, 1.5, P, R, 4);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene_from(scene_in_box(3, 12.0, 1.5, P, R, 4), .max_mode_number = 1);
     const double exponents[] = {0.4, 0.4, 0.4, 0.4};
     world w = world_create(&def, 4, 1);
     const int s = world_subspace(&w, HD_MODE_LP, 1, 0);
@@ -185,9 +176,8 @@ static void fields_that_fill_the_space_name_nothing(void **state)
 }
 
 /** A vector of a resolved step that is something else belongs to nobody. */
-static void a_stranger_in_a_step_stays_unnamed(void **state)
+TEST(a_stranger_in_a_step_stays_unnamed)
 {
-    (void)state;
     double exponents[VECTORS];
     world w = steps_in_place(exponents, 0.0);
     world_turn(&w, 38, 5, 1.2); /* keeps cos^2 = 0.13 */
@@ -199,9 +189,8 @@ static void a_stranger_in_a_step_stays_unnamed(void **state)
     world_free(&w);
 }
 
-static void what_is_not_flat_is_not_resolved(void **state)
+TEST(what_is_not_flat_is_not_resolved)
 {
-    (void)state;
     double exponents[VECTORS];
     world w = steps_in_place(exponents, 0.0);
     exponents[58] *= 1.15; /* 7 % from the mean of the two */
@@ -215,9 +204,8 @@ static void what_is_not_flat_is_not_resolved(void **state)
 }
 
 /** The same deviation within three errors. */
-static void errors_excuse_what_is_not_flat(void **state)
+TEST(errors_excuse_what_is_not_flat)
 {
-    (void)state;
     double exponents[VECTORS], sample[VECTORS];
     world w = steps_in_place(exponents, 0.0);
     exponents[52] *= 1.25;
@@ -263,9 +251,8 @@ static void check_named_by_weight(const world *w, int col, int a, int b)
 }
 
 /** T(1,1) and LP(0,1), as in the paper's reflecting box. */
-static void a_crossing_of_t_and_lp_shares_its_set(void **state)
+TEST(a_crossing_of_t_and_lp_shares_its_set)
 {
-    (void)state;
     const double noises[] = {0.0, 0.2};
     for (int m = 0; m < 2; m++) {
         const hd_scene_def def = scene_of_places(0.8);
@@ -279,9 +266,8 @@ static void a_crossing_of_t_and_lp_shares_its_set(void **state)
     }
 }
 
-static void square_boxes_double_their_steps(void **state)
+TEST(square_boxes_double_their_steps)
 {
-    (void)state;
     const hd_scene_def def = scene_of_places(1.0);
     double exponents[VECTORS];
     world w = world_create(&def, VECTORS, 1);
@@ -298,9 +284,8 @@ static void square_boxes_double_their_steps(void **state)
 }
 
 /** Three at once, in whatever order they meet. */
-static void more_than_two_can_share(void **state)
+TEST(more_than_two_can_share)
 {
-    (void)state;
     const hd_scene_def def = scene_of_places(0.8);
     double exponents[VECTORS];
     world w = world_create(&def, VECTORS, 1);
@@ -347,17 +332,15 @@ static void check_weak_neighbour(int weak)
     world_free(&w);
 }
 
-static void a_weak_neighbour_takes_no_step_along(void **state)
+TEST(a_weak_neighbour_takes_no_step_along)
 {
-    (void)state;
     check_weak_neighbour(1); /* before T(0,1) in the order of the fields, and behind it */
     check_weak_neighbour(3);
 }
 
 /** Each vector counts by its share: recomputed from the weights. */
-static void exponents_of_shared_sets_follow_the_shares(void **state)
+TEST(exponents_of_shared_sets_follow_the_shares)
 {
-    (void)state;
     double exponents[VECTORS];
     const hd_scene_def def = scene_of_places(0.8);
     world w = world_create(&def, VECTORS, 1);
@@ -391,9 +374,8 @@ static world leaking(double part, double exponent)
     return w;
 }
 
-static void a_leak_joins_above_its_threshold(void **state)
+TEST(a_leak_joins_above_its_threshold)
 {
-    (void)state;
     world w = leaking(0.17, 0.3);
     assert_int_equal(step_of(&w, 2)->members, 1);
     assert_int_equal(step_of(&w, 1)->members, 1);
@@ -409,28 +391,4 @@ static void a_leak_joins_above_its_threshold(void **state)
     check_step(step_of(&w, 1), 52, 4, 1, 0.3);
     CHECK_CLOSE(step_of(&w, 2)->multiplicity, 2.0 * 0.6, 0.1);
     world_free(&w);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(clean_steps_are_found),
-        cmocka_unit_test(equal_exponents_do_not_join_what_the_weights_part),
-        cmocka_unit_test(noise_has_no_name),
-        cmocka_unit_test(weak_steps_are_not_resolved),
-        cmocka_unit_test(chance_does_not_resolve_a_step),
-        cmocka_unit_test(chance_grows_with_the_window),
-        cmocka_unit_test(chance_resolves_no_shared_set),
-        cmocka_unit_test(fields_that_fill_the_space_name_nothing),
-        cmocka_unit_test(a_stranger_in_a_step_stays_unnamed),
-        cmocka_unit_test(what_is_not_flat_is_not_resolved),
-        cmocka_unit_test(errors_excuse_what_is_not_flat),
-        cmocka_unit_test(a_crossing_of_t_and_lp_shares_its_set),
-        cmocka_unit_test(square_boxes_double_their_steps),
-        cmocka_unit_test(more_than_two_can_share),
-        cmocka_unit_test(a_weak_neighbour_takes_no_step_along),
-        cmocka_unit_test(exponents_of_shared_sets_follow_the_shares),
-        cmocka_unit_test(a_leak_joins_above_its_threshold),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

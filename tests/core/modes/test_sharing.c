@@ -50,9 +50,8 @@ static void check_sharing(double gap, double noise, int samples, hd_sharing expe
 }
 
 /** The frame is as old as warm-up (50) and averages: 306 time units. */
-static void exponents_and_time_tell(void **state)
+TEST(exponents_and_time_tell)
 {
-    (void)state;
     check_sharing(0.0, 0.02, 8, HD_SHARING_UNKNOWN); /* no errors yet */
     check_sharing(0.0, 1.5, SAMPLES, HD_SHARING_UNKNOWN);
     check_sharing(0.0, 0.02, SAMPLES, HD_SHARING_COINCIDENT);
@@ -60,9 +59,8 @@ static void exponents_and_time_tell(void **state)
     check_sharing(0.05, 0.02, SAMPLES, HD_SHARING_BLENDED);
 }
 
-static void who_is_alone_shares_nothing(void **state)
+TEST(who_is_alone_shares_nothing)
 {
-    (void)state;
     double exponents[VECTORS];
     world w = steps_in_place(exponents, 0.0);
     world_look(&w);
@@ -79,9 +77,8 @@ static void who_is_alone_shares_nothing(void **state)
 
 /** Vectors that do not mix lie in their own columns: T, then LP; so the part tells how far they
  * have parted. */
-static void own_columns_follow_the_exponents(void **state)
+TEST(own_columns_follow_the_exponents)
 {
-    (void)state;
     double exponents[VECTORS];
     world w = mixed(exponents, 0.02);
     const int t = subspace_of(&w, 4), lp = subspace_of(&w, 3);
@@ -96,9 +93,8 @@ static void own_columns_follow_the_exponents(void **state)
     world_free(&w);
 }
 
-static void time_counts_from_when_they_came_together(void **state)
+TEST(time_counts_from_when_they_came_together)
 {
-    (void)state;
     double exponents[VECTORS];
     world w = mixed(exponents, 0.0);
     go_on(&w, exponents, 0.02, 20);
@@ -118,15 +114,4 @@ static void time_counts_from_when_they_came_together(void **state)
     hd_steps_clear(w.steps);
     assert_int_equal(step_of(&w, 4)->sharing, HD_SHARING_ALONE);
     world_free(&w);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exponents_and_time_tell),
-        cmocka_unit_test(who_is_alone_shares_nothing),
-        cmocka_unit_test(own_columns_follow_the_exponents),
-        cmocka_unit_test(time_counts_from_when_they_came_together),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,8 +22,8 @@ static void write_zero(world *w, int col, int null, bool of_dp)
 /** Zeros begin at (4N - Z) / 2; the frame ends `carried` columns later. */
 static void check_partial_zeros(hd_boundary x, hd_boundary y, int zeros, int carried)
 {
-    hd_scene_def def = scene_of(20, 0.5, 0.8, x, y, 4);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = 20, .density = 0.5, .aspect = 0.8, .boundary[0] = x,
+                             .boundary[1] = y, .seed = 4, .max_mode_number = 1);
     const int first = (4 * 20 - zeros) / 2;
     static double exponents[ALL_MAX];
     world w = world_create(&def, first + carried, 1);
@@ -45,9 +45,8 @@ static void check_partial_zeros(hd_boundary x, hd_boundary y, int zeros, int car
     world_free(&w);
 }
 
-static void zero_modes_stand_in_the_middle(void **state)
+TEST(zero_modes_stand_in_the_middle)
 {
-    (void)state;
     for (int carried = 0; carried < 3; carried++) {
         check_partial_zeros(P, P, 6, carried);
         check_partial_zeros(P, R, 4, carried);
@@ -56,11 +55,10 @@ static void zero_modes_stand_in_the_middle(void **state)
     check_partial_zeros(R, R, 2, 5);
 }
 
-static void noise_in_the_middle_is_no_zero_mode(void **state)
+TEST(noise_in_the_middle_is_no_zero_mode)
 {
-    (void)state;
-    hd_scene_def def = scene_of(20, 0.5, 0.8, P, P, 4);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = 20, .density = 0.5, .aspect = 0.8, .seed = 4,
+                             .max_mode_number = 1);
     static double exponents[ALL_MAX];
     world w = world_create(&def, 40, 1);
     exponents_falling(&w, exponents);
@@ -80,9 +78,8 @@ static void noise_in_the_middle_is_no_zero_mode(void **state)
 /** Column that mirrors another. */
 static int mirror(int col, int count) { return 4 * DISKS - col - count; }
 
-static void all_vectors_have_conjugate_steps(void **state)
+TEST(all_vectors_have_conjugate_steps)
 {
-    (void)state;
     const hd_scene_def def = scene_of_places(0.8);
     static double exponents[ALL_MAX];
     world w = world_create(&def, 4 * DISKS, 1);
@@ -164,9 +161,8 @@ static double error_of(motion how)
 }
 
 /** The error of a mean is known exactly; steps of 2, 4 and 8 vectors, which move in fours. */
-static void errors_know_what_moves_together(void **state)
+TEST(errors_know_what_moves_together)
 {
-    (void)state;
     const double d[] = {2, 4, 2, 4, 4, 8};
     double alone = 0.0, fours = 0.0;
     for (int k = 0; k < PLACES; k++) {
@@ -181,9 +177,8 @@ static void errors_know_what_moves_together(void **state)
     CHECK_CLOSE(got[2], 0.0, sqrt(SAMPLES) * ROUNDING);
 }
 
-static void few_samples_give_no_error(void **state)
+TEST(few_samples_give_no_error)
 {
-    (void)state;
     double exponents[VECTORS];
     world w = steps_in_place(exponents, 0.0);
     world_find(&w, exponents);
@@ -195,9 +190,8 @@ static void few_samples_give_no_error(void **state)
 }
 
 /** A set is one of columns: its error is that of all the time, also of before it was found. */
-static void new_sets_know_the_whole_time(void **state)
+TEST(new_sets_know_the_whole_time)
 {
-    (void)state;
     double exponents[VECTORS];
     world w = steps_in_place(exponents, 0.0);
     world_find(&w, exponents);
@@ -216,9 +210,8 @@ static void new_sets_know_the_whole_time(void **state)
 
 /* ---- changes ------------------------------------------------------------------------------- */
 
-static void what_is_flat_no_more_is_not_resolved(void **state)
+TEST(what_is_flat_no_more_is_not_resolved)
 {
-    (void)state;
     double exponents[VECTORS];
     world w = steps_in_place(exponents, 0.0);
     hd_steps_find(w.steps, w.spectrum); /* nothing is known yet */
@@ -231,9 +224,8 @@ static void what_is_flat_no_more_is_not_resolved(void **state)
     world_free(&w);
 }
 
-static void clear_forgets_everything(void **state)
+TEST(clear_forgets_everything)
 {
-    (void)state;
     double exponents[VECTORS];
     world w = steps_in_place(exponents, 0.0);
     world_find(&w, exponents);
@@ -248,19 +240,4 @@ static void clear_forgets_everything(void **state)
     check_step(step_of(&w, 0), 58, 2, 1, 0.2);
     assert_true(step_of(&w, 0)->std_error < 0);
     world_free(&w);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(zero_modes_stand_in_the_middle),
-        cmocka_unit_test(noise_in_the_middle_is_no_zero_mode),
-        cmocka_unit_test(all_vectors_have_conjugate_steps),
-        cmocka_unit_test(errors_know_what_moves_together),
-        cmocka_unit_test(few_samples_give_no_error),
-        cmocka_unit_test(new_sets_know_the_whole_time),
-        cmocka_unit_test(what_is_flat_no_more_is_not_resolved),
-        cmocka_unit_test(clear_forgets_everything),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

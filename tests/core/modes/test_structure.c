@@ -99,9 +99,8 @@ static void check_twin(hd_boundary bx, hd_boundary by)
     looked_free(&x);
 }
 
-static void they_are_the_sums_over_disks_and_images(void **state)
+TEST(they_are_the_sums_over_disks_and_images)
 {
-    (void)state;
     check_twin(P, P);
     check_twin(P, R);
     check_twin(R, P);
@@ -109,11 +108,10 @@ static void they_are_the_sums_over_disks_and_images(void **state)
 }
 
 /** All that are sampled, in ascending k: more than those that are classified. */
-static void waves_are_all_that_disks_sample(void **state)
+TEST(waves_are_all_that_disks_sample)
 {
-    (void)state;
-    hd_scene_def def = scene_of(70, 0.6, 0.8, P, R, 11);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = 70, .density = 0.6, .aspect = 0.8, .boundary[1] = R,
+                             .seed = 11, .max_mode_number = 1);
     looked x = looked_of(&def, 1);
     double box[2];
     hd_scene_box(&def, box);
@@ -163,9 +161,8 @@ static void check_peak(hd_boundary bx, hd_boundary by, hd_mode_kind kind, int nx
     looked_free(&x);
 }
 
-static void the_peak_is_the_wave_of_the_vector(void **state)
+TEST(the_peak_is_the_wave_of_the_vector)
 {
-    (void)state;
     static const int nodes[][2] = {{1, 0}, {0, 1}, {1, 1}, {2, 1}};
     for (int k = 0; k < 4; k++) {
         check_peak(P, P, HD_MODE_T, nodes[k][0], nodes[k][1]);
@@ -178,9 +175,8 @@ static void the_peak_is_the_wave_of_the_vector(void **state)
     check_peak(R, P, HD_MODE_T, 1, 0);
 }
 
-static void means_are_means(void **state)
+TEST(means_are_means)
 {
-    (void)state;
     const hd_scene_def def = scene_of(70, 0.6, 0.8, P, P, 11);
     looked x = looked_of(&def, 1);
     double want[VECTORS] = {0.0};
@@ -205,9 +201,8 @@ static void means_are_means(void **state)
 }
 
 /** Random vectors have 1/2, along and across: over waves and vectors. */
-static void noise_has_one_half(void **state)
+TEST(noise_has_one_half)
 {
-    (void)state;
     const hd_boundary of[][2] = {{P, P}, {P, R}, {R, R}};
     for (int b = 0; b < 3; b++) {
         const hd_scene_def def = scene_of(150, 0.6, 0.8, of[b][0], of[b][1], 11);
@@ -234,9 +229,8 @@ static void noise_has_one_half(void **state)
 }
 
 /** As ranks and threads have them. */
-static void columns_and_threads_change_nothing(void **state)
+TEST(columns_and_threads_change_nothing)
 {
-    (void)state;
     const hd_scene_def def = scene_of(70, 0.6, 0.8, P, R, 11);
     looked a = looked_of(&def, 1), b = looked_of(&def, 2);
     for (int k = 0; k < 2; k++) {
@@ -261,9 +255,8 @@ static void columns_and_threads_change_nothing(void **state)
 }
 
 /** Without a dq half there is none; what is no number is refused. */
-static void degenerate_vectors(void **state)
+TEST(degenerate_vectors)
 {
-    (void)state;
     const hd_scene_def def = scene_of(70, 0.6, 0.8, P, P, 11);
     looked x = looked_of(&def, 1);
     double dq[ROWS_MAX] = {0.0}, dp[ROWS_MAX];
@@ -293,9 +286,8 @@ static double power_of(double (*amplitude)[2], int count, double omega)
 
 /** An LP pair, turned by hand: its line is at its omega, and nowhere else. L and P overlap by
  * N^(-1/2), differently at each time. */
-static void a_turning_vector_has_its_line(void **state)
+TEST(a_turning_vector_has_its_line)
 {
-    (void)state;
     enum { SAMPLES = 200 };
     const double omega = 0.4, resolution = 2.0 * 3.14159265358979323846 / SAMPLES;
     static double amplitude[SAMPLES][2];
@@ -321,19 +313,4 @@ static void a_turning_vector_has_its_line(void **state)
             assert_true(power_of(amplitude, SAMPLES, other) < at_line);
     hd_structure_free(s);
     rotating_free(&r);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(they_are_the_sums_over_disks_and_images),
-        cmocka_unit_test(waves_are_all_that_disks_sample),
-        cmocka_unit_test(the_peak_is_the_wave_of_the_vector),
-        cmocka_unit_test(means_are_means),
-        cmocka_unit_test(noise_has_one_half),
-        cmocka_unit_test(columns_and_threads_change_nothing),
-        cmocka_unit_test(degenerate_vectors),
-        cmocka_unit_test(a_turning_vector_has_its_line),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

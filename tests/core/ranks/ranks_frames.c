@@ -5,9 +5,8 @@
 
 /* ---- calls ---------------------------------------------------------------------------------- */
 
-static void calls_give_the_same_to_all(void **state)
+TEST(calls_give_the_same_to_all)
 {
-    (void)state;
     const int all = ranks->ranks, rank = ranks->rank;
     double x[3] = {1.0, rank, 0.1 * rank};
     hd_communicator_sum(ranks, x, 3);
@@ -23,10 +22,9 @@ static void calls_give_the_same_to_all(void **state)
 
 /** 70 rows, 11 columns of which each rank has as many as fit; from the first on, or from the last.
  */
-static void shares_are_put_together(void **state)
+static void expect_put_together(int from_behind)
 {
     enum { ROWS = 70, STRIDE = 16, COUNT = 11 };
-    const int from_behind = state == NULL;
     double x[ROWS][STRIDE];
     const int width = (COUNT + ranks->ranks - 1) / ranks->ranks, first = ranks->rank * width;
     for (int row = 0; row < ROWS; row++)
@@ -40,13 +38,17 @@ static void shares_are_put_together(void **state)
     for (int row = 0; row < ROWS; row++)
         for (int col = 0; col < COUNT; col++) CHECK_CLOSE(x[row][col], row + 0.01 * col, 0.0);
     CHECK_CLOSE(x[0][COUNT], -1.0, 0.0);
-    if (!from_behind) shares_are_put_together(NULL);
+}
+
+TEST(shares_are_put_together)
+{
+    expect_put_together(0);
+    expect_put_together(1);
 }
 
 /** Each kind by itself, and all together. */
-static void calls_are_counted(void **state)
+TEST(calls_are_counted)
 {
-    (void)state;
     double x[64] = {0.0};
     const hd_traffic before = hd_communicator_traffic(ranks);
     const hd_traffic sums = ranks->traffic[HD_CALL_SUM];
@@ -98,9 +100,8 @@ static void expect_columns(const frames *f, double tolerance)
                         tolerance);
 }
 
-static void each_rank_has_its_columns(void **state)
+TEST(each_rank_has_its_columns)
 {
-    (void)state;
     static const int sizes[][2] = {{5, 3}, {17, 30}, {40, 77}, {33, 132}};
     for (int k = 0; k < 4; k++) {
         frames f = frames_of(sizes[k][0], sizes[k][1]);
@@ -134,9 +135,8 @@ static void stretch(hd_frame *frame, double orders)
         }
 }
 
-static void vectors_are_orthonormalised_alike(void **state)
+TEST(vectors_are_orthonormalised_alike)
 {
-    (void)state;
     static const struct {
         int disks, vectors;
         double orders;
@@ -171,9 +171,8 @@ static void vectors_are_orthonormalised_alike(void **state)
     }
 }
 
-static void what_is_dependent_is_said_by_all(void **state)
+TEST(what_is_dependent_is_said_by_all)
 {
-    (void)state;
     frames f = frames_of(20, 40);
     stretch(f.shared, 40.0);
     const hd_ortho_limits limits = {1e7, 1e-10, HD_NORM_FULL};
@@ -181,16 +180,4 @@ static void what_is_dependent_is_said_by_all(void **state)
     frames_free(&f);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(calls_give_the_same_to_all),
-        cmocka_unit_test(shares_are_put_together),
-        cmocka_unit_test(calls_are_counted),
-        cmocka_unit_test(each_rank_has_its_columns),
-        cmocka_unit_test(vectors_are_orthonormalised_alike),
-        cmocka_unit_test(what_is_dependent_is_said_by_all),
-    };
-    if (!ranks_begin(argc, argv)) return 77;
-    return ranks_end(cmocka_run_group_tests(tests, NULL, NULL));
-}
+int main(int argc, char **argv) { return ranks_main(argc, argv); }

@@ -8,26 +8,21 @@
 
 static hd_scene_def short_scene(int disks, unsigned observe)
 {
-    hd_scene_def scene = scene_of(disks, 0.7, 0.3, HD_PERIODIC, HD_PERIODIC, 3);
-    scene.equilibration = 0.1;
-    scene.warmup = scene.duration = 2.0;
-    scene.threads = 1;
-    scene.observe = observe;
-    return scene;
+    return scene(.disks = disks, .density = 0.7, .aspect = 0.3, .seed = 3, .equilibration = 0.1,
+                 .warmup = 2.0, .duration = 2.0, .threads = 1, .observe = observe);
 }
 
 /** 8 m n + 8 n^2 bytes of all ranks together, times 1.4, for two copies of the frame and what
  * belongs to them; and a little that each has. */
-static void memory_falls_with_the_ranks(void **state)
+TEST(memory_falls_with_the_ranks)
 {
-    (void)state;
     const hd_scene_def scene = short_scene(400, 0);
     const double m = 1600.0, n = 797.0, alike = 6e6;
     hd_run *run;
     ledger_reset_peak();
     const double before = (double)ledger_now().live;
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+    finish(run);
     const double peak = (double)ledger_now().peak - before;
     const double needed = hd_room_needed(&scene, 1, ranks->ranks);
     if (ranks->rank == 0)
@@ -39,9 +34,8 @@ static void memory_falls_with_the_ranks(void **state)
 }
 
 /** Whatever it is that the last rank does not get: all of them end, and say so. */
-static void what_one_does_not_get_ends_all(void **state)
+TEST(what_one_does_not_get_ends_all)
 {
-    (void)state;
     hd_scene_def scene = short_scene(16, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES);
     for (int kind = 0; kind < 3; kind++) {
         size_t refused = 0;
@@ -69,12 +63,4 @@ static void what_one_does_not_get_ends_all(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(memory_falls_with_the_ranks),
-        cmocka_unit_test(what_one_does_not_get_ends_all),
-    };
-    if (!ranks_begin(argc, argv)) return 77;
-    return ranks_end(cmocka_run_group_tests(tests, NULL, NULL));
-}
+int main(int argc, char **argv) { return ranks_main(argc, argv); }

@@ -13,19 +13,9 @@
 
 static hd_scene_def scene_of_runs(int disks, unsigned observe)
 {
-    hd_scene_def scene = scene_of(disks, 0.7, 0.3, HD_PERIODIC, HD_PERIODIC, 3);
-    scene.equilibration = 5.0;
-    scene.warmup = 20.0;
-    scene.duration = 40.0;
-    scene.report_interval = 1.0;
-    scene.threads = 1;
-    scene.observe = observe;
-    return scene;
-}
-
-static void finish(hd_run *run)
-{
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+    return scene(.disks = disks, .density = 0.7, .aspect = 0.3, .seed = 3, .equilibration = 5.0,
+                 .warmup = 20.0, .duration = 40.0, .report_interval = 1.0, .threads = 1,
+                 .observe = observe);
 }
 
 static void expect_same_exponents(const hd_run *run, const hd_run *alone)
@@ -42,9 +32,8 @@ static void expect_same_exponents(const hd_run *run, const hd_run *alone)
     if (ranks->rank == 0) print_message("exponents apart by %.1e, bounds %.1e\n", most, bound);
 }
 
-static void exponents_are_those_of_one_rank(void **state)
+TEST(exponents_are_those_of_one_rank)
 {
-    (void)state;
     static const int exponents[] = {HD_EXPONENTS_POSITIVE, HD_EXPONENTS_ALL_INDEPENDENT,
                                     HD_EXPONENTS_ALL};
     for (int k = 0; k < 3; k++) {
@@ -81,9 +70,9 @@ static void expect_same_structure(const hd_structure *a, const hd_structure *b)
  * directions are those of the dynamics. */
 static void expect_modes_of_one_rank(int exponents)
 {
-    hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES |
-                                               HD_OBSERVE_STRUCTURE);
-    scene.exponents = exponents;
+    hd_scene_def scene = scene_from(
+        scene_of_runs(60, HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES | HD_OBSERVE_STRUCTURE),
+        .exponents = exponents);
     hd_run *run, *alone = created(&scene);
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     finish(run);
@@ -124,17 +113,15 @@ static void expect_modes_of_one_rank(int exponents)
     hd_run_free(alone);
 }
 
-static void modes_are_those_of_one_rank(void **state)
+TEST(modes_are_those_of_one_rank)
 {
-    (void)state;
     expect_modes_of_one_rank(HD_EXPONENTS_POSITIVE);
     expect_modes_of_one_rank(HD_EXPONENTS_ALL);
 }
 
 /** Widths are measured where the vectors are; the gas is that of the trajectory, the same bits. */
-static void widths_and_gas_are_those_of_one_rank(void **state)
+TEST(widths_and_gas_are_those_of_one_rank)
 {
-    (void)state;
     const hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_LOCALIZATION | HD_OBSERVE_GAS);
     hd_run *run, *alone = created(&scene);
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
@@ -156,9 +143,8 @@ static void widths_and_gas_are_those_of_one_rank(void **state)
 }
 
 /** The same on every rank, and once more the same: with other delays. */
-static void bits_are_the_same(void **state)
+TEST(bits_are_the_same)
 {
-    (void)state;
     const hd_scene_def scene = scene_of_runs(30, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES);
     double kept[2 * 30];
     int n = 0;
@@ -189,8 +175,9 @@ static void expect_same_response(const hd_hydro_response *a, const hd_hydro_resp
 /** Vectors of the modes, from all ranks, and the hydrodynamic response, on each. */
 static void expect_vectors_of_one_rank(int exponents)
 {
-    hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_ALL & ~(unsigned)HD_OBSERVE_COVARIANT);
-    scene.exponents = exponents;
+    hd_scene_def scene = scene_from(
+        scene_of_runs(60, HD_OBSERVE_ALL & ~(unsigned)HD_OBSERVE_COVARIANT),
+        .exponents = exponents);
     hd_run *run, *alone = created(&scene);
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     hd_run_fields_from(run, 100);
@@ -224,22 +211,18 @@ static void expect_vectors_of_one_rank(int exponents)
     }
 }
 
-static void vectors_are_gathered_for_reports(void **state)
+TEST(vectors_are_gathered_for_reports)
 {
-    (void)state;
     expect_vectors_of_one_rank(HD_EXPONENTS_POSITIVE);
     expect_vectors_of_one_rank(HD_EXPONENTS_ALL);
 }
 
 /** Windows, kept or computed again, and the way back through them. */
-static void covariant_vectors_are_those_of_one_rank(void **state)
+TEST(covariant_vectors_are_those_of_one_rank)
 {
-    (void)state;
-    hd_scene_def scene = scene_of_runs(10, HD_OBSERVE_COVARIANT);
-    scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
-    scene.covariant_window = 10.0;
-    scene.covariant_transient = 10.0;
-    scene.covariant_sampling = 1.0;
+    hd_scene_def scene = scene_from(
+        scene_of_runs(10, HD_OBSERVE_COVARIANT), .exponents = HD_EXPONENTS_ALL_INDEPENDENT,
+        .covariant_window = 10.0, .covariant_transient = 10.0, .covariant_sampling = 1.0);
     for (int k = 0; k < 2; k++) {
         scene.covariant_storage = k == 0 ? HD_STORAGE_MEMORY : HD_STORAGE_RECOMPUTE;
         hd_run *run, *alone = created(&scene);
@@ -263,9 +246,8 @@ static void covariant_vectors_are_those_of_one_rank(void **state)
 }
 
 /** What one rank gets wrong is said by all with the first report. */
-static void disks_are_compared(void **state)
+TEST(disks_are_compared)
 {
-    (void)state;
     for (int with_frame = 0; with_frame < 2; with_frame++) {
         hd_scene_def scene = scene_of_runs(20, 0);
         hd_run *run;
@@ -301,31 +283,24 @@ static void expect_watched(int disks)
     hd_run_free(run);
 }
 
-static void the_slowest_are_watched(void **state)
+TEST(the_slowest_are_watched)
 {
-    (void)state;
     expect_watched(40);
     expect_watched(20); /* the last of four ranks has no vectors */
 }
 
 /* ---- checkpoints ----------------------------------------------------------------------------- */
 
-static void run_until(hd_run *run, double time)
-{
-    while (hd_run_time(run) < time) CHECK_OK(hd_run_advance(run));
-}
-
 /** Kept by several ranks, it goes on with several or with one; kept by one, with several. */
-static void checkpoints_fit_any_number_of_ranks(void **state)
+TEST(checkpoints_fit_any_number_of_ranks)
 {
-    (void)state;
     const hd_scene_def scene = scene_of_runs(30, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES);
     char message[300] = "", own[40], path[] = "ranks.checkpoint";
     snprintf(own, sizeof own, "ranks_%d.checkpoint", ranks->rank);
     hd_run *run, *same, *fewer, *more, *alone = created(&scene);
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
-    run_until(run, 40.0);
-    run_until(alone, 40.0);
+    until_time(run, 40.0);
+    until_time(alone, 40.0);
     CHECK_OK(hd_run_save(run, path, "", message, sizeof message));
     CHECK_OK(hd_run_save(alone, own, "", message, sizeof message));
     CHECK_OK(hd_run_resume_shared(&same, path, NULL, ranks, message, sizeof message));
@@ -347,9 +322,8 @@ static void checkpoints_fit_any_number_of_ranks(void **state)
     if (ranks->rank == 0) (void)remove(path);
 }
 
-static void checkpoints_that_fail_are_said_by_all(void **state)
+TEST(checkpoints_that_fail_are_said_by_all)
 {
-    (void)state;
     const hd_scene_def scene = scene_of_runs(20, 0);
     char message[300] = "";
     hd_run *run, *none;
@@ -392,15 +366,15 @@ static double lead(hd_communicator *c)
     CHECK_OK(hd_run_create_shared(&run, &scene, c, message, 300));
     hd_run_fields_every(run, 2.0);
     hd_run_fields_from(run, 40);
-    run_until(run, 30.0);
+    until_time(run, 30.0);
     hd_run_watch(run, 0.5, hd_run_vectors(run) - 4);
-    run_until(run, 35.0);
+    until_time(run, 35.0);
     hd_run_watch(run, INFINITY, hd_run_vectors(run));
     hd_run_observe(run, HD_OBSERVE_STEPS);
     CHECK_OK(hd_run_change(run, parameter_named("duration"), 50.0, message, 300));
     assert_int_equal(hd_run_change(run, parameter_named("duration"), -1.0, message, 300),
                      HD_REFUSED);
-    run_until(run, 45.0);
+    until_time(run, 45.0);
     CHECK_OK(hd_run_reset_average(run));
     CHECK_OK(hd_run_save(run, path, "a label", message, 300));
     hd_run_free(run);
@@ -413,9 +387,8 @@ static double lead(hd_communicator *c)
     return sum;
 }
 
-static void others_follow(void **state)
+TEST(others_follow)
 {
-    (void)state;
     if (ranks->rank > 0) {
         hd_run_follow(ranks);
         return;
@@ -426,37 +399,17 @@ static void others_follow(void **state)
     CHECK_CLOSE(sum, lead(NULL), 1e-6);
 }
 
-static void what_they_cannot_carry_is_refused(void **state)
+TEST(what_they_cannot_carry_is_refused)
 {
-    (void)state;
     char message[200];
     hd_run *run;
-    hd_scene_def scene = scene_of_runs(20, HD_OBSERVE_COVARIANT);
-    scene.exponents = HD_EXPONENTS_ALL;
-    scene.covariant_window = scene.covariant_transient = 10.0;
-    scene.covariant_sampling = 1.0;
+    hd_scene_def scene = scene_from(scene_of_runs(20, HD_OBSERVE_COVARIANT),
+                                    .exponents = HD_EXPONENTS_ALL, .covariant_window = 10.0,
+                                    .covariant_transient = 10.0, .covariant_sampling = 1.0);
     assert_int_equal(hd_run_create_shared(&run, &scene, ranks, message, sizeof message),
                      HD_REFUSED);
     assert_non_null(strstr(message, "covariant"));
     assert_non_null(strstr(message, "all_independent"));
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exponents_are_those_of_one_rank),
-        cmocka_unit_test(modes_are_those_of_one_rank),
-        cmocka_unit_test(widths_and_gas_are_those_of_one_rank),
-        cmocka_unit_test(bits_are_the_same),
-        cmocka_unit_test(vectors_are_gathered_for_reports),
-        cmocka_unit_test(covariant_vectors_are_those_of_one_rank),
-        cmocka_unit_test(disks_are_compared),
-        cmocka_unit_test(the_slowest_are_watched),
-        cmocka_unit_test(checkpoints_fit_any_number_of_ranks),
-        cmocka_unit_test(checkpoints_that_fail_are_said_by_all),
-        cmocka_unit_test(others_follow),
-        cmocka_unit_test(what_they_cannot_carry_is_refused),
-    };
-    if (!ranks_begin(argc, argv)) return 77;
-    return ranks_end(cmocka_run_group_tests(tests, NULL, NULL));
-}
+int main(int argc, char **argv) { return ranks_main(argc, argv); }

@@ -1,5 +1,5 @@
 /** Programs that mpirun starts on some ranks: what they compute together, each holds against what
- * it computes alone. With an argument every call of the communicator is late by a random time on
+ * it computes alone. With `late` every call of the communicator is late by a random time on
  * each rank: no clock may decide what is called. */
 #ifndef HD_TOGETHER_H
 #define HD_TOGETHER_H
@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "testing.h"
@@ -46,21 +47,16 @@ static void late_broadcast(void *context, void *x, size_t bytes)
 
 static const hd_transport late = {late_sum, late_gather, late_exchange, late_broadcast};
 
-/** False for a single rank: there is nothing to compare. */
-static inline bool ranks_begin(int argc, char **argv)
+/** Usage: test [late | TEST]. Of a single rank there is nothing to compare. */
+static inline int ranks_main(int argc, char **argv)
 {
     CHECK_OK(hd_mpi_begin(&ranks, &argc, &argv));
-    if (!ranks) return false;
+    if (!ranks) return 77;
     srand((unsigned)ranks->rank);
     in_time = ranks->transport;
-    if (argc > 1) ranks->transport = &late;
-    return true;
-}
-
-/** Status of the program. */
-static inline int ranks_end(int failed)
-{
-    if (failed) abort(); /* the others may wait */
+    const bool is_late = argc > 1 && strcmp(argv[1], "late") == 0;
+    if (is_late) ranks->transport = &late;
+    if (tests_run(argc > 1 && !is_late ? argv[1] : NULL)) abort(); /* the others may wait */
     hd_mpi_end(ranks);
     return 0;
 }

@@ -39,9 +39,8 @@ static void expect_refused(hd_run *run, const char *name, double value, const ch
 /** In the averaging, in the middle of a sample. */
 static hd_run *averaging(double report_interval, double duration)
 {
-    hd_scene_def def = kept_scene(30, 0.7, 1.0, 5, KEPT_ALL);
-    def.report_interval = report_interval;
-    def.duration = duration;
+    hd_scene_def def = scene_from(kept_scene(30, 0.7, 1.0, 5, KEPT_ALL),
+                                  .report_interval = report_interval, .duration = duration);
     hd_run *run = kept_run(&def);
     while (hd_run_stage(run) != HD_AVERAGING || hd_run_time(run) < 26.0) kept_steps(run, 1);
     while (hd_run_time(run) >= hd_run_change_time(run)) kept_steps(run, 1);
@@ -76,18 +75,16 @@ static void expect_reports(double before, double after)
     hd_run_free(run);
 }
 
-static void reports_come_in_another_interval(void **state)
+TEST(reports_come_in_another_interval)
 {
-    (void)state;
     const double intervals[] = {0.1, 0.7, 1.0, 7.0, 1e10};
     for (int k = 0; k < 5; k++)
         for (int l = 0; l < 5; l++)
             if (k != l) expect_reports(intervals[k], intervals[l]);
 }
 
-static void before_the_averaging_it_holds_from_the_next_report_on(void **state)
+TEST(before_the_averaging_it_holds_from_the_next_report_on)
 {
-    (void)state;
     hd_scene_def def = kept_scene(30, 0.7, 1.0, 5, 0);
     hd_run *run = kept_run(&def);
     while (hd_run_time(run) < 5.0) kept_steps(run, 1);
@@ -109,9 +106,8 @@ static double ended(hd_run *run)
     return end;
 }
 
-static void the_duration_changes(void **state)
+TEST(the_duration_changes)
 {
-    (void)state;
     hd_run *run = averaging(1.0, 20.0);
     expect_refused(run, "duration", -1.0, "duration = -1: must be from 0");
     expect_refused(run, "duration", 1.0, "duration = 1: must be 0 or at least");
@@ -135,9 +131,8 @@ static void the_duration_changes(void **state)
 }
 
 /** In the sample at whose end the run would have ended: there it says what it has to say. */
-static void at_the_end_it_becomes_longer(void **state)
+TEST(at_the_end_it_becomes_longer)
 {
-    (void)state;
     hd_run *run = averaging(1.0, 3.9);
     while (hd_run_change_time(run) < 26.9 || hd_run_time(run) >= 26.9) kept_steps(run, 1);
     assert_true(hd_run_time(run) < 26.9);
@@ -149,11 +144,9 @@ static void at_the_end_it_becomes_longer(void **state)
     CHECK_CLOSE(ended(run), 33.0, 1e-9);
 }
 
-static void the_target_changes(void **state)
+TEST(the_target_changes)
 {
-    (void)state;
-    hd_scene_def def = kept_scene(30, 0.7, 1.0, 5, 0);
-    def.duration = 400.0;
+    hd_scene_def def = scene_from(kept_scene(30, 0.7, 1.0, 5, 0), .duration = 400.0);
     hd_run *run = kept_run(&def);
     while (hd_run_cost(run).std_error < 0) kept_steps(run, 1);
     const double from = hd_run_change_time(run);
@@ -183,16 +176,14 @@ static void expect_fields(double report_interval)
     hd_run_free(run);
 }
 
-static void the_fields_interval_changes(void **state)
+TEST(the_fields_interval_changes)
 {
-    (void)state;
     const double intervals[] = {1.0, 0.3, 1.3};
     for (int k = 0; k < 3; k++) expect_fields(intervals[k]);
 }
 
-static void the_rest_is_read_at_the_start(void **state)
+TEST(the_rest_is_read_at_the_start)
 {
-    (void)state;
     int count, live = 0;
     const hd_parameter *rows = hd_scene_parameters(&count);
     hd_run *run = averaging(1.0, 20.0);
@@ -220,9 +211,8 @@ static void expect_same(hd_run *a, hd_run *b)
 
 /** Wherever in the sample it was asked for; and what was asked for is in a checkpoint, before and
  * after it holds. */
-static void the_same_change_gives_the_same_bits(void **state)
+TEST(the_same_change_gives_the_same_bits)
 {
-    (void)state;
     hd_run *late = averaging(1.0, 200.0), *early = averaging(1.0, 200.0);
     change(early, "report_interval", 0.3);
     const double from = hd_run_change_time(early);
@@ -249,19 +239,4 @@ static void the_same_change_gives_the_same_bits(void **state)
     assert_true(hd_spectrum_std_error(hd_run_spectrum(early), 0) > 0);
     for (int k = 0; k < 4; k++) hd_run_free(all[k]);
     remove(PATH);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reports_come_in_another_interval),
-        cmocka_unit_test(before_the_averaging_it_holds_from_the_next_report_on),
-        cmocka_unit_test(the_duration_changes),
-        cmocka_unit_test(at_the_end_it_becomes_longer),
-        cmocka_unit_test(the_target_changes),
-        cmocka_unit_test(the_fields_interval_changes),
-        cmocka_unit_test(the_rest_is_read_at_the_start),
-        cmocka_unit_test(the_same_change_gives_the_same_bits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,19 +42,16 @@ static void expect_uninterrupted(const hd_scene_def *def, int every, int least)
     expect_uninterrupted_watched(def, every, least, INFINITY, 0);
 }
 
-static void a_resumed_run_is_the_uninterrupted_one(void **state)
+TEST(a_resumed_run_is_the_uninterrupted_one)
 {
-    (void)state;
-    hd_scene_def walls = kept_scene(24, 0.6, 0.5, HD_EXPONENTS_ALL, KEPT_AT_REPORTS);
-    walls.boundary[0] = walls.boundary[1] = HD_REFLECTING;
-    hd_scene_def crowded = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE,
-                                      KEPT_AT_REPORTS | HD_OBSERVE_FIELDS);
-    crowded.report_interval = 0.25;
-    crowded.threads = 2;
-    hd_scene_def looks = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL);
-    looks.report_interval = 0.1;
-    hd_scene_def rare = kept_scene(20, 0.05, 1.0, 3, 0);
-    rare.report_interval = 7.0;
+    hd_scene_def walls = scene_from(kept_scene(24, 0.6, 0.5, HD_EXPONENTS_ALL, KEPT_AT_REPORTS),
+                                    .boundary[0] = HD_REFLECTING, .boundary[1] = HD_REFLECTING);
+    hd_scene_def crowded = scene_from(
+        kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_AT_REPORTS | HD_OBSERVE_FIELDS),
+        .report_interval = 0.25, .threads = 2);
+    hd_scene_def looks = scene_from(kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL),
+                                    .report_interval = 0.1);
+    hd_scene_def rare = scene_from(kept_scene(20, 0.05, 1.0, 3, 0), .report_interval = 7.0);
     const hd_scene_def few = kept_scene(2, 0.3, 1.0, HD_EXPONENTS_ALL, KEPT_ALL);
     const hd_scene_def none = kept_scene(50, 0.7, 1.0, HD_EXPONENTS_NONE, HD_OBSERVE_GAS);
     expect_uninterrupted(&walls, 5, 8);
@@ -66,9 +63,8 @@ static void a_resumed_run_is_the_uninterrupted_one(void **state)
 }
 
 /** Also where a watcher has stopped it in the middle of a step that is planned. */
-static void a_run_that_is_looked_at_keeps_its_plan(void **state)
+TEST(a_run_that_is_looked_at_keeps_its_plan)
 {
-    (void)state;
     const hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
     const hd_scene_def none = kept_scene(50, 0.7, 1.0, HD_EXPONENTS_NONE, HD_OBSERVE_GAS);
     const hd_scene_def looks = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL);
@@ -79,11 +75,10 @@ static void a_run_that_is_looked_at_keeps_its_plan(void **state)
 
 /** The states that the run above went through are not all the same kind: looks, tracked phases,
  * found steps. */
-static void what_was_compared_was_there(void **state)
+TEST(what_was_compared_was_there)
 {
-    (void)state;
-    hd_scene_def def = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL);
-    def.report_interval = 0.1;
+    hd_scene_def def = scene_from(kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL),
+                                  .report_interval = 0.1);
     hd_run *run = kept_run(&def);
     hd_run_watch(run, 0.1, hd_run_vectors(run) - 8);
     kept_steps(run, 1000000);
@@ -100,11 +95,10 @@ static void what_was_compared_was_there(void **state)
 }
 
 /** The log that waits for the next orthonormalisation is in the file. */
-static void pending_events_are_kept(void **state)
+TEST(pending_events_are_kept)
 {
-    (void)state;
-    hd_scene_def def = kept_scene(100, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
-    def.report_interval = 0.125;
+    hd_scene_def def = scene_from(kept_scene(100, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0),
+                                  .report_interval = 0.125);
     hd_run *run = kept_run(&def);
     while (hd_run_stage(run) != HD_FINISHED && run->log->count < 100) kept_steps(run, 1);
     hd_run *resumed = kept_and_resumed(run, PATH, NULL);
@@ -116,9 +110,8 @@ static void pending_events_are_kept(void **state)
     hd_run_free(resumed);
 }
 
-static void clocks_and_costs_go_on(void **state)
+TEST(clocks_and_costs_go_on)
 {
-    (void)state;
     const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL);
     hd_run *run = kept_run(&def);
     while (hd_run_stage(run) != HD_AVERAGING || isnan(hd_run_cost(run).error_bound))
@@ -144,9 +137,8 @@ static void clocks_and_costs_go_on(void **state)
 }
 
 /** The clock may have begun anew, less ago than the run has been going on. */
-static void the_time_left_is_known_after_a_restart(void **state)
+TEST(the_time_left_is_known_after_a_restart)
 {
-    (void)state;
     const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
     hd_run *run = kept_run(&def);
     while (hd_run_stage(run) != HD_AVERAGING) kept_steps(run, 1);
@@ -164,16 +156,14 @@ static void the_time_left_is_known_after_a_restart(void **state)
 
 /** Rounding of two ways to cut the same time into intervals [T6]: the accuracy that the scene asks
  * for. */
-static void a_finished_run_can_be_made_longer(void **state)
+TEST(a_finished_run_can_be_made_longer)
 {
-    (void)state;
-    hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL);
-    def.duration = 33.3;
+    hd_scene_def def = scene_from(kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL),
+                                  .duration = 33.3);
     hd_run *run = kept_run(&def);
     hd_run_watch(run, 0.1, hd_run_vectors(run) - 8);
     kept_steps(run, 1000000);
-    hd_scene_def longer = def;
-    longer.duration = 80.0;
+    hd_scene_def longer = scene_from(def, .duration = 80.0);
     hd_run *resumed = kept_and_resumed(run, PATH, &longer), *once = kept_run(&longer);
     assert_int_equal(hd_run_stage(resumed), HD_AVERAGING);
     kept_steps(resumed, 1000000);
@@ -192,16 +182,15 @@ static void a_finished_run_can_be_made_longer(void **state)
 
 /** At every moment of the averaging: what has been averaged, and hardly more, is a duration; what
  * comes of it is a file that can be gone on from. */
-static void the_duration_can_end_at_once(void **state)
+TEST(the_duration_can_end_at_once)
 {
-    (void)state;
     static const double more[] = {0.0, 0.01, 0.1, 0.35, -5e-14}; /* of 20 with 15 digits */
     const hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL);
     hd_run *run = kept_run(&def);
     for (int k = 0; kept_steps(run, 1) == 1; k++) {
         if (hd_run_stage(run) != HD_AVERAGING || hd_run_time(run) == run->schedule.start) continue;
-        hd_scene_def shorter = def;
-        shorter.duration = hd_run_time(run) - run->schedule.start + more[k % 5];
+        hd_scene_def shorter = scene_from(def, .duration = hd_run_time(run) - run->schedule.start +
+                                                           more[k % 5]);
         hd_run *ended = kept_and_resumed(run, PATH, &shorter);
         kept_steps(ended, 1000);
         assert_int_equal(hd_run_stage(ended), HD_FINISHED);
@@ -212,25 +201,20 @@ static void the_duration_can_end_at_once(void **state)
 }
 
 /** A step of no length teaches nothing. */
-static void phases_too_short_for_the_time_to_move_are_kept(void **state)
+TEST(phases_too_short_for_the_time_to_move_are_kept)
 {
-    (void)state;
-    hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
-    def.equilibration = 100.0;
-    def.warmup = 1e-15;
-    def.duration = 2.0;
+    hd_scene_def def = scene_from(kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0),
+                                  .equilibration = 100.0, .warmup = 1e-15, .duration = 2.0);
     hd_run *run = kept_run(&def);
     for (int taken = 1; taken == 1; taken = kept_steps(run, 1))
         hd_run_free(kept_and_resumed(run, PATH, &def));
     hd_run_free(run);
 }
 
-static void what_the_target_has_ended_stays_ended(void **state)
+TEST(what_the_target_has_ended_stays_ended)
 {
-    (void)state;
-    hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
-    def.duration = 0.0;
-    def.target_std_error = 0.05;
+    hd_scene_def def = scene_from(kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0),
+                                  .duration = 0.0, .target_std_error = 0.05);
     hd_run *run = kept_run(&def);
     kept_steps(run, 100000);
     assert_int_equal(hd_run_stage(run), HD_FINISHED);
@@ -245,11 +229,10 @@ static void what_the_target_has_ended_stays_ended(void **state)
 }
 
 /** Turns of a thousandth of a sample say nothing about a velocity, and end no tracking. */
-static void an_end_that_cuts_a_sample_short_keeps_the_phases(void **state)
+TEST(an_end_that_cuts_a_sample_short_keeps_the_phases)
 {
-    (void)state;
-    hd_scene_def def = kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL);
-    def.duration = 80.0;
+    hd_scene_def def = scene_from(kept_scene(60, 0.8, 0.06, HD_EXPONENTS_POSITIVE, KEPT_ALL),
+                                  .duration = 80.0);
     hd_scene_def odd = def, longer = def;
     odd.duration = 80.001;
     longer.duration = 100.0;
@@ -296,9 +279,8 @@ static hd_scene_def with_another(const hd_scene_def *def, const hd_parameter *ro
     return other;
 }
 
-static void each_parameter_may_differ_or_is_refused_by_name(void **state)
+TEST(each_parameter_may_differ_or_is_refused_by_name)
 {
-    (void)state;
     const hd_scene_def def = kept_scene(30, 0.7, 1.0, 5, KEPT_ALL);
     int count, free_to_change = 0;
     const hd_parameter *rows = hd_scene_parameters(&count);
@@ -329,9 +311,8 @@ static void each_parameter_may_differ_or_is_refused_by_name(void **state)
 /** Excludes max_mode_number. */
 static const size_t WAVE_NUMBER = offsetof(hd_scene_def, max_wave_number);
 
-static void it_says_whose_it_is(void **state)
+TEST(it_says_whose_it_is)
 {
-    (void)state;
     hd_scene_def def = kept_scene(30, 0.7, 1.0, 4, KEPT_ALL);
     int count;
     const hd_parameter *rows = hd_scene_parameters(&count);
@@ -354,24 +335,4 @@ static void it_says_whose_it_is(void **state)
                     0.0);
     CHECK_CLOSE(found.time, hd_run_time(run), 0.0);
     hd_run_free(run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_resumed_run_is_the_uninterrupted_one),
-        cmocka_unit_test(a_run_that_is_looked_at_keeps_its_plan),
-        cmocka_unit_test(what_was_compared_was_there),
-        cmocka_unit_test(pending_events_are_kept),
-        cmocka_unit_test(clocks_and_costs_go_on),
-        cmocka_unit_test(the_time_left_is_known_after_a_restart),
-        cmocka_unit_test(a_finished_run_can_be_made_longer),
-        cmocka_unit_test(the_duration_can_end_at_once),
-        cmocka_unit_test(phases_too_short_for_the_time_to_move_are_kept),
-        cmocka_unit_test(what_the_target_has_ended_stays_ended),
-        cmocka_unit_test(an_end_that_cuts_a_sample_short_keeps_the_phases),
-        cmocka_unit_test(each_parameter_may_differ_or_is_refused_by_name),
-        cmocka_unit_test(it_says_whose_it_is),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

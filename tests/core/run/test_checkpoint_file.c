@@ -51,9 +51,8 @@ static bytes checkpoint_bytes(void)
     return kept_file(PATH);
 }
 
-static void a_truncated_file_is_refused(void **state)
+TEST(a_truncated_file_is_refused)
 {
-    (void)state;
     const bytes whole = checkpoint_bytes();
     for (size_t size = whole.size; size-- > 0;) {
         assert_int_equal(truncate(PATH, (off_t)size), 0);
@@ -63,9 +62,8 @@ static void a_truncated_file_is_refused(void **state)
 }
 
 /** The first 24 bytes say what the file is. */
-static void a_flipped_bit_is_noticed(void **state)
+TEST(a_flipped_bit_is_noticed)
 {
-    (void)state;
     const bytes whole = checkpoint_bytes();
     const int fd = open(PATH, O_WRONLY);
     for (size_t bit = 0; bit < 8 * whole.size; bit++) {
@@ -79,9 +77,8 @@ static void a_flipped_bit_is_noticed(void **state)
     free(whole.data);
 }
 
-static void what_is_no_checkpoint_is_refused(void **state)
+TEST(what_is_no_checkpoint_is_refused)
 {
-    (void)state;
     const bytes whole = checkpoint_bytes();
     const char text[] = "disks: 780\ndensity: 0.8\naspect: 0.867\nboundary_x: periodic\nseed: 1\n";
     file_write(PATH, text, sizeof text);
@@ -115,9 +112,8 @@ static void expect_format_refused(uint32_t format, const char *word)
     free(whole.data);
 }
 
-static void another_format_is_refused_as_such(void **state)
+TEST(another_format_is_refused_as_such)
 {
-    (void)state;
     expect_format_refused(HD_CHECKPOINT_FORMAT + 1, "a newer hdlyap");
     expect_format_refused(HD_CHECKPOINT_FORMAT - 1, "an older hdlyap");
 }
@@ -132,9 +128,8 @@ static void expect_unwritable(hd_run *run, const char *path, const char *word)
     assert_int_equal(hd_run_save(run, path, KEPT_LABEL, message, sizeof message), HD_FILE_FAULT);
 }
 
-static void what_cannot_be_written_is_named(void **state)
+TEST(what_cannot_be_written_is_named)
 {
-    (void)state;
     const hd_scene_def def = kept_scene(4, 0.3, 1.0, 1, 0);
     hd_run *run = kept_run(&def);
     char message[512] = "", too_long[5000];
@@ -157,9 +152,8 @@ static void what_cannot_be_written_is_named(void **state)
 }
 
 /** A file may not become larger than a part of it: what is there stays, what was begun goes. */
-static void a_write_that_fails_leaves_the_file(void **state)
+TEST(a_write_that_fails_leaves_the_file)
 {
-    (void)state;
     const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
     hd_run *run = kept_run(&def);
     hd_run_free(kept_and_resumed(run, PATH, NULL));
@@ -186,9 +180,8 @@ static void a_write_that_fails_leaves_the_file(void **state)
     hd_run_free(run);
 }
 
-static void a_run_that_is_no_number_is_not_written(void **state)
+TEST(a_run_that_is_no_number_is_not_written)
 {
-    (void)state;
     const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
     hd_run *run = kept_run(&def);
     hd_run_free(kept_and_resumed(run, PATH, NULL));
@@ -214,9 +207,8 @@ static void put(const char *path, const char *text, size_t size)
 }
 
 /** What a killed process has left is written over; what somebody else has there, stays. */
-static void only_a_part_is_written_over(void **state)
+TEST(only_a_part_is_written_over)
 {
-    (void)state;
     static const char begun[30] = "hdlyap checkpoint", zeros[30];
     char message[512] = "";
     const char *const left[] = {begun, zeros, begun};
@@ -243,9 +235,8 @@ static void only_a_part_is_written_over(void **state)
 }
 
 /** While another process holds the part. */
-static void nobody_writes_into_anothers_part(void **state)
+TEST(nobody_writes_into_anothers_part)
 {
-    (void)state;
     int ready[2], done[2];
     char byte = 0, message[512] = "";
     hd_checkpoint_file file;
@@ -263,20 +254,4 @@ static void nobody_writes_into_anothers_part(void **state)
     assert_int_equal(write(done[1], &byte, 1), 1);
     assert_int_equal(waitpid(child, NULL, 0), child);
     CHECK_OK(hd_checkpoint_writable(PATH, message, sizeof message));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_truncated_file_is_refused),
-        cmocka_unit_test(a_flipped_bit_is_noticed),
-        cmocka_unit_test(what_is_no_checkpoint_is_refused),
-        cmocka_unit_test(another_format_is_refused_as_such),
-        cmocka_unit_test(what_cannot_be_written_is_named),
-        cmocka_unit_test(a_write_that_fails_leaves_the_file),
-        cmocka_unit_test(a_run_that_is_no_number_is_not_written),
-        cmocka_unit_test(only_a_part_is_written_over),
-        cmocka_unit_test(nobody_writes_into_anothers_part),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,25 +8,13 @@
 
 static hd_scene_def few(int exponents, hd_boundary x, hd_boundary y)
 {
-    hd_scene_def scene = scene_of(10, 0.5, 0.9, x, y, 3);
-    scene.exponents = exponents;
-    scene.equilibration = 20.0;
-    scene.warmup = 200.0;
-    scene.duration = 400.0;
-    scene.threads = 1;
-    return scene;
+    return scene(.disks = 10, .density = 0.5, .aspect = 0.9, .boundary[0] = x, .boundary[1] = y,
+                 .seed = 3, .exponents = exponents, .equilibration = 20.0, .warmup = 200.0,
+                 .duration = 400.0, .threads = 1);
 }
 
-static hd_run *finished(const hd_scene_def *scene)
+TEST(exponents_pair_by_construction)
 {
-    hd_run *run = created(scene);
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
-    return run;
-}
-
-static void exponents_pair_by_construction(void **state)
-{
-    (void)state;
     const hd_scene_def scene = few(HD_EXPONENTS_ALL, HD_PERIODIC, HD_REFLECTING);
     hd_run *run = finished(&scene);
     const hd_spectrum *s = hd_run_spectrum(run);
@@ -41,9 +29,8 @@ static void exponents_pair_by_construction(void **state)
 }
 
 /** One does not know where the other's frame began: what both averaged forgets that like 1 / t. */
-static void exponents_are_those_of_vectors_carried_each(void **state)
+TEST(exponents_are_those_of_vectors_carried_each)
 {
-    (void)state;
     const hd_scene_def one = few(HD_EXPONENTS_ALL, HD_PERIODIC, HD_PERIODIC),
                        other = few(HD_EXPONENTS_ALL_INDEPENDENT, HD_PERIODIC, HD_PERIODIC);
     hd_run *half = finished(&one), *whole = finished(&other);
@@ -55,11 +42,10 @@ static void exponents_are_those_of_vectors_carried_each(void **state)
 }
 
 /** Known at reports: all 4N, orthonormal. */
-static void all_vectors_are_known_where_they_are_measured(void **state)
+TEST(all_vectors_are_known_where_they_are_measured)
 {
-    (void)state;
-    hd_scene_def scene = few(HD_EXPONENTS_ALL, HD_PERIODIC, HD_PERIODIC);
-    scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_MODES;
+    hd_scene_def scene = scene_from(few(HD_EXPONENTS_ALL, HD_PERIODIC, HD_PERIODIC),
+                                    .observe = HD_OBSERVE_STEPS | HD_OBSERVE_MODES);
     hd_run *run = finished(&scene);
     const hd_columns v = hd_run_columns(run);
     double cosine[40], ratio[40];
@@ -81,12 +67,9 @@ static void all_vectors_are_known_where_they_are_measured(void **state)
 
 static hd_scene_def windowed(int exponents, hd_boundary x, hd_boundary y)
 {
-    hd_scene_def scene = few(exponents, x, y);
-    scene.observe = HD_OBSERVE_COVARIANT;
-    scene.covariant_window = 40.0;
-    scene.covariant_transient = 120.0;
-    scene.covariant_sampling = 5.0;
-    return scene;
+    return scene_from(few(exponents, x, y), .observe = HD_OBSERVE_COVARIANT,
+                      .covariant_window = 40.0, .covariant_transient = 120.0,
+                      .covariant_sampling = 5.0);
 }
 
 /** Between an exponent and its neighbours: parts along them are gone like exp(-gap t). */
@@ -131,9 +114,8 @@ static void check_spaces(hd_run *half, hd_run *whole)
     assert_true(good >= 8);
 }
 
-static void covariant_vectors_are_those_of_vectors_carried_each(void **state)
+TEST(covariant_vectors_are_those_of_vectors_carried_each)
 {
-    (void)state;
     for (int b = 0; b < 4; b++) {
         const hd_boundary x = b & 1 ? HD_REFLECTING : HD_PERIODIC,
                           y = b & 2 ? HD_REFLECTING : HD_PERIODIC;
@@ -147,28 +129,14 @@ static void covariant_vectors_are_those_of_vectors_carried_each(void **state)
 }
 
 /** Triangles and couplings that are computed again are the same but for rounding. */
-static void recomputed_windows_are_the_same(void **state)
+TEST(recomputed_windows_are_the_same)
 {
-    (void)state;
     const hd_scene_def one = windowed(HD_EXPONENTS_ALL, HD_PERIODIC, HD_PERIODIC);
-    hd_scene_def other = one;
-    other.covariant_storage = HD_STORAGE_RECOMPUTE;
+    hd_scene_def other = scene_from(one, .covariant_storage = HD_STORAGE_RECOMPUTE);
     hd_run *kept = finished(&one), *again = finished(&other);
     check_spaces(kept, again);
     assert_true(hd_covariant_bytes(hd_run_covariant(again)) <
                 hd_covariant_bytes(hd_run_covariant(kept)));
     hd_run_free(kept);
     hd_run_free(again);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exponents_pair_by_construction),
-        cmocka_unit_test(exponents_are_those_of_vectors_carried_each),
-        cmocka_unit_test(all_vectors_are_known_where_they_are_measured),
-        cmocka_unit_test(covariant_vectors_are_those_of_vectors_carried_each),
-        cmocka_unit_test(recomputed_windows_are_the_same),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,20 +11,6 @@ static double tick; /* by which each look moves it on */
 /** In place of the core's. */
 double hd_clock_now(void) { return now += tick; }
 
-static hd_scene_def short_scene(void)
-{
-    hd_scene_def scene = hd_scene_def_default();
-    scene.disks = 20;
-    scene.density = 0.7;
-    scene.aspect = 1.0;
-    scene.exponents = HD_EXPONENTS_POSITIVE;
-    scene.equilibration = 5.0;
-    scene.warmup = 10.0;
-    scene.duration = 40.0;
-    scene.report_interval = 1.0;
-    return scene;
-}
-
 enum {
     SINCE = 100,
     EQUILIBRATION = 5,
@@ -34,22 +20,23 @@ enum {
 
 static hd_run *started(double by)
 {
-    const hd_scene_def scene = short_scene();
+    const hd_scene_def def = scene(.disks = 20, .density = 0.7, .aspect = 1.0,
+                                   .exponents = HD_EXPONENTS_POSITIVE,
+                                   .equilibration = EQUILIBRATION, .warmup = 10.0,
+                                   .duration = END - 10.0 - EQUILIBRATION, .report_interval = 1.0);
     now = SINCE;
     tick = by;
-    return created(&scene);
+    return created(&def);
 }
 
 /** Of sums of intervals, relative. */
 static const double ROUNDING = 1e-10;
 
 /** As the frame is carried at one pace, what is predicted is what is taken. */
-static void the_rest_takes_what_the_frame_has_taken(void **state)
+TEST(the_rest_takes_what_the_frame_has_taken)
 {
-    (void)state;
     hd_run *run = started(0.0);
-    while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_advance(run));
+    while (going_on(run)) {
         const double time = hd_run_time(run);
         const double taken = fmax(time - EQUILIBRATION, 0.0) * SECONDS;
         now = SINCE + taken;
@@ -63,12 +50,11 @@ static void the_rest_takes_what_the_frame_has_taken(void **state)
 }
 
 /** Each stage looks at the clock before and after: it takes a second each time that it runs. */
-static void each_stage_has_its_own_seconds(void **state)
+TEST(each_stage_has_its_own_seconds)
 {
-    (void)state;
     hd_run *run = started(1.0);
     long advances = 0;
-    for (; hd_run_stage(run) != HD_FINISHED; advances++) CHECK_OK(hd_run_advance(run));
+    while (going_on(run)) advances++;
     const hd_cost cost = hd_run_cost(run);
     const double intervals = (double)cost.orthonormalisations;
     assert_true(intervals > 10 && intervals < (double)advances);
@@ -80,13 +66,4 @@ static void each_stage_has_its_own_seconds(void **state)
     CHECK_CLOSE(cost.events_per_second * cost.events,
                 (double)hd_trajectory_collisions(hd_run_trajectory(run)), 1e-6);
     hd_run_free(run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_rest_takes_what_the_frame_has_taken),
-        cmocka_unit_test(each_stage_has_its_own_seconds),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

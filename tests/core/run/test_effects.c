@@ -10,20 +10,9 @@ enum { DISKS = 100, HALF = 2 * DISKS - 3, EVERYTHING = 223 };
 
 static hd_scene_def small(int exponents, unsigned observe)
 {
-    hd_scene_def scene = scene_of(DISKS, 0.7, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
-    scene.exponents = exponents;
-    scene.observe = observe;
-    scene.equilibration = 5.0;
-    scene.warmup = 5.0;
-    scene.duration = 100.0;
-    scene.threads = 1;
-    return scene;
-}
-
-static void until(hd_run *run, double time)
-{
-    while (hd_run_time(run) < time && hd_run_stage(run) != HD_FINISHED)
-        CHECK_OK(hd_run_advance(run));
+    return scene(.disks = DISKS, .density = 0.7, .aspect = 1.0, .exponents = exponents,
+                 .observe = observe, .equilibration = 5.0, .warmup = 5.0, .duration = 100.0,
+                 .threads = 1);
 }
 
 /** Blocks and bytes that a run holds when it is `time` old. */
@@ -31,7 +20,7 @@ static ledger held(const hd_scene_def *scene, double time)
 {
     const ledger before = ledger_now();
     hd_run *run = created(scene);
-    until(run, time);
+    until_time(run, time);
     const ledger now = ledger_now();
     hd_run_free(run);
     assert_int_equal(ledger_now().live, before.live); /* all of it is given back */
@@ -48,9 +37,8 @@ static double bytes_for(int exponents, unsigned observe)
 
 /** Disks, predictions, cells, queue and the run itself; and it never keeps a log. What is asked of
  * a frame that is not there costs nothing either. */
-static void the_trajectory_alone_is_all_there_is(void **state)
+TEST(the_trajectory_alone_is_all_there_is)
 {
-    (void)state;
     const size_t run_itself = 1000;
     const hd_scene_def scene = small(HD_EXPONENTS_NONE, 0);
     const ledger before = ledger_now();
@@ -67,9 +55,8 @@ static void the_trajectory_alone_is_all_there_is(void **state)
 }
 
 /** A frame of n vectors: some copies of V, the Gram matrix, and what does not grow with n. */
-static void bytes_are_those_of_the_vectors_asked_for(void **state)
+TEST(bytes_are_those_of_the_vectors_asked_for)
 {
-    (void)state;
     const double copies = 4.0, rest = 20000.0, m = 4.0 * DISKS;
     const double half = bytes_for(HD_EXPONENTS_POSITIVE, 0);
     static const int wanted[] = {1, 2, 8, 10, 32, HALF};
@@ -85,9 +72,8 @@ static void bytes_are_those_of_the_vectors_asked_for(void **state)
 }
 
 /** Each stage has memory of its own, and only if it is asked for. */
-static void stages_have_memory_when_asked_for(void **state)
+TEST(stages_have_memory_when_asked_for)
 {
-    (void)state;
     static const unsigned stages[] = {0, HD_OBSERVE_STEPS, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES,
                                       HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES,
                                       EVERYTHING};
@@ -106,9 +92,8 @@ static void stages_have_memory_when_asked_for(void **state)
                 0.0); /* the rest is the caller's */
 }
 
-static void what_is_not_asked_for_is_not_there(void **state)
+TEST(what_is_not_asked_for_is_not_there)
 {
-    (void)state;
     for (int exponents = HD_EXPONENTS_POSITIVE; exponents <= 1; exponents++) {
         const hd_scene_def scene = small(exponents, 0);
         hd_run *run = created(&scene);
@@ -124,9 +109,8 @@ static void what_is_not_asked_for_is_not_there(void **state)
 }
 
 /** In each mode, once the log and its maps have grown to their size. */
-static void a_long_run_allocates_nothing(void **state)
+TEST(a_long_run_allocates_nothing)
 {
-    (void)state;
     static const struct {
         int exponents;
         unsigned observe;
@@ -141,26 +125,15 @@ static void a_long_run_allocates_nothing(void **state)
                  {HD_EXPONENTS_POSITIVE, EVERYTHING},
                  {HD_EXPONENTS_ALL, EVERYTHING | HD_OBSERVE_GAS | HD_OBSERVE_LOCALIZATION}};
     for (size_t k = 0; k < 2 * (sizeof modes / sizeof *modes); k++) {
-        hd_scene_def scene = small(modes[k / 2].exponents, modes[k / 2].observe);
-        scene.boundary[0] = scene.boundary[1] = k % 2 ? HD_REFLECTING : HD_PERIODIC;
-        scene.disks = 40;
+        hd_scene_def scene = scene_from(small(modes[k / 2].exponents, modes[k / 2].observe),
+                                        .boundary[0] = k % 2 ? HD_REFLECTING : HD_PERIODIC,
+                                        .boundary[1] = k % 2 ? HD_REFLECTING : HD_PERIODIC,
+                                        .disks = 40);
         hd_run *run = created(&scene);
-        until(run, 60.0);
+        until_time(run, 60.0);
         const size_t before = ledger_now().allocations;
-        until(run, HUGE_VAL);
+        until_time(run, HUGE_VAL);
         assert_int_equal(ledger_now().allocations, before);
         hd_run_free(run);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_trajectory_alone_is_all_there_is),
-        cmocka_unit_test(bytes_are_those_of_the_vectors_asked_for),
-        cmocka_unit_test(stages_have_memory_when_asked_for),
-        cmocka_unit_test(what_is_not_asked_for_is_not_there),
-        cmocka_unit_test(a_long_run_allocates_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

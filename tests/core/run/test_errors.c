@@ -24,16 +24,9 @@ typedef struct harvest {
 
 static hd_scene_def box(int disks, double density, double aspect, hd_boundary boundary)
 {
-    hd_scene_def scene = hd_scene_def_default();
-    scene.disks = disks;
-    scene.density = density;
-    scene.aspect = aspect;
-    scene.boundary[0] = scene.boundary[1] = boundary;
-    scene.equilibration = 50.0;
-    scene.warmup = 25.0;
-    scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
-    scene.threads = 1;
-    return scene;
+    return scene(.disks = disks, .density = density, .aspect = aspect, .boundary[0] = boundary,
+                 .boundary[1] = boundary, .equilibration = 50.0, .warmup = 25.0,
+                 .observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES, .threads = 1);
 }
 
 static void lay_out(harvest *h, const hd_run *run)
@@ -53,7 +46,7 @@ static harvest harvested(hd_scene_def scene, double duration, int seeds)
         scene.seed = (uint64_t)seed + 1;
         hd_run *run = created(&scene);
         lay_out(&h, run);
-        while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+        finish(run);
         numbers_read(run, h.numbers + (size_t)seed * (size_t)h.stride);
         hd_run_free(run);
     }
@@ -91,32 +84,29 @@ static void check_rule(const harvest *h, const char *const *names)
  */
 static hd_scene_def narrow_box(void) { return box(48, 0.8, 0.03, HD_PERIODIC); }
 
-static void in_a_narrow_box(void **state)
+TEST(in_a_narrow_box)
 {
     static const char *const names[] = {"exponents", "h_KS", "T(1;0)", "T(2;0)",        "LP(1;0)",
                                         "c_T",       "c_L",  "v",      "omega LP(1;0)", NULL};
-    (void)state;
     harvest h = harvested(narrow_box(), 150.0, SEEDS);
     check_rule(&h, names);
     free(h.numbers);
 }
 
 /** 16 blocks are 80 to 100 time units; shorter runs state nothing. */
-static void of_runs_just_long_enough(void **state)
+TEST(of_runs_just_long_enough)
 {
     static const char *const names[] = {"exponents", "h_KS", "T(1;0)", "LP(1;0)",
                                         "c_T",       "c_L",  "v",      NULL};
-    (void)state;
     harvest h = harvested(narrow_box(), 110.0, SEEDS);
     check_rule(&h, names);
     free(h.numbers);
 }
 
-static void between_walls(void **state)
+TEST(between_walls)
 {
     static const char *const names[] = {"exponents", "h_KS",          "LP(1;0)", "c_L",
                                         "v",         "omega LP(1;0)", NULL};
-    (void)state;
     harvest h = harvested(box(36, 0.7, 0.5, HD_REFLECTING), 100.0, SEEDS);
     check_rule(&h, names);
     free(h.numbers);
@@ -125,9 +115,8 @@ static void between_walls(void **state)
 /** T(1,0) and T(0,1) share their vectors: c_T knows no more than either of them. No smaller square
  * resolves them. Scatter and errors of the same runs go together, so that their ratios agree far
  * better than either is known: a few seeds are enough. */
-static void of_steps_that_share_a_set(void **state)
+TEST(of_steps_that_share_a_set)
 {
-    (void)state;
     harvest h = harvested(box(100, 0.7, 1.0, HD_PERIODIC), 120.0, SEEDS_OF_PAIRS);
     const double of_c = agreement_on(&h, "c_T").ratio;
     const double of_steps = 0.5 *
@@ -139,23 +128,17 @@ static void of_steps_that_share_a_set(void **state)
 
 /** One exponent until its error is small enough: a run that ends where its error happens to look
  * small states too little. Of normal numbers 5 % are beyond two errors, 0.3 % beyond three. */
-static void a_target_is_not_met_by_luck(void **state)
+TEST(a_target_is_not_met_by_luck)
 {
-    (void)state;
     enum { TIMES = 200 };
     const double truth = 5.1067, of_truth = 0.0021; /* 40 runs of 4000 time units */
     int beyond_two = 0, beyond_three = 0;
     for (int seed = 1; seed <= TIMES; seed++) {
-        hd_scene_def scene = box(10, 0.7, hd_scene_def_default().aspect, HD_PERIODIC);
-        scene.equilibration = 5.0;
-        scene.warmup = 10.0;
-        scene.exponents = 1;
-        scene.observe = 0;
-        scene.duration = 20000.0;
-        scene.target_std_error = 0.1;
-        scene.seed = (uint64_t)seed;
-        hd_run *run = created(&scene);
-        while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+        hd_scene_def scene = scene_from(box(10, 0.7, hd_scene_def_default().aspect, HD_PERIODIC),
+                                        .equilibration = 5.0, .warmup = 10.0, .exponents = 1,
+                                        .observe = 0, .duration = 20000.0, .target_std_error = 0.1,
+                                        .seed = (uint64_t)seed);
+        hd_run *run = finished(&scene);
         const hd_spectrum *spectrum = hd_run_spectrum(run);
         const double error = hd_spectrum_std_error(spectrum, 0);
         const double off = fabs(hd_spectrum_exponent(spectrum, 0) - truth);
@@ -166,16 +149,4 @@ static void a_target_is_not_met_by_luck(void **state)
     }
     print_message("%d of %d beyond two errors, %d beyond three\n", beyond_two, TIMES, beyond_three);
     assert_true(beyond_two >= TIMES / 100 && beyond_two <= 17 && beyond_three <= 3);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(in_a_narrow_box),
-        cmocka_unit_test(of_runs_just_long_enough),
-        cmocka_unit_test(between_walls),
-        cmocka_unit_test(of_steps_that_share_a_set),
-        cmocka_unit_test(a_target_is_not_met_by_luck),
-    };
-    return cmocka_run_group_tests_name("errors", tests, NULL, NULL);
 }

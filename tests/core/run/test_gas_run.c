@@ -6,14 +6,10 @@
 
 static hd_scene_def scene_with(int exponents, unsigned observe)
 {
-    hd_scene_def scene = scene_of(30, 0.6, 0.9, HD_PERIODIC, HD_REFLECTING, 4);
-    scene.exponents = exponents;
-    scene.observe = observe;
-    scene.equilibration = 5.0;
-    scene.warmup = exponents == HD_EXPONENTS_NONE ? 0.0 : 10.0;
-    scene.duration = 150.0;
-    scene.threads = 1;
-    return scene;
+    return scene(.disks = 30, .density = 0.6, .aspect = 0.9, .boundary[1] = HD_REFLECTING,
+                 .seed = 4, .exponents = exponents, .observe = observe, .equilibration = 5.0,
+                 .warmup = exponents == HD_EXPONENTS_NONE ? 0.0 : 10.0, .duration = 150.0,
+                 .threads = 1);
 }
 
 /** Of a trajectory by itself, between two simulated times. */
@@ -43,17 +39,15 @@ static void expect_same(hd_gas_means got, hd_gas_means want)
 }
 
 /** At every report; with a frame over the averaged time of the spectrum, without one up to now. */
-static void means_are_those_of_the_averaged_time(void **state)
+TEST(means_are_those_of_the_averaged_time)
 {
-    (void)state;
     static const int exponents[] = {HD_EXPONENTS_NONE, 1, HD_EXPONENTS_POSITIVE};
     for (int k = 0; k < 3; k++) {
         const hd_scene_def scene = scene_with(exponents[k], HD_OBSERVE_GAS);
         const double begin = scene.equilibration + scene.warmup;
         hd_run *run = created(&scene);
         int reports = 0;
-        while (hd_run_stage(run) != HD_FINISHED) {
-            CHECK_OK(hd_run_advance(run));
+        while (going_on(run)) {
             if (!hd_run_report_due(run) || !(hd_gas_read(hd_run_gas(run)).time > 0)) continue;
             const double averaged = hd_run_spectrum(run) ? hd_spectrum_time(hd_run_spectrum(run))
                                                          : hd_run_time(run) - begin;
@@ -70,63 +64,49 @@ static void means_are_those_of_the_averaged_time(void **state)
     }
 }
 
-static hd_gas_means finished(const hd_scene_def *scene, double between)
+static hd_gas_means watched(const hd_scene_def *scene, double between)
 {
     hd_run *run = created(scene);
     hd_run_watch(run, between, hd_run_vectors(run));
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+    finish(run);
     const hd_gas_means means = hd_gas_read(hd_run_gas(run));
     hd_run_free(run);
     return means;
 }
 
 /** Nor does it matter who looks on; one report at the end is enough for an error. */
-static void errors_do_not_depend_on_who_looks(void **state)
+TEST(errors_do_not_depend_on_who_looks)
 {
-    (void)state;
     hd_scene_def scene = scene_with(HD_EXPONENTS_NONE, HD_OBSERVE_GAS);
     scene.report_interval = scene.duration;
-    const hd_gas_means alone = finished(&scene, INFINITY), watched = finished(&scene, 0.03);
+    const hd_gas_means alone = watched(&scene, INFINITY), other = watched(&scene, 0.03);
     assert_true(alone.pressure_error > 0);
-    CHECK_CLOSE(watched.pressure, alone.pressure, 0.0);
-    CHECK_CLOSE(watched.pressure_error, alone.pressure_error, 0.0);
-    CHECK_CLOSE(watched.collision_rate_error, alone.collision_rate_error, 0.0);
+    CHECK_CLOSE(other.pressure, alone.pressure, 0.0);
+    CHECK_CLOSE(other.pressure_error, alone.pressure_error, 0.0);
+    CHECK_CLOSE(other.collision_rate_error, alone.collision_rate_error, 0.0);
 }
 
-static void averages_begin_anew(void **state)
+TEST(averages_begin_anew)
 {
-    (void)state;
     static const int exponents[] = {HD_EXPONENTS_NONE, 2};
     for (int k = 0; k < 2; k++) {
         const hd_scene_def scene = scene_with(exponents[k], HD_OBSERVE_GAS);
         hd_run *run = created(&scene);
-        while (hd_run_time(run) < 60.0) CHECK_OK(hd_run_advance(run));
+        until_time(run, 60.0);
         const double begin = hd_run_time(run);
         assert_true(hd_gas_read(hd_run_gas(run)).time > 10.0);
         CHECK_OK(hd_run_reset_average(run));
         CHECK_CLOSE(hd_gas_read(hd_run_gas(run)).time, 0.0, 0.0);
-        while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+        finish(run);
         expect_same(hd_gas_read(hd_run_gas(run)), by_itself(&scene, begin, hd_run_time(run)));
         hd_run_free(run);
     }
 }
 
-static void nobody_pays_who_does_not_ask(void **state)
+TEST(nobody_pays_who_does_not_ask)
 {
-    (void)state;
     const hd_scene_def scene = scene_with(HD_EXPONENTS_NONE, 0);
     hd_run *run = created(&scene);
     assert_null(hd_run_gas(run));
     hd_run_free(run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(means_are_those_of_the_averaged_time),
-        cmocka_unit_test(errors_do_not_depend_on_who_looks),
-        cmocka_unit_test(averages_begin_anew),
-        cmocka_unit_test(nobody_pays_who_does_not_ask),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

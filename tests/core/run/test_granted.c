@@ -12,17 +12,15 @@ static int expected(void)
     return number ? atoi(number) : 2;
 }
 
-static void runs_go_on_with_what_is_granted(void **state)
+TEST(runs_go_on_with_what_is_granted)
 {
-    (void)state;
     hd_scene_def scene = scene_of(120, 0.8, 1.0, HD_PERIODIC, HD_PERIODIC, 1); /* worth a trial */
     scene.equilibration = 0.1;
     scene.warmup = 0.5;
     scene.duration = scene.report_interval = 0.5;
     for (int asked = 0; asked <= 2; asked += 2) {
         scene.threads = asked;
-        hd_run *run = created(&scene);
-        while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+        hd_run *run = finished(&scene);
         if (asked == 2) assert_int_equal(hd_run_threads(run), expected());
         if (asked == 2)
             assert_int_equal(hd_run_threads(run) + hd_run_threads_denied(run), 2);
@@ -32,10 +30,4 @@ static void runs_go_on_with_what_is_granted(void **state)
     }
     assert_int_equal(hd_blas_threads_granted(2), expected());
     assert_int_equal(hd_blas_threads_granted(1), 1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(runs_go_on_with_what_is_granted)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

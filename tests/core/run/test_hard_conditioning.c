@@ -26,17 +26,13 @@ enum { VERIFIES = 0 };
 /** Few vectors: extended precision is slow. */
 static hd_scene_def small_scene(int disks, int exponents, uint64_t seed)
 {
-    hd_scene_def scene = scene_of(disks, disks < 5 ? 0.3 : 0.6, 1.0, HD_PERIODIC, HD_PERIODIC,
-                                  seed);
-    scene.exponents = exponents;
-    scene.equilibration = 10.0;
-    scene.warmup = scene.duration = scene.report_interval = 50.0;
-    scene.threads = 1;
-    return scene;
+    return scene(.disks = disks, .density = disks < 5 ? 0.3 : 0.6, .aspect = 1.0, .seed = seed,
+                 .exponents = exponents, .equilibration = 10.0, .warmup = 50.0, .duration = 50.0,
+                 .report_interval = 50.0, .threads = 1);
 }
 
 /** Every step goes on in time. */
-static hd_status finish(hd_run *run, double forced)
+static hd_status finish_forced(hd_run *run, double forced)
 {
     hd_status status = HD_OK;
     while (status == HD_OK && hd_run_stage(run) != HD_FINISHED) {
@@ -73,7 +69,7 @@ static const double DOUBLE = 1.2e-11;
 static void check_forced(hd_scene_def scene, const double *exact, double forced, tally *sum)
 {
     hd_run *run = created(&scene);
-    CHECK_OK(finish(run, forced));
+    CHECK_OK(finish_forced(run, forced));
     const double off = deviation(run, exact), bound = hd_run_cost(run).error_bound;
     const double tolerance = fmax(scene.accuracy, DOUBLE);
     CHECK_CLOSE(off, 0.0, tolerance);
@@ -86,9 +82,8 @@ static void check_forced(hd_scene_def scene, const double *exact, double forced,
 }
 
 /** Forced on the run, each is repaired to the accuracy asked for. */
-static void any_forced_interval_gives_the_exact_spectrum(void **state)
+TEST(any_forced_interval_gives_the_exact_spectrum)
 {
-    (void)state;
     static const struct {
         int disks, exponents;
         uint64_t seed;
@@ -118,40 +113,37 @@ static void any_forced_interval_gives_the_exact_spectrum(void **state)
 }
 
 /** What is not carried changes places with the last vector, too [T6]. */
-static void few_vectors_rarely_exceed_the_bound(void **state)
+TEST(few_vectors_rarely_exceed_the_bound)
 {
-    (void)state;
-    enum { RUNS = 40 };
+    const uint64_t runs = second_tier() ? 40 : 20;
     int above = 0;
     double worst = 0.0, exact[VECTORS_MAX];
-    for (uint64_t seed = 1; seed <= RUNS; seed++) {
+    for (uint64_t seed = 1; seed <= runs; seed++) {
         hd_scene_def scene = small_scene(5, seed % 2 ? 4 : 2, seed);
         scene.density = 0.85;
         scene.boundary[0] = scene.boundary[1] = HD_REFLECTING;
         exact_spectrum(&scene, exact);
         hd_run *run = created(&scene);
-        CHECK_OK(finish(run, 0.0));
+        CHECK_OK(finish_forced(run, 0.0));
         const double off = deviation(run, exact), bound = hd_run_cost(run).error_bound;
         above += off > bound;
         worst = fmax(worst, off / bound);
         assert_true(off <= fmin(scene.accuracy, 10.0 * bound));
         hd_run_free(run);
     }
-    print_message("%d of %d above the bound, at most %.2g of it\n", above, RUNS, worst);
-    assert_true(above <= RUNS / 20);
+    print_message("%d of %d above the bound, at most %.2g of it\n", above, (int)runs, worst);
+    assert_true(above <= (int)runs / 20);
 }
 
 /** Grazing collisions shorten an interval, which must not make the next one look too long: ever
  * shorter ones only add up more rounding. Seen: 0.74 to 0.86 collisions of a disk, and 0.08 to 0.13
  * where they went on shrinking. */
-static void intervals_grow_again_after_grazing_collisions(void **state)
+TEST(intervals_grow_again_after_grazing_collisions)
 {
-    (void)state;
     for (uint64_t seed = 1; seed <= 5; seed++) {
-        hd_scene_def scene = small_scene(10, HD_EXPONENTS_ALL, seed);
-        scene.accuracy = 1e-12;
+        hd_scene_def scene = scene_from(small_scene(10, HD_EXPONENTS_ALL, seed), .accuracy = 1e-12);
         hd_run *run = created(&scene);
-        CHECK_OK(finish(run, 0.0));
+        CHECK_OK(finish_forced(run, 0.0));
         const double per_disk = 2.0 * (double)hd_trajectory_collisions(run->advance.trajectory) /
                                 scene.disks * 100.0 / 110.0;
         const double between = per_disk / (double)run->cost.orthonormalisations;
@@ -164,13 +156,12 @@ static void intervals_grow_again_after_grazing_collisions(void **state)
 }
 
 /** Halving ends above half of an eighth of the interval, or of a collision of each disk. */
-static void pieces_are_no_shorter_than_helps(void **state)
+TEST(pieces_are_no_shorter_than_helps)
 {
-    (void)state;
     long most = 0;
     for (uint64_t seed = 1; seed <= 5; seed++) {
-        hd_scene_def scene = small_scene(10, HD_EXPONENTS_ALL_INDEPENDENT, seed);
-        scene.accuracy = 1e-12;
+        hd_scene_def scene = scene_from(small_scene(10, HD_EXPONENTS_ALL_INDEPENDENT, seed),
+                                        .accuracy = 1e-12);
         hd_run *run = created(&scene);
         const double collision = run->sample_max / HD_COLLISIONS_PER_SAMPLE;
         while (hd_run_stage(run) != HD_FINISHED) {
@@ -190,18 +181,13 @@ static void pieces_are_no_shorter_than_helps(void **state)
 
 /** Pieces of a repair whose lengths added up to the interval but for rounding left a last piece of
  * 4e-16, and the next interval, twice as long, did not move the time: a run that hung. */
-static void no_crumb_of_rounding_stops_the_run(void **state)
+TEST(no_crumb_of_rounding_stops_the_run)
 {
-    (void)state;
-    hd_scene_def scene = scene_of(24, 0.7, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
-    scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
-    scene.equilibration = 10.0;
-    scene.warmup = 20.0;
-    scene.duration = 10.0;
-    scene.accuracy = 1e-12;
-    scene.threads = 1;
+    hd_scene_def scene = scene(.disks = 24, .density = 0.7, .aspect = 1.0,
+                               .exponents = HD_EXPONENTS_ALL_INDEPENDENT, .equilibration = 10.0,
+                               .warmup = 20.0, .duration = 10.0, .accuracy = 1e-12, .threads = 1);
     hd_run *run = created(&scene);
-    CHECK_OK(finish(run, 0.0));
+    CHECK_OK(finish_forced(run, 0.0));
     assert_true(run->cost.repairs > 0);
     hd_run_free(run);
 }
@@ -215,7 +201,7 @@ static double leaning_start(const hd_scene_def *scene, const double *exact, doub
     double *v = hd_frame_data(run->frame);
     for (int row = 0; row < hd_frame_rows(run->frame); row++, v += hd_frame_stride(run->frame))
         v[1] = v[0] + delta * v[1];
-    const hd_status status = finish(run, 0.0);
+    const hd_status status = finish_forced(run, 0.0);
     double off = -1.0;
     if (status == HD_OK) {
         off = deviation(run, exact);
@@ -228,9 +214,8 @@ static double leaning_start(const hd_scene_def *scene, const double *exact, doub
     return off;
 }
 
-static void nearly_dependent_start_vectors_are_separated_or_refused(void **state)
+TEST(nearly_dependent_start_vectors_are_separated_or_refused)
 {
-    (void)state;
     double exact[VECTORS_MAX];
     const int frames = VERIFIES ? 1 : 2; /* all vectors together have a volume */
     for (int all = 0; all < frames; all++) {
@@ -293,9 +278,8 @@ static void break_frame(hd_frame *frame, breakage how)
 }
 
 /** The fault has its name, and nothing of the broken vectors reaches an exponent. */
-static void a_broken_frame_is_a_named_fault(void **state)
+TEST(a_broken_frame_is_a_named_fault)
 {
-    (void)state;
     if (VERIFIES) skip();
     for (int all = 0; all < 2; all++)
         for (breakage how = 0; how < BREAKAGES; how++) {
@@ -309,7 +293,7 @@ static void a_broken_frame_is_a_named_fault(void **state)
                 before[col] = hd_spectrum_exponent(run->spectrum, col);
             const double time = hd_spectrum_time(run->spectrum);
             break_frame(run->frame, how);
-            assert_int_equal(finish(run, 0.0), HD_ILL_CONDITIONED);
+            assert_int_equal(finish_forced(run, 0.0), HD_ILL_CONDITIONED);
             CHECK_CLOSE(hd_spectrum_time(run->spectrum), time, 0.0);
             for (int col = 0; col < run->vectors; col++)
                 CHECK_CLOSE(hd_spectrum_exponent(run->spectrum, col), before[col], 0.0);
@@ -392,9 +376,8 @@ static double lean(int from, int to, double delta, bool stable)
 /** Two vectors of one panel, or of two: Cholesky alone refuses the first from 1e7 on, what has been
  * projected out of an earlier panel is as good as reflections. Refused or right, at every distance.
  */
-static void nearly_dependent_vectors_are_right_or_refused(void **state)
+TEST(nearly_dependent_vectors_are_right_or_refused)
 {
-    (void)state;
     static const int pairs[][2] = {{0, 1}, {2, 6}, {3, 12}, {1, 19}, {17, 18}};
     double worst = 0.0;
     int right = 0, refused = 0;
@@ -413,9 +396,8 @@ static void nearly_dependent_vectors_are_right_or_refused(void **state)
                   refused);
 }
 
-static void lost_rank_is_refused(void **state)
+TEST(lost_rank_is_refused)
 {
-    (void)state;
     for (int stable = 0; stable < 2; stable++)
         for (breakage how = ZERO_COLUMN; how <= ALL_ZERO; how++) {
             factors f = factors_create();
@@ -436,9 +418,8 @@ static hd_status factor_with_entry(double value, int row, int col, bool stable)
     return status;
 }
 
-static void what_is_no_number_is_refused_wherever_it_stands(void **state)
+TEST(what_is_no_number_is_refused_wherever_it_stands)
 {
-    (void)state;
     static const double values[] = {NAN, INFINITY, -INFINITY, 1e155, 1e200, 1e300, -1e300, DBL_MAX};
     for (size_t k = 0; k < sizeof values / sizeof *values; k++)
         for (int stable = 0; stable < 2; stable++)
@@ -465,9 +446,8 @@ static bool scaled_is_right(int digits, bool stable)
     return status == HD_OK;
 }
 
-static void any_scale_is_right_or_refused(void **state)
+TEST(any_scale_is_right_or_refused)
 {
-    (void)state;
     int right = 0, refused = 0;
     for (int digits = -320; digits <= 308; digits += 4)
         for (int stable = 0; stable < 2; stable++) {
@@ -480,21 +460,8 @@ static void any_scale_is_right_or_refused(void **state)
     print_message("%d right, %d refused\n", right, refused);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     hd_blas_use_threads(1);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_forced_interval_gives_the_exact_spectrum),
-        cmocka_unit_test(few_vectors_rarely_exceed_the_bound),
-        cmocka_unit_test(intervals_grow_again_after_grazing_collisions),
-        cmocka_unit_test(pieces_are_no_shorter_than_helps),
-        cmocka_unit_test(no_crumb_of_rounding_stops_the_run),
-        cmocka_unit_test(nearly_dependent_start_vectors_are_separated_or_refused),
-        cmocka_unit_test(a_broken_frame_is_a_named_fault),
-        cmocka_unit_test(nearly_dependent_vectors_are_right_or_refused),
-        cmocka_unit_test(lost_rank_is_refused),
-        cmocka_unit_test(what_is_no_number_is_refused_wherever_it_stands),
-        cmocka_unit_test(any_scale_is_right_or_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return tests_run(argc > 1 ? argv[1] : NULL);
 }

@@ -4,7 +4,7 @@
 
 #include "hdlyap/hdlyap.h"
 #include "published.h"
-#include "scenes.h"
+#include "runs.h"
 
 static const double PI = 3.14159265358979323846;
 static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
@@ -31,8 +31,7 @@ static void run_everything(const hd_scene_def *scene, tally *sum)
         return;
     }
     CHECK_OK(status);
-    while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_advance(run));
+    while (going_on(run)) {
         if (hd_run_report_due(run)) sum->numbers += check_published(run);
     }
     CHECK_CLOSE(hd_spectrum_time(hd_run_spectrum(run)), scene->duration, 1e-9 * scene->duration);
@@ -52,21 +51,19 @@ static void run_all_numbers(hd_scene_def scene, tally *sum)
 
 /** 2, 3 and 4 disks in a square box, in a channel and in between, behind all walls: none is
  * refused. */
-static void few_disks_run_with_everything(void **state)
+TEST(few_disks_run_with_everything)
 {
-    (void)state;
     static const double aspects[] = {1.0, 0.6, 0.15};
     tally sum = {0};
     for (int disks = 2; disks <= 4; disks++)
         for (int boundary = 0; boundary < 4; boundary++)
             for (int a = 0; a < 3; a++) {
-                hd_scene_def scene = scene_of(disks, 0.2, aspects[a], boundary & 1 ? R : P,
-                                              boundary & 2 ? R : P, 5);
-                scene.equilibration = 2.0;
-                scene.warmup = 3.0;
-                scene.duration = HD_SANITIZED ? 4.0 : 20.0;
-                scene.observe = EVERYTHING;
-                scene.threads = 1;
+                hd_scene_def scene = scene(.disks = disks, .density = 0.2, .aspect = aspects[a],
+                                           .boundary[0] = boundary & 1 ? R : P,
+                                           .boundary[1] = boundary & 2 ? R : P, .seed = 5,
+                                           .equilibration = 2.0, .warmup = 3.0,
+                                           .duration = HD_SANITIZED ? 4.0 : 20.0,
+                                           .observe = EVERYTHING, .threads = 1);
                 run_all_numbers(scene, &sum);
             }
     print_message("%ld runs published %ld numbers, %ld refused\n", sum.runs, sum.numbers,
@@ -142,9 +139,8 @@ static void watch_run(watch *w, const hd_scene_def *scene, double settling)
 {
     hd_run *run = NULL;
     bool begun = false;
-    CHECK_OK(hd_run_create(&run, scene, NULL, 0));
-    while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_advance(run));
+    run = created(scene);
+    while (going_on(run)) {
         if (!hd_run_report_due(run) || hd_spectrum_time(hd_run_spectrum(run)) < settling) continue;
         if (!begun) watch_begin(w, hd_run_steps(run));
         begun = true;
@@ -181,10 +177,9 @@ static void check_watch(const watch *w, const char *name, int resolved, long mov
 
 static hd_scene_def watched(int disks, double density, double aspect, hd_boundary x, hd_boundary y)
 {
-    hd_scene_def scene = scene_of(disks, density, aspect, x, y, 1);
-    scene.equilibration = 50.0;
-    scene.warmup = 200.0;
-    scene.duration = HD_SANITIZED ? 200.0 : 300.0;
+    hd_scene_def scene = scene(.disks = disks, .density = density, .aspect = aspect,
+                               .boundary[0] = x, .boundary[1] = y, .equilibration = 50.0,
+                               .warmup = 200.0, .duration = HD_SANITIZED ? 200.0 : 300.0);
     scene.report_interval = 0.25; /* one sample of the phases per report */
     scene.observe = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
     scene.max_mode_number = 1;
@@ -202,9 +197,8 @@ static void watch_scene(const hd_scene_def *scene, const char *name, int resolve
 }
 
 /** T and LP coincide, as LP(1,0) and LP(0,1) do: five vectors of three steps. */
-static void a_square_box_keeps_its_steps(void **state)
+TEST(a_square_box_keeps_its_steps)
 {
-    (void)state;
     static watch w;
     const hd_scene_def apart = watched(100, 0.7, 1.0, R, R),
                        crossing = watched(100, 0.8, 1.0, R, R);
@@ -217,9 +211,8 @@ static void a_square_box_keeps_its_steps(void **state)
 }
 
 /** T(1,1) and LP(0,1) alone, at c_T |k| = c_L |k| by accident. */
-static void an_accidental_crossing_keeps_its_steps(void **state)
+TEST(an_accidental_crossing_keeps_its_steps)
 {
-    (void)state;
     static watch w;
     const hd_scene_def scene = watched(100, 0.8, 0.9, R, R);
     watch_scene(&scene, "crossing", 3, &w);
@@ -228,27 +221,14 @@ static void an_accidental_crossing_keeps_its_steps(void **state)
 }
 
 /** Six zeros between the halves, which separate like ln(t) / t: they stay where they are. */
-static void zeros_in_the_middle_stay_there(void **state)
+TEST(zeros_in_the_middle_stay_there)
 {
-    (void)state;
     static watch w;
-    hd_scene_def scene = watched(36, 0.5, 0.03125, P, P);
-    scene.exponents = HD_EXPONENTS_ALL;
+    hd_scene_def scene = scene_from(watched(36, 0.5, 0.03125, P, P), .exponents = HD_EXPONENTS_ALL);
     watch_scene(&scene, "all vectors", 4, &w);
     assert_int_equal(w.step[2].col, 4 * 36 / 2 - 3);
     assert_int_equal(w.step[2].count, 6);
     assert_int_equal(w.step[2].moves, 0);
     CHECK_CLOSE(w.step[2].least, 1.0, 1e-6); /* orthogonality of a measured state */
     CHECK_CLOSE(w.step[2].most, 1.0, 1e-6);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(few_disks_run_with_everything),
-        cmocka_unit_test(a_square_box_keeps_its_steps),
-        cmocka_unit_test(an_accidental_crossing_keeps_its_steps),
-        cmocka_unit_test(zeros_in_the_middle_stay_there),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

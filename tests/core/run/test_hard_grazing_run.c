@@ -12,7 +12,6 @@
 /** To which the reference is known: its own rounding, 1e-19 of a condition below 1e5, and that of
  * sums of 1e6 doubles. */
 static const double EXACT = 1e-13;
-static const double EVENTS = HD_SANITIZED ? 2e4 : 2e5;
 static const double NEAR = 0.2; /* |p.n| / |p|; a part NEAR^2 / 2 of all is below */
 
 static double impact_of(const hd_event *e)
@@ -62,16 +61,13 @@ static double deviation(const hd_run *run, const reference *r)
 /** All exponents of four disks, averaged from the start. */
 static hd_scene_def averaged_at_once(hd_boundary boundary, double duration)
 {
-    hd_scene_def scene = scene_of(4, 0.5, 1.0, boundary, boundary, 3);
-    scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
-    scene.equilibration = scene.warmup = 0.0;
-    scene.duration = duration;
-    scene.report_interval = 10.0;
-    scene.threads = 1;
-    return scene;
+    return scene(.disks = 4, .density = 0.5, .aspect = 1.0, .boundary[0] = boundary,
+                 .boundary[1] = boundary, .seed = 3, .exponents = HD_EXPONENTS_ALL_INDEPENDENT,
+                 .equilibration = 0.0, .warmup = 0.0, .duration = duration, .report_interval = 10.0,
+                 .threads = 1);
 }
 
-static hd_status finish(hd_run *run)
+static hd_status status_at_end(hd_run *run)
 {
     while (hd_run_stage(run) != HD_FINISHED) HD_TRY(hd_run_advance(run));
     return HD_OK;
@@ -82,7 +78,7 @@ static hd_status finish(hd_run *run)
 static void check_against(const hd_scene_def *scene, const reference *r)
 {
     hd_run *run = created(scene);
-    CHECK_OK(finish(run));
+    CHECK_OK(status_at_end(run));
     const double off = deviation(run, r), bound = hd_run_cost(run).error_bound;
     print_message("interval %.3g (%.2f), accuracy %.0e: deviation %.1e, bound %.1e, %ld repairs\n",
                   scene->interval, run->cost.interval, scene->accuracy, off, bound,
@@ -94,15 +90,16 @@ static void check_against(const hd_scene_def *scene, const reference *r)
 static void check_many(hd_boundary boundary)
 {
     const double intervals[] = {0.0, 0.0, 0.2}, accuracies[] = {1e-4, 1e-10, 1e-8};
+    const double events = HD_SANITIZED || !second_tier() ? 5e4 : 2e5;
     hd_scene_def scene = averaged_at_once(boundary, 100.0);
     hd_trajectory *tr;
     CHECK_OK(hd_trajectory_create(&tr, &scene));
-    scene.duration = ceil(EVENTS / hd_trajectory_collision_rate(tr));
+    scene.duration = ceil(events / hd_trajectory_collision_rate(tr));
     hd_run *run = created(&scene);
     const reference r = reference_of(tr, run->frame, scene.duration);
     hd_run_free(run);
     print_message("%ld collisions with |p.n| < %g |p|, the least %.1e\n", r.near, NEAR, r.least);
-    assert_true((double)r.near > 0.3 * NEAR * NEAR * EVENTS);
+    assert_true((double)r.near > 0.3 * NEAR * NEAR * events);
     for (int k = 0; k < 3; k++) {
         scene.interval = intervals[k];
         scene.accuracy = accuracies[k];
@@ -111,9 +108,8 @@ static void check_many(hd_boundary boundary)
     exact_free(r.x);
 }
 
-static void thousands_of_near_ones_keep_the_exponents(void **state)
+TEST(thousands_of_near_ones_keep_the_exponents)
 {
-    (void)state;
     check_many(HD_PERIODIC);
     check_many(HD_REFLECTING);
 }
@@ -150,14 +146,14 @@ typedef struct outcome {
 /** Of 20 time units after the graze. */
 static outcome outcome_of(double impact, int exponents)
 {
-    hd_scene_def scene = averaged_at_once(HD_PERIODIC, 20.0);
-    scene.exponents = exponents;
+    hd_scene_def scene = scene_from(averaged_at_once(HD_PERIODIC, 20.0), .exponents = exponents);
     hd_run *run = created(&scene);
     hd_trajectory_free(run->advance.trajectory);
     run->advance.trajectory = prepared(&scene, impact);
     const reference r = reference_of(prepared(&scene, impact), run->frame, scene.duration);
     assert_true(r.least < 1.1 * impact / 1.6 + 4.0 * DBL_EPSILON);
-    outcome o = {.status = finish(run), .impact = 2.0 * DBL_EPSILON / r.least / scene.duration};
+    outcome o = {.status = status_at_end(run),
+                 .impact = 2.0 * DBL_EPSILON / r.least / scene.duration};
     o.off = deviation(run, &r);
     o.bound = hd_run_cost(run).error_bound;
     exact_free(r.x);
@@ -181,19 +177,9 @@ static void check_outcomes(int exponents, double survived)
     }
 }
 
-static void single_extreme_ones_are_survived_or_refused(void **state)
+TEST(single_extreme_ones_are_survived_or_refused)
 {
-    (void)state;
     check_outcomes(HD_EXPONENTS_ALL_INDEPENDENT, 1e-6);
     check_outcomes(HD_EXPONENTS_POSITIVE, 1e-12);
     check_outcomes(1, 1e-14);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(thousands_of_near_ones_keep_the_exponents),
-        cmocka_unit_test(single_extreme_ones_are_survived_or_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "ledger.h"
-#include "scenes.h"
+#include "runs.h"
 #include "testing.h"
 
 #include "hdlyap/hdlyap.h"
@@ -22,23 +22,17 @@ typedef struct world {
 /** With phases found from the slowest vectors alone, which takes 64 vectors. */
 static hd_scene_def all_observables(void)
 {
-    hd_scene_def scene = scene_of(34, 0.7, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
-    scene.observe = EVERYTHING;
-    scene.equilibration = scene.warmup = scene.duration = 2.0;
-    scene.threads = 1;
-    return scene;
+    return scene(.disks = 34, .density = 0.7, .aspect = 1.0, .observe = EVERYTHING,
+                 .equilibration = 2.0, .warmup = 2.0, .duration = 2.0, .threads = 1);
 }
 
 /** One vector of many disks: the log of an interval grows, and with it what the frame makes of it.
  */
 static hd_scene_def growing_log(void)
 {
-    hd_scene_def scene = scene_of(2000, 0.7, 1.0, HD_PERIODIC, HD_REFLECTING, 1);
-    scene.exponents = 1;
-    scene.equilibration = 0.1;
-    scene.warmup = scene.duration = scene.report_interval = 2.0;
-    scene.threads = 1;
-    return scene;
+    return scene(.disks = 2000, .density = 0.7, .aspect = 1.0, .boundary[1] = HD_REFLECTING,
+                 .exponents = 1, .equilibration = 0.1, .warmup = 2.0, .duration = 2.0,
+                 .report_interval = 2.0, .threads = 1);
 }
 
 static hd_status live(world *w, const hd_scene_def *scene)
@@ -71,8 +65,7 @@ static hd_status life(const hd_scene_def *scene, const char *resumed, size_t fir
 static size_t needed(const hd_scene_def *scene, size_t *of_creation)
 {
     const size_t before = ledger_now().allocations;
-    hd_run *run;
-    CHECK_OK(hd_run_create(&run, scene, NULL, 0));
+    hd_run *run = created(scene);
     hd_run_free(run);
     const size_t created = ledger_now().allocations;
     CHECK_OK(life(scene, NULL, 0, 0));
@@ -95,9 +88,8 @@ static void out_at_each(const char *name, const hd_scene_def *scene, const char 
     print_message("%s: out of memory at each of %zu allocations\n", name, count);
 }
 
-static void of_all_observables(void **state)
+TEST(of_all_observables)
 {
-    (void)state;
     const hd_scene_def scene = all_observables();
     size_t of_creation;
     const size_t count = needed(&scene, &of_creation);
@@ -105,9 +97,8 @@ static void of_all_observables(void **state)
     out_at_each("all observables", &scene, NULL, count);
 }
 
-static void of_a_growing_log(void **state)
+TEST(of_a_growing_log)
 {
-    (void)state;
     const hd_scene_def scene = growing_log();
     size_t of_creation;
     const size_t count = needed(&scene, &of_creation);
@@ -117,13 +108,11 @@ static void of_a_growing_log(void **state)
 
 /** In mid-interval, with a log that has grown: what is read needs room before anything is advanced.
  */
-static void of_a_resumed_run(void **state)
+TEST(of_a_resumed_run)
 {
-    (void)state;
     const hd_scene_def scene = growing_log();
-    hd_run *run;
-    CHECK_OK(hd_run_create(&run, &scene, NULL, 0));
-    while (hd_run_stage(run) < HD_AVERAGING) CHECK_OK(hd_run_advance(run));
+    hd_run *run = created(&scene);
+    until(run, HD_AVERAGING);
     CHECK_OK(hd_run_advance(run));
     CHECK_OK(hd_run_save(run, FILE_NAME, "", NULL, 0));
     hd_run_free(run);
@@ -131,12 +120,4 @@ static void of_a_resumed_run(void **state)
     CHECK_OK(life(&scene, FILE_NAME, 0, 0));
     out_at_each("resumed", &scene, FILE_NAME, ledger_now().allocations - before);
     assert_int_equal(remove(FILE_NAME), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(of_all_observables),
-                                       cmocka_unit_test(of_a_growing_log),
-                                       cmocka_unit_test(of_a_resumed_run)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/** Ten thousand random scenes, possible and impossible: each runs, or is refused by the name of a
+/** Thousands of random scenes, possible and impossible: each runs, or is refused by the name of a
  * parameter. */
 #include <float.h>
 #include <limits.h>
@@ -8,10 +8,10 @@
 #include "hdlyap/parameters.h"
 #include "hdlyap/run.h"
 #include "draw.h"
-#include "scenes.h"
+#include "runs.h"
 #include "testing.h"
 
-enum { SETS = HD_SANITIZED ? 2000 : 10000, LINE = 256, PARAMETERS_MAX = 100 };
+enum { LINE = 256, PARAMETERS_MAX = 100 };
 
 /** A run is followed for so long: the first steps are short, each at most four times the one
  * before. */
@@ -272,25 +272,25 @@ static const char *scene_fault(hd_random *random, const hd_scene_def *def, tally
     return fault;
 }
 
-static void report(const tally *seen)
+static void report(const tally *seen, int sets)
 {
     print_message(
         "of %d scenes %d ran (%d of them as far as averages), %d were refused, %d were too "
         "large to be run here\n  refused by",
-        SETS, seen->run, seen->averaged, seen->refused, seen->large);
+        sets, seen->run, seen->averaged, seen->refused, seen->large);
     int count;
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) print_message(" %s %d", rows[k].name, seen->refused_by[k]);
     print_message("\n");
 }
 
-static void each_runs_or_is_refused_by_name(void **state)
+TEST(each_runs_or_is_refused_by_name)
 {
-    (void)state;
     hd_random random = hd_random_seeded(20260801, 0);
+    const int sets = HD_SANITIZED ? 2000 : second_tier() ? 10000 : 4000;
     tally seen = {0};
     int faults = 0;
-    for (int number = 0; number < SETS; number++) {
+    for (int number = 0; number < sets; number++) {
         const hd_scene_def def = drawn(&random);
         const char *fault = scene_fault(&random, &def, &seen);
         if (!fault) continue;
@@ -298,10 +298,10 @@ static void each_runs_or_is_refused_by_name(void **state)
         print_error("  %s\n", fault);
         faults++;
     }
-    report(&seen);
+    report(&seen, sets);
     assert_int_equal(faults, 0);
-    assert_true(seen.run >= SETS / 10 && seen.refused >= SETS / 10);
-    assert_true(seen.averaged >= SETS / 20);
+    assert_true(seen.run >= sets / 10 && seen.refused >= sets / 10);
+    assert_true(seen.averaged >= sets / 20);
 }
 
 /** Steps until the run ends; fails if one goes nowhere, or takes more events than it should. */
@@ -309,7 +309,7 @@ static int steps_to_the_end(const hd_scene_def *def)
 {
     hd_run *run = NULL;
     int steps = 0;
-    CHECK_OK(hd_run_create(&run, def, NULL, 0));
+    run = created(def);
     for (; hd_run_stage(run) != HD_FINISHED; steps++) {
         const char *fault = step_once(run);
         if (!fault) continue;
@@ -323,16 +323,16 @@ static int steps_to_the_end(const hd_scene_def *def)
 
 /** Phases so short that the time does not move in them: what comes after is not held up. From 1e-12
  * steps grow by 4 each, which is 25 of them to 1e3; a sample here and there ends one early. */
-static void phases_without_length_pass(void **state)
+TEST(phases_without_length_pass)
 {
-    (void)state;
     const double lengths[] = {DBL_TRUE_MIN, DBL_MIN, 1e-300, 1e-30, 1e-17, 1e-15, 1e-12};
     for (size_t k = 0; k < 3 * 7; k++) {
-        hd_scene_def def = scene_of(5, 0.5, 1.0, (hd_boundary)(k % 2), HD_PERIODIC, k);
-        def.equilibration = k / 7 == 0 ? lengths[k % 7] : 1.0;
-        def.warmup = k / 7 == 1 ? lengths[k % 7] : 1.0;
-        def.duration = k / 7 == 2 ? lengths[k % 7] : 1.0;
-        def.observe = HD_OBSERVE_STEPS;
+        hd_scene_def def = scene(.disks = 5, .density = 0.5, .aspect = 1.0,
+                                 .boundary[0] = (hd_boundary)(k % 2), .seed = k,
+                                 .equilibration = k / 7 == 0 ? lengths[k % 7] : 1.0,
+                                 .warmup = k / 7 == 1 ? lengths[k % 7] : 1.0,
+                                 .duration = k / 7 == 2 ? lengths[k % 7] : 1.0,
+                                 .observe = HD_OBSERVE_STEPS);
         assert_true(steps_to_the_end(&def) < 200);
     }
 }
@@ -340,28 +340,17 @@ static void phases_without_length_pass(void **state)
 /** Between walls 1e-9 further apart than a disk there are 1e9 events of each disk in a time unit:
  * the first step must not be one of a thousandth of a collision, and those after it not too long.
  */
-static void narrow_channels_keep_steps_short(void **state)
+TEST(narrow_channels_keep_steps_short)
 {
-    (void)state;
     enum {
         STEPS = 18
     }; /* 1e-12 time units at first, each four times the one before, up to 2e5 events */
     hd_scene_def def = scene_in_box(4, 40.0, 1.0 + 1e-9, HD_PERIODIC, HD_REFLECTING, 1);
     hd_run *run = NULL;
     def.equilibration = 1.0;
-    CHECK_OK(hd_run_create(&run, &def, NULL, 0));
+    run = created(&def);
     for (int step = 0; step < STEPS; step++) assert_null(step_once(run));
     assert_true(events_of(run) > 2e5);
     assert_null(state_fault(run));
     hd_run_free(run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_runs_or_is_refused_by_name),
-        cmocka_unit_test(phases_without_length_pass),
-        cmocka_unit_test(narrow_channels_keep_steps_short),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

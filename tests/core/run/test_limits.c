@@ -6,13 +6,8 @@
 
 static hd_scene_def scene_of_disks(int disks, double report_interval)
 {
-    hd_scene_def scene = scene_of(disks, 0.8, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
-    scene.equilibration = 2.0;
-    scene.warmup = 40.0;
-    scene.duration = 0.0;
-    scene.observe = 0;
-    scene.report_interval = report_interval;
-    return scene;
+    return scene(.disks = disks, .density = 0.8, .aspect = 1.0, .equilibration = 2.0,
+                 .warmup = 40.0, .duration = 0.0, .observe = 0, .report_interval = report_interval);
 }
 
 typedef struct seen {
@@ -31,10 +26,9 @@ static seen seen_of(const hd_run *run)
 static seen settled(const hd_scene_def *scene)
 {
     hd_run *run = created(scene);
-    while (hd_run_stage(run) < HD_AVERAGING) CHECK_OK(hd_run_advance(run));
+    until(run, HD_AVERAGING);
     const double from = run->schedule.start, sample = hd_run_sample_longest(run);
-    while (hd_run_time(run) < from + 3.5 * fmax(sample, scene->report_interval))
-        CHECK_OK(hd_run_advance(run));
+    until_time(run, from + 3.5 * fmax(sample, scene->report_interval));
     const seen last = seen_of(run);
     hd_run_free(run);
     return last;
@@ -48,9 +42,8 @@ static seen alone(int disks)
     return settled(&scene);
 }
 
-static void the_conditioning_is_not_called_a_report(void **state)
+TEST(the_conditioning_is_not_called_a_report)
 {
-    (void)state;
     const seen last = alone(24);
     print_message("interval %g\n", last.interval);
     assert_int_equal(last.limit, HD_LIMIT_CONDITION);
@@ -65,16 +58,15 @@ static long orthonormalisations_with(double report_interval)
     while (hd_run_stage(run) < HD_AVERAGING || hd_run_time(run) < run->schedule.start + 12.0)
         CHECK_OK(hd_run_advance(run));
     const long before = hd_run_cost(run).orthonormalisations;
-    while (hd_run_time(run) < run->schedule.start + 132.0) CHECK_OK(hd_run_advance(run));
+    until_time(run, run->schedule.start + 132.0);
     const long count = hd_run_cost(run).orthonormalisations - before;
     hd_run_free(run);
     return count;
 }
 
 /** Conditions scatter: within a tenth. */
-static void a_report_costs_no_orthonormalisation(void **state)
+TEST(a_report_costs_no_orthonormalisation)
 {
-    (void)state;
     const double reports[] = {0.05, 0.1, 1.0, 10.0};
     const long few = orthonormalisations_with(12.0);
     for (int k = 0; k < 4; k++) {
@@ -85,19 +77,16 @@ static void a_report_costs_no_orthonormalisation(void **state)
     }
 }
 
-static void the_parameter_limits(void **state)
+TEST(the_parameter_limits)
 {
-    (void)state;
-    hd_scene_def scene = scene_of_disks(24, 20.0);
-    scene.interval = 0.3;
+    hd_scene_def scene = scene_from(scene_of_disks(24, 20.0), .interval = 0.3);
     assert_int_equal(settled(&scene).limit, HD_LIMIT_SCENE);
     scene.report_interval = 0.3;
     assert_int_equal(settled(&scene).limit, HD_LIMIT_SCENE);
 }
 
-static void samples_for_errors_limit(void **state)
+TEST(samples_for_errors_limit)
 {
-    (void)state;
     hd_scene_def scene = scene_of_disks(24, 0.05);
     scene.duration = 16.0; /* 32 of half a time unit, or shorter, so that they fill blocks */
     const seen last = settled(&scene);
@@ -112,12 +101,11 @@ static void samples_for_errors_limit(void **state)
 }
 
 /** Foreseen, and of somebody who came in the middle of an interval. */
-static void vectors_that_are_wanted_limit(void **state)
+TEST(vectors_that_are_wanted_limit)
 {
-    (void)state;
-    hd_scene_def scene = scene_of_disks(24, 0.5);
-    scene.observe = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_HYDRO;
-    scene.max_mode_number = 1;
+    hd_scene_def scene = scene_from(
+        scene_of_disks(24, 0.5), .observe = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_HYDRO,
+        .max_mode_number = 1);
     hd_run *run = created(&scene);
     long looks = 0, foreseen = 0;
     for (long reports = 0; hd_run_time(run) < 60.0;) {
@@ -134,11 +122,9 @@ static void vectors_that_are_wanted_limit(void **state)
 }
 
 /** Learnt by doubling; then the stage ends. */
-static void the_warmup_is_learnt_and_ends(void **state)
+TEST(the_warmup_is_learnt_and_ends)
 {
-    (void)state;
-    hd_scene_def scene = scene_of_disks(24, 0.5);
-    scene.warmup = 0.5;
+    hd_scene_def scene = scene_from(scene_of_disks(24, 0.5), .warmup = 0.5);
     hd_run *run = created(&scene);
     assert_int_equal(seen_of(run).limit, HD_LIMIT_NONE);
     assert_true(isnan(seen_of(run).interval));
@@ -151,20 +137,7 @@ static void the_warmup_is_learnt_and_ends(void **state)
     hd_run_free(run);
     scene.warmup = 1e-3;
     run = created(&scene);
-    while (hd_run_stage(run) < HD_AVERAGING) CHECK_OK(hd_run_advance(run));
+    until(run, HD_AVERAGING);
     assert_int_equal(seen_of(run).limit, HD_LIMIT_STAGE);
     hd_run_free(run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_conditioning_is_not_called_a_report),
-        cmocka_unit_test(a_report_costs_no_orthonormalisation),
-        cmocka_unit_test(the_parameter_limits),
-        cmocka_unit_test(samples_for_errors_limit),
-        cmocka_unit_test(vectors_that_are_wanted_limit),
-        cmocka_unit_test(the_warmup_is_learnt_and_ends),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,14 +9,9 @@ enum { DISKS = 40, VECTORS_MAX = 4 * DISKS, SAMPLES_MAX = 1000 };
 
 static hd_scene_def scene_with(int exponents, unsigned observe)
 {
-    hd_scene_def scene = scene_of(DISKS, 0.6, 0.4, HD_PERIODIC, HD_PERIODIC, 6);
-    scene.exponents = exponents;
-    scene.observe = observe;
-    scene.equilibration = 5.0;
-    scene.warmup = 20.0;
-    scene.duration = 120.0;
-    scene.threads = 2;
-    return scene;
+    return scene(.disks = DISKS, .density = 0.6, .aspect = 0.4, .seed = 6, .exponents = exponents,
+                 .observe = observe, .equilibration = 5.0, .warmup = 20.0, .duration = 120.0,
+                 .threads = 2);
 }
 
 /** Of one column. */
@@ -51,9 +46,8 @@ static void expect_as(const twin *t, hd_localization *shape, int n)
 }
 
 /** With half of the vectors carried, those of the other half too: they are seen with the modes. */
-static void widths_are_those_of_the_vectors(void **state)
+TEST(widths_are_those_of_the_vectors)
 {
-    (void)state;
     static twin t;
     static const int exponents[] = {HD_EXPONENTS_POSITIVE, 7, HD_EXPONENTS_ALL,
                                     HD_EXPONENTS_ALL_INDEPENDENT};
@@ -64,8 +58,7 @@ static void widths_are_those_of_the_vectors(void **state)
         hd_localization *shape = hd_run_localization(run);
         const int n = hd_run_vectors(run);
         t.samples = 0;
-        while (hd_run_stage(run) != HD_FINISHED) {
-            CHECK_OK(hd_run_advance(run));
+        while (going_on(run)) {
             if (hd_localization_samples(shape) == t.samples) continue;
             assert_true(hd_localization_samples(shape) == t.samples + 1 && t.samples < SAMPLES_MAX);
             const hd_columns v = hd_run_frame_columns(run);
@@ -84,13 +77,11 @@ static void widths_are_those_of_the_vectors(void **state)
 
 /** The largest exponent's vector lies on few disks, the slowest ones on all (Taniguchi and Morriss
  * 2003). */
-static void the_fastest_vector_is_the_narrowest(void **state)
+TEST(the_fastest_vector_is_the_narrowest)
 {
-    (void)state;
-    hd_scene_def scene = scene_with(HD_EXPONENTS_POSITIVE, HD_OBSERVE_LOCALIZATION);
-    scene.density = 0.2;
-    hd_run *run = created(&scene);
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+    hd_scene_def scene = scene_from(scene_with(HD_EXPONENTS_POSITIVE, HD_OBSERVE_LOCALIZATION),
+                                    .density = 0.2);
+    hd_run *run = finished(&scene);
     const double *width = hd_localization_widths(hd_run_localization(run));
     const int n = hd_run_vectors(run);
     assert_true(width[0] < 0.5 * width[n - 1]);
@@ -99,21 +90,18 @@ static void the_fastest_vector_is_the_narrowest(void **state)
 }
 
 /** Widths of independent runs scatter as their errors say. */
-static void errors_are_those_of_seeds(void **state)
+TEST(errors_are_those_of_seeds)
 {
-    (void)state;
     enum { SEEDS = 40 };
     static double width[SEEDS][VECTORS_MAX];
     double stated = 0.0, square = 0.0;
     int n = 0;
     for (int seed = 0; seed < SEEDS; seed++) {
-        hd_scene_def scene = scene_of(8, 0.4, 0.5, HD_PERIODIC, HD_PERIODIC, (uint64_t)seed + 1);
-        scene.observe = HD_OBSERVE_LOCALIZATION;
-        scene.exponents = HD_EXPONENTS_POSITIVE;
-        scene.warmup = 20.0;
-        scene.duration = 200.0;
-        hd_run *run = created(&scene);
-        while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+        hd_scene_def scene = scene(.disks = 8, .density = 0.4, .aspect = 0.5,
+                                   .seed = (uint64_t)seed + 1, .observe = HD_OBSERVE_LOCALIZATION,
+                                   .exponents = HD_EXPONENTS_POSITIVE, .warmup = 20.0,
+                                   .duration = 200.0);
+        hd_run *run = finished(&scene);
         hd_localization *shape = hd_run_localization(run);
         n = hd_run_vectors(run);
         for (int col = 0; col < n; col++) {
@@ -135,16 +123,14 @@ static void errors_are_those_of_seeds(void **state)
 }
 
 /** Nothing is measured, and the exponents are those of a run that was not asked. */
-static void nothing_is_measured_while_nobody_looks(void **state)
+TEST(nothing_is_measured_while_nobody_looks)
 {
-    (void)state;
     const hd_scene_def asked = scene_with(HD_EXPONENTS_POSITIVE, HD_OBSERVE_LOCALIZATION),
                        plain = scene_with(HD_EXPONENTS_POSITIVE, 0);
     hd_run *run = created(&asked), *other = created(&plain);
     assert_null(hd_run_localization(other));
     hd_run_observe(run, 0);
-    while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_advance(run));
+    while (going_on(run)) {
         CHECK_OK(hd_run_advance(other));
     }
     assert_true(hd_localization_samples(hd_run_localization(run)) == 0);
@@ -155,26 +141,13 @@ static void nothing_is_measured_while_nobody_looks(void **state)
     hd_run_free(other);
 }
 
-static void averages_begin_anew(void **state)
+TEST(averages_begin_anew)
 {
-    (void)state;
     const hd_scene_def scene = scene_with(3, HD_OBSERVE_LOCALIZATION);
     hd_run *run = created(&scene);
-    while (hd_run_time(run) < 80.0) CHECK_OK(hd_run_advance(run));
+    until_time(run, 80.0);
     assert_true(hd_localization_samples(hd_run_localization(run)) > 0);
     CHECK_OK(hd_run_reset_average(run));
     assert_true(hd_localization_samples(hd_run_localization(run)) == 0);
     hd_run_free(run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(widths_are_those_of_the_vectors),
-        cmocka_unit_test(the_fastest_vector_is_the_narrowest),
-        cmocka_unit_test(errors_are_those_of_seeds),
-        cmocka_unit_test(nothing_is_measured_while_nobody_looks),
-        cmocka_unit_test(averages_begin_anew),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

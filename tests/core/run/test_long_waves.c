@@ -1,5 +1,6 @@
 /** c_T and c_L of boxes of all kinds against those of the longest waves at the same density: their
  * stated errors hold what the form of the fit leaves open [T12]. */
+#include "runs.h"
 #include "testing.h"
 
 #include "hdlyap/run.h"
@@ -36,19 +37,11 @@ enum { BOXES = sizeof boxes / sizeof boxes[0] };
 
 static hd_run *run_of(int box)
 {
-    hd_scene_def scene = hd_scene_def_default();
-    scene.disks = boxes[box].disks;
-    scene.density = boxes[box].density;
-    scene.aspect = boxes[box].aspect;
-    scene.boundary[0] = boxes[box].x;
-    scene.boundary[1] = boxes[box].y;
-    scene.duration = 500.0;
-    scene.observe = HD_OBSERVE_STEPS;
-    scene.threads = 1;
-    hd_run *run;
-    CHECK_OK(hd_run_create(&run, &scene, NULL, 0));
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
-    return run;
+    hd_scene_def scene = scene(.disks = boxes[box].disks, .density = boxes[box].density,
+                               .aspect = boxes[box].aspect, .boundary[0] = boxes[box].x,
+                               .boundary[1] = boxes[box].y, .duration = 500.0,
+                               .observe = HD_OBSERVE_STEPS, .threads = 1);
+    return finished(&scene);
 }
 
 /** Deviation in stated errors; NaN without a fit. */
@@ -67,9 +60,8 @@ static double deviation(const hd_run *run, int kind, double density)
 
 /** Of twenty normal deviations the root mean square is 1 +- 0.16: errors are neither too small nor
  * too large. */
-static void errors_hold_what_the_form_leaves_open(void **state)
+TEST(errors_hold_what_the_form_leaves_open)
 {
-    (void)state;
     double squares = 0.0;
     int count = 0, one = 0, two = 0;
     for (int box = 0; box < BOXES; box++) {
@@ -91,10 +83,4 @@ static void errors_hold_what_the_form_leaves_open(void **state)
                   sqrt(squares / count));
     assert_true(count >= 18);
     CHECK_CLOSE(sqrt(squares / count), 1.0, 3.0 * 0.16);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(errors_hold_what_the_form_leaves_open)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,18 +9,13 @@ enum { DISKS = 40, VECTORS = 2 * DISKS - 3 };
 
 static hd_scene_def endless(unsigned observe)
 {
-    hd_scene_def scene = scene_of(DISKS, 0.7, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
-    scene.equilibration = 10.0;
-    scene.warmup = 20.0;
-    scene.duration = 400.0;
-    scene.report_interval = 0.5;
-    scene.observe = observe;
-    scene.threads = 1;
-    return scene;
+    return scene(.disks = DISKS, .density = 0.7, .aspect = 1.0, .equilibration = 10.0,
+                 .warmup = 20.0, .duration = 400.0, .report_interval = 0.5, .observe = observe,
+                 .threads = 1);
 }
 
 /** To the end; the number of orthonormalisations of the averaging that left the norm of dq. */
-static int finish(hd_run *run)
+static int finish_counting(hd_run *run)
 {
     int dq = 0;
     for (long before = 0; hd_run_stage(run) != HD_FINISHED;) {
@@ -34,13 +29,12 @@ static int finish(hd_run *run)
 
 /** The twin is orthonormalised in the whole norm at every report: its hydrodynamic response is
  * looked at. */
-static void exponents_do_not_depend_on_it(void **state)
+TEST(exponents_do_not_depend_on_it)
 {
-    (void)state;
     const hd_scene_def scene = endless(0);
     const hd_scene_def looked = endless(HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_HYDRO);
     hd_run *run = created(&scene), *twin = created(&looked);
-    const int with = finish(run), without = finish(twin);
+    const int with = finish_counting(run), without = finish_counting(twin);
     assert_true(with > 40);
     assert_int_equal(without, 0);
     const double bound = hd_run_cost(run).error_bound + hd_run_cost(twin).error_bound;
@@ -59,9 +53,8 @@ static void exponents_do_not_depend_on_it(void **state)
 
 /** Angles and ratios of the halves are those of the last measured state, like the averages, and not
  * those of the frame that stands there. */
-static void halves_are_those_of_the_measured_state(void **state)
+TEST(halves_are_those_of_the_measured_state)
 {
-    (void)state;
     const hd_scene_def scene = endless(0);
     hd_run *run = created(&scene);
     double want[2][VECTORS], got[2][VECTORS], frame[2][VECTORS];
@@ -79,13 +72,4 @@ static void halves_are_those_of_the_measured_state(void **state)
     }
     assert_true(between > 20);
     hd_run_free(run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exponents_do_not_depend_on_it),
-        cmocka_unit_test(halves_are_those_of_the_measured_state),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,24 +13,9 @@ static const unsigned EVERYTHING = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSE
 /** A channel, Lx = 66.7, Ly = 1.5, in which disks cannot pass each other. */
 static hd_scene_def channel(hd_boundary x, hd_boundary y)
 {
-    hd_scene_def scene = hd_scene_def_default();
-    scene.disks = DISKS;
-    scene.density = 0.5;
-    scene.aspect = 0.0225;
-    scene.boundary[0] = x;
-    scene.boundary[1] = y;
-    scene.equilibration = 100.0;
-    scene.warmup = 400.0;
-    scene.duration = 600.0;
-    scene.observe = EVERYTHING;
-    return scene;
-}
-
-static hd_run *finished(const hd_scene_def *scene)
-{
-    hd_run *run = created(scene);
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
-    return run;
+    return scene(.disks = DISKS, .density = 0.5, .aspect = 0.0225, .boundary[0] = x,
+                 .boundary[1] = y, .equilibration = 100.0, .warmup = 400.0, .duration = 600.0,
+                 .observe = EVERYTHING);
 }
 
 static const hd_step *step_of(const hd_run *run, hd_mode_kind kind, int nx, int ny, bool conjugate)
@@ -60,9 +45,8 @@ static const hd_step *expect_step(const hd_run *run, hd_mode_kind kind, int nx, 
     return step;
 }
 
-static void the_boundary_says_which_modes_there_are(void **state)
+TEST(the_boundary_says_which_modes_there_are)
 {
-    (void)state;
     const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
     const struct {
         hd_boundary x, y;
@@ -84,9 +68,8 @@ static void the_boundary_says_which_modes_there_are(void **state)
 }
 
 /** LP(1,0) of the periodic channel by two ways of looking. Within 4 standard errors of the two. */
-static void coarse_reports_see_the_same_rotation(void **state)
+TEST(coarse_reports_see_the_same_rotation)
 {
-    (void)state;
     hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
     hd_run *fine = finished(&scene);
     scene.report_interval = 20.0; /* turns by more than pi */
@@ -134,11 +117,9 @@ static void check_same_exponents(hd_scene_def scene, unsigned observe, double bo
 
 /** What is looked at does not change what happens: modes and steps not a bit; phases, where a look
  * does not do, and fields but for where the frame is orthonormalised: rounding. */
-static void looking_changes_nothing(void **state)
+TEST(looking_changes_nothing)
 {
-    (void)state;
-    hd_scene_def scene = channel(HD_PERIODIC, HD_REFLECTING);
-    scene.duration = 100.0;
+    hd_scene_def scene = scene_from(channel(HD_PERIODIC, HD_REFLECTING), .duration = 100.0);
     check_same_exponents(scene, HD_OBSERVE_MODES | HD_OBSERVE_STEPS, 0.0);
     check_same_exponents(scene, EVERYTHING, 1.0);
     check_same_exponents(scene, EVERYTHING | HD_OBSERVE_FIELDS, 1.0);
@@ -164,13 +145,11 @@ static double coefficients_apart(const hd_run *a, const hd_run *b, int slowest)
  * orthonormalises for every report: fields are looked at. Each vector is off by the residual at
  * which the iteration stops [T16], and by those of the slower ones that it was made orthogonal
  * to: 3.4e-3 with the kernels of SkylakeX, 5.3e-3 with those of Haswell. */
-static void a_look_sees_what_a_measured_state_shows(void **state)
+TEST(a_look_sees_what_a_measured_state_shows)
 {
-    (void)state;
     enum { SLOWEST = 8 };
     static const double residual = 3e-3;
-    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
-    scene.duration = 200.0;
+    hd_scene_def scene = scene_from(channel(HD_PERIODIC, HD_PERIODIC), .duration = 200.0);
     hd_run *looking = created(&scene);
     scene.observe |= HD_OBSERVE_FIELDS;
     hd_run *measuring = created(&scene);
@@ -195,13 +174,10 @@ static void a_look_sees_what_a_measured_state_shows(void **state)
     hd_run_free(measuring);
 }
 
-static void only_what_is_needed_is_measured(void **state)
+TEST(only_what_is_needed_is_measured)
 {
-    (void)state;
-    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
-    scene.observe = HD_OBSERVE_STEPS;
-    scene.warmup = 10.0;
-    scene.duration = 40.0;
+    hd_scene_def scene = scene_from(channel(HD_PERIODIC, HD_PERIODIC), .observe = HD_OBSERVE_STEPS,
+                                    .warmup = 10.0, .duration = 40.0);
     hd_run *run = created(&scene);
     assert_non_null(hd_run_steps(run));
     assert_null(hd_run_phases(run));
@@ -226,19 +202,16 @@ static void only_what_is_needed_is_measured(void **state)
 
 /** Fields every 10 time units: vectors of these reports are orthonormal then and there, and only
  * for these the intervals end early; all else is as without fields. */
-static void fields_are_due_now_and_then(void **state)
+TEST(fields_are_due_now_and_then)
 {
-    (void)state;
-    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
-    scene.warmup = 50.0;
-    scene.duration = 95.0;
+    hd_scene_def scene = scene_from(channel(HD_PERIODIC, HD_PERIODIC), .warmup = 50.0,
+                                    .duration = 95.0);
     hd_run *without = finished(&scene);
     scene.observe |= HD_OBSERVE_FIELDS;
     hd_run *always = finished(&scene), *run = created(&scene);
     hd_run_fields_every(run, 10.0);
     int due = 0;
-    while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_advance(run));
+    while (going_on(run)) {
         if (!hd_run_fields_due(run)) continue;
         const double averaged = hd_spectrum_time(hd_run_spectrum(run));
         assert_true(hd_run_report_due(run));
@@ -266,9 +239,8 @@ static void check_none_coarse(const hd_run *run)
 }
 
 /** Phases that nobody looked at for a while begin anew, and are not taken for coarse. */
-static void a_look_away_begins_the_phases_anew(void **state)
+TEST(a_look_away_begins_the_phases_anew)
 {
-    (void)state;
     hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
     hd_run *run = created(&scene);
     int tracked = 0;
@@ -304,16 +276,10 @@ static double tracked_for(const hd_run *run, const hd_step *step)
 
 /** Looks are close together while the rotation is learnt, and rarer then; what LP(1,0) has been
  * tracked for never falls. */
-static void rarer_looks_lose_no_phase(void **state)
+TEST(rarer_looks_lose_no_phase)
 {
-    (void)state;
-    hd_scene_def scene = hd_scene_def_default();
-    scene.disks = 200;
-    scene.aspect = 0.2;
-    scene.warmup = 50.0;
-    scene.duration = 150.0;
-    scene.report_interval = 2.0;
-    scene.observe = EVERYTHING;
+    hd_scene_def scene = scene(.disks = 200, .aspect = 0.2, .warmup = 50.0, .duration = 150.0,
+                               .report_interval = 2.0, .observe = EVERYTHING);
     hd_run *run = created(&scene);
     const hd_step *step = step_of(run, HD_MODE_LP, 1, 0, false);
     double closest = INFINITY, farthest = 0.0, followed = -1.0;
@@ -335,17 +301,14 @@ static void rarer_looks_lose_no_phase(void **state)
 }
 
 /** As somebody wants phases who looks at how they turn within a quarter. */
-static void phases_are_known_as_often_as_asked(void **state)
+TEST(phases_are_known_as_often_as_asked)
 {
-    (void)state;
-    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
-    scene.phase_interval = 0.3;
-    scene.duration = 60.0;
+    hd_scene_def scene = scene_from(channel(HD_PERIODIC, HD_PERIODIC), .phase_interval = 0.3,
+                                    .duration = 60.0);
     hd_run *run = created(&scene);
     double farthest = 0.0, followed = -1.0;
     int states = 0;
-    while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_advance(run));
+    while (going_on(run)) {
         const double now = hd_run_followed(run);
         if (now > 530.0) { /* its steps are known */
             states += now > followed;
@@ -359,9 +322,8 @@ static void phases_are_known_as_often_as_asked(void **state)
     hd_run_free(run);
 }
 
-static void nothing_is_allocated_while_looking(void **state)
+TEST(nothing_is_allocated_while_looking)
 {
-    (void)state;
     hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
     hd_run *run = created(&scene);
     while (hd_spectrum_time(hd_run_spectrum(run)) < 50.0) CHECK_OK(hd_run_advance(run));
@@ -371,9 +333,8 @@ static void nothing_is_allocated_while_looking(void **state)
     hd_run_free(run);
 }
 
-static void a_reset_forgets_modes_steps_and_phases(void **state)
+TEST(a_reset_forgets_modes_steps_and_phases)
 {
-    (void)state;
     hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
     hd_run *run = created(&scene);
     while (hd_spectrum_time(hd_run_spectrum(run)) < 100.0) CHECK_OK(hd_run_advance(run));
@@ -452,11 +413,10 @@ static void check_rotation(const hd_run *run)
 }
 
 /** J maps each mode onto its conjugate: dp = C dq becomes dq = -C' dp with C' = C. */
-static void the_negative_half_mirrors_the_positive_one(void **state)
+TEST(the_negative_half_mirrors_the_positive_one)
 {
-    (void)state;
-    hd_scene_def scene = channel(HD_PERIODIC, HD_PERIODIC);
-    scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
+    hd_scene_def scene = scene_from(channel(HD_PERIODIC, HD_PERIODIC),
+                                    .exponents = HD_EXPONENTS_ALL_INDEPENDENT);
     hd_run *run = finished(&scene);
     static double cosine[4 * DISKS], ratio[4 * DISKS];
     hd_run_halves(run, cosine, ratio);
@@ -468,23 +428,4 @@ static void the_negative_half_mirrors_the_positive_one(void **state)
     check_mirror(run, step_of(run, HD_MODE_LP, 1, 0, false), cosine, ratio);
     check_rotation(run);
     hd_run_free(run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_boundary_says_which_modes_there_are),
-        cmocka_unit_test(coarse_reports_see_the_same_rotation),
-        cmocka_unit_test(looking_changes_nothing),
-        cmocka_unit_test(a_look_sees_what_a_measured_state_shows),
-        cmocka_unit_test(only_what_is_needed_is_measured),
-        cmocka_unit_test(fields_are_due_now_and_then),
-        cmocka_unit_test(a_look_away_begins_the_phases_anew),
-        cmocka_unit_test(rarer_looks_lose_no_phase),
-        cmocka_unit_test(phases_are_known_as_often_as_asked),
-        cmocka_unit_test(nothing_is_allocated_while_looking),
-        cmocka_unit_test(a_reset_forgets_modes_steps_and_phases),
-        cmocka_unit_test(the_negative_half_mirrors_the_positive_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

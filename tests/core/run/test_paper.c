@@ -1,4 +1,5 @@
 /** The paper's 780 disks: steps of the small exponents at c_T k and c_L k, then the zeros [T9]. */
+#include "runs.h"
 #include "testing.h"
 
 #include "hdlyap/run.h"
@@ -27,10 +28,7 @@ static hd_run *paper_run(void)
     scene.warmup = 60.0;
     scene.duration = 70.0; /* errors come from 16 times that sound needs through the box */
     scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
-    hd_run *run;
-    CHECK_OK(hd_run_create(&run, &scene, NULL, 0));
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
-    return run;
+    return finished(&scene);
 }
 
 static const hd_step *row_of(const hd_run *run, size_t row)

@@ -1,7 +1,7 @@
 /** Numbers of other people, exact identities, and what must vanish: the whole pipeline at once.
  * Statistical tolerances are Z combined standard errors at a fixed seed: the outcome is
  * reproducible. */
-#include "scenes.h"
+#include "runs.h"
 #include "testing.h"
 
 #include "hdlyap/run.h"
@@ -12,22 +12,8 @@ static const double PART = HD_SANITIZED ? 0.1 : 1.0;
 
 static hd_scene_def small_scene(int disks, double density, double aspect)
 {
-    hd_scene_def scene = hd_scene_def_default();
-    scene.disks = disks;
-    scene.density = density;
-    scene.aspect = aspect;
-    scene.equilibration = 200.0;
-    scene.warmup = 200.0;
-    scene.threads = 1;
-    return scene;
-}
-
-static hd_run *finished_run(const hd_scene_def *scene)
-{
-    hd_run *run = NULL;
-    CHECK_OK(hd_run_create(&run, scene, NULL, 0));
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
-    return run;
+    return scene(.disks = disks, .density = density, .aspect = aspect, .equilibration = 200.0,
+                 .warmup = 200.0, .threads = 1);
 }
 
 /** Measured against published, each with its standard error. */
@@ -41,12 +27,10 @@ static void check_published(const hd_spectrum *spectrum, int col, double value, 
 }
 
 /** Against independent codes; their standard errors are given beside their numbers. */
-static void nine_disks_have_the_published_exponents(void **state)
+TEST(nine_disks_have_the_published_exponents)
 {
-    (void)state;
-    hd_scene_def scene = small_scene(9, 0.5, 0.8660);
-    scene.duration = PART * 60000.0;
-    hd_run *run = finished_run(&scene);
+    hd_scene_def scene = scene_from(small_scene(9, 0.5, 0.8660), .duration = PART * 60000.0);
+    hd_run *run = finished(&scene);
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     assert_int_equal(hd_run_vectors(run), 15);
     check_published(spectrum, 0, 3.2989, 0.0017);
@@ -58,12 +42,10 @@ static void nine_disks_have_the_published_exponents(void **state)
     hd_run_free(run);
 }
 
-static void sixteen_disks_have_the_published_exponents(void **state)
+TEST(sixteen_disks_have_the_published_exponents)
 {
-    (void)state;
-    hd_scene_def scene = small_scene(16, 0.7, 0.8660);
-    scene.duration = PART * 30000.0;
-    hd_run *run = finished_run(&scene);
+    hd_scene_def scene = scene_from(small_scene(16, 0.7, 0.8660), .duration = PART * 30000.0);
+    hd_run *run = finished(&scene);
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     check_published(spectrum, 0, 5.0031, 0.0019);
     check_published(spectrum, hd_run_vectors(run) - 1, 2.1705, 0.0009);
@@ -72,14 +54,12 @@ static void sixteen_disks_have_the_published_exponents(void **state)
 }
 
 /** All sixteen exponents; the published values carry no error, their last digit stands for one. */
-static void four_disks_have_five_positive_and_six_zero_exponents(void **state)
+TEST(four_disks_have_five_positive_and_six_zero_exponents)
 {
-    (void)state;
     static const double published[] = {3.3464, 2.7869, 2.3272, 1.9337, 1.5986};
-    hd_scene_def scene = small_scene(4, 0.5, 1.0);
-    scene.exponents = HD_EXPONENTS_ALL;
-    scene.duration = PART * 200000.0;
-    hd_run *run = finished_run(&scene);
+    hd_scene_def scene = scene_from(small_scene(4, 0.5, 1.0), .exponents = HD_EXPONENTS_ALL,
+                                    .duration = PART * 200000.0);
+    hd_run *run = finished(&scene);
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     for (int col = 0; col < 5; col++) check_published(spectrum, col, published[col], 0.0015);
     for (int col = 5; col < 11; col++)
@@ -89,13 +69,11 @@ static void four_disks_have_five_positive_and_six_zero_exponents(void **state)
 }
 
 /** Exact symmetry lambda_l = -lambda_(4N+1-l); finite times leave O(1) / t. */
-static void the_full_spectrum_pairs(void **state)
+TEST(the_full_spectrum_pairs)
 {
-    (void)state;
-    hd_scene_def scene = small_scene(16, 0.7, 0.8660);
-    scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
-    scene.duration = 2000.0;
-    hd_run *run = finished_run(&scene);
+    hd_scene_def scene = scene_from(small_scene(16, 0.7, 0.8660),
+                                    .exponents = HD_EXPONENTS_ALL_INDEPENDENT, .duration = 2000.0);
+    hd_run *run = finished(&scene);
     const double error = hd_spectrum_pairing_error(hd_run_spectrum(run));
     print_message("pairing error %.2e\n", error);
     assert_true(error >= 0 && error <= 1e-4);
@@ -104,12 +82,9 @@ static void the_full_spectrum_pairs(void **state)
 
 static int vanishing_exponents(hd_boundary x, hd_boundary y)
 {
-    hd_scene_def scene = small_scene(12, 0.5, 1.0);
-    scene.exponents = HD_EXPONENTS_ALL;
-    scene.boundary[0] = x;
-    scene.boundary[1] = y;
-    scene.duration = 2000.0;
-    hd_run *run = finished_run(&scene);
+    hd_scene_def scene = scene_from(small_scene(12, 0.5, 1.0), .exponents = HD_EXPONENTS_ALL,
+                                    .boundary[0] = x, .boundary[1] = y, .duration = 2000.0);
+    hd_run *run = finished(&scene);
     const double zero = 4.0 * log(scene.duration) / scene.duration; /* they fall like ln t / t */
     int count = 0;
     for (int col = 0; col < hd_run_vectors(run); col++)
@@ -119,23 +94,10 @@ static int vanishing_exponents(hd_boundary x, hd_boundary y)
     return count;
 }
 
-static void each_boundary_has_its_zero_exponents(void **state)
+TEST(each_boundary_has_its_zero_exponents)
 {
-    (void)state;
     assert_int_equal(vanishing_exponents(HD_PERIODIC, HD_PERIODIC), 6);
     assert_int_equal(vanishing_exponents(HD_PERIODIC, HD_REFLECTING), 4);
     assert_int_equal(vanishing_exponents(HD_REFLECTING, HD_PERIODIC), 4);
     assert_int_equal(vanishing_exponents(HD_REFLECTING, HD_REFLECTING), 2);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nine_disks_have_the_published_exponents),
-        cmocka_unit_test(sixteen_disks_have_the_published_exponents),
-        cmocka_unit_test(four_disks_have_five_positive_and_six_zero_exponents),
-        cmocka_unit_test(the_full_spectrum_pairs),
-        cmocka_unit_test(each_boundary_has_its_zero_exponents),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

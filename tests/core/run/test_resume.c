@@ -14,7 +14,7 @@
 #include "run/run_state.h"
 #include "same.h"
 
-enum { RUNS = HD_SANITIZED ? 30 : 300, STEPS = 400 };
+enum { RUNS = HD_SANITIZED ? 30 : 120, RUNS_OF_SECOND_TIER = 300, STEPS = 400 };
 
 /** Enough of disks without exponents, which take some 1e5 in a step. */
 static const uint64_t EVENTS = 300000;
@@ -59,10 +59,9 @@ static unsigned drawn_observables(hd_random *random, const hd_scene_def *def)
 
 static hd_scene_def drawn(hd_random *random)
 {
-    hd_scene_def def = hd_scene_def_default();
-    def.disks = 2 + (int)(28.0 * pow(uniform(random), 2.0));
-    def.density = log_uniform(random, 0.02, 0.9);
-    def.aspect = log_uniform(random, 0.1, 10.0);
+    hd_scene_def def = scene(.disks = 2 + (int)(28.0 * pow(uniform(random), 2.0)),
+                             .density = log_uniform(random, 0.02, 0.9),
+                             .aspect = log_uniform(random, 0.1, 10.0));
     for (int d = 0; d < 2; d++) def.boundary[d] = (hd_boundary)one_of(random, 2);
     def.seed = (uint64_t)one_of(random, 1 << 30);
     def.exponents = drawn_exponents(random, def.disks);
@@ -252,7 +251,8 @@ static void a_resumed_run_is_the_uninterrupted_one(void **state)
 
 int main(int count, char **argument)
 {
-    const size_t runs = count > 1 ? (size_t)strtoul(argument[1], NULL, 10) : RUNS;
+    const size_t usual = second_tier() ? RUNS_OF_SECOND_TIER : RUNS;
+    const size_t runs = count > 1 ? (size_t)strtoul(argument[1], NULL, 10) : usual;
     const uint64_t first = count > 2 ? strtoull(argument[2], NULL, 10) : 1;
     struct CMUnitTest *tests = calloc(runs, sizeof *tests);
     struct named {

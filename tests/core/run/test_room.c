@@ -13,7 +13,7 @@ static double asked_for(const hd_scene_def *scene)
 {
     const size_t before = ledger_now().live;
     hd_run *run = created(scene);
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+    finish(run);
     hd_run_free(run);
     assert_int_equal(ledger_now().live, before);
     return (double)ledger_now().peak;
@@ -31,8 +31,7 @@ static void compare(const char *what, const hd_scene_def *scene, double least, d
 
 static hd_scene_def short_run(int disks, int exponents, unsigned observe)
 {
-    hd_scene_def scene = scene_of(disks, 0.8, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
-    scene.equilibration = 0.1;
+    hd_scene_def scene = scene(.disks = disks, .density = 0.8, .aspect = 1.0, .equilibration = 0.1);
     scene.warmup = 3.0; /* intervals as long as they become */
     scene.duration = scene.report_interval = 3.0;
     scene.exponents = exponents;
@@ -41,9 +40,8 @@ static hd_scene_def short_run(int disks, int exponents, unsigned observe)
     return scene;
 }
 
-static void the_estimate_is_what_is_asked_for(void **state)
+TEST(the_estimate_is_what_is_asked_for)
 {
-    (void)state;
     enum { MODES = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES };
     enum { STRUCTURE = MODES | HD_OBSERVE_STRUCTURE };
     hd_scene_def scene = short_run(300, HD_EXPONENTS_POSITIVE, 0);
@@ -65,9 +63,8 @@ static void the_estimate_is_what_is_asked_for(void **state)
     compare("disks alone", &scene, 0.93, 1.07);
 }
 
-static void what_is_too_much_is_said(void **state)
+TEST(what_is_too_much_is_said)
 {
-    (void)state;
     char line[256] = "";
     const hd_room room = {8e9, "machine", 1};
     const hd_scene_def large = short_run(20000, HD_EXPONENTS_POSITIVE, HD_OBSERVE_ALL & 31);
@@ -80,8 +77,7 @@ static void what_is_too_much_is_said(void **state)
     assert_non_null(fits);
     assert_int_equal(sscanf(fits, "exponents = %d would fit, or disks = %d", &exponents, &disks),
                      2);
-    hd_scene_def one = large;
-    one.exponents = exponents;
+    hd_scene_def one = scene_from(large, .exponents = exponents);
     CHECK_OK(hd_room_check(&one, room, NULL, 0));
     assert_true(hd_room_needed(&one, 2, 1) > 0.9 * room.bytes * 0.9);
     one = large;
@@ -90,9 +86,8 @@ static void what_is_too_much_is_said(void **state)
     assert_true(hd_room_needed(&one, 2, 1) > 0.7 * room.bytes);
 }
 
-static void nothing_is_allocated_for_it(void **state)
+TEST(nothing_is_allocated_for_it)
 {
-    (void)state;
     hd_run *run;
     char line[256] = "";
     const hd_scene_def large = short_run(1000000, HD_EXPONENTS_POSITIVE, HD_OBSERVE_ALL & 31);
@@ -104,21 +99,9 @@ static void nothing_is_allocated_for_it(void **state)
     assert_non_null(strstr(line, "would fit"));
 }
 
-static void there_is_some(void **state)
+TEST(there_is_some)
 {
-    (void)state;
     const hd_room room = hd_room_available();
     print_message("%.3g GB (%s)\n", 1e-9 * room.bytes, room.limit);
     assert_true(room.bytes > 1e7 && room.bytes < 1e15);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_estimate_is_what_is_asked_for),
-        cmocka_unit_test(what_is_too_much_is_said),
-        cmocka_unit_test(nothing_is_allocated_for_it),
-        cmocka_unit_test(there_is_some),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

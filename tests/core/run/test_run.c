@@ -6,23 +6,10 @@
 #include "testing.h"
 #include "runs.h"
 
-static hd_scene_def scene_of(int disks, int exponents)
+static hd_scene_def small(int disks, int exponents)
 {
-    hd_scene_def scene = hd_scene_def_default();
-    scene.disks = disks;
-    scene.density = 0.7;
-    scene.aspect = 1.0;
-    scene.exponents = exponents;
-    scene.equilibration = 10.0;
-    scene.warmup = 10.0;
-    scene.duration = 20.0;
-    return scene;
-}
-
-static hd_run *until(hd_run *run, hd_stage phase)
-{
-    while (hd_run_stage(run) < phase) CHECK_OK(hd_run_advance(run));
-    return run;
+    return scene(.disks = disks, .density = 0.7, .aspect = 1.0, .exponents = exponents,
+                 .equilibration = 10.0, .warmup = 10.0, .duration = 20.0);
 }
 
 /** Largest difference between the exponents of two runs. */
@@ -39,10 +26,9 @@ static double deviation(const hd_run *a, const hd_run *b)
     return worst;
 }
 
-static void reports_come_on_time(void **state)
+TEST(reports_come_on_time)
 {
-    (void)state;
-    hd_scene_def scene = scene_of(12, 3);
+    hd_scene_def scene = small(12, 3);
     scene.report_interval = 0.7; /* does not divide the phases */
     hd_run *run = created(&scene);
     static const double phase_start[] = {0.0, 10.0, 20.0};
@@ -67,15 +53,14 @@ static void reports_come_on_time(void **state)
     hd_run_free(run);
 }
 
-static void without_exponents_there_is_no_frame(void **state)
+TEST(without_exponents_there_is_no_frame)
 {
-    (void)state;
-    hd_scene_def scene = scene_of(200, HD_EXPONENTS_NONE);
+    hd_scene_def scene = small(200, HD_EXPONENTS_NONE);
     hd_run *run = created(&scene);
     assert_null(hd_run_frame(run));
     assert_null(hd_run_spectrum(run));
     assert_null(run->log);
-    until(run, HD_FINISHED);
+    finish(run);
     assert_true(hd_trajectory_collisions(hd_run_trajectory(run)) > 1000);
     CHECK_CLOSE(run->cost.replay + run->cost.ortho, 0.0, 0.0);
     hd_run_free(run);
@@ -86,21 +71,20 @@ static const double EXACT = 1e-13;
 
 /** Whatever interval is asked for: the exponents of the exact factorisation, to the accuracy asked.
  */
-static void any_interval_gives_the_same_spectrum(void **state)
+TEST(any_interval_gives_the_same_spectrum)
 {
-    (void)state;
     static const double intervals[] = {0.0, 0.01, 0.3, 1.0, 8.0, 50.0};
     static const double accuracies[] = {1e-4, 1e-8, 1e-10};
     for (int all = 0; all < 2; all++) {
-        hd_scene_def scene = scene_of(24, all ? HD_EXPONENTS_ALL : HD_EXPONENTS_POSITIVE);
+        hd_scene_def scene = small(24, all ? HD_EXPONENTS_ALL : HD_EXPONENTS_POSITIVE);
         scene.interval = 0.05;
         scene.accuracy = 1e-12;
-        hd_run *exact = until(created(&scene), HD_FINISHED);
+        hd_run *exact = finished(&scene);
         for (size_t k = 0; k < 6 * 3; k++) {
             scene.interval = intervals[k % 6];
             scene.accuracy = accuracies[k / 6];
             scene.report_interval = k % 2 ? 1.0 : 10.0;
-            hd_run *run = until(created(&scene), HD_FINISHED);
+            hd_run *run = finished(&scene);
             const double off = deviation(run, exact);
             if (k % 6 == 4)
                 print_message("interval 8, accuracy %.0e: %.3f used, deviation %.1e, bound %.1e\n",
@@ -115,26 +99,21 @@ static void any_interval_gives_the_same_spectrum(void **state)
 }
 
 /** From the eighth interval of the averaging on; thin, dense, accurate. */
-static void the_bound_keeps_to_the_accuracy(void **state)
+TEST(the_bound_keeps_to_the_accuracy)
 {
-    (void)state;
     const struct {
         double density, report, accuracy;
         uint64_t seed;
     } cases[] = {{0.2, 10.0, 1e-8, 4}, {0.8, 1.0, 1e-8, 3}, {0.8, 1.0, 1e-10, 3}};
     for (int k = 0; k < 3; k++) {
-        hd_scene_def scene = hd_scene_def_default();
-        scene.disks = 100;
-        scene.density = cases[k].density;
-        scene.report_interval = cases[k].report;
-        scene.accuracy = cases[k].accuracy;
-        scene.seed = cases[k].seed;
-        scene.duration = 100.0;
+        hd_scene_def scene = scene(.disks = 100, .density = cases[k].density,
+                                   .report_interval = cases[k].report,
+                                   .accuracy = cases[k].accuracy, .seed = cases[k].seed,
+                                   .duration = 100.0);
         hd_run *run = until(created(&scene), HD_AVERAGING);
         const long before = hd_run_cost(run).orthonormalisations;
         double worst = 0.0;
-        while (hd_run_stage(run) != HD_FINISHED) {
-            CHECK_OK(hd_run_advance(run));
+        while (going_on(run)) {
             const hd_cost cost = hd_run_cost(run);
             if (cost.orthonormalisations >= before + 8) worst = fmax(worst, cost.error_bound);
         }
@@ -149,20 +128,16 @@ static void the_bound_keeps_to_the_accuracy(void **state)
 /** No interval of the averaging is shorter than the reports are apart: where its end and a report
  * were the same but for rounding (of 20 + 0.05 + 0.1, say), a crumb was left, and some 28 intervals
  * to grow from it. */
-static void no_crumbs_are_left_at_reports(void **state)
+TEST(no_crumbs_are_left_at_reports)
 {
-    (void)state;
     const double reports[] = {0.05, 0.1, 0.5};
     for (int k = 0; k < 30; k++) {
-        hd_scene_def scene = scene_of(12, HD_EXPONENTS_POSITIVE);
-        scene.report_interval = reports[k % 3];
-        scene.warmup = 2.0 * (k + 1);
-        scene.duration = 80.0;
-        scene.observe = 0;
+        hd_scene_def scene = scene_from(small(12, HD_EXPONENTS_POSITIVE),
+                                        .report_interval = reports[k % 3], .warmup = 2.0 * (k + 1),
+                                        .duration = 80.0, .observe = 0);
         hd_run *run = until(created(&scene), HD_AVERAGING);
         double shortest = INFINITY;
-        while (hd_run_stage(run) != HD_FINISHED) {
-            CHECK_OK(hd_run_advance(run));
+        while (going_on(run)) {
             shortest = fmin(shortest, hd_run_cost(run).interval);
         }
         CHECK_CLOSE(shortest, fmax(shortest, scene.report_interval), 1e-9);
@@ -171,17 +146,15 @@ static void no_crumbs_are_left_at_reports(void **state)
 }
 
 /** Forced behind the controller's back: noticed, taken back, replayed in pieces. */
-static void an_interval_too_long_is_repaired(void **state)
+TEST(an_interval_too_long_is_repaired)
 {
-    (void)state;
-    hd_scene_def scene = scene_of(40, HD_EXPONENTS_POSITIVE);
-    scene.report_interval = 10.0;
-    hd_run *exact = until(created(&scene), HD_FINISHED);
+    hd_scene_def scene = scene_from(small(40, HD_EXPONENTS_POSITIVE), .report_interval = 10.0);
+    hd_run *exact = finished(&scene);
     for (double forced = 4.0; forced <= 64.0; forced *= 2.0) {
         scene.report_interval = 20.0;
         hd_run *run = until(created(&scene), HD_AVERAGING);
         force_interval(run, forced);
-        until(run, HD_FINISHED);
+        finish(run);
         print_message("forced %.0f: %ld repaired, deviation %.1e\n", forced, run->cost.repairs,
                       deviation(run, exact));
         assert_true(run->cost.repairs > 0);
@@ -191,14 +164,13 @@ static void an_interval_too_long_is_repaired(void **state)
     hd_run_free(exact);
 }
 
-static void threads_do_not_change_the_physics(void **state)
+TEST(threads_do_not_change_the_physics)
 {
-    (void)state;
-    hd_scene_def scene = scene_of(60, HD_EXPONENTS_POSITIVE);
+    hd_scene_def scene = small(60, HD_EXPONENTS_POSITIVE);
     hd_run *run[3];
     for (int k = 0; k < 3; k++) {
         scene.threads = k == 1 ? 2 : 1;
-        run[k] = until(created(&scene), HD_FINISHED);
+        run[k] = finished(&scene);
     }
     assert_true(deviation(run[0], run[1]) < scene.accuracy);
     CHECK_CLOSE(deviation(run[0], run[2]), 0.0, 0.0); /* the same number: the same bits */
@@ -207,44 +179,39 @@ static void threads_do_not_change_the_physics(void **state)
     for (int k = 0; k < 3; k++) hd_run_free(run[k]);
 }
 
-static void the_loop_allocates_nothing(void **state)
+TEST(the_loop_allocates_nothing)
 {
-    (void)state;
-    hd_scene_def scene = scene_of(40, HD_EXPONENTS_POSITIVE);
-    scene.duration = 300.0;
+    hd_scene_def scene = scene_from(small(40, HD_EXPONENTS_POSITIVE), .duration = 300.0);
     hd_run *run = until(created(&scene), HD_AVERAGING);
-    while (hd_run_time(run) < 120.0)
-        CHECK_OK(hd_run_advance(run)); /* the log has grown to its size */
+    until_time(run, 120.0); /* the log has grown to its size */
     const size_t before = hd_memory_allocations();
-    until(run, HD_FINISHED);
+    finish(run);
     assert_true(hd_memory_allocations() - before <=
                 2); /* a still longer log: itself and its maps */
     hd_run_free(run);
 }
 
-static void the_average_can_start_afresh(void **state)
+TEST(the_average_can_start_afresh)
 {
-    (void)state;
-    hd_scene_def scene = scene_of(12, 4);
+    hd_scene_def scene = small(12, 4);
     hd_run *run = until(created(&scene), HD_AVERAGING);
     CHECK_OK(hd_run_reset_average(run)); /* at its very start: nothing changes */
-    while (hd_run_time(run) < 25.0 || !hd_run_report_due(run)) CHECK_OK(hd_run_advance(run));
+    until_time(run, 25.0 || !hd_run_report_due(run));
     const double at = hd_run_time(run);
     CHECK_OK(hd_run_reset_average(run));
     CHECK_CLOSE(hd_spectrum_time(hd_run_spectrum(run)), 0.0, 0.0);
-    until(run, HD_FINISHED);
+    finish(run);
     CHECK_CLOSE(hd_run_time(run), at + scene.duration, 1e-12);
     CHECK_CLOSE(hd_spectrum_time(hd_run_spectrum(run)), scene.duration, 1e-11);
     hd_run_free(run);
 }
 
-static void the_target_error_ends_the_run(void **state)
+TEST(the_target_error_ends_the_run)
 {
-    (void)state;
-    hd_scene_def scene = scene_of(12, HD_EXPONENTS_POSITIVE);
+    hd_scene_def scene = small(12, HD_EXPONENTS_POSITIVE);
     scene.duration = 0.0; /* endless otherwise */
     scene.target_std_error = 0.02;
-    hd_run *run = until(created(&scene), HD_FINISHED);
+    hd_run *run = finished(&scene);
     for (int col = run->vectors - SMALLEST_EXPONENTS; col < run->vectors; col++) {
         const double error = hd_spectrum_std_error(run->spectrum, col);
         assert_true(error > 0 && error <= 0.02);
@@ -256,15 +223,11 @@ static void the_target_error_ends_the_run(void **state)
 static double predicted_over_taken(uint64_t seed)
 {
     static double averaged[20000], total[20000];
-    hd_scene_def scene = scene_of(16, HD_EXPONENTS_POSITIVE);
-    scene.warmup = 50.0;
-    scene.duration = 0.0;
-    scene.target_std_error = 0.005;
-    scene.seed = seed;
+    hd_scene_def scene = scene_from(small(16, HD_EXPONENTS_POSITIVE), .warmup = 50.0,
+                                    .duration = 0.0, .target_std_error = 0.005, .seed = seed);
     hd_run *run = until(created(&scene), HD_AVERAGING);
     int count = 0, tenth = 0;
-    while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_advance(run));
+    while (going_on(run)) {
         if (!hd_run_report_due(run) || count == 20000) continue;
         averaged[count] = hd_spectrum_time(run->spectrum);
         const double progress = hd_run_cost(run).progress;
@@ -278,9 +241,8 @@ static double predicted_over_taken(uint64_t seed)
 
 /** Errors are known to some ten percent after a tenth of the time, so the time to some twenty:
  * three of four runs end within 30 % of what was said. */
-static void the_time_to_the_target_is_predicted(void **state)
+TEST(the_time_to_the_target_is_predicted)
 {
-    (void)state;
     int right = 0;
     for (uint64_t seed = 1; seed <= 8; seed++) {
         const double ratio = predicted_over_taken(seed);
@@ -290,15 +252,13 @@ static void the_time_to_the_target_is_predicted(void **state)
     assert_true(right >= 6);
 }
 
-static void progress_and_cost_add_up(void **state)
+TEST(progress_and_cost_add_up)
 {
-    (void)state;
-    hd_scene_def scene = scene_of(40, HD_EXPONENTS_POSITIVE);
+    hd_scene_def scene = small(40, HD_EXPONENTS_POSITIVE);
     hd_run *run = created(&scene);
     double progress = 0.0;
     assert_true(hd_run_cost(run).remaining < 0); /* not known before the frame has been carried */
-    while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_advance(run));
+    while (going_on(run)) {
         const hd_cost cost = hd_run_cost(run);
         assert_true(cost.progress >= progress && cost.progress <= 1.0);
         progress = cost.progress;
@@ -312,10 +272,9 @@ static void progress_and_cost_add_up(void **state)
     hd_run_free(run);
 }
 
-static void what_is_impossible_is_refused_by_name(void **state)
+TEST(what_is_impossible_is_refused_by_name)
 {
-    (void)state;
-    hd_scene_def scene = scene_of(12, 49);
+    hd_scene_def scene = small(12, 49);
     hd_run *run;
     char message[256] = "";
     assert_int_equal(hd_run_create(&run, &scene, message, sizeof message), HD_REFUSED);
@@ -323,24 +282,4 @@ static void what_is_impossible_is_refused_by_name(void **state)
     assert_string_equal(
         message,
         "exponents = 49: must be positive, all, all_independent, none or from 1 to 4 disks = 48");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reports_come_on_time),
-        cmocka_unit_test(without_exponents_there_is_no_frame),
-        cmocka_unit_test(any_interval_gives_the_same_spectrum),
-        cmocka_unit_test(the_bound_keeps_to_the_accuracy),
-        cmocka_unit_test(no_crumbs_are_left_at_reports),
-        cmocka_unit_test(an_interval_too_long_is_repaired),
-        cmocka_unit_test(threads_do_not_change_the_physics),
-        cmocka_unit_test(the_loop_allocates_nothing),
-        cmocka_unit_test(the_average_can_start_afresh),
-        cmocka_unit_test(the_target_error_ends_the_run),
-        cmocka_unit_test(the_time_to_the_target_is_predicted),
-        cmocka_unit_test(progress_and_cost_add_up),
-        cmocka_unit_test(what_is_impossible_is_refused_by_name),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,23 +1,20 @@
 /** Ends of stages and reports. */
 #include <float.h>
 
+#include "scenes.h"
 #include "testing.h"
 
 #include "run/schedule.h"
 
 static hd_schedule schedule_of(double warmup, double duration, double report_interval)
 {
-    hd_scene_def scene = hd_scene_def_default();
-    scene.equilibration = 0.0;
-    scene.warmup = warmup;
-    scene.duration = duration;
-    scene.report_interval = report_interval;
+    hd_scene_def scene = scene(.equilibration = 0.0, .warmup = warmup, .duration = duration,
+                               .report_interval = report_interval);
     return hd_schedule_of(&scene);
 }
 
-static void stages_without_length_are_skipped(void **state)
+TEST(stages_without_length_are_skipped)
 {
-    (void)state;
     hd_schedule s = schedule_of(0.0, 5.0, 1.0);
     hd_schedule_enter(&s, HD_EQUILIBRATING, 3.0);
     assert_int_equal(s.stage, HD_AVERAGING);
@@ -31,9 +28,8 @@ static void stages_without_length_are_skipped(void **state)
 }
 
 /** Each cut is checked against its time; the last report may be a short one. */
-static void reports_end_at_multiples_and_with_the_stage(void **state)
+TEST(reports_end_at_multiples_and_with_the_stage)
 {
-    (void)state;
     const double intervals[] = {0.05, 0.1, 0.7, 1.0, 3.0, 99.0, 100.0, 1e4};
     for (size_t k = 0; k < sizeof intervals / sizeof *intervals; k++) {
         hd_schedule s = schedule_of(0.0, 100.0, intervals[k]);
@@ -50,9 +46,8 @@ static void reports_end_at_multiples_and_with_the_stage(void **state)
 }
 
 /** A cut; never a time that has passed. */
-static void an_end_that_falls_on_a_cut_is_the_cut(void **state)
+TEST(an_end_that_falls_on_a_cut_is_the_cut)
 {
-    (void)state;
     hd_schedule s = schedule_of(0.0, 100.0, 0.05);
     hd_schedule_enter(&s, HD_AVERAGING, 30.0);
     const double cut = hd_schedule_cut(&s), rounding = 32.0 * DBL_EPSILON * cut;
@@ -67,9 +62,8 @@ static void an_end_that_falls_on_a_cut_is_the_cut(void **state)
 }
 
 /** Also where reports are counted from later than the averaging. */
-static void an_end_falls_on_a_cut_of_another_interval(void **state)
+TEST(an_end_falls_on_a_cut_of_another_interval)
 {
-    (void)state;
     hd_scene_def scene = hd_scene_def_default();
     hd_schedule s = schedule_of(0.0, 100.0, 1.0);
     hd_schedule_enter(&s, HD_AVERAGING, 30.0);
@@ -106,9 +100,8 @@ static void expect_multiples(double report, double interval)
 }
 
 /** Once for each, at the first report and at the last. */
-static void multiples_are_reached_once(void **state)
+TEST(multiples_are_reached_once)
 {
-    (void)state;
     const double reports[] = {1.0, 0.3, 0.1, 7.0, 2.5};
     const double intervals[] = {0.0, 0.5, 1.0, 1.3, 10.0, 1000.0};
     for (size_t r = 0; r < sizeof reports / sizeof *reports; r++)
@@ -118,9 +111,8 @@ static void multiples_are_reached_once(void **state)
 
 /** However far apart reports are: a stage is over at its end, and not before; it is what it is to
  * the rounding of a duration with 15 digits. */
-static void reports_do_not_end_a_stage(void **state)
+TEST(reports_do_not_end_a_stage)
 {
-    (void)state;
     const double starts[] = {0.0, 23.0, 1e6};
     for (double report = 1e-6; report <= 1e12; report *= 10.0)
         for (int k = 0; k < 3; k++) {
@@ -140,27 +132,12 @@ static void reports_do_not_end_a_stage(void **state)
 }
 
 /** At the very report, however many there are between two multiples. */
-static void multiples_are_not_reached_early(void **state)
+TEST(multiples_are_not_reached_early)
 {
-    (void)state;
     for (double report = 1e-6; report < 1.0; report *= 10.0) {
         hd_schedule s = schedule_of(0.0, 5000.0, report);
         hd_schedule_enter(&s, HD_AVERAGING, 7.0);
         (void)hd_schedule_pass(&s);
         CHECK_CLOSE(hd_schedule_next_multiple(&s, 1000.0), 1007.0, 4.0 * DBL_EPSILON * 1007.0);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stages_without_length_are_skipped),
-        cmocka_unit_test(reports_end_at_multiples_and_with_the_stage),
-        cmocka_unit_test(an_end_that_falls_on_a_cut_is_the_cut),
-        cmocka_unit_test(an_end_falls_on_a_cut_of_another_interval),
-        cmocka_unit_test(multiples_are_reached_once),
-        cmocka_unit_test(reports_do_not_end_a_stage),
-        cmocka_unit_test(multiples_are_not_reached_early),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "ledger.h"
+#include "scenes.h"
 #include "testing.h"
 
 #include "hdlyap/hdlyap.h"
@@ -25,12 +26,8 @@ typedef struct peak {
 
 static hd_scene_def paper(int exponents)
 {
-    hd_scene_def scene = hd_scene_def_default();
-    scene.exponents = exponents;
-    scene.equilibration = 0.2;
-    scene.warmup = 0.2;
-    scene.duration = scene.report_interval = 0.2;
-    return scene;
+    return scene(.exponents = exponents, .equilibration = 0.2, .warmup = 0.2, .duration = 0.2,
+                 .report_interval = 0.2);
 }
 
 /** In a process of its own, which tells its vectors and bytes through a pipe. */
@@ -61,9 +58,8 @@ static peak peak_of(const hd_scene_def *scene)
     return told;
 }
 
-static void of_the_positive_half(void **state)
+TEST(of_the_positive_half)
 {
-    (void)state;
     const hd_scene_def alone = paper(HD_EXPONENTS_NONE), with = paper(HD_EXPONENTS_POSITIVE);
     const peak disks = peak_of(&alone), whole = peak_of(&with);
     const double n = whole.vectors, unit = 8.0 * 4.0 * with.disks * n + 8.0 * n * n;
@@ -80,6 +76,5 @@ int main(int argc, char **argv)
 {
     (void)argc;
     hd_blas_restart_if_slow(argv);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(of_the_positive_half)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return tests_run(NULL);
 }

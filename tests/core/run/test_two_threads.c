@@ -3,7 +3,7 @@
 #include <float.h>
 
 #include "hdlyap/run.h"
-#include "scenes.h"
+#include "runs.h"
 #include "testing.h"
 
 /** More vectors than one block of any parallel loop holds: 128 of the modes, 64 of the frame. */
@@ -14,16 +14,12 @@ enum { DISKS = 70, VECTORS = 2 * DISKS - 3 };
 static hd_run *run_with(int threads)
 {
     hd_run *run = NULL;
-    hd_scene_def def = scene_of(DISKS, 0.8, 0.06, HD_PERIODIC, HD_PERIODIC, 1);
-    def.equilibration = 5.0;
-    def.warmup = 15.0;
-    def.duration = 8.0;
-    def.report_interval = 0.1;
-    def.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
-    def.threads = threads;
-    CHECK_OK(hd_run_create(&run, &def, NULL, 0));
+    hd_scene_def def = scene(.disks = DISKS, .density = 0.8, .aspect = 0.06, .equilibration = 5.0,
+                             .warmup = 15.0, .duration = 8.0, .report_interval = 0.1,
+                             .observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES, .threads = threads);
+    run = created(&def);
     hd_run_watch(run, 0.5, VECTORS - 8); /* looks */
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
+    finish(run);
     assert_int_equal(hd_run_vectors(run), VECTORS);
     return run;
 }
@@ -32,9 +28,8 @@ static hd_run *run_with(int threads)
  * 100 orthonormalisations, each by eps times the condition, which the accuracy bounds. */
 static const double ACCURACY = 1e-8, SAME = 100 * 1e-8;
 
-static void two_threads_give_what_one_gives(void **state)
+TEST(two_threads_give_what_one_gives)
 {
-    (void)state;
     hd_run *run[2] = {run_with(1), run_with(2)};
     double theta[2][VECTORS], ratio[2][VECTORS];
     for (int k = 0; k < 2; k++) {
@@ -63,14 +58,11 @@ static void two_threads_give_what_one_gives(void **state)
 static void expect_repeatable(int disks)
 {
     hd_run *run[2];
-    hd_scene_def scene = scene_of(disks, 0.8, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
-    scene.equilibration = 0.0;
-    scene.warmup = 0.0;
-    scene.duration = scene.report_interval = 0.2;
+    hd_scene_def scene = scene(.disks = disks, .density = 0.8, .aspect = 1.0, .equilibration = 0.0,
+                               .warmup = 0.0, .duration = 0.2, .report_interval = 0.2);
     for (int k = 0; k < 2; k++) {
         if (k == 1) scene.threads = hd_run_threads(run[0]);
-        CHECK_OK(hd_run_create(&run[k], &scene, NULL, 0));
-        while (hd_run_stage(run[k]) != HD_FINISHED) CHECK_OK(hd_run_advance(run[k]));
+        run[k] = finished(&scene);
     }
     const size_t size = (size_t)hd_frame_rows(hd_run_frame(run[0])) *
                         (size_t)hd_frame_stride(hd_run_frame(run[0]));
@@ -80,18 +72,8 @@ static void expect_repeatable(int disks)
 }
 
 /** Of frames that are worth a trial, and one that is not. */
-static void what_was_tried_does_not_show(void **state)
+TEST(what_was_tried_does_not_show)
 {
     static const int disks[] = {60, 120, 150, 300};
-    (void)state;
     for (int k = 0; k < 4; k++) expect_repeatable(disks[k]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_threads_give_what_one_gives),
-        cmocka_unit_test(what_was_tried_does_not_show),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

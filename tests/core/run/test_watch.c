@@ -13,17 +13,12 @@ enum { WANTED = 12 };
 /** A long box whose steps are found within seconds. */
 static hd_scene_def long_box(double duration)
 {
-    hd_scene_def scene = scene_of(100, 0.8, 0.2, HD_PERIODIC, HD_PERIODIC, 3);
-    scene.equilibration = 5.0;
-    scene.warmup = 40.0;
-    scene.duration = duration;
-    scene.observe = EVERYTHING;
-    scene.threads = 1;
-    return scene;
+    return scene(.disks = 100, .density = 0.8, .aspect = 0.2, .seed = 3, .equilibration = 5.0,
+                 .warmup = 40.0, .duration = duration, .observe = EVERYTHING, .threads = 1);
 }
 
 /** Steps to the end, and returns their number. */
-static int finish(hd_run *run)
+static int finish_counting(hd_run *run)
 {
     int steps = 0;
     for (; hd_run_stage(run) != HD_FINISHED; steps++) CHECK_OK(hd_run_advance(run));
@@ -44,13 +39,12 @@ static void check_same_phases(const hd_run *a, const hd_run *b)
 }
 
 /** Whoever only looks at the disks changes no bit, however short the steps become. */
-static void a_view_of_the_disks_changes_nothing(void **state)
+TEST(a_view_of_the_disks_changes_nothing)
 {
-    (void)state;
     const hd_scene_def scene = long_box(60.0);
     hd_run *plain = created(&scene), *viewed = created(&scene);
     hd_run_watch(viewed, 0.037, hd_run_vectors(viewed));
-    const int few = finish(plain), many = finish(viewed);
+    const int few = finish_counting(plain), many = finish_counting(viewed);
     assert_true(many > 105.0 / 0.037);
     assert_true(few < many / 10);
     for (int col = 0; col < hd_run_vectors(plain); col++)
@@ -87,17 +81,15 @@ static void begin_to_look(hd_run *run)
  */
 static void catch_up(hd_run *run, double time)
 {
-    while (hd_run_time(run) < time - 1e-6) CHECK_OK(hd_run_advance(run));
+    until_time(run, time - 1e-6);
     CHECK_CLOSE(hd_run_time(run), time, 1e-9);
 }
 
 /** Of the slowest vectors as a set, against those of a twin that is orthonormalised at this time: a
- * tenth of the looks may be a thousandth off the set (test_tail). */
-static void each_step_ends_with_the_vectors_wanted(void **state)
+ * tenth of the looks may be a thousandth off the set (test_slow_vectors). */
+TEST(each_step_ends_with_the_vectors_wanted)
 {
-    (void)state;
-    hd_scene_def scene = long_box(30.0);
-    scene.report_interval = 0.25;
+    hd_scene_def scene = scene_from(long_box(30.0), .report_interval = 0.25);
     hd_run *run = created(&scene);
     scene.observe |= HD_OBSERVE_FIELDS;
     hd_run *twin = created(&scene);
@@ -131,14 +123,13 @@ static void each_step_ends_with_the_vectors_wanted(void **state)
 
 /** The exponents of a run that is looked at are those of one that is not, within what both may be
  * off. */
-static void looking_spoils_no_exponent(void **state)
+TEST(looking_spoils_no_exponent)
 {
-    (void)state;
     const hd_scene_def scene = long_box(40.0);
     hd_run *plain = created(&scene), *viewed = created(&scene);
     hd_run_watch(viewed, 0.3, hd_run_vectors(viewed) - WANTED);
-    finish(plain);
-    finish(viewed);
+    finish_counting(plain);
+    finish_counting(viewed);
     const double bound = hd_run_cost(plain).error_bound + hd_run_cost(viewed).error_bound;
     assert_true(bound > 0.0 && bound < 4e-8); /* accuracy 1e-8, stated with room [T6] */
     for (int col = 0; col < hd_run_vectors(plain); col++)
@@ -150,9 +141,8 @@ static void looking_spoils_no_exponent(void **state)
 
 /** In the middle of an interval nothing is known unless somebody wants it, and modes are wanted at
  * all. */
-static void nobody_looks_nothing_is_known(void **state)
+TEST(nobody_looks_nothing_is_known)
 {
-    (void)state;
     const hd_scene_def scene = long_box(20.0);
     hd_run *run = created(&scene);
     int known = 0, unknown = 0;
@@ -160,23 +150,11 @@ static void nobody_looks_nothing_is_known(void **state)
     begin_to_look(run);
     hd_run_observe(run, 0);
     hd_run_watch(run, 0.1, 0);
-    while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_advance(run));
+    while (going_on(run)) {
         known += hd_run_columns(run).count > 0;
         unknown += hd_run_columns(run).count == 0;
     }
     assert_int_equal(known, 0);
     assert_true(unknown > 100);
     hd_run_free(run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_view_of_the_disks_changes_nothing),
-        cmocka_unit_test(each_step_ends_with_the_vectors_wanted),
-        cmocka_unit_test(looking_spoils_no_exponent),
-        cmocka_unit_test(nobody_looks_nothing_is_known),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

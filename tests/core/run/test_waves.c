@@ -10,23 +10,8 @@ static const double PI = 3.14159265358979323846;
 /** A channel, Lx = 66.7, Ly = 1.5, in which disks cannot pass each other. */
 static hd_scene_def channel(unsigned observe)
 {
-    hd_scene_def scene = hd_scene_def_default();
-    scene.disks = DISKS;
-    scene.density = 0.5;
-    scene.aspect = 0.0225;
-    scene.equilibration = 100.0;
-    scene.warmup = 400.0;
-    scene.duration = 1500.0;
-    scene.report_interval = 50.0;
-    scene.observe = observe;
-    return scene;
-}
-
-static hd_run *finished(const hd_scene_def *scene)
-{
-    hd_run *run = created(scene);
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
-    return run;
+    return scene(.disks = DISKS, .density = 0.5, .aspect = 0.0225, .equilibration = 100.0,
+                 .warmup = 400.0, .duration = 1500.0, .report_interval = 50.0, .observe = observe);
 }
 
 /** Longest tracked of the vectors of a step at one node along x. */
@@ -43,9 +28,8 @@ static int longest(const hd_run *run, const hd_phases *phases)
 
 /** T(1,0): no rotation within 4 of its errors, which are small beside the rate of LP(1,0); that
  * diffuses, too, and all the same turns. */
-static void t_waves_diffuse_and_do_not_turn(void **state)
+TEST(t_waves_diffuse_and_do_not_turn)
 {
-    (void)state;
     const hd_scene_def scene = channel(HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES);
     hd_run *run = finished(&scene);
     const int of_t = longest(run, hd_run_t_phases(run)), of_lp = longest(run, hd_run_phases(run));
@@ -65,16 +49,13 @@ static void t_waves_diffuse_and_do_not_turn(void **state)
 }
 
 /** Who asks for T phases alone has no others, and states as often as they need. */
-static void t_phases_come_alone(void **state)
+TEST(t_phases_come_alone)
 {
-    (void)state;
-    hd_scene_def scene = channel(HD_OBSERVE_T_PHASES);
-    scene.duration = 60.0;
-    scene.phase_interval = 0.5;
+    hd_scene_def scene = scene_from(channel(HD_OBSERVE_T_PHASES), .duration = 60.0,
+                                    .phase_interval = 0.5);
     hd_run *run = created(&scene);
     double followed = -1.0, farthest = 0.0;
-    while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_advance(run));
+    while (going_on(run)) {
         if (hd_run_time(run) > 530.0) farthest = fmax(farthest, hd_run_followed(run) - followed);
         followed = hd_run_followed(run);
     }
@@ -157,14 +138,13 @@ static double middle_of(const series *x, int vectors, double from, double to)
 static void check_line(hd_boundary along)
 {
     static series x;
-    hd_scene_def scene = channel(HD_OBSERVE_PHASES | HD_OBSERVE_STRUCTURE);
-    scene.boundary[0] = along;
+    hd_scene_def scene = scene_from(channel(HD_OBSERVE_PHASES | HD_OBSERVE_STRUCTURE),
+                                    .boundary[0] = along);
     x.count = 0;
     scene.report_interval = 3.0;
     hd_run *run = created(&scene);
     const hd_step *step = NULL;
-    while (hd_run_stage(run) != HD_FINISHED) {
-        CHECK_OK(hd_run_advance(run));
+    while (going_on(run)) {
         if (!hd_run_report_due(run) || hd_run_time(run) < 700.0) continue;
         step = hd_steps_step(
             hd_run_steps(run),
@@ -187,19 +167,8 @@ static void check_line(hd_boundary along)
     hd_run_free(run);
 }
 
-static void structure_factors_see_the_classified_waves(void **state)
+TEST(structure_factors_see_the_classified_waves)
 {
-    (void)state;
     check_line(HD_PERIODIC);
     check_line(HD_REFLECTING);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(t_waves_diffuse_and_do_not_turn),
-        cmocka_unit_test(t_phases_come_alone),
-        cmocka_unit_test(structure_factors_see_the_classified_waves),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

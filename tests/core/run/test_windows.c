@@ -11,14 +11,9 @@ enum { VECTORS = 32 };
 
 static hd_scene_def small(void)
 {
-    hd_scene_def scene = hd_scene_def_default();
-    scene.disks = VECTORS / 4;
-    scene.density = 0.5;
-    scene.exponents = HD_EXPONENTS_ALL;
-    scene.equilibration = 10.0;
-    scene.warmup = 100.0;
-    scene.duration = 300.0;
-    scene.report_interval = 1.0;
+    hd_scene_def scene = scene(.disks = VECTORS / 4, .density = 0.5, .exponents = HD_EXPONENTS_ALL,
+                               .equilibration = 10.0, .warmup = 100.0, .duration = 300.0,
+                               .report_interval = 1.0);
     scene.interval = 0.25; /* looks fall on multiples of it */
     scene.observe = HD_OBSERVE_COVARIANT;
     scene.covariant_window = 20.0;
@@ -28,11 +23,6 @@ static hd_scene_def small(void)
     return scene;
 }
 
-static void finish(hd_run *run)
-{
-    while (hd_run_stage(run) != HD_FINISHED) CHECK_OK(hd_run_advance(run));
-}
-
 static double averaging_start(const hd_run *run)
 {
     return hd_run_scene(run)->equilibration + hd_run_scene(run)->warmup;
@@ -40,7 +30,7 @@ static double averaging_start(const hd_run *run)
 
 static void step_to(hd_run *run, double averaged)
 {
-    while (hd_run_time(run) < averaging_start(run) + averaged - 1e-9) CHECK_OK(hd_run_advance(run));
+    until_time(run, averaging_start(run) + averaged - 1e-9);
 }
 
 static void step_to_the_way_back(hd_run *run)
@@ -70,15 +60,12 @@ static void check_windows(const hd_run *run, long windows, double start)
 }
 
 /** As many as fit with the last one's transient; all are done before the run is finished. */
-static void windows_are_counted(void **state)
+TEST(windows_are_counted)
 {
-    (void)state;
     const double duration[] = {80.0, 99.0, 139.0, 140.0, 300.0};
     for (size_t k = 0; k < sizeof duration / sizeof *duration; k++) {
-        hd_scene_def scene = small();
-        scene.duration = duration[k];
-        hd_run *run = created(&scene);
-        finish(run);
+        hd_scene_def scene = scene_from(small(), .duration = duration[k]);
+        hd_run *run = finished(&scene);
         check_windows(run, (long)floor((duration[k] - 60.0) / 20.0), averaging_start(run));
         assert_int_equal(hd_covariant_lost(hd_run_covariant(run)), 0);
         assert_true(hd_run_cost(run).covariant > 0 &&
@@ -90,8 +77,7 @@ static void windows_are_counted(void **state)
 /** On the way back simulated time stands still; the forward pass takes nothing of it up. */
 static void check_forward_pass(int exponents)
 {
-    hd_scene_def scene = small();
-    scene.exponents = exponents;
+    hd_scene_def scene = scene_from(small(), .exponents = exponents);
     hd_run *run = created(&scene);
     step_to_the_way_back(run);
     const double time = hd_run_time(run);
@@ -99,8 +85,7 @@ static void check_forward_pass(int exponents)
     assert_true(hd_run_time(run) == time);
     finish(run);
     scene.observe = 0;
-    hd_run *other = created(&scene);
-    finish(other);
+    hd_run *other = finished(&scene);
     assert_null(hd_run_covariant(other));
     assert_true(hd_run_cost(other).covariant == 0.0);
     const double rounding = hd_run_cost(run).error_bound + hd_run_cost(other).error_bound;
@@ -113,17 +98,15 @@ static void check_forward_pass(int exponents)
 }
 
 /** Half of the vectors are orthonormalised better and at other times for them. */
-static void the_forward_pass_stays_as_it_is(void **state)
+TEST(the_forward_pass_stays_as_it_is)
 {
-    (void)state;
     check_forward_pass(HD_EXPONENTS_ALL_INDEPENDENT);
     check_forward_pass(HD_EXPONENTS_ALL);
 }
 
 /** In the middle of the way back, too. */
-static void a_reset_begins_anew(void **state)
+TEST(a_reset_begins_anew)
 {
-    (void)state;
     const int gone[] = {0, 100, 250,
                         300}; /* of 240 intervals of the transient and 80 of the window */
     for (size_t k = 0; k < sizeof gone / sizeof *gone; k++) {
@@ -146,15 +129,12 @@ static void a_reset_begins_anew(void **state)
 
 /** The first one, too, where intervals would be longer than what lies between two; and there is
  * room for those that looks cut short. */
-static void looks_come_when_they_are_due(void **state)
+TEST(looks_come_when_they_are_due)
 {
-    (void)state;
     const double interval[] = {0.0, 1.8};
     for (int k = 0; k < 4; k++) {
-        hd_scene_def scene = small();
-        scene.density = 0.1;
-        scene.interval = interval[k / 2];
-        scene.report_interval = 1000.0;
+        hd_scene_def scene = scene_from(small(), .density = 0.1, .interval = interval[k / 2],
+                                        .report_interval = 1000.0);
         hd_run *run = created(&scene);
         if (k % 2) step_to(run, 10.0);
         if (k % 2) CHECK_OK(hd_run_reset_average(run));
@@ -167,9 +147,8 @@ static void looks_come_when_they_are_due(void **state)
 }
 
 /** What nobody looked at is no part of a window. */
-static void a_window_begins_when_somebody_looks_again(void **state)
+TEST(a_window_begins_when_somebody_looks_again)
 {
-    (void)state;
     for (int back = 0; back < 2; back++) {
         const hd_scene_def scene = small();
         hd_run *run = created(&scene);
@@ -189,9 +168,8 @@ static void a_window_begins_when_somebody_looks_again(void **state)
 }
 
 /** Off and on again between two steps in the middle of the way back. */
-static void a_blink_gives_up_the_window(void **state)
+TEST(a_blink_gives_up_the_window)
 {
-    (void)state;
     const hd_scene_def scene = small();
     hd_run *run = created(&scene);
     step_to_the_way_back(run);
@@ -205,12 +183,10 @@ static void a_blink_gives_up_the_window(void **state)
 }
 
 /** Within their errors, and the two sums to what a window's ends make of them. */
-static void exponents_agree_with_the_forward_ones(void **state)
+TEST(exponents_agree_with_the_forward_ones)
 {
-    (void)state;
     const hd_scene_def scene = small();
-    hd_run *run = created(&scene);
-    finish(run);
+    hd_run *run = finished(&scene);
     const hd_spectrum *forward = hd_run_spectrum(run),
                       *back = hd_covariant_spectrum(hd_run_covariant(run));
     const int positive = (VECTORS - 6) / 2;
@@ -227,13 +203,10 @@ static void exponents_agree_with_the_forward_ones(void **state)
 
 /** Everything at once: the centre is still the null space. Somebody who looks in between makes
  * intervals shorter than could be foreseen: that costs a window. */
-static void other_stages_do_not_disturb(void **state)
+TEST(other_stages_do_not_disturb)
 {
-    (void)state;
     for (int viewed = 0; viewed < 2; viewed++) {
-        hd_scene_def scene = small();
-        scene.interval = 0.0;
-        scene.report_interval = 0.25;
+        hd_scene_def scene = scene_from(small(), .interval = 0.0, .report_interval = 0.25);
         scene.observe |= HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_HYDRO;
         hd_run *run = created(&scene);
         if (viewed) hd_run_watch(run, 0.1, 8);
@@ -248,13 +221,10 @@ static void other_stages_do_not_disturb(void **state)
     }
 }
 
-static void the_positive_half_has_no_spaces(void **state)
+TEST(the_positive_half_has_no_spaces)
 {
-    (void)state;
-    hd_scene_def scene = small();
-    scene.exponents = HD_EXPONENTS_POSITIVE;
-    hd_run *run = created(&scene);
-    finish(run);
+    hd_scene_def scene = scene_from(small(), .exponents = HD_EXPONENTS_POSITIVE);
+    hd_run *run = finished(&scene);
     check_windows(run, 12, averaging_start(run));
     const hd_covariant *c = hd_run_covariant(run);
     assert_int_equal(hd_covariant_vectors(c), (VECTORS - 6) / 2);
@@ -270,9 +240,8 @@ static void the_positive_half_has_no_spaces(void **state)
 
 /* ---- room ---------------------------------------------------------------------------------- */
 
-static void too_long_a_window_is_refused(void **state)
+TEST(too_long_a_window_is_refused)
 {
-    (void)state;
     char message[400] = "";
     hd_scene_def scene = small();
     hd_run *run = NULL;
@@ -305,21 +274,18 @@ static hd_status run_to_a_fault(const hd_scene_def *scene)
 }
 
 /** Intervals that are as long as they choose are known when averaging begins. */
-static void too_little_room_is_found_when_windows_begin(void **state)
+TEST(too_little_room_is_found_when_windows_begin)
 {
-    (void)state;
-    hd_scene_def scene = small();
-    scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
-    scene.interval = 0.0;
+    hd_scene_def scene = scene_from(small(), .exponents = HD_EXPONENTS_ALL_INDEPENDENT,
+                                    .interval = 0.0);
     scene.accuracy = 1e-12; /* intervals as short as they get */
     scene.covariant_memory = 1e-3;
     assert_int_equal(run_to_a_fault(&scene), HD_NO_ROOM);
 }
 
 /** Once its ring has gone round, a run with windows takes no more memory. */
-static void later_windows_take_no_memory(void **state)
+TEST(later_windows_take_no_memory)
 {
-    (void)state;
     const hd_scene_def scene = small();
     hd_run *run = created(&scene);
     step_to(run, 150.0); /* 512 intervals of 0.25 */
@@ -327,23 +293,4 @@ static void later_windows_take_no_memory(void **state)
     finish(run);
     assert_int_equal(hd_memory_allocations(), before);
     hd_run_free(run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(windows_are_counted),
-        cmocka_unit_test(the_forward_pass_stays_as_it_is),
-        cmocka_unit_test(a_reset_begins_anew),
-        cmocka_unit_test(looks_come_when_they_are_due),
-        cmocka_unit_test(a_window_begins_when_somebody_looks_again),
-        cmocka_unit_test(a_blink_gives_up_the_window),
-        cmocka_unit_test(exponents_agree_with_the_forward_ones),
-        cmocka_unit_test(other_stages_do_not_disturb),
-        cmocka_unit_test(the_positive_half_has_no_spaces),
-        cmocka_unit_test(too_long_a_window_is_refused),
-        cmocka_unit_test(too_little_room_is_found_when_windows_begin),
-        cmocka_unit_test(later_windows_take_no_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -64,9 +64,8 @@ static double check_lattice(const hd_scene_def *def)
     return best.distance;
 }
 
-static void sites_keep_their_distance(void **state)
+TEST(sites_keep_their_distance)
 {
-    (void)state;
     const double aspect[] = {0.05, 0.3, 0.867, 1.0, 1.7, 13.0}, fraction[] = {1e-3, 0.2, 0.8, 1.0};
     for (int n = 2; n < 150; n += 1 + n / 12)
         for (int k = 0; k < 6 * 4 * 4; k++) {
@@ -77,9 +76,8 @@ static void sites_keep_their_distance(void **state)
         }
 }
 
-static void any_count_up_to_a_few_hundred(void **state)
+TEST(any_count_up_to_a_few_hundred)
 {
-    (void)state;
     for (int n = 2; n < 300; n++)
         for (int b = 0; b < 4; b++) {
             const hd_scene_def def = scene_of(n, 0.5, 0.6, (hd_boundary)(b & 1),
@@ -89,9 +87,8 @@ static void any_count_up_to_a_few_hundred(void **state)
 }
 
 /** The maximum is where the best lattice just touches. */
-static void maximum_is_where_disks_touch(void **state)
+TEST(maximum_is_where_disks_touch)
 {
-    (void)state;
     const double aspect[] = {0.1, 0.867, 1.0, 3.0}, close = 1e-8; /* 30 bisections of about 1 */
     for (int n = 2; n < 200; n += 1 + n / 8)
         for (int k = 0; k < 16; k++) {
@@ -109,9 +106,8 @@ static void maximum_is_where_disks_touch(void **state)
 }
 
 /** Rows go along either direction: x and y may be exchanged. */
-static void maximum_is_the_same_lying_and_standing(void **state)
+TEST(maximum_is_the_same_lying_and_standing)
 {
-    (void)state;
     const double aspect[] = {0.1, 0.5, 0.867, 3.0}, close = 1e-8;
     for (int n = 2; n < 60; n++)
         for (int k = 0; k < 16; k++) {
@@ -123,9 +119,8 @@ static void maximum_is_the_same_lying_and_standing(void **state)
 }
 
 /** Commensurate boxes hold closest packing; 8 x 8 in a square holds the square lattice at least. */
-static void known_packings(void **state)
+TEST(known_packings)
 {
-    (void)state;
     const double closest = 2.0 / sqrt(3.0), close = 1e-6;
     const hd_scene_def hexagonal = scene_of(64, 0.5, sqrt(0.75), HD_PERIODIC, HD_PERIODIC, 1);
     const hd_scene_def upright = scene_of(64, 0.5, 1.0 / sqrt(0.75), HD_PERIODIC, HD_PERIODIC, 1);
@@ -138,9 +133,8 @@ static void known_packings(void **state)
 }
 
 /** The paper's densities must be possible. */
-static void papers_scenes_fit(void **state)
+TEST(papers_scenes_fit)
 {
-    (void)state;
     for (int b = 0; b < 4; b++) {
         const hd_scene_def def = scene_of(780, 0.8, 0.867, (hd_boundary)(b & 1),
                                           (hd_boundary)(b >> 1), 1);
@@ -150,9 +144,8 @@ static void papers_scenes_fit(void **state)
 }
 
 /** Without spare sites every site is used; with them the gaps are spread, not left at the end. */
-static void spare_sites_are_spread(void **state)
+TEST(spare_sites_are_spread)
 {
-    (void)state;
     const hd_scene_def def = scene_of(61, 0.4, 1.0, HD_PERIODIC, HD_PERIODIC, 1);
     const hd_lattice lattice = {.along = 0, .rows = 8, .columns = 8, .column = 1.5, .row = 1.5};
     const double box[2] = {12.0, 12.0};
@@ -161,18 +154,4 @@ static void spare_sites_are_spread(void **state)
     hd_lattice_fill(&lattice, q, 61, box, def.boundary);
     for (int i = 0; i < 61; i++) in_half += q[2 * i + 1] < 6.0;
     assert_true(in_half == 30 || in_half == 31);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sites_keep_their_distance),
-        cmocka_unit_test(any_count_up_to_a_few_hundred),
-        cmocka_unit_test(maximum_is_where_disks_touch),
-        cmocka_unit_test(maximum_is_the_same_lying_and_standing),
-        cmocka_unit_test(known_packings),
-        cmocka_unit_test(papers_scenes_fit),
-        cmocka_unit_test(spare_sites_are_spread),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,9 +14,8 @@ static size_t size_of(const hd_parameter *row)
 }
 
 /** Every byte of a definition belongs to one row, but for what alignment leaves free. */
-static void each_member_has_a_row(void **state)
+TEST(each_member_has_a_row)
 {
-    (void)state;
     unsigned char rows_of[sizeof(hd_scene_def)] = {0};
     int count;
     size_t free_bytes = 0;
@@ -30,9 +29,8 @@ static void each_member_has_a_row(void **state)
     }
 }
 
-static void names_and_words_are_there_once(void **state)
+TEST(names_and_words_are_there_once)
 {
-    (void)state;
     int count;
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) {
@@ -54,9 +52,8 @@ static void names_and_words_are_there_once(void **state)
 }
 
 /** "from A .. to B": in words as in numbers. */
-static void ranges_are_said_in_words(void **state)
+TEST(ranges_are_said_in_words)
 {
-    (void)state;
     int count, said = 0;
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) {
@@ -75,9 +72,8 @@ static void ranges_are_said_in_words(void **state)
     assert_true(said > 12);
 }
 
-static void defaults_are_in_range_and_values_come_back(void **state)
+TEST(defaults_are_in_range_and_values_come_back)
 {
-    (void)state;
     int count;
     const hd_parameter *rows = hd_scene_parameters(&count);
     const hd_scene_def usual = hd_scene_def_default();
@@ -93,15 +89,4 @@ static void defaults_are_in_range_and_values_come_back(void **state)
         hd_parameter_assign(row, &def, row->usual);
         assert_memory_equal(&def, &usual, sizeof def);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_member_has_a_row),
-        cmocka_unit_test(names_and_words_are_there_once),
-        cmocka_unit_test(ranges_are_said_in_words),
-        cmocka_unit_test(defaults_are_in_range_and_values_come_back),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,9 +28,8 @@ static void check_refused(const hd_scene_def *def, const char *name, const char 
     assert_int_equal(hd_scene_check(def, NULL, 0), HD_REFUSED);
 }
 
-static void default_is_the_papers(void **state)
+TEST(default_is_the_papers)
 {
-    (void)state;
     const hd_scene_def def = hd_scene_def_default();
     double box[2];
     check_accepted(&def);
@@ -41,9 +40,8 @@ static void default_is_the_papers(void **state)
 }
 
 /** 3 / (0.05 c_T k): 100 time units in the paper's scene, more in larger boxes. */
-static void the_warm_up_follows_from_the_smallest_step(void **state)
+TEST(the_warm_up_follows_from_the_smallest_step)
 {
-    (void)state;
     hd_scene_def def = hd_scene_def_default();
     const double box = 33.535, slope = 3.28, first = 60.0 * box / (2.0 * 3.14159265 * slope);
     CHECK_CLOSE(hd_scene_warmup(&def), first, 0.01 * first);
@@ -85,9 +83,8 @@ static hd_scene_def with(const hd_parameter *row, double value)
     return def;
 }
 
-static void real_parameters_out_of_range(void **state)
+TEST(real_parameters_out_of_range)
 {
-    (void)state;
     int count, checked = 0;
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) {
@@ -114,9 +111,8 @@ static void real_parameters_out_of_range(void **state)
 }
 
 /** Those that no other parameter limits further. */
-static void real_parameters_at_the_ends_of_their_range(void **state)
+TEST(real_parameters_at_the_ends_of_their_range)
 {
-    (void)state;
     int count, checked = 0;
     const hd_parameter *rows = hd_scene_parameters(&count);
     for (int k = 0; k < count; k++) {
@@ -133,21 +129,18 @@ static void real_parameters_at_the_ends_of_their_range(void **state)
     assert_true(checked > 8);
 }
 
-static void whole_fields_out_of_range(void **state)
+TEST(whole_fields_out_of_range)
 {
-    (void)state;
     const int disks[] = {1, 0, -1, -780, 1000001, INT32_MAX, INT32_MIN}, threads[] = {-1, 1025};
     for (size_t k = 0; k < sizeof disks / sizeof *disks; k++) {
         char value[32];
-        hd_scene_def def = hd_scene_def_default();
-        def.disks = disks[k];
+        hd_scene_def def = scene(.disks = disks[k]);
         snprintf(value, sizeof value, "= %d", disks[k]);
         check_refused(&def, "disks", value, "an integer from 2 to 1000000");
     }
     for (size_t k = 0; k < 2; k++) {
         char value[32];
-        hd_scene_def def = hd_scene_def_default();
-        def.threads = threads[k];
+        hd_scene_def def = scene(.threads = threads[k]);
         snprintf(value, sizeof value, "= %d", threads[k]);
         check_refused(&def, "threads", value, "from 0 (all cores) to 1024");
     }
@@ -158,27 +151,23 @@ static void whole_fields_out_of_range(void **state)
     }
 }
 
-static void exponents_out_of_range(void **state)
+TEST(exponents_out_of_range)
 {
-    (void)state;
     const int refused[] = {-4, 3121, INT32_MAX, INT32_MIN}, accepted[] = {-3, -2, -1, 0, 1, 3120};
     for (size_t k = 0; k < sizeof refused / sizeof *refused; k++) {
         char value[32];
-        hd_scene_def def = hd_scene_def_default();
-        def.exponents = refused[k];
+        hd_scene_def def = scene(.exponents = refused[k]);
         snprintf(value, sizeof value, "= %d", refused[k]);
         check_refused(&def, "exponents", value, "4 disks = 3120");
     }
     for (size_t k = 0; k < sizeof accepted / sizeof *accepted; k++) {
-        hd_scene_def def = hd_scene_def_default();
-        def.exponents = accepted[k];
+        hd_scene_def def = scene(.exponents = accepted[k]);
         check_accepted(&def);
     }
 }
 
-static void narrower_than_a_disk(void **state)
+TEST(narrower_than_a_disk)
 {
-    (void)state;
     const hd_scene_def flat = scene_in_box(5, 20.0, 0.999, HD_PERIODIC, HD_PERIODIC, 1);
     const hd_scene_def tall = scene_in_box(5, 0.999, 20.0, HD_REFLECTING, HD_PERIODIC, 1);
     const hd_scene_def square = scene_in_box(2, 1.5, 1.5, HD_PERIODIC, HD_PERIODIC, 1);
@@ -193,9 +182,8 @@ static void narrower_than_a_disk(void **state)
 }
 
 /** Just below the reported maximum a scene is accepted, just above it is refused and told so. */
-static void too_dense_for_the_lattice(void **state)
+TEST(too_dense_for_the_lattice)
 {
-    (void)state;
     const int disks[] = {2, 3, 5, 12, 49, 64, 780};
     for (size_t k = 0; k < sizeof disks / sizeof *disks; k++)
         for (int b = 0; b < 4; b++) {
@@ -211,21 +199,18 @@ static void too_dense_for_the_lattice(void **state)
         }
 }
 
-static void message_may_be_short(void **state)
+TEST(message_may_be_short)
 {
-    (void)state;
     char message[] = "..........";
-    hd_scene_def def = hd_scene_def_default();
-    def.density = -1.0;
+    hd_scene_def def = scene(.density = -1.0);
     assert_int_equal(hd_scene_check(&def, message, 5), HD_REFUSED);
     assert_memory_equal(message, "dens\0.....", sizeof message);
     assert_int_equal(hd_scene_check(&def, message, 0), HD_REFUSED);
     assert_memory_equal(message, "dens\0.....", sizeof message);
 }
 
-static void box_has_area_and_aspect(void **state)
+TEST(box_has_area_and_aspect)
 {
-    (void)state;
     const double density[] = {1e-6, 0.3, 1.1}, aspect[] = {1e-3, 0.867, 1.0, 77.0};
     for (int k = 0; k < 12; k++) {
         const hd_scene_def def = scene_of(50 * (k + 1), density[k % 3], aspect[k % 4], HD_PERIODIC,
@@ -238,9 +223,8 @@ static void box_has_area_and_aspect(void **state)
     }
 }
 
-static void numbers_of_vectors(void **state)
+TEST(numbers_of_vectors)
 {
-    (void)state;
     const int zeros[] = {6, 4, 4, 2};
     for (int b = 0; b < 4; b++)
         for (int n = 2; n <= 1000000; n = n * 3 + 1) {
@@ -259,9 +243,8 @@ static void numbers_of_vectors(void **state)
 }
 
 /** The extremes of the table together: accepted or refused with a message, never a crash. */
-static void corners_of_the_table(void **state)
+TEST(corners_of_the_table)
 {
-    (void)state;
     const int disks[] = {2, 3, 1000000};
     const double density[] = {1e-9, 1e-3, 1.0, 1.1547}, aspect[] = {1e-6, 1.0, 1e6};
     for (int k = 0; k < 3 * 4 * 3; k++) {
@@ -275,9 +258,8 @@ static void corners_of_the_table(void **state)
 
 /** Of a gas sqrt(2); of a fluid from the slope of the pressure p(rho) = rho Z at constant entropy:
  * d p / d rho + p^2 / rho^2, as kT changes by p / rho for each part of rho. */
-static void sound_is_that_of_the_equation_of_state(void **state)
+TEST(sound_is_that_of_the_equation_of_state)
 {
-    (void)state;
     hd_scene_def def = hd_scene_def_default();
     double box[2], p[3];
     def.aspect = 4.0;
@@ -293,24 +275,4 @@ static void sound_is_that_of_the_equation_of_state(void **state)
     hd_scene_box(&def, box);
     const double want = sqrt((p[2] - p[0]) / (2.0 * step) + pow(p[1] / rho, 2.0));
     CHECK_CLOSE(box[1] / hd_scene_sound_crossing(&def), want, 1e-5 * want);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(default_is_the_papers),
-        cmocka_unit_test(the_warm_up_follows_from_the_smallest_step),
-        cmocka_unit_test(real_parameters_out_of_range),
-        cmocka_unit_test(real_parameters_at_the_ends_of_their_range),
-        cmocka_unit_test(whole_fields_out_of_range),
-        cmocka_unit_test(exponents_out_of_range),
-        cmocka_unit_test(narrower_than_a_disk),
-        cmocka_unit_test(too_dense_for_the_lattice),
-        cmocka_unit_test(message_may_be_short),
-        cmocka_unit_test(box_has_area_and_aspect),
-        cmocka_unit_test(numbers_of_vectors),
-        cmocka_unit_test(corners_of_the_table),
-        cmocka_unit_test(sound_is_that_of_the_equation_of_state),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

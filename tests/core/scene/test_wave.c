@@ -14,9 +14,8 @@ static const double ROUNDING = 8.0 * DBL_EPSILON;
 
 enum { WAVES_MAX = 4000 };
 
-static void components_follow_the_boundary(void **state)
+TEST(components_follow_the_boundary)
 {
-    (void)state;
     const double box[2] = {12.5, 8.0};
     for (int k = 0; k < 4; k++) {
         const hd_boundary x = k & 1 ? R : P, y = k & 2 ? R : P;
@@ -40,9 +39,8 @@ static void check_bits(hd_modulations got, const char *want)
 }
 
 /** Bits as digits: 1 sine in x, 2 sine in y. Behind walls T has sines alone, LP cosines alone. */
-static void dimensions_follow_the_table(void **state)
+TEST(dimensions_follow_the_table)
 {
-    (void)state;
     const struct {
         hd_boundary boundary[2];
         int nx, ny;
@@ -109,9 +107,8 @@ static void check_waves(const hd_scene_def *def)
     }
 }
 
-static void every_wave_within_the_limits_once(void **state)
+TEST(every_wave_within_the_limits_once)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         hd_scene_def def = scene_of(300, 0.6, k < 2 ? 0.7 : 1.0, k & 1 ? R : P, k & 2 ? R : P, 1);
         const hd_wave_limits limits = hd_wave_limits_of(&def);
@@ -129,9 +126,8 @@ static void every_wave_within_the_limits_once(void **state)
 }
 
 /** A limit that is the wave number itself counts, whatever its rounding. */
-static void the_limit_itself_is_within(void **state)
+TEST(the_limit_itself_is_within)
 {
-    (void)state;
     for (int disks = 20; disks < 200; disks++) {
         hd_scene_def def = scene_of(disks, 0.5, 0.9, P, P, 1);
         def.max_wave_number = 2.0 * PI / sqrt(disks / (0.5 * 0.9)); /* of (1,0) */
@@ -142,9 +138,8 @@ static void the_limit_itself_is_within(void **state)
     }
 }
 
-static void the_paper_s_scene(void **state)
+TEST(the_paper_s_scene)
 {
-    (void)state;
     const int n[][2] = {{1, 0}, {0, 1}, {1, 1}, {2, 0}, {0, 2}, {2, 1}, {1, 2}, {2, 2}};
     const hd_scene_def def = hd_scene_def_default();
     hd_wave wave[8];
@@ -157,9 +152,8 @@ static void the_paper_s_scene(void **state)
     CHECK_CLOSE(wave[1].number, 2.0 * PI / 29.074, 1e-5);
 }
 
-static void square_boxes_have_every_wave_twice(void **state)
+TEST(square_boxes_have_every_wave_twice)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         hd_scene_def def = scene_of(200, 0.7, 1.0, k ? R : P, k ? R : P, 1);
         hd_wave wave[8];
@@ -176,9 +170,8 @@ static void square_boxes_have_every_wave_twice(void **state)
 }
 
 /** Nothing is written behind the end. */
-static void capacity_is_kept(void **state)
+TEST(capacity_is_kept)
 {
-    (void)state;
     const hd_scene_def def = hd_scene_def_default();
     hd_wave wave[4] = {{.number = -1.0}, {.number = -1.0}, {.number = -1.0}, {.number = -1.0}};
     assert_int_equal(hd_waves(&def, wave, 3), 8);
@@ -187,9 +180,8 @@ static void capacity_is_kept(void **state)
 
 /* ---- limits -------------------------------------------------------------------------------- */
 
-static void limits_are_those_of_the_disks(void **state)
+TEST(limits_are_those_of_the_disks)
 {
-    (void)state;
     const hd_scene_def def = scene_in_box(100, 20.0, 10.0, R, P, 1);
     const hd_wave_limits limits = hd_wave_limits_of(&def);
     CHECK_CLOSE(limits.largest, PI * sqrt(0.5), ROUNDING * limits.largest);
@@ -213,9 +205,8 @@ static void check_narrow(hd_boundary x, hd_boundary y, double narrow, int along)
     }
 }
 
-static void narrow_boxes_have_waves_along_them_alone(void **state)
+TEST(narrow_boxes_have_waves_along_them_alone)
 {
-    (void)state;
     for (int k = 0; k < 8; k++) {
         check_narrow(k & 1 ? R : P, k & 2 ? R : P, 1.5, k >> 2);
         check_narrow(k & 1 ? R : P, k & 2 ? R : P, 1.99, k >> 2);
@@ -231,20 +222,4 @@ static void narrow_boxes_have_waves_along_them_alone(void **state)
     hd_wave wave[64];
     const int count = hd_waves(&def, wave, 64);
     assert_int_equal(wave[count - 1].n[1], 1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(components_follow_the_boundary),
-        cmocka_unit_test(dimensions_follow_the_table),
-        cmocka_unit_test(every_wave_within_the_limits_once),
-        cmocka_unit_test(the_limit_itself_is_within),
-        cmocka_unit_test(the_paper_s_scene),
-        cmocka_unit_test(square_boxes_have_every_wave_twice),
-        cmocka_unit_test(capacity_is_kept),
-        cmocka_unit_test(limits_are_those_of_the_disks),
-        cmocka_unit_test(narrow_boxes_have_waves_along_them_alone),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,14 +11,9 @@
 
 hd_scene_def kept_scene(int disks, double density, double aspect, int exponents, unsigned observe)
 {
-    hd_scene_def def = scene_of(disks, density, aspect, HD_PERIODIC, HD_PERIODIC, 7);
-    def.exponents = exponents;
-    def.observe = observe;
-    def.equilibration = 3.0;
-    def.warmup = 20.0;
-    def.duration = 20.0;
-    def.threads = 1;
-    return def;
+    return scene(.disks = disks, .density = density, .aspect = aspect, .seed = 7,
+                 .exponents = exponents, .observe = observe, .equilibration = 3.0, .warmup = 20.0,
+                 .duration = 20.0, .threads = 1);
 }
 
 hd_run *kept_run(const hd_scene_def *def)

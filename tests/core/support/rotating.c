@@ -117,8 +117,8 @@ rotating pairs(int d) { return pairs_of(d, d == 4 ? 60 : 30); }
 
 rotating t_pairs(int d)
 {
-    hd_scene_def def = scene_of(60, 0.5, 0.8, HD_PERIODIC, HD_PERIODIC, 9);
-    def.max_mode_number = 1;
+    hd_scene_def def = scene(.disks = 60, .density = 0.5, .aspect = 0.8, .seed = 9,
+                             .max_mode_number = 1);
     return rotating_create(&def, HD_MODE_T, 1, d - 1, 2 * d, 2.4);
 }
 

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "run/run_state.h"
+#include "scenes.h"
 #include "testing.h"
 
 static inline hd_run *created(const hd_scene_def *scene)
@@ -12,6 +13,32 @@ static inline hd_run *created(const hd_scene_def *scene)
     hd_run *run = NULL;
     CHECK_OK(hd_run_create(&run, scene, NULL, 0));
     return run;
+}
+
+/** Goes on to that stage. Returns the run. */
+static inline hd_run *until(hd_run *run, hd_stage stage)
+{
+    while (hd_run_stage(run) < stage) CHECK_OK(hd_run_advance(run));
+    return run;
+}
+
+static inline hd_run *finish(hd_run *run) { return until(run, HD_FINISHED); }
+
+static inline hd_run *finished(const hd_scene_def *scene) { return finish(created(scene)); }
+
+/** Goes on to that simulated time, or to the end. */
+static inline void until_time(hd_run *run, double time)
+{
+    while (hd_run_time(run) < time && hd_run_stage(run) != HD_FINISHED)
+        CHECK_OK(hd_run_advance(run));
+}
+
+/** Goes on to the end of another interval. False at the end of the run: while (going_on(run)) .. */
+static inline bool going_on(hd_run *run)
+{
+    if (hd_run_stage(run) == HD_FINISHED) return false;
+    CHECK_OK(hd_run_advance(run));
+    return true;
 }
 
 /** Behind the controller's back: where an interval would be planned, one of this length, within the

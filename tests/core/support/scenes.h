@@ -1,4 +1,4 @@
-/** Scenes that the trajectory's tests share. */
+/** Scenes by what is not usual about them. */
 #ifndef HD_SCENES_H
 #define HD_SCENES_H
 
@@ -15,17 +15,44 @@
 #define HD_SANITIZED 0
 #endif
 
+/** The default scene but for the fields given: scene(.disks = 12, .boundary[1] = HD_REFLECTING). */
+#define scene(...) scene_from(hd_scene_def_default(), __VA_ARGS__)
+
+/** As another scene but for the fields given, 16 at most. */
+#define scene_from(base, ...)                                                                      \
+    __extension__({                                                                                \
+        hd_scene_def scene_ = (base);                                                              \
+        SCENE_FIELDS(__VA_ARGS__, SCENE_16, SCENE_15, SCENE_14, SCENE_13, SCENE_12, SCENE_11,      \
+                     SCENE_10, SCENE_9, SCENE_8, SCENE_7, SCENE_6, SCENE_5, SCENE_4, SCENE_3,      \
+                     SCENE_2, SCENE_1, 0)                                                          \
+        (__VA_ARGS__) scene_;                                                                      \
+    })
+#define SCENE_FIELDS(f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, name,  \
+                     ...)                                                                          \
+    name
+#define SCENE_1(field) scene_ field;
+#define SCENE_2(field, ...) SCENE_1(field) SCENE_1(__VA_ARGS__)
+#define SCENE_3(field, ...) SCENE_1(field) SCENE_2(__VA_ARGS__)
+#define SCENE_4(field, ...) SCENE_1(field) SCENE_3(__VA_ARGS__)
+#define SCENE_5(field, ...) SCENE_1(field) SCENE_4(__VA_ARGS__)
+#define SCENE_6(field, ...) SCENE_1(field) SCENE_5(__VA_ARGS__)
+#define SCENE_7(field, ...) SCENE_1(field) SCENE_6(__VA_ARGS__)
+#define SCENE_8(field, ...) SCENE_1(field) SCENE_7(__VA_ARGS__)
+#define SCENE_9(field, ...) SCENE_1(field) SCENE_8(__VA_ARGS__)
+#define SCENE_10(field, ...) SCENE_1(field) SCENE_9(__VA_ARGS__)
+#define SCENE_11(field, ...) SCENE_1(field) SCENE_10(__VA_ARGS__)
+#define SCENE_12(field, ...) SCENE_1(field) SCENE_11(__VA_ARGS__)
+#define SCENE_13(field, ...) SCENE_1(field) SCENE_12(__VA_ARGS__)
+#define SCENE_14(field, ...) SCENE_1(field) SCENE_13(__VA_ARGS__)
+#define SCENE_15(field, ...) SCENE_1(field) SCENE_14(__VA_ARGS__)
+#define SCENE_16(field, ...) SCENE_1(field) SCENE_15(__VA_ARGS__)
+
+/** The box and its disks in one line, for who needs no more. */
 static inline hd_scene_def scene_of(int disks, double density, double aspect, hd_boundary x,
                                     hd_boundary y, uint64_t seed)
 {
-    hd_scene_def def = hd_scene_def_default();
-    def.disks = disks;
-    def.density = density;
-    def.aspect = aspect;
-    def.boundary[0] = x;
-    def.boundary[1] = y;
-    def.seed = seed;
-    return def;
+    return scene(.disks = disks, .density = density, .aspect = aspect, .boundary[0] = x,
+                 .boundary[1] = y, .seed = seed);
 }
 
 /** The same by the edges of the box. */

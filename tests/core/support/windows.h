@@ -17,13 +17,10 @@ typedef struct windows {
 
 static inline hd_scene_def windows_scene(int disks, hd_boundary x, hd_boundary y)
 {
-    hd_scene_def scene = scene_of(disks, 0.5, 0.9, x, y, 9);
-    scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
-    scene.observe = HD_OBSERVE_COVARIANT;
-    scene.covariant_window = 10.0;
-    scene.covariant_transient = 20.0;
-    scene.covariant_sampling = 2.0;
-    return scene;
+    return scene(.disks = disks, .density = 0.5, .aspect = 0.9, .boundary[0] = x, .boundary[1] = y,
+                 .seed = 9, .exponents = HD_EXPONENTS_ALL_INDEPENDENT,
+                 .observe = HD_OBSERVE_COVARIANT, .covariant_window = 10.0,
+                 .covariant_transient = 20.0, .covariant_sampling = 2.0);
 }
 
 /** After `warmup` intervals; begun with room for intervals of this length. */

@@ -30,9 +30,8 @@ static double defect_of(hd_frame *frame)
 }
 
 /** One, a part of a panel, and several. */
-static void a_random_frame_becomes_isotropic(void **state)
+TEST(a_random_frame_becomes_isotropic)
 {
-    (void)state;
     const int sizes[] = {2, 3, 8, 9, 50};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         hd_frame *frame;
@@ -45,9 +44,8 @@ static void a_random_frame_becomes_isotropic(void **state)
 }
 
 /** What lacks little changes little: by about what it lacks. The estimate knows how much it is. */
-static void isotropy_comes_back(void **state)
+TEST(isotropy_comes_back)
 {
-    (void)state;
     enum { DISKS = 20 };
     const double lost = 1e-6;
     hd_frame *frame;
@@ -78,9 +76,8 @@ static void isotropy_comes_back(void **state)
     hd_frame_free(frame);
 }
 
-static void dependent_vectors_are_refused(void **state)
+TEST(dependent_vectors_are_refused)
 {
-    (void)state;
     hd_frame *frame;
     CHECK_OK(hd_frame_create(&frame, 3, 6, 7, 1));
     for (int row = 0; row < 12; row++) hd_frame_data(frame)[row * hd_frame_stride(frame) + 2] = 0.0;
@@ -147,9 +144,8 @@ static void check_weights(conjugates *x, const hd_scene_def *scene)
 }
 
 /** Sums of logarithms are the exponents, times the time: they differ by the bounds of both. */
-static void the_other_half_follows(void **state)
+TEST(the_other_half_follows)
 {
-    (void)state;
     enum { INTERVALS = 400 };
     for (int b = 0; b < BOUNDARIES; b++) {
         const hd_scene_def scene = few(10, b);
@@ -171,9 +167,8 @@ static void the_other_half_follows(void **state)
 
 /** What is lost decays as the sum of two exponents says; where both are those of the centre it
  * stays. The half alone, so that intervals can be long. */
-static void isotropy_lasts(void **state)
+TEST(isotropy_lasts)
 {
-    (void)state;
     for (int b = 0; b < BOUNDARIES; b++) {
         const hd_scene_def scene = few(10, b);
         conjugates x = conjugates_of(&scene);
@@ -194,9 +189,8 @@ static void isotropy_lasts(void **state)
 }
 
 /** Both of a fast pair, turned into each other's conjugate by 1e-4. */
-static void lost_isotropy_decays(void **state)
+TEST(lost_isotropy_decays)
 {
-    (void)state;
     const hd_scene_def scene = few(6, 0);
     conjugates x = conjugates_of(&scene);
     for (int k = 0; k < 100; k++) conjugates_interval(&x, 0.4);
@@ -210,17 +204,4 @@ static void lost_isotropy_decays(void **state)
     for (int k = 0; k < 50; k++) conjugates_interval(&x, 0.4);
     assert_true(hd_conjugate_isotropy_measured(x.frame[HALF]) <= allowed(&x));
     conjugates_free(&x);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_random_frame_becomes_isotropic),
-        cmocka_unit_test(isotropy_comes_back),
-        cmocka_unit_test(dependent_vectors_are_refused),
-        cmocka_unit_test(the_other_half_follows),
-        cmocka_unit_test(isotropy_lasts),
-        cmocka_unit_test(lost_isotropy_decays),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -98,9 +98,8 @@ static void check_shadow(int disks, double density, hd_boundary x, hd_boundary y
     hd_event_log_free(log);
 }
 
-static void maps_are_the_derivative_of_the_flow(void **state)
+TEST(maps_are_the_derivative_of_the_flow)
 {
-    (void)state;
     check_shadow(10, 0.5, HD_PERIODIC, HD_PERIODIC);
     check_shadow(12, 0.3, HD_REFLECTING, HD_REFLECTING);
     check_shadow(12, 0.6, HD_PERIODIC, HD_REFLECTING);
@@ -157,18 +156,16 @@ static void check_symplectic(hd_boundary boundary)
     hd_event_log_free(s.log);
 }
 
-static void maps_are_symplectic(void **state)
+TEST(maps_are_symplectic)
 {
-    (void)state;
     check_symplectic(HD_PERIODIC);
     check_symplectic(HD_REFLECTING);
 }
 
 /** Uniform dq, uniform dp, dq = p and dp = p are carried into vectors known in closed form. */
-static void zero_modes_stay_zero_modes(void **state)
+TEST(zero_modes_stay_zero_modes)
 {
     enum { DISKS = 30, ROWS = 4 * DISKS };
-    (void)state;
     const double time = 1.0,
                  tolerance = 1e-10; /* eps * e^(lambda_1 t) at lambda_1 t = 7, |p| = 8 */
     scene_log s = logged(DISKS, HD_PERIODIC, time);
@@ -225,10 +222,9 @@ static void check_same(const double *a, const double *b, int rows, double relati
 }
 
 /** Every width of block, any number of threads: the same column; width changes rounding only. */
-static void columns_do_not_know_of_each_other(void **state)
+TEST(columns_do_not_know_of_each_other)
 {
     enum { DISKS = 40, ROWS = 4 * DISKS };
-    (void)state;
     static const int counts[] = {1, 2, 3, 4, 5, 7, 8, 9, 16, 17, 31, 33, 63, 64, 65, 100, 129, 160};
     const double whole[] = {1.0, 0.0}, rounding = 1e3 * DBL_EPSILON; /* e^(lambda_1 t), no more */
     scene_log s = logged(DISKS, HD_REFLECTING, 1.0);
@@ -245,10 +241,9 @@ static void columns_do_not_know_of_each_other(void **state)
     hd_event_log_free(s.log);
 }
 
-static void pieces_make_the_whole(void **state)
+TEST(pieces_make_the_whole)
 {
     enum { DISKS = 40, ROWS = 4 * DISKS };
-    (void)state;
     scene_log s = logged(DISKS, HD_PERIODIC, 1.0);
     const double at_event = s.log->event[s.log->count / 2].t;
     const double whole[] = {1.0, 0.0}, two[] = {0.3, 1.0, 0.0}, event[] = {at_event, 1.0, 0.0};
@@ -261,10 +256,9 @@ static void pieces_make_the_whole(void **state)
     hd_event_log_free(s.log);
 }
 
-static void rewind_brings_the_vectors_back(void **state)
+TEST(rewind_brings_the_vectors_back)
 {
     enum { DISKS = 20, VECTORS = 70 };
-    (void)state;
     scene_log s = logged(DISKS, HD_PERIODIC, 0.5);
     hd_frame *frame;
     CHECK_OK(hd_frame_create(&frame, DISKS, VECTORS, 5, 2));
@@ -281,10 +275,9 @@ static void rewind_brings_the_vectors_back(void **state)
 }
 
 /** Neither an angle to nothing, nor a ratio to it. */
-static void a_half_that_vanishes_has_no_angle(void **state)
+TEST(a_half_that_vanishes_has_no_angle)
 {
     enum { DISKS = 2, VECTORS = 2 };
-    (void)state;
     hd_frame *frame;
     double cosine[VECTORS], ratio[VECTORS];
     CHECK_OK(hd_frame_create(&frame, DISKS, VECTORS, 9, 1));
@@ -297,10 +290,9 @@ static void a_half_that_vanishes_has_no_angle(void **state)
     hd_frame_free(frame);
 }
 
-static void halves_are_measured_per_column(void **state)
+TEST(halves_are_measured_per_column)
 {
     enum { DISKS = 5, VECTORS = 20 };
-    (void)state;
     hd_frame *frame;
     double cosine[VECTORS], ratio[VECTORS], v[4 * DISKS];
     CHECK_OK(hd_frame_create(&frame, DISKS, VECTORS, 9, 1));
@@ -321,19 +313,4 @@ static void halves_are_measured_per_column(void **state)
         CHECK_CLOSE(ratio[col], sqrt(pp / qq), 8 * DBL_EPSILON * ratio[col]);
     }
     hd_frame_free(frame);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(maps_are_the_derivative_of_the_flow),
-        cmocka_unit_test(maps_are_symplectic),
-        cmocka_unit_test(zero_modes_stay_zero_modes),
-        cmocka_unit_test(columns_do_not_know_of_each_other),
-        cmocka_unit_test(pieces_make_the_whole),
-        cmocka_unit_test(rewind_brings_the_vectors_back),
-        cmocka_unit_test(halves_are_measured_per_column),
-        cmocka_unit_test(a_half_that_vanishes_has_no_angle),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,9 +49,8 @@ static void check_event(const graze *g, double speed)
     if (g->impact < 1e-3) assert_true(size > 0.9 * stretch && size < 1.6 * stretch);
 }
 
-static void maps_stay_finite_and_symplectic(void **state)
+TEST(maps_stay_finite_and_symplectic)
 {
-    (void)state;
     const double speed[] = {1e-3, 1.0, 30.0};
     for (double impact = 0.1; impact > 0.5 * TAKEN_MIN; impact *= 0.1)
         for (int a = 0; a < ANGLES; a++)
@@ -119,9 +118,8 @@ static int check_encounter(const graze *g, double wait, double drift)
 }
 
 /** From far, and touching from the start; below 1e-15 rounding alone decides. */
-static void contacts_are_taken_or_passed_for_good(void **state)
+TEST(contacts_are_taken_or_passed_for_good)
 {
-    (void)state;
     const double wait[] = {0.0, 1.25}, drift[] = {0.0, 1.0, 1000.0};
     for (double impact = 0.1; impact > 1e-19; impact *= 0.1) {
         int taken = 0;
@@ -136,9 +134,8 @@ static void contacts_are_taken_or_passed_for_good(void **state)
 
 /** The same for disks that overlap as deep as a start may: the root in their contact is then no
  * rounding. */
-static void a_deep_pair_does_not_meet_for_ever(void **state)
+TEST(a_deep_pair_does_not_meet_for_ever)
 {
-    (void)state;
     const hd_scene_def def = scene_in_box(2, LX, LY, HD_PERIODIC, HD_PERIODIC, 1);
     for (double impact = 1e-3; impact > 1e-22; impact *= 0.1)
         for (int a = 0; a < 8 * ANGLES; a++) {
@@ -153,14 +150,4 @@ static void a_deep_pair_does_not_meet_for_ever(void **state)
             CHECK_CLOSE(hd_trajectory_overlap(tr), 0.0, 0.0);
             hd_trajectory_free(tr);
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(maps_stay_finite_and_symplectic),
-        cmocka_unit_test(contacts_are_taken_or_passed_for_good),
-        cmocka_unit_test(a_deep_pair_does_not_meet_for_ever),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

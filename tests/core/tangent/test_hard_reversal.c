@@ -123,9 +123,8 @@ static returns returns_after(const hd_scene_def *def, double time)
 static const hd_boundary BOUNDARY[][2] = {
     {HD_PERIODIC, HD_PERIODIC}, {HD_REFLECTING, HD_REFLECTING}, {HD_PERIODIC, HD_REFLECTING}};
 
-static void returns_as_far_as_rounding_grows(void **state_)
+TEST(returns_as_far_as_rounding_grows)
 {
-    (void)state_;
     for (int b = 0; b < 3; b++) {
         const hd_scene_def def = scene_with(BOUNDARY[b][0], BOUNDARY[b][1]);
         for (double time = 1.0; time < 6.5; time += 1.0) {
@@ -137,9 +136,8 @@ static void returns_as_far_as_rounding_grows(void **state_)
 
 /** eps exp(lambda_1 t) is then above 1e6: nothing of the start is left, and a program that returned
  * all the same would not have moved. */
-static void cannot_return_from_too_far(void **state_)
+TEST(cannot_return_from_too_far)
 {
-    (void)state_;
     for (int b = 0; b < 3; b++) {
         const hd_scene_def def = scene_with(BOUNDARY[b][0], BOUNDARY[b][1]);
         const returns r = returns_after(&def, 16.0);
@@ -149,9 +147,8 @@ static void cannot_return_from_too_far(void **state_)
 }
 
 /** The way back meets the same pairs and walls in the opposite order. */
-static void events_come_in_the_opposite_order(void **state_)
+TEST(events_come_in_the_opposite_order)
 {
-    (void)state_;
     const double time = 3.0; /* rounding has grown to some 1e-11: far from another order */
     for (int b = 0; b < 3; b++) {
         const hd_scene_def def = scene_with(BOUNDARY[b][0], BOUNDARY[b][1]);
@@ -168,14 +165,4 @@ static void events_come_in_the_opposite_order(void **state_)
         hd_event_log_free(forth);
         hd_event_log_free(back);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(returns_as_far_as_rounding_grows),
-        cmocka_unit_test(cannot_return_from_too_far),
-        cmocka_unit_test(events_come_in_the_opposite_order),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

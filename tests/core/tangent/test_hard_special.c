@@ -94,9 +94,8 @@ static void check_special(const special *s, const hd_scene_def *def)
     hd_trajectory_free(tr);
 }
 
-static void special_states_stay_finite(void **state)
+TEST(special_states_stay_finite)
 {
-    (void)state;
     for (int k = 0; k < 2 * SPECIALS; k++) {
         const hd_boundary boundary = k % 2 ? HD_REFLECTING : HD_PERIODIC;
         const hd_scene_def def = scene_in_box(DISKS, 8.0, 8.0, boundary, boundary, 1);
@@ -105,9 +104,8 @@ static void special_states_stay_finite(void **state)
 }
 
 /** However long: nothing happens. */
-static void disks_at_rest_stay_there(void **state)
+TEST(disks_at_rest_stay_there)
 {
-    (void)state;
     const double p[2 * DISKS] = {0, -0.0};
     for (int k = 0; k < 2 * SPECIALS; k++) {
         const hd_boundary boundary = k % 2 ? HD_REFLECTING : HD_PERIODIC;
@@ -124,9 +122,8 @@ static void disks_at_rest_stay_there(void **state)
 }
 
 /** At the origin, a zero of either sign, and on the far edge, which is the same place. */
-static void edges_of_the_box_are_one_place(void **state)
+TEST(edges_of_the_box_are_one_place)
 {
-    (void)state;
     const hd_scene_def def = scene_in_box(2, 8.0, 8.0, HD_PERIODIC, HD_PERIODIC, 1);
     const double edge[] = {0.0, -0.0, 8.0};
     hd_event_log *log[3];
@@ -152,9 +149,8 @@ enum { FRAME_DISKS = 12, ROWS = 4 * FRAME_DISKS };
 /** Maps are linear: 2^-1030 of a vector becomes 2^-1030 of what it becomes, but for what denormal
  * numbers, known to 2^-1074, lose at each of ten operations an event and disk, stretched by what
  * follows. */
-static void denormal_vectors_are_carried_as_others(void **state)
+TEST(denormal_vectors_are_carried_as_others)
 {
-    (void)state;
     const hd_scene_def def = scene_of(FRAME_DISKS, 0.5, 1.0, HD_PERIODIC, HD_REFLECTING, 3);
     const double small = ldexp(1.0, -1030);
     hd_trajectory *tr;
@@ -239,9 +235,8 @@ static int step_from(int power)
 
 /** Everything that a run can come to, e^150 either way, is factored; from 2^-1074 to 2^1000 nothing
  * is wrong. */
-static void vectors_of_any_length_are_factored_or_refused(void **state)
+TEST(vectors_of_any_length_are_factored_or_refused)
 {
-    (void)state;
     const int vectors[] = {1, 2, 8, 20, 40};
     int count[2] = {0, 0};
     for (int k = 0; k < 5 * 2 * 3; k++)
@@ -254,16 +249,4 @@ static void vectors_of_any_length_are_factored_or_refused(void **state)
         }
     print_message("%d factored, %d refused\n", count[1], count[0]);
     assert_true(count[0] > 100 && count[1] > 100);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(special_states_stay_finite),
-        cmocka_unit_test(disks_at_rest_stay_there),
-        cmocka_unit_test(edges_of_the_box_are_one_place),
-        cmocka_unit_test(denormal_vectors_are_carried_as_others),
-        cmocka_unit_test(vectors_of_any_length_are_factored_or_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

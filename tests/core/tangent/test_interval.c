@@ -17,9 +17,8 @@ static double settled(hd_interval *interval, double rate, int steps)
     return length;
 }
 
-static void it_settles_where_the_condition_is_right(void **state)
+TEST(it_settles_where_the_condition_is_right)
 {
-    (void)state;
     for (double rate = 0.01; rate < 50.0; rate *= 3.0) {
         hd_interval interval = hd_interval_first(1e-3, INFINITY, 1e-8);
         const double length = settled(&interval, rate, 200);
@@ -29,9 +28,8 @@ static void it_settles_where_the_condition_is_right(void **state)
 }
 
 /** Rate doubled for good: it follows in some twenty intervals, the first of them repaired. */
-static void it_follows_a_change(void **state)
+TEST(it_follows_a_change)
 {
-    (void)state;
     hd_interval interval = hd_interval_first(0.1, INFINITY, 1e-8);
     const double before = settled(&interval, 5.0, 100);
     hd_interval_learn(&interval, before, exp(10.0 * before), 10.0 * before);
@@ -40,9 +38,8 @@ static void it_follows_a_change(void **state)
     CHECK_CLOSE(settled(&interval, 5.0, 300), before, 0.05 * before);
 }
 
-static void failures_shorten_it(void **state)
+TEST(failures_shorten_it)
 {
-    (void)state;
     hd_interval interval = hd_interval_first(0.1, INFINITY, 1e-8);
     const double before = settled(&interval, 5.0, 100);
     for (int k = 0; k < 10; k++) hd_interval_failed(&interval, 1.5 * before);
@@ -53,9 +50,8 @@ static void failures_shorten_it(void **state)
 
 /** ln(condition) = rate * length + scatter, the scatter the same at all lengths: kept free above
  * the mean, so that few intervals are repaired, and not multiplied with the length. */
-static void scatter_is_kept_free_once(void **state)
+TEST(scatter_is_kept_free_once)
 {
-    (void)state;
     hd_interval interval = hd_interval_first(0.1, INFINITY, 1e-8);
     const double rate = 6.5, scatter = 1.0;
     int repaired = 0;
@@ -78,9 +74,8 @@ static void scatter_is_kept_free_once(void **state)
     assert_true(repaired < 0.1 * 2000);
 }
 
-static void limits_are_kept(void **state)
+TEST(limits_are_kept)
 {
-    (void)state;
     hd_interval interval = hd_interval_first(1.0, 0.25, 1e-8);
     for (int k = 0; k < 50; k++) {
         const double length = hd_interval_next(&interval, 1.0).length;
@@ -95,9 +90,8 @@ static void limits_are_kept(void **state)
     }
 }
 
-static void the_reason_is_told(void **state)
+TEST(the_reason_is_told)
 {
-    (void)state;
     hd_interval interval = hd_interval_first(0.1, INFINITY, 1e-8);
     assert_int_equal(hd_interval_next(&interval, 0.15).limit, HD_LIMIT_SCHEDULE);
     assert_int_equal(hd_interval_next(&interval, 10.0).limit, HD_LIMIT_GROWTH);
@@ -110,9 +104,8 @@ static void the_reason_is_told(void **state)
     assert_int_equal(hd_interval_next(&one, 1e9).limit, HD_LIMIT_OVERFLOW);
 }
 
-static void shares_of_the_rest_are_equal(void **state)
+TEST(shares_of_the_rest_are_equal)
 {
-    (void)state;
     hd_interval interval = hd_interval_first(0.3, 0.3, 1e-8);
     CHECK_CLOSE(hd_interval_next(&interval, 1.0).length, 0.25, DBL_EPSILON);
     CHECK_CLOSE(hd_interval_next(&interval, 0.3).length, 0.3, 0.0);
@@ -125,9 +118,8 @@ static double used_up(double condition, double accuracy)
     return 20.0 * 2.0 * DBL_EPSILON * condition / accuracy;
 }
 
-static void more_accuracy_allows_less_condition(void **state)
+TEST(more_accuracy_allows_less_condition)
 {
-    (void)state;
     const hd_interval tight = hd_interval_first(1.0, INFINITY, 1e-11);
     const hd_interval loose = hd_interval_first(1.0, INFINITY, 1e-2);
     CHECK_CLOSE(used_up(hd_interval_condition_max(&tight, 1.0), 1e-11), 4.0, 1e-9);
@@ -141,9 +133,8 @@ static double gaussian(hd_random *random)
     return sum;
 }
 
-static void what_is_saved_may_be_used(void **state)
+TEST(what_is_saved_may_be_used)
 {
-    (void)state;
     const double shares[][2] = {{-5.0, 0.5},  {-0.6, 0.7}, {0.0, 1.0},     {13.0, 7.5},
                                 {38.0, 20.0}, {1e9, 20.0}, {INFINITY, 4.0}};
     hd_interval interval = hd_interval_first(2.0, INFINITY, 1e-8);
@@ -158,9 +149,8 @@ static void what_is_saved_may_be_used(void **state)
 
 /** Conditions that scatter by a factor e: the sum that the error bound is made of never exceeds the
  * accuracy, and the intervals are hardly shorter than those which just use it up on average. */
-static void the_bound_is_kept_and_used(void **state)
+TEST(the_bound_is_kept_and_used)
 {
-    (void)state;
     enum { INTERVALS = 4000, FIRST = 200 };
     const double rate = 6.5, scatter = 1.0, accuracy = 1e-8;
     hd_interval interval = hd_interval_first(0.1, INFINITY, accuracy);
@@ -192,9 +182,8 @@ static void the_bound_is_kept_and_used(void **state)
 
 /** A piece of a repair has the share of its own length, or of a usual one; nothing is divided for a
  * condition of 1e3. */
-static void pieces_keep_to_their_share(void **state)
+TEST(pieces_keep_to_their_share)
 {
-    (void)state;
     hd_interval interval = hd_interval_first(0.1, INFINITY, 1e-8);
     const double whole = hd_interval_condition_max(&interval, 2.0);
     CHECK_CLOSE(hd_interval_piece_max(&interval, 2.0, 2.0), whole, 0.0);
@@ -207,9 +196,8 @@ static void pieces_keep_to_their_share(void **state)
 }
 
 /** Each norm has a growth of its own; one that has shown nothing yet goes by the other. */
-static void norms_are_learnt_apart(void **state)
+TEST(norms_are_learnt_apart)
 {
-    (void)state;
     hd_interval interval = hd_interval_first(0.1, INFINITY, 1e-8);
     const double full = settled(&interval, 6.0, 100);
     const double counts = log(hd_interval_counted(1.0, HD_NORM_DQ));
@@ -220,23 +208,4 @@ static void norms_are_learnt_apart(void **state)
     interval.norm = HD_NORM_FULL;
     CHECK_CLOSE(hd_interval_longest(&interval).length, full, 0.05 * full);
     CHECK_CLOSE(hd_interval_condition(&interval, 1.0), exp(6.0), 0.1 * exp(6.0));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_settles_where_the_condition_is_right),
-        cmocka_unit_test(it_follows_a_change),
-        cmocka_unit_test(failures_shorten_it),
-        cmocka_unit_test(scatter_is_kept_free_once),
-        cmocka_unit_test(limits_are_kept),
-        cmocka_unit_test(the_reason_is_told),
-        cmocka_unit_test(shares_of_the_rest_are_equal),
-        cmocka_unit_test(more_accuracy_allows_less_condition),
-        cmocka_unit_test(what_is_saved_may_be_used),
-        cmocka_unit_test(the_bound_is_kept_and_used),
-        cmocka_unit_test(pieces_keep_to_their_share),
-        cmocka_unit_test(norms_are_learnt_apart),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,9 +34,8 @@ static void fill(double v[ROWS][STRIDE])
     v[4 * 4 + 3][2] = -sqrt(0.8);
 }
 
-static void widths_are_those_of_known_vectors(void **state)
+TEST(widths_are_those_of_known_vectors)
 {
-    (void)state;
     double v[ROWS][STRIDE];
     hd_localization *shape = created();
     fill(v);
@@ -49,9 +48,8 @@ static void widths_are_those_of_known_vectors(void **state)
 }
 
 /** exp of the mean entropy, not the mean of the widths. */
-static void entropies_are_averaged(void **state)
+TEST(entropies_are_averaged)
 {
-    (void)state;
     double one[ROWS][STRIDE], other[ROWS][STRIDE];
     hd_localization *shape = created();
     fill(one);
@@ -79,9 +77,8 @@ static void halves(double v[ROWS][STRIDE], int col, double angle, double length)
     v[4 * 1 + 2][col] = length * sin(angle);
 }
 
-static void cosines_are_those_of_known_angles(void **state)
+TEST(cosines_are_those_of_known_angles)
 {
-    (void)state;
     double v[ROWS][STRIDE];
     hd_localization *shape = created();
     fill(v);
@@ -98,14 +95,4 @@ static void cosines_are_those_of_known_angles(void **state)
     CHECK_CLOSE(hd_localization_cosines(shape)[0], 0.5 * (cos(1.0) + 1.0), 8 * DBL_EPSILON);
     CHECK_CLOSE(hd_localization_cosines(shape)[2], 0.5 * cos(1.2), 8 * DBL_EPSILON);
     hd_localization_free(shape);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(widths_are_those_of_known_vectors),
-        cmocka_unit_test(entropies_are_averaged),
-        cmocka_unit_test(cosines_are_those_of_known_angles),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -126,9 +126,8 @@ static void check_against_twin(int disks, int n, double spread, hd_ortho_limits 
     hd_frame_free(frame);
 }
 
-static void agrees_with_the_twin(void **state)
+TEST(agrees_with_the_twin)
 {
-    (void)state;
     const int sizes[][2] = {{1, 1}, {1, 2}, {5, 2}, {12, 17}, {12, 21}, {40, 70}, {60, 100}};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++)
         for (double spread = 0.0; spread <= 12.0; spread += 6.0) {
@@ -138,9 +137,8 @@ static void agrees_with_the_twin(void **state)
 }
 
 /** One pass: never below what is measured, and not far above it [T7]. */
-static void the_defect_is_foreseen(void **state)
+TEST(the_defect_is_foreseen)
 {
-    (void)state;
     for (double spread = 2.0; spread <= 14.0; spread += 1.0) {
         hd_frame *frame;
         hd_ortho *ortho;
@@ -172,9 +170,8 @@ static hd_status step_of(hd_frame *frame, hd_ortho_limits limits)
 }
 
 /** Two vectors with the same dq half: different for the full norm. */
-static void dependent_dq_halves_are_refused(void **state)
+TEST(dependent_dq_halves_are_refused)
 {
-    (void)state;
     for (int to = 1; to < 20; to += 6)
         for (int how = 0; how < 2; how++) {
             hd_frame *frame;
@@ -187,10 +184,9 @@ static void dependent_dq_halves_are_refused(void **state)
 }
 
 /** Wherever it stands: in a dp half no inner product meets it. */
-static void what_is_no_number_is_refused(void **state)
+TEST(what_is_no_number_is_refused)
 {
     static const double values[] = {NAN, INFINITY, -INFINITY};
-    (void)state;
     for (int k = 0; k < 3; k++)
         for (int row = 4; row < 8; row++)
             for (int col = 0; col < 20; col++) {
@@ -239,8 +235,8 @@ static void chain_step(chain *c, hd_ortho_limits other)
 static chain chain_started(hd_boundary x, hd_boundary y)
 {
     chain c = {0};
-    hd_scene_def scene = scene_of(DISKS, 0.7, 1.0, x, y, 3);
-    scene.exponents = HD_EXPONENTS_POSITIVE;
+    hd_scene_def scene = scene(.disks = DISKS, .density = 0.7, .aspect = 1.0, .boundary[0] = x,
+                               .boundary[1] = y, .seed = 3, .exponents = HD_EXPONENTS_POSITIVE);
     c.f = forward_started(&scene, 5);
     c.n = forward_vectors(&c.f);
     for (int k = 0; k < WARMUP; k++) forward_interval(&c.f, INTERVAL);
@@ -273,11 +269,10 @@ static double chain_difference(const chain *c)
 
 /** Norms in turn, the last one full: the logarithms are those of the full norm [T5]. In one that
  * ends in the norm of dq they are not, but stay near. */
-static void sums_are_those_of_the_full_norm(void **state)
+TEST(sums_are_those_of_the_full_norm)
 {
     static const hd_boundary boundary[][2] = {
         {HD_PERIODIC, HD_PERIODIC}, {HD_REFLECTING, HD_PERIODIC}, {HD_REFLECTING, HD_REFLECTING}};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         chain c = chain_started(boundary[k][0], boundary[k][1]);
         double most = 0.0;
@@ -300,9 +295,8 @@ static void sums_are_those_of_the_full_norm(void **state)
 
 /** All steps in the norm of dq: conditions are smaller, exponents the same to a bounded part over
  * the time. */
-static void conditions_are_smaller(void **state)
+TEST(conditions_are_smaller)
 {
-    (void)state;
     chain c = chain_started(HD_PERIODIC, HD_PERIODIC);
     for (int step = 0; step < 5 * STEPS; step++) chain_step(&c, LOOSE);
     print_message("t = %.0f: sums within %.2f; mean condition %.3g, was %.3g\n", c.time,
@@ -311,17 +305,4 @@ static void conditions_are_smaller(void **state)
     assert_true(c.sum[0][c.n - 1] > 10.0);
     assert_true(c.condition[1] < 0.5 * c.condition[0]);
     chain_free(&c);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(agrees_with_the_twin),
-        cmocka_unit_test(the_defect_is_foreseen),
-        cmocka_unit_test(dependent_dq_halves_are_refused),
-        cmocka_unit_test(what_is_no_number_is_refused),
-        cmocka_unit_test(sums_are_those_of_the_full_norm),
-        cmocka_unit_test(conditions_are_smaller),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -113,9 +113,8 @@ static void check_factor(int disks, int n, double spread, hd_ortho_limits limits
     hd_frame_free(frame);
 }
 
-static void keeps_the_triangle(void **state)
+TEST(keeps_the_triangle)
 {
-    (void)state;
     const int sizes[][2] = {{3, 1}, {5, 2}, {12, 17}, {40, 80}, {40, 160}, {200, 750}};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         const double spread = sizes[k][1] > 1 ? 10.0 : 0.0;
@@ -152,9 +151,8 @@ static void check_step(int disks, int n, double spread, int stable)
     hd_frame_free(frame);
 }
 
-static void agrees_with_householder(void **state)
+TEST(agrees_with_householder)
 {
-    (void)state;
     check_step(3, 1, 0.0, 0);
     for (int stable = 0; stable < 2; stable++)
         for (double spread = 0.0; spread <= 12.0; spread += 4.0) {
@@ -190,9 +188,8 @@ static double exact_condition(const double *v, int rows, int n)
 
 /** Eight probes know each column to a quarter; the largest of a hundred such estimates is within
  * 0.8 and 2 of the truth. */
-static void the_condition_is_that_of_the_inverse(void **state)
+TEST(the_condition_is_that_of_the_inverse)
 {
-    (void)state;
     for (double spread = 0.0; spread <= 12.0; spread += 1.5)
         for (int stable = 0; stable < 2; stable++) {
             hd_frame *frame;
@@ -215,9 +212,8 @@ static void the_condition_is_that_of_the_inverse(void **state)
 
 /** One pass: the predicted defect is never below what is measured, and not far above it. It grows
  * as the condition, not as its square. */
-static void the_defect_is_foreseen(void **state)
+TEST(the_defect_is_foreseen)
 {
-    (void)state;
     for (double spread = 2.0; spread <= 12.0; spread += 1.0) {
         hd_frame *frame;
         hd_ortho *ortho;
@@ -246,10 +242,9 @@ static void loosen(hd_frame *frame)
     }
 }
 
-static void logarithms_telescope(void **state)
+TEST(logarithms_telescope)
 {
     enum { N = 60 };
-    (void)state;
     hd_frame *loose, *tight;
     hd_ortho *ortho;
     double sum[2][N] = {{0}};
@@ -277,9 +272,8 @@ static void logarithms_telescope(void **state)
 }
 
 /** One entry that is no number is seen in the measured defect wherever it stands. */
-static void a_measured_defect_keeps_nan(void **state)
+TEST(a_measured_defect_keeps_nan)
 {
-    (void)state;
     for (int col = 0; col < 30; col++) {
         hd_frame *frame;
         hd_ortho *ortho;
@@ -311,27 +305,12 @@ static hd_status step_with_entry(double value, double condition, int twin)
     return status;
 }
 
-static void what_cannot_be_trusted_is_refused(void **state)
+TEST(what_cannot_be_trusted_is_refused)
 {
-    (void)state;
     assert_int_equal(step_with_entry(0.5, 1e7, 0), HD_OK);
     assert_int_equal(step_with_entry(NAN, 1e7, 0), HD_ILL_CONDITIONED);
     assert_int_equal(step_with_entry(INFINITY, 1e7, 0), HD_ILL_CONDITIONED);
     assert_int_equal(step_with_entry(1e200, 1e7, 0), HD_ILL_CONDITIONED);
     assert_int_equal(step_with_entry(0.5, 1e7, 1), HD_ILL_CONDITIONED); /* lost rank */
     assert_int_equal(step_with_entry(0.5, 1.01, 0), HD_ILL_CONDITIONED);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(agrees_with_householder),
-        cmocka_unit_test(keeps_the_triangle),
-        cmocka_unit_test(the_condition_is_that_of_the_inverse),
-        cmocka_unit_test(the_defect_is_foreseen),
-        cmocka_unit_test(logarithms_telescope),
-        cmocka_unit_test(a_measured_defect_keeps_nan),
-        cmocka_unit_test(what_cannot_be_trusted_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -84,9 +84,8 @@ static void check(shape s, CBLAS_TRANSPOSE op_a, CBLAS_TRANSPOSE op_b, double be
 static const shape SHAPES[] = {{1, 1, 1},    {5, 3, 2},      {17, 400, 160}, {704, 33, 70},
                                {100, 7, 96}, {50, 1700, 60}, {1700, 47, 60}, {801, 1203, 4}};
 
-static void every_shape(void **state)
+TEST(every_shape)
 {
-    (void)state;
     for (int threads = 1; threads <= 6; threads++) {
         hd_blas_use_threads(threads);
         for (size_t k = 0; k < sizeof SHAPES / sizeof *SHAPES; k++)
@@ -106,9 +105,8 @@ static int pieces(shape s)
     return calls;
 }
 
-static void a_piece_is_of_one_thread(void **state)
+TEST(a_piece_is_of_one_thread)
 {
-    (void)state;
     const shape small = {64, 64, 64}, next = {192, 64, 22}, even = {320, 160, 60},
                 large = {704, 1500, 8};
     const bool openmp = strcmp(hd_blas_query().threading, "openmp") == 0;
@@ -120,13 +118,4 @@ static void a_piece_is_of_one_thread(void **state)
         assert_int_equal(pieces(even), cut ? threads : 1);
         assert_int_equal(pieces(large), cut ? 4 * threads : 1);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_shape),
-        cmocka_unit_test(a_piece_is_of_one_thread),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes.h"
 #include "testing.h"
 
 #include "hdlyap/ortho.h"
@@ -21,15 +22,10 @@ typedef struct world {
     double *p;
 } world;
 
-static hd_scene_def scene_of(int disks, double density, hd_boundary x, hd_boundary y)
+static hd_scene_def dense(int disks, double density, hd_boundary x, hd_boundary y)
 {
-    hd_scene_def scene = hd_scene_def_default();
-    scene.disks = disks;
-    scene.density = density;
-    scene.aspect = 1.0;
-    scene.boundary[0] = x;
-    scene.boundary[1] = y;
-    return scene;
+    return scene(.disks = disks, .density = density, .aspect = 1.0, .boundary[0] = x,
+                 .boundary[1] = y);
 }
 
 /** A frame as a run has it after a while, orthonormalised every half mean flight time or so. */
@@ -128,39 +124,35 @@ static void check_against_orthonormalisation(hd_scene_def scene, double collisio
     world_free(&w);
 }
 
-static void the_slowest_vectors_are_found(void **state)
+TEST(the_slowest_vectors_are_found)
 {
-    (void)state;
     for (int b = 0; b < 4; b++) {
         const hd_boundary x = b & 1 ? HD_REFLECTING : HD_PERIODIC;
         const hd_boundary y = b & 2 ? HD_REFLECTING : HD_PERIODIC;
-        check_against_orthonormalisation(scene_of(60, 0.7, x, y), 8.0);
-        check_against_orthonormalisation(scene_of(101, 0.8, x, y), 10.0);
-        check_against_orthonormalisation(scene_of(80, 0.4, x, y), 8.0);
+        check_against_orthonormalisation(dense(60, 0.7, x, y), 8.0);
+        check_against_orthonormalisation(dense(101, 0.8, x, y), 10.0);
+        check_against_orthonormalisation(dense(80, 0.4, x, y), 8.0);
     }
 }
 
 /** Not square, or too small: there an orthonormalisation has to do. */
-static void where_it_does_not_apply_it_is_refused(void **state)
+TEST(where_it_does_not_apply_it_is_refused)
 {
-    (void)state;
     hd_slow_vectors *tail;
-    hd_scene_def scene = scene_of(60, 0.7, HD_PERIODIC, HD_PERIODIC);
-    scene.exponents = 100;
+    hd_scene_def scene = scene_from(dense(60, 0.7, HD_PERIODIC, HD_PERIODIC), .exponents = 100);
     assert_int_equal(hd_slow_vectors_create(&tail, &scene, COUNT), HD_REFUSED);
     scene.exponents = HD_EXPONENTS_ALL;
     assert_int_equal(hd_slow_vectors_create(&tail, &scene, COUNT), HD_REFUSED);
     assert_null(tail);
-    scene = scene_of(30, 0.7, HD_PERIODIC, HD_PERIODIC);
+    scene = dense(30, 0.7, HD_PERIODIC, HD_PERIODIC);
     assert_int_equal(hd_slow_vectors_create(&tail, &scene, COUNT), HD_REFUSED);
-    scene = scene_of(60, 0.7, HD_PERIODIC, HD_PERIODIC);
+    scene = dense(60, 0.7, HD_PERIODIC, HD_PERIODIC);
     assert_int_equal(hd_slow_vectors_create(&tail, &scene, 50), HD_REFUSED);
 }
 
-static void a_broken_frame_is_noticed(void **state)
+TEST(a_broken_frame_is_noticed)
 {
-    (void)state;
-    world w = settled(scene_of(60, 0.7, HD_PERIODIC, HD_PERIODIC));
+    world w = settled(dense(60, 0.7, HD_PERIODIC, HD_PERIODIC));
     const int stride = hd_frame_stride(w.frame);
     carry(&w, 8.0);
     hd_frame_data(w.frame)[6 * stride + 3] = NAN;
@@ -170,14 +162,4 @@ static void a_broken_frame_is_noticed(void **state)
         hd_frame_data(w.frame)[row * stride + 5] = hd_frame_data(w.frame)[row * stride + 7];
     assert_int_equal(hd_slow_vectors_measure(w.tail, w.frame, w.p, COUNT), HD_ILL_CONDITIONED);
     world_free(&w);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_slowest_vectors_are_found),
-        cmocka_unit_test(where_it_does_not_apply_it_is_refused),
-        cmocka_unit_test(a_broken_frame_is_noticed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,41 +15,36 @@ static int chosen(int disks, int vectors, int wanted, int *most)
     return threads;
 }
 
-static void small_frames_have_one_thread(void **state)
+TEST(small_frames_have_one_thread)
 {
-    (void)state;
     int most;
     assert_int_equal(chosen(10, 17, 0, &most), 1);
     assert_int_equal(most, 1);
     assert_int_equal(chosen(64, 125, 0, &most), 1);
 }
 
-static void in_between_it_is_tried(void **state)
+TEST(in_between_it_is_tried)
 {
-    (void)state;
     int most;
     const int cores = hd_blas_query().cores, threads = chosen(160, 317, 0, &most);
     assert_int_equal(most, cores);
     assert_true(threads == 1 || threads == cores);
 }
 
-static void large_frames_have_all_threads(void **state)
+TEST(large_frames_have_all_threads)
 {
-    (void)state;
     assert_int_equal(hd_threads_most(0, 3120, 1557), hd_blas_query().cores);
 }
 
-static void what_is_asked_for_is_not_doubted(void **state)
+TEST(what_is_asked_for_is_not_doubted)
 {
-    (void)state;
     assert_int_equal(hd_threads_most(2, 40, 17), 2);
     assert_int_equal(hd_threads_most(1, 640, 317), 1);
 }
 
 /** Also after a product, before which OpenBLAS 0.3.29 thinks again. */
-static void as_many_compute_as_were_asked_for(void **state)
+TEST(as_many_compute_as_were_asked_for)
 {
-    (void)state;
     hd_frame *frame;
     hd_ortho *ortho;
     CHECK_OK(hd_frame_create(&frame, 160, 317, 1, 2));
@@ -61,16 +56,4 @@ static void as_many_compute_as_were_asked_for(void **state)
     }
     hd_ortho_free(ortho);
     hd_frame_free(frame);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(small_frames_have_one_thread),
-        cmocka_unit_test(in_between_it_is_tried),
-        cmocka_unit_test(large_frames_have_all_threads),
-        cmocka_unit_test(what_is_asked_for_is_not_doubted),
-        cmocka_unit_test(as_many_compute_as_were_asked_for),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,7 +9,7 @@
 #include "hdlyap/run.h"
 #include "run/run_state.h"
 #include "events/trajectory_state.h"
-#include "scenes.h"
+#include "runs.h"
 #include "tangent/verify.h"
 
 #ifdef HD_VERIFY_BUILD
@@ -43,20 +43,16 @@ static volatile bool broken;
 
 static hd_run *run_of(int exponents)
 {
-    hd_scene_def def = scene_of(16, 0.7, 1.0, HD_PERIODIC, HD_PERIODIC, 3);
-    def.exponents = exponents;
-    def.equilibration = 2.0;
-    def.warmup = 10.0;
-    def.duration = 10.0;
-    hd_run *run;
-    CHECK_OK(hd_run_create(&run, &def, NULL, 0));
+    hd_scene_def def = scene(.disks = 16, .density = 0.7, .aspect = 1.0, .seed = 3,
+                             .exponents = exponents, .equilibration = 2.0, .warmup = 10.0,
+                             .duration = 10.0);
+    hd_run *run = created(&def);
     for (int k = 0; k < 20; k++) CHECK_OK(hd_run_advance(run));
     return run;
 }
 
-static void disks_are_checked(void **state)
+TEST(disks_are_checked)
 {
-    (void)state;
     hd_run *run = run_of(HD_EXPONENTS_POSITIVE);
     const hd_trajectory *tr = run->advance.trajectory;
     hd_disk *disk = run->advance.trajectory->motion.disk;
@@ -81,9 +77,8 @@ static void disks_are_checked(void **state)
     hd_run_free(run);
 }
 
-static void the_log_is_checked(void **state)
+TEST(the_log_is_checked)
 {
-    (void)state;
     const hd_event right[2] = {{0.5, 0, 1, {1, 0}, {-1, 0}}, {0.7, 2, HD_WALL_Y, {0, 1}, {1, 2}}};
     const struct {
         int event;
@@ -110,9 +105,8 @@ static void the_log_is_checked(void **state)
     }
 }
 
-static void the_frame_is_checked(void **state)
+TEST(the_frame_is_checked)
 {
-    (void)state;
     hd_run *run = run_of(HD_EXPONENTS_ALL_INDEPENDENT);
     const hd_symplectic before = hd_verify_sample(run->frame);
     double *entry = hd_frame_data(run->frame);
@@ -133,9 +127,8 @@ static void the_frame_is_checked(void **state)
 }
 
 /** After a step in the norm of dq the dp halves may be anything. */
-static void the_frame_is_checked_in_the_norm_of_its_step(void **state)
+TEST(the_frame_is_checked_in_the_norm_of_its_step)
 {
-    (void)state;
     hd_run *run = run_of(HD_EXPONENTS_POSITIVE);
     const hd_ortho_limits limits = {1e7, 1e-6, HD_NORM_DQ};
     CHECK_OK(hd_ortho_step(run->ortho, run->frame, limits));
@@ -148,24 +141,11 @@ static void the_frame_is_checked_in_the_norm_of_its_step(void **state)
 }
 
 /** The step of a run asks, where the build verifies, and only there. */
-static void a_step_asks_where_the_build_verifies(void **state)
+TEST(a_step_asks_where_the_build_verifies)
 {
-    (void)state;
     hd_run *run = run_of(HD_EXPONENTS_POSITIVE);
     hd_disk *disk = run->advance.trajectory->motion.disk;
     for (int i = 0; i < 16; i++) disk[i].p[0] *= 1.0 + 1e-9;
     EXPECT_BROKEN(VERIFIES, (void)!hd_run_advance(run));
     hd_run_free(run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(disks_are_checked),
-        cmocka_unit_test(the_log_is_checked),
-        cmocka_unit_test(the_frame_is_checked),
-        cmocka_unit_test(the_frame_is_checked_in_the_norm_of_its_step),
-        cmocka_unit_test(a_step_asks_where_the_build_verifies),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -184,9 +184,8 @@ static void check_means(const hd_covariant *c, const twin *t)
         }
 }
 
-static void a_window_is_what_is_computed_by_hand(void **state)
+TEST(a_window_is_what_is_computed_by_hand)
 {
-    (void)state;
     const hd_scene_def scene = windows_scene(DISKS, HD_PERIODIC, HD_PERIODIC);
     windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
     passage x = passage_of(&scene, 1, WARMUP, END, WINDOWS_INTERVAL);
@@ -209,12 +208,4 @@ static void a_window_is_what_is_computed_by_hand(void **state)
     assert_true(halves > 0.01 && kinds > 0.01);
     passage_free(&x);
     windows_free(&w);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_window_is_what_is_computed_by_hand),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

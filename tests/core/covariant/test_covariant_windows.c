@@ -7,9 +7,8 @@
 enum { WARMUP = 400, LOOKS = 5, PER_LOOK = 8 };
 
 /** Without gaps; each look is one of exactly one window. */
-static void windows_follow_each_other(void **state)
+TEST(windows_follow_each_other)
 {
-    (void)state;
     const hd_scene_def scene = windows_scene(4, HD_PERIODIC, HD_PERIODIC);
     windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
     const double begin = hd_trajectory_time(w.f.trajectory);
@@ -25,15 +24,13 @@ static void windows_follow_each_other(void **state)
 }
 
 /** A window goes on to a look, its transient from there to another one. */
-static void looks_that_fall_elsewhere_shorten_nothing(void **state)
+TEST(looks_that_fall_elsewhere_shorten_nothing)
 {
-    (void)state;
     const double transient[] = {3.0, 3e-6}; /* however much shorter than from look to look */
     for (int k = 0; k < 2; k++) {
-        hd_scene_def scene = windows_scene(4, HD_PERIODIC, HD_PERIODIC);
-        scene.covariant_window = 5.0;
-        scene.covariant_transient = transient[k];
-        scene.covariant_sampling = 4.0;
+        hd_scene_def scene = scene_from(
+            windows_scene(4, HD_PERIODIC, HD_PERIODIC), .covariant_window = 5.0,
+            .covariant_transient = transient[k], .covariant_sampling = 4.0);
         windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
         const double begin = hd_trajectory_time(w.f.trajectory);
         for (int count = 1; count <= 4; count++) {
@@ -65,9 +62,8 @@ static void check_exponent(const hd_spectrum *back, const hd_spectrum *forward, 
                     central ? 1e-3 : 4.0 * hypot(one, other));
 }
 
-static void exponents_are_those_of_the_frame(void **state)
+TEST(exponents_are_those_of_the_frame)
 {
-    (void)state;
     const hd_scene_def scene = windows_scene(4, HD_PERIODIC, HD_PERIODIC);
     windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
     hd_spectrum *forward;
@@ -102,9 +98,8 @@ static void check_same(const hd_covariant *c, const hd_covariant *want, double t
 
 /** Triangles that are computed again are the same to rounding of Q,
  * eps condition, which a vector that leans little out of those before it feels the more. */
-static void both_storages_give_the_same(void **state)
+TEST(both_storages_give_the_same)
 {
-    (void)state;
     hd_scene_def scene = windows_scene(6, HD_PERIODIC, HD_PERIODIC);
     windows w[2];
     for (int storage = 0; storage < 2; storage++) {
@@ -118,9 +113,8 @@ static void both_storages_give_the_same(void **state)
 }
 
 /** In memory a ring grows as it is needed, once. */
-static void later_windows_take_no_memory(void **state)
+TEST(later_windows_take_no_memory)
 {
-    (void)state;
     const hd_scene_def scene = windows_scene(4, HD_PERIODIC, HD_PERIODIC);
     windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
     windows_finish(&w, 8); /* 80 + 20 time units: the ring has gone round */
@@ -131,9 +125,8 @@ static void later_windows_take_no_memory(void **state)
 }
 
 /** Intervals a quarter as long as expected: the first window finds no room, the next ones do. */
-static void a_window_without_room_is_lost_and_the_next_is_not(void **state)
+TEST(a_window_without_room_is_lost_and_the_next_is_not)
 {
-    (void)state;
     hd_scene_def scene = windows_scene(4, HD_PERIODIC, HD_PERIODIC);
     const size_t triangles = 8 * 16 * 17 / 2; /* bytes of one */
     windows w = windows_begun(&scene, WARMUP, 4.0 * WINDOWS_INTERVAL);
@@ -150,9 +143,8 @@ static void a_window_without_room_is_lost_and_the_next_is_not(void **state)
     windows_free(&w);
 }
 
-static void too_little_room_is_refused_with_the_numbers(void **state)
+TEST(too_little_room_is_refused_with_the_numbers)
 {
-    (void)state;
     char message[400] = "";
     hd_scene_def scene = windows_scene(4, HD_PERIODIC, HD_PERIODIC);
     CHECK_OK(hd_covariant_check_room(&scene, 0.25, message, sizeof message));
@@ -172,16 +164,15 @@ static void too_little_room_is_refused_with_the_numbers(void **state)
 /* ---- the centre, transients, parts of the spectrum ----------------------------------------- */
 
 /** Rounding turns a vector by eps condition. */
-static void the_centre_is_the_null_space(void **state)
+TEST(the_centre_is_the_null_space)
 {
-    (void)state;
     const hd_boundary boundary[][2] = {{HD_PERIODIC, HD_PERIODIC},
                                        {HD_PERIODIC, HD_REFLECTING},
                                        {HD_REFLECTING, HD_PERIODIC},
                                        {HD_REFLECTING, HD_REFLECTING}};
     for (int k = 0; k < 4; k++) {
-        hd_scene_def scene = windows_scene(6, boundary[k][0], boundary[k][1]);
-        scene.covariant_transient = 60.0;
+        hd_scene_def scene = scene_from(windows_scene(6, boundary[k][0], boundary[k][1]),
+                                        .covariant_transient = 60.0);
         windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
         windows_finish(&w, 10);
         const double rounding = 16.0 * DBL_EPSILON * w.f.worst;
@@ -196,18 +187,16 @@ static void the_centre_is_the_null_space(void **state)
 
 static windows after_transient(double transient)
 {
-    hd_scene_def scene = windows_scene(4, HD_PERIODIC, HD_PERIODIC);
-    scene.covariant_sampling = 0.5;
-    scene.covariant_transient = transient;
+    hd_scene_def scene = scene_from(windows_scene(4, HD_PERIODIC, HD_PERIODIC),
+                                    .covariant_sampling = 0.5, .covariant_transient = transient);
     windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
     windows_finish(&w, 3);
     return w;
 }
 
 /** exp(-gap t): the gap is 1.6 around the centre, and 0.3 to 0.6 between the unstable ones. */
-static void too_short_a_transient_is_seen(void **state)
+TEST(too_short_a_transient_is_seen)
 {
-    (void)state;
     const double transient[] = {0.5, 4.0, 16.0, 100.0};
     windows w[4];
     for (int k = 0; k < 4; k++) w[k] = after_transient(transient[k]);
@@ -237,9 +226,8 @@ static void too_short_a_transient_is_seen(void **state)
 }
 
 /** The first vector alone; the positive half; into the centre; through it; all. */
-static void any_number_of_vectors_will_do(void **state)
+TEST(any_number_of_vectors_will_do)
 {
-    (void)state;
     for (int disks = 2; disks <= 5; disks++) {
         hd_scene_def scene = windows_scene(disks, HD_PERIODIC, HD_PERIODIC);
         const int positive = 2 * disks - 3;
@@ -263,12 +251,10 @@ static void any_number_of_vectors_will_do(void **state)
 
 /** A way back that was given up in the middle of its window leaves nothing: what follows is what a
  * new one finds. */
-static void a_window_given_up_leaves_nothing(void **state)
+TEST(a_window_given_up_leaves_nothing)
 {
-    (void)state;
-    hd_scene_def scene = windows_scene(4, HD_PERIODIC, HD_PERIODIC);
-    scene.covariant_transient = 120.0;
-    scene.covariant_sampling = 0.5;
+    hd_scene_def scene = scene_from(windows_scene(4, HD_PERIODIC, HD_PERIODIC),
+                                    .covariant_transient = 120.0, .covariant_sampling = 0.5);
     windows w = windows_begun(&scene, WARMUP, WINDOWS_INTERVAL);
     while (!windows_forward(&w)) {
     }
@@ -292,22 +278,4 @@ static void a_window_given_up_leaves_nothing(void **state)
     }
     windows_free(&w);
     windows_free(&fresh);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(windows_follow_each_other),
-        cmocka_unit_test(looks_that_fall_elsewhere_shorten_nothing),
-        cmocka_unit_test(exponents_are_those_of_the_frame),
-        cmocka_unit_test(both_storages_give_the_same),
-        cmocka_unit_test(later_windows_take_no_memory),
-        cmocka_unit_test(a_window_without_room_is_lost_and_the_next_is_not),
-        cmocka_unit_test(too_little_room_is_refused_with_the_numbers),
-        cmocka_unit_test(the_centre_is_the_null_space),
-        cmocka_unit_test(too_short_a_transient_is_seen),
-        cmocka_unit_test(any_number_of_vectors_will_do),
-        cmocka_unit_test(a_window_given_up_leaves_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }
