@@ -13,14 +13,12 @@ from diagnostic_msgs.msg import DiagnosticArray
 import rosgraph
 from rosgraph_msgs.msg import Clock
 import roslib.packages
-import rospkg
 import rospy
 import rostest
 from std_srvs.srv import SetBool, Trigger
-import yaml
 
 import harness
-from harness import SHORT, TYPES, Process, RunInfo
+from harness import SHORT, TYPES, Process
 
 TOPICS = ['spectrum', 'state', 'status', 'cost']
 RUN = dict(
@@ -222,43 +220,6 @@ class Nodes(unittest.TestCase):
         )
         self.assertLess(last.wall_seconds, time.monotonic() - begin)
         self.assertLess(simulated, PACE * (wall + 1))  # a second of delay may be made up
-
-    def test_parameters_are_echoed(self):
-        """And what is below the node's name on the parameter server stays what was set there."""
-        params = dict(
-            scene='mine',
-            disks=30,
-            density=0.6,
-            aspect=0.5,
-            boundary_x='reflecting',
-            boundary_y='periodic',
-            seed='12345678901234',
-            exponents='7',
-            equilibration=0.5,
-            warmup=0.75,
-            duration=2.0,
-            target_std_error=1.0e-6,
-            interval=0.5,
-            accuracy=1.0e-7,
-            report_interval=0.25,
-            max_mode_number=1,
-            observables=['spectrum', 'modes', 'state'],
-            threads=1,
-            pace=1.0e3,
-            checkpoint_interval=5.0,
-            wait_for_subscribers=['state'],
-        )
-        run = Run(self, params)
-        self.assertEqual(run.node.wait(), 0, run.node.text())
-        self.assertEqual(rospy.get_param('/hdlyap'), params)
-        info = run.messages['run_info'][0]
-        for name, value in params.items():
-            self.assertEqual(getattr(info, name), value, name)
-        path = os.path.join(
-            rospkg.RosPack().get_path('hdlyap'), 'launch/scenes/paper_periodic.yaml'
-        )
-        with open(path) as file:
-            self.assertEqual(set(yaml.safe_load(file)) - set(RunInfo.__slots__), set())
 
 
 if __name__ == '__main__':
