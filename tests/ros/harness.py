@@ -20,6 +20,7 @@ import weakref
 import roslib.packages
 import rosgraph
 import rospy
+import rostest
 import yaml
 
 from hdlyap.msg import (
@@ -122,6 +123,25 @@ def wait_until(condition, seconds=PATIENCE, every=0.01):
         if value or time.monotonic() >= end:
             return value
         time.sleep(every)
+
+
+def slowness():
+    """How many times as long as its own processor time a moment of work takes: 1 if nobody else
+    computes."""
+    begin, spent = time.monotonic(), time.thread_time()
+    while time.thread_time() - spent < 0.05:
+        pass
+    return max(1.0, (time.monotonic() - begin) / 0.05)
+
+
+@contextlib.contextmanager
+def within(test, seconds):
+    """What is promised in so many seconds, on a machine that does nothing else: in as many more as
+    it is slower by."""
+    slow, begin = slowness(), time.monotonic()
+    yield
+    taken = time.monotonic() - begin
+    test.assertLess(taken, seconds * max(slow, slowness()))
 
 
 class Process:
@@ -286,8 +306,8 @@ class Case(unittest.TestCase):
         self.addCleanup(node.stop)
         return node
 
-    def listen(self, topic):
-        listener = Listener(topic)
+    def listen(self, topic, **how):
+        listener = Listener(topic, **how)
         self.addCleanup(listener.close)
         return listener
 
@@ -321,3 +341,30 @@ class Traced(unittest.TestCase):
 
     def assert_none_left(self):
         self.assertTrue(wait_until(lambda: not self.ours(), SOON, LOOK), self.ours())
+
+
+def tests(is_wanted):
+    """Those of the program that runs, of the classes whose names are wanted."""
+    classes = [
+        value
+        for name, value in vars(sys.modules['__main__']).items()
+        if isinstance(value, type) and value.__module__ == '__main__' and is_wanted(name)
+    ]
+    load = unittest.defaultTestLoader.loadTestsFromTestCase
+    return unittest.TestSuite(load(case) for case in classes if issubclass(case, unittest.TestCase))
+
+
+def first_tier():
+    return tests(lambda name: name != 'More')
+
+
+def second_tier():
+    return tests(lambda name: name == 'More')
+
+
+def main(name):
+    """All tests of the program but those of its class More; or these, where its .test file has
+    args="More"."""
+    rospy.init_node('test_' + name)
+    tier = 'second_tier' if 'More' in sys.argv else 'first_tier'
+    rostest.rosrun('hdlyap', name, 'harness.' + tier)

@@ -8,14 +8,12 @@ import os
 import re
 import signal
 import tempfile
-import unittest
 import xmlrpc.client
 
 import rosbag
 import rosgraph
 import roslib.packages
 import rospy
-import rostest
 from std_srvs.srv import SetBool
 
 import harness
@@ -111,7 +109,7 @@ def unpacked(packed):
     return [cls().deserialize(data) for _, data, _, cls in packed]
 
 
-class Recorded(unittest.TestCase):
+class Recorded(harness.Case):
     """Two runs of one node in one bag."""
 
     @classmethod
@@ -329,7 +327,7 @@ def expected_sizes(disks, vectors, steps, phases, t_phases, waves):
     )
 
 
-class Stopped(unittest.TestCase):
+class Stopped(harness.Case):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -399,5 +397,4 @@ class Stopped(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_bags')
-    rostest.rosrun('hdlyap', 'bags', 'test_bags')
+    harness.main('bags')

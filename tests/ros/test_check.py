@@ -8,8 +8,6 @@ import re
 import subprocess
 import tempfile
 
-import rospy
-import rostest
 import yaml
 
 import harness
@@ -145,5 +143,4 @@ class Check(harness.Case):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_check')
-    rostest.rosrun('hdlyap', 'check', Check)
+    harness.main('check')

@@ -6,7 +6,6 @@ import signal
 import tempfile
 
 import rospy
-import rostest
 from std_srvs.srv import SetBool, Trigger
 
 import harness
@@ -209,5 +208,4 @@ class Checkpoint(harness.Case):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_checkpoint')
-    rostest.rosrun('hdlyap', 'checkpoint', Checkpoint)
+    harness.main('checkpoint')

@@ -5,10 +5,8 @@ listen."""
 import math
 import os
 import tempfile
-import unittest
 
 import rospy
-import rostest
 from std_srvs.srv import Trigger
 
 import harness
@@ -75,7 +73,7 @@ class Case(harness.Case):
             self.assertIn(word, node.lines('FATAL')[0])
 
 
-class Windows(unittest.TestCase):
+class Windows(harness.Case):
     """Of one run with all 4N vectors."""
 
     @classmethod
@@ -409,5 +407,4 @@ class Faults(Case):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_covariant')
-    rostest.rosrun('hdlyap', 'covariant', 'test_covariant')
+    harness.main('covariant')

@@ -6,12 +6,10 @@ import re
 import signal
 import tempfile
 import time
-import unittest
 
 import rosbag
 import rosgraph
 import rospy
-import rostest
 
 import harness
 import links
@@ -48,7 +46,7 @@ FLOOD = dict(
 FLOOD_REPORTS, FLOOD_AVERAGED = 1400, 1200
 
 
-class Delivery(unittest.TestCase):
+class Delivery(harness.Case):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -58,16 +56,6 @@ class Delivery(unittest.TestCase):
         process = Process(command, **env)
         self.addCleanup(process.stop)
         return process
-
-    def start(self, params, **kw):
-        node = harness.start(params, **kw)
-        self.addCleanup(node.stop)
-        return node
-
-    def listen(self, topic, **kw):
-        listener = harness.Listener(topic, **kw)
-        self.addCleanup(listener.close)
-        return listener
 
     def record(self, bag=None, name='record', **env):
         topics = ['/hdlyap/' + topic for topic in TYPES]
@@ -335,5 +323,4 @@ class Delivery(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_delivery')
-    rostest.rosrun('hdlyap', 'delivery', Delivery)
+    harness.main('delivery')

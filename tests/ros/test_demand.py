@@ -1,11 +1,9 @@
 #!/usr/bin/env python3
 """What of the modes is computed, by who listens; and fields of single vectors."""
 
-import unittest
 
 from diagnostic_msgs.msg import DiagnosticArray
 import rospy
-import rostest
 
 import harness
 from harness import MODES, OBSERVABLES, is_last
@@ -15,7 +13,7 @@ REPORTS = 20  # of MODES, while averaging
 MESSAGE = {'fields': 'mode_field'}  # of topics that are named otherwise
 
 
-class Demand(unittest.TestCase):
+class Demand(harness.Case):
     """Calls of the core by the end of a run, and messages made, by who listens."""
 
     def calls(self, topics=(), **params):
@@ -104,7 +102,7 @@ class Demand(unittest.TestCase):
         self.assertIn('resolved steps', keys)
 
 
-class Fields(unittest.TestCase):
+class Fields(harness.Case):
     def fields(self, **params):
         listeners = {
             topic: harness.Listener(topic) for topic in ('fields', 'modes', 'status', 'run_info')
@@ -171,5 +169,4 @@ class Fields(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_demand')
-    rostest.rosrun('hdlyap', 'demand', 'test_demand')
+    harness.main('demand')

@@ -5,12 +5,10 @@ hears."""
 import math
 import re
 import signal
-import unittest
 import xmlrpc.client
 
 import numpy as np
 import rospy
-import rostest
 from std_msgs.msg import Float64, String
 
 import harness
@@ -55,12 +53,7 @@ def expected_deviations(messages, ours):
     return expected
 
 
-class Examples(unittest.TestCase):
-    def start(self, params, **kw):
-        process = harness.start(params, **kw)
-        self.addCleanup(process.stop)
-        return process
-
+class Examples(harness.Case):
     def watch(self, name='watch_phase', **params):
         return self.start(params, name=name, command=[example('watch_phase')])
 
@@ -78,7 +71,7 @@ class Examples(unittest.TestCase):
         self.assertEqual(process.wait(), 0, process.text())
 
 
-class Help(unittest.TestCase):
+class Help(harness.Case):
     def test_python_example_explains_itself_without_a_master(self):
         fit = Process([example('fit_dispersion'), '--help'], ROS_MASTER_URI='http://localhost:1')
         self.addCleanup(fit.stop)
@@ -331,5 +324,4 @@ class Alone(Examples):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_examples')
-    rostest.rosrun('hdlyap', 'examples', 'test_examples')
+    harness.main('examples')

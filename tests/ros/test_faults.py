@@ -9,10 +9,8 @@ import resource
 import signal
 import subprocess
 import time
-import unittest
 
 import rospy
-import rostest
 from std_srvs.srv import SetBool
 
 import harness
@@ -36,15 +34,10 @@ def limited(limit):
     return ['prlimit', '--as=%d' % limit, 'env', 'OMP_NUM_THREADS=2']
 
 
-class Faults(unittest.TestCase):
+class Faults(harness.Case):
     @classmethod
     def setUpClass(cls):
         signal.signal(signal.SIGHUP, signal.SIG_DFL)  # nohup's would be handed on
-
-    def start(self, params, **kw):
-        node = harness.start(params, **kw)
-        self.addCleanup(node.stop)
-        return node
 
     def running(self, params, **kw):
         """A node whose topics are there, and its messages of cost, which it has waited for."""
@@ -281,5 +274,4 @@ class Faults(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_faults')
-    rostest.rosrun('hdlyap', 'faults', Faults)
+    harness.main('faults')

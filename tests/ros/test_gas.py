@@ -3,10 +3,7 @@
 """
 
 import math
-import unittest
 
-import rospy
-import rostest
 
 import harness
 from hdlyap.plots import equation
@@ -99,12 +96,11 @@ class Gas(harness.Case):
         )
 
 
-class Demand(unittest.TestCase):
+class Demand(harness.Case):
     def test_nobody(self):
         calls = harness.calls(self, dict(GAS, duration=100.0, wait_for_subscribers=[]))
         self.assertEqual(calls['gas_publish'], 0)
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_gas')
-    rostest.rosrun('hdlyap', 'gas', 'test_gas')
+    harness.main('gas')

@@ -5,13 +5,10 @@ import os
 import re
 import signal
 import tempfile
-import unittest
 
 import rosbag
 import roslaunch.config
 import rospkg
-import rospy
-import rostest
 
 import harness
 from harness import Process
@@ -19,7 +16,7 @@ from harness import Process
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
 
 
-class Launch(unittest.TestCase):
+class Launch(harness.Case):
     def roslaunch(self, folder, *args):
         process = Process(['roslaunch', 'hdlyap', *args], PWD=folder)
         self.addCleanup(process.stop)
@@ -218,5 +215,4 @@ class Launch(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_launch')
-    rostest.rosrun('hdlyap', 'launch', Launch)
+    harness.main('launch')

@@ -11,7 +11,6 @@ import tempfile
 
 import rosbag
 import rospy
-import rostest
 from std_srvs.srv import SetBool
 import yaml
 
@@ -311,5 +310,4 @@ class Live(harness.Case):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_live')
-    rostest.rosrun('hdlyap', 'live', Live)
+    harness.main('live')

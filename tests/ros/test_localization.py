@@ -2,11 +2,8 @@
 """~localization: widths against the published vectors themselves; only while somebody listens.
 """
 
-import unittest
 
 import numpy as np
-import rospy
-import rostest
 
 import harness
 
@@ -53,7 +50,7 @@ class Widths(harness.Case):
         self.assertEqual(samples, sorted(samples))
 
 
-class Demand(unittest.TestCase):
+class Demand(harness.Case):
     def calls(self, topics):
         listeners = [harness.Listener(topic) for topic in topics]
         for listener in listeners:
@@ -76,5 +73,4 @@ class Demand(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_localization')
-    rostest.rosrun('hdlyap', 'localization', 'test_localization')
+    harness.main('localization')

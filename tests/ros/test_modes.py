@@ -2,11 +2,8 @@
 """What a run says of its modes: the topics agree with each other."""
 
 import math
-import unittest
 
 import numpy as np
-import rospy
-import rostest
 
 import harness
 import measured
@@ -18,7 +15,7 @@ REPORTS = 20  # of MODES, while averaging
 ROUNDING = 1e-9
 
 
-class Errors(unittest.TestCase):
+class Errors(harness.Case):
     """Fits and errors, of a run that is long enough for them: made again from the steps."""
 
     @classmethod
@@ -74,7 +71,7 @@ class Errors(unittest.TestCase):
         self.assertGreater(self.spectrum.ks_entropy_error, errors.max())
 
 
-class Agreement(unittest.TestCase):
+class Agreement(harness.Case):
     """Of all topics of one run, with all 4N vectors."""
 
     @classmethod
@@ -447,5 +444,4 @@ def responses_of(field, modulation):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_modes')
-    rostest.rosrun('hdlyap', 'modes', 'test_modes')
+    harness.main('modes')

@@ -7,14 +7,12 @@ import signal
 import statistics
 import tempfile
 import time
-import unittest
 
 from diagnostic_msgs.msg import DiagnosticArray
 import rosgraph
 from rosgraph_msgs.msg import Clock
 import roslib.packages
 import rospy
-import rostest
 from std_srvs.srv import SetBool, Trigger
 
 import harness
@@ -75,7 +73,7 @@ class Run:
         return [message.header.stamp.to_sec() for message in self.messages['state']]
 
 
-class Nodes(unittest.TestCase):
+class Nodes(harness.Case):
     def run_to_end(self, *args, **kw):
         run = Run(self, *args, **kw)
         self.ended(run)
@@ -223,5 +221,4 @@ class Nodes(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_nodes')
-    rostest.rosrun('hdlyap', 'nodes', Nodes)
+    harness.main('nodes')

@@ -9,7 +9,6 @@ import subprocess
 
 import rosgraph
 import rospy
-import rostest
 import yaml
 
 import harness
@@ -145,5 +144,4 @@ class Parameters(harness.Case):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_parameters')
-    rostest.rosrun('hdlyap', 'parameters', Parameters)
+    harness.main('parameters')

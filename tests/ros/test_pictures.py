@@ -6,12 +6,10 @@ import glob
 import re
 import signal
 import time
-import unittest
 
 import numpy as np
 import rosgraph
 import rospy
-import rostest
 from std_srvs.srv import SetBool
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker
@@ -50,17 +48,7 @@ def drawn_as_reported(pictures, listeners):
     ]
 
 
-class Markers(unittest.TestCase):
-    def start(self, params, **kw):
-        node = harness.start(params, **kw)
-        self.addCleanup(node.stop)
-        return node
-
-    def listen(self, topic):
-        listener = Listener(topic)
-        self.addCleanup(listener.close)
-        return listener
-
+class Markers(harness.Case):
     def look(self, modes='lowest', node='/hdlyap', **how):
         """Pictures of a viewer that has just been started."""
         pictures = Pictures(node)
@@ -462,5 +450,4 @@ class Markers(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_pictures')
-    rostest.rosrun('hdlyap', 'pictures', Markers)
+    harness.main('pictures')

@@ -9,8 +9,6 @@ import subprocess
 import tempfile
 import time
 
-import rospy
-import rostest
 
 import harness
 from harness import MODES, REPEATABLE, SHORT
@@ -234,5 +232,4 @@ class Ranks(harness.Case):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_ranks')
-    rostest.rosrun('hdlyap', 'ranks', Ranks)
+    harness.main('ranks')

@@ -2,11 +2,9 @@
 """A run seen from outside: topics, services, diagnostics, faults, and what is not computed."""
 
 import re
-import unittest
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 import rospy
-import rostest
 from std_srvs.srv import SetBool, Trigger
 
 import harness
@@ -21,17 +19,7 @@ def averaged(message):
     return getattr(message, 'averaged_time', None) or getattr(message, 'samples', 0)
 
 
-class Run(unittest.TestCase):
-    def listen(self, topic):
-        listener = harness.Listener(topic)
-        self.addCleanup(listener.close)
-        return listener
-
-    def start(self, params, **kw):
-        node = harness.start(params, **kw)
-        self.addCleanup(node.stop)
-        return node
-
+class Run(harness.Case):
     def service(self, name, kind):
         full = '/%s/%s' % (harness.NODE, name)
         rospy.wait_for_service(full, harness.PATIENCE)
@@ -251,5 +239,4 @@ class Run(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_run')
-    rostest.rosrun('hdlyap', 'run', Run)
+    harness.main('run')

@@ -7,11 +7,9 @@ import os
 import re
 import socket
 import tempfile
-import unittest
 
 import rosgraph
 import rospy
-import rostest
 from roscpp.srv import SetLoggerLevel
 from std_srvs.srv import SetBool, Trigger
 
@@ -99,12 +97,7 @@ AT_ONCE = 4  # nodes that run at the same time
 WATCHED = ['seed', 'observables']
 
 
-class Security(unittest.TestCase):
-    def start(self, params, **how):
-        node = harness.start(params, **how)
-        self.addCleanup(node.stop)
-        return node
-
+class Security(harness.Case):
     def watch(self, params, **how):
         """A node, and the file with its calls of the system."""
         folder = tempfile.TemporaryDirectory()
@@ -291,5 +284,4 @@ def node_pid(node):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_security')
-    rostest.rosrun('hdlyap', 'security', Security)
+    harness.main('security')

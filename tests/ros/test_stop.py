@@ -3,12 +3,9 @@
 
 import signal
 import time
-import unittest
 import xmlrpc.client
 
 import rosgraph
-import rospy
-import rostest
 
 import harness
 import links
@@ -18,17 +15,7 @@ BOUND = 1.0  # seconds, the contract
 ENDLESS = dict(SHORT, disks=100, duration=0.0)
 
 
-class Stop(unittest.TestCase):
-    def listen(self, topic):
-        listener = harness.Listener(topic)
-        self.addCleanup(listener.close)
-        return listener
-
-    def start(self, params, **kw):
-        node = harness.start(params, **kw)
-        self.addCleanup(node.stop)
-        return node
-
+class Stop(harness.Case):
     def stop(self, node, ask=None):
         begin = time.monotonic()
         (ask or (lambda: node.send(signal.SIGINT)))()
@@ -187,5 +174,4 @@ class Stop(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_stop')
-    rostest.rosrun('hdlyap', 'stop', Stop)
+    harness.main('stop')

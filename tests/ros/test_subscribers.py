@@ -7,10 +7,7 @@ import random
 import signal
 import socket
 import time
-import unittest
 
-import rospy
-import rostest
 
 import harness
 import links
@@ -46,12 +43,7 @@ def open_files(node):
     return len(os.listdir('/proc/%d/fd' % node.process.pid))
 
 
-class Subscribers(unittest.TestCase):
-    def start(self, params, **kw):
-        node = harness.start(params, **kw)
-        self.addCleanup(node.stop)
-        return node
-
+class Subscribers(harness.Case):
     def link(self, port, topic, name='/links'):
         link = links.Link(port, topic, name)
         self.addCleanup(link.close)
@@ -226,5 +218,4 @@ class Subscribers(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_subscribers')
-    rostest.rosrun('hdlyap', 'subscribers', Subscribers)
+    harness.main('subscribers')

@@ -14,8 +14,6 @@ from xml.etree import ElementTree
 import rosbag
 from roslaunch import arg_dump
 import rospkg
-import rospy
-import rostest
 import yaml
 
 import hdlyap
@@ -336,5 +334,4 @@ class Files(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_sweep')
-    rostest.rosrun('hdlyap', 'sweep', 'test_sweep')
+    harness.main('sweep')
