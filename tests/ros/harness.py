@@ -343,28 +343,36 @@ class Traced(unittest.TestCase):
         self.assertTrue(wait_until(lambda: not self.ours(), SOON, LOOK), self.ours())
 
 
-def tests(is_wanted):
-    """Those of the program that runs, of the classes whose names are wanted."""
-    classes = [
-        value
-        for name, value in vars(sys.modules['__main__']).items()
-        if isinstance(value, type) and value.__module__ == '__main__' and is_wanted(name)
-    ]
-    load = unittest.defaultTestLoader.loadTestsFromTestCase
-    return unittest.TestSuite(load(case) for case in classes if issubclass(case, unittest.TestCase))
+def more(test):
+    """Marks a test, or all of a class, as one of the second tier."""
+    test.is_more = True
+    return test
+
+
+def tests(of_second_tier):
+    """Those of the program that runs."""
+    load, suite = unittest.defaultTestLoader, unittest.TestSuite()
+    for case in vars(sys.modules['__main__']).values():
+        if not (isinstance(case, type) and issubclass(case, unittest.TestCase)):
+            continue
+        for name in load.getTestCaseNames(case):
+            marks = (getattr(of, 'is_more', False) for of in (case, getattr(case, name)))
+            if any(marks) == of_second_tier:
+                suite.addTest(case(name))
+    return suite
 
 
 def first_tier():
-    return tests(lambda name: name != 'More')
+    return tests(False)
 
 
 def second_tier():
-    return tests(lambda name: name == 'More')
+    return tests(True)
 
 
 def main(name):
-    """All tests of the program but those of its class More; or these, where its .test file has
-    args="More"."""
+    """All tests of the program but those that are marked; or these, where its .test file has
+    args="more"."""
     rospy.init_node('test_' + name)
-    tier = 'second_tier' if 'More' in sys.argv else 'first_tier'
+    tier = 'second_tier' if 'more' in sys.argv else 'first_tier'
     rostest.rosrun('hdlyap', name, 'harness.' + tier)

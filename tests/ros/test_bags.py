@@ -253,6 +253,7 @@ class Recorded(harness.Case):
         ).groups()
         self.assertLess(report * 3600 / float(seconds), 1e9 * float(most))
 
+    @harness.more
     def test_replay(self):
         """Waits for those who listen, then tells them what the bag holds, byte for byte; and
         run_info to who comes late."""
@@ -286,6 +287,7 @@ class Recorded(harness.Case):
         self.assertEqual(late.messages['/hdlyap/run_info'], want['/hdlyap/run_info'][-1:])
         end(replay)
 
+    @harness.more
     def test_repeat(self):
         """From the bag alone: every number of every topic, bit for bit."""
         repeat = Process([program('repeat'), self.bag, '--run', '2'])
@@ -327,6 +329,7 @@ def expected_sizes(disks, vectors, steps, phases, t_phases, waves):
     )
 
 
+@harness.more
 class Stopped(harness.Case):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

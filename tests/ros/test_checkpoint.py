@@ -106,6 +106,7 @@ class Checkpoint(harness.Case):
         self.ends(self.start(dict(RUN, checkpoint='/no/such/file')), 4, '/no/such/file')
         self.assertEqual(os.listdir(folder), [os.path.basename(self.file)])
 
+    @harness.more
     def test_what_was_there_is_set_aside(self):
         old = [self.file, self.file + '.old', self.file + '.old2']
         for seed in ('1', '2', '3'):
@@ -126,6 +127,7 @@ class Checkpoint(harness.Case):
         self.ends(self.start(dict(resume=old[1], seed='1', duration=5.0)), 0)
         self.ends(self.start(dict(resume=old[0], seed='1', duration=6.0)), 0)
 
+    @harness.more
     def test_two_runs_with_one_file(self):
         """The second one has it."""
         params = dict(LONG, checkpoint=self.file, checkpoint_interval=0.05)
@@ -138,6 +140,7 @@ class Checkpoint(harness.Case):
             self.ends(node, status)
         self.ends(self.start(dict(resume=self.file, seed='2', duration=1e-3)), 2, 'duration')
 
+    @harness.more
     def test_while_paused(self):
         """What has happened before the pause is in the file."""
         node = self.start(dict(LONG, checkpoint=self.file, checkpoint_interval=1.5, pace=50.0))
@@ -163,6 +166,7 @@ class Checkpoint(harness.Case):
         node.send(signal.SIGINT)
         self.ends(node, 0)
 
+    @harness.more
     def test_service_without_a_file(self):
         node = self.start(LONG)
         answer = self.call('checkpoint', Trigger)
@@ -171,6 +175,7 @@ class Checkpoint(harness.Case):
         node.send(signal.SIGINT)
         self.ends(node, 0)
 
+    @harness.more
     def test_service_before_the_run(self):
         node = self.start(dict(LONG, checkpoint=self.file, wait_for_subscribers=['state']))
         answer = self.call('checkpoint', Trigger)
@@ -195,6 +200,7 @@ class Checkpoint(harness.Case):
         node.send(signal.SIGINT)
         self.ends(node, 0)
 
+    @harness.more
     def test_a_long_step_does_not_keep_it_from_ending(self):
         cost = self.listen('cost')
         node = self.start(

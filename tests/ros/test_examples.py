@@ -71,6 +71,7 @@ class Examples(harness.Case):
         self.assertEqual(process.wait(), 0, process.text())
 
 
+@harness.more
 class Help(harness.Case):
     def test_python_example_explains_itself_without_a_master(self):
         fit = Process([example('fit_dispersion'), '--help'], ROS_MASTER_URI='http://localhost:1')
@@ -89,6 +90,7 @@ class Help(harness.Case):
         self.assertNotIn('Traceback', fit.text())
 
 
+@harness.more
 class Waiting(Examples):
     def test_says_what_it_waits_for(self):
         """And says it again, as it is by then."""
@@ -233,6 +235,7 @@ class Alone(Examples):
                 self.assertEqual(len(node.text().splitlines()), 1, node.text())
                 self.assertRegex(node.text(), r'\[FATAL\] \[[0-9.]+\]: %s = .*: must be ' % name)
 
+    @harness.more
     def test_refused_names(self):
         for params, args in ((dict(node='a b'), ()), ({}, ('__name:=a-b',))):
             node = self.start(
@@ -247,6 +250,7 @@ class Alone(Examples):
         self.addCleanup(publisher.unregister)
         return publisher
 
+    @harness.more
     def test_another_type_under_the_topic(self):
         """Is refused in one line that says all; the right one is heard when it comes."""
         wrong = self.publisher('/other/lp_phases', String)
@@ -308,6 +312,7 @@ class Alone(Examples):
         )
         self.stop(watch)
 
+    @harness.more
     def test_node_dies_and_comes_back(self):
         watch = self.watch()
         deviations, _ = self.hear('/watch_phase/deviation', Float64)

@@ -119,6 +119,7 @@ class Live(harness.Case):
         runs = {info.run_id for info in self.heard['run_info'].messages}
         self.assertEqual(len(runs), 1)
 
+    @harness.more
     def test_pace(self):
         """Also while it waits for a pace that is too slow, or is paused."""
         node = self.started(dict(RUN, pace=1.0e-4, duration=60.0))
@@ -186,6 +187,7 @@ class Live(harness.Case):
         self.assertEqual(node.wait(), 0, node.text())
         self.assertEqual(node.lines('set: '), [])
 
+    @harness.more
     def test_the_parameter_server_is_read_at_the_start(self):
         """Once for each that is set, with what to do instead; lists as rosrun hands them on are as
         they were, whatever blanks they have."""
@@ -211,6 +213,7 @@ class Live(harness.Case):
         self.assertEqual(node.wait(), 0)
         self.assertEqual(self.info().pace, 20.0)
 
+    @harness.more
     def test_a_node_that_takes_over_is_left_alone(self):
         """By the one that ends: it has told the master before that it follows parameters."""
         for seed in ('1', '2', '3'):

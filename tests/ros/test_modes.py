@@ -25,6 +25,7 @@ class Errors(harness.Case):
         scene.update(duration=140.0, report_interval=10.0, max_mode_number=3)
         messages = harness.whole_run(dict(scene, wait_for_subscribers=topics), topics)
         cls.spectrum, cls.steps = messages['spectrum'][-1], messages['steps'][-1]
+        cls.status = messages['status'][-1]
 
     def check_fit(self, letter, kind):
         """Beside that of the tools, in numpy, which takes the steps as independent: the same but
@@ -69,6 +70,7 @@ class Errors(harness.Case):
         self.assertGreater(errors.min(), 0.0)
         self.assertLess(self.spectrum.ks_entropy_error, errors.sum())
         self.assertGreater(self.spectrum.ks_entropy_error, errors.max())
+        self.assertEqual(self.status.std_error, errors[-8:].max())  # of the smallest exponents
 
 
 class Agreement(harness.Case):

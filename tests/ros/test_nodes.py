@@ -140,6 +140,7 @@ class Nodes(harness.Case):
         run.node.send(signal.SIGINT)
         self.assertEqual(run.node.wait(), 0, run.node.text())
 
+    @harness.more
     def test_namespace_of_the_environment(self):
         process = Process(
             [harness.executable(), '_disks:=10', '_density:=0.3', '_duration:=0.0', '_pace:=10.0'],
@@ -163,6 +164,7 @@ class Nodes(harness.Case):
         self.assertLess(abs(run.stamps()[-1] - time.time()), 600)
         self.assertEqual(follow.wait(), 0, follow.text())
 
+    @harness.more
     def test_simulated_time(self):
         """Without a clock, and with one that is none; who has set it is left alone."""
         rospy.set_param('/use_sim_time', True)
@@ -179,6 +181,7 @@ class Nodes(harness.Case):
         self.check_simulated_time()
         self.assertIs(rospy.get_param('/use_sim_time'), True)
 
+    @harness.more
     def test_the_clock_is_set(self):
         """By an hour in the midst of a run, forwards and backwards: nothing waits for it, and all
         that is measured goes on."""

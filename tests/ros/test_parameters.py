@@ -82,6 +82,19 @@ class Parameters(harness.Case):
         types = dict(rosgraph.Master('/test').getTopicTypes())
         self.assertEqual([topic for topic in types if topic.startswith('/refused')], [])
 
+    def test_too_many_disks(self):
+        """Known before the first block is asked for: how much, how much there is, what fits."""
+        for disks in (40000, 1000000):
+            with self.subTest(disks=disks):
+                node = self.start(dict(disks=disks))
+                self.assertEqual(node.wait(), 3, node.text())
+                self.assertEqual(len(node.text().splitlines()), 1, node.text())
+                self.assertRegex(
+                    node.text(),
+                    rf'out of memory: disks = {disks} with {2 * disks - 3} exponents need \S+ GB, '
+                    r'there are \S+ GB \(\w+\); exponents = \d+ would fit, or disks = \d+',
+                )
+
     def told(self, node, info):
         """run_info, and that the node ends well."""
         self.assertTrue(info.wait_for(lambda message: True), node.text())

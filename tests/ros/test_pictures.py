@@ -216,12 +216,14 @@ class Markers(harness.Case):
         self.assertEqual(modes(pictures.all[-1]), ['mode/LP(1,0)', 'mode/T(2,0)', 'mode/T(1,0)'])
         self.assertIn('c_T', text(pictures.all[-1]))
 
+    @harness.more
     def test_what_is_not_looked_for(self):
         pictures = self.look('T(99,0)')
         self.start(dict(ENDLESS))
         self.assertTrue(harness.wait_until(lambda: pictures.viewer.lines('(99,0)')))
         self.assertTrue(harness.wait_until(lambda: pictures.all))
 
+    @harness.more
     def test_of_another_node(self):
         """Each node has pictures of its own."""
         pictures, other = self.look(), Pictures('/other')
@@ -239,6 +241,7 @@ class Markers(harness.Case):
         state = rosgraph.Master('/test').getSystemState()[1]
         return [name for name in dict(state).get('/hdlyap/' + topic, ()) if name == '/viewer']
 
+    @harness.more
     def test_the_node_works_for_who_looks(self):
         """A live node has no fields to make for the viewer, and nothing at all soon after nobody
         looks any more."""
@@ -266,6 +269,7 @@ class Markers(harness.Case):
         self.assertGreater(len(both), 1)
         self.assertEqual([one[time] for time in both], [other[time] for time in both])
 
+    @harness.more
     def test_as_often_as_asked(self):
         """Pictures of the averaging, beside the wall time that they took; before it steps are as
         long as they like."""
@@ -282,6 +286,7 @@ class Markers(harness.Case):
         times = [float(re.search(r't = ([0-9.]+)', text(p)).group(1)) for p in averaging()[3:]]
         self.assertLess(max(np.diff(times)), 0.9)  # 0.2 apart, but for a busy machine
 
+    @harness.more
     def test_without_modes_or_exponents(self):
         pictures = self.look()
         self.start(dict(ENDLESS, observables=['spectrum']))
@@ -301,6 +306,7 @@ class Markers(harness.Case):
             )
         )
 
+    @harness.more
     def test_only_modes_that_there_can_be(self):
         """Between close walls there are no transverse ones, and no panel for them."""
         pictures = self.look()
@@ -310,6 +316,7 @@ class Markers(harness.Case):
         self.assertEqual(titles, {'mode/lowest LP'})
         self.assertEqual(len(of(pictures.all[0], 'box', Marker.LINE_LIST)[0].points), 8)
 
+    @harness.more
     def test_late_to_a_run_that_rests(self):
         self.start(ENDLESS)
         self.pause(True)
@@ -321,6 +328,7 @@ class Markers(harness.Case):
         for picture in pictures.all[1:]:
             np.testing.assert_array_equal(places(picture), places(pictures.all[0]))
 
+    @harness.more
     def test_late_to_modes_that_rest(self):
         """Nobody looked when the run was paused: its modes are found, their vectors not known."""
         before = self.look()
@@ -341,6 +349,7 @@ class Markers(harness.Case):
         for title in titles:
             self.assertRegex(title, r'vector \d+ not known now')
 
+    @harness.more
     def test_what_comes_no_more_is_not_shown_as_live(self):
         """Of a node that rests, and of one that was killed; the picture is repeated for who
         looks."""
@@ -361,6 +370,7 @@ class Markers(harness.Case):
         node.stop()
         self.assertTrue(harness.wait_until(stands))
 
+    @harness.more
     def test_of_a_run_that_has_ended(self):
         """Is finished, and stays so without further words."""
         pictures = self.look()
@@ -372,6 +382,7 @@ class Markers(harness.Case):
         self.assertTrue(harness.wait_until(lambda: len(pictures.all) > count + 4))  # repeated
         self.assertNotIn('nothing new', text(pictures.all[-1]))
 
+    @harness.more
     def test_no_memory_for_it(self):
         many = dict(ENDLESS, disks=20000, aspect=1.0, exponents='none', warmup=0.0, pace=1.0)
         pictures = self.look(probe={'PROBE_GROWTH': '300000'})
@@ -384,6 +395,7 @@ class Markers(harness.Case):
         self.assertTrue(viewer.running())
         self.assertEqual(pictures.all, [])
 
+    @harness.more
     def test_no_memory_for_slow_vectors(self):
         self.listen('slow_vectors')
         node = self.start(
@@ -395,6 +407,7 @@ class Markers(harness.Case):
         )
         self.assertTrue(node.running())
 
+    @harness.more
     def test_at_the_slowest_pace(self):
         """So slow that a picture's time is no number, and the next step's no wall time. What comes
         before the averaging is as fast as ever."""

@@ -177,6 +177,7 @@ class Run(harness.Case):
             self.assertIn(key, values)
         self.assertNotIn('resolved steps', values)  # nobody listens to them
 
+    @harness.more
     def test_diagnostics_once_per_second(self):
         stamps = []
         self.addCleanup(rospy.Subscriber('/diagnostics', DiagnosticArray, stamps.append).unregister)

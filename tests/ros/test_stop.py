@@ -17,10 +17,9 @@ ENDLESS = dict(SHORT, disks=100, duration=0.0)
 
 class Stop(harness.Case):
     def stop(self, node, ask=None):
-        begin = time.monotonic()
-        (ask or (lambda: node.send(signal.SIGINT)))()
-        self.assertEqual(node.wait(), 0, node.text())
-        self.assertLess(time.monotonic() - begin, BOUND)
+        with harness.within(self, BOUND):
+            (ask or (lambda: node.send(signal.SIGINT)))()
+            self.assertEqual(node.wait(), 0, node.text())
 
     def check_stopped(self, status, spectrum):
         """Nothing is missing up to the last message."""
@@ -56,6 +55,7 @@ class Stop(harness.Case):
         self.stops_with_last_message(kill)
         self.assertEqual(len(killed[0].lines('asked to shut down: killed by a test')), 1)
 
+    @harness.more
     def test_twice(self):
         node = self.start(ENDLESS)
         cost = self.listen('cost')
@@ -80,6 +80,7 @@ class Stop(harness.Case):
         self.assertEqual(node.text(), '')
         self.stop(node)
 
+    @harness.more
     def test_while_paused_recorder_listens(self):
         echo = harness.Process(['rostopic', 'echo', '/hdlyap/state'])
         self.addCleanup(echo.stop)
@@ -99,6 +100,7 @@ class Stop(harness.Case):
         self.assertTrue(harness.wait_until(lambda: node.lines('waiting for subscribers')))
         self.stop(node)
 
+    @harness.more
     def test_while_waiting_for_the_second_subscriber(self):
         links.register(self, 'state', '/gone')
         state = self.listen('state')
@@ -108,6 +110,7 @@ class Stop(harness.Case):
         self.stop(node)
         self.assertEqual((state.messages, node.lines('WARN')), ([], []))
 
+    @harness.more
     def test_while_a_stopped_master_is_asked(self):
         """Who else has subscribed: no answer is no reason to start what is to stop."""
         master = harness.Master()
@@ -134,6 +137,7 @@ class Stop(harness.Case):
         self.assertTrue(cost.wait_for(lambda message: True))
         self.stop(node)
 
+    @harness.more
     def test_without_master(self):
         uri = 'http://localhost:%d' % harness.free_port()
         for args in ([], ['_disks:=100']):
@@ -143,6 +147,7 @@ class Stop(harness.Case):
                 self.assertTrue(harness.wait_until(lambda: node.lines('master at')), node.text())
                 self.stop(node)
 
+    @harness.more
     def test_without_address(self):
         """roscpp has one then, where somebody else's master may be."""
         node = harness.Process(['env', '-u', 'ROS_MASTER_URI', harness.executable()])
@@ -153,6 +158,7 @@ class Stop(harness.Case):
         self.assertTrue(found, node.text())
         self.stop(node)
 
+    @harness.more
     def test_master_comes_later(self):
         port = harness.free_port()
         node = harness.Process([harness.executable()], ROS_MASTER_URI='http://localhost:%d' % port)
@@ -163,6 +169,7 @@ class Stop(harness.Case):
         self.assertTrue(harness.wait_until(lambda: node.lines('scene paper_periodic')))
         self.stop(node)
 
+    @harness.more
     def test_with_stopped_master(self):
         master = harness.Master()
         self.addCleanup(master.stop)

@@ -6,7 +6,6 @@ import os
 import random
 import signal
 import socket
-import time
 
 
 import harness
@@ -55,10 +54,9 @@ class Subscribers(harness.Case):
         return reader
 
     def stop(self, node):
-        begin = time.monotonic()
-        node.send(signal.SIGINT)
-        self.assertEqual(node.wait(), 0, node.text())
-        self.assertLess(time.monotonic() - begin, BOUND)
+        with harness.within(self, BOUND):
+            node.send(signal.SIGINT)
+            self.assertEqual(node.wait(), 0, node.text())
 
     def wait_for(self, condition):
         self.assertTrue(harness.wait_until(condition))

@@ -189,6 +189,7 @@ class Results(InFolder):
         self.assertIsNone(figure.draw(self.read(self.bag('a'))))
 
 
+@harness.more
 class Sweep(InFolder):
     """Of runs of a second."""
 
