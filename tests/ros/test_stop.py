@@ -75,10 +75,11 @@ class Stop(harness.Case):
         self.assertEqual(status.messages[-1].sim_time, before.sim_time)
 
     def test_during_creation(self):
-        node = self.start(dict(disks=1000, exponents='all', threads=1))
-        time.sleep(0.7)
-        self.assertEqual(node.text(), '')
+        """Of a frame so large that it is announced."""
+        node = self.start(dict(disks=2000, exponents='all', threads=1))
+        self.assertTrue(harness.wait_until(lambda: node.lines('makes 4000 vectors of 2000 disks')))
         self.stop(node)
+        self.assertEqual(node.lines('scene '), [])
 
     @harness.more
     def test_while_paused_recorder_listens(self):
