@@ -261,6 +261,13 @@ class Listener:
         self.subscriber.unregister()
 
 
+def service(name, kind, node=NODE):
+    """To be called, once it is there."""
+    full = '/%s/%s' % (node, name)
+    rospy.wait_for_service(full, PATIENCE)
+    return rospy.ServiceProxy(full, kind)
+
+
 def is_last(status):
     """Whether it is the last one of a run."""
     return status.stage == RunStatus.FINISHED

@@ -5,12 +5,11 @@ import os
 import signal
 import tempfile
 
-import rospy
 from std_srvs.srv import SetBool, Trigger
 
 import harness
 import measured
-from harness import NODE, SHORT
+from harness import SHORT
 
 DOCUMENT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/survival.md')
 LONG = dict(SHORT, duration=0.0, threads=1)
@@ -24,8 +23,7 @@ class Checkpoint(harness.Case):
         self.file = os.path.join(folder.name, 'run.checkpoint')
 
     def call(self, name, kind, *request):
-        rospy.wait_for_service('/%s/%s' % (NODE, name), harness.PATIENCE)
-        return rospy.ServiceProxy('/%s/%s' % (NODE, name), kind)(*request)
+        return harness.service(name, kind)(*request)
 
     def ends(self, node, status, *words):
         self.assertEqual(node.wait(), status, node.text())

@@ -6,7 +6,6 @@ import math
 import os
 import tempfile
 
-import rospy
 from std_srvs.srv import Trigger
 
 import harness
@@ -246,6 +245,7 @@ class Windows(harness.Case):
 
 
 class Choices(Case):
+    @harness.more
     def test_storages_say_the_same(self):
         want = [plain(message) for message in self.run_of(threads=1)]
         got = self.run_of(threads=1, covariant_storage='recompute')
@@ -329,6 +329,7 @@ class Demand(Case):
             (calls['covariant_publish'], calls['modes_measure']), (WINDOWS, 3 * WINDOWS * LOOKS)
         )
 
+    @harness.more
     def test_who_comes_late_and_goes(self):
         """Is told of windows that began when he was there, and paid for until he goes."""
         cost = self.listen('cost')
@@ -351,7 +352,7 @@ class Demand(Case):
         covariant = self.listen('covariant')
         self.start(dict(SCENE, duration=0.0, pace=200.0))
         self.assertTrue(covariant.wait_for(lambda message: message.windows == 2))
-        rospy.ServiceProxy('/hdlyap/reset_average', Trigger)()
+        harness.service('reset_average', Trigger)()
         seen = len(covariant.messages)
         self.assertTrue(
             harness.wait_until(lambda: any(m.windows == 1 for m in covariant.messages[seen:]))
@@ -361,6 +362,7 @@ class Demand(Case):
 
 
 class Faults(Case):
+    @harness.more
     def test_no_room(self):
         """Triangles of every interval need more than those of the longest ones, which it was begun
         with."""

@@ -10,7 +10,6 @@ import signal
 import subprocess
 import time
 
-import rospy
 from std_srvs.srv import SetBool
 
 import harness
@@ -222,8 +221,7 @@ class Faults(harness.Case):
             with self.subTest(stage=stage):
                 node, _ = self.running(params, **how)
                 if stage == 'paused':
-                    rospy.wait_for_service('/hdlyap/pause', harness.PATIENCE)
-                    self.assertTrue(rospy.ServiceProxy('/hdlyap/pause', SetBool)(True).success)
+                    self.assertTrue(harness.service('pause', SetBool)(True).success)
                 self.stops(node, self.burst(randomly))
 
     def test_burst_while_waiting(self):

@@ -48,8 +48,7 @@ class Live(harness.Case):
         self.assertTrue(self.heard['status'].wait_for(lambda message: message.sim_time >= time))
 
     def call(self, assignment, node=NODE):
-        rospy.wait_for_service('/%s/set' % node, harness.PATIENCE)
-        return rospy.ServiceProxy('/%s/set' % node, Set)(assignment)
+        return harness.service('set', Set, node)(assignment)
 
     def changed(self, assignment):
         """What run_info says of it."""
@@ -126,7 +125,7 @@ class Live(harness.Case):
         self.until(BEGIN + 1.0)
         self.changed('pace=20')
         self.until(BEGIN + 3.0)
-        pause = rospy.ServiceProxy('/%s/pause' % NODE, SetBool)
+        pause = harness.service('pause', SetBool)
         self.assertTrue(pause(True).success)
         self.changed('pace=0')
         change = self.changed('duration=80')

@@ -53,8 +53,7 @@ class Run:
         test.addCleanup(self.node.stop)
 
     def service(self, name, kind):
-        rospy.wait_for_service(self.name + '/' + name, harness.PATIENCE)
-        return rospy.ServiceProxy(self.name + '/' + name, kind)
+        return harness.service(name, kind, self.name[1:])
 
     def has(self, count):
         return harness.wait_until(lambda: len(self.messages['state']) >= count)

@@ -2,7 +2,6 @@
 """~slow_vectors and the pictures that the viewer makes of topics: what is drawn is what is
 published, only while somebody looks, as often as asked; live and from what was recorded."""
 
-import glob
 import re
 import signal
 import time
@@ -56,10 +55,6 @@ class Markers(harness.Case):
         pictures.viewer = harness.start_viewer(dict(modes=modes, node=node), **how)
         self.addCleanup(pictures.viewer.stop)
         return pictures
-
-    def pause(self, yes):
-        rospy.wait_for_service('/hdlyap/pause', 10)
-        self.assertTrue(rospy.ServiceProxy('/hdlyap/pause', SetBool)(yes).success)
 
     def test_arrows_are_the_published_vectors(self):
         states, fields = self.listen('state'), self.listen('fields')
@@ -217,13 +212,6 @@ class Markers(harness.Case):
         self.assertIn('c_T', text(pictures.all[-1]))
 
     @harness.more
-    def test_what_is_not_looked_for(self):
-        pictures = self.look('T(99,0)')
-        self.start(dict(ENDLESS))
-        self.assertTrue(harness.wait_until(lambda: pictures.viewer.lines('(99,0)')))
-        self.assertTrue(harness.wait_until(lambda: pictures.all))
-
-    @harness.more
     def test_of_another_node(self):
         """Each node has pictures of its own."""
         pictures, other = self.look(), Pictures('/other')
@@ -319,7 +307,7 @@ class Markers(harness.Case):
     @harness.more
     def test_late_to_a_run_that_rests(self):
         self.start(ENDLESS)
-        self.pause(True)
+        self.assertTrue(harness.service('pause', SetBool)(True).success)
         time.sleep(0.5)
         pictures = self.look()
         self.assertTrue(harness.wait_until(lambda: pictures.all, 10))
@@ -337,7 +325,7 @@ class Markers(harness.Case):
         before.viewer.stop()
         before.close()
         time.sleep(1.2)  # a message of less than a second ago is not sent anew
-        self.pause(True)
+        self.assertTrue(harness.service('pause', SetBool)(True).success)
         late = self.look()
         self.assertTrue(harness.wait_until(lambda: late.all and not modes(late.all[-1]), 30))
         titles = [
@@ -361,11 +349,11 @@ class Markers(harness.Case):
 
         self.assertTrue(harness.wait_until(lambda: pictures.all))
         self.assertFalse(stands())
-        self.pause(True)
+        self.assertTrue(harness.service('pause', SetBool)(True).success)
         self.assertTrue(harness.wait_until(stands))
         count = len(pictures.all)
         self.assertTrue(harness.wait_until(lambda: len(pictures.all) > count))
-        self.pause(False)
+        self.assertTrue(harness.service('pause', SetBool)(False).success)
         self.assertTrue(harness.wait_until(lambda: not stands()))
         node.stop()
         self.assertTrue(harness.wait_until(stands))
@@ -407,44 +395,6 @@ class Markers(harness.Case):
         )
         self.assertTrue(node.running())
 
-    @harness.more
-    def test_at_the_slowest_pace(self):
-        """So slow that a picture's time is no number, and the next step's no wall time. What comes
-        before the averaging is as fast as ever."""
-
-        def sleeps(thread):
-            with open(thread) as file:
-                return file.read().rsplit(')', 1)[1].split()[0] == 'S'
-
-        def rested():
-            for _ in range(20):
-                calm.append(all(map(sleeps, glob.glob('/proc/%d/task/*/stat' % node.process.pid))))
-                time.sleep(0.005)
-            return len(calm) >= 20 and all(calm[-20:])
-
-        for pace in (1e-323, 1e-40):
-            slow = self.listen('slow_vectors')
-            node = self.start(
-                dict(
-                    harness.SHORT,
-                    equilibration=100.0,
-                    duration=0.0,
-                    pace=pace,
-                    wait_for_subscribers=['state'],
-                )
-            )
-            self.assertTrue(harness.wait_until(slow.subscriber.get_num_connections), node.text())
-            states = self.listen('state')  # the run is looked at from its first step
-            self.assertTrue(harness.wait_until(lambda: slow.messages), node.text())
-            calm = []
-            self.assertTrue(
-                harness.wait_until(lambda: all(calm[-20:] or [False]) or rested()), node.text()
-            )
-            self.assertTrue(node.running(), node.text())
-            for listener in (slow, states):
-                listener.close()
-            node.stop()
-
     def test_the_frame_of_the_box_is_known(self):
         frames = []
         listener = rospy.Subscriber('/tf_static', TFMessage, frames.append, queue_size=None)
@@ -456,10 +406,6 @@ class Markers(harness.Case):
         self.assertEqual(transform.transform.rotation.w, 1.0)
         translation = transform.transform.translation
         self.assertEqual((translation.x, translation.y, translation.z), (0, 0, 0))
-
-    def test_nothing_for_nobody(self):
-        calls = harness.calls(self, dict(MODES, duration=5.0))
-        self.assertEqual(calls['slow_vectors_publish'], 0)
 
 
 if __name__ == '__main__':

@@ -202,10 +202,9 @@ class Security(harness.Case):
 
     def test_services(self):
         node, trace = self.watch(dict(SHORT, duration=0.0, pace=20.0))
-        rospy.wait_for_service('/hdlyap/reset_average', harness.PATIENCE)
         for value in (True, False):
-            self.assertTrue(rospy.ServiceProxy('/hdlyap/pause', SetBool)(value).success)
-        rospy.ServiceProxy('/hdlyap/reset_average', Trigger)()
+            self.assertTrue(harness.service('pause', SetBool)(value).success)
+        harness.service('reset_average', Trigger)()
         level = rospy.ServiceProxy('/hdlyap/set_logger_level', SetLoggerLevel)
         for text in NASTY[:10]:
             try:
