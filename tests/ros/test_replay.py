@@ -88,7 +88,6 @@ class Replayed(harness.Case):
         self.assertGreater(walls[REPORTS // 2] - walls[0], 0.95 * (REPORTS // 2) / 20)
         self.assertIn('replay: at the end, t = 30', replay.text())
 
-    @harness.more
     def test_clock_set_back(self):
         """What follows takes its time, too: 15 ms of 30 messages, ten times as slow."""
         self.record('one', ahead=2 + REPORTS)
@@ -108,7 +107,6 @@ class Replayed(harness.Case):
         self.assertTrue(harness.wait_until(lambda: self.times('run_info')))
         self.assertLessEqual(set(self.times('state')), {28.0, 29.0, 30.0})
 
-    @harness.more
     def test_waits_for_who_looks(self):
         """Not for the program view, which is told what the run is, and opens rviz then."""
         self.record('one')
@@ -150,7 +148,6 @@ class Replayed(harness.Case):
         got = got.steps[0]
         self.assertEqual((got.kind, got.nx, got.exponent, got.gap_error), (2, 1, 0.5, -1.0))
 
-    @harness.more
     def test_nothing_is_lost_at_the_start(self):
         """For who has subscribed; the whole bag takes a moment."""
         self.record('one')
