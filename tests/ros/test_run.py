@@ -116,7 +116,7 @@ class Run(harness.Case):
         self.assertTrue(pause(True).success)
         self.assertTrue(harness.wait_until(lambda: self.diagnostic().message == 'paused'))
         before = len(cost.messages)
-        rospy.sleep(0.3)  # at this pace six messages
+        self.diagnostic()  # of a second later: at this pace forty messages
         self.assertEqual(len(cost.messages), before)
         self.assertTrue(pause(False).success)
         time = cost.messages[-1].sim_time
