@@ -15,6 +15,7 @@ import harness
 from harness import SHORT
 
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../launch/scenes')
+HEARD = dict(wait_for_subscribers=['run_info'])
 # what a scene file cannot say, or says in another type
 REFUSED = [
     ('density', float('nan')),
@@ -117,7 +118,7 @@ class Parameters(harness.Case):
     def test_lists_on_the_command_line(self):
         info = self.listen('run_info')
         args = ['_observables:=[fields, state]', '_field_indices:=[1, 7]']
-        message = self.told(self.start(SHORT, args=args), info)
+        message = self.told(self.start(dict(SHORT, **HEARD), args=args), info)
         self.assertEqual(
             (message.observables, message.field_indices), (['fields', 'state'], '[1, 7]')
         )
@@ -130,7 +131,7 @@ class Parameters(harness.Case):
                 if scene != 'paper_periodic':
                     with open(os.path.join(SCENES, scene + '.yaml')) as file:
                         params = yaml.safe_load(file)
-                message = self.told(self.start(params), self.listen('run_info'))
+                message = self.told(self.start(dict(params, **HEARD)), self.listen('run_info'))
                 self.assertEqual((message.scene, message.vectors), (scene, vectors))
                 for name, value in params.items():
                     self.assertEqual(str(getattr(message, name)), str(value), name)
