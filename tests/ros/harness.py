@@ -20,6 +20,7 @@ import weakref
 import roslib.packages
 import rosgraph
 import rospy
+import rostest
 import yaml
 
 from hdlyap.msg import (
@@ -122,6 +123,25 @@ def wait_until(condition, seconds=PATIENCE, every=0.01):
         if value or time.monotonic() >= end:
             return value
         time.sleep(every)
+
+
+def slowness():
+    """How many times as long as its own processor time a moment of work takes: 1 if nobody else
+    computes."""
+    begin, spent = time.monotonic(), time.thread_time()
+    while time.thread_time() - spent < 0.05:
+        pass
+    return max(1.0, (time.monotonic() - begin) / 0.05)
+
+
+@contextlib.contextmanager
+def within(test, seconds):
+    """What is promised in so many seconds, on a machine that does nothing else: in as many more as
+    it is slower by."""
+    slow, begin = slowness(), time.monotonic()
+    yield
+    taken = time.monotonic() - begin
+    test.assertLess(taken, seconds * max(slow, slowness()))
 
 
 class Process:
@@ -241,6 +261,13 @@ class Listener:
         self.subscriber.unregister()
 
 
+def service(name, kind, node=NODE):
+    """To be called, once it is there."""
+    full = '/%s/%s' % (node, name)
+    rospy.wait_for_service(full, PATIENCE)
+    return rospy.ServiceProxy(full, kind)
+
+
 def is_last(status):
     """Whether it is the last one of a run."""
     return status.stage == RunStatus.FINISHED
@@ -286,8 +313,8 @@ class Case(unittest.TestCase):
         self.addCleanup(node.stop)
         return node
 
-    def listen(self, topic):
-        listener = Listener(topic)
+    def listen(self, topic, **how):
+        listener = Listener(topic, **how)
         self.addCleanup(listener.close)
         return listener
 
@@ -321,3 +348,38 @@ class Traced(unittest.TestCase):
 
     def assert_none_left(self):
         self.assertTrue(wait_until(lambda: not self.ours(), SOON, LOOK), self.ours())
+
+
+def more(test):
+    """Marks a test, or all of a class, as one of the second tier."""
+    test.is_more = True
+    return test
+
+
+def tests(of_second_tier):
+    """Those of the program that runs."""
+    load, suite = unittest.defaultTestLoader, unittest.TestSuite()
+    for case in vars(sys.modules['__main__']).values():
+        if not (isinstance(case, type) and issubclass(case, unittest.TestCase)):
+            continue
+        for name in load.getTestCaseNames(case):
+            marks = (getattr(of, 'is_more', False) for of in (case, getattr(case, name)))
+            if any(marks) == of_second_tier:
+                suite.addTest(case(name))
+    return suite
+
+
+def first_tier():
+    return tests(False)
+
+
+def second_tier():
+    return tests(True)
+
+
+def main(name):
+    """All tests of the program but those that are marked; or these, where its .test file has
+    args="more"."""
+    rospy.init_node('test_' + name)
+    tier = 'second_tier' if 'more' in sys.argv else 'first_tier'
+    rostest.rosrun('hdlyap', name, 'harness.' + tier)

@@ -8,14 +8,12 @@ import os
 import re
 import signal
 import tempfile
-import unittest
 import xmlrpc.client
 
 import rosbag
 import rosgraph
 import roslib.packages
 import rospy
-import rostest
 from std_srvs.srv import SetBool
 
 import harness
@@ -111,7 +109,7 @@ def unpacked(packed):
     return [cls().deserialize(data) for _, data, _, cls in packed]
 
 
-class Recorded(unittest.TestCase):
+class Recorded(harness.Case):
     """Two runs of one node in one bag."""
 
     @classmethod
@@ -255,6 +253,7 @@ class Recorded(unittest.TestCase):
         ).groups()
         self.assertLess(report * 3600 / float(seconds), 1e9 * float(most))
 
+    @harness.more
     def test_replay(self):
         """Waits for those who listen, then tells them what the bag holds, byte for byte; and
         run_info to who comes late."""
@@ -288,6 +287,7 @@ class Recorded(unittest.TestCase):
         self.assertEqual(late.messages['/hdlyap/run_info'], want['/hdlyap/run_info'][-1:])
         end(replay)
 
+    @harness.more
     def test_repeat(self):
         """From the bag alone: every number of every topic, bit for bit."""
         repeat = Process([program('repeat'), self.bag, '--run', '2'])
@@ -329,7 +329,8 @@ def expected_sizes(disks, vectors, steps, phases, t_phases, waves):
     )
 
 
-class Stopped(unittest.TestCase):
+@harness.more
+class Stopped(harness.Case):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -399,5 +400,4 @@ class Stopped(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_bags')
-    rostest.rosrun('hdlyap', 'bags', 'test_bags')
+    harness.main('bags')

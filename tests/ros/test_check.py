@@ -8,8 +8,6 @@ import re
 import subprocess
 import tempfile
 
-import rospy
-import rostest
 import yaml
 
 import harness
@@ -70,6 +68,7 @@ class Check(harness.Case):
                 self.assertEqual('errors ' in done.stdout, of_exponents)
                 self.assertEqual('waves ' in done.stdout, of_exponents)
 
+    @harness.more
     def test_large(self):
         """An interval of the scene itself would take minutes."""
         done = checked(os.path.join(SCENES, 'quick.yaml'), 'disks:=4000', 'max_wave_number:=0.12')
@@ -97,7 +96,7 @@ class Check(harness.Case):
 
     def test_speed(self):
         """Of the same order as a run's: the machine may be busy with one of the two."""
-        params = dict(MODES, observables=['spectrum'], warmup=300.0, duration=200.0)
+        params = dict(MODES, observables=['spectrum'], warmup=100.0, duration=100.0)
         said = checked(self.file_of(params)).stdout
         seconds = float(re.search(r'(\S+) s per time unit', said).group(1))
         cost = harness.whole_run(dict(params, wait_for_subscribers=['cost']), ['cost'])['cost'][-1]
@@ -105,20 +104,20 @@ class Check(harness.Case):
         self.assertTrue(0.1 < seconds / taken < 10.0, (seconds, taken))
 
     def test_refused_as_by_the_node(self):
-        for params in (
+        some = (
             dict(disks=-1),
             dict(density=2.0, aspect='x'),
             dict(no_such=1),
             dict(observables=['spectrum', 'x']),
             dict(seed=1.5),
             dict(disks=1000000),
-        ):
+        )
+        nodes = [self.start(params, name='refused_%d' % k) for k, params in enumerate(some)]
+        numbers = re.compile(r'there are .*')  # memory goes up and down
+        for node, params in zip(nodes, some):
             with self.subTest(params=params):
                 done = checked(self.file_of(params))
-                node = self.start(params)
-                self.assertEqual(done.returncode, node.wait())
-                self.assertEqual(done.stdout, '')
-                numbers = re.compile(r'there are .*')  # memory goes up and down
+                self.assertEqual((done.returncode, done.stdout), (node.wait(), ''))
                 self.assertEqual(
                     numbers.sub('', done.stderr.strip()), numbers.sub('', said_by_node(node))
                 )
@@ -145,5 +144,4 @@ class Check(harness.Case):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_check')
-    rostest.rosrun('hdlyap', 'check', Check)
+    harness.main('check')

@@ -5,13 +5,11 @@ import os
 import signal
 import tempfile
 
-import rospy
-import rostest
 from std_srvs.srv import SetBool, Trigger
 
 import harness
 import measured
-from harness import NODE, SHORT
+from harness import SHORT
 
 DOCUMENT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/survival.md')
 LONG = dict(SHORT, duration=0.0, threads=1)
@@ -25,8 +23,7 @@ class Checkpoint(harness.Case):
         self.file = os.path.join(folder.name, 'run.checkpoint')
 
     def call(self, name, kind, *request):
-        rospy.wait_for_service('/%s/%s' % (NODE, name), harness.PATIENCE)
-        return rospy.ServiceProxy('/%s/%s' % (NODE, name), kind)(*request)
+        return harness.service(name, kind)(*request)
 
     def ends(self, node, status, *words):
         self.assertEqual(node.wait(), status, node.text())
@@ -107,6 +104,7 @@ class Checkpoint(harness.Case):
         self.ends(self.start(dict(RUN, checkpoint='/no/such/file')), 4, '/no/such/file')
         self.assertEqual(os.listdir(folder), [os.path.basename(self.file)])
 
+    @harness.more
     def test_what_was_there_is_set_aside(self):
         old = [self.file, self.file + '.old', self.file + '.old2']
         for seed in ('1', '2', '3'):
@@ -127,6 +125,7 @@ class Checkpoint(harness.Case):
         self.ends(self.start(dict(resume=old[1], seed='1', duration=5.0)), 0)
         self.ends(self.start(dict(resume=old[0], seed='1', duration=6.0)), 0)
 
+    @harness.more
     def test_two_runs_with_one_file(self):
         """The second one has it."""
         params = dict(LONG, checkpoint=self.file, checkpoint_interval=0.05)
@@ -139,6 +138,7 @@ class Checkpoint(harness.Case):
             self.ends(node, status)
         self.ends(self.start(dict(resume=self.file, seed='2', duration=1e-3)), 2, 'duration')
 
+    @harness.more
     def test_while_paused(self):
         """What has happened before the pause is in the file."""
         node = self.start(dict(LONG, checkpoint=self.file, checkpoint_interval=1.5, pace=50.0))
@@ -164,6 +164,7 @@ class Checkpoint(harness.Case):
         node.send(signal.SIGINT)
         self.ends(node, 0)
 
+    @harness.more
     def test_service_without_a_file(self):
         node = self.start(LONG)
         answer = self.call('checkpoint', Trigger)
@@ -172,6 +173,7 @@ class Checkpoint(harness.Case):
         node.send(signal.SIGINT)
         self.ends(node, 0)
 
+    @harness.more
     def test_service_before_the_run(self):
         node = self.start(dict(LONG, checkpoint=self.file, wait_for_subscribers=['state']))
         answer = self.call('checkpoint', Trigger)
@@ -196,6 +198,7 @@ class Checkpoint(harness.Case):
         node.send(signal.SIGINT)
         self.ends(node, 0)
 
+    @harness.more
     def test_a_long_step_does_not_keep_it_from_ending(self):
         cost = self.listen('cost')
         node = self.start(
@@ -209,5 +212,4 @@ class Checkpoint(harness.Case):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_checkpoint')
-    rostest.rosrun('hdlyap', 'checkpoint', Checkpoint)
+    harness.main('checkpoint')

@@ -5,10 +5,7 @@ listen."""
 import math
 import os
 import tempfile
-import unittest
 
-import rospy
-import rostest
 from std_srvs.srv import Trigger
 
 import harness
@@ -75,7 +72,7 @@ class Case(harness.Case):
             self.assertIn(word, node.lines('FATAL')[0])
 
 
-class Windows(unittest.TestCase):
+class Windows(harness.Case):
     """Of one run with all 4N vectors."""
 
     @classmethod
@@ -248,6 +245,7 @@ class Windows(unittest.TestCase):
 
 
 class Choices(Case):
+    @harness.more
     def test_storages_say_the_same(self):
         want = [plain(message) for message in self.run_of(threads=1)]
         got = self.run_of(threads=1, covariant_storage='recompute')
@@ -331,6 +329,7 @@ class Demand(Case):
             (calls['covariant_publish'], calls['modes_measure']), (WINDOWS, 3 * WINDOWS * LOOKS)
         )
 
+    @harness.more
     def test_who_comes_late_and_goes(self):
         """Is told of windows that began when he was there, and paid for until he goes."""
         cost = self.listen('cost')
@@ -353,7 +352,7 @@ class Demand(Case):
         covariant = self.listen('covariant')
         self.start(dict(SCENE, duration=0.0, pace=200.0))
         self.assertTrue(covariant.wait_for(lambda message: message.windows == 2))
-        rospy.ServiceProxy('/hdlyap/reset_average', Trigger)()
+        harness.service('reset_average', Trigger)()
         seen = len(covariant.messages)
         self.assertTrue(
             harness.wait_until(lambda: any(m.windows == 1 for m in covariant.messages[seen:]))
@@ -363,6 +362,7 @@ class Demand(Case):
 
 
 class Faults(Case):
+    @harness.more
     def test_no_room(self):
         """Triangles of every interval need more than those of the longest ones, which it was begun
         with."""
@@ -409,5 +409,4 @@ class Faults(Case):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_covariant')
-    rostest.rosrun('hdlyap', 'covariant', 'test_covariant')
+    harness.main('covariant')

@@ -1,88 +1,64 @@
 #!/usr/bin/env python3
 """What of the modes is computed, by who listens; and fields of single vectors."""
 
-import unittest
 
 from diagnostic_msgs.msg import DiagnosticArray
 import rospy
-import rostest
 
 import harness
 from harness import MODES, OBSERVABLES, is_last
-from hdlyap.msg import Mode
 
 REPORTS = 20  # of MODES, while averaging
 MESSAGE = {'fields': 'mode_field'}  # of topics that are named otherwise
 
 
-class Demand(unittest.TestCase):
+class Demand(harness.Case):
     """Calls of the core by the end of a run, and messages made, by who listens."""
 
     def calls(self, topics=(), **params):
-        listeners = [harness.Listener(topic) for topic in topics]
-        for listener in listeners:
-            self.addCleanup(listener.close)
+        listeners = [self.listen(topic) for topic in topics]
         calls = harness.calls(self, dict(MODES, wait_for_subscribers=list(topics), **params))
         made = {
             name[: -len('_publish')]
             for name, count in calls.items()
             if name.endswith('_publish') and count
         }
+        for listener in listeners:
+            listener.close()
         self.assertEqual(
             made, {'run_info', 'run_status'} | {MESSAGE.get(topic, topic) for topic in topics}
         )
         return calls
 
-    def check(self, calls, measures, phases=0, pmodes=0, hydros=0):
-        """How many times a state is measured, and what of the rest is done at all."""
-        self.assertEqual(calls['modes_measure'], measures)
-        self.assertEqual(
-            (calls['phases_add'] > 0, calls['pmode_reconstruct'] > 0, calls['hydro_measure'] > 0),
-            (bool(phases), bool(pmodes), bool(hydros)),
-        )
-
-    def test_nobody(self):
-        self.check(self.calls(observables=OBSERVABLES), 0)
-
-    def test_spectrum(self):
-        self.check(self.calls(['spectrum'], observables=OBSERVABLES), 0)
-
-    def test_modes(self):
-        calls = self.calls(['modes'], observables=OBSERVABLES)
-        self.check(calls, calls['spectrum_sample'])
-        self.assertGreater(calls['spectrum_sample'], REPORTS // 4)
-
-    def test_steps_with_their_velocity(self):
-        calls = self.calls(['steps'], observables=OBSERVABLES)
-        self.check(calls, calls['phases_add'], phases=True)
-
-    def test_steps_alone(self):
-        calls = self.calls(['steps'], observables=['steps'])
-        self.check(calls, calls['spectrum_sample'])
-
-    def test_lp_phases(self):
-        calls = self.calls(['lp_phases'], observables=['lp_phases'])
-        self.check(calls, calls['phases_add'], phases=True)
-
-    def test_t_phases(self):
-        calls = self.calls(['t_phases'], observables=['t_phases'])
-        self.check(calls, calls['phases_add'], phases=True)
-
-    def test_fields(self):
-        calls = self.calls(['fields'], observables=OBSERVABLES, field_interval=0.0)
-        self.check(calls, calls['spectrum_sample'], pmodes=True)
-        self.assertGreaterEqual(calls['spectrum_sample'], REPORTS)
-
-    def test_structure(self):
-        calls = self.calls(['structure'], observables=['structure'], field_interval=5.0)
-        self.check(calls, calls['spectrum_sample'])
-        self.assertGreaterEqual(calls['spectrum_sample'], REPORTS)
-
-    def test_hydro(self):
-        calls = self.calls(['hydro'], observables=['hydro'])
-        self.check(calls, calls['spectrum_sample'], hydros=True)
-        self.assertGreaterEqual(calls['spectrum_sample'], REPORTS)
-        self.assertEqual(calls['hydro_measure'], REPORTS)
+    def test_by_who_listens(self):
+        """How often vectors are measured, and what of the rest is done at all: phases, fields of P
+        modes, responses, widths."""
+        every = dict(observables=OBSERVABLES)
+        rest = ('phases_add', 'pmode_reconstruct', 'hydro_measure', 'localization_measure')
+        for topics, params, count, done in (
+            ([], every, 'none', []),
+            (['spectrum', 'gas'], every, 'none', []),
+            (['modes'], every, 'spectrum_sample', []),
+            (['steps'], every, 'phases_add', ['phases_add']),
+            (['steps'], {}, 'spectrum_sample', []),
+            (['lp_phases'], {}, 'phases_add', ['phases_add']),
+            (['t_phases'], {}, 'phases_add', ['phases_add']),
+            (['fields'], dict(every, field_interval=0.0), 'spectrum_sample', ['pmode_reconstruct']),
+            (['structure'], dict(field_interval=5.0), 'spectrum_sample', []),
+            (['hydro'], {}, 'spectrum_sample', ['hydro_measure']),
+            (['localization'], {}, 'none', ['localization_measure']),
+        ):
+            with self.subTest(topics=topics, params=params):
+                calls = dict(self.calls(topics, **{'observables': topics, **params}), none=0)
+                self.assertEqual(calls['modes_measure'], calls[count])
+                self.assertEqual([name for name in rest if calls[name]], done)
+                if 'localization_measure' in done:
+                    self.assertEqual(calls['localization_measure'], calls['spectrum_sample'])
+                if 'hydro_measure' in done:
+                    self.assertEqual(calls['hydro_measure'], REPORTS)
+                of_reports = {'fields', 'structure', 'hydro'} & set(topics)
+                least = REPORTS if of_reports else REPORTS // 4
+                self.assertGreaterEqual(calls['spectrum_sample'], least)
 
     def test_who_comes_late(self):
         """Is told of what is measured from then on."""
@@ -104,52 +80,25 @@ class Demand(unittest.TestCase):
         self.assertIn('resolved steps', keys)
 
 
-class Fields(unittest.TestCase):
+class Fields(harness.Case):
     def fields(self, **params):
         listeners = {
-            topic: harness.Listener(topic) for topic in ('fields', 'modes', 'status', 'run_info')
+            topic: self.listen(topic) for topic in ('fields', 'modes', 'status', 'run_info')
         }
-        for listener in listeners.values():
-            self.addCleanup(listener.close)
-        node = harness.start(
-            {**MODES, 'duration': 2.0, 'wait_for_subscribers': list(listeners), **params}
-        )
-        self.addCleanup(node.stop)
+        node = self.start(dict(MODES, wait_for_subscribers=list(listeners), **params))
         self.assertEqual(node.wait(), 0, node.text())
         self.assertTrue(listeners['status'].wait_for(is_last))
         return {topic: listener.messages for topic, listener in listeners.items()}
 
-    def test_of_single_vectors(self):
-        messages = self.fields(field_indices=[117, 1, 113], field_interval=0.0)
-        self.assertEqual(messages['run_info'][0].field_indices, '[117, 1, 113]')
-        self.assertEqual([field.index for field in messages['fields']], 2 * [117, 1, 113])
-        modes = messages['modes'][-1].modes
-        for field in messages['fields'][-3:]:
-            mode = modes[field.index - 1]
-            self.assertEqual(
-                (field.kind, field.nx, field.exponent), (mode.kind, mode.nx, mode.exponent)
-            )
-        self.assertEqual(messages['fields'][1].kind, Mode.NONE)
-        self.assertEqual(messages['fields'][1].pairs, 0)
-
     def test_now_and_then(self):
         """The first report, the first at or after each multiple of the interval, and the last."""
-        for interval, times in (
-            (10.0, [1, 10, 20, 25]),
-            (2.5, [1, 3, 5, 8, 10, 13, 15, 18, 20, 23, 25]),
-            (100.0, [1, 25]),
-        ):
-            with self.subTest(interval=interval):
-                messages = self.fields(duration=25.0, field_indices=[5], field_interval=interval)
-                self.assertEqual(messages['run_info'][0].field_interval, interval)
-                begin = MODES['equilibration'] + MODES['warmup']
-                self.assertEqual([field.sim_time - begin for field in messages['fields']], times)
-                for field in messages['fields']:
-                    norm = sum(
-                        sum(v * v for v in part)
-                        for part in (field.dqx, field.dqy, field.dpx, field.dpy)
-                    )
-                    self.assertAlmostEqual(norm, 1.0, delta=1e-5)
+        messages = self.fields(duration=25.0, field_indices=[5], field_interval=2.5)
+        self.assertEqual(messages['run_info'][0].field_interval, 2.5)
+        begin = MODES['equilibration'] + MODES['warmup']
+        self.assertEqual(
+            [field.sim_time - begin for field in messages['fields']],
+            [1, 3, 5, 8, 10, 13, 15, 18, 20, 23, 25],
+        )
 
     def test_target_reached(self):
         """The last report has fields also where nobody knew that it would be the last."""
@@ -171,5 +120,4 @@ class Fields(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_demand')
-    rostest.rosrun('hdlyap', 'demand', 'test_demand')
+    harness.main('demand')

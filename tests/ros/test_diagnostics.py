@@ -1,11 +1,9 @@
 #!/usr/bin/env python3
 """What /diagnostics says of a run on which something is wrong, and that it stops saying so."""
 
-import unittest
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 import rospy
-import rostest
 
 import harness
 import links
@@ -27,18 +25,13 @@ BULKY = dict(
 )
 
 
-class Diagnostics(unittest.TestCase):
+class Diagnostics(harness.Case):
     def setUp(self):
         self.statuses = []
         subscriber = rospy.Subscriber(
             '/diagnostics', DiagnosticArray, lambda message: self.statuses.append(message.status[0])
         )
         self.addCleanup(subscriber.unregister)
-
-    def start(self, params, **kw):
-        node = harness.start(params, **kw)
-        self.addCleanup(node.stop)
-        return node
 
     def said(self, level, *words):
         """The first status from now on of that level with these words; its values."""
@@ -85,5 +78,4 @@ class Diagnostics(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_diagnostics')
-    rostest.rosrun('hdlyap', 'diagnostics', Diagnostics)
+    harness.main('diagnostics')

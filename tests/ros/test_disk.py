@@ -11,11 +11,9 @@ import signal
 import subprocess
 import tempfile
 import time
-import unittest
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 import rospy
-import rostest
 
 import harness
 from harness import SHORT
@@ -65,7 +63,7 @@ def goes_on(node):
     return bool(node.lines('goes on from simulated time'))
 
 
-class Disk(unittest.TestCase):
+class Disk(harness.Case):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -73,11 +71,6 @@ class Disk(unittest.TestCase):
 
     def path(self, name='run.checkpoint'):
         return os.path.join(self.folder, name)
-
-    def start(self, params, **how):
-        node = harness.start(params, **how)
-        self.addCleanup(node.stop)
-        return node
 
     def wait_for(self, condition, node):
         self.assertTrue(harness.wait_until(condition), node.text())
@@ -259,9 +252,8 @@ class Disk(unittest.TestCase):
         self.wait_for(lambda: written(self.path()), node)
         first = written(self.path())
         self.goes_on_beyond(2.0)
-        begin = time.monotonic()
-        self.stop(node, 0)
-        self.assertLess(time.monotonic() - begin, 9.0)
+        with harness.within(self, 9.0):
+            self.stop(node, 0)
         self.assertNotEqual(written(self.path()), first)
         self.assertFalse(node.lines('the checkpoint is not of the end'), node.text())
 
@@ -317,5 +309,4 @@ class Disk(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_disk')
-    rostest.rosrun('hdlyap', 'disk', Disk)
+    harness.main('disk')

@@ -5,12 +5,10 @@ hears."""
 import math
 import re
 import signal
-import unittest
 import xmlrpc.client
 
 import numpy as np
 import rospy
-import rostest
 from std_msgs.msg import Float64, String
 
 import harness
@@ -55,12 +53,7 @@ def expected_deviations(messages, ours):
     return expected
 
 
-class Examples(unittest.TestCase):
-    def start(self, params, **kw):
-        process = harness.start(params, **kw)
-        self.addCleanup(process.stop)
-        return process
-
+class Examples(harness.Case):
     def watch(self, name='watch_phase', **params):
         return self.start(params, name=name, command=[example('watch_phase')])
 
@@ -78,7 +71,8 @@ class Examples(unittest.TestCase):
         self.assertEqual(process.wait(), 0, process.text())
 
 
-class Help(unittest.TestCase):
+@harness.more
+class Help(harness.Case):
     def test_python_example_explains_itself_without_a_master(self):
         fit = Process([example('fit_dispersion'), '--help'], ROS_MASTER_URI='http://localhost:1')
         self.addCleanup(fit.stop)
@@ -96,6 +90,7 @@ class Help(unittest.TestCase):
         self.assertNotIn('Traceback', fit.text())
 
 
+@harness.more
 class Waiting(Examples):
     def test_says_what_it_waits_for(self):
         """And says it again, as it is by then."""
@@ -240,6 +235,7 @@ class Alone(Examples):
                 self.assertEqual(len(node.text().splitlines()), 1, node.text())
                 self.assertRegex(node.text(), r'\[FATAL\] \[[0-9.]+\]: %s = .*: must be ' % name)
 
+    @harness.more
     def test_refused_names(self):
         for params, args in ((dict(node='a b'), ()), ({}, ('__name:=a-b',))):
             node = self.start(
@@ -254,6 +250,7 @@ class Alone(Examples):
         self.addCleanup(publisher.unregister)
         return publisher
 
+    @harness.more
     def test_another_type_under_the_topic(self):
         """Is refused in one line that says all; the right one is heard when it comes."""
         wrong = self.publisher('/other/lp_phases', String)
@@ -315,6 +312,7 @@ class Alone(Examples):
         )
         self.stop(watch)
 
+    @harness.more
     def test_node_dies_and_comes_back(self):
         watch = self.watch()
         deviations, _ = self.hear('/watch_phase/deviation', Float64)
@@ -331,5 +329,4 @@ class Alone(Examples):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_examples')
-    rostest.rosrun('hdlyap', 'examples', 'test_examples')
+    harness.main('examples')

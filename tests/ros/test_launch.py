@@ -1,70 +1,22 @@
 #!/usr/bin/env python3
-"""Scene and launch files: every scene runs as it is written, launching records whole runs."""
+"""Launch files: launching records whole runs."""
 
 import os
 import re
 import signal
 import tempfile
-import unittest
 
 import rosbag
 import roslaunch.config
 import rospkg
-import rospy
-import rostest
-import yaml
 
 import harness
 from harness import Process
 
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
-SCENES = sorted(name[:-5] for name in os.listdir(os.path.join(LAUNCH, 'scenes')))
 
 
-def load(scene):
-    with open(os.path.join(LAUNCH, 'scenes', scene + '.yaml')) as file:
-        return yaml.safe_load(file)
-
-
-class Launch(unittest.TestCase):
-    def test_scenes(self):
-        for scene in SCENES:
-            with self.subTest(scene=scene):
-                self.check_scene(scene, load(scene))
-
-    def check_scene(self, scene, params):
-        listener = harness.Listener('run_info')
-        self.addCleanup(listener.close)
-        node = harness.start(params)
-        self.addCleanup(node.stop)
-        self.assertTrue(listener.wait_for(lambda message: True), node.text())
-        node.send(signal.SIGINT)
-        self.assertEqual(node.wait(), 0, node.text())
-        announced = node.lines('makes 5997 vectors of 3000 disks orthonormal')
-        self.assertEqual(len(announced), scene == 'large', node.text())
-        listener.close()
-        info = listener.messages[0]
-        self.assertEqual(info.scene, scene)
-        params = dict(harness.defaults(), **params)
-        params['exponents'] = str(params['exponents'])
-        for name in ('interval', 'phase_interval'):
-            self.assertEqual(params.pop(name), 'auto')
-        if params['warmup'] == 'auto':
-            params['warmup'] = info.warmup  # chosen
-            self.assertGreaterEqual(info.warmup, 20.0 if info.vectors else 0.0)
-        self.assertIn(params.pop('threads'), (0, info.threads))
-        for name, value in params.items():
-            self.assertEqual(getattr(info, name), value, name)
-
-    def test_scenes_list_what_is_not_as_usual(self):
-        """paper_periodic lists all."""
-        usual = harness.defaults()
-        self.assertEqual(set(load('paper_periodic')), set(usual))
-        for scene in SCENES:
-            if scene != 'paper_periodic':
-                for name, value in load(scene).items():
-                    self.assertNotEqual(value, usual[name], (scene, name))
-
+class Launch(harness.Case):
     def roslaunch(self, folder, *args):
         process = Process(['roslaunch', 'hdlyap', *args], PWD=folder)
         self.addCleanup(process.stop)
@@ -263,5 +215,4 @@ class Launch(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_launch')
-    rostest.rosrun('hdlyap', 'launch', Launch)
+    harness.main('launch')

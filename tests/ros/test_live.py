@@ -11,7 +11,6 @@ import tempfile
 
 import rosbag
 import rospy
-import rostest
 from std_srvs.srv import SetBool
 import yaml
 
@@ -49,8 +48,7 @@ class Live(harness.Case):
         self.assertTrue(self.heard['status'].wait_for(lambda message: message.sim_time >= time))
 
     def call(self, assignment, node=NODE):
-        rospy.wait_for_service('/%s/set' % node, harness.PATIENCE)
-        return rospy.ServiceProxy('/%s/set' % node, Set)(assignment)
+        return harness.service('set', Set, node)(assignment)
 
     def changed(self, assignment):
         """What run_info says of it."""
@@ -120,13 +118,14 @@ class Live(harness.Case):
         runs = {info.run_id for info in self.heard['run_info'].messages}
         self.assertEqual(len(runs), 1)
 
+    @harness.more
     def test_pace(self):
         """Also while it waits for a pace that is too slow, or is paused."""
         node = self.started(dict(RUN, pace=1.0e-4, duration=60.0))
         self.until(BEGIN + 1.0)
         self.changed('pace=20')
         self.until(BEGIN + 3.0)
-        pause = rospy.ServiceProxy('/%s/pause' % NODE, SetBool)
+        pause = harness.service('pause', SetBool)
         self.assertTrue(pause(True).success)
         self.changed('pace=0')
         change = self.changed('duration=80')
@@ -187,6 +186,7 @@ class Live(harness.Case):
         self.assertEqual(node.wait(), 0, node.text())
         self.assertEqual(node.lines('set: '), [])
 
+    @harness.more
     def test_the_parameter_server_is_read_at_the_start(self):
         """Once for each that is set, with what to do instead; lists as rosrun hands them on are as
         they were, whatever blanks they have."""
@@ -212,6 +212,7 @@ class Live(harness.Case):
         self.assertEqual(node.wait(), 0)
         self.assertEqual(self.info().pace, 20.0)
 
+    @harness.more
     def test_a_node_that_takes_over_is_left_alone(self):
         """By the one that ends: it has told the master before that it follows parameters."""
         for seed in ('1', '2', '3'):
@@ -311,5 +312,4 @@ class Live(harness.Case):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_live')
-    rostest.rosrun('hdlyap', 'live', Live)
+    harness.main('live')

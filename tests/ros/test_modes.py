@@ -2,11 +2,8 @@
 """What a run says of its modes: the topics agree with each other."""
 
 import math
-import unittest
 
 import numpy as np
-import rospy
-import rostest
 
 import harness
 import measured
@@ -18,7 +15,7 @@ REPORTS = 20  # of MODES, while averaging
 ROUNDING = 1e-9
 
 
-class Errors(unittest.TestCase):
+class Errors(harness.Case):
     """Fits and errors, of a run that is long enough for them: made again from the steps."""
 
     @classmethod
@@ -28,6 +25,7 @@ class Errors(unittest.TestCase):
         scene.update(duration=140.0, report_interval=10.0, max_mode_number=3)
         messages = harness.whole_run(dict(scene, wait_for_subscribers=topics), topics)
         cls.spectrum, cls.steps = messages['spectrum'][-1], messages['steps'][-1]
+        cls.status = messages['status'][-1]
 
     def check_fit(self, letter, kind):
         """Beside that of the tools, in numpy, which takes the steps as independent: the same but
@@ -72,9 +70,10 @@ class Errors(unittest.TestCase):
         self.assertGreater(errors.min(), 0.0)
         self.assertLess(self.spectrum.ks_entropy_error, errors.sum())
         self.assertGreater(self.spectrum.ks_entropy_error, errors.max())
+        self.assertEqual(self.status.std_error, errors[-8:].max())  # of the smallest exponents
 
 
-class Agreement(unittest.TestCase):
+class Agreement(harness.Case):
     """Of all topics of one run, with all 4N vectors."""
 
     @classmethod
@@ -447,5 +446,4 @@ def responses_of(field, modulation):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_modes')
-    rostest.rosrun('hdlyap', 'modes', 'test_modes')
+    harness.main('modes')

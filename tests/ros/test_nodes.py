@@ -7,20 +7,16 @@ import signal
 import statistics
 import tempfile
 import time
-import unittest
 
 from diagnostic_msgs.msg import DiagnosticArray
 import rosgraph
 from rosgraph_msgs.msg import Clock
 import roslib.packages
-import rospkg
 import rospy
-import rostest
 from std_srvs.srv import SetBool, Trigger
-import yaml
 
 import harness
-from harness import SHORT, TYPES, Process, RunInfo
+from harness import SHORT, TYPES, Process
 
 TOPICS = ['spectrum', 'state', 'status', 'cost']
 RUN = dict(
@@ -57,8 +53,7 @@ class Run:
         test.addCleanup(self.node.stop)
 
     def service(self, name, kind):
-        rospy.wait_for_service(self.name + '/' + name, harness.PATIENCE)
-        return rospy.ServiceProxy(self.name + '/' + name, kind)
+        return harness.service(name, kind, self.name[1:])
 
     def has(self, count):
         return harness.wait_until(lambda: len(self.messages['state']) >= count)
@@ -77,7 +72,7 @@ class Run:
         return [message.header.stamp.to_sec() for message in self.messages['state']]
 
 
-class Nodes(unittest.TestCase):
+class Nodes(harness.Case):
     def run_to_end(self, *args, **kw):
         run = Run(self, *args, **kw)
         self.ended(run)
@@ -144,6 +139,7 @@ class Nodes(unittest.TestCase):
         run.node.send(signal.SIGINT)
         self.assertEqual(run.node.wait(), 0, run.node.text())
 
+    @harness.more
     def test_namespace_of_the_environment(self):
         process = Process(
             [harness.executable(), '_disks:=10', '_density:=0.3', '_duration:=0.0', '_pace:=10.0'],
@@ -167,6 +163,7 @@ class Nodes(unittest.TestCase):
         self.assertLess(abs(run.stamps()[-1] - time.time()), 600)
         self.assertEqual(follow.wait(), 0, follow.text())
 
+    @harness.more
     def test_simulated_time(self):
         """Without a clock, and with one that is none; who has set it is left alone."""
         rospy.set_param('/use_sim_time', True)
@@ -183,6 +180,7 @@ class Nodes(unittest.TestCase):
         self.check_simulated_time()
         self.assertIs(rospy.get_param('/use_sim_time'), True)
 
+    @harness.more
     def test_the_clock_is_set(self):
         """By an hour in the midst of a run, forwards and backwards: nothing waits for it, and all
         that is measured goes on."""
@@ -223,44 +221,6 @@ class Nodes(unittest.TestCase):
         self.assertLess(last.wall_seconds, time.monotonic() - begin)
         self.assertLess(simulated, PACE * (wall + 1))  # a second of delay may be made up
 
-    def test_parameters_are_echoed(self):
-        """And what is below the node's name on the parameter server stays what was set there."""
-        params = dict(
-            scene='mine',
-            disks=30,
-            density=0.6,
-            aspect=0.5,
-            boundary_x='reflecting',
-            boundary_y='periodic',
-            seed='12345678901234',
-            exponents='7',
-            equilibration=0.5,
-            warmup=0.75,
-            duration=2.0,
-            target_std_error=1.0e-6,
-            interval=0.5,
-            accuracy=1.0e-7,
-            report_interval=0.25,
-            max_mode_number=1,
-            observables=['spectrum', 'modes', 'state'],
-            threads=1,
-            pace=1.0e3,
-            checkpoint_interval=5.0,
-            wait_for_subscribers=['state'],
-        )
-        run = Run(self, params)
-        self.assertEqual(run.node.wait(), 0, run.node.text())
-        self.assertEqual(rospy.get_param('/hdlyap'), params)
-        info = run.messages['run_info'][0]
-        for name, value in params.items():
-            self.assertEqual(getattr(info, name), value, name)
-        path = os.path.join(
-            rospkg.RosPack().get_path('hdlyap'), 'launch/scenes/paper_periodic.yaml'
-        )
-        with open(path) as file:
-            self.assertEqual(set(yaml.safe_load(file)) - set(RunInfo.__slots__), set())
-
 
 if __name__ == '__main__':
-    rospy.init_node('test_nodes')
-    rostest.rosrun('hdlyap', 'nodes', Nodes)
+    harness.main('nodes')

@@ -2,16 +2,13 @@
 """~slow_vectors and the pictures that the viewer makes of topics: what is drawn is what is
 published, only while somebody looks, as often as asked; live and from what was recorded."""
 
-import glob
 import re
 import signal
 import time
-import unittest
 
 import numpy as np
 import rosgraph
 import rospy
-import rostest
 from std_srvs.srv import SetBool
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker
@@ -50,17 +47,7 @@ def drawn_as_reported(pictures, listeners):
     ]
 
 
-class Markers(unittest.TestCase):
-    def start(self, params, **kw):
-        node = harness.start(params, **kw)
-        self.addCleanup(node.stop)
-        return node
-
-    def listen(self, topic):
-        listener = Listener(topic)
-        self.addCleanup(listener.close)
-        return listener
-
+class Markers(harness.Case):
     def look(self, modes='lowest', node='/hdlyap', **how):
         """Pictures of a viewer that has just been started."""
         pictures = Pictures(node)
@@ -68,10 +55,6 @@ class Markers(unittest.TestCase):
         pictures.viewer = harness.start_viewer(dict(modes=modes, node=node), **how)
         self.addCleanup(pictures.viewer.stop)
         return pictures
-
-    def pause(self, yes):
-        rospy.wait_for_service('/hdlyap/pause', 10)
-        self.assertTrue(rospy.ServiceProxy('/hdlyap/pause', SetBool)(yes).success)
 
     def test_arrows_are_the_published_vectors(self):
         states, fields = self.listen('state'), self.listen('fields')
@@ -228,12 +211,7 @@ class Markers(unittest.TestCase):
         self.assertEqual(modes(pictures.all[-1]), ['mode/LP(1,0)', 'mode/T(2,0)', 'mode/T(1,0)'])
         self.assertIn('c_T', text(pictures.all[-1]))
 
-    def test_what_is_not_looked_for(self):
-        pictures = self.look('T(99,0)')
-        self.start(dict(ENDLESS))
-        self.assertTrue(harness.wait_until(lambda: pictures.viewer.lines('(99,0)')))
-        self.assertTrue(harness.wait_until(lambda: pictures.all))
-
+    @harness.more
     def test_of_another_node(self):
         """Each node has pictures of its own."""
         pictures, other = self.look(), Pictures('/other')
@@ -251,6 +229,7 @@ class Markers(unittest.TestCase):
         state = rosgraph.Master('/test').getSystemState()[1]
         return [name for name in dict(state).get('/hdlyap/' + topic, ()) if name == '/viewer']
 
+    @harness.more
     def test_the_node_works_for_who_looks(self):
         """A live node has no fields to make for the viewer, and nothing at all soon after nobody
         looks any more."""
@@ -278,6 +257,7 @@ class Markers(unittest.TestCase):
         self.assertGreater(len(both), 1)
         self.assertEqual([one[time] for time in both], [other[time] for time in both])
 
+    @harness.more
     def test_as_often_as_asked(self):
         """Pictures of the averaging, beside the wall time that they took; before it steps are as
         long as they like."""
@@ -294,6 +274,7 @@ class Markers(unittest.TestCase):
         times = [float(re.search(r't = ([0-9.]+)', text(p)).group(1)) for p in averaging()[3:]]
         self.assertLess(max(np.diff(times)), 0.9)  # 0.2 apart, but for a busy machine
 
+    @harness.more
     def test_without_modes_or_exponents(self):
         pictures = self.look()
         self.start(dict(ENDLESS, observables=['spectrum']))
@@ -313,6 +294,7 @@ class Markers(unittest.TestCase):
             )
         )
 
+    @harness.more
     def test_only_modes_that_there_can_be(self):
         """Between close walls there are no transverse ones, and no panel for them."""
         pictures = self.look()
@@ -322,9 +304,10 @@ class Markers(unittest.TestCase):
         self.assertEqual(titles, {'mode/lowest LP'})
         self.assertEqual(len(of(pictures.all[0], 'box', Marker.LINE_LIST)[0].points), 8)
 
+    @harness.more
     def test_late_to_a_run_that_rests(self):
         self.start(ENDLESS)
-        self.pause(True)
+        self.assertTrue(harness.service('pause', SetBool)(True).success)
         time.sleep(0.5)
         pictures = self.look()
         self.assertTrue(harness.wait_until(lambda: pictures.all, 10))
@@ -333,6 +316,7 @@ class Markers(unittest.TestCase):
         for picture in pictures.all[1:]:
             np.testing.assert_array_equal(places(picture), places(pictures.all[0]))
 
+    @harness.more
     def test_late_to_modes_that_rest(self):
         """Nobody looked when the run was paused: its modes are found, their vectors not known."""
         before = self.look()
@@ -341,7 +325,7 @@ class Markers(unittest.TestCase):
         before.viewer.stop()
         before.close()
         time.sleep(1.2)  # a message of less than a second ago is not sent anew
-        self.pause(True)
+        self.assertTrue(harness.service('pause', SetBool)(True).success)
         late = self.look()
         self.assertTrue(harness.wait_until(lambda: late.all and not modes(late.all[-1]), 30))
         titles = [
@@ -353,6 +337,7 @@ class Markers(unittest.TestCase):
         for title in titles:
             self.assertRegex(title, r'vector \d+ not known now')
 
+    @harness.more
     def test_what_comes_no_more_is_not_shown_as_live(self):
         """Of a node that rests, and of one that was killed; the picture is repeated for who
         looks."""
@@ -364,15 +349,16 @@ class Markers(unittest.TestCase):
 
         self.assertTrue(harness.wait_until(lambda: pictures.all))
         self.assertFalse(stands())
-        self.pause(True)
+        self.assertTrue(harness.service('pause', SetBool)(True).success)
         self.assertTrue(harness.wait_until(stands))
         count = len(pictures.all)
         self.assertTrue(harness.wait_until(lambda: len(pictures.all) > count))
-        self.pause(False)
+        self.assertTrue(harness.service('pause', SetBool)(False).success)
         self.assertTrue(harness.wait_until(lambda: not stands()))
         node.stop()
         self.assertTrue(harness.wait_until(stands))
 
+    @harness.more
     def test_of_a_run_that_has_ended(self):
         """Is finished, and stays so without further words."""
         pictures = self.look()
@@ -384,6 +370,7 @@ class Markers(unittest.TestCase):
         self.assertTrue(harness.wait_until(lambda: len(pictures.all) > count + 4))  # repeated
         self.assertNotIn('nothing new', text(pictures.all[-1]))
 
+    @harness.more
     def test_no_memory_for_it(self):
         many = dict(ENDLESS, disks=20000, aspect=1.0, exponents='none', warmup=0.0, pace=1.0)
         pictures = self.look(probe={'PROBE_GROWTH': '300000'})
@@ -396,6 +383,7 @@ class Markers(unittest.TestCase):
         self.assertTrue(viewer.running())
         self.assertEqual(pictures.all, [])
 
+    @harness.more
     def test_no_memory_for_slow_vectors(self):
         self.listen('slow_vectors')
         node = self.start(
@@ -406,43 +394,6 @@ class Markers(unittest.TestCase):
             node.text(),
         )
         self.assertTrue(node.running())
-
-    def test_at_the_slowest_pace(self):
-        """So slow that a picture's time is no number, and the next step's no wall time. What comes
-        before the averaging is as fast as ever."""
-
-        def sleeps(thread):
-            with open(thread) as file:
-                return file.read().rsplit(')', 1)[1].split()[0] == 'S'
-
-        def rested():
-            for _ in range(20):
-                calm.append(all(map(sleeps, glob.glob('/proc/%d/task/*/stat' % node.process.pid))))
-                time.sleep(0.005)
-            return len(calm) >= 20 and all(calm[-20:])
-
-        for pace in (1e-323, 1e-40):
-            slow = self.listen('slow_vectors')
-            node = self.start(
-                dict(
-                    harness.SHORT,
-                    equilibration=100.0,
-                    duration=0.0,
-                    pace=pace,
-                    wait_for_subscribers=['state'],
-                )
-            )
-            self.assertTrue(harness.wait_until(slow.subscriber.get_num_connections), node.text())
-            states = self.listen('state')  # the run is looked at from its first step
-            self.assertTrue(harness.wait_until(lambda: slow.messages), node.text())
-            calm = []
-            self.assertTrue(
-                harness.wait_until(lambda: all(calm[-20:] or [False]) or rested()), node.text()
-            )
-            self.assertTrue(node.running(), node.text())
-            for listener in (slow, states):
-                listener.close()
-            node.stop()
 
     def test_the_frame_of_the_box_is_known(self):
         frames = []
@@ -456,11 +407,6 @@ class Markers(unittest.TestCase):
         translation = transform.transform.translation
         self.assertEqual((translation.x, translation.y, translation.z), (0, 0, 0))
 
-    def test_nothing_for_nobody(self):
-        calls = harness.calls(self, dict(MODES, duration=5.0))
-        self.assertEqual(calls['slow_vectors_publish'], 0)
-
 
 if __name__ == '__main__':
-    rospy.init_node('test_pictures')
-    rostest.rosrun('hdlyap', 'pictures', Markers)
+    harness.main('pictures')

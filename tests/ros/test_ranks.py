@@ -9,8 +9,6 @@ import subprocess
 import tempfile
 import time
 
-import rospy
-import rostest
 
 import harness
 from harness import MODES, REPEATABLE, SHORT
@@ -76,10 +74,9 @@ class Ranks(harness.Case):
         return self.start(params, command=mpirun(ranks), **ENVIRONMENT)
 
     def last(self, topic, node):
-        """The last message of a run that ends by itself."""
-        status = node.wait()
-        self.assertEqual(status, 0, node.text())
-        self.assertTrue(topic.wait_for(lambda message: True))
+        """The last message of a run that ends by itself, of MODES."""
+        self.assertEqual(node.wait(), 0, node.text())
+        self.assertTrue(topic.wait_for(lambda message: message.sim_time == 90.0))
         return topic.messages[-1]
 
     def test_numbers(self):
@@ -89,7 +86,7 @@ class Ranks(harness.Case):
             params = dict(MODES, threads=1, wait_for_subscribers=['spectrum', 'cost'])
             node = self.on_ranks(params, ranks) if ranks > 1 else self.start(params)
             spectrum = self.last(heard[0], node)
-            cost = heard[1].messages[-1]
+            cost = self.last(heard[1], node)
             self.assertEqual(heard[2].messages[-1].ranks, ranks)
             self.assertEqual(cost.communication_calls > 0, ranks > 1)
             self.assertEqual(cost.communication_bytes > 0, ranks > 1)
@@ -112,6 +109,7 @@ class Ranks(harness.Case):
         for name, topic in topics.items():
             self.assertTrue(topic.messages, name)
 
+    @harness.more
     def test_interrupt(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             spectrum = self.listen('spectrum')
@@ -126,6 +124,7 @@ class Ranks(harness.Case):
             self.assertTrue(all_gone(pids))
             spectrum.close()
 
+    @harness.more
     def test_one_is_interrupted(self):
         """It is for the node to end the run."""
         spectrum = self.listen('spectrum')
@@ -157,15 +156,19 @@ class Ranks(harness.Case):
             node.send(signal.SIGINT)
             node.wait(harness.SOON)
 
+    @harness.more
     def test_the_node_is_killed(self):
         self.kill(lambda node, pids: pids[0])
 
+    @harness.more
     def test_another_is_killed(self):
         self.kill(lambda node, pids: pids[1])
 
+    @harness.more
     def test_mpirun_is_killed(self):
         self.kill(lambda node, pids: node.process.pid)
 
+    @harness.more
     def test_stopped_for_a_while(self):
         """The others wait for it."""
         status = self.listen('status')
@@ -193,6 +196,7 @@ class Ranks(harness.Case):
         self.assertEqual(status, 2, said)
         self.assertRegex(said, 'rank 1 is hdlyap .* %s kernels: must be hdlyap' % OTHER_KERNELS)
 
+    @harness.more
     def test_no_room(self):
         status, said = self.unlike('prlimit', '--as=900000000', disks=3000)
         self.assertEqual(status, 3, said)
@@ -234,5 +238,4 @@ class Ranks(harness.Case):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_ranks')
-    rostest.rosrun('hdlyap', 'ranks', Ranks)
+    harness.main('ranks')

@@ -10,7 +10,6 @@ import genpy.dynamic
 import rosbag
 import rosgraph
 import rospy
-import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from visualization_msgs.msg import MarkerArray
 
@@ -187,5 +186,4 @@ class Replayed(harness.Case):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_replay')
-    rostest.rosrun('hdlyap', 'test_replay', Replayed)
+    harness.main('replay')

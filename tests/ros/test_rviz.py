@@ -8,7 +8,6 @@ import signal
 import subprocess
 import tempfile
 import time
-import unittest
 
 import matplotlib.image
 import numpy as np
@@ -16,7 +15,6 @@ import rosbag
 import rosgraph
 import roslib.packages
 import rospy
-import rostest
 import yaml
 from std_srvs.srv import SetBool
 from visualization_msgs.msg import Marker, MarkerArray
@@ -149,7 +147,7 @@ def drawn(picture):
     return [marker for marker in picture.markers if marker.action == Marker.ADD]
 
 
-class Rviz(unittest.TestCase):
+class Rviz(harness.Case):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
@@ -252,7 +250,7 @@ class Rviz(unittest.TestCase):
         self.assertTrue(rviz.running())
 
 
-class View(unittest.TestCase):
+class View(harness.Case):
     def test_without_a_config_or_a_master(self):
         view = harness.Process([VIEW, '--config', 'none.rviz'])
         self.addCleanup(view.stop)
@@ -269,5 +267,4 @@ class View(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_rviz')
-    rostest.rosrun('hdlyap', 'rviz', 'test_rviz')
+    harness.main('rviz')

@@ -7,11 +7,8 @@ import os
 import signal
 import subprocess
 import tempfile
-import unittest
 import uuid
 
-import rospy
-import rostest
 
 import harness
 
@@ -56,7 +53,7 @@ def can_be_docker():
     return subprocess.run([*WAYS['docker'], 'true'], stderr=subprocess.DEVNULL).returncode == 0
 
 
-class Started(unittest.TestCase):
+class Started(harness.Case):
     def setUp(self):
         self.mark = os.environ['HDLYAP_MARK'] = uuid.uuid4().hex
         folder = tempfile.TemporaryDirectory()
@@ -211,5 +208,4 @@ class Started(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_started')
-    rostest.rosrun('hdlyap', 'started', Started)
+    harness.main('started')

@@ -3,12 +3,9 @@
 
 import signal
 import time
-import unittest
 import xmlrpc.client
 
 import rosgraph
-import rospy
-import rostest
 
 import harness
 import links
@@ -18,22 +15,11 @@ BOUND = 1.0  # seconds, the contract
 ENDLESS = dict(SHORT, disks=100, duration=0.0)
 
 
-class Stop(unittest.TestCase):
-    def listen(self, topic):
-        listener = harness.Listener(topic)
-        self.addCleanup(listener.close)
-        return listener
-
-    def start(self, params, **kw):
-        node = harness.start(params, **kw)
-        self.addCleanup(node.stop)
-        return node
-
+class Stop(harness.Case):
     def stop(self, node, ask=None):
-        begin = time.monotonic()
-        (ask or (lambda: node.send(signal.SIGINT)))()
-        self.assertEqual(node.wait(), 0, node.text())
-        self.assertLess(time.monotonic() - begin, BOUND)
+        with harness.within(self, BOUND):
+            (ask or (lambda: node.send(signal.SIGINT)))()
+            self.assertEqual(node.wait(), 0, node.text())
 
     def check_stopped(self, status, spectrum):
         """Nothing is missing up to the last message."""
@@ -69,6 +55,7 @@ class Stop(unittest.TestCase):
         self.stops_with_last_message(kill)
         self.assertEqual(len(killed[0].lines('asked to shut down: killed by a test')), 1)
 
+    @harness.more
     def test_twice(self):
         node = self.start(ENDLESS)
         cost = self.listen('cost')
@@ -88,11 +75,13 @@ class Stop(unittest.TestCase):
         self.assertEqual(status.messages[-1].sim_time, before.sim_time)
 
     def test_during_creation(self):
-        node = self.start(dict(disks=1000, exponents='all', threads=1))
-        time.sleep(0.7)
-        self.assertEqual(node.text(), '')
+        """Of a frame so large that it is announced."""
+        node = self.start(dict(disks=2000, exponents='all', threads=1))
+        self.assertTrue(harness.wait_until(lambda: node.lines('makes 4000 vectors of 2000 disks')))
         self.stop(node)
+        self.assertEqual(node.lines('scene '), [])
 
+    @harness.more
     def test_while_paused_recorder_listens(self):
         echo = harness.Process(['rostopic', 'echo', '/hdlyap/state'])
         self.addCleanup(echo.stop)
@@ -112,6 +101,7 @@ class Stop(unittest.TestCase):
         self.assertTrue(harness.wait_until(lambda: node.lines('waiting for subscribers')))
         self.stop(node)
 
+    @harness.more
     def test_while_waiting_for_the_second_subscriber(self):
         links.register(self, 'state', '/gone')
         state = self.listen('state')
@@ -121,6 +111,7 @@ class Stop(unittest.TestCase):
         self.stop(node)
         self.assertEqual((state.messages, node.lines('WARN')), ([], []))
 
+    @harness.more
     def test_while_a_stopped_master_is_asked(self):
         """Who else has subscribed: no answer is no reason to start what is to stop."""
         master = harness.Master()
@@ -147,6 +138,7 @@ class Stop(unittest.TestCase):
         self.assertTrue(cost.wait_for(lambda message: True))
         self.stop(node)
 
+    @harness.more
     def test_without_master(self):
         uri = 'http://localhost:%d' % harness.free_port()
         for args in ([], ['_disks:=100']):
@@ -156,6 +148,7 @@ class Stop(unittest.TestCase):
                 self.assertTrue(harness.wait_until(lambda: node.lines('master at')), node.text())
                 self.stop(node)
 
+    @harness.more
     def test_without_address(self):
         """roscpp has one then, where somebody else's master may be."""
         node = harness.Process(['env', '-u', 'ROS_MASTER_URI', harness.executable()])
@@ -166,6 +159,7 @@ class Stop(unittest.TestCase):
         self.assertTrue(found, node.text())
         self.stop(node)
 
+    @harness.more
     def test_master_comes_later(self):
         port = harness.free_port()
         node = harness.Process([harness.executable()], ROS_MASTER_URI='http://localhost:%d' % port)
@@ -176,6 +170,7 @@ class Stop(unittest.TestCase):
         self.assertTrue(harness.wait_until(lambda: node.lines('scene paper_periodic')))
         self.stop(node)
 
+    @harness.more
     def test_with_stopped_master(self):
         master = harness.Master()
         self.addCleanup(master.stop)
@@ -187,5 +182,4 @@ class Stop(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_stop')
-    rostest.rosrun('hdlyap', 'stop', Stop)
+    harness.main('stop')

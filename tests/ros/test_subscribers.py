@@ -6,11 +6,7 @@ import os
 import random
 import signal
 import socket
-import time
-import unittest
 
-import rospy
-import rostest
 
 import harness
 import links
@@ -29,7 +25,6 @@ EVERY_TOPIC = dict(
     field_interval=0.0,
     observables=OBSERVABLES,
 )
-REPORTS, AVERAGED_REPORTS = 408, 400
 # messages of 160 kB, thousands of them in a second
 BULKY = dict(
     disks=5000, exponents='none', observables=['state'], report_interval=0.02, duration=0.0
@@ -46,12 +41,7 @@ def open_files(node):
     return len(os.listdir('/proc/%d/fd' % node.process.pid))
 
 
-class Subscribers(unittest.TestCase):
-    def start(self, params, **kw):
-        node = harness.start(params, **kw)
-        self.addCleanup(node.stop)
-        return node
-
+class Subscribers(harness.Case):
     def link(self, port, topic, name='/links'):
         link = links.Link(port, topic, name)
         self.addCleanup(link.close)
@@ -63,45 +53,12 @@ class Subscribers(unittest.TestCase):
         return reader
 
     def stop(self, node):
-        begin = time.monotonic()
-        node.send(signal.SIGINT)
-        self.assertEqual(node.wait(), 0, node.text())
-        self.assertLess(time.monotonic() - begin, BOUND)
+        with harness.within(self, BOUND):
+            node.send(signal.SIGINT)
+            self.assertEqual(node.wait(), 0, node.text())
 
     def wait_for(self, condition):
         self.assertTrue(harness.wait_until(condition))
-
-    def test_ten_on_every_topic(self):
-        node = self.start(dict(EVERY_TOPIC, wait_for_subscribers='all'))
-        port = links.node_port(node)
-        ten = {
-            topic: [self.link(port, topic, '/links_%d' % k) for k in range(10)]
-            for topic in TYPES
-            if topic != 'run_info'
-        }
-        for some in ten.values():
-            for link in some:
-                link.greet()
-        ten['run_info'] = [self.link(port, 'run_info')]  # the run waits for it alone now
-        reader = self.read(sum(ten.values(), []))
-        self.assertEqual(node.wait(), 0, node.text())
-        reader.join(harness.PATIENCE)
-        for topic, some in ten.items():
-            with self.subTest(topic=topic):
-                self.assertEqual({link.gaps() for link in some}, {0})
-                self.assertEqual(len({tuple(link.seqs) for link in some}), 1)
-        counts = {topic: len(some[0].seqs) for topic, some in ten.items()}
-        self.assertGreater(counts.pop('fields'), AVERAGED_REPORTS / 2)
-        self.assertEqual(
-            counts,
-            dict(
-                run_info=1,
-                state=REPORTS,
-                status=REPORTS,
-                cost=REPORTS,
-                **{topic: AVERAGED_REPORTS for topic in harness.AVERAGES},
-            ),
-        )
 
     def test_stopped_reading(self):
         """What they have not read is dropped; memory stays that of one queue, which they share."""
@@ -226,5 +183,4 @@ class Subscribers(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_subscribers')
-    rostest.rosrun('hdlyap', 'subscribers', Subscribers)
+    harness.main('subscribers')

@@ -14,8 +14,6 @@ from xml.etree import ElementTree
 import rosbag
 from roslaunch import arg_dump
 import rospkg
-import rospy
-import rostest
 import yaml
 
 import hdlyap
@@ -191,6 +189,7 @@ class Results(InFolder):
         self.assertIsNone(figure.draw(self.read(self.bag('a'))))
 
 
+@harness.more
 class Sweep(InFolder):
     """Of runs of a second."""
 
@@ -336,5 +335,4 @@ class Files(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('test_sweep')
-    rostest.rosrun('hdlyap', 'sweep', 'test_sweep')
+    harness.main('sweep')

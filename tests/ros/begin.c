@@ -1,0 +1,29 @@
+/** As node.c begins a run. */
+#include "begin.h"
+
+#include "checkpoint_writer.h"
+#include "run_info.h"
+#include "settings.h"
+
+bool begin_run(const hdr_params *params, bool tiny, char *line, size_t size)
+{
+    const hd_scene_def two = {.disks = 2,
+                              .density = 0.1,
+                              .aspect = 1.0,
+                              .exponents = HD_EXPONENTS_NONE,
+                              .accuracy = 1e-8,
+                              .report_interval = 1.0};
+    const changes none = {0};
+    const publishers out = {.run_id = "begun"};
+    const char *resume;
+    settings set;
+    hd_run *run = NULL;
+    if (!settings_resume(&resume, params, line, size) ||
+        !settings_read(&set, params, NULL, line, size) ||
+        checkpoint_writer_check(&set, line, size) != HD_OK ||
+        hd_run_create_shared(&run, tiny ? &two : &set.def, NULL, line, size) != HD_OK)
+        return false;
+    const bool published = run_info_publish(&out, &set, run, &none) == HDR_OK;
+    hd_run_free(run);
+    return published;
+}

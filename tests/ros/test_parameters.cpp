@@ -1,0 +1,486 @@
+/** Every parameter as a scene file gives it, read, checked and run by the node's own functions in
+ * this process: what is refused, with exactly which words, and what run_info says of the rest. */
+#include <gtest/gtest.h>
+
+#include <dirent.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iomanip>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "hdlyap/RunInfo.h"
+#include "message_fields.hpp"
+#include "received.hpp"
+
+#include "begin.h"
+
+extern "C" {
+#include "parameters.h"
+}
+
+namespace
+{
+hdlyap::RunInfo published; /**< what was told last */
+}
+
+/** In place of the wrapper's, which needs a master. */
+extern "C" hdr_status hdr_run_info_publish(hdr_publisher *, const hdr_run_info *message)
+{
+    const hdlyap_ros::sent<hdr_run_info> out = {*message};
+    ros::SerializedMessage bytes = ros::serialization::serializeMessage(out);
+    ros::serialization::deserializeMessage(bytes, published);
+    return HDR_OK;
+}
+
+namespace
+{
+const std::string scene = "disks: 20\ndensity: 0.7\naspect: 1.0\n"
+                          "equilibration: 1.0\nwarmup: 1.0\nduration: 2.0\n";
+
+const std::string window = "observables: [covariant]\ncovariant_transient: 1.0\n"
+                           "covariant_window: 1.0\ncovariant_sampling: 1.0\n";
+
+/** The scene with other lines: {a: 1, b: 2} stands for two, {covariant, .. has a window before. */
+std::string with(const std::string &text)
+{
+    std::string lines = text[0] == '{' ? text.substr(1, text.size() - 2) : text;
+    lines = std::regex_replace(lines, std::regex(", (?=\\w+: )"), "\n");
+    return scene + std::regex_replace(lines, std::regex("^covariant\n"), window);
+}
+
+/** Parameters of a file with these lines. */
+hdr_params *params_of(const std::string &lines)
+{
+    const std::string path = testing::TempDir() + "parameters." + std::to_string(getpid());
+    hdr_params *params = nullptr;
+    std::ofstream(path) << lines;
+    EXPECT_EQ(hdr_params_read(&params, path.c_str(), 0, nullptr), HDR_OK) << hdr_error_text();
+    std::remove(path.c_str());
+    return params;
+}
+
+/** The line that refuses them; "" if the run is begun, and has said so in `published`. */
+std::string begun(const std::string &lines, bool tiny = false)
+{
+    char line[512] = "";
+    hdr_params *params = params_of(lines);
+    const bool good = params && begin_run(params, tiny, line, sizeof line);
+    EXPECT_EQ(good, !*line) << line;
+    hdr_params_free(params);
+    return line;
+}
+
+template <class Items> std::string listed(const Items &items)
+{
+    std::ostringstream text;
+    for (size_t k = 0; k < items.size(); k++) text << (k ? ", " : "") << items[k];
+    return "[" + text.str() + "]";
+}
+
+/** What run_info says, "name: value" in each line. */
+std::string said()
+{
+    std::ostringstream text;
+    text << std::setprecision(12) << "\n" << published;
+    text << "observables: " << listed(published.observables)
+         << "\nwave_nx: " << listed(published.wave_nx) << "\nwave_ny: " << listed(published.wave_ny)
+         << "\nwait_for_subscribers: " << listed(published.wait_for_subscribers) << "\n";
+    return text.str();
+}
+
+/** wanted: "name: value, name: value". */
+void expect_has(const std::string &wanted)
+{
+    std::istringstream each(std::regex_replace(wanted, std::regex(", (?=\\w+: )"), "\n"));
+    for (std::string line; std::getline(each, line);)
+        EXPECT_NE(said().find("\n" + line + "\n"), std::string::npos) << line << said();
+}
+
+/** Of a scene with these lines. */
+void expect_said(const std::string &lines, const std::string &wanted)
+{
+    EXPECT_EQ(begun(with(lines)), "");
+    expect_has(wanted);
+}
+
+/** A value of YAML as a message shows it: without quotes, numbers as short as they can be. */
+std::string shown(const std::string &value)
+{
+    const bool quoted = value[0] == '\'';
+    const std::string bare = std::regex_replace(value, std::regex("'"), "");
+    if (quoted) return bare;
+    if (bare == "true" || bare == "false") return bare == "true" ? "1" : "0";
+    return std::regex_replace(bare, std::regex("\\.0\\b"), "");
+}
+
+/** Values that are refused whatever else is given, by the words that say what they must be. */
+struct refusal {
+    const char *name, *must_be;
+    std::vector<std::string> values;
+};
+
+#define OBSERVABLES                                                                                \
+    "spectrum, modes, steps, lp_phases, t_phases, fields, hydro, structure, covariant, "           \
+    "localization, gas, state"
+#define EXPONENTS "positive, all, all_independent, none or a number from 1 to 4 disks"
+#define SEED "a string of digits, from \"0\" to \"18446744073709551615\""
+#define FOR_CHANGES "changes that ~set can make: "
+
+const std::vector<std::string> no_number = {"x", "''", "[1.0]", "true", "1 2"};
+const std::vector<std::string> no_integer = {"1.0", "'2'", "x", "''", "[2]", "false"};
+const std::vector<std::string> no_time = {"-1", "-1e-09", "2000000000000", "nan", "inf"};
+const std::vector<std::string> no_length = {"0", "-1", "0.9e-6", "2000000000000", "nan", "inf"};
+const std::vector<std::string> no_interval = {"0",  "0.0", "-1",  "2000000000000", "never",
+                                              "''", "nan", "inf", "true"};
+
+const std::vector<refusal> refusals = {
+    {"scene", "a string", {"5", "[quick]", "true"}},
+    {"scene", "a line that is not empty", {"''"}},
+    {"disks", "an integer, without a point", no_integer},
+    {"disks", "an integer from 2 to 1000000", {"1", "0", "-3", "1000001"}},
+    {"density", "a number", no_number},
+    {"density", "from 1e-6 to 2/sqrt(3) = 1.1547", {"0", "-0.1", "1.1548", "nan", "inf"}},
+    {"aspect", "a number", no_number},
+    {"aspect", "from 1e-6 to 1e6", {"0", "-1", "10000000", "nan", "inf"}},
+    {"boundary_x", "periodic or reflecting", {"open", "''", "1", "Periodic"}},
+    {"boundary_y", "periodic or reflecting", {"open", "''", "1", "[periodic]"}},
+    {"seed",
+     SEED,
+     {"''", "'-1'", "'+1'", "' 1'", "'1.5'", "'0x1'", "x", "'18446744073709551616'", "1.0", "-1",
+      "true"}},
+    {"exponents",
+     EXPONENTS,
+     {"some", "''", "'0'", "'-1'", "'1.0'", "0", "-1", "-2", "2.0", "'99999999999'", "[all]"}},
+    {"exponents", "positive, all, all_independent, none or from 1 to 4 disks = 80", {"81", "'81'"}},
+    {"equilibration", "a number", no_number},
+    {"equilibration", "from 0 to 1e12", no_time},
+    {"warmup", "auto, or from 0 to 1e12", no_number},
+    {"warmup", "auto, or from 0 to 1e12", no_time},
+    {"duration", "a number", no_number},
+    {"duration", "from 0 (until stopped) to 1e12", no_time},
+    {"target_std_error", "a number", no_number},
+    {"target_std_error", "from 0 (off) to 1e12", no_time},
+    {"interval", "auto, or from 1e-6 to 1e12", no_interval},
+    {"accuracy", "a number", no_number},
+    {"accuracy", "from 1e-12 to 1e-2", {"0", "9e-13", "0.011", "nan", "inf"}},
+    {"report_interval", "a number", no_number},
+    {"report_interval", "from 1e-6 to 1e12", {"0", "-1", "2000000000000", "nan", "inf"}},
+    {"phase_interval", "auto, or from 1e-6 to 1e12", no_interval},
+    {"observables",
+     "a list out of " OBSERVABLES,
+     {"[covariants]", "[modes, covariance]", "[run_info]", "[cost]", "[spectra]", "['']",
+      "spectrum", "5", "[1]", "true"}},
+    {"wait_for_subscribers",
+     "all or a list out of run_info, " OBSERVABLES ", status, cost",
+     {"[nothing]", "[spectrum, '']", "spectrum", "5", "[1]"}},
+    {"threads", "an integer, without a point", no_integer},
+    {"threads", "from 0 (all cores) to 1024", {"-1", "1025"}},
+    {"pace", "a number", no_number},
+    {"pace", "from 0 (as fast as it goes) to 1e12", no_time},
+    {"slow_vectors_rate", "a number", no_number},
+    {"slow_vectors_rate", "from 0.01 to 100", {"0", "0.0099", "101", "nan"}},
+    {"slow_vectors_count", "an integer, without a point", no_integer},
+    {"slow_vectors_count",
+     "from 0 (the lowest T and LP steps) to 37, the vectors carried",
+     {"-1", "38"}},
+    {"max_wave_number", "a number", no_number},
+    {"max_wave_number", "0 (by max_mode_number) or above", {"-1", "2000000000000", "nan", "inf"}},
+    {"max_mode_number", "an integer, without a point", no_integer},
+    {"max_mode_number", "from 0 (automatic) to 1000000", {"-1", "1000001"}},
+    {"field_indices",
+     "steps or a list of integers from 1",
+     {"''", "all", "Steps", "5", "1.0", "[]", "['1']", "[1.0]", "[1, steps]"}},
+    {"field_indices",
+     "steps or a list of integers from 1 to 37, the vectors carried",
+     {"[0]", "[-1]", "[38]", "[1, 2, 1000000]"}},
+    {"field_interval", "a number", no_number},
+    {"field_interval", "from 0 (with every report) to 1e12", no_time},
+    {"changes", "a list of texts \"TIME NAME=VALUE\"", {"5 pace=1", "5", "[5]"}},
+    {"checkpoint", "a string", {"5", "true", "[file]"}},
+    {"checkpoint_interval", "a number", no_number},
+    {"checkpoint_interval", "from 0 (only at the end and when asked) to 1e12", no_time},
+    {"resume", "a string", {"5", "true", "[file]"}},
+    {"covariant_window", "a number", no_number},
+    {"covariant_transient", "a number", no_number},
+    {"covariant_sampling", "a number", no_number},
+    {"covariant_memory", "a number", no_number},
+    {"covariant_storage", "memory or recompute", {"''", "disk", "file", "Memory", "5", "[memory]"}},
+    {"densty", "removed: there is no parameter of this name", {"0.8"}},
+    {"Disks", "removed: there is no parameter of this name", {"100"}},
+    {"max_node", "removed: it is max_mode_number now", {"2"}},
+    {"marker_rate", "removed: it is slow_vectors_rate now", {"5"}},
+    {"marker_modes", "removed: it is modes of the viewer now (rviz.launch modes:=..)", {"lowest"}},
+    {"covariant_folder", "removed: covariant_storage is memory or recompute now", {"/tmp"}},
+};
+
+/** A later line of the same name replaces an earlier one. */
+TEST(Parameters, RefusedWithTheirWords)
+{
+    std::set<std::string> names;
+    for (const refusal &r : refusals) {
+        names.insert(r.name);
+        for (const std::string &value : r.values)
+            EXPECT_EQ(begun(scene + r.name + ": " + value),
+                      r.name + (" = " + shown(value)) + ": must be " + r.must_be);
+    }
+    for (int k = 0; k < parameters_count(); k++) EXPECT_EQ(names.count(parameters_at(k).name), 1u);
+}
+
+#define OF_VECTORS "modes, steps, lp_phases, t_phases, fields, hydro, structure, covariant"
+#define OF_PUBLISHED "out of run_info, status, cost and the observables"
+#define WITHOUT_EXPONENTS "a list out of gas, state when exponents = none"
+#define UNSAMPLED_ONE "a shorter one than two mean distances, 2 / sqrt(density), is not sampled"
+#define UNSAMPLED "a shorter wave than two mean distances, 2 / sqrt(density), is not sampled"
+
+TEST(Parameters, RefusedTogether)
+{
+    const std::vector<std::pair<std::string, std::string>> refused = {
+        {"density: 1.1", "density = 1.1: must be at most 0.868056 with disks = 20, aspect = 1 and "
+                         "these boundaries (densest start lattice)"},
+        {"{disks: 100, aspect: 0.0001}",
+         "density = 0.7 with disks = 100, aspect = 0.0001: the box edge Ly = 0.119522860933439 "
+         "must be above the disk diameter 1"},
+        {"{disks: 2, density: 1.01}", "density = 1.01: must be at most 1 with disks = 2, aspect = "
+                                      "1 and these boundaries (densest start lattice)"},
+        {"{disks: 5, exponents: 21}",
+         "exponents = 21: must be positive, all, all_independent, none or from 1 to 4 disks = 20"},
+        {"{exponents: none, observables: [spectrum]}",
+         "observables = [spectrum]: must be " WITHOUT_EXPONENTS},
+        {"{exponents: none, observables: [state, modes]}",
+         "observables = [state, modes]: must be " WITHOUT_EXPONENTS},
+        {"{exponents: none, observables: [hydro]}",
+         "observables = [hydro]: must be " WITHOUT_EXPONENTS},
+        {"{exponents: none, observables: [state, covariant]}",
+         "observables = [state, covariant]: must be " WITHOUT_EXPONENTS},
+        {"{phase_interval: 1.0, observables: [steps]}",
+         "phase_interval = 1: must be auto without an observable out of lp_phases, t_phases"},
+        {"{max_mode_number: 1, max_wave_number: 1.5}",
+         "max_mode_number = 1: must be 0 when max_wave_number = 1.5 is given"},
+        {"{max_mode_number: 3, aspect: 0.9}",
+         "max_mode_number = 3: must be at most 2 with disks = 20, density = 0.7, aspect = 0.9 and "
+         "these boundaries: " UNSAMPLED},
+        {"max_mode_number: 3", "max_mode_number = 3: must be at most 2 with disks = 20, density = "
+                               "0.7, aspect = 1 and these boundaries: " UNSAMPLED},
+        {"max_wave_number: 1.1", "max_wave_number = 1.1: must be from 1.17548, the longest wave of "
+                                 "this box, to 2.62844: " UNSAMPLED_ONE},
+        {"max_wave_number: 2.7", "max_wave_number = 2.7: must be from 1.17548, the longest wave of "
+                                 "this box, to 2.62844: " UNSAMPLED_ONE},
+        {"{max_mode_number: 1, observables: [spectrum, state]}",
+         "max_mode_number = 1: must be 0 without an observable out of " OF_VECTORS},
+        {"{max_mode_number: 1, exponents: none}",
+         "max_mode_number = 1: must be 0 without an observable out of " OF_VECTORS},
+        {"{max_wave_number: 1.5, observables: []}",
+         "max_wave_number = 1.5: must be 0 without an observable out of " OF_VECTORS},
+        {"covariant_window: 49.0",
+         "covariant_window = 49: must be 50 unless covariant is an observable"},
+        {"covariant_transient: 99.0",
+         "covariant_transient = 99: must be 100 unless covariant is an observable"},
+        {"covariant_sampling: 4.0",
+         "covariant_sampling = 4: must be 5 unless covariant is an observable"},
+        {"covariant_memory: 3.0",
+         "covariant_memory = 3: must be 4 unless covariant is an observable"},
+        {"covariant_storage: recompute",
+         "covariant_storage = recompute: must be memory unless covariant is an observable"},
+        {"{field_indices: [1], observables: [modes, steps]}",
+         "field_indices = [1]: must be steps unless fields is an observable"},
+        {"{field_indices: [1], exponents: none}",
+         "field_indices = [1]: must be steps unless fields is an observable"},
+        {"{field_indices: [3], exponents: 2}", "field_indices = [3]: must be steps or a list of "
+                                               "integers from 1 to 2, the vectors carried"},
+        {"{slow_vectors_count: 3, exponents: 2}",
+         "slow_vectors_count = 3: must be from 0 (the lowest T and LP steps) to 2, the vectors "
+         "carried"},
+        {"{observables: [state], wait_for_subscribers: [spectrum]}",
+         "wait_for_subscribers = [spectrum]: must be " OF_PUBLISHED},
+        {"{exponents: none, wait_for_subscribers: [spectrum]}",
+         "wait_for_subscribers = [spectrum]: must be " OF_PUBLISHED},
+        {"{covariant, covariant_window: 0}", "covariant_window = 0: must be from 1e-6 to 1e12"},
+        {"{covariant, covariant_transient: -1}",
+         "covariant_transient = -1: must be from 1e-6 to 1e12"},
+        {"{covariant, covariant_sampling: nan}",
+         "covariant_sampling = nan: must be from 1e-6 to covariant_window"},
+        {"{covariant, covariant_window: 2000000000000}",
+         "covariant_window = 2000000000000: must be from 1e-6 to 1e12"},
+        {"{covariant, covariant_memory: 0.0009}",
+         "covariant_memory = 0.0009: must be from 0.001 to 1e6 [GB]"},
+        {"{covariant, covariant_memory: 1100000}",
+         "covariant_memory = 1100000: must be from 0.001 to 1e6 [GB]"},
+        {"{covariant, covariant_sampling: 1.5}",
+         "covariant_sampling = 1.5: must be from 1e-6 to covariant_window"},
+        {"{covariant, covariant_transient: 1.5}",
+         "warmup = 1: must be at least covariant_transient = 1.5: vectors converge forwards no "
+         "faster than backwards"},
+        {"{covariant, covariant_window: 1.5}",
+         "duration = 2: must be 0 or at least covariant_window + covariant_transient = 2.5"},
+        {"{covariant, field_indices: [1]}",
+         "field_indices = [1]: must be steps unless fields is an observable"},
+        {"{covariant, disks: 400, duration: 1000000.0, covariant_window: 100000.0}",
+         "covariant_window = 100000 with covariant_transient = 1: 150013 triangles and 100007 "
+         "frames of 797 vectors need 1.4e+03 GB, must be at most covariant_memory = 4 GB"},
+    };
+    for (const auto &one : refused) EXPECT_EQ(begun(with(one.first)), one.second) << one.first;
+}
+
+#define NO_TIME "must be a simulated time and NAME=VALUE, such as 120 report_interval=5"
+
+TEST(Parameters, RefusedChanges)
+{
+    const struct {
+        std::string given, first_bad, why;
+    } refused[] = {
+        {"[5pace=1]", "5pace=1", "5pace=1: " NO_TIME},
+        {"[pace=1]", "pace=1", "pace=1: " NO_TIME},
+        {"['']", "", ": " NO_TIME},
+        {"['-5 pace=1']", "-5 pace=1", "-5 pace=1: " NO_TIME},
+        {"['nan pace=1']", "nan pace=1", "nan pace=1: " NO_TIME},
+        {"['inf pace=1']", "inf pace=1", "inf pace=1: " NO_TIME},
+        {"['5 pace']", "5 pace", "pace: must be one NAME=VALUE, such as pace=1.5"},
+        {"['5 pace=-1']", "5 pace=-1", "pace=-1: must be from 0 (as fast as it goes) to 1e12"},
+        {"['5 pace=nan']", "5 pace=nan", "pace=nan: must be from 0 (as fast as it goes) to 1e12"},
+        {"['5 pace=1', '6 disks=50']", "6 disks=50", "disks=50: is read at the start"},
+        {"['5 paces=1']", "5 paces=1", "paces=1: there is no parameter of this name"},
+    };
+    for (const auto &one : refused)
+        EXPECT_EQ(begun(with("changes: " + one.given)),
+                  "changes = " + one.first_bad +
+                      ": must be changes that ~set can make: " + one.why);
+}
+
+TEST(Parameters, ANameAloneChoosesNoScene)
+{
+    const std::string why =
+        "scene = quick: must be given with its disks, density, aspect, boundary_x or "
+        "boundary_y: a name chooses none of them, roslaunch hdlyap run.launch scene:=.. does";
+    EXPECT_EQ(begun("scene: quick"), why);
+    EXPECT_EQ(begun("scene: quick\nduration: 5.0"), why);
+    expect_said("", "scene: unnamed");
+    expect_said("scene: mine", "scene: mine");
+}
+
+TEST(Parameters, Defaults)
+{
+    EXPECT_EQ(begun("", true), "");
+    expect_has(
+        "scene: paper_periodic, disks: 780, density: 0.8, aspect: 0.867, exponents: positive, "
+        "zero_exponents: 6, wave_nx: [1, 0, 1, 2, 0, 2, 1, 2], wave_ny: [0, 1, 1, 0, 2, 1, 2, 2]");
+    EXPECT_NEAR(published.warmup, 97.48, 0.01); /* 3 / (0.05 c_T k), c_T = 3.285 */
+}
+
+TEST(Parameters, Taken)
+{
+    const std::pair<const char *, const char *> taken[] = {
+        {"duration: '1.5'", "duration: 1.5"},
+        {"{duration: 1e0, accuracy: '1e-6'}", "duration: 1, accuracy: 1e-06"},
+        {"duration: 1", "duration: 1"},
+        {"exponents: '5'", "exponents: 5, vectors: 5"},
+        {"exponents: 5", "exponents: 5, vectors: 5"},
+        {"exponents: all", "exponents: all, vectors: 80"},
+        {"exponents: all_independent", "exponents: all_independent, vectors: 80"},
+        {"exponents: positive", "exponents: positive, vectors: 37"},
+        {"exponents: none", "exponents: none, vectors: 0, observables: [state], wave_nx: []"},
+        {"seed: 7", "seed: 7"},
+        {"seed: '18446744073709551615'", "seed: 18446744073709551615"},
+        {"observables: []", "observables: []"},
+        {"observables: [state, spectrum]", "observables: [spectrum, state]"},
+        {"observables: [hydro, steps]", "observables: [steps, hydro]"},
+        {"interval: auto", "interval: 0"},
+        {"{interval: 0.25, threads: 1}", "interval: 0.25, threads: 1"},
+        {"phase_interval: 0.5", "phase_interval: 0.5"},
+        {"target_std_error: 0.125", "target_std_error: 0.125"},
+        {"{equilibration: 3.0, warmup: 5.0}", "equilibration: 3, warmup: 5"},
+        {"report_interval: 0.75", "report_interval: 0.75"},
+        {"boundary_x: reflecting",
+         "boundary_x: reflecting, boundary_y: periodic, zero_exponents: 4"},
+        {"boundary_y: reflecting",
+         "boundary_x: periodic, boundary_y: reflecting, zero_exponents: 4"},
+        {"{boundary_x: reflecting, boundary_y: reflecting, density: 0.3}", "zero_exponents: 2"},
+        {"{disks: 30, density: 0.5, aspect: 0.6}",
+         "disks: 30, density: 0.5, aspect: 0.6, box_x: 10, box_y: 6"},
+        {"max_mode_number: 1", "max_mode_number: 1, wave_nx: [1, 0, 1], wave_ny: [0, 1, 1]"},
+        {"max_wave_number: '1.2'", "max_wave_number: 1.2, wave_nx: [1, 0], wave_ny: [0, 1]"},
+        {"{max_wave_number: 0, max_mode_number: 0, observables: [spectrum]}",
+         "max_wave_number: 0, max_mode_number: 0, wave_nx: [], wave_ny: []"},
+        {"field_indices: steps", "field_indices: steps"},
+        {"{field_indices: steps, exponents: none}", "field_indices: steps, wave_nx: []"},
+        {"field_indices: [37, 1]", "field_indices: [37, 1]"},
+        {"{field_interval: 0, observables: [state]}", "field_interval: 0, observables: [state]"},
+        {"{field_interval: '2.5', wait_for_subscribers: [run_info]}",
+         "field_interval: 2.5, wait_for_subscribers: [run_info]"},
+        {"{observables: [state], wait_for_subscribers: all}",
+         "wait_for_subscribers: [run_info, state, status, cost]"},
+        {"{pace: 3, slow_vectors_rate: 0.5, slow_vectors_count: 4}",
+         "pace: 3, slow_vectors_rate: 0.5, slow_vectors_count: 4"},
+        {"{covariant_window: 50, covariant_transient: '100', covariant_sampling: 5.0, "
+         "covariant_memory: 4, covariant_storage: memory}",
+         "covariant_storage: memory, covariant_memory: 4"},
+        {"{covariant, max_mode_number: 1, exponents: 3}",
+         "observables: [covariant], wave_nx: [1, 0, 1], covariant_window: 1, covariant_transient: "
+         "1"},
+        {"{covariant, duration: 3.0, covariant_storage: recompute, covariant_memory: '0.25', "
+         "covariant_sampling: 0.5}",
+         "covariant_storage: recompute, covariant_memory: 0.25, covariant_sampling: 0.5, "
+         "covariant_transient: 1"},
+        {"{checkpoint: '', checkpoint_interval: 7, resume: ''}",
+         "checkpoint: , checkpoint_interval: 7, resume: , resumed_time: -1"},
+    };
+    for (const auto &one : taken) expect_said(one.first, one.second);
+}
+
+/** Of a scene of the package: what a line of it says. */
+void check_scene(const std::string &file)
+{
+    std::ifstream scene_file(HDLYAP_SCENES "/" + file);
+    std::ostringstream lines;
+    lines << scene_file.rdbuf();
+    EXPECT_EQ(begun(lines.str(), true), "") << file;
+    EXPECT_EQ(published.scene + ".yaml", file);
+    hdr_params *params = params_of(lines.str());
+    EXPECT_TRUE(file != "paper_periodic.yaml" || hdr_params_count(params) == parameters_count());
+    for (int k = 0; k < hdr_params_count(params); k++) {
+        const std::string name = hdr_params_name(params, k),
+                          value = hdr_param_text(params, name.c_str());
+        const parameter p = parameters_named(name.c_str());
+        char usual[PARAMETER_TEXT];
+        parameter_usual(usual, &p);
+        EXPECT_TRUE(file == "paper_periodic.yaml" || value != usual) << file << ": " << name;
+        if (name == "threads" || name == "changes") continue; /* of the machine; none */
+        if (value == "auto" && name != "warmup") {
+            EXPECT_NE(said().find("\n" + name + ": 0\n"), std::string::npos) << file << name;
+        } else if (value == "auto") {
+            EXPECT_GE(published.warmup, 20.0);
+        } else {
+            EXPECT_NE(said().find("\n" + name + ": " + value + "\n"), std::string::npos)
+                << file << ": " << name << ": " << value << said();
+        }
+    }
+    hdr_params_free(params);
+}
+
+/** Each scene that comes with the package: what it lists is what its run is, and not as usual;
+ * paper_periodic lists all. */
+TEST(Parameters, Scenes)
+{
+    int scenes = 0;
+    DIR *folder = opendir(HDLYAP_SCENES);
+    ASSERT_TRUE(folder);
+    while (const dirent *file = readdir(folder)) {
+        if (file->d_name[0] == '.') continue;
+        scenes++;
+        check_scene(file->d_name);
+    }
+    closedir(folder);
+    EXPECT_GE(scenes, 17);
+}
+} // namespace
+
+int main(int argc, char **argv)
+{
+    testing::InitGoogleTest(&argc, argv);
+    return RUN_ALL_TESTS();
+}
