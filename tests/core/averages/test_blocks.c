@@ -114,6 +114,34 @@ TEST(errors_of_what_only_trembles_are_too_large)
     }
 }
 
+/** Numbers of variance 1/3 of which each takes the one before away: a sum has variance 2/3, however
+ * long its block, memory is -1/2, and a quarter of the variance is left, half of the error. */
+TEST(errors_of_turns_know_what_trembles)
+{
+    enum { SAMPLES = 1000, REPEATS = 400 };
+    const double KNOWN_TO =
+        0.1; /* memory is known to 1/4 in each repeat; what is beyond its least is cut off */
+    hd_random random = hd_random_seeded(11, 0);
+    double stated = 0.0, blocks_left = 0.0;
+    for (int k = 0; k < REPEATS; k++) {
+        hd_blocks blocks;
+        double before = 0.0;
+        CHECK_OK(hd_blocks_create(&blocks, 1, 0.0));
+        for (int t = 0; t < SAMPLES; t++) {
+            const double now = hd_random_symmetric(&random);
+            hd_blocks_add(&blocks, &(double){now - before}, 1.0);
+            before = now;
+        }
+        stated += hd_blocks_error_of_turns(&blocks) / REPEATS;
+        blocks_left = blocks.count;
+        hd_blocks_clear(&blocks);
+    }
+    while (blocks_left >= 2 * HD_SPECTRUM_BLOCKS_MIN) blocks_left = floor(blocks_left / 2.0);
+    const double want = 0.5 * sqrt(blocks_left * 2.0 / 3.0) / SAMPLES;
+    print_message("errors of turns that tremble: %.3f of what is wanted\n", stated / want);
+    CHECK_CLOSE(stated / want, 1.0, KNOWN_TO);
+}
+
 /* ---- what is known ------------------------------------------------------------------------- */
 
 TEST(few_samples_give_no_error)
@@ -128,6 +156,21 @@ TEST(few_samples_give_no_error)
     assert_true(error_of(&blocks, 0) > 0);
     hd_blocks_restart(&blocks);
     CHECK_CLOSE(error_of(&blocks, 0), -1.0, 0.0);
+    hd_blocks_clear(&blocks);
+}
+
+/** Blocks that have grown long are as short as the first ones again: errors are known as soon. */
+TEST(a_restart_begins_with_short_blocks)
+{
+    hd_blocks blocks;
+    CHECK_OK(hd_blocks_create(&blocks, 1, 2.0));
+    for (int k = 0; k < 100 * HD_BLOCKS_MAX; k++) hd_blocks_add(&blocks, &(double){k % 3}, 1.0);
+    assert_true(blocks.length > 2.0);
+    hd_blocks_restart(&blocks);
+    for (int k = 0; k < 2 * HD_SPECTRUM_BLOCKS_MIN; k++)
+        hd_blocks_add(&blocks, &(double){k % 3}, 1.0);
+    CHECK_CLOSE(blocks.length, 2.0, 0.0);
+    assert_true(error_of(&blocks, 0) > 0);
     hd_blocks_clear(&blocks);
 }
 

@@ -51,7 +51,8 @@ static estimate rate_per_disk(const hd_scene_def *def, double pair_events)
 }
 
 /** [T2] is good to a percent below freezing; 400 disks differ from infinitely many by 1/N. The rate
- * that the trajectory itself reports is this estimate, in pair events. */
+ * that the trajectory itself reports is this estimate, in pair events; so is the free path of
+ * [T12]. */
 TEST(enskog_with_henderson)
 {
     const double density[] = {0.1, 0.3, 0.5, 0.7}, allowed = 0.01;
@@ -67,6 +68,8 @@ TEST(enskog_with_henderson)
         hd_trajectory_free(tr);
         assert_true(Z * rate.error < 0.5 * allowed * enskog); /* else the test says nothing */
         CHECK_CLOSE(rate.mean, enskog, allowed * enskog);
+        const double path = sqrt(PI / 2.0) / rate.mean; /* mean speed over collisions */
+        CHECK_CLOSE(hd_scene_mean_free_path(&def), path, allowed * path);
     }
 }
 

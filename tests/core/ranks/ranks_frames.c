@@ -63,6 +63,13 @@ TEST(calls_are_counted)
     CHECK_CLOSE(after.bytes - before.bytes, 56.0 + 24.0 * (ranks->ranks - 1), 0.0);
     CHECK_CLOSE(after.calls - before.calls, 3.0, 0.0);
     assert_true(after.seconds > before.seconds);
+    enum { ROWS = 5, WIDTH = 2, HERE = 8 }; /* rows of WIDTH of each rank: to each other one */
+    const hd_traffic gathers = ranks->traffic[HD_CALL_GATHER];
+    const size_t stride = (size_t)(WIDTH * ranks->ranks);
+    CHECK_OK(hd_communicator_share(ranks, x, (hd_shared){ROWS, stride, WIDTH, stride, 0}));
+    CHECK_CLOSE(ranks->traffic[HD_CALL_GATHER].calls - gathers.calls, 1.0, 0.0);
+    CHECK_CLOSE(ranks->traffic[HD_CALL_GATHER].bytes - gathers.bytes,
+                HERE * ROWS * WIDTH * (ranks->ranks - 1.0), 0.0);
 }
 
 /* ---- a frame -------------------------------------------------------------------------------- */
