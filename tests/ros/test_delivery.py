@@ -191,7 +191,9 @@ class Delivery(harness.Case):
         self.assertEqual(node.wait(), 0, node.text())
         warnings = node.lines('WARN')
         self.assertEqual(len(warnings), 1, node.text())
-        self.assertIn('cost: 1 of 2 subscribers connected after 3 s', warnings[0])
+        # or, on a machine that is busy, that its master has not told it in these seconds
+        said = 'cost: 1 of 2 subscribers connected after 3 s|: no answer of the master in time'
+        self.assertRegex(warnings[0], said)
         self.assertTrue(status.wait_for(is_last))
         said = cost.messages, state.messages
         self.assertTrue(harness.wait_until(lambda: list(map(len, said)) == [4, 4]), said)
