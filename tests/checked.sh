@@ -21,7 +21,7 @@ build_with() {
     shift 3
     ROS_LANG_DISABLE=genlisp:genpy cmake -S "$ROOT" -B "$WORK/$sanitizer" -G Ninja -DPYTHON_EXECUTABLE=/usr/bin/python3 \
         "-DCMAKE_C_COMPILER=$c" "-DCMAKE_CXX_COMPILER=$cxx" -DCMAKE_BUILD_TYPE=Debug \
-        -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 -DHDLYAP_CORE_TESTS=ON \
+        -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 -DHDLYAP_CORE_TESTS=ON -DCATKIN_ENABLE_TESTING=OFF \
         "-DHDLYAP_SANITIZE=$sanitizer"
     cmake --build "$WORK/$sanitizer" --target "$@" -- -j "$(nproc)"
 }
