@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Parameters as ROS hands them on: types of the parameter server, lists of the command line, scenes
-that are started. What each may be is tested without nodes, in test_parameters.cpp."""
+that are started. What each may be is tested without nodes, in test_refusals.cpp."""
 
 import os
 import re
