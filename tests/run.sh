@@ -134,8 +134,9 @@ tools_tests() {
     mkdir -p "$folder"
     # shellcheck disable=SC2016
     for file in test_*.py; do
-        grep -qF "\"$file\"" ./*.test || [[ $TIER == first ]] && grep -qxF '# Second tier: tests/run.sh --all' "$file" ||
-            echo "${file%.py}"
+        ! grep -qF "\"$file\"" ./*.test || continue
+        [[ $TIER == second ]] || ! grep -qxF '# Second tier: tests/run.sh --all' "$file" || continue
+        echo "${file%.py}"
     done | env "FOLDER=$folder" xargs -P "$(nproc)" -I MODULE sh -c 'python3 -m unittest -v MODULE >"$FOLDER/MODULE.log" 2>&1' ||
         status=1
     cat "$folder"/*.log
