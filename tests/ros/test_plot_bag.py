@@ -120,6 +120,7 @@ def cases():
         messages = [info, made.spectrum(np.linspace(3, 1, 38), 1.0), made.steps([step]), field]
         yield messages, SPECTRUM + STEPS + files('modes', 'p_mode'), (rf'LP\({nx},{ny}\)',), 'T\\('
     everything = made.small_run()
+    yield everything, SPECTRUM + COST + MODES, (r'T\(1,0\) +36-37 +1\.98',), 'reset'
     for left_out, gone in (
         (Steps, MODES),
         (LpPhases, files('phases')),
@@ -146,9 +147,8 @@ class Command(Bags):
                 self.assertNotRegex(text, not_said)
 
     def test_process(self):
-        self.write(made.small_run())
-        text = self.plot(SPECTRUM + COST + MODES, how=process)
-        self.assertRegex(text, r'T\(1,0\) +36-37 +1\.98')
+        self.write([INFO, made.spectrum(HALF, 50.0), made.steps([LP_STEP])])
+        text = self.plot(SPECTRUM + STEPS, how=process)
         for name in os.listdir(self.out):
             path = os.path.join(self.out, name)
             self.assertIn(path, text)

@@ -41,7 +41,7 @@ class Lines(unittest.TestCase):
         """Deviations are as large as stated; 40 of them, each error from 4 pieces."""
         off, stated = [], []
         for _ in range(40):
-            times = self.times()
+            times = self.times(200)
             found = structure.line(times, self.turning(times, 0.8, diffusion=0.01))
             off.append(found.omega - 0.8)
             stated.append(found.error)
