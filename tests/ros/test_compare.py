@@ -131,6 +131,10 @@ class Agreeing(Pairs):
         self.assertEqual(list(one.errors), [ERROR * 37] * 2)
         self.assertLess(abs(one.z - 1.0), Z_TOLERANCE * 37)
 
+    def test_each_error_stands_beside_its_value(self):
+        text = self.compare(run(error=0.02), run(shifted(np.ones(37))))
+        self.assertRegex(text, r'lambda_max +9\.000\(20\) +9\.014\(10\) +0\.014\(22\) +\+0\.63')
+
     def test_a_part_of_the_spectrum(self):
         part = run(EXPONENTS[:5], made_steps=[])
         names = [one.name for one in self.compared(part, part).sums]

@@ -224,6 +224,8 @@ class SeveralSeeds(Loaded):
         self.assertAlmostEqual(seeds.steps.std_error['T(1,0)'], 0.2 * np.sqrt(6) / 4)
         self.assertAlmostEqual(seeds.results.value['lambda_max'], 3.375)
         self.assertAlmostEqual(seeds.results.value['c_T'], 1.4)
+        sampled = seeds.results.sampling_error['c_T']
+        self.assertAlmostEqual(sampled, 0.004 * np.sqrt(6) / 4)
         self.assertEqual(seeds.results.unit['c_T'], 'sigma/time unit')
         self.assertEqual(seeds.spectrum.attrs['units']['exponent'], '1/time unit')
         with self.assertRaisesRegex(

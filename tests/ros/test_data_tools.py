@@ -25,8 +25,9 @@ class Tools(Loaded):
     def seed(self, number, shift, error=0.1, **fields):
         name = f'{fields.get("density", "")}seed{number}'
         info = made.run_info(run_id=name, seed=str(number), **fields)
+        wave = dict(exponent=1 + shift, std_error=error, multiplicity=1.5 + shift)
         found = [
-            made.step(info, T, 1, 0, 36, 37, exponent=1 + shift, std_error=error),
+            made.step(info, T, 1, 0, 36, 37, **wave),
             made.step(info, LP, 1, 0, 32, 35, exponent=1.4 + shift, std_error=error),
         ]
         spectrum = made.spectrum(HALF + shift, 50.0, run_id=name, error=error)
@@ -88,6 +89,7 @@ class Several(Tools):
             r'\n  T\(1,0\) +1\.10\(15\) +0\.058 +0\.15 +7\.00 +3\n',
             r'\n  c_T +1\.400\(12\) +0\.012 +0\.011 +0\.00 +3  c k',
             r'    37   1\.10000  0\.15275\n',
+            r'T\(1,0\) +36-37 +1\.60 +2 ',
         ):
             self.assertRegex(text, row)
         drawn = {name for name in os.listdir(self.out) if name.endswith('.png')}

@@ -103,7 +103,10 @@ class Figures(Bags):
 
     def test_cost(self):
         """Seconds by part, above one another in (a); of made.cost 10, 20, 55 and 5 %."""
-        stages = [made.status(time, stage=stage) for time, stage in ((20.0, 1), (40.0, 2))]
+        # of each stage the first
+        stages = [
+            made.status(time, stage=stage) for time, stage in zip((20, 30, 40, 50), (1, 1, 2, 2))
+        ]
         course, share = self.draw(cost, *stages, *map(made.cost, (50.0, 100.0)))
         parts = [10, 20, 55, 0, 5, 0, 0, 10]
         tops = [path.vertices for one in course.collections for path in one.get_paths()]

@@ -161,8 +161,13 @@ class Recorded(Bags):
         np.testing.assert_allclose(image[row, 31:35], 8.0)
         np.testing.assert_allclose(image[row, 35:], 0.5)
         np.testing.assert_allclose(across.collections[0].get_array().reshape(-1, 37)[row, 35:], 8.0)
-        self.assertEqual([line.get_xdata()[0] for line in along.lines], [33.5])
-        self.assertEqual([line.get_xdata()[0] for line in across.lines], [36.5])
+        corners = along.collections[0]._coordinates  # of the cells, one round each index and k
+        np.testing.assert_allclose(corners[0, :, 0], np.arange(38) + 0.5)
+        np.testing.assert_allclose(corners[:-1, 0, 1], 0.5 * (k + np.append(0, k[:-1])))
+        for axes, index in ((along, 33.5), (across, 36.5)):
+            (ring,) = axes.lines
+            np.testing.assert_allclose(ring.get_xydata(), [(index, made.K)])
+        phases = '$v k$ of the phases, LP(1,0)'
         found = {line.get_label().split(':')[0]: line for line in lines.lines}
         peak = {
             name: line.get_xdata()[np.argmax(line.get_ydata())]
@@ -174,6 +179,7 @@ class Recorded(Bags):
         self.assertAlmostEqual(
             peak['LP(1,0)'], OMEGA * self.found[1].wave_number, delta=2 * np.pi / 59
         )
+        self.assertAlmostEqual(found[phases].get_xdata()[0], 1.612 * made.K)  # of made.steps
 
     def test_a_wave_that_changes_begins_the_course_anew(self):
         course = structure.StructureCourse()
