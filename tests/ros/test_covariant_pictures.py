@@ -271,6 +271,18 @@ class Figures(Bags):
         self.assertAlmostEqual(at(zero, 40), -10 / 2**0.5)
         self.assertEqual(len(off), 74)
 
+    def test_error_bars(self):
+        """Of each pass its own."""
+        messages = everything()
+        messages[-1].std_errors = [0.02] * ALL
+        axes = self.draw(covariant_exponents, self.recorded(messages))[0]
+        drawn = [one for one in axes.containers if one.lines[2]]
+        names = [one.get_label() for one in drawn]
+        self.assertEqual(names, ['forward (Gram-Schmidt)', 'backward (covariant)'])
+        ends = [[bar[:, 1] for bar in one.lines[2][0].get_segments()] for one in drawn]
+        for found, error in zip(ends, (0.01, 0.02)):
+            np.testing.assert_allclose(np.diff(found), 2 * error)
+
     def test_magnified_round_the_zero_modes(self):
         axes = self.draw(covariant_exponents)
         self.assertEqual([round(x, 1) for x in axes[3].get_xlim()], [21.2, 59.8])

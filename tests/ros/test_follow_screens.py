@@ -114,6 +114,7 @@ class Screens(unittest.TestCase):
             self.says(text, 'c_T 1.400(12)', 'c_L 1.500(20)', 'v 1.612(23)')
             self.says(text, 'interval 2.37 (conditioning)', 'repairs 4', 'condition 2.8e+05')
             self.says(text, 'error bound 1.2e-10')
+            self.assertRegex(text, r'wall time 2:30\s')
             self.assertRegex(text, r'T\(1,0\) +36-37 +1\.98 +2 +0\.99346 +1\.4895\(20\)')
             self.assertRegex(text, r'ortho +█+.? +55 %')
             self.assertRegex(text, r'other +▋ +10 %')
@@ -123,13 +124,13 @@ class Screens(unittest.TestCase):
         self.assertTrue(self.text(view(), plain=True).isascii())
 
     def test_phases(self):
-        """At t = 50 since they began, of vector 33: v k t = 1.6 * 0.99346 * 50 = 12.649 turns."""
+        """Of vector 33, at t = 50 since it began: v k t = 1.6 * 1.40496 * 50 = 17.888 turns."""
         info = made.run_info(observables=OBSERVED)
-        step = made.step(info, LP, 1, 0, 33, 33)
+        step = made.step(info, LP, 1, 1, 33, 33)
         message = made.lp_phases(info, [step], 150.0, began=100.0, modulations=(1,))
         self.assertRegex(
             self.text(view(info=info, phases=message)),
-            r'LP\(1,0\) +sin kx x +33 +1\.00  ↙ 0\.65  1\.590\(16\) +1\.600\(16\)',
+            r'LP\(1,1\) +sin kx x cos ky y +33 +1\.00  ↘ 0\.89  2\.248\(22\) +1\.600\(16\)',
         )
         message.phases[0].state = LpPhase.WEAK
         self.assertIn('too weak now', self.text(view(phases=message)))
@@ -334,6 +335,15 @@ class Screens(unittest.TestCase):
         shown = View()
         fill(shown, dict(status=lazy(RunStatus)().deserialize(b'1234').unpacked(), cost=cost()))
         self.assertEqual((shown.status, shown.cost), (None, None))
+
+    def test_one_line(self):
+        progress = Progress.__new__(Progress)
+        progress.status, progress.cost = status(), cost()
+        progress.spectrum = made.spectrum([9.0, 3.0], 50.0)
+        progress.spectrum.std_errors = [0.01, 0.03]
+        said = ['averaging', '50.0 %', 't = 150.0', '1:05 left', 'lambda_max 9.0000 +- 0.0100']
+        said += ['interval 2.37 (conditioning), repairs 4', 'classification 5 % of the time']
+        self.assertEqual(progress.parts(), said)
 
     def test_nonsense(self):
         """One line, and the key that ends it."""

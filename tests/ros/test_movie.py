@@ -140,6 +140,12 @@ class Drawn(Films):
             drawn.append((self.arrows(t).copy(), self.arrows(lp).copy()))
             colours.append(lp._arrows.get_facecolor()[0][:3])
             places.append(np.array(t._disks.get_offsets()))
+            for panel in (t, lp):  # an arrow's middle is at its disk
+                middle = panel._arrows.get_offsets() + 0.5 * self.arrows(panel)
+                np.testing.assert_allclose(middle, places[-1])
+            pair = np.cos(angle(frame.time)), np.sin(angle(frame.time))
+            (hand,) = (one.get_segments()[0] for one in lp._dials)
+            np.testing.assert_allclose(hand, [(0, 0), pair])
         # half a turn between two of them
         np.testing.assert_allclose(drawn[1][1], -drawn[0][1], atol=1e-9)
         np.testing.assert_allclose(drawn[0][1][:, 1], 0, atol=1e-9)
