@@ -32,6 +32,19 @@ inline MarkerArray received(const hdr_markers &markers)
     return message;
 }
 
+/** Resolved, with vectors of its own. */
+inline hdr_step a_step(uint8_t kind, uint32_t nx, uint32_t ny, double k, uint32_t first,
+                       uint32_t last, double exponent, double error)
+{
+    hdr_step step = {};
+    step.kind = kind, step.nx = nx, step.ny = ny, step.wave_number = k;
+    step.resolved = true, step.members = 1;
+    step.first_index = first, step.last_index = last;
+    step.expected = last - first + 1, step.multiplicity = 0.9 * step.expected;
+    step.exponent = exponent, step.std_error = error, step.omega_error = -1.0;
+    return step;
+}
+
 /** A picture and all that it points to. */
 struct scene {
     picture p = {};
@@ -86,15 +99,15 @@ struct scene {
         for (uint32_t k = 0; k < n; k++) exponents.push_back(6.0 - 5.0 * k / n);
         p.has_exponents = true;
         p.exponents = {exponents.data(), n, 1};
-        step.push_back({HDR_MODE_T, 1,    0,    0.2, false, true, 2,   n - 1, n,   1.9,  0,
-                        1,          1.05, 0.01, 0,   1.0,   1.0,  0.0, 0.0,   0.0, -1.0, 0.0});
-        step.push_back({HDR_MODE_LP, 1,   0,  0.2, false, true, 4,   n - 5, n - 2, 3.5,  1,
-                        1,           1.1, -1, 0,   1.0,   1.0,  0.0, 0.0,   0.0,   -1.0, 0.0});
-        step.push_back({HDR_MODE_LP, 0, 1, 0.3, false, false, 4,   0,   0,   0,    -1,
-                        0,           0, 0, 0,   1.0,   1.0,   0.0, 0.0, 0.0, -1.0, 0.0});
+        step = {a_step(HDR_MODE_T, 1, 0, 0.2, n - 1, n, 1.05, 0.01),
+                a_step(HDR_MODE_LP, 1, 0, 0.2, n - 5, n - 2, 1.1, -1.0),
+                a_step(HDR_MODE_LP, 0, 1, 0.3, 0, 0, 0.0, 0.0)};
+        step[2].resolved = false;
         steps.steps = {step.data(), static_cast<uint32_t>(step.size())};
-        steps.t_points = 2, steps.c_t = 3.2, steps.c_t_error = 0.1, steps.c_t2 = 0.2;
+        steps.t_points = 2, steps.c_t = 3.2, steps.c_t_error = 0.1;
+        steps.c_t2 = 0.2, steps.c_t3 = 0.5;
         steps.l_points = 1, steps.c_l = 4.2, steps.c_l_error = -1;
+        steps.c_l2 = steps.c_l3 = NAN;
         p.steps = &steps;
     }
 
@@ -102,9 +115,7 @@ struct scene {
     void more_steps(uint32_t count)
     {
         for (uint32_t k = 0; k < count; k++)
-            step.push_back({HDR_MODE_T, 2,   k,      0.3, false,          true, 1, 90 - k,
-                            90 - k,     1,   int(k), 1,   1.2 + 0.05 * k, 0.01, 0, 1.0,
-                            1.0,        0.0, 0.0,    0.0, -1.0,           0.0});
+            step.push_back(a_step(HDR_MODE_T, 2, k, 0.3, 90 - k, 90 - k, 1.2 + 0.05 * k, 0.01));
         steps.steps = {step.data(), static_cast<uint32_t>(step.size())};
     }
 };

@@ -78,8 +78,15 @@ def _copied(message, kinds):
     return copy
 
 
+def message_of(kind, fields, /, **usual):
+    """What is not among the fields is as usual."""
+    return kind(**{**usual, **fields})
+
+
 def run_info(**fields):
-    info = RunInfo(
+    return message_of(
+        RunInfo,
+        fields,
         run_id='one',
         version='0.1.0',
         scene='made',
@@ -95,9 +102,6 @@ def run_info(**fields):
         zero_exponents=6,
         field_indices='steps',
     )
-    for name, value in fields.items():
-        setattr(info, name, value)
-    return info
 
 
 def spectrum(exponents, averaged_time, run_id='one', error=0.01, pairing_error=-1.0):
@@ -117,8 +121,7 @@ def spectrum(exponents, averaged_time, run_id='one', error=0.01, pairing_error=-
         local_exponents=exponents,
         cos_theta=[1.0] * n,
         dp_dq_ratio=[1.0] * n,
-        # a sample of its own in each message, where messages tell its length
-        **({'local_time': 1.0} if 'local_time' in Spectrum.__slots__ else {}),
+        local_time=1.0,  # a sample of its own in each message
     )
 
 
@@ -135,10 +138,9 @@ def cost(sim_time, run_id='one'):
 
 
 def status(sim_time, run_id='one', **fields):
-    message = RunStatus(run_id=run_id, sim_time=sim_time, stage=RunStatus.AVERAGING)
-    for name, value in fields.items():
-        setattr(message, name, value)
-    return message
+    return message_of(
+        RunStatus, fields, run_id=run_id, sim_time=sim_time, stage=RunStatus.AVERAGING
+    )
 
 
 def wave_number(info, nx, ny):
@@ -154,7 +156,9 @@ def exponent(info, kind, nx, ny):
 def step(info, kind, nx, ny, first, last, **fields):
     """A resolved step of its own, whose fields are all found; of LP it turns as its phases do."""
     omega = VELOCITY * wave_number(info, nx, ny) if kind == LP else np.nan
-    made = Step(
+    return message_of(
+        Step,
+        fields,
         kind=kind,
         nx=nx,
         ny=ny,
@@ -171,9 +175,6 @@ def step(info, kind, nx, ny, first, last, **fields):
         omega=omega,
         omega_error=0.01 * omega if kind == LP else -1.0,
     )
-    for name, value in fields.items():
-        setattr(made, name, value)
-    return made
 
 
 def turn(found, omega, error):
@@ -277,16 +278,16 @@ def covariant_weight(made, count, dq=0.8, dp=0.3, elsewhere=0.02, gram_schmidt=0
         dp=[elsewhere] * count,
         gram_schmidt=[elsewhere] * count,
     )
-    inside = slice(made.first_index - 1, made.last_index)
-    weight.dq[inside] = [dq] * (made.last_index - made.first_index + 1)
-    weight.dp[inside] = [dp] * (made.last_index - made.first_index + 1)
-    weight.gram_schmidt[inside] = [gram_schmidt] * (made.last_index - made.first_index + 1)
+    for index in range(made.first_index - 1, made.last_index):
+        weight.dq[index], weight.dp[index], weight.gram_schmidt[index] = dq, dp, gram_schmidt
     return weight
 
 
 def covariant_angle(spaces, smallest, every, **fields):
     """Histograms from {bin: count}."""
-    angle = CovariantAngle(
+    return message_of(
+        CovariantAngle,
+        fields,
         spaces=spaces,
         last=0.3,
         mean=0.329,
@@ -296,15 +297,14 @@ def covariant_angle(spaces, smallest, every, **fields):
         smallest_counts=[smallest.get(k, 0) for k in range(BINS)],
         all_counts=[every.get(k, 0) for k in range(BINS)],
     )
-    for name, value in fields.items():
-        setattr(angle, name, value)
-    return angle
 
 
 def covariant(exponents, run_id='one', error=0.01, **fields):
     """Four windows; without angles and weights unless they are given."""
     n = len(exponents)
-    made = Covariant(
+    return message_of(
+        Covariant,
+        fields,
         run_id=run_id,
         sim_time=350.0,
         averaged_time=200.0,
@@ -327,13 +327,12 @@ def covariant(exponents, run_id='one', error=0.01, **fields):
         null_angle=-1.0,
         largest_null_angle=-1.0,
     )
-    for name, value in fields.items():
-        setattr(made, name, value)
-    return made
 
 
 def localization(widths, run_id='one', error=0.01, **fields):
-    made = Localization(
+    return message_of(
+        Localization,
+        fields,
         run_id=run_id,
         sim_time=150.0,
         samples=20,
@@ -342,14 +341,13 @@ def localization(widths, run_id='one', error=0.01, **fields):
         std_errors=[error] * len(widths),
         widths_now=np.multiply(widths, 0.9),
     )
-    for name, value in fields.items():
-        setattr(made, name, value)
-    return made
 
 
 def gas(averaged_time=50.0, run_id='one', error=0.01, **fields):
     """Of density 0.5: Z = p / 0.5."""
-    made = Gas(
+    return message_of(
+        Gas,
+        fields,
         run_id=run_id,
         sim_time=100 + averaged_time,
         averaged_time=averaged_time,
@@ -363,9 +361,6 @@ def gas(averaged_time=50.0, run_id='one', error=0.01, **fields):
         pressure_y_error=error,
         compressibility=2.5,
     )
-    for name, value in fields.items():
-        setattr(made, name, value)
-    return made
 
 
 def lp_phases(info, made, sim_time, modulations=(0, 1), began=0.0, rng=None, run_id='one'):

@@ -50,72 +50,97 @@ scale scale_along(const MarkerArray &array, const std::string &ns, bool along_x,
     }
     return found;
 }
+
+/** The numbers of a plot, whose frame is that list of lines of this name. */
+struct plotted {
+    scale x, y;
+    plotted(const MarkerArray &array, const std::string &ns, size_t which, double unit)
+    {
+        const auto frame = in(array, ns, Marker::LINE_LIST).at(which).points;
+        const double left = frame[0].x, bottom = frame[0].y, gap = 1.3 * unit;
+        x = scale_along(array, ns, true, bottom - gap, left - 1, frame[1].x + 1);
+        y = scale_along(array, ns, false, left - gap, bottom - 1, bottom + 100);
+    }
+    void expect(const geometry_msgs::Point &point, double wanted_x, double wanted_y) const
+    {
+        EXPECT_NEAR(wanted_x, x.of(point.x), 1e-6);
+        EXPECT_NEAR(wanted_y, y.of(point.y), 1e-9);
+    }
+};
+bool is_blue(const std_msgs::ColorRGBA &colour) { return colour.b > colour.r; }
 } // namespace
 
-TEST(curves, curves_are_the_numbers)
+TEST(curves, spectra_are_the_numbers)
 {
     scene s(20.0, 20.0, 50, 2, 5);
     s.measure(97);
     const MarkerArray array = drawing().of(s.p);
     const Marker curve = in(array, "spectrum", Marker::LINE_STRIP).at(0);
-    const Marker frame = in(array, "spectrum", Marker::LINE_LIST).at(0);
-    const double unit = curve.scale.x / 0.2, left = frame.points[0].x, bottom = frame.points[0].y;
-    const scale y = scale_along(array, "spectrum", false, left - 1.3 * unit, bottom - 1,
-                                bottom + 100);
-    const scale x = scale_along(array, "spectrum", true, bottom - 1.3 * unit, left - 1,
-                                frame.points[1].x + 1);
+    const Marker dots = in(array, "spectrum", Marker::POINTS).at(0);
+    const double unit = curve.scale.x / 0.2;
+    const plotted whole(array, "spectrum", 0, unit), lowest(array, "spectrum", 1, unit);
     ASSERT_EQ(97u, curve.points.size());
-    for (int k = 0; k < 97; k++) {
-        EXPECT_NEAR(k + 1, x.of(curve.points[k].x), 1e-6);
-        EXPECT_NEAR(s.exponents[k], y.of(curve.points[k].y), 1e-9);
-    }
-    const Marker dots = in(array, "dispersion", Marker::POINTS).at(0);
-    const Marker axes = in(array, "dispersion", Marker::LINE_LIST).at(0);
-    const scale k = scale_along(array, "dispersion", true, axes.points[0].y - 1.3 * unit,
-                                axes.points[0].x - 1, 1e9);
-    const scale lambda = scale_along(array, "dispersion", false, axes.points[0].x - 1.3 * unit,
-                                     -1e9, 1e9);
-    ASSERT_EQ(2u, dots.points.size());
-    EXPECT_NEAR(0.2, k.of(dots.points[0].x), 1e-9);
-    EXPECT_NEAR(1.05, lambda.of(dots.points[0].y), 1e-9);
-    EXPECT_NEAR(1.1, lambda.of(dots.points[1].y), 1e-9);
-    EXPECT_GT(dots.colors[0].b, dots.colors[0].r); // T is blue, LP is not
-    EXPECT_LT(dots.colors[1].b, dots.colors[1].r);
-    const Marker fit = in(array, "dispersion", Marker::LINE_LIST).at(1);
-    for (const auto &point : fit.points) {
-        const double at = k.of(point.x);
-        EXPECT_NEAR(3.2 * at + 0.2 * at * at, lambda.of(point.y), 1e-9);
+    for (int k = 0; k < 97; k++) whole.expect(curve.points[k], k + 1, s.exponents[k]);
+    const size_t shown = dots.points.size();
+    ASSERT_EQ(25u, shown);
+    for (size_t k = 97 - shown; k < 97; k++) {
+        const size_t at = k - (97 - shown);
+        lowest.expect(dots.points[at], k + 1, s.exponents[k]);
+        EXPECT_EQ(k + 1 >= 96, is_blue(dots.colors[at]) && dots.colors[at].b > 0.5F); // of T
+        EXPECT_EQ(k + 1 >= 92 && k + 1 <= 95, dots.colors[at].r > 0.5F);              // of LP
     }
 }
 
-namespace
+TEST(curves, dispersion_is_the_numbers)
 {
-std::string caption(const MarkerArray &array)
-{
-    return in(array, "caption", Marker::TEXT_VIEW_FACING).at(0).text;
+    scene s(20.0, 20.0, 50, 2, 5);
+    s.measure(97);
+    const MarkerArray array = drawing().of(s.p);
+    const std::vector<Marker> lines = in(array, "dispersion", Marker::LINE_LIST);
+    const Marker dots = in(array, "dispersion", Marker::POINTS).at(0);
+    const plotted axes(array, "dispersion", 0, dots.scale.x / 0.55);
+    ASSERT_EQ(2u, dots.points.size());
+    axes.expect(dots.points[0], 0.2, 1.05);
+    axes.expect(dots.points[1], 0.2, 1.1);
+    EXPECT_TRUE(is_blue(dots.colors[0])); // T
+    EXPECT_FALSE(is_blue(dots.colors[1]));
+    ASSERT_EQ(4u, lines.size()); // axes, two fits, errors
+    const double c[2][3] = {{3.2, 0.2, 0.5}, {4.2, 0.0, 0.0}};
+    for (const int fit : {0, 1}) {
+        EXPECT_EQ(fit == 0, is_blue(lines[1 + fit].color));
+        EXPECT_GT(lines[1 + fit].points.size(), 20u);
+        for (const auto &point : lines[1 + fit].points) {
+            const double k = axes.x.of(point.x);
+            axes.expect(point, k, c[fit][0] * k + c[fit][1] * k * k + c[fit][2] * k * k * k);
+        }
+    }
+    ASSERT_EQ(2u, lines[3].points.size()); // that of LP is not known
+    axes.expect(lines[3].points[0], 0.2, 1.04);
+    axes.expect(lines[3].points[1], 0.2, 1.06);
 }
-} // namespace
 
 TEST(curves, the_caption_says_what_is_known)
 {
     scene s(20.0, 20.0, 10, 0, 7);
     drawing on;
-    EXPECT_NE(std::string::npos,
-              in(on.of(s.p), "caption", Marker::TEXT_VIEW_FACING).at(0).text.find("t = 12.5"));
+    const auto expect = [&](const std::vector<std::string> &parts) {
+        const MarkerArray array = on.of(s.p);
+        const std::string text = in(array, "caption", Marker::TEXT_VIEW_FACING).at(0).text;
+        for (const std::string &part : parts) EXPECT_NE(std::string::npos, text.find(part)) << text;
+        expect_shown(array);
+    };
+    s.p.averaged = 8.25;
+    expect({"t = 12.5, averaging (25 %), averaged 8.2"});
     s.measure(40);
-    const std::string text = in(on.of(s.p), "caption", Marker::TEXT_VIEW_FACING).at(0).text;
-    EXPECT_NE(std::string::npos, text.find("c_T 3.20(10)")) << text;
-    EXPECT_NE(std::string::npos, text.find("c_L 4.2000 ")) << text;
-    EXPECT_NE(std::string::npos, text.find("v unknown")) << text;
-    EXPECT_NE(std::string::npos, text.find("a scene: 10 disks")) << text;
-    EXPECT_NE(std::string::npos, text.find("25 %")) << text;
+    s.p.lambda_max = 5.262, s.p.lambda_max_error = 0.0095;
+    expect({"lambda_max 5.2620(95)", "c_T 3.20(10)", "c_L 4.2000 ", "v unknown",
+            "a scene: 10 disks, x reflecting, y reflecting"});
+    s.steps.v_phases = 8, s.steps.v = 1.612, s.steps.v_error = 0.023;
+    s.p.periodic[1] = true;
     s.p.note = "(nothing new since 14:03:27)";
-    EXPECT_NE(std::string::npos, caption(on.of(s.p)).find("   (nothing new since 14:03:27)\n"));
+    expect({"v 1.612(23)", "x reflecting, y periodic", "   (nothing new since 14:03:27)\n"});
     s.p.time = -1.0, s.p.x.count = s.p.y.count = 0; // described, and not begun
-    const MarkerArray empty = on.of(s.p);
-    expect_shown(empty);
-    EXPECT_NE(std::string::npos, caption(empty).find("waiting for its first message"));
-    EXPECT_NE(std::string::npos, caption(empty).find("a scene: 10 disks"));
+    expect({"waiting for its first message", "a scene: 10 disks"});
 }
 
 int main(int argc, char **argv)

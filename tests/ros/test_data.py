@@ -14,6 +14,7 @@ import rosbag
 
 import hdlyap
 import made
+from bags import Bags
 from hdlyap.data import fields
 from hdlyap.data.reader import RecordingError
 from hdlyap.msg import LpPhase, Mode, Modes, Spectrum, State
@@ -37,29 +38,29 @@ def state(sim_time, run_id='one'):
     return State(run_id=run_id, sim_time=sim_time, x=x, y=y, px=px, py=py)
 
 
-class Bags(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+def without(message, kinds, names):
+    """As bags of before have it, that lack these fields."""
+    lines = rf'(?m)^({kinds}) ({names}) .*\n'
+    return made.defined(message, lambda text: re.sub(lines, '', text))
 
-    def path(self, name='run'):
-        return os.path.join(self.folder, name + '.bag')
 
+class Loaded(Bags):
     def load(self, messages):
-        made.write(self.path(), messages)
-        return hdlyap.load(self.path())
+        return hdlyap.load(self.write(messages))
 
-    def refuses(self, reason, *paths):
+    def cannot_load(self, reason, *paths, **which):
         with self.assertRaisesRegex(RecordingError, reason):
-            hdlyap.load(*paths)
+            hdlyap.load(*paths, **which)
 
 
-class Arrays(Bags):
+class Arrays(Loaded):
     """Beside what rosbag reads."""
 
-    def setUp(self):
-        super().setUp()
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        path = os.path.join(folder.name, 'run.bag')
         rng = np.random.default_rng(1)
         messages = made.small_run()
         for message in messages:
@@ -68,11 +69,11 @@ class Arrays(Bags):
                 message.exponents, message.local_exponents = rng.normal(size=(2, shape))
                 message.std_errors = rng.choice([-1.0, 0.5, 0.25], shape)
         messages += [each(t) for t in (101.0, 102.5, 104.0) for each in (modes, state)]
-        self.run_ = self.load(messages)
-        self.messages = {}
-        with rosbag.Bag(self.path()) as bag:
+        made.write(path, messages)
+        cls.run_, cls.messages = hdlyap.load(path), {}
+        with rosbag.Bag(path) as bag:
             for topic, message, _ in bag.read_messages():
-                self.messages.setdefault(topic.split('/')[-1], []).append(message)
+                cls.messages.setdefault(topic.split('/')[-1], []).append(message)
 
     def column(self, topic, name):
         return np.array([getattr(message, name) for message in self.messages[topic]])
@@ -211,25 +212,20 @@ class Arrays(Bags):
         run = self.load([made.run_info(), *(made.spectrum([3.0], t) for t in (0, 5, 6, 1, 2))])
         self.equal(run.averaged_times, [1, 2])
 
-
-class NoBag(Bags):
-    def test_no_name(self):
-        with self.assertRaisesRegex(RecordingError, '^no bag: name one or several$'):
-            hdlyap.load()
-
-    def test_no_file(self):
+    def test_no_bag(self):
         """What never ends, or never begins, is not read; nor is a file without an end of line."""
+        self.cannot_load('^no bag: name one or several$')
         fifo = self.path('fifo')
         os.mkfifo(fifo)
         with open(self.path('endless'), 'wb') as file:
             file.truncate(1 << 40)
         with mock.patch('rosbag.Bag', side_effect=AssertionError):
             for path in ('/dev/zero', '/dev/random', fifo, self.folder):
-                self.refuses(f'^{path}: not a readable bag: no regular file$', path)
-            self.refuses('endless.bag: not a readable bag: its first line is', file.name)
+                self.cannot_load(f'^{path}: not a readable bag: no regular file$', path)
+            self.cannot_load('endless.bag: not a readable bag: its first line is', file.name)
 
 
-class NotMeasured(Bags):
+class NotMeasured(Loaded):
     def test_unresolved(self):
         info = made.run_info()
         step = made.unresolved(info, T, 1, 0, 2)
@@ -237,9 +233,8 @@ class NotMeasured(Bags):
         lost = LpPhase(state=LpPhase.UNRESOLVED)
         phases = made.LpPhases(run_id='one', phases=[phase, lost])
         run = self.load([info, made.steps([step]), phases])
-        self.assertTrue(
-            run.steps.loc['T(1,0)', ['exponent', 'std_error', 'multiplicity']].isna().all()
-        )
+        unknown = run.steps.loc['T(1,0)', ['exponent', 'std_error', 'multiplicity']]
+        self.assertTrue(unknown.isna().all())
         self.assertEqual(run.steps.wave_number['T(1,0)'], step.wave_number)
         self.assertEqual(list(run.phases.a.isna()), [False, True])
         self.assertEqual(list(run.phases.omega.isna()), [True, True])
@@ -248,83 +243,60 @@ class NotMeasured(Bags):
         steps = made.steps([])
         steps.t_points, steps.l_points, steps.v_phases = 1, 0, 0
         run = self.load([made.run_info(), made.spectrum([3.0], 5.0), steps])
-        self.assertEqual(
-            list(run.results.index), ['lambda_max', 'sum of exponents', 'c_T', 'c_T2', 'c_T3']
-        )
+        names = ['lambda_max', 'sum of exponents', 'c_T', 'c_T2', 'c_T3']
+        self.assertEqual(list(run.results.index), names)
 
     def test_fields_that_are_minus_one_while_unknown(self):
-        unknown = {
-            name
-            for kind in (
-                hdlyap.msg.Spectrum,
-                hdlyap.msg.Step,
-                hdlyap.msg.LpPhase,
-                hdlyap.msg.TPhase,
-                hdlyap.msg.RunStatus,
-            )
-            for name, field in fields.of(kind).items()
-            if field.unknown
-        }
+        kinds = 'Spectrum', 'Step', 'LpPhase', 'TPhase', 'RunStatus'
+        told = [fields.of(getattr(hdlyap.msg, kind)) for kind in kinds]
+        unknown = {name for each in told for name, field in each.items() if field.unknown}
         self.assertLessEqual(
             {'remaining_seconds', 'std_error', 'omega_error', 'diffusion_error'}, unknown
         )
         self.assertFalse(unknown & {'cos_theta', 'a', 'exponents', 'averaged_time'})
 
+    def test_messages_of_before(self):
+        """They lack what came later."""
+        later = r'float64|uint8', r'ks_entropy_error|\w_misfit|sharing|set_time|own_part|gap\w*'
+        info = made.run_info()
+        new = [made.spectrum([3.0, 1.0], 5.0), made.steps([made.step(info, T, 1, 0, 1, 2)])]
+        run = self.load([info, *(without(one, *later) for one in new)])
+        self.assertNotIn('gap', run.steps)
+        self.assertEqual(run.steps.exponent['T(1,0)'], new[1].steps[0].exponent)
+        self.assertEqual(run.spectrum.exponent[2], 1.0)
+        self.assertTrue(np.isnan(run.results.std_error['sum of exponents']))
 
-class Samples(Bags):
+
+class Samples(Loaded):
     """Each once, with its length."""
 
-    def spectra(self, local, **extra):
-        first = [made.spectrum([3.0, 1.0], t) for t in range(1, len(local) + 1)]
-        for message, one in zip(first, local):
-            message.local_exponents = one
-        return first
-
-    local = [(0.0, 0.0), (1.0, 2.0), (1.0, 2.0), (3.0, 4.0), (3.0, 4.0)]
-
-    def test_of_before(self):
-        """The first message has none, others repeat."""
-        older = [
-            made.defined(one, lambda text: re.sub('(?m)^float64 local_time.*\n', '', text))
-            for one in self.spectra(self.local)
-        ]
-        run = self.load([made.run_info(), *older])
-        np.testing.assert_array_equal(run.local.exponents, [(1.0, 2.0), (3.0, 4.0)])
-        np.testing.assert_array_equal(run.local.times, [102, 104])
-        self.assertTrue(np.isnan(run.local.lengths).all())
-
-    def test_with_lengths(self):
-        """A sample that equals the one before is a sample."""
-
-        def longer(text):
-            return (
-                text
-                if ' local_time ' in text
-                else text.replace(
-                    'uint32 first_index', 'float64 local_time # [time units]\nuint32 first_index', 1
-                )
-            )
-
-        newer = [made.defined(one, longer) for one in self.spectra(self.local)]
-        for message, length in zip(newer, (0.0, 0.5, 0.75, 0.0, 0.5)):
-            message.local_time = length
-        run = self.load([made.run_info(), *newer])
-        np.testing.assert_array_equal(run.local.exponents, [(1.0, 2.0), (1.0, 2.0), (3.0, 4.0)])
-        np.testing.assert_array_equal(run.local.lengths, [0.5, 0.75, 0.5])
-
-    def test_none(self):
-        message = self.spectra(self.local[:1])[0]
-        if hasattr(message, 'local_time'):
-            message.local_time = 0.0
-        run = self.load([made.run_info(), message])
-        self.assertEqual((len(run.local.times), run.local.exponents.shape), (0, (0, 2)))
+    def test_samples(self):
+        """Of before: the first message has none, others repeat. With lengths one that equals the
+        one before is a sample."""
+        local = [(0.0, 0.0), (1.0, 2.0), (1.0, 2.0), (3.0, 4.0), (3.0, 4.0)]
+        lengths = 0.0, 0.5, 0.75, 0.0, 0.5
+        messages = [made.spectrum([3.0, 1.0], t) for t in range(1, 6)]
+        for message, one, length in zip(messages, local, lengths):
+            message.local_exponents, message.local_time = one, length
+        older = [without(one, 'float64', 'local_time') for one in messages]
+        of_before = self.load([made.run_info(), *older]).local
+        found = self.load([made.run_info(), *messages]).local
+        for samples, times, wanted, known in (
+            (of_before, [102, 104], [(1.0, 2.0), (3.0, 4.0)], [np.nan] * 2),
+            (found, [102, 103, 105], [(1.0, 2.0), (1.0, 2.0), (3.0, 4.0)], [0.5, 0.75, 0.5]),
+        ):
+            np.testing.assert_array_equal(samples.times, times)
+            np.testing.assert_array_equal(samples.exponents, wanted)
+            np.testing.assert_array_equal(samples.lengths, known)
+        none = self.load([made.run_info(), messages[0]]).local
+        self.assertEqual((len(none.times), none.exponents.shape), (0, (0, 2)))
 
 
-class Example(Bags):
+class Example(Loaded):
     """What the user guide shows is in doc/own_figure.py, and makes a figure."""
 
     def test_figure(self):
-        made.write(self.path(), made.small_run())
+        self.write(made.small_run())
         figure = os.path.join(self.folder, 'own.png')
         program = os.path.join(DOC, 'own_figure.py')
         subprocess.run(
@@ -337,22 +309,6 @@ class Example(Bags):
             (shown,) = re.findall('(?s)```python\n(.*?)```', guide.read())
             self.assertTrue(file.read().endswith('\n' + shown))
         self.assertEqual(shown.count('\n'), 10)
-
-
-class Older(Bags):
-    def test_messages_of_before(self):
-        """They lack what came later."""
-        later = (
-            r'^(float64|uint8) (ks_entropy_error|\w_misfit|sharing|set_time|own_part|gap\w*) .*\n'
-        )
-        info = made.run_info()
-        new = [made.spectrum([3.0, 1.0], 5.0), made.steps([made.step(info, T, 1, 0, 1, 2)])]
-        old = [made.defined(one, lambda text: re.sub(later, '', text, flags=re.M)) for one in new]
-        run = self.load([info, *old])
-        self.assertNotIn('gap', run.steps)
-        self.assertEqual(run.steps.exponent['T(1,0)'], new[1].steps[0].exponent)
-        self.assertEqual(run.spectrum.exponent[2], 1.0)
-        self.assertTrue(np.isnan(run.results.std_error['sum of exponents']))
 
 
 if __name__ == '__main__':

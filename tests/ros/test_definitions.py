@@ -37,7 +37,7 @@ class Definitions(test_data_tools.Tools):
 
     def refused(self, said, text, **md5sum):
         messages = [under(made.run_info(), text, **md5sum), made.spectrum(HALF, 50.0)]
-        for status, _, error in self.all_tools(self.write('a', messages)):
+        for status, _, error in self.all_tools(self.write(messages, 'a')):
             self.assertNotEqual(status, 0)
             self.assertIn('a.bag: damaged: ', error)
             self.assertIn(said, error)
@@ -71,13 +71,13 @@ class Definitions(test_data_tools.Tools):
     def test_constants_of_texts(self):
         """Are what they are, quotes and all."""
         text = 'string A=it\'s """x # y\nstring B = \nfloat32 C=-1e-3 # z\n' + made.Cost._full_text
-        path = self.write('a', [made.run_info(), made.defined(made.cost(1), lambda _: text)])
+        path = self.write([made.run_info(), made.defined(made.cost(1), lambda _: text)], 'a')
         cost = next(reader.messages(path, kinds=(reader.COST,))).message()
         self.assertEqual((cost.A, cost.B, cost.sim_time), ('it\'s """x # y', '', 1.0))
 
     def test_bags_of_ours(self):
         """With all types of messages."""
-        with rosbag.Bag(self.write('a', made.small_run())) as bag:
+        with rosbag.Bag(self.write(made.small_run(), 'a')) as bag:
             definitions.check(bag._get_connections())
 
 

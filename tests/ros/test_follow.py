@@ -14,31 +14,35 @@ FOLLOW = os.path.join(SCRIPTS, 'follow')
 PACED = dict(harness.MODES, equilibration=1.0, warmup=20.0, duration=0.0, pace=100.0)
 # a short run does not begin before it is watched
 SEEN = dict(wait_for_subscribers=['cost', 'spectrum'])
-SCREEN = 'from hdlyap.follow.screen import Screen\n'
+SCREEN = 'from hdlyap.follow.screen import Screen\nwith Screen() as screen:'
+HERE = 'screen.show([[("here", "")]], (80, 24))'
 
 
 class OnATerminal(unittest.TestCase):
     """Of the terminal alone, without ROS."""
 
-    def program(self, text):
-        terminal = Terminal([sys.executable, '-c', SCREEN + text])
+    def program(self, *lines, **size):
+        terminal = Terminal([sys.executable, '-c', '\n'.join(lines)], **size)
         self.addCleanup(terminal.stop)
         return terminal
 
+    def screen(self, *lines):
+        return self.program(SCREEN, *('    ' + line for line in lines))
+
+    def ends(self, terminal):
+        """By its key."""
+        terminal.press('q')
+        self.assertEqual(terminal.wait(), 0)
+
     def test_exception(self):
-        terminal = self.program(
-            'with Screen() as screen:\n' '    screen.show([[("here", "")]], (80, 24))\n    wrong'
-        )
+        terminal = self.screen(HERE, 'wrong')
         self.assertEqual(terminal.wait(), 1)
         self.assertTrue(terminal.wait_for("name 'wrong' is not defined"))
         self.assertNotIn('here', '\n'.join(terminal.screen()))
         self.assertTrue(harness.wait_until(terminal.is_as_before))
 
     def test_suspended_and_continued(self):
-        terminal = self.program(
-            'with Screen() as screen:\n    while screen.key(0.1) != "q":\n'
-            '        screen.show([[("here", "")]], (80, 24))'
-        )
+        terminal = self.screen('while screen.key(0.1) != "q":', '    ' + HERE)
         self.assertTrue(terminal.wait_for('here'))
         self.assertFalse(terminal.is_as_before())
         terminal.press('\x1a')
@@ -46,68 +50,49 @@ class OnATerminal(unittest.TestCase):
         self.assertTrue(harness.wait_until(terminal.is_as_before))
         os.kill(terminal.process.pid, signal.SIGCONT)
         self.assertTrue(terminal.wait_for('here'))
-        terminal.press('q')
-        self.assertEqual(terminal.wait(), 0)
+        self.ends(terminal)
         self.assertTrue(harness.wait_until(terminal.is_as_before))
 
     def test_lines_as_wide_as_the_screen(self):
         """Keep their last characters, also on its last line."""
-        terminal = self.program(
-            'with Screen() as screen:\n'
-            '    screen.show([[("wide" * 20, "")]] * 24, screen.size)\n'
-            '    screen.key(60)\n'
-            '    screen.show([[("less", "")]] * 2, screen.size)\n'
-            '    screen.key(60)'
+        terminal = self.screen(
+            'screen.show([[("wide" * 20, "")]] * 24, screen.size)',
+            'screen.key(60)',
+            'screen.show([[("less", "")]] * 2, screen.size)',
+            'screen.key(60)',
         )
         self.assertTrue(harness.wait_until(lambda: terminal.screen() == ['wide' * 20] * 24))
         terminal.press('q')
         self.assertTrue(harness.wait_until(lambda: terminal.screen()[:2] == ['less'] * 2))
         self.assertEqual(''.join(terminal.screen()[2:]), '')
-        terminal.press('q')
-        self.assertEqual(terminal.wait(), 0)
+        self.ends(terminal)
 
     def test_one_line_in_several(self):
         """On a terminal that is too narrow for it; each overwrites the one before."""
-        terminal = Terminal(
-            [
-                sys.executable,
-                '-c',
-                'from hdlyap.follow.line import Display\n'
-                'display = Display()\n'
-                'display.show(["averaging", "one " * 9 + "end", "two", "last"])\n'
-                'display.show(["averaging", "2 " * 9 + "end", "two", "3 " * 30 + "last"])\n'
-                'display.close()\n'
-                'display.show(["finished", "two"])\n'
-                'display.close()',
-            ],
+        terminal = self.program(
+            'from hdlyap.follow.line import Display',
+            'display = Display()',
+            'display.show(["averaging", "one " * 9 + "end", "two", "last"])',
+            'display.show(["averaging", "2 " * 9 + "end", "two", "3 " * 30 + "last"])',
+            'display.close()',
+            'display.show(["finished", "two"])',
+            'display.close()',
             columns=40,
         )
-        self.addCleanup(terminal.stop)
         self.assertEqual(terminal.wait(), 0)
         self.assertTrue(terminal.wait_for('finished  two'))
-        self.assertEqual(
-            [line.strip() for line in terminal.screen() if line],
-            [
-                'averaging  2 2 2 2 2 2 2 2 2 end  two',
-                ' '.join('3' * 20),
-                ' '.join('3' * 10) + ' last',
-            ]
-            + ['finished  two'],
-        )
+        lines = ['averaging  2 2 2 2 2 2 2 2 2 end  two', ' '.join('3' * 20)]
+        lines += [' '.join('3' * 10) + ' last', 'finished  two']
+        self.assertEqual([line.strip() for line in terminal.screen() if line], lines)
         shown = terminal.output.replace('\r\n', '\n')
         self.assertIn('averaging\033[K\none one', shown)
         self.assertIn('one end\033[K\ntwo  last\033[J\r\033[2A', shown)
 
     def test_complaints_do_not_reach_the_screen(self):
-        terminal = self.program(
-            'import os\nwith Screen() as screen:\n'
-            '    os.write(2, b"a complaint")\n'
-            '    screen.show([[("here", "")]], (80, 24))\n    screen.key(60)'
-        )
+        terminal = self.screen('import os; os.write(2, b"a complaint")', HERE, 'screen.key(60)')
         self.assertTrue(terminal.wait_for('here'))
         self.assertEqual(terminal.screen(), ['here'])
-        terminal.press('q')
-        self.assertEqual(terminal.wait(), 0)
+        self.ends(terminal)
         self.assertTrue(terminal.wait_for('a complaint'))
 
 
@@ -145,6 +130,7 @@ class Running(unittest.TestCase):
 
     def test_watches_and_is_interrupted(self):
         self.node()
+        other = self.follow('--node', 'other', '--timeout', '60')
         terminal = self.follow()
         self.shows(terminal, 'computed only if somebody listens')
         self.shows(terminal, 'lambda_max')
@@ -155,6 +141,10 @@ class Running(unittest.TestCase):
         terminal.press('m')
         self.shows(terminal, 'computed only if somebody listens')
         self.assertEqual(self.listeners(), {'run_info', 'status', 'cost', 'spectrum'})
+        said = 'follow: no /other that publishes a run_info; there is /hdlyap; waits'
+        self.shows(other, said)
+        other.press('\x03')
+        self.assertEqual(other.wait(), 130)
         terminal.resize(50, 10)
         self.assertTrue(harness.wait_until(lambda: len(terminal.screen()) <= 10))
         terminal.press('\x03')
@@ -201,13 +191,6 @@ class Running(unittest.TestCase):
         self.shows(terminal, 'follow: no hdlyap_node that publishes a run_info; waits 0.')
         self.assertEqual(terminal.wait(), 1)
         self.shows(terminal, 'follow: no hdlyap_node is running')
-
-    def test_no_node_of_that_name(self):
-        self.node()
-        terminal = self.follow('--node', 'other', '--timeout', '60')
-        self.shows(terminal, 'follow: no /other that publishes a run_info; there is /hdlyap; waits')
-        terminal.press('\x03')
-        self.assertEqual(terminal.wait(), 130)
 
     def test_names_that_anybody_gave(self):
         master = rosgraph.Master('/nobody', self.master.uri)

@@ -1,5 +1,6 @@
 """follow: what its screen shows of made messages."""
 
+import io
 import itertools
 import unittest
 from types import SimpleNamespace
@@ -19,6 +20,7 @@ from hdlyap.follow.wrap import joined, length, wrapped
 from hdlyap.plots.glyphs import Glyphs
 
 SIZES = (80, 24), (120, 40), (200, 60), (60, 15), (30, 5), (7, 2), (1, 1)
+FEW = SIZES[:2] + SIZES[-1:]
 OBSERVED = ['spectrum', 'steps', 'lp_phases']
 
 
@@ -91,79 +93,55 @@ def with_all(message, kind, number):
 
 class Screens(unittest.TestCase):
     def text(self, shown, size=(80, 24), **options):
+        """All of it fits."""
         lines = drawn(shown, size, **options)
         self.assertLessEqual(len(lines), size[1])
+        self.assertLessEqual(max(map(len, lines)), size[0])
         return '\n'.join(lines)
 
+    def says(self, text, *parts):
+        for part in parts:
+            self.assertIn(part, text)
+
     def test_everything_is_there(self):
+        """And where there is room what fits stand on."""
         for size in ((80, 24), (120, 40)):
             text = self.text(view(), size)
-            for part in (
-                '/hdlyap  made  seed 1  run one',
-                'N = 20, density 0.5',
-                'averaging  ██',
-                ' 50.0 %  1:05 left',
-                'simulated 150.0',
-                'averaged 50.0 of 200',
-                '1.23 time units/s',
-                'lambda_max 9.000(10)',
-                'h_KS 222.00(37)',
-                'c_T 1.400(12)',
-                'c_L 1.500(20)',
-                'v 1.612(23)',
-                'steps resolved 3 of 4',
-                'interval 2.37 (conditioning)',
-                'repairs 4',
-                'condition 2.8e+05',
-                'error bound 1.2e-10',
-                'OK  averaging',
-                'q quit',
-            ):
-                self.assertIn(part, text)
+            self.says(text, '/hdlyap  made  seed 1  run one', 'N = 20, density 0.5')
+            self.says(text, 'averaging  ██', ' 50.0 %  1:05 left', 'OK  averaging', 'q quit')
+            self.says(text, 'simulated 150.0', 'averaged 50.0 of 200', '1.23 time units/s')
+            self.says(text, 'lambda_max 9.000(10)', 'h_KS 222.00(37)', 'steps resolved 3 of 4')
+            self.says(text, 'c_T 1.400(12)', 'c_L 1.500(20)', 'v 1.612(23)')
+            self.says(text, 'interval 2.37 (conditioning)', 'repairs 4', 'condition 2.8e+05')
+            self.says(text, 'error bound 1.2e-10')
+            self.assertRegex(text, r'wall time 2:30\s')
             self.assertRegex(text, r'T\(1,0\) +36-37 +1\.98 +2 +0\.99346 +1\.4895\(20\)')
             self.assertRegex(text, r'ortho +█+.? +55 %')
             self.assertRegex(text, r'other +▋ +10 %')
-
-    def test_fits_say_what_they_stand_on(self):
-        """Where there is room."""
-        shown = view()
-        self.assertIn('c_T 1.400(12)   c_L 1.500(20)   v 1.612(23)\n', self.text(shown))
-        self.assertIn(
-            'c_T 1.400(12) (c k + c2 k^2 + c3 k^3 over 3 wave numbers 0.9935 .. 1.987 (lever arm',
-            self.text(shown, (140, 30)),
-        )
+        self.says(self.text(view()), 'c_T 1.400(12)   c_L 1.500(20)   v 1.612(23)\n')
+        form = 'c_T 1.400(12) (c k + c2 k^2 + c3 k^3 over 3 wave numbers 0.9935 .. 1.987 (lever arm'
+        self.says(self.text(view(), (140, 30)), form)
+        self.assertTrue(self.text(view(), plain=True).isascii())
 
     def test_phases(self):
-        """At t = 50 since they began, of vector 33: v k t = 1.6 * 0.99346 * 50 = 12.649 turns."""
+        """Of vector 33, at t = 50 since it began: v k t = 1.6 * 1.40496 * 50 = 17.888 turns."""
         info = made.run_info(observables=OBSERVED)
-        step = made.step(info, LP, 1, 0, 33, 33)
+        step = made.step(info, LP, 1, 1, 33, 33)
         message = made.lp_phases(info, [step], 150.0, began=100.0, modulations=(1,))
         self.assertRegex(
             self.text(view(info=info, phases=message)),
-            r'LP\(1,0\) +sin kx x +33 +1\.00  ↙ 0\.65  1\.590\(16\) +1\.600\(16\)',
+            r'LP\(1,1\) +sin kx x cos ky y +33 +1\.00  ↘ 0\.89  2\.248\(22\) +1\.600\(16\)',
         )
         message.phases[0].state = LpPhase.WEAK
         self.assertIn('too weak now', self.text(view(phases=message)))
 
-    def test_dial(self):
+    def test_glyphs(self):
         hands = [Glyphs().dial(turn) for turn in (0, 0.125, 0.25, 0.5, 0.75, 0.94, 0.99)]
         self.assertEqual(''.join(hands), '→↗↑←↓→→')
-
-    def test_bar(self):
-        for share, bar in (
-            (0, '    '),
-            (0.5, '██  '),
-            (0.53125, '██▏ '),
-            (1, '████'),
-            (7, '████'),
-            (-1, '    '),
-            (float('nan'), '    '),
-        ):
-            self.assertEqual(Glyphs().bar(share, 4), bar)
+        shares = 0, 0.5, 0.53125, 1, 7, -1, float('nan')
+        bars = '    ', '██  ', '██▏ ', '████', '████', '    ', '    '
+        self.assertEqual(tuple(Glyphs().bar(share, 4) for share in shares), bars)
         self.assertEqual(Glyphs(plain=True).bar(0.6, 4, rest=True), '##..')
-
-    def test_ascii(self):
-        self.assertTrue(self.text(view(), plain=True).isascii())
 
     def test_phases_take_turns(self):
         """Of two steps one each, then one each; of a step first another vector and pair."""
@@ -186,77 +164,54 @@ class Screens(unittest.TestCase):
         shown.steps.c_l = shown.cost.condition = float('nan')
         shown.phases.phases[0].a = shown.phases.phases[1].omega_error = float('nan')
         text = self.text(shown)
-        for part in (
-            'lambda_max 9.00000 ',
-            'sum of exponents 12.00000 ',
-            'c_T 1.40000 ',
-            'c_L -',
-            'condition nan',
-        ):
-            self.assertIn(part, text)
+        self.says(text, 'lambda_max 9.00000 ', 'sum of exponents 12.00000 ', 'c_T 1.40000 ')
+        self.says(text, 'c_L -', 'condition nan')
         self.assertNotIn('-1.0', text)
 
     def test_what_is_not_there(self):
-        nothing = dict(
-            status=None,
-            cost=None,
-            spectrum=None,
-            steps=None,
-            phases=None,
-            diagnosis=None,
-            speed=None,
+        topics = 'status', 'cost', 'spectrum', 'steps', 'phases', 'diagnosis', 'speed'
+        nothing, unheard = dict.fromkeys(topics), dict(steps=None, phases=None, others=set())
+        self.says(self.text(view(**nothing)), 'waiting for its first word')
+        self.says(self.text(view(**nothing, info=None)), '/hdlyap')
+        said = 'steps: computed only if somebody listens; m:', 'm compute steps and phases'
+        self.says(self.text(view(**unheard)), *said)
+        alone = self.text(view(info=made.run_info(observables=['spectrum']), **unheard))
+        self.assertNotRegex(alone, 'steps|LP phases')
+        info = made.run_info()
+        steps, phases = made.steps([made.unresolved(info, T, 1, 0, 2)]), made.lp_phases(
+            info, [], 100
         )
-        self.assertIn('waiting for its first word', self.text(view(**nothing)))
-        self.assertIn('/hdlyap', self.text(view(**nothing, info=None)))
-        unheard = view(steps=None, phases=None, others=set())
-        self.assertIn('steps: computed only if somebody listens; m:', self.text(unheard))
-        self.assertIn('m compute steps and phases', self.text(unheard))
-        alone = view(
-            info=made.run_info(observables=['spectrum']), steps=None, phases=None, others=set()
-        )
-        self.assertNotIn('steps', self.text(alone))
-        self.assertNotIn('LP phases', self.text(alone))
-        none_yet = view(
-            steps=made.steps([made.unresolved(made.run_info(), T, 1, 0, 2)]),
-            phases=made.lp_phases(made.run_info(), [], 100.0),
-        )
-        self.assertIn('steps: none resolved yet', self.text(none_yet))
-        self.assertIn('no LP step resolved yet', self.text(none_yet))
+        text = self.text(view(steps=steps, phases=phases))
+        self.says(text, 'steps: none resolved yet', 'no LP step resolved yet')
 
     def test_shapes_of_scenes(self):
         half = np.linspace(3, 1, 37)
-        whole = view(
-            spectrum=made.spectrum([*half, *[0.0] * 6, *-half[::-1]], 50.0, pairing_error=2e-5)
-        )
+        both = made.spectrum([*half, *[0.0] * 6, *-half[::-1]], 50.0, pairing_error=2e-5)
+        whole = view(spectrum=both)
         whole.steps.steps[-1] = made.zero_modes(38)
         text = self.text(whole, (120, 40))
         self.assertRegex(text, r'zero modes +38-43 +6\.00')
-        self.assertIn('pairing error 2.0e-05', text)
+        self.says(text, 'pairing error 2.0e-05')
         paper = view(info=made.paper_info(), spectrum=made.spectrum(np.linspace(6, 1, 1557), 50.0))
-        self.assertIn('deviation', self.text(paper, (120, 40)))
+        self.says(self.text(paper, (120, 40)), 'deviation')
         self.assertNotIn('deviation', self.text(paper))
         one = self.text(view(spectrum=made.spectrum([9.0], 50.0), steps=None, phases=None))
-        self.assertIn('lambda_max', one)
+        self.says(one, 'lambda_max')
         self.assertNotIn('sum', one)
         endless = self.text(view(status=status(progress=0.0, remaining_seconds=-1.0)))
         self.assertNotIn('left', endless)
-        self.assertIn(
-            'std error ? of 0.01',
-            self.text(view(info=made.run_info(observables=OBSERVED, target_std_error=0.01))),
-        )
+        aimed = view(info=made.run_info(observables=OBSERVED, target_std_error=0.01))
+        self.says(self.text(aimed), 'std error ? of 0.01')
 
     def test_every_size(self):
         info = made.run_info(observables=OBSERVED)
-        many = view(
-            steps=made.steps([made.step(info, T, n, 1, 2 * n, 2 * n + 1) for n in range(1, 40)])
-        )
+        found = [made.step(info, T, n, 1, 2 * n, 2 * n + 1) for n in range(1, 40)]
+        many = view(steps=made.steps(found))
         for size in SIZES:
-            for shown in (many, view(), view(is_gone=True, is_master_gone=True, status=None)):
-                lines = drawn(shown, size)
-                self.assertLessEqual(len(lines), size[1])
-                self.assertLessEqual(max(map(len, lines)), size[0])
-            self.assertIn('averag'[: size[0]], '\n'.join(drawn(many, size)))
-        self.assertIn('  36 more\n', self.text(many, (80, 18)))
+            for shown in (view(), view(is_gone=True, is_master_gone=True, status=None)):
+                self.text(shown, size)
+            self.says(self.text(many, size), 'averag'[: size[0]])
+        self.says(self.text(many, (80, 18)), '  36 more\n')
         self.assertNotIn('more\n', self.text(many, (200, 80)))
 
     def test_nothing_is_cut(self):
@@ -283,22 +238,14 @@ class Screens(unittest.TestCase):
                 'averaged, 0.0035 after 9e+02; a subscriber of /hdlyap/spectrum is 3 s behind',
             ),
         )
-        whole = ' '.join(self.text(shown, (400, 400)).split())
-        for width in range(80, 131):
-            for height in (24, 40, 400):
+        said = 'seed 1 run 20261122T194504.100733Z-17630-1', ' 50.0 % 26:56:01 left', 'T(10,21)'
+        said += 'WARN ' + shown.diagnosis.message, 'mixing'
+        self.says(' '.join(self.text(shown, (400, 400)).split()), *said)
+        for width in range(80, 131, 3):
+            for height in (24, 400):
                 lines = layout.lines(shown, (width, height), Glyphs())
                 self.assertLessEqual(max(map(length, lines)), width)
-            text = ' '.join(self.text(shown, (width, 400)).split())
-            said = ' '.join(text.split())
-            for part in (
-                'seed 1 run 20261122T194504.100733Z-17630-1',
-                ' 50.0 % 26:56:01 left',
-                'WARN ' + shown.diagnosis.message,
-                'T(10,21)',
-                'mixing',
-            ):
-                self.assertIn(part, said, width)
-                self.assertIn(part, whole)
+            self.says(' '.join(self.text(shown, (width, 400)).split()), *said)
 
     def test_shared_names(self):
         self.assertEqual(joined(['T(1,0)', 'T(0,1)'], 13), 'T(1,0)+T(0,1)')
@@ -307,47 +254,38 @@ class Screens(unittest.TestCase):
 
     def test_wrapping(self):
         line = [('  one two', 'strong'), (' three  four', '')]
-        self.assertEqual(wrapped(line, 21), [line])
-        self.assertEqual(
-            wrapped(line, 18),
-            [[('  one two', 'strong'), (' three', '')], [('    ', ''), ('four', '')]],
-        )
-        self.assertEqual(wrapped([('abcdef', '')], 4), [[('abcd', '')], [('ef', '')]])
-        self.assertEqual(wrapped([('abcd  ', '')], 4), [[('abcd', '')]])
+        below = [[('  one two', 'strong'), (' three', '')], [('    ', ''), ('four', '')]]
+        for whole, width, lines in (
+            (line, 21, [line]),
+            (line, 18, below),
+            ([('abcdef', '')], 4, [[('abcd', '')], [('ef', '')]]),
+            ([('abcd  ', '')], 4, [[('abcd', '')]]),
+        ):
+            self.assertEqual(wrapped(whole, width), lines)
 
     def test_numbers_that_nobody_expects(self):
         """No word of a node takes the screen away."""
-        numbers = (float('inf'), float('nan'), -1.0, 1e300)
-        for number, name in itertools.product(
-            numbers, ('status', 'cost', 'spectrum', 'steps', 'phases')
-        ):
+        numbers = float('inf'), float('nan'), -1.0, 1e300
+        names = 'status', 'cost', 'spectrum', 'steps', 'phases'
+        for number, name in itertools.product(numbers, names):
             with np.errstate(all='ignore'):
                 shown = view()
-                message = getattr(shown, name)
-                with_all(message, float, number)
-                for size in SIZES:
+                with_all(getattr(shown, name), float, number)
+                for size in FEW:
                     self.text(shown, size)
-                Progress.parts(
-                    SimpleNamespace(
-                        status=shown.status,
-                        cost=shown.cost,
-                        spectrum=shown.spectrum,
-                        finished=False,
-                        _spent=Progress._spent,
-                        _error=lambda: '',
-                    )
-                )
+                told = dict(status=shown.status, cost=shown.cost, spectrum=shown.spectrum)
+                own = dict(finished=False, _spent=Progress._spent, _error=lambda: '')
+                Progress.parts(SimpleNamespace(**told, **own))
 
     def test_kinds_of_another_version(self):
-        for name in ('status', 'cost', 'steps', 'phases'):
-            for number in (0, 77, 255):
-                shown = view()
-                with_all(getattr(shown, name), int, number)
-                for size in SIZES:
-                    self.text(shown, size)
+        for name, number in itertools.product(('status', 'cost', 'steps', 'phases'), (0, 77, 255)):
+            shown = view()
+            with_all(getattr(shown, name), int, number)
+            for size in FEW:
+                self.text(shown, size)
         shown = view()
         shown.steps.steps[0].kind = 77
-        self.assertIn('kind 77(1,0)', self.text(shown))
+        self.says(self.text(shown), 'kind 77(1,0)')
 
     def test_condition_of_the_node(self):
         for fields, text in (
@@ -371,16 +309,9 @@ class Screens(unittest.TestCase):
 
     def test_a_run_before_is_not_shown(self):
         shown = View()
-        fill(
-            shown,
-            {
-                'steps': made.steps([]),
-                'run_info': made.run_info(run_id='two'),
-                'spectrum': made.spectrum([3.0], 1.0),
-                'status': status(run_id='two'),
-                'cost': cost(run_id='one'),
-            },
-        )
+        heard = dict(steps=made.steps([]), run_info=made.run_info(run_id='two'))
+        heard.update(spectrum=made.spectrum([3.0], 1.0), status=status(run_id='two'), cost=cost())
+        fill(shown, heard)
         self.assertEqual((shown.info.run_id, shown.status.run_id), ('two', 'two'))
         self.assertEqual((shown.steps, shown.spectrum, shown.cost), (None, None, None))
 
@@ -391,8 +322,6 @@ class Screens(unittest.TestCase):
             def deserialize(self, data):
                 Counted.unpacked += 1
                 return super().deserialize(data)
-
-        import io
 
         buffer = io.BytesIO()
         made.spectrum([3.0], 1.0).serialize(buffer)
@@ -406,6 +335,15 @@ class Screens(unittest.TestCase):
         shown = View()
         fill(shown, dict(status=lazy(RunStatus)().deserialize(b'1234').unpacked(), cost=cost()))
         self.assertEqual((shown.status, shown.cost), (None, None))
+
+    def test_one_line(self):
+        progress = Progress.__new__(Progress)
+        progress.status, progress.cost = status(), cost()
+        progress.spectrum = made.spectrum([9.0, 3.0], 50.0)
+        progress.spectrum.std_errors = [0.01, 0.03]
+        said = ['averaging', '50.0 %', 't = 150.0', '1:05 left', 'lambda_max 9.0000 +- 0.0100']
+        said += ['interval 2.37 (conditioning), repairs 4', 'classification 5 % of the time']
+        self.assertEqual(progress.parts(), said)
 
     def test_nonsense(self):
         """One line, and the key that ends it."""

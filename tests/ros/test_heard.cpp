@@ -1,14 +1,8 @@
 /** What of a run is drawn: messages heard -> a picture. */
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <string>
-#include <vector>
+#include "drawn.hpp"
 
 extern "C" {
-#include "canvas.h"
 #include "compose.h"
-#include "draw.h"
 }
 
 namespace
@@ -43,10 +37,9 @@ struct hearing {
 
     void steps(bool resolved)
     {
-        step.assign({{HDR_MODE_T, 1,   0,  0.6, false, resolved, 2,   7,   8,   2,    0,
-                      1,          1.5, -1, 0,   1.0,   1.0,      0.0, 0.0, 0.0, -1.0, 0.0},
-                     {HDR_MODE_LP, 0,   1,  0.6, false, resolved, 2,   5,   6,   2,    1,
-                      1,           1.8, -1, 0,   1.0,   1.0,      0.0, 0.0, 0.0, -1.0, 0.0}});
+        step = {drawn::a_step(HDR_MODE_T, 1, 0, 0.6, 7, 8, 1.5, 0.25),
+                drawn::a_step(HDR_MODE_LP, 0, 1, 0.6, 5, 6, 1.8, -1.0)};
+        for (hdr_step &one : step) one.resolved = resolved;
         hdr_steps message = {};
         message.run_id = "run", message.steps = {step.data(), 2};
         heard_steps(&h, &message);
@@ -101,14 +94,34 @@ TEST(heard, a_resolved_mode_is_found_without_its_vector)
         EXPECT_FALSE(p.mode[k].known);
     }
     EXPECT_EQ(7u, p.mode[0].index);
+    EXPECT_EQ(1.5, p.mode[0].exponent);
+    EXPECT_EQ(0.25, p.mode[0].error);
     EXPECT_EQ(1.8, p.mode[1].exponent);
-    canvas *on_it = nullptr;
-    hdr_markers markers;
-    ASSERT_TRUE(canvas_create(&on_it));
-    EXPECT_TRUE(draw(on_it, &markers, &p, "box"));
-    for (uint32_t k = 0; k < markers.count; k++)
-        EXPECT_EQ(nullptr, std::strstr(markers.markers[k].text, "not resolved"));
-    canvas_free(on_it);
+    EXPECT_EQ(-1.0, p.mode[1].error);
+    for (const auto &marker : drawn::drawing().of(p).markers)
+        EXPECT_EQ(std::string::npos, marker.text.find("not resolved"));
+}
+
+/** Exponents and where the run is. */
+TEST(heard, numbers_of_the_run)
+{
+    hearing on;
+    hdr_spectrum spectrum = {};
+    spectrum.run_id = "run", spectrum.first_index = 1, spectrum.lambda_max = 2.5;
+    spectrum.averaged_time = 7.5;
+    spectrum.exponents = on.array(5, 30), spectrum.std_errors = on.array(5, 3);
+    heard_spectrum(&on.h, &spectrum);
+    hdr_run_status status = {};
+    status.run_id = "run", status.sim_time = 2.0, status.progress = 0.25;
+    status.stage = HDR_RUN_STATUS_WARMING_UP;
+    heard_status(&on.h, &status);
+    const picture p = on.drawn();
+    ASSERT_EQ(5u, p.exponents.count);
+    for (uint32_t k = 0; k < 5; k++) EXPECT_EQ(0.01 * (30 + k), p.exponents.data[k]);
+    EXPECT_EQ(2.5, p.lambda_max);
+    EXPECT_EQ(0.03, p.lambda_max_error);
+    EXPECT_TRUE(p.progress == 0.25 && p.averaged == 7.5 && p.time == 2.0);
+    EXPECT_STREQ("warming up", p.stage);
 }
 
 /** The run is described, and nothing else is known of it yet. */
@@ -141,12 +154,14 @@ TEST(heard, fields_of_a_bag)
     EXPECT_TRUE(p.time == 10.0 && p.vector_time == 10.0);
     EXPECT_TRUE(p.x.data[0] == 0.20 && p.at_x.data[0] == 0.20);
     EXPECT_TRUE(p.mode[0].known && p.mode[1].known);
-    EXPECT_EQ(0.07, p.mode[0].dx.data[0]);
+    EXPECT_TRUE(p.y.data[1] == 0.31 && p.at_y.data[1] == 0.31);
+    EXPECT_TRUE(p.mode[0].dx.data[0] == 0.07 && p.mode[0].dy.data[2] == 0.42);
+    EXPECT_TRUE(p.mode[1].dx.data[1] == 0.06 && p.mode[1].dy.data[0] == 0.40);
     EXPECT_EQ(0u, p.mode[1].pairs);
     on.phase(10.0, 0.5, -0.25);
     p = on.drawn();
     ASSERT_EQ(1u, p.mode[1].pairs);
-    EXPECT_EQ(-0.25, p.mode[1].b[0]);
+    EXPECT_TRUE(p.mode[1].a[0] == 0.5 && p.mode[1].b[0] == -0.25);
     EXPECT_DOUBLE_EQ(0.2, p.mode[1].momentum);
     on.h.changed = false;
     on.state(11.0);
@@ -187,10 +202,11 @@ TEST(heard, slow_vectors)
     EXPECT_EQ(2.5, p.time);
     EXPECT_STREQ("T(1,0)", p.mode[0].name);
     EXPECT_EQ(8u, p.mode[0].index);
-    EXPECT_EQ(0.56, p.mode[0].dx.data[0]); // the third
+    EXPECT_EQ(0.02, p.mode[0].exponent);
+    EXPECT_TRUE(p.mode[0].dx.data[0] == 0.56 && p.mode[0].dy.data[0] == 0.76); // the third
     EXPECT_STREQ("LP(0,1)", p.mode[1].name);
     EXPECT_EQ(6u, p.mode[1].index); // the first of the two
-    EXPECT_EQ(0.20, p.mode[1].b[0]);
+    EXPECT_TRUE(p.mode[1].a[0] == 0.00 && p.mode[1].b[0] == 0.20);
     on.lowest.count = 2; // by their names
     ASSERT_TRUE(mode_name_parse(&on.lowest.mode[0], "LP(0,1)"));
     ASSERT_TRUE(mode_name_parse(&on.lowest.mode[1], "T(0,1)"));

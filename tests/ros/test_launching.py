@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What launch files have done by programs: arguments become parameters or are refused, bags are not
 overwritten. Needs no ROS master."""
+# Second tier: tests/run.sh --all
 
 import os
 import re

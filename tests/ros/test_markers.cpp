@@ -121,6 +121,8 @@ TEST(markers, arrows_are_the_field)
     scene s(20.0, 15.0, 60, 1, 3);
     const std::vector<Marker> found = in(drawing().of(s.p), "mode/T(0,0)", Marker::TRIANGLE_LIST);
     ASSERT_EQ(1u, found.size());
+    EXPECT_FLOAT_EQ(0.0F, found[0].color.r); // blue, of T
+    EXPECT_FLOAT_EQ(0.698F, found[0].color.b);
     const std::vector<arrow> arrows = arrows_of(found[0]);
     ASSERT_EQ(60u, arrows.size());
     const double factor = arrows[0].dx / s.vectors[0];

@@ -4,9 +4,8 @@
 import json
 import os
 import subprocess
-import sys
-import tempfile
 import unittest
+from unittest import mock
 
 import numpy as np
 import rosbag
@@ -14,10 +13,10 @@ import rospy
 from hdlyap.msg import LpPhase, LpPhases, State
 
 import made
+from bags import Bags, process, tool
 from hdlyap.data.reader import RecordingError
 from hdlyap.plots import frames, movie
 
-SCRIPT = os.path.join(made.SCRIPTS, 'redraw')
 INFO = made.run_info()
 TURN = 8.0  # time units that the LP mode takes
 BEGIN, END, FIELD = 10.0, 18.0, 4.0  # a report each time unit, fields each FIELD
@@ -67,27 +66,14 @@ def write(path, but=(), lp_from=BEGIN):
                 bag.write('/hdlyap/' + topic, message, rospy.Time(1, 1000 * number))
 
 
-class Bag(unittest.TestCase):
+class Films(Bags):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder, self.bag = folder.name, os.path.join(folder.name, 'run.bag')
+        super().setUp()
+        self.bag = self.path()
         write(self.bag)
 
-    def path(self, name):
-        return os.path.join(self.folder, name)
 
-    def redraw(self, *args, **env):
-        return subprocess.run(
-            [sys.executable, SCRIPT, self.bag, *args],
-            text=True,
-            capture_output=True,
-            cwd=self.folder,
-            env=dict(os.environ, **env),
-        )
-
-
-class Frames(Bag):
+class Frames(Films):
     def test_unknown_mode(self):
         with self.assertRaisesRegex(
             RecordingError, r'T\(9,9\) is not resolved in it, only T\(1,0\), LP\(1,0\)'
@@ -140,7 +126,7 @@ class Frames(Bag):
         )
 
 
-class Drawn(Bag):
+class Drawn(Films):
     def arrows(self, panel):
         return np.c_[panel._arrows.U, panel._arrows.V]
 
@@ -154,6 +140,12 @@ class Drawn(Bag):
             drawn.append((self.arrows(t).copy(), self.arrows(lp).copy()))
             colours.append(lp._arrows.get_facecolor()[0][:3])
             places.append(np.array(t._disks.get_offsets()))
+            for panel in (t, lp):  # an arrow's middle is at its disk
+                middle = panel._arrows.get_offsets() + 0.5 * self.arrows(panel)
+                np.testing.assert_allclose(middle, places[-1])
+            pair = np.cos(angle(frame.time)), np.sin(angle(frame.time))
+            (hand,) = (one.get_segments()[0] for one in lp._dials)
+            np.testing.assert_allclose(hand, [(0, 0), pair])
         # half a turn between two of them
         np.testing.assert_allclose(drawn[1][1], -drawn[0][1], atol=1e-9)
         np.testing.assert_allclose(drawn[0][1][:, 1], 0, atol=1e-9)
@@ -181,35 +173,27 @@ class Drawn(Bag):
         self.assertEqual(picture._panels[0]._title.get_text(), 'T(1,0): not resolved yet')
 
 
-class Files(Bag):
+class Files(Films):
     def probe(self, path):
         """Number of frames, their size and rate."""
-        found = subprocess.run(
-            ['ffprobe', '-v', 'error', '-count_frames', '-show_streams', '-of', 'json', path],
-            check=True,
-            capture_output=True,
-        )
-        stream = json.loads(found.stdout)['streams'][0]
+        said = self.ffmpeg('ffprobe', '-count_frames', '-show_streams', '-of', 'json', path)
+        stream = json.loads(said)['streams'][0]
         return int(stream['nb_read_frames']), stream['width'], stream['r_frame_rate']
 
-    def pixels(self, path, width):
-        raw = subprocess.run(
-            ['ffmpeg', '-v', 'error', '-i', path, '-f', 'rawvideo', '-pix_fmt', 'rgb24', '-'],
-            check=True,
-            capture_output=True,
-        ).stdout
-        return np.frombuffer(raw, np.uint8)
+    def ffmpeg(self, *command):
+        done = subprocess.run([*command, '-v', 'error'], check=True, capture_output=True)
+        return done.stdout
 
     def test_read_back(self):
-        for name, width in (('modes.mp4', 1280), ('modes.gif', 480)):
-            done = self.redraw('--movie', name, '--fps', '5', '--pace', '10')
-            self.assertEqual(done.returncode, 0, done.stderr)
-            path = self.path(name)
+        for name, width, how in (('modes.mp4', 1280, process), ('modes.gif', 480, tool)):
+            path = os.path.join(self.folder, name)
+            options = '--movie', path, '--fps', '5', '--pace', '10'
+            text = self.succeeds('redraw', self.bag, *options, how=how)
             self.assertEqual(self.probe(path), (5, width, '5/1'))
-            self.assertIn(
-                f'{name}: T(1,0) and LP(1,0) from t = 10 to 18 in 1.0 s, 5 frames', done.stdout
-            )
-            shots = self.pixels(path, width).reshape(5, -1).astype(int)
+            said = f'{name}: T(1,0) and LP(1,0) from t = 10 to 18 in 1.0 s, 5 frames'
+            self.assertIn(said, text)
+            raw = self.ffmpeg('ffmpeg', '-i', path, '-f', 'rawvideo', '-pix_fmt', 'rgb24', '-')
+            shots = np.frombuffer(raw, np.uint8).reshape(5, -1).astype(int)
             self.assertGreater((abs(shots[1] - shots[0]) > 60).mean(), 0.005)  # it moves
             self.assertLess((shots[0] > 200).mean(), 0.98)  # something is drawn
         self.assertEqual(sorted(os.listdir(self.folder)), ['modes.gif', 'modes.mp4', 'run.bag'])
@@ -220,20 +204,19 @@ class Files(Bag):
             (('--pace', '0'), 'must be above 0'),
             (('--modes', 'Q(1,0)'), 'must be lowest or names'),
         ):
-            done = self.redraw(*args)
-            self.assertEqual(done.returncode, 2)
-            self.assertIn(words, done.stderr)
-        done = self.redraw(PATH=self.folder)
-        self.assertEqual(done.returncode, 1)
-        self.assertIn('redraw: there is no ffmpeg', done.stderr)
+            done = tool('redraw', self.bag, *args)
+            self.assertEqual(done.status, 2)
+            self.assertIn(words, done.error)
+        movie = '--movie', os.path.join(self.folder, 'modes.mp4')
+        with mock.patch.dict(os.environ, PATH=self.folder):
+            self.refuses('redraw: there is no ffmpeg', 'redraw', self.bag, *movie)
         for but, words in (
             (('state', 'fields'), 'neither state nor fields'),
             (('steps',), 'no step is resolved'),
         ):
             write(self.bag, but=but)
-            done = self.redraw()
-            self.assertEqual(done.returncode, 1)
-            self.assertRegex(done.stderr, r'\Aredraw: %s: %s.*\n\Z' % (self.bag, words))
+            said = r'\Aredraw: %s: %s.*\n\Z' % (self.bag, words)
+            self.refuses(said, 'redraw', self.bag, *movie)
         self.assertEqual(os.listdir(self.folder), ['run.bag'])
 
 

@@ -1,5 +1,5 @@
-"""plot_bag against bags that are made here: what it writes, what it refuses, and what it prints
-beside its table (test_plot_bag_table.py)."""
+"""plot_bag against bags that are made here: which files it writes, what it prints beside its table
+(test_plot_bag_table.py), what it refuses; and what is kept of a bag."""
 
 import itertools
 import os
@@ -15,164 +15,140 @@ from hdlyap.msg import LpPhases, ModeField, Steps
 from std_msgs.msg import String
 
 import made
+from bags import Bags, files, process, tool
 from made import LP, T
-from hdlyap.plots import paper, recording, waves
+from hdlyap.plots import paper, recording, report, waves
 from hdlyap.plots.course import LIMIT, Course
-from hdlyap.plots.figures import localization, modes, p_mode, phases, plt
+from hdlyap.plots.figures import phases, plt
 from hdlyap.plots.numbers import with_error
-from plotted import Bags, files, plot_bag_process
+
+INFO = made.run_info()
+HALF = np.linspace(3, 1, 37)
+WHOLE = [*HALF, *[0.0] * 6, *-HALF[::-1]]
+LP_STEP = made.step(INFO, LP, 1, 0, 32, 35)
+
+SPECTRUM = files('convergence', 'spectrum')
+COST = files('cost')
+STEPS = files('dispersion', 'steps')
+MODES = files('dispersion', 'steps', 'modes', 'p_mode', 'phases')
 
 
-SPECTRUM_FILES = files('convergence', 'spectrum')
-COST_FILES = files('cost')
-MODES_FILES = files('dispersion', 'steps', 'modes', 'p_mode', 'phases')
+def older(message):
+    """As bags of before have it."""
+    later = (
+        r'^(float64|uint8|uint32) (ks_entropy_error|[tlv]_(misfit|prior|k_m|long|box)\w*|'
+        r'sharing|set_time|own_part|gap\w*|scatter|omega\w*|c_[tl]3\w*|\w+_sampling_error) .*\n'
+    )
+    old = made.defined(message, lambda text: re.sub(later, '', text, flags=re.MULTILINE))
+    assert len(old._full_text) < len(message._full_text)
+    return old
 
 
-class Exponents(Bags):
-    def test_positive_half(self):
-        exponents = np.linspace(3, 1, 37)
-        self.write(
-            [
-                made.run_info(),
-                made.cost(1),
-                *(made.spectrum(exponents, t) for t in range(1, 30)),
-                made.cost(2),
-            ]
-        )
-        text = self.succeeds(SPECTRUM_FILES + COST_FILES)
-        self.assertIn('the last 37 exponents before the zeros', text)
-        self.assertIn('    37   1.00000  0.01000', text)
-        self.assertIn('h_KS / N        3.7', text)
-        self.assertNotIn('pairing', text)
-        self.assertNotIn('steps', text)
-
-    def test_a_bag_of_before(self):
-        """Its messages lack what came later."""
-        later = (
-            r'^(float64|uint8|uint32) (ks_entropy_error|[tlv]_(misfit|prior|k_m|long|box)\w*|'
-            r'sharing|set_time|own_part|gap\w*|scatter|omega\w*|c_[tl]3\w*|\w+_sampling_error) .*\n'
-        )
-        info = made.run_info()
-        messages = [
-            made.spectrum(np.linspace(3, 1, 37), 50.0),
-            made.steps([made.step(info, T, 1, 0, 36, 37), made.step(info, LP, 1, 0, 32, 35)]),
-        ]
-        older = [
-            made.defined(new, lambda text: re.sub(later, '', text, flags=re.MULTILINE))
-            for new in messages
-        ]
-        for old, new in zip(older, messages):
-            self.assertLess(len(old._full_text), len(new._full_text))
-        self.write([info, *older])
-        text = self.succeeds(SPECTRUM_FILES + files('dispersion', 'steps'))
-        self.assertRegex(text, r'h_KS +74\.0000\n')
-        self.assertRegex(text, r'c_T +1\.400\(12\)')
-        self.assertNotIn('misfit', text)
-        self.assertRegex(
-            text, r'\n  T steps: form not recorded, over 3 wave numbers 0.9935 .*1\)\n'
-        )
-
-    def test_all_exponents(self):
-        half = np.linspace(3, 1, 37)
-        exponents = [*half, 0, 0, 0, 0, 0, 0, *-half[::-1]]
-        self.write(
-            [made.run_info(), made.spectrum(exponents, 1.0, pairing_error=2e-5), made.cost(1)]
-        )
-        text = self.succeeds(SPECTRUM_FILES + COST_FILES)
-        self.assertIn('the last 37 exponents before the zeros', text)
-        self.assertIn('pairing error   2.00e-05', text)
-
-    def test_one_exponent_without_known_error(self):
-        self.write([made.run_info(), made.spectrum([3.5], 1.0, error=-1.0)])
-        text = self.succeeds(SPECTRUM_FILES)
-        self.assertIn('     1   3.50000        -', text)
-        self.assertNotIn('h_KS', text)
-
-    def test_trajectory_only(self):
-        self.write([made.run_info(), made.cost(1), made.cost(2)])
-        self.assertIn('no averaged spectrum', self.succeeds(COST_FILES))
-
-    def test_gas(self):
-        """With exponents or without; the reference where it holds."""
-        self.write([made.run_info(), made.cost(1), made.gas(20.0), made.gas(50.0), made.cost(2)])
-        text = self.succeeds(COST_FILES)
-        self.assertIn('gas, averaged over 50\n', text)
-        self.assertIn('collision rate  3.250000 +- 0.020000 per disk and time unit\n', text)
-        self.assertIn('pressure        1.250000 +- 0.010000 per sigma^2\n', text)
-        self.assertIn('of px, py     1.500000, 1.000000\n', text)
-        self.assertIn('Z = p A / N     2.500000 +- 0.020000\n', text)
-        self.assertIn(' 2.763657 by Henderson', text)  # (1 + eta^2 / 8) / (1 - eta)^2, eta = pi / 8
-        walls = dict(boundary_x='reflecting')
-        self.write([made.run_info(**walls), made.gas(error=-1.0), made.cost(1), made.cost(2)])
-        text = self.succeeds(COST_FILES)
-        self.assertIn('pressure        1.250000 per sigma^2\n', text)
-        self.assertNotIn('Henderson', text)
-
-    def test_localization(self):
-        spectrum = made.spectrum(np.linspace(3, 1, 37), 50.0)
-        widths = np.linspace(0.1, 0.8, 37)
-        files_ = SPECTRUM_FILES + files('localization')
-        self.write([made.run_info(), spectrum, made.localization(widths)])
-        self.succeeds(files_)
-        run = recording.read(self.path)
-        figure = localization.draw(run)
-        (axes,) = figure.axes
-        places, drawn = axes.containers[0].lines[0].get_data()
-        np.testing.assert_array_equal(places, np.arange(1, 38))
-        np.testing.assert_array_equal(drawn, widths)
-        bars = np.array([one[:, 1] for one in axes.containers[0].lines[2][0].get_segments()])
-        np.testing.assert_allclose(bars, np.transpose([widths - 0.01, widths + 0.01]))
-        plt.close(figure)
-        many = np.linspace(0.1, 0.8, 80)
-        self.write([made.run_info(disks=43), made.localization(many), made.covariant(list(many))])
-        figure = localization.draw(recording.read(self.path))
-        self.assertEqual(len(figure.axes), 2)
-        shown = [len(one.lines[0].get_xdata()) for one in figure.axes[1].containers]
-        self.assertEqual(shown, [localization.LARGEST] * 2)
-        self.assertEqual(len(figure.axes[1].get_legend().get_texts()), 2)
-        plt.close(figure)
-
-    def test_paper_scene_without_steps(self):
-        info = made.paper_info()
-        exponents = np.linspace(6.8, 1.0, 1557)
-        for step in paper.steps(info):
-            exponents[step.first - 1 : step.last] = 1.01 * step.fitted
-        self.write([info, made.spectrum(exponents, 10.0)])
-        text = self.succeeds(SPECTRUM_FILES)
-        self.assertRegex(
-            text, r'T\(1,0\) +1556-1557 +0\.18736 +0\.62\d+ +0\.01000 +0\.61\d\d ' r'+\+1\.00 %'
-        )
-        self.assertEqual(text.count('+1.00 %'), 5)
-
-    def test_averages_start_afresh_after_a_reset(self):
-        run = self.recorded(
-            made.run_info(), *(made.spectrum([3.0, 2.0], t) for t in [1, 2, 3, 1, 2])
-        )
-        self.assertEqual(list(run.course()['time']), [1, 2])
-
-    def test_last_of_two_runs(self):
-        info = made.run_info()
-        step = made.step(info, LP, 1, 0, 34, 37)
-        run = self.recorded(
-            info,
-            made.spectrum([9.0], 5.0),
-            made.steps([step]),
-            made.lp_phases(info, [step], 5.0),
-            made.mode_field(info, step),
-            made.run_info(run_id='two'),
-            made.steps([step]),  # late
-            made.spectrum([3.0], 1.0, run_id='two'),
-        )
-        self.assertEqual((run.info.run_id, run.spectrum.lambda_max), ('two', 3.0))
-        self.assertEqual((run.steps, list(run.fields()), run.phases.last), (None, [], None))
+def paper_spectrum(info):
+    exponents = np.linspace(6.8, 1.0, 1557)
+    for step in paper.steps(info):
+        exponents[step.first - 1 : step.last] = 1.01 * step.fitted
+    return made.spectrum(exponents, 10.0)
 
 
-class Figures(Bags):
-    def test_everything(self):
-        self.how = plot_bag_process
-        self.write(made.small_run())
-        text = self.succeeds(SPECTRUM_FILES + COST_FILES + MODES_FILES)
-        self.assertRegex(text, r'T\(1,0\) +36-37 +1\.98')
+def cases():
+    """Messages, files that are written, what is printed, what is not."""
+    costs = [made.cost(1), made.cost(2)]
+    spectra = [made.spectrum(HALF, t) for t in range(1, 30)]
+    yield [INFO, *spectra, *costs], SPECTRUM + COST, (
+        'the last 37 exponents before the zeros',
+        r'    37   1\.00000  0\.01000',
+        r'h_KS            74\.0000 \+- 0\.3700',
+        r'h_KS / N        3\.700000 \+- 0\.018500',
+        'averaged time   29\n',
+        'collisions      1000\n',
+    ), 'pairing|steps'
+    wave = made.step(INFO, T, 1, 0, 36, 37)
+    before = [older(made.spectrum(HALF, 50.0)), older(made.steps([wave, LP_STEP]))]
+    yield [INFO, *before], SPECTRUM + STEPS, (
+        r'h_KS +74\.0000\n',
+        r'c_T +1\.400\(12\)',
+        r'\n  T steps: form not recorded, over 3 wave numbers 0.9935 .*1\)\n',
+    ), 'misfit'
+    yield [INFO, made.spectrum(WHOLE, 1.0, pairing_error=2e-5)], SPECTRUM, (
+        'the last 37 exponents before the zeros',
+        'pairing error   2.00e-05',
+    ), ' +-1 '
+    yield [INFO, made.spectrum([3.5], 1.0, error=-1.0)], SPECTRUM, (
+        r'     1   3\.50000        -',
+        r'lambda_max      3\.500000\n',
+    ), 'h_KS|sum'
+    yield [INFO, made.spectrum([3.5, 1.0], 1.0)], SPECTRUM, (
+        r'sum of the 2 exponents carried 4\.5000 \+- 0\.0200',
+    ), 'h_KS'
+    yield [INFO, *costs], COST, ('no averaged spectrum',), 'gas'
+    # (1 + eta^2 / 8) / (1 - eta)^2, eta = pi / 8
+    yield [INFO, made.gas(20.0), made.gas(50.0), *costs], COST, (
+        'gas, averaged over 50\n',
+        r'collision rate  3\.250000 \+- 0\.020000 per disk and time unit\n',
+        r'pressure        1\.250000 \+- 0\.010000 per sigma\^2\n',
+        r'of px, py     1\.500000, 1\.000000\n',
+        r'Z = p A / N     2\.500000 \+- 0\.020000\n',
+        r' 2\.763657 by Henderson',
+    ), 'unknown'
+    walls = made.run_info(boundary_x='reflecting')
+    yield [walls, made.gas(error=-1.0), *costs], COST, (
+        r'pressure        1\.250000 per sigma\^2\n',
+    ), 'Henderson'
+    widths = made.localization(np.linspace(0.1, 0.8, 37))
+    yield [INFO, made.spectrum(HALF, 50.0), widths], SPECTRUM + files('localization'), (), 'steps'
+    info = made.paper_info()
+    deviations = r'(?s)' + 5 * r'.* \+1\.00 %' + r'(?!.*\+1\.00 %)'
+    yield [info, paper_spectrum(info)], SPECTRUM, (
+        r'T\(1,0\) +1556-1557 +0\.18736 +0\.62\d+ +0\.01000 +0\.61\d\d +\+1\.00 %',
+        deviations,
+    ), 'not resolved'
+    unresolved = [made.unresolved(INFO, LP, 1, 0, 4), made.zero_modes()]
+    yield [INFO, made.spectrum(HALF, 1.0), made.steps(unresolved)], SPECTRUM, (
+        r'not resolved \(1\): LP\(1,0\)',
+    ), '-1'
+    mirrored = made.step(INFO, T, 1, 0, 44, 45, conjugate=True, exponent=-wave.exponent)
+    both = made.steps([wave, mirrored, made.zero_modes(38)])
+    yield [INFO, made.spectrum(WHOLE, 1.0), both], SPECTRUM + STEPS, ('1 of 1 resolved',), 'lost'
+    channel = dict(aspect=0.0375, box_x=40.0, box_y=1.5, boundary_y='reflecting')
+    for info, nx, ny, bits in (
+        (made.run_info(zero_exponents=4, **channel), 1, 0, (0, 1)),
+        (INFO, 1, 1, (0, 1, 2, 3)),
+    ):
+        step = made.step(info, LP, nx, ny, 30, 37)
+        field = made.mode_field(info, step, modulations=bits)
+        messages = [info, made.spectrum(np.linspace(3, 1, 38), 1.0), made.steps([step]), field]
+        yield messages, SPECTRUM + STEPS + files('modes', 'p_mode'), (rf'LP\({nx},{ny}\)',), 'T\\('
+    everything = made.small_run()
+    yield everything, SPECTRUM + COST + MODES, (r'T\(1,0\) +36-37 +1\.98',), 'reset'
+    for left_out, gone in (
+        (Steps, MODES),
+        (LpPhases, files('phases')),
+        (ModeField, files('modes', 'p_mode')),
+    ):
+        names = set(SPECTRUM + COST + MODES) - set(gone)
+        yield [one for one in everything if not isinstance(one, left_out)], names, (), 'nothing'
+
+
+class Command(Bags):
+    def plot(self, names, *arguments, how=tool):
+        text = self.succeeds('plot_bag', self.path(), '--out', self.out, *arguments, how=how)
+        self.assertEqual(sorted(os.listdir(self.out)), sorted(names))
+        return text
+
+    def test_cases(self):
+        for number, (messages, names, said, not_said) in enumerate(cases()):
+            with self.subTest(number, said=said, names=names):
+                self.out += '_'
+                self.write(messages)
+                text = self.plot(names)
+                for words in said:
+                    self.assertRegex(text, words)
+                self.assertNotRegex(text, not_said)
+
+    def test_process(self):
+        self.write([INFO, made.spectrum(HALF, 50.0), made.steps([LP_STEP])])
+        text = self.plot(SPECTRUM + STEPS, how=process)
         for name in os.listdir(self.out):
             path = os.path.join(self.out, name)
             self.assertIn(path, text)
@@ -182,162 +158,122 @@ class Figures(Bags):
                 with open(path) as file:
                     self.assertIn('</svg>', file.read()[-10:])
 
-    def test_each_topic_may_be_missing(self):
-        everything = made.small_run()
-        for left_out, gone in (
-            (Steps, MODES_FILES),
-            (LpPhases, files('phases')),
-            (ModeField, files('modes', 'p_mode')),
-        ):
-            self.out += '_'
-            self.write([one for one in everything if not isinstance(one, left_out)])
-            self.succeeds(sorted(set(SPECTRUM_FILES + COST_FILES + MODES_FILES) - set(gone)))
+    def test_several_nodes(self):
+        self.write([INFO, made.spectrum([3.0], 1.0)], node='/hdlyap')
+        self.write([INFO, made.spectrum([4.0], 1.0)], node='/far/away', mode='a')
+        self.refuse('choose one with --node: /far/away, /hdlyap')
+        self.refuse('no node other in it', '--node', 'other')
+        self.assertIn('lambda_max      4.0', self.plot(SPECTRUM, '--node', 'far/away'))
 
-    def test_channel(self):
-        info = made.run_info(
-            disks=20,
-            aspect=0.0375,
-            box_x=40.0,
-            box_y=1.5,
-            boundary_y='reflecting',
-            zero_exponents=4,
-        )
-        step = made.step(info, LP, 1, 0, 35, 38)
-        self.write(
-            [
-                info,
-                made.spectrum(np.linspace(3, 1, 38), 1.0),
-                made.steps([step]),
-                made.mode_field(info, step),
-            ]
-        )
-        self.succeeds(SPECTRUM_FILES + files('dispersion', 'steps', 'modes', 'p_mode'))
+    def refuse(self, reason, *arguments, how=tool):
+        self.refuses(reason, 'plot_bag', self.path(), '--out', self.out, *arguments, how=how)
+        self.assertFalse(os.path.exists(self.out))
 
-    def test_steps_without_one_resolved(self):
-        info = made.run_info()
-        self.write(
-            [
-                info,
-                made.spectrum(np.linspace(3, 1, 37), 1.0),
-                made.steps([made.unresolved(info, LP, 1, 0, 4), made.zero_modes()]),
-            ]
-        )
-        self.assertIn('not resolved (1): LP(1,0)', self.succeeds(SPECTRUM_FILES))
+    def content(self, data):
+        with open(self.path(), 'wb') as file:
+            file.write(data)
 
-    def test_both_halves(self):
-        info = made.run_info()
-        half = np.linspace(3, 1, 37)
-        step = made.step(info, T, 1, 0, 36, 37)
-        mirrored = made.step(info, T, 1, 0, 44, 45, conjugate=True, exponent=-step.exponent)
-        self.write(
-            [
-                info,
-                made.spectrum([*half, *[0.0] * 6, *-half[::-1]], 1.0),
-                made.steps([step, mirrored, made.zero_modes(38)]),
-            ]
-        )
-        self.succeeds(SPECTRUM_FILES + files('dispersion', 'steps'))
+    def test_refusals(self):
+        self.refuse('No such file', how=process)
+        self.write([made.spectrum([3.0], 1.0), made.steps([])])
+        self.refuse('no run_info')
+        for content in b'', b'something else entirely\n' * 10:
+            self.content(content)
+            self.refuse('not a readable bag')
+        with rosbag.Bag(self.path(), 'w') as bag:
+            bag.write('/chatter', String('hello'), rospy.Time(1))
+        self.refuse('nothing in it was published by hdlyap_node')
 
-    def test_panels_are_the_last_fields_of_the_steps(self):
-        info = made.run_info()
-        low, high = made.step(info, T, 1, 0, 36, 37), made.step(info, LP, 1, 0, 32, 35)
+    def test_unfinished_bags(self):
+        bag = rosbag.Bag(self.path(), 'w')
+        bag.write('/hdlyap/run_info', INFO, rospy.Time(1))
+        bag.flush()
+        with open(self.path(), 'rb') as file:
+            content = file.read()
+        bag.close()
+        self.content(content)
+        self.refuse('rosbag reindex')
+        os.rename(self.path(), self.path() + '.active')
+        self.refuse(r'run\.bag\.active is there: .* rosbag reindex .*\.active$')
+        self.write([INFO, made.spectrum(HALF, 5.0)])
+        with open(self.path(), 'rb') as file:
+            content = file.read()
+        for length in (1, 100, len(content) // 2, len(content) - 1):
+            self.content(content[:length])
+            self.refuse('rosbag reindex|not a readable bag')
+        self.content(content.replace(b'\3\0\0\0one', b'\3\0\0\0\xff\xff\xff'))  # is no text
+        self.refuse('run.bag: damaged')
+
+
+class Kept(Bags):
+    """Of a bag."""
+
+    def test_averages_start_afresh_after_a_reset(self):
+        run = self.recorded([INFO, *(made.spectrum([3.0, 2.0], t) for t in [1, 2, 3, 1, 2])])
+        self.assertEqual(list(run.course()['time']), [1, 2])
+
+    def test_last_of_two_runs(self):
         run = self.recorded(
-            info,
-            made.steps([high, low]),
-            made.mode_field(info, low, 149.0, index=37),
-            made.mode_field(info, low, 150.0, index=36),
-            made.mode_field(info, high, 150.0, index=35),
-            made.mode_field(info, high, 90.0, index=12),
-        )
-        panels = modes.chosen(run)
-        self.assertEqual(
-            [(panel.name, panel.field.index) for panel in panels], [('T(1,0)', 36), ('LP(1,0)', 35)]
-        )
-        run.info.field_indices = '36 35 12'
-        self.assertEqual(
-            [panel.name for panel in modes.chosen(run)], ['T(1,0)', 'LP(1,0)', 'no step']
-        )
-
-    def test_p_mode_is_what_the_field_says(self):
-        info = made.run_info()
-        along = made.step(info, LP, 0, 1, 28, 31)
-        diagonal = made.step(info, LP, 1, 1, 30, 37, exponent=1.0)
-        run = self.recorded(
-            info,
-            made.steps([diagonal, along]),
-            made.mode_field(info, diagonal, modulations=(0, 1, 2, 3)),
-            made.mode_field(info, along, modulations=(0, 2)),
-        )
-        field = p_mode.chosen(run)
-        self.assertEqual((field.nx, field.ny, field.pairs), (0, 1, 2))
-        mode = p_mode.PMode(field, 1, info)
-        self.assertEqual((mode.along, mode.formula), ('y', r'$\sin k_y y$'))
-        a = np.sin(2 * np.pi * np.array(field.y) / info.box_y)
-        for part in mode.divided:
-            self.assertGreater(np.corrcoef(part, a)[0, 1], 0.9)
-
-    def test_p_mode_of_a_diagonal_wave(self):
-        info = made.run_info()
-        step = made.step(info, LP, 1, 1, 30, 37)
-        self.write(
             [
-                info,
-                made.spectrum(np.linspace(3, 1, 37), 1.0),
-                made.steps([step]),
-                made.mode_field(info, step, modulations=(0, 1, 2, 3)),
+                INFO,
+                made.spectrum([9.0], 5.0),
+                made.steps([LP_STEP]),
+                made.lp_phases(INFO, [LP_STEP], 5.0),
+                made.mode_field(INFO, LP_STEP),
+                made.run_info(run_id='two'),
+                made.steps([LP_STEP]),  # late
+                made.spectrum([3.0], 1.0, run_id='two'),
             ]
         )
-        self.succeeds(SPECTRUM_FILES + files('dispersion', 'steps', 'modes', 'p_mode'))
+        self.assertEqual((run.info.run_id, run.spectrum.lambda_max), ('two', 3.0))
+        self.assertEqual((run.steps, list(run.fields()), run.phases.last), (None, [], None))
 
-
-class Phases(Bags):
-    """Phases turn by v k = 1.5895 rad per time unit."""
-
-    def course(self, *times_and_beginnings, lost=()):
-        info = made.run_info()
-        step = made.step(info, LP, 1, 0, 32, 35)
+    def test_the_last_run_or_the_chosen_one(self):
+        """The first goes on being repeated; what came before any run_info belongs to it."""
         messages = [
-            made.lp_phases(info, [step], time, began=began) for time, began in times_and_beginnings
+            made.cost(1.0),
+            INFO,
+            made.spectrum([3.0], 1.0),
+            made.run_info(run_id='two'),
+            made.spectrum([4.0], 2.0, run_id='two'),
+            INFO,
+            made.spectrum([5.0], 2.0),
         ]
-        for message in messages:
-            if message.sim_time in lost:
-                for phase in message.phases:
-                    phase.state, phase.phase = phase.WEAK, 0.0
-        return self.recorded(info, made.steps([step]), *messages)
+        for number, chosen in ((None, ('two', 4.0)), (1, ('one', 5.0)), (2, ('two', 4.0))):
+            run = self.recorded(messages, number=number)
+            self.assertEqual((run.info.run_id, run.spectrum.lambda_max), chosen)
+            self.assertIn('one of 2 runs in the bag; --run 1 .. 2 chooses', report.report(run))
+        self.assertEqual(list(self.recorded(messages, number=1).cost()['time']), [1.0])
+        for number in (0, 3, -1):
+            with self.assertRaisesRegex(recording.RecordingError, f'no run {number} .* 1 .. 2'):
+                self.recorded(messages, number=number)
+        self.assertNotIn('runs in the bag', report.report(self.recorded(messages[:3])))
 
-    def curves(self, run, number=0):
-        return [list(time) for time, _ in run.phases.curves(number)]
+    def test_phases(self):
+        """Turn by v k = 1.5895 rad per time unit; curves without what was told twice or lost."""
+        time = [float(t) for t in range(101, 108)]
+        for times, began, lost, curves in (
+            (time, {}, (), [time]),
+            ([101, 102, 102, 103, 103, 103, 104], {}, (), [[101, 102, 103, 104]]),
+            (time, {}, (104,), [[101, 102, 103], [105, 106, 107]]),
+            (
+                time[:6],
+                {104: 103.5, 105: 103.5, 106: 103.5},
+                (),
+                [[101, 102, 103], [104, 105, 106]],
+            ),
+            (time[:3], {}, (101, 102, 103), []),
+        ):
+            told = [made.lp_phases(INFO, [LP_STEP], t, began=began.get(t, 100.0)) for t in times]
+            for phase in (one for each in told if each.sim_time in lost for one in each.phases):
+                phase.state, phase.phase = phase.WEAK, 0.0
+            run = self.recorded([INFO, made.steps([LP_STEP]), *told])
+            self.assertEqual([list(time) for time, _ in run.phases.curves(0)], curves)
+            # another vector and another pair
+            self.assertEqual(phases.chosen(run), [(0, [0, 3])] if curves else [])
+            for _, phase in run.phases.curves(0):
+                np.testing.assert_allclose(np.diff(phase), -made.VELOCITY * made.K)
 
-    def test_one_curve(self):
-        run = self.course(*((float(t), 100.0) for t in range(101, 106)))
-        ((time, phase),) = run.phases.curves(0)
-        self.assertEqual(list(time), [101, 102, 103, 104, 105])
-        self.assertTrue(np.allclose(np.diff(phase), -made.VELOCITY * 0.993459))
-        # another vector and another pair
-        self.assertEqual(phases.chosen(run), [(0, [0, 3])])
-
-    def test_told_twice(self):
-        """Of one state there can be several reports."""
-        run = self.course(*((float(t), 100.0) for t in (101, 102, 102, 103, 103, 103, 104)))
-        self.assertEqual(self.curves(run), [[101, 102, 103, 104]])
-
-    def test_lost_for_a_while(self):
-        run = self.course(*((float(t), 100.0) for t in range(101, 108)), lost=(104.0,))
-        self.assertEqual(self.curves(run), [[101, 102, 103], [105, 106, 107]])
-
-    def test_begun_anew(self):
-        run = self.course(
-            *((float(t), 100.0) for t in range(101, 104)),
-            *((float(t), 103.5) for t in range(104, 107)),
-        )
-        self.assertEqual(self.curves(run), [[101, 102, 103], [104, 105, 106]])
-
-    def test_never_tracked(self):
-        run = self.course(*((float(t), 100.0) for t in range(101, 104)), lost=(101, 102, 103))
-        self.assertEqual((self.curves(run), phases.chosen(run)), ([], []))
-
-
-class LongBags(Bags):
     def test_course_is_thinned_evenly_and_ends_with_the_last_row(self):
         course = Course()
         self.assertIsNone(course.table())
@@ -352,36 +288,23 @@ class LongBags(Bags):
             self.assertEqual(len(set(np.diff(kept[:-1]))), 0 if len(kept) < 3 else 1)
 
     def test_restart_is_seen_in_a_thinned_course(self):
-        info = made.run_info()
-        step = made.step(info, LP, 1, 0, 37, 37)
-        run = recording.Recording(info)
+        step = made.step(INFO, LP, 1, 0, 37, 37)
+        run = recording.Recording(INFO)
         for t in range(3 * LIMIT):
-            run.phases.add(
-                made.lp_phases(
-                    info,
-                    [step],
-                    float(t),
-                    modulations=(0,),
-                    began=0.0 if t < LIMIT else LIMIT - 0.5,
-                )
-            )
-        begins = [time[0] for time, _ in run.phases.curves(0)]
-        self.assertEqual(begins, [0, LIMIT])
+            began = 0.0 if t < LIMIT else LIMIT - 0.5
+            run.phases.add(made.lp_phases(INFO, [step], float(t), modulations=(0,), began=began))
+        self.assertEqual([time[0] for time, _ in run.phases.curves(0)], [0, LIMIT])
 
     def test_memory(self):
         info = made.run_info(disks=2000, box_x=63.2, box_y=63.2)
         step = made.step(info, LP, 1, 0, 3994, 3997)
-        field = made.mode_field(info, step)
         one = 8 * 20 * info.disks  # bytes: vectors and two pairs
-        self.write(
-            itertools.chain(
-                [info], itertools.repeat(field, 100), itertools.repeat(made.steps([step]), 1000)
-            )
-        )
-        self.assertGreater(os.path.getsize(self.path), 100 * one)
+        fields = itertools.repeat(made.mode_field(info, step), 100)
+        self.write(itertools.chain([info], fields, itertools.repeat(made.steps([step]), 1000)))
+        self.assertGreater(os.path.getsize(self.path()), 100 * one)
         tracemalloc.start()
         try:
-            run = recording.read(self.path)
+            run = recording.read(self.path())
             _, peak = tracemalloc.get_traced_memory()
         finally:
             tracemalloc.stop()
@@ -411,45 +334,6 @@ class Numbers(unittest.TestCase):
         a = waves.modulation(info, 1, 2, waves.SIN_X, 1.0, 2.0)
         self.assertAlmostEqual(a, np.sin(2 * np.pi / 10) * np.cos(2 * np.pi / 5 * 1.5))
         self.assertEqual(waves.formula(1, 2, waves.SIN_X), r'$\sin k_x x\,\cos k_y y$')
-
-
-class Refusals(Bags):
-    def test_several_nodes(self):
-        self.write([made.run_info(), made.spectrum([3.0], 1.0)], node='/hdlyap')
-        self.write([made.run_info(), made.spectrum([4.0], 1.0)], node='/far/away', mode='a')
-        self.refuses('choose one with --node: /far/away, /hdlyap')
-        self.refuses('no node other in it', '--node', 'other')
-        self.assertIn('lambda_max      4.0', self.succeeds(SPECTRUM_FILES, '--node', 'far/away'))
-
-    def test_bag_without_run_info(self):
-        self.write([made.spectrum([3.0], 1.0), made.steps([])])
-        self.refuses('no run_info')
-
-    def test_foreign_bag(self):
-        with rosbag.Bag(self.path, 'w') as bag:
-            bag.write('/chatter', String('hello'), rospy.Time(1))
-        self.refuses('nothing in it was published by hdlyap_node')
-
-    def test_missing_file(self):
-        self.how = plot_bag_process
-        self.refuses('No such file')
-
-    def test_not_a_bag(self):
-        for content in b'', b'something else entirely\n' * 10:
-            with open(self.path, 'wb') as file:
-                file.write(content)
-            self.refuses('not a readable bag')
-
-    def test_unindexed_bag(self):
-        bag = rosbag.Bag(self.path, 'w')
-        bag.write('/hdlyap/run_info', made.run_info(), rospy.Time(1))
-        bag.flush()
-        with open(self.path, 'rb') as file:
-            content = file.read()
-        bag.close()
-        with open(self.path, 'wb') as file:
-            file.write(content)
-        self.refuses('rosbag reindex')
 
 
 if __name__ == '__main__':

@@ -2,19 +2,16 @@
 """The scene file of a recorded run, from its run_info alone."""
 
 import os
-import subprocess
-import sys
-import tempfile
 import unittest
 
 import yaml
 
 from hdlyap.msg import Change
 import made
+from bags import Bags, process, tool
 from hdlyap.plots import recording, repetition
 
 SCENES = os.path.join(made.SCRIPTS, '../../launch/scenes')
-REPEAT = os.path.join(made.SCRIPTS, 'repeat')
 
 
 def text_of(value):
@@ -33,32 +30,15 @@ def complete(name):
 
 def info_of(scene, **others):
     """run_info of a node that was given a scene file."""
-    texts = {name: text_of(scene[name]) for name in ('exponents', 'field_indices')}
-    params = dict(
-        scene,
-        **texts,
-        **{
-            name: 0.0 if scene[name] == 'auto' else scene[name]
-            for name in ('interval', 'phase_interval')
-        },
-        threads=2,
-    )
-    return made.run_info(**dict(params, **others))
+    values = {name: text_of(scene[name]) for name in ('exponents', 'field_indices')}
+    for name in 'interval', 'phase_interval':
+        values[name] = 0.0 if scene[name] == 'auto' else scene[name]
+    return made.run_info(**{**scene, **values, 'threads': 2, **others})
 
 
-class Repeat(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.bag = os.path.join(folder.name, 'run.bag')
-
-    def command(self, *args):
-        return subprocess.run(
-            [sys.executable, REPEAT, self.bag, *args], text=True, capture_output=True
-        )
-
+class Repeat(Bags):
     def text(self, node=None, number=None):
-        return repetition.scene_file(repetition.chosen(self.bag, node, number))
+        return repetition.scene_file(repetition.chosen(self.path(), node, number))
 
     def repeated(self, node=None, number=None):
         return yaml.safe_load(self.text(node, number))
@@ -70,15 +50,11 @@ class Repeat(unittest.TestCase):
 
     def test_command(self):
         infos = [made.run_info(run_id=run_id, seed=run_id) for run_id in '12']
-        made.write(self.bag, infos)
-        done = self.command('--node', 'hdlyap', '--run', '2')
-        self.assertEqual((done.returncode, done.stderr), (0, ''))
-        self.assertEqual(done.stdout, repetition.scene_file(infos[1]))
-        done = self.command()
-        self.assertEqual((done.returncode, done.stdout), (1, ''))
-        self.assertEqual(
-            done.stderr, f'repeat: {self.bag}: several runs, choose with --run: 1 (1), 2 (2)\n'
-        )
+        path = self.write(infos)
+        text = self.succeeds('repeat', path, '--node', 'hdlyap', '--run', '2', how=process)
+        self.assertEqual(text, repetition.scene_file(infos[1]))
+        said = f'repeat: {path}: several runs, choose with --run: 1 (1), 2 (2)\n'
+        self.assertEqual(tool('repeat', path), (1, '', said))
 
     def test_every_scene(self):
         """What comes out is what went in, every parameter of it, and of the types that the node
@@ -105,11 +81,11 @@ class Repeat(unittest.TestCase):
             density=0.1 + 0.2,
             wait_for_subscribers=['cost', 'run_info'],
         )
-        made.write(self.bag, [info_of(scene)])
+        self.write([info_of(scene)])
         self.assertEqual(self.repeated(), dict(scene, threads=2))
 
     def test_begins_anew(self):
-        made.write(self.bag, [made.run_info(checkpoint='kept', resume='before', resumed_time=12.5)])
+        self.write([made.run_info(checkpoint='kept', resume='before', resumed_time=12.5)])
         got = self.repeated()
         self.assertEqual((got['checkpoint'], got['resume']), ('', ''))
         self.assertIn('# That run went on from before at simulated time 12.5', self.text())
@@ -129,19 +105,19 @@ class Repeat(unittest.TestCase):
             made.run_info(changes=changes, **now),
             made.run_info(pace=2.0),
         ]
-        made.write(self.bag, infos)
+        self.write(infos)
         got = self.repeated()
         self.assertEqual((got['pace'], got['duration']), (2.0, 0.0))
         self.assertEqual(
             got['changes'],
             ['0.30000000000000004 pace=1e-07', '1000.0 duration=100.0', '1000.0 pace=3.0'],
         )
-        made.write(self.bag, infos[:1])
+        self.write(infos[:1])
         self.assertEqual(self.repeated()['changes'], [])
 
     def test_what_it_ran_on(self):
         """Beside the parameters; texts of a bag cannot add any."""
-        made.write(self.bag, [made.run_info(blas_kernel='Zen\ndisks: 5', version='1.2.3')])
+        self.write([made.run_info(blas_kernel='Zen\ndisks: 5', version='1.2.3')])
         first, second, third = self.text().splitlines()[:3]
         self.assertEqual(first, '# Repeats the run one.')
         self.assertIn('(1.2.3)', second)
@@ -153,7 +129,7 @@ class Repeat(unittest.TestCase):
             made.run_info(run_id=run_id, seed=seed)
             for run_id, seed in (('one', '1'), ('two', '2'), ('two', '2'))
         ]  # as in files of a bag that was split
-        made.write(self.bag, infos)
+        self.write(infos)
         self.assertIn('several runs, choose with --run: 1 (one), 2 (two)', self.refused())
         self.assertEqual([self.repeated(number=k)['seed'] for k in (1, 2)], ['1', '2'])
         for number in (0, 3, -1):
@@ -163,17 +139,17 @@ class Repeat(unittest.TestCase):
             )
 
     def test_several_nodes(self):
-        made.write(self.bag, [made.run_info(seed='1')], node='/one')
-        made.write(self.bag, [made.run_info(seed='2')], node='/group/two', mode='a')
+        self.write([made.run_info(seed='1')], node='/one')
+        self.write([made.run_info(seed='2')], node='/group/two', mode='a')
         self.assertIn('choose one with --node: /group/two, /one', self.refused())
         self.assertEqual(self.repeated('/group/two')['seed'], '2')
         self.assertEqual(self.repeated('one')['seed'], '1')
 
     def test_refused(self):
         self.assertIn('No such file', self.refused())
-        made.write(self.bag, [made.cost(1.0)])
+        self.write([made.cost(1.0)])
         self.assertIn('no run_info in it', self.refused())
-        with open(self.bag, 'wb') as file:
+        with open(self.path(), 'wb') as file:
             file.write(b'no bag')
         self.assertIn('not a readable bag', self.refused())
 

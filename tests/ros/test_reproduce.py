@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What reproduce is made of, without runs: its options, the plan, bags, rows, the page, the
 display. Needs no ROS master."""
+# Second tier: tests/run.sh --all
 
 import contextlib
 import glob

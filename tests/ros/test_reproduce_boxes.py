@@ -1,4 +1,5 @@
 """Part 18 of the reproduction: boxes whose LP modes turn, and whose T modes grow, as is known."""
+# Second tier: tests/run.sh --all
 
 import functools
 

@@ -1,4 +1,5 @@
 """Part 3 of the reproduction: angles and ratios of the two halves of made vectors."""
+# Second tier: tests/run.sh --all
 
 import unittest
 from unittest import mock

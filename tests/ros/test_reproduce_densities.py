@@ -1,4 +1,5 @@
 """Part 8 of the reproduction against runs that are known exactly."""
+# Second tier: tests/run.sh --all
 
 import unittest
 

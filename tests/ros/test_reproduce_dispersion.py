@@ -1,4 +1,5 @@
 """Part 2 of the reproduction: slopes of single steps, fits, and the table of steps."""
+# Second tier: tests/run.sh --all
 
 import math
 import unittest

@@ -1,5 +1,6 @@
 """What a wrong program would have turned red: the claims that differ when the recorded numbers of
 the last full run (doc/reproduction), or made ones, are made wrong in one way."""
+# Second tier: tests/run.sh --all
 
 import re
 import unittest

@@ -1,4 +1,5 @@
 """Part 4 of the reproduction: weights of vectors in known fields, and what is drawn of them."""
+# Second tier: tests/run.sh --all
 
 import unittest
 

@@ -1,4 +1,5 @@
 """Part 19 of the reproduction: local exponents that fluctuate as is known."""
+# Second tier: tests/run.sh --all
 
 import unittest
 

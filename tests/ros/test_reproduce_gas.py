@@ -1,4 +1,5 @@
 """Part 17 of the reproduction against gases that are known."""
+# Second tier: tests/run.sh --all
 
 import unittest
 from math import sqrt

@@ -1,4 +1,5 @@
 """What part 12 makes of the responses of L and P, against a C that is known."""
+# Second tier: tests/run.sh --all
 
 import unittest
 

@@ -1,4 +1,5 @@
 """Part 12 of the reproduction against responses that are known: rows, figure, table."""
+# Second tier: tests/run.sh --all
 
 import unittest
 

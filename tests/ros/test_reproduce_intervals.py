@@ -1,4 +1,5 @@
 """Part 14 of the reproduction: runs of one trajectory that deviate by what is known."""
+# Second tier: tests/run.sh --all
 
 import unittest
 

@@ -1,4 +1,5 @@
 """Part 16 of the reproduction against widths that are known."""
+# Second tier: tests/run.sh --all
 
 import unittest
 

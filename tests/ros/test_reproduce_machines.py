@@ -1,4 +1,5 @@
 """Which machine each run of reproduce.launch goes to, and the script that queues them."""
+# Second tier: tests/run.sh --all
 
 import os
 import subprocess

@@ -1,5 +1,6 @@
 """Part 11 of the reproduction: the rule against fields that are sampled, rows against runs that are
 known exactly."""
+# Second tier: tests/run.sh --all
 
 import itertools
 import os

@@ -1,5 +1,6 @@
 """Part 5 of the reproduction: the modulation in the quotients of a P mode, with what is known of
 it."""
+# Second tier: tests/run.sh --all
 
 import unittest
 

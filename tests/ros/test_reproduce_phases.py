@@ -1,4 +1,5 @@
 """Part 7 of the reproduction against LP phases that are known."""
+# Second tier: tests/run.sh --all
 
 import unittest
 

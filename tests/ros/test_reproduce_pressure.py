@@ -1,4 +1,5 @@
 """The velocity that the pressure of a box gives, against limits that are known."""
+# Second tier: tests/run.sh --all
 
 import unittest
 

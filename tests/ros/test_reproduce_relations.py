@@ -1,5 +1,6 @@
 """Relations to c_L of part 8 of the reproduction, and the gas beside the modes, against what is
 known."""
+# Second tier: tests/run.sh --all
 
 import unittest
 

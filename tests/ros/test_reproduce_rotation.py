@@ -1,5 +1,6 @@
 """Part 6 of the reproduction, and what it and others measure a rotation with, against LP phases
 that are known."""
+# Second tier: tests/run.sh --all
 
 import unittest
 

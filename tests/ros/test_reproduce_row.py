@@ -1,4 +1,5 @@
 """Rows and claims of the reproduction: verdicts, and what wrong value would have been caught."""
+# Second tier: tests/run.sh --all
 
 import math
 import unittest

@@ -1,4 +1,5 @@
 """The smallest steps of runs, the fits through them, stairs of exponents and crossings."""
+# Second tier: tests/run.sh --all
 
 import unittest
 

@@ -1,4 +1,5 @@
 """Part 15 of the reproduction against structure factors and lines that are known."""
+# Second tier: tests/run.sh --all
 
 import unittest
 

@@ -1,4 +1,5 @@
 """Part 13 of the reproduction against waves that travel as is known."""
+# Second tier: tests/run.sh --all
 
 import unittest
 

@@ -2,8 +2,6 @@
 """Structure factors and their lines, of waves that are known."""
 
 import itertools
-import os
-import tempfile
 import unittest
 
 import matplotlib.pyplot as plt
@@ -11,6 +9,7 @@ import numpy as np
 
 import hdlyap
 import made
+from bags import Bags
 from hdlyap.msg import Structure
 from hdlyap.plots import figures, recording, structure
 
@@ -42,7 +41,7 @@ class Lines(unittest.TestCase):
         """Deviations are as large as stated; 40 of them, each error from 4 pieces."""
         off, stated = [], []
         for _ in range(40):
-            times = self.times()
+            times = self.times(200)
             found = structure.line(times, self.turning(times, 0.8, diffusion=0.01))
             off.append(found.omega - 0.8)
             stated.append(found.error)
@@ -100,29 +99,23 @@ def message(info, sim_time, found, vectors=37, means=True, omega=(OMEGA, 0.0)):
     )
 
 
-class Recorded(unittest.TestCase):
+class Recorded(Bags):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder, self.bag = folder.name, os.path.join(folder.name, 'run.bag')
+        super().setUp()
         self.info = made.run_info()
         self.found = [
             made.step(self.info, made.T, 1, 0, 36, 37),
             made.step(self.info, made.LP, 1, 0, 32, 35),
         ]
-        exponents = np.linspace(9, 3, 37)
+        times = range(60)
         self.messages = [
-            message(self.info, 100.0 + t, self.found, means=t % 10 == 9) for t in range(60)
+            message(self.info, 100.0 + t, self.found, means=t % 10 == 9) for t in times
         ]
-        made.write(
-            self.bag,
-            [
-                self.info,
-                made.spectrum(exponents, 60.0),
-                made.steps([*self.found, made.zero_modes()], 60.0),
-                *self.messages,
-            ],
-        )
+        steps = made.steps([*self.found, made.zero_modes()], 60.0)
+        self.bag = self.write([*self.head(), steps, *self.messages])
+
+    def head(self):
+        return self.info, made.spectrum(np.linspace(9, 3, 37), 60.0)
 
     def test_data(self):
         run = hdlyap.load(self.bag)
@@ -141,7 +134,7 @@ class Recorded(unittest.TestCase):
     def test_amplitudes(self):
         self.messages[3].peak = list(self.messages[3].peak)
         self.messages[3].peak[32] = 2
-        made.write(self.bag, [self.info, made.spectrum([3.0] * 37, 60.0), *self.messages])
+        self.write([*self.head(), *self.messages])
         got = hdlyap.load(self.bag).amplitudes([33, 34], 'along')
         self.assertEqual(list(got.columns[:2]), [(33, 0), (33, 1)])
         self.assertEqual(list(got.index), [one.sim_time for one in self.messages])
@@ -150,14 +143,8 @@ class Recorded(unittest.TestCase):
         np.testing.assert_array_equal(got[33, 1], want)
 
     def test_without_means(self):
-        made.write(
-            self.bag,
-            [
-                self.info,
-                made.spectrum([3.0] * 37, 60.0),
-                *(message(self.info, 100.0 + t, [], means=False) for t in range(3)),
-            ],
-        )
+        times = range(100, 103)
+        self.write([*self.head(), *(message(self.info, t, [], means=False) for t in times)])
         with self.assertRaisesRegex(Exception, 'no message of structure with means in it'):
             hdlyap.load(self.bag).structure
         self.assertIsNone(figures.structure.draw(recording.read([self.bag])))
@@ -166,17 +153,21 @@ class Recorded(unittest.TestCase):
         """The map has the numbers, the lines are at v k and at 0."""
         figure = figures.structure.draw(recording.read([self.bag]))
         self.addCleanup(plt.close, figure)
-        along, across, lines = figure.axes[0], figure.axes[1], figure.axes[-2]
-        if lines.get_title(loc='left') != '(c)':
-            lines = figure.axes[-1]
+        along, across, *others = figure.axes
+        (lines,) = (one for one in others if one.get_title(loc='left').startswith('(c)'))
         image = along.collections[0].get_array().reshape(-1, 37)
         k = np.unique(np.round(self.messages[-1].wave_number, 9))
         row = int(np.argmin(abs(k - self.messages[-1].wave_number[0])))
         np.testing.assert_allclose(image[row, 31:35], 8.0)
         np.testing.assert_allclose(image[row, 35:], 0.5)
         np.testing.assert_allclose(across.collections[0].get_array().reshape(-1, 37)[row, 35:], 8.0)
-        self.assertEqual([line.get_xdata()[0] for line in along.lines], [33.5])
-        self.assertEqual([line.get_xdata()[0] for line in across.lines], [36.5])
+        corners = along.collections[0]._coordinates  # of the cells, one round each index and k
+        np.testing.assert_allclose(corners[0, :, 0], np.arange(38) + 0.5)
+        np.testing.assert_allclose(corners[:-1, 0, 1], 0.5 * (k + np.append(0, k[:-1])))
+        for axes, index in ((along, 33.5), (across, 36.5)):
+            (ring,) = axes.lines
+            np.testing.assert_allclose(ring.get_xydata(), [(index, made.K)])
+        phases = '$v k$ of the phases, LP(1,0)'
         found = {line.get_label().split(':')[0]: line for line in lines.lines}
         peak = {
             name: line.get_xdata()[np.argmax(line.get_ydata())]
@@ -188,6 +179,7 @@ class Recorded(unittest.TestCase):
         self.assertAlmostEqual(
             peak['LP(1,0)'], OMEGA * self.found[1].wave_number, delta=2 * np.pi / 59
         )
+        self.assertAlmostEqual(found[phases].get_xdata()[0], 1.612 * made.K)  # of made.steps
 
     def test_a_wave_that_changes_begins_the_course_anew(self):
         course = structure.StructureCourse()

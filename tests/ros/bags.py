@@ -1,0 +1,96 @@
+"""Bags made for a test, and tools that read them in this process: python is not started anew, and
+figures are drawn into no file."""
+
+import contextlib
+import io
+import os
+import re
+import runpy
+import subprocess
+import sys
+import tempfile
+import unittest
+from collections import namedtuple
+from unittest import mock
+
+import made
+from hdlyap.plots import recording
+
+Done = namedtuple('Done', 'status out error')
+
+
+def tool(name, *arguments):
+    """As if it had been a process."""
+    out, error, status = io.StringIO(), io.StringIO(), 0
+    with contextlib.ExitStack() as changed:
+        changed.enter_context(mock.patch.object(sys, 'argv', [name, *arguments]))
+        if name == 'plot_bag':
+            changed.enter_context(mock.patch('hdlyap.plots.figures.save', save_nothing))
+        changed.enter_context(contextlib.redirect_stdout(out))
+        changed.enter_context(contextlib.redirect_stderr(error))
+        try:
+            runpy.run_path(os.path.join(made.SCRIPTS, name), run_name='__main__')
+        except SystemExit as end:
+            status = end.code or 0
+    return Done(status, out.getvalue(), error.getvalue())
+
+
+def process(name, *arguments, **how):
+    """As a user starts it."""
+    command = [sys.executable, os.path.join(made.SCRIPTS, name), *arguments]
+    done = subprocess.run(command, text=True, capture_output=True, **how)
+    return Done(done.returncode, done.stdout, done.stderr)
+
+
+def save_nothing(figure, folder, name):
+    """Instead of figures.save: its files are empty."""
+    check_title(figure, name)
+    files = [os.path.join(folder, f'{name}.{suffix}') for suffix in ('png', 'svg')]
+    for path in files:
+        open(path, 'w').close()
+    return files
+
+
+def check_title(figure, name):
+    """A figure names its system: scene, disks, density. It is not needed any more."""
+    from hdlyap.plots.figures import plt
+
+    title = figure._suptitle.get_text() if figure._suptitle is not None else ''
+    if not re.match(r'.+: \$N=\d+\$, \$\\rho=[0-9.]+\$', title):
+        raise AssertionError(f'{name}: its title is {title!r}')
+    plt.close(figure)
+
+
+def files(*names):
+    return [f'{name}.{suffix}' for name in names for suffix in ('png', 'svg')]
+
+
+class Bags(unittest.TestCase):
+    """A folder for the bags of a test."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder, self.out = folder.name, os.path.join(folder.name, 'out')
+
+    def path(self, name='run'):
+        return os.path.join(self.folder, name + '.bag')
+
+    def write(self, messages, name='run', **where):
+        made.write(self.path(name), messages, **where)
+        return self.path(name)
+
+    def recorded(self, messages, **which):
+        return recording.read(self.write(messages), **which)
+
+    def succeeds(self, name, *arguments, status=0, how=tool):
+        """What it prints."""
+        done = how(name, *arguments)
+        self.assertEqual((done.status, done.error), (status, ''), done.out)
+        return done.out
+
+    def refuses(self, reason, name, *arguments, status=1, how=tool):
+        """In one line."""
+        done = how(name, *arguments)
+        self.assertEqual((done.status, done.error.count('\n')), (status, 1), done)
+        self.assertRegex(done.error, reason)
