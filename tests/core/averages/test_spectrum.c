@@ -25,8 +25,12 @@ TEST(means_are_weighted_by_time)
     hd_spectrum_add(s, (const double[]){0.5, 0.0}, 0.0); /* another norm at the same time */
     hd_spectrum_sample(s);
     CHECK_CLOSE(hd_spectrum_exponent(s, 0), 7.0 / 4.0, 0.0);
+    hd_spectrum_add(s, (const double[]){100.0, 100.0}, 1.0); /* a sample that does not end */
     hd_spectrum_clear(s);
     CHECK_CLOSE(hd_spectrum_time(s) + hd_spectrum_exponent(s, 0), 0.0, 0.0);
+    hd_spectrum_add(s, (const double[]){3.0, 1.0}, 0.5);
+    hd_spectrum_sample(s);
+    CHECK_CLOSE(hd_spectrum_exponent(s, 0), 6.0, 0.0);
     hd_spectrum_free(s);
 }
 
