@@ -58,8 +58,8 @@ build() {
     local dir=$1
     shift
     if ! is_configured "$dir"; then
-        rm -rf "$dir/CMakeCache.txt" "$dir/CMakeFiles" "$dir/devel"
-        cmake -S "$ROOT" -B "$dir" -G "Unix Makefiles" -DPYTHON_EXECUTABLE=/usr/bin/python3 "$@" || return
+        rm -rf "$dir/CMakeCache.txt" "$dir/CMakeFiles" "$dir/devel" "$dir/Makefile" "$dir/build.ninja"
+        cmake -S "$ROOT" -B "$dir" -DPYTHON_EXECUTABLE=/usr/bin/python3 "$@" || return
     fi
     cmake --build "$dir" -- -j "$(nproc)"
 }
@@ -89,7 +89,7 @@ commit_here() {
 }
 
 is_configured() {
-    [[ -f $1/Makefile ]] && grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$ROOT" "$1/CMakeCache.txt"
+    [[ -f $1/Makefile || -f $1/build.ninja ]] && grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$ROOT" "$1/CMakeCache.txt"
 }
 
 CHILDREN=() # what start() began and finish() has not seen end

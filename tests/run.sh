@@ -15,7 +15,8 @@ unset LANGUAGE
 export ROS_LANG_DISABLE=genlisp # messages that no test reads
 export HDLYAP_SUITE=$$.$EPOCHREALTIME # marks its processes
 # Core and wrapper are compiled alone, for ROS and for the demo, each time the same: a cache of this run's own.
-readonly CACHE=(CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache "CCACHE_DIR=$WORK/ccache" CCACHE_NOHASHDIR=1
+# Commands are the same only with one generator.
+readonly CACHE=(CMAKE_GENERATOR=Ninja CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache "CCACHE_DIR=$WORK/ccache" CCACHE_NOHASHDIR=1
     "CCACHE_BASEDIR=$ROOT")
 export "${CACHE[@]}"
 
@@ -62,8 +63,8 @@ without_ros() {
 
 # First, so that nobody compiles at the same time what is then in the cache.
 library() {
-    without_ros cmake -S "$ROOT" -B "$WORK/core" -G Ninja -DHDLYAP_ROS=OFF \
-        -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_INSTALL_PREFIX="$PREFIX"
+    without_ros cmake -S "$ROOT" -B "$WORK/core" -DHDLYAP_ROS=OFF \
+        -DHDLYAP_BENCH="$([[ $TIER == second ]] && echo ON || echo OFF)" -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON -DCMAKE_INSTALL_PREFIX="$PREFIX"
     without_ros cmake --build "$WORK/core" --target hdlyap_core -- -j "$(nproc)"
 }
 
@@ -75,7 +76,7 @@ core_install() {
 }
 
 sanitizers_build() {
-    without_ros cmake -S "$ROOT/hdlyap_core" -B "$WORK/sanitizers" -G Ninja -DCMAKE_BUILD_TYPE=Debug \
+    without_ros cmake -S "$ROOT/hdlyap_core" -B "$WORK/sanitizers" -DCMAKE_BUILD_TYPE=Debug \
         -DCMAKE_C_FLAGS=-O1 -DHDLYAP_SANITIZE=ON -DHDLYAP_VERIFY=ON
     without_ros cmake --build "$WORK/sanitizers" -- -j "$(nproc)"
 }
@@ -122,9 +123,9 @@ ros_tests() {
 }
 
 # The node, and the parallel parts of the core, with sanitizers.
-life_build() { "$ROOT/tests/checked.sh" build "$WORK/checked"; }
+life_build() { "$ROOT/tests/checked.sh" build "$TIER" "$WORK/checked"; }
 life() { "$ROOT/tests/checked.sh" life "$TIER" "$WORK/checked" "$WORK/ros"; }
-checked() { "$ROOT/tests/checked.sh" rest "$WORK/checked" "$WORK/ros" "$WORK/core"; }
+checked() { "$ROOT/tests/checked.sh" rest second "$WORK/checked" "$WORK/ros" "$WORK/core"; }
 
 # Those of tests/ros that no rostest runs, each file in a process of its own.
 tools_tests() {

@@ -142,9 +142,3 @@ TEST(curves, the_caption_says_what_is_known)
     s.p.time = -1.0, s.p.x.count = s.p.y.count = 0; // described, and not begun
     expect({"waiting for its first message", "a scene: 10 disks"});
 }
-
-int main(int argc, char **argv)
-{
-    testing::InitGoogleTest(&argc, argv);
-    return RUN_ALL_TESTS();
-}

@@ -260,8 +260,3 @@ TEST(heard, names_of_modes)
                              "LP(+1,0)", "T(1,0)(", "TT(1,0)"})
         EXPECT_FALSE(mode_name_parse(&name, text)) << text;
 }
-int main(int argc, char **argv)
-{
-    testing::InitGoogleTest(&argc, argv);
-    return RUN_ALL_TESTS();
-}
