@@ -190,7 +190,7 @@ class Checkpoint(harness.Case):
         harness.wait_until(lambda: os.path.exists(self.file))
         harness.wait_until(lambda: seen.add(os.stat(self.file).st_mtime_ns) or len(seen) > 3)
         self.assertGreater(len(seen), 3)
-        self.assertTrue(cost.messages)
+        self.assertTrue(cost.wait_for(lambda message: True))  # it goes on beside them
         node.send(signal.SIGKILL)
         node.wait()
         node = self.start(dict(resume=self.file))

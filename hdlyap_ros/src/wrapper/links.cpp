@@ -13,7 +13,7 @@
 namespace
 {
 using counts = std::map<std::string, int>;
-const double poll_seconds = 0.01;
+const double answer_poll_seconds = 0.01;
 
 /** Nodes by topic. Throws if there is no master, or none that speaks as it should. */
 counts subscribed()
@@ -36,7 +36,8 @@ counts subscribed_within(double seconds)
     std::future<counts> nodes = task.get_future();
     const auto end = clock::now() + std::chrono::duration<double>(seconds);
     std::thread(std::move(task)).detach();
-    while (nodes.wait_for(std::chrono::duration<double>(poll_seconds)) != std::future_status::ready)
+    while (nodes.wait_for(std::chrono::duration<double>(answer_poll_seconds)) !=
+           std::future_status::ready)
         if (clock::now() >= end || hdr_stop_requested())
             throw std::runtime_error("no answer of the master in time");
     return nodes.get();
