@@ -65,7 +65,7 @@ node_of() { find "$1" -path '*/devel/lib/hdlyap/hdlyap_node' -type f; }
 stop_at_exit
 own_environment "$WORK/home"
 if [[ $MODE == build ]]; then
-    build_with "$ADDRESS" gcc g++ hdlyap_node
+    build_with "$ADDRESS" cc c++ hdlyap_node
     exit
 fi
 source_setup "$ROS/devel/setup.bash"

@@ -130,10 +130,10 @@ class Running(unittest.TestCase):
 
     def test_watches_and_is_interrupted(self):
         self.node()
-        other = self.follow('--node', 'other', '--timeout', '60')
         terminal = self.follow()
         self.shows(terminal, 'computed only if somebody listens')
         self.shows(terminal, 'lambda_max')
+        other = self.follow('--node', 'other', '--timeout', '60')  # of a node that is there by now
         self.assertEqual(self.listeners(), {'run_info', 'status', 'cost', 'spectrum'})
         terminal.press('m')
         self.shows(terminal, ' 116-117 ')
