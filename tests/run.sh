@@ -11,7 +11,7 @@ readonly PREFIX="$WORK/a prefix σ" # a name that pkg-config writes in another w
 readonly LOGS=$WORK/log COUNTS=$WORK/counts TAKEN=$WORK/taken
 export TMPDIR=$WORK/tmp XDG_RUNTIME_DIR=$WORK/runtime
 export LC_ALL=C.UTF-8 # of messages that tests read
-unset LANGUAGE
+unset LANGUAGE LANG # the cache asks whether they are the same, too
 export ROS_LANG_DISABLE=genlisp # messages that no test reads
 export HDLYAP_SUITE=$$.$EPOCHREALTIME # marks its processes
 # Core and wrapper are compiled alone, for ROS and for the demo, each time the same: a cache of this run's own.
