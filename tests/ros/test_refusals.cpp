@@ -238,93 +238,93 @@ TEST(Parameters, RefusedWithTheirWords)
 #define UNSAMPLED_ONE "a shorter one than two mean distances, 2 / sqrt(density), is not sampled"
 #define UNSAMPLED "a shorter wave than two mean distances, 2 / sqrt(density), is not sampled"
 
+static const std::vector<std::pair<std::string, std::string>> refused_together = {
+    {"density: 1.1", "density = 1.1: must be at most 0.868056 with disks = 20, aspect = 1 and "
+                     "these boundaries (densest start lattice)"},
+    {"{disks: 100, aspect: 0.0001}",
+     "density = 0.7 with disks = 100, aspect = 0.0001: the box edge Ly = 0.119522860933439 "
+     "must be above the disk diameter 1"},
+    {"{disks: 2, density: 1.01}", "density = 1.01: must be at most 1 with disks = 2, aspect = "
+                                  "1 and these boundaries (densest start lattice)"},
+    {"{disks: 5, exponents: 21}",
+     "exponents = 21: must be positive, all, all_independent, none or from 1 to 4 disks = 20"},
+    {"{exponents: none, observables: [spectrum]}",
+     "observables = [spectrum]: must be " WITHOUT_EXPONENTS},
+    {"{exponents: none, observables: [state, modes]}",
+     "observables = [state, modes]: must be " WITHOUT_EXPONENTS},
+    {"{exponents: none, observables: [hydro]}",
+     "observables = [hydro]: must be " WITHOUT_EXPONENTS},
+    {"{exponents: none, observables: [state, covariant]}",
+     "observables = [state, covariant]: must be " WITHOUT_EXPONENTS},
+    {"{phase_interval: 1.0, observables: [steps]}",
+     "phase_interval = 1: must be auto without an observable out of lp_phases, t_phases"},
+    {"{max_mode_number: 1, max_wave_number: 1.5}",
+     "max_mode_number = 1: must be 0 when max_wave_number = 1.5 is given"},
+    {"{max_mode_number: 3, aspect: 0.9}",
+     "max_mode_number = 3: must be at most 2 with disks = 20, density = 0.7, aspect = 0.9 and "
+     "these boundaries: " UNSAMPLED},
+    {"max_mode_number: 3", "max_mode_number = 3: must be at most 2 with disks = 20, density = "
+                           "0.7, aspect = 1 and these boundaries: " UNSAMPLED},
+    {"max_wave_number: 1.1", "max_wave_number = 1.1: must be from 1.17548, the longest wave of "
+                             "this box, to 2.62844: " UNSAMPLED_ONE},
+    {"max_wave_number: 2.7", "max_wave_number = 2.7: must be from 1.17548, the longest wave of "
+                             "this box, to 2.62844: " UNSAMPLED_ONE},
+    {"{max_mode_number: 1, observables: [spectrum, state]}",
+     "max_mode_number = 1: must be 0 without an observable out of " OF_VECTORS},
+    {"{max_mode_number: 1, exponents: none}",
+     "max_mode_number = 1: must be 0 without an observable out of " OF_VECTORS},
+    {"{max_wave_number: 1.5, observables: []}",
+     "max_wave_number = 1.5: must be 0 without an observable out of " OF_VECTORS},
+    {"covariant_window: 49.0",
+     "covariant_window = 49: must be 50 unless covariant is an observable"},
+    {"covariant_transient: 99.0",
+     "covariant_transient = 99: must be 100 unless covariant is an observable"},
+    {"covariant_sampling: 4.0",
+     "covariant_sampling = 4: must be 5 unless covariant is an observable"},
+    {"covariant_memory: 3.0", "covariant_memory = 3: must be 4 unless covariant is an observable"},
+    {"covariant_storage: recompute",
+     "covariant_storage = recompute: must be memory unless covariant is an observable"},
+    {"{field_indices: [1], observables: [modes, steps]}",
+     "field_indices = [1]: must be steps unless fields is an observable"},
+    {"{field_indices: [1], exponents: none}",
+     "field_indices = [1]: must be steps unless fields is an observable"},
+    {"{field_indices: [3], exponents: 2}", "field_indices = [3]: must be steps or a list of "
+                                           "integers from 1 to 2, the vectors carried"},
+    {"{slow_vectors_count: 3, exponents: 2}",
+     "slow_vectors_count = 3: must be from 0 (the lowest T and LP steps) to 2, the vectors "
+     "carried"},
+    {"{observables: [state], wait_for_subscribers: [spectrum]}",
+     "wait_for_subscribers = [spectrum]: must be " OF_PUBLISHED},
+    {"{exponents: none, wait_for_subscribers: [spectrum]}",
+     "wait_for_subscribers = [spectrum]: must be " OF_PUBLISHED},
+    {"{covariant, covariant_window: 0}", "covariant_window = 0: must be from 1e-6 to 1e12"},
+    {"{covariant, covariant_transient: -1}", "covariant_transient = -1: must be from 1e-6 to 1e12"},
+    {"{covariant, covariant_sampling: nan}",
+     "covariant_sampling = nan: must be from 1e-6 to covariant_window"},
+    {"{covariant, covariant_window: 2000000000000}",
+     "covariant_window = 2000000000000: must be from 1e-6 to 1e12"},
+    {"{covariant, covariant_memory: 0.0009}",
+     "covariant_memory = 0.0009: must be from 0.001 to 1e6 [GB]"},
+    {"{covariant, covariant_memory: 1100000}",
+     "covariant_memory = 1100000: must be from 0.001 to 1e6 [GB]"},
+    {"{covariant, covariant_sampling: 1.5}",
+     "covariant_sampling = 1.5: must be from 1e-6 to covariant_window"},
+    {"{covariant, covariant_transient: 1.5}",
+     "warmup = 1: must be at least covariant_transient = 1.5: vectors converge forwards no "
+     "faster than backwards"},
+    {"{covariant, covariant_window: 1.5}",
+     "duration = 2: must be 0 or at least covariant_window + covariant_transient = 2.5"},
+    {"{covariant, field_indices: [1]}",
+     "field_indices = [1]: must be steps unless fields is an observable"},
+    {"{covariant, disks: 400, duration: 1000000.0, covariant_window: 100000.0}",
+     "covariant_window = 100000 with covariant_transient = 1: 150013 triangles and 100007 "
+     "frames of 797 vectors need 1.4e+03 GB, must be at most covariant_memory = 4 GB"},
+};
+
 TEST(Parameters, RefusedTogether)
 {
-    const std::vector<std::pair<std::string, std::string>> refused = {
-        {"density: 1.1", "density = 1.1: must be at most 0.868056 with disks = 20, aspect = 1 and "
-                         "these boundaries (densest start lattice)"},
-        {"{disks: 100, aspect: 0.0001}",
-         "density = 0.7 with disks = 100, aspect = 0.0001: the box edge Ly = 0.119522860933439 "
-         "must be above the disk diameter 1"},
-        {"{disks: 2, density: 1.01}", "density = 1.01: must be at most 1 with disks = 2, aspect = "
-                                      "1 and these boundaries (densest start lattice)"},
-        {"{disks: 5, exponents: 21}",
-         "exponents = 21: must be positive, all, all_independent, none or from 1 to 4 disks = 20"},
-        {"{exponents: none, observables: [spectrum]}",
-         "observables = [spectrum]: must be " WITHOUT_EXPONENTS},
-        {"{exponents: none, observables: [state, modes]}",
-         "observables = [state, modes]: must be " WITHOUT_EXPONENTS},
-        {"{exponents: none, observables: [hydro]}",
-         "observables = [hydro]: must be " WITHOUT_EXPONENTS},
-        {"{exponents: none, observables: [state, covariant]}",
-         "observables = [state, covariant]: must be " WITHOUT_EXPONENTS},
-        {"{phase_interval: 1.0, observables: [steps]}",
-         "phase_interval = 1: must be auto without an observable out of lp_phases, t_phases"},
-        {"{max_mode_number: 1, max_wave_number: 1.5}",
-         "max_mode_number = 1: must be 0 when max_wave_number = 1.5 is given"},
-        {"{max_mode_number: 3, aspect: 0.9}",
-         "max_mode_number = 3: must be at most 2 with disks = 20, density = 0.7, aspect = 0.9 and "
-         "these boundaries: " UNSAMPLED},
-        {"max_mode_number: 3", "max_mode_number = 3: must be at most 2 with disks = 20, density = "
-                               "0.7, aspect = 1 and these boundaries: " UNSAMPLED},
-        {"max_wave_number: 1.1", "max_wave_number = 1.1: must be from 1.17548, the longest wave of "
-                                 "this box, to 2.62844: " UNSAMPLED_ONE},
-        {"max_wave_number: 2.7", "max_wave_number = 2.7: must be from 1.17548, the longest wave of "
-                                 "this box, to 2.62844: " UNSAMPLED_ONE},
-        {"{max_mode_number: 1, observables: [spectrum, state]}",
-         "max_mode_number = 1: must be 0 without an observable out of " OF_VECTORS},
-        {"{max_mode_number: 1, exponents: none}",
-         "max_mode_number = 1: must be 0 without an observable out of " OF_VECTORS},
-        {"{max_wave_number: 1.5, observables: []}",
-         "max_wave_number = 1.5: must be 0 without an observable out of " OF_VECTORS},
-        {"covariant_window: 49.0",
-         "covariant_window = 49: must be 50 unless covariant is an observable"},
-        {"covariant_transient: 99.0",
-         "covariant_transient = 99: must be 100 unless covariant is an observable"},
-        {"covariant_sampling: 4.0",
-         "covariant_sampling = 4: must be 5 unless covariant is an observable"},
-        {"covariant_memory: 3.0",
-         "covariant_memory = 3: must be 4 unless covariant is an observable"},
-        {"covariant_storage: recompute",
-         "covariant_storage = recompute: must be memory unless covariant is an observable"},
-        {"{field_indices: [1], observables: [modes, steps]}",
-         "field_indices = [1]: must be steps unless fields is an observable"},
-        {"{field_indices: [1], exponents: none}",
-         "field_indices = [1]: must be steps unless fields is an observable"},
-        {"{field_indices: [3], exponents: 2}", "field_indices = [3]: must be steps or a list of "
-                                               "integers from 1 to 2, the vectors carried"},
-        {"{slow_vectors_count: 3, exponents: 2}",
-         "slow_vectors_count = 3: must be from 0 (the lowest T and LP steps) to 2, the vectors "
-         "carried"},
-        {"{observables: [state], wait_for_subscribers: [spectrum]}",
-         "wait_for_subscribers = [spectrum]: must be " OF_PUBLISHED},
-        {"{exponents: none, wait_for_subscribers: [spectrum]}",
-         "wait_for_subscribers = [spectrum]: must be " OF_PUBLISHED},
-        {"{covariant, covariant_window: 0}", "covariant_window = 0: must be from 1e-6 to 1e12"},
-        {"{covariant, covariant_transient: -1}",
-         "covariant_transient = -1: must be from 1e-6 to 1e12"},
-        {"{covariant, covariant_sampling: nan}",
-         "covariant_sampling = nan: must be from 1e-6 to covariant_window"},
-        {"{covariant, covariant_window: 2000000000000}",
-         "covariant_window = 2000000000000: must be from 1e-6 to 1e12"},
-        {"{covariant, covariant_memory: 0.0009}",
-         "covariant_memory = 0.0009: must be from 0.001 to 1e6 [GB]"},
-        {"{covariant, covariant_memory: 1100000}",
-         "covariant_memory = 1100000: must be from 0.001 to 1e6 [GB]"},
-        {"{covariant, covariant_sampling: 1.5}",
-         "covariant_sampling = 1.5: must be from 1e-6 to covariant_window"},
-        {"{covariant, covariant_transient: 1.5}",
-         "warmup = 1: must be at least covariant_transient = 1.5: vectors converge forwards no "
-         "faster than backwards"},
-        {"{covariant, covariant_window: 1.5}",
-         "duration = 2: must be 0 or at least covariant_window + covariant_transient = 2.5"},
-        {"{covariant, field_indices: [1]}",
-         "field_indices = [1]: must be steps unless fields is an observable"},
-        {"{covariant, disks: 400, duration: 1000000.0, covariant_window: 100000.0}",
-         "covariant_window = 100000 with covariant_transient = 1: 150013 triangles and 100007 "
-         "frames of 797 vectors need 1.4e+03 GB, must be at most covariant_memory = 4 GB"},
-    };
-    for (const auto &one : refused) EXPECT_EQ(begun(with(one.first)), one.second) << one.first;
+    for (const auto &one : refused_together)
+        EXPECT_EQ(begun(with(one.first)), one.second) << one.first;
 }
 
 #define NO_TIME "must be a simulated time and NAME=VALUE, such as 120 report_interval=5"
