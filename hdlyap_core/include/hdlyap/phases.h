@@ -67,9 +67,6 @@ typedef struct hd_velocity {
 } hd_velocity;
 hd_velocity hd_phases_velocity(const hd_phases *phases);
 
-/** Number of slowest vectors among which all are whose phases are followed. */
-int hd_phases_vectors(const hd_steps *steps, hd_mode_kind kind);
-
 /** Longest time from the last sample to the next that unwraps every resolved step safely; INFINITY
  * without one. Grows as the rates become known, by at most 2 from one sample to the next, and
  * falls when phases scatter more. */

@@ -43,7 +43,7 @@ typedef struct hd_cost {
                            time: what rounding may have done to a mean */
     long orthonormalisations; /**< number of them */
     long second_passes;       /**< how many needed a second pass */
-    long slow_vector_samples; /**< at phases between two of them */
+    long slow_vector_samples; /**< samples that ended early for who watches the vectors */
     long repairs;             /**< intervals that turned out too long and were replayed in pieces */
     /** largest of the exponents nearest to zero, which target_std_error is for; negative if unknown
      */
@@ -106,13 +106,14 @@ bool hd_run_fields_due(const hd_run *run);
 void hd_run_observe(hd_run *run, unsigned stages);
 
 /** For who watches: from now on no call goes on by more than `interval` [time units; INFINITY:
- * nobody watches], and while the modes are observed each ends with the vectors from column `first`
- * on known (hd_run_vectors or more: none), by a look at the slowest or, where that cannot give
- * them, an orthonormalisation. No average takes them up. */
+ * nobody watches], and while the modes are observed each ends with all vectors known,
+ * orthonormalised at that time, if `first` is a column of theirs (hd_run_vectors or more: disks are
+ * enough); of several ranks those from `first` on. The averages take these states up as any other.
+ */
 void hd_run_watch(hd_run *run, double interval, int first);
 
-/** The vectors known at the very time of the last call: all of them, the slowest, or none (count
- * 0). Their coefficients are in the snapshot of hd_run_modes. */
+/** The vectors known at the very time of the last call: all of them, of several ranks those that
+ * somebody wants, or none (count 0). Their coefficients are in the snapshot of hd_run_modes. */
 hd_columns hd_run_columns(const hd_run *run);
 
 /** All n vectors of the last orthonormalisation, if modes are observed; valid until the next call

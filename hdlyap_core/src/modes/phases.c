@@ -204,18 +204,6 @@ hd_velocity hd_phases_velocity(const hd_phases *phases)
     return out;
 }
 
-int hd_phases_vectors(const hd_steps *steps, hd_mode_kind kind)
-{
-    const int vectors = hd_modes_vectors(hd_steps_modes(steps));
-    int first = vectors;
-    for (int k = 0; k < hd_steps_count(steps); k++) {
-        const hd_step *step = hd_steps_step(steps, k);
-        if (hd_rotor_pairs(step, kind) > 0 && step->resolved && step->col < first)
-            first = step->col;
-    }
-    return vectors - first;
-}
-
 double hd_phases_sampling(const hd_phases *phases, const hd_steps *steps)
 {
     double sampling = INFINITY;

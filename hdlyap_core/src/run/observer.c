@@ -6,22 +6,12 @@
 #include "base/check.h"
 #include "base/memory.h"
 
-enum { SLOW_MAX = 60 };
-
 const unsigned hd_observer_stage[HD_FOLLOWED] = {HD_OBSERVE_PHASES, HD_OBSERVE_T_PHASES};
 static const hd_mode_kind followed[HD_FOLLOWED] = {HD_MODE_LP, HD_MODE_T};
 
-static hd_status create_slow(hd_observer *observer, const hd_scene_def *scene, int vectors)
-{
-    const int most = vectors / 4;
-    const hd_status status = hd_slow_vectors_create(&observer->slow, scene,
-                                                    most < SLOW_MAX ? most : SLOW_MAX);
-    return status == HD_REFUSED ? HD_OK : status;
-}
-
 /** Kinds of modes need steps; only phases cost more. */
 hd_status hd_observer_create(hd_observer *observer, const hd_scene_def *scene, int vectors,
-                             int threads, bool looks)
+                             int threads)
 {
     const size_t size = 2 * (size_t)scene->disks;
     observer->q = hd_memory_alloc(size, sizeof(double));
@@ -35,12 +25,11 @@ hd_status hd_observer_create(hd_observer *observer, const hd_scene_def *scene, i
     for (int k = 0; k < HD_FOLLOWED; k++)
         if (scene->observe & hd_observer_stage[k])
             HD_TRY(hd_phases_create(&observer->phases[k], observer->steps, followed[k]));
-    return looks ? create_slow(observer, scene, vectors) : HD_OK;
+    return HD_OK;
 }
 
 void hd_observer_free(hd_observer *observer)
 {
-    hd_slow_vectors_free(observer->slow);
     for (int k = 0; k < HD_FOLLOWED; k++) hd_phases_free(observer->phases[k]);
     hd_structure_free(observer->structure);
     hd_steps_free(observer->steps);
@@ -86,17 +75,6 @@ double hd_observer_sampling(const hd_observer *observer, unsigned stages)
     return sampling;
 }
 
-int hd_observer_followed(const hd_observer *observer, unsigned stages)
-{
-    int most = 0;
-    for (int k = 0; k < HD_FOLLOWED; k++) {
-        const bool counts = phases_of(observer, stages, k);
-        const int count = counts ? hd_phases_vectors(observer->steps, followed[k]) : 0;
-        if (count > most) most = count;
-    }
-    return most;
-}
-
 static hd_structure *structure_of(const hd_observer *observer, unsigned stages)
 {
     return stages & HD_OBSERVE_STRUCTURE ? observer->structure : NULL;
@@ -125,22 +103,4 @@ void hd_observer_add(hd_observer *observer, unsigned stages)
 {
     hd_modes_add(observer->modes);
     if (structure_of(observer, stages)) hd_structure_add(observer->structure);
-}
-
-bool hd_observer_reaches(const hd_observer *observer, int count)
-{
-    return observer->slow && count <= hd_slow_vectors_count_max(observer->slow);
-}
-
-hd_status hd_observer_look(hd_observer *observer, hd_frame *frame, const hd_trajectory *trajectory,
-                           int count)
-{
-    hd_trajectory_state(trajectory, observer->q, observer->p);
-    const hd_status status = hd_slow_vectors_measure(observer->slow, frame, observer->p, count);
-    hd_frame_rewind(frame);
-    if (status != HD_OK) return status;
-    const hd_columns columns = hd_slow_vectors_columns(observer->slow);
-    HD_TRY(hd_modes_measure(observer->modes, columns, observer->q, observer->p));
-    observer->known = columns;
-    return HD_OK;
 }

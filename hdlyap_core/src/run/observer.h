@@ -1,10 +1,10 @@
-/** What a run that observes its modes needs for it: at the end of an interval, and in between. */
+/** What a run that observes its modes needs for it. */
 #ifndef HD_OBSERVER_H
 #define HD_OBSERVER_H
 
 #include "hdlyap/phases.h"
 #include "hdlyap/structure.h"
-#include "tangent/slow_vectors.h"
+#include "hdlyap/trajectory.h"
 
 /** Kinds of steps whose phases can be followed. */
 enum { HD_FOLLOWED_LP, HD_FOLLOWED_T, HD_FOLLOWED };
@@ -19,14 +19,13 @@ typedef struct hd_observer {
     hd_steps *steps;
     hd_structure *structure;        /**< NULL unless asked for */
     hd_phases *phases[HD_FOLLOWED]; /**< NULL unless they are observed */
-    hd_slow_vectors *slow;          /**< NULL without phases, and where it does not apply */
     double *q, *p;                  /**< [2N], state of a snapshot */
     hd_columns known;               /**< vectors that are known at this very time */
 } hd_observer;
 
-/** looks: the slowest vectors can be found without an orthonormalisation. HD_NO_MEMORY. */
+/** HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_observer_create(hd_observer *observer, const hd_scene_def *scene,
-                                           int vectors, int threads, bool looks);
+                                           int vectors, int threads);
 void hd_observer_free(hd_observer *observer);
 
 /** Empties the averages. */
@@ -40,8 +39,6 @@ void hd_observer_follow(hd_observer *observer, unsigned stages, double time);
 void hd_observer_forget_phases(hd_observer *observer, unsigned stages);
 /** Longest time to the next sample; INFINITY if none. */
 double hd_observer_sampling(const hd_observer *observer, unsigned stages);
-/** Number of slowest vectors among which all of theirs are. */
-int hd_observer_followed(const hd_observer *observer, unsigned stages);
 
 /** The modes, and of these stages the structure factors, of orthonormal vectors. Fails as
  * hd_modes_measure. */
@@ -52,13 +49,5 @@ HD_MUST_CHECK hd_status hd_observer_share(hd_observer *observer, unsigned stages
                                           hd_communicator *communicator, int width, int carried);
 /** Adds what has been measured to the averages. */
 void hd_observer_add(hd_observer *observer, unsigned stages);
-
-/** True if so many of the slowest vectors can be found without an orthonormalisation. */
-bool hd_observer_reaches(const hd_observer *observer, int count);
-
-/** The modes of the slowest vectors of a frame that has been replayed up to now: then it is
- * rewound. Fails as hd_slow_vectors_measure and hd_modes_measure. */
-HD_MUST_CHECK hd_status hd_observer_look(hd_observer *observer, hd_frame *frame,
-                                         const hd_trajectory *trajectory, int count);
 
 #endif

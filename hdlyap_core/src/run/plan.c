@@ -11,9 +11,8 @@
 
 /** A rest that could be longer by less than this factor is an equal share. */
 static const double DIVIDED = 1.25;
-/** Orthonormalisations that come earlier by this factor are cheaper than to measure every state, or
- * to look at phases in between. */
-static const double WORTH_A_STATE = 0.875, WORTH_A_LOOK = 0.75;
+/** Orthonormalisations that come earlier by this factor are cheaper than to measure every state. */
+static const double WORTH_A_STATE = 0.875;
 /** Times that are this close, as a part of an interval, are one. */
 static const double CLOSE = 1e-6;
 /** Of samples, for standard errors: fewer in an averaging would make them late and rough. */
@@ -74,14 +73,19 @@ static double next_snapshot(const hd_run *run)
     return due > now ? due : INFINITY;
 }
 
-/** A little shorter, if that saves a look or a measured state before the phases must be known. */
-static double rounded_down(const hd_run *run, double length)
+/** Time until the phases must be known; INFINITY if they need not. */
+static double phases_left(const hd_run *run)
 {
     const double left = run->sample.begin + phases_sampling(run) - hd_run_time(run);
-    if (!(left > 0 && left < INFINITY)) return length;
-    const double count = ceil(left / length * (1.0 - CLOSE)), part = left / count;
-    const double worth = count > 1 ? WORTH_A_STATE : WORTH_A_LOOK;
-    return part < length && part > worth * length ? part : length;
+    return left > 0 ? left : INFINITY;
+}
+
+/** A little shorter, if that saves a measured state before the phases must be known. */
+static double rounded_down(double length, double left)
+{
+    if (!(left < INFINITY)) return length;
+    const double part = left / ceil(left / length * (1.0 - CLOSE));
+    return part < length && part > WORTH_A_STATE * length ? part : length;
 }
 
 /** The next interval, up to `left` long; why not longer. */
@@ -91,7 +95,9 @@ static hd_interval_length next_interval(const hd_run *run, double left)
     hd_interval_length next = hd_interval_next(&run->interval, left);
     if (next.length > sample) next = (hd_interval_length){share(left, sample), HD_LIMIT_SAMPLE};
     if (next.length > most) next = (hd_interval_length){share(left, most), HD_LIMIT_EVENTS};
-    const double rounded = next.length < left ? rounded_down(run, next.length) : next.length;
+    const double phases = phases_left(run);
+    double rounded = next.length < left ? rounded_down(next.length, phases) : next.length;
+    rounded = fmin(rounded, phases);
     if (rounded < next.length) next = (hd_interval_length){rounded, HD_LIMIT_LOOK};
     next.length = fmax(next.length, hd_advance_shortest(&run->advance));
     return next;
@@ -133,14 +139,4 @@ void hd_run_plan(hd_run *run)
                             ? stop
                             : hd_schedule_snap(&run->schedule, now, next.length);
     run->limit = next.limit == HD_LIMIT_SCHEDULE ? limit_of_rest(run, left) : next.limit;
-}
-
-double hd_run_look_due(const hd_run *run)
-{
-    const double sampling = phases_sampling(run), since = run->followed;
-    const double left = run->interval_end - since;
-    if (since < 0 || left <= sampling * (1.0 + CLOSE) || since + sampling <= hd_run_time(run))
-        return INFINITY;
-    const double next = since + share(left, sampling);
-    return next > hd_run_time(run) ? next : since + sampling;
 }

@@ -8,8 +8,4 @@
  * the norm of dq will do [T5]. */
 void hd_run_plan(hd_run *run);
 
-/** When the phases must be looked at before the interval ends, as they could not be told apart by
- * then; in equal shares. INFINITY: not at all, as they are known at its end or begin anew there. */
-double hd_run_look_due(const hd_run *run);
-
 #endif

@@ -96,18 +96,16 @@ bool hd_run_vectors_wanted(const hd_run *run)
     return hd_run_is_observing(run) && (run->observe & due);
 }
 
-int hd_run_watched(const hd_run *run)
+bool hd_run_is_watched(const hd_run *run)
 {
-    return hd_run_is_observing(run) && run->watch.first < run->vectors
-               ? run->vectors - run->watch.first
-               : 0;
+    return hd_run_is_observing(run) && run->watch.first < run->vectors;
 }
 
 /** First of the vectors that somebody wants to read now; n if nobody does. */
 static int first_wanted(const hd_run *run)
 {
     const hd_steps *steps = run->observer.steps;
-    int first = hd_run_watched(run) > 0 ? run->watch.first : run->vectors;
+    int first = hd_run_is_watched(run) ? run->watch.first : run->vectors;
     if (hd_run_vectors_wanted(run) && run->fields_first < first) first = run->fields_first;
     for (int k = 0; hd_run_vectors_wanted(run) && k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);

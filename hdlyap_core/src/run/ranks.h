@@ -17,8 +17,8 @@ int hd_run_threads_most(const hd_run *run);
 
 /** True where somebody wants all of the vectors of this very time. */
 bool hd_run_vectors_wanted(const hd_run *run);
-/** Number of slowest vectors that a watcher wants now. */
-int hd_run_watched(const hd_run *run);
+/** True where a watcher wants vectors. */
+bool hd_run_is_watched(const hd_run *run);
 /** HD_RANKS_APART unless all of them have the same disks, bit for bit. */
 HD_MUST_CHECK hd_status hd_run_compare_disks(const hd_run *run);
 

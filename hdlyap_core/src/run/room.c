@@ -25,8 +25,6 @@ static const double EVENTS_OF_A_DISK = 30.0, EVENTS_MAX = 2e5, OF_AN_EVENT = 130
 static const double CACHED = 512.0 * 1024.0;
 /** Of an orthonormalisation: a panel, and what is projected on it. */
 static const double PANEL = 160.0, LATER = 640.0, PROBES = 8.0;
-/** Slowest vectors that are looked at, with the neutral ones. */
-static const double SLOW = 63.0;
 
 static const double WORD = sizeof(double);
 
@@ -103,10 +101,8 @@ static double observer_bytes(const hd_scene_def *def, const counted *of, double 
 {
     const double track = sizeof(hd_track) + WORD * (HD_BLOCKS_MAX + 1.0);
     const bool phases = def->observe & HD_OBSERVE_OF_PHASES;
-    const double looks = SLOW * (4.0 * def->disks + 4.0 * SLOW);
     const double structure = def->observe & HD_OBSERVE_STRUCTURE ? structure_bytes(def, n) : 0.0;
-    return modes_bytes(of, def->disks, n) + structure +
-           (phases ? of->tracks * track + WORD * looks : 0.0);
+    return modes_bytes(of, def->disks, n) + structure + (phases ? of->tracks * track : 0.0);
 }
 
 /** Beside the windows. */

@@ -25,9 +25,6 @@
 #include "tangent/threads.h"
 #include "tangent/verify.h"
 
-/** Single precision leaves a tenth of the slow vectors astray there, and a thousandth of their
- * phases. */
-static const double CONDITION_SLOW = 1e4;
 /** Loss of orthogonality of a random frame that does not matter; a pass leaves less. */
 static const double ORTHONORMAL = 1e-10;
 /** Collisions of each disk between two orthonormalisations that no accuracy and no density exceed.
@@ -146,8 +143,7 @@ static hd_status prepare(hd_run *run, char *message, size_t size)
     HD_TRY(hd_run_agree(run, hd_run_localize_from(run)));
     run->observe = scene->observe;
     if (!(scene->observe & HD_OBSERVE_OF_MODES)) return HD_OK;
-    return hd_run_agree(run, hd_observer_create(&run->observer, scene, run->vectors, run->threads,
-                                                !run->communicator));
+    return hd_run_agree(run, hd_observer_create(&run->observer, scene, run->vectors, run->threads));
 }
 
 static void averages_clear(hd_run *run)
@@ -277,13 +273,12 @@ static hd_status end_sample(hd_run *run)
     return hd_run_is_observing(run) ? hd_run_measure_and_add(run) : HD_OK;
 }
 
-/** The sample also ends if that alone makes known what a watcher wants. */
+/** The sample also ends if a watcher wants the vectors. */
 static hd_status end_interval(hd_run *run)
 {
-    const int count = hd_run_watched(run);
     run->cost.limit = run->limit;
-    const bool hidden = count > 0 && !hd_observer_reaches(&run->observer, count);
-    return run->sample.ends || hidden ? end_sample(run) : hd_run_factorise(run, false);
+    return run->sample.ends || hd_run_is_watched(run) ? end_sample(run)
+                                                      : hd_run_factorise(run, false);
 }
 
 static hd_status end_early(hd_run *run)
@@ -292,50 +287,16 @@ static hd_status end_early(hd_run *run)
     return end_sample(run);
 }
 
-/* ---- in the middle of an interval ---------------------------------------------------------- */
-
-/** True if a look will do for `count` vectors at this time. */
-static bool look_suffices(const hd_run *run, int count)
+/** The vectors of this very time, if a watcher wants them and they are not known. */
+static hd_status look(hd_run *run)
 {
-    return hd_observer_reaches(&run->observer, count) &&
-           hd_interval_condition(&run->interval, run->log->duration) <= CONDITION_SLOW;
-}
-
-/** Finds the slowest vectors in the middle of an interval; the frame stays as it was at its start.
- */
-static hd_status look(hd_run *run, int count)
-{
-    const double start = hd_clock_now();
-    HD_TRY(hd_run_replay(run, 0.0, run->log->duration));
-    const double replayed = hd_clock_now();
-    const hd_status status = hd_observer_look(&run->observer, run->frame, run->advance.trajectory,
-                                              count);
-    run->cost.replay += replayed - start;
-    run->cost.modes += hd_clock_now() - replayed;
-    run->cost.slow_vector_samples += status == HD_OK;
-    return status;
-}
-
-/** The slowest vectors, by a look or else by an early end of the interval. */
-static hd_status find_slowest(hd_run *run, int count)
-{
-    const hd_status status = look_suffices(run, count) ? look(run, count) : HD_ILL_CONDITIONED;
-    return status == HD_ILL_CONDITIONED ? end_early(run) : status;
-}
-
-/** The slowest vectors, if they are wanted and not known. */
-static hd_status look_around(hd_run *run, bool at_phases)
-{
-    const int phases = at_phases ? hd_observer_followed(&run->observer, run->observe) : 0;
-    const int most = phases > hd_run_watched(run) ? phases : hd_run_watched(run);
-    if (most == 0 || run->observer.known.count > 0) return HD_OK;
-    if (is_measured(run)) {
-        HD_TRY(hd_run_measure(run));
-        return hd_run_gather(run);
+    if (!hd_run_is_watched(run) || run->observer.known.count > 0) return HD_OK;
+    if (!is_measured(run)) {
+        run->cost.slow_vector_samples++;
+        return end_early(run);
     }
-    HD_TRY(find_slowest(run, most));
-    if (phases > 0 && !is_measured(run)) hd_run_follow_phases(run);
-    return HD_OK;
+    HD_TRY(hd_run_measure(run));
+    return hd_run_gather(run);
 }
 
 /* ---- from one cut to the next -------------------------------------------------------------- */
@@ -416,20 +377,20 @@ static hd_status advance_disks(hd_run *run)
     return HD_OK;
 }
 
-/** Disks and frame, up to the first of a report, the end of an interval, and a look. */
+/** Disks and frame, up to a report or the end of an interval. */
 static hd_status advance_frame(hd_run *run)
 {
     const bool averaging = run->schedule.stage == HD_AVERAGING;
     if (!averaging || hd_run_time(run) >= run->interval_end) take_changes(run);
     if (run->due.stage_end) return go_back(run, false);
     if (hd_run_time(run) >= run->interval_end) hd_run_plan(run);
-    const double cut = hd_schedule_cut(&run->schedule), due = hd_run_look_due(run);
+    const double cut = hd_schedule_cut(&run->schedule);
     if (hd_advance_is_done(&run->advance))
-        hd_advance_make_plan(&run->advance, fmin(fmin(cut, due), run->interval_end));
+        hd_advance_make_plan(&run->advance, fmin(cut, run->interval_end));
     HD_TRY(advance(run, run->log));
     if (hd_run_time(run) >= run->interval_end) HD_TRY(end_interval(run));
     if (hd_run_time(run) >= cut) HD_TRY(take_cut(run));
-    HD_TRY(look_around(run, hd_run_time(run) >= due));
+    HD_TRY(look(run));
     if (averaging && is_measured(run)) take_changes(run);
     if (!run->due.stage_end && hd_run_time(run) >= run->interval_end) hd_run_plan(run);
     leave_stage(run);

@@ -17,13 +17,10 @@ static const double SQUARE_MIN = DBL_MIN / DBL_EPSILON;
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
-/** Rows of whole cache lines; with room for the neutral vectors that complete the positive half
- * (slow_vectors.h). */
+/** Rows of whole cache lines. */
 static int padded(int vectors)
 {
-    enum { NEUTRAL_MAX = 3, MANY = 64 };
     int width = 1;
-    if (vectors >= MANY) vectors += NEUTRAL_MAX;
     while (width < vectors && width < 8) width *= 2;
     return (vectors + width - 1) / width * width;
 }

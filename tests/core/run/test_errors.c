@@ -107,7 +107,7 @@ TEST(between_walls)
 {
     static const char *const names[] = {"exponents", "h_KS",          "LP(1;0)", "c_L",
                                         "v",         "omega LP(1;0)", NULL};
-    harvest h = harvested(box(36, 0.7, 0.5, HD_REFLECTING), 100.0, SEEDS);
+    harvest h = harvested(box(36, 0.7, 0.5, HD_REFLECTING), 100.0, 3 * SEEDS);
     check_rule(&h, names);
     free(h.numbers);
 }

@@ -115,8 +115,8 @@ static void check_same_exponents(hd_scene_def scene, unsigned observe, double bo
     hd_run_free(blind);
 }
 
-/** What is looked at does not change what happens: modes and steps not a bit; phases, where a look
- * does not do, and fields but for where the frame is orthonormalised: rounding. */
+/** What is looked at does not change what happens: modes and steps not a bit; phases and fields but
+ * for where the frame is orthonormalised: rounding. */
 TEST(looking_changes_nothing)
 {
     hd_scene_def scene = scene_from(channel(HD_PERIODIC, HD_REFLECTING), .duration = 100.0);
@@ -141,36 +141,33 @@ static double coefficients_apart(const hd_run *a, const hd_run *b, int slowest)
     return worst;
 }
 
-/** Between two orthonormalisations, from the slowest vectors alone, beside those of a run that
- * orthonormalises for every report: fields are looked at. Each vector is off by the residual at
- * which the iteration stops [T16], and by those of the slower ones that it was made orthogonal
- * to: 3.4e-3 with the kernels of SkylakeX, 5.3e-3 with those of Haswell. */
-TEST(a_look_sees_what_a_measured_state_shows)
+/** What is known for a watcher, beside a run that orthonormalises for every report: fields are
+ * looked at. */
+TEST(a_watcher_sees_what_a_measured_state_shows)
 {
     enum { SLOWEST = 8 };
-    static const double residual = 3e-3;
     hd_scene_def scene = scene_from(channel(HD_PERIODIC, HD_PERIODIC), .duration = 200.0);
-    hd_run *looking = created(&scene);
+    hd_run *watched = created(&scene);
     scene.observe |= HD_OBSERVE_FIELDS;
     hd_run *measuring = created(&scene);
     double worst = 0.0;
-    hd_run_watch(looking, 1.0, hd_run_vectors(looking) - SLOWEST);
-    while (hd_run_stage(looking) != HD_FINISHED) {
-        do CHECK_OK(hd_run_advance(looking));
-        while (!hd_run_report_due(looking));
+    int compared = 0;
+    hd_run_watch(watched, 1.0, hd_run_vectors(watched) - SLOWEST);
+    while (hd_run_stage(watched) != HD_FINISHED) {
+        do CHECK_OK(hd_run_advance(watched));
+        while (!hd_run_report_due(watched));
         do CHECK_OK(hd_run_advance(measuring));
         while (!hd_run_report_due(measuring));
-        CHECK_CLOSE(hd_run_time(looking), hd_run_time(measuring), 0.0);
-        if (hd_run_columns(looking).count < SLOWEST) continue; /* not yet the averaging */
-        worst = fmax(worst, coefficients_apart(looking, measuring, SLOWEST));
+        CHECK_CLOSE(hd_run_time(watched), hd_run_time(measuring), 0.0);
+        if (hd_run_columns(watched).count < SLOWEST) continue; /* not yet the averaging */
+        worst = fmax(worst, coefficients_apart(watched, measuring, SLOWEST));
+        compared++;
     }
-    print_message("%ld looks and %ld states: coefficients apart by up to %.1e\n",
-                  hd_run_cost(looking).slow_vector_samples,
-                  hd_run_cost(measuring).orthonormalisations, worst);
-    assert_true(hd_run_cost(looking).slow_vector_samples > 50);
+    print_message("%d states: coefficients apart by up to %.1e\n", compared, worst);
+    assert_true(compared > 150);
     assert_int_equal(hd_run_cost(measuring).slow_vector_samples, 0);
-    assert_true(worst > 0.0 && worst < residual * sqrt(SLOWEST));
-    hd_run_free(looking);
+    assert_true(worst < 2e-6); /* DEFECT_MEASURED of factorise.c, twice */
+    hd_run_free(watched);
     hd_run_free(measuring);
 }
 
@@ -318,7 +315,7 @@ TEST(phases_are_known_as_often_as_asked)
     }
     print_message("%d states, at most %.3f apart\n", states, farthest);
     assert_true(farthest > 0.25 && farthest <= 0.3 + 1e-9);
-    assert_true(states >= 100);
+    assert_true(states >= 99); /* of 30 time units, without both ends */
     hd_run_free(run);
 }
 

@@ -9,8 +9,7 @@
 /** More vectors than one block of any parallel loop holds: 128 of the modes, 64 of the frame. */
 enum { DISKS = 70, VECTORS = 2 * DISKS - 3 };
 
-/** A box so long that LP pairs are found, and reports so close that phases are looked at between
- * orthonormalisations. */
+/** A box so long that LP pairs are found, and somebody who watches the vectors. */
 static hd_run *run_with(int threads)
 {
     hd_run *run = NULL;
@@ -18,7 +17,7 @@ static hd_run *run_with(int threads)
                              .warmup = 15.0, .duration = 8.0, .report_interval = 0.1,
                              .observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES, .threads = threads);
     run = created(&def);
-    hd_run_watch(run, 0.5, VECTORS - 8); /* looks */
+    hd_run_watch(run, 0.5, VECTORS - 8);
     finish(run);
     assert_int_equal(hd_run_vectors(run), VECTORS);
     return run;
@@ -48,9 +47,9 @@ TEST(two_threads_give_what_one_gives)
     }
     assert_int_equal(hd_trajectory_collisions(hd_run_trajectory(run[0])),
                      hd_trajectory_collisions(hd_run_trajectory(run[1])));
-    print_message("%ld looks, %ld orthonormalisations, cosines differ by %.1e at most\n",
-                  hd_run_cost(run[1]).slow_vector_samples, hd_run_cost(run[1]).orthonormalisations,
-                  most);
+    print_message(
+        "%ld samples for who watches, %ld orthonormalisations, cosines differ by %.1e at most\n",
+        hd_run_cost(run[1]).slow_vector_samples, hd_run_cost(run[1]).orthonormalisations, most);
     for (int k = 0; k < 2; k++) hd_run_free(run[k]);
 }
 
