@@ -69,8 +69,6 @@ enum { EFFECTS = sizeof effects / sizeof *effects };
 
 typedef struct side {
     hd_run *run;
-    hd_pmode *pmode;       /**< NULL unless fields are looked at */
-    hd_hydro *hydro;       /**< NULL unless hydro is */
     double *q, *p, *field; /**< [2N] */
     double seconds[ROUNDS_MAX];
 } side;
@@ -114,17 +112,12 @@ static side *side_create(const variant *v, int disks, double aspect)
     require(hd_run_create(&s->run, &scene, message, sizeof message), message);
     hd_run_observe(s->run, v->look);
     s->q = block, s->p = block + size, s->field = block + 2 * size;
-    if (v->look & HD_OBSERVE_FIELDS) require(hd_pmode_create(&s->pmode, disks), "fields");
-    if (v->look & HD_OBSERVE_HYDRO)
-        require(hd_hydro_create(&s->hydro, &scene, hd_run_steps(s->run)), "hydro");
     warm(s);
     return s;
 }
 
 static void side_free(side *s)
 {
-    hd_pmode_free(s->pmode);
-    hd_hydro_free(s->hydro);
     hd_run_free(s->run);
     free(s->q);
     free(s);
@@ -135,14 +128,15 @@ static void side_free(side *s)
 static void reconstruct(side *s)
 {
     const hd_steps *steps = hd_run_steps(s->run);
+    hd_pmode *pmode = hd_run_pmode(s->run);
+    hd_trajectory_state(hd_run_trajectory(s->run), s->q, s->p);
     for (int k = 0; k < hd_steps_count(steps); k++) {
         const hd_step *step = hd_steps_step(steps, k);
         if (step->kind != HD_MODE_LP || !step->resolved) continue;
-        if (!hd_pmode_reconstruct(s->pmode, step, hd_run_modes(s->run),
-                                  hd_run_frame_columns(s->run)))
+        if (!hd_pmode_reconstruct(pmode, step, hd_run_modes(s->run), hd_run_frame_columns(s->run)))
             continue;
-        for (int c = hd_pmode_pairs(s->pmode); c < 2 * hd_pmode_pairs(s->pmode); c++)
-            hd_pmode_divide(s->pmode, s->field, c, s->p);
+        for (int c = hd_pmode_pairs(pmode); c < 2 * hd_pmode_pairs(pmode); c++)
+            hd_pmode_divide(pmode, s->field, c, s->p);
     }
 }
 
@@ -150,10 +144,7 @@ static void reconstruct(side *s)
 static void report(side *s)
 {
     report_interval(s);
-    if (s->hydro || s->pmode) hd_trajectory_state(hd_run_trajectory(s->run), s->q, s->p);
-    if (s->pmode) reconstruct(s);
-    if (s->hydro)
-        hd_hydro_measure(s->hydro, hd_run_steps(s->run), hd_run_frame_columns(s->run), s->q, s->p);
+    if (hd_run_pmode(s->run)) reconstruct(s);
 }
 
 /** So many that each round has several orthonormalisations. */

@@ -4,7 +4,7 @@
 # Writes the plan of the house, which folder includes which and how often, as a graph (dot -Tpng).
 cmake_minimum_required(VERSION 3.16)
 
-set(STAGES base scene averages events tangent modes covariant run)
+set(STAGES base scene averages events tangent modes covariant observe run)
 set(LINEAR_ALGEBRA base/blas tangent/conjugate tangent/ortho tangent/panel tangent/product tangent/reflections modes/dispersion modes/modes modes/pmode
   covariant/backward covariant/coupling covariant/starts covariant/angles covariant/covariant)
 
@@ -31,6 +31,10 @@ endfunction()
 
 function(check_own file here header)
   stage_of(there ${header})
+  get_filename_component(folder ${header} DIRECTORY)
+  if(header MATCHES "_state\\.h$" AND NOT file MATCHES "^src/${folder}/")
+    message(SEND_ERROR "${file} includes ${header}, which is ${folder}'s own")
+  endif()
   if(there GREATER here)
     message(SEND_ERROR "${file} includes ${header}, which stands right of it")
   endif()
@@ -82,8 +86,8 @@ message("${CHECKED} includes in ${COUNT} files")
 
 if(DOT)
   set(graph "digraph core {\n  rankdir=BT; node [shape=box, style=rounded, fontname=Helvetica];\n")
-  foreach(here RANGE 7)
-    foreach(there RANGE 7)
+  foreach(here RANGE 8)
+    foreach(there RANGE 8)
       if(ARROW_${here}_${there})
         list(GET STAGES ${here} from)
         list(GET STAGES ${there} to)

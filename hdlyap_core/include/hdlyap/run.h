@@ -11,7 +11,9 @@
 #include "hdlyap/localization.h"
 #include "hdlyap/ortho.h"
 #include "hdlyap/parameters.h"
+#include "hdlyap/hydro.h"
 #include "hdlyap/phases.h"
+#include "hdlyap/pmode.h"
 #include "hdlyap/spectrum.h"
 #include "hdlyap/steps.h"
 #include "hdlyap/structure.h"
@@ -142,6 +144,11 @@ const hd_steps *hd_run_steps(const hd_run *run);
 const hd_phases *hd_run_phases(const hd_run *run);       /**< of the LP steps */
 const hd_phases *hd_run_t_phases(const hd_run *run);     /**< NULL unless observed */
 const hd_structure *hd_run_structure(const hd_run *run); /**< NULL unless observed */
+/** NULL unless observed. Responses are those of the last report while averages are taken. */
+const hd_hydro *hd_run_hydro(const hd_run *run);
+/** NULL unless fields are observed: for whoever reconstructs modes of hd_run_frame_columns where
+ * they are due. */
+hd_pmode *hd_run_pmode(const hd_run *run);
 /** Simulated time of the phases; negative while none have been followed. */
 double hd_run_followed(const hd_run *run);
 const hd_covariant *hd_run_covariant(const hd_run *run); /**< NULL unless observed */

@@ -72,6 +72,8 @@ double hd_trajectory_collision_rate(const hd_trajectory *trajectory);
 void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p);
 
 double hd_trajectory_kinetic_energy(const hd_trajectory *trajectory); /**< sum p^2 / 2, = N */
+/** Of all disks together. */
+void hd_trajectory_momentum(const hd_trajectory *trajectory, double sum[2]);
 /** More than rounding makes of its relative error: each event so far rounds the energy of its disks
  * by some eps, and the roundings add up as a random walk. Seen: 0.01 of this. */
 double hd_trajectory_energy_rounding(const hd_trajectory *trajectory);

@@ -1,4 +1,4 @@
-/** What a checkpoint holds of a spectrum. */
+/** What a checkpoint holds of a spectrum, and bytes that it takes. */
 #ifndef HD_AVERAGES_ARCHIVED_H
 #define HD_AVERAGES_ARCHIVED_H
 
@@ -6,5 +6,6 @@
 #include "hdlyap/spectrum.h"
 
 void hd_spectrum_archive(hd_spectrum *spectrum, hd_archive *archive);
+double hd_spectrum_bytes(double vectors);
 
 #endif

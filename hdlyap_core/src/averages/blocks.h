@@ -21,6 +21,11 @@ typedef struct hd_blocks {
 /** least: weight that no block falls below, or 0. HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_blocks_create(hd_blocks *blocks, int series, double least);
 void hd_blocks_clear(hd_blocks *blocks);
+/** That so many series take. */
+static inline double hd_blocks_bytes(double series)
+{
+    return (HD_BLOCKS_MAX + 1.0) * series * sizeof(double);
+}
 void hd_blocks_restart(hd_blocks *blocks);
 
 /** Adds sum[series] of a sample of this weight (a time, or a number). Amortised O(series). */

@@ -20,6 +20,11 @@ struct hd_spectrum {
     hd_blocks blocks; /**< of ln R_ll; their weight is time */
 };
 
+double hd_spectrum_bytes(double vectors)
+{
+    return (3.0 * sizeof(double) + sizeof(hd_part)) * vectors + hd_blocks_bytes(vectors);
+}
+
 static hd_status spectrum_allocate(hd_spectrum *spectrum, double block)
 {
     double **arrays[] = {&spectrum->sum, &spectrum->sample_sum, &spectrum->local_sum};

@@ -142,6 +142,15 @@ static hd_status allocate(hd_covariant *c)
     return hd_localization_create(&c->shape, c->scene.disks, c->vectors, c->threads);
 }
 
+double hd_covariant_bytes_of(const hd_scene_def *scene)
+{
+    const double rows = 4.0 * scene->disks, n = hd_scene_vectors(scene),
+                 carried = hd_scene_carried(scene);
+    const double factors = 2.0 * carried * carried, ways = (carried < n ? 8.25 : 5.0) * n * n;
+    return sizeof(double) * (factors + ways + rows * n) + 3.0 * hd_modes_bytes(scene, n) +
+           hd_spectrum_bytes(n) + hd_localization_bytes(n);
+}
+
 hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int threads)
 {
     const int positive = (4 * def->disks - hd_scene_zero_exponents(def)) / 2,

@@ -1,13 +1,16 @@
-/** What a checkpoint holds of disks and events. */
+/** What a checkpoint holds of disks and events, and bytes that they take. */
 #ifndef HD_EVENTS_ARCHIVED_H
 #define HD_EVENTS_ARCHIVED_H
 
 #include "base/archive.h"
-#include "hdlyap/gas.h"
+#include "hdlyap/trajectory.h"
 
 void hd_trajectory_archive(hd_trajectory *trajectory, hd_archive *archive);
-/** now: simulated time. */
-void hd_gas_archive(hd_gas *gas, hd_archive *archive, double now, uint64_t collisions);
+/** Of positions and momenta to the last bit. */
+uint32_t hd_trajectory_fingerprint(const hd_trajectory *trajectory);
+double hd_trajectory_bytes(double disks);
 void hd_event_log_archive(hd_event_log *log, hd_archive *archive, int disks);
+/** Of so many events: in the log, which doubles when it is full, and as tangent maps. */
+double hd_event_log_bytes(double events);
 
 #endif

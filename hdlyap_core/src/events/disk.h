@@ -4,6 +4,9 @@
 
 #include <stdint.h>
 
+/** Deeper than this [sigma], an overlap is a fault and not rounding. */
+#define HD_OVERLAP_MAX 1e-9
+
 /** q and p are those of time t (of the present epoch) and stay untouched until the disk's next
  * collision: what is predicted from them does not depend on when it is predicted. */
 typedef struct hd_disk {

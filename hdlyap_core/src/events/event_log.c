@@ -9,6 +9,12 @@
 #include "base/memory.h"
 #include "events/archived.h"
 
+double hd_event_log_bytes(double events)
+{
+    static const double OF_AN_EVENT = 130.0;
+    return OF_AN_EVENT * events;
+}
+
 hd_status hd_event_log_create(hd_event_log **out)
 {
     *out = hd_memory_alloc(1, sizeof **out);

@@ -15,6 +15,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "events/archived.h"
 #include "base/random.h"
 #include "events/event_log.h"
 #include "events/prefetch.h"
@@ -300,6 +301,13 @@ static void momenta_fill(double *p, const hd_scene_def *def)
     for (int k = 0; k < 2 * n; k++) p[k] *= scale;
 }
 
+double hd_trajectory_bytes(double disks)
+{
+    static const double OF_A_DISK =
+        255.0; /* its cells, its place in the queue and its prediction */
+    return OF_A_DISK * disks;
+}
+
 hd_status hd_trajectory_create_from(hd_trajectory **out, const hd_scene_def *def, const double *q,
                                     const double *p)
 {
@@ -377,6 +385,13 @@ void hd_trajectory_state(const hd_trajectory *tr, double *q, double *p)
             if (p) p[2 * i + d] = disk.p[d];
         }
     }
+}
+
+void hd_trajectory_momentum(const hd_trajectory *tr, double sum[2])
+{
+    sum[0] = sum[1] = 0.0;
+    for (int i = 0; i < tr->motion.count; i++)
+        for (int d = 0; d < 2; d++) sum[d] += tr->motion.disk[i].p[d];
 }
 
 double hd_trajectory_kinetic_energy(const hd_trajectory *tr)

@@ -1,6 +1,7 @@
 /** The disks <-> file. Cells, queue and predictions follow from the disks: see trajectory.c. */
 #include <math.h>
 #include <stdbool.h>
+#include <zlib.h>
 
 #include "events/archived.h"
 #include "events/trajectory_state.h"
@@ -81,4 +82,15 @@ void hd_trajectory_archive(hd_trajectory *tr, hd_archive *archive)
     const char *fault = inconsistency(tr);
     if (fault) hd_archive_refuse(archive, "trajectory", fault);
     if (hd_archive_good(archive)) predict(tr);
+}
+
+uint32_t hd_trajectory_fingerprint(const hd_trajectory *tr)
+{
+    uLong crc = 0;
+    for (int i = 0; i < tr->motion.count; i++) {
+        const hd_disk *disk = &tr->motion.disk[i];
+        crc = crc32_z(crc, (const Bytef *)disk->q, sizeof disk->q);
+        crc = crc32_z(crc, (const Bytef *)disk->p, sizeof disk->p);
+    }
+    return (uint32_t)crc;
 }

@@ -3,11 +3,9 @@
 #ifndef HD_TRAJECTORY_STATE_H
 #define HD_TRAJECTORY_STATE_H
 
+#include "events/disk.h"
 #include "events/prediction.h"
 #include "hdlyap/trajectory.h"
-
-/** Deeper than this [sigma], an overlap is a fault and not rounding. */
-#define HD_OVERLAP_MAX 1e-9
 
 struct hd_trajectory {
     hd_motion motion;

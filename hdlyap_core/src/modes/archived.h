@@ -1,10 +1,24 @@
-/** What a checkpoint holds of modes, steps, phases and structure factors. */
+/** What a checkpoint holds of modes, steps, phases and structure factors, and bytes that they take.
+ */
 #ifndef HD_MODES_ARCHIVED_H
 #define HD_MODES_ARCHIVED_H
 
 #include "base/archive.h"
 #include "hdlyap/phases.h"
 #include "hdlyap/structure.h"
+
+/** What there is in the fields of a scene; allocates nothing. */
+typedef struct hd_fields_count {
+    double columns, subspaces; /**< without the null fields; T and LP subspaces */
+    double t_fields;           /**< of a T subspace, at most */
+    double lp_phases, t_phases;
+} hd_fields_count;
+hd_fields_count hd_fields_count_of(const hd_scene_def *scene);
+
+double hd_modes_bytes(const hd_scene_def *scene, double vectors);
+double hd_structure_bytes(const hd_scene_def *scene, double vectors);
+double hd_phases_bytes(double phases);
+double hd_pmode_bytes(double disks);
 
 void hd_modes_archive(hd_modes *modes, hd_archive *archive);
 void hd_steps_archive(hd_steps *steps, hd_archive *archive);

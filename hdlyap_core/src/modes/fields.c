@@ -10,6 +10,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "modes/archived.h"
 #include "modes/harmonics.h"
 #include "scene/null_space.h"
 
@@ -34,6 +35,24 @@ static void subspace_add(hd_fields *fields, hd_mode_kind kind, const hd_wave *wa
     fields->columns += dimension;
     for (int d = 0; d < 2; d++)
         if (wave->n[d] > fields->along[d].nodes) fields->along[d].nodes = wave->n[d];
+}
+
+hd_fields_count hd_fields_count_of(const hd_scene_def *scene)
+{
+    enum { WAVES = 4096, OF_ONE = 12 }; /* columns of a wave vector at most */
+    hd_wave wave[WAVES];
+    const int count = hd_waves(scene, wave, WAVES);
+    hd_fields_count all = {.subspaces = 2.0 * count};
+    for (int k = 0; k < count && k < WAVES; k++) {
+        const double pairs = hd_wave_pairs(&wave[k], scene->boundary).count;
+        const double t = hd_wave_transverse(&wave[k], scene->boundary).count;
+        all.columns += t + 2.0 * pairs;
+        all.t_fields = fmax(all.t_fields, t);
+        all.lp_phases += 2.0 * pairs * pairs;
+        all.t_phases += 2.0 * floor(t / 2.0) * floor(t / 2.0);
+    }
+    if (count > WAVES) all.columns = (double)OF_ONE * count;
+    return all;
 }
 
 static hd_status subspaces_create(hd_fields *fields, const hd_scene_def *def)

@@ -45,6 +45,15 @@ static size_t weight_rows(const hd_modes *modes)
     return (size_t)hd_fields_subspaces(modes->fields) * HD_WEIGHTS + HD_NULLS;
 }
 
+double hd_modes_bytes(const hd_scene_def *scene, double vectors)
+{
+    const hd_fields_count count = hd_fields_count_of(scene);
+    const double columns = count.columns + HD_NULLS, rows = count.subspaces * HD_WEIGHTS + HD_NULLS,
+                 fields = 2.0 * scene->disks * (columns + 4.0);
+    return sizeof(double) * (fields + columns * columns +
+                             (columns + DIMENSION_MAX + 1.0 + HD_NULLS + 2.0 * rows) * vectors);
+}
+
 static hd_status modes_allocate(hd_modes *modes, const hd_scene_def *def)
 {
     HD_TRY(hd_fields_create(&modes->fields, def));

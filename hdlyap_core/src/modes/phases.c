@@ -50,6 +50,8 @@ static hd_status rotors_create(hd_phases *phases, const hd_steps *steps)
     return HD_OK;
 }
 
+double hd_phases_bytes(double phases) { return phases * (sizeof(hd_track) + hd_blocks_bytes(1.0)); }
+
 hd_status hd_phases_create(hd_phases **out, const hd_steps *steps, hd_mode_kind kind)
 {
     hd_phases *phases = hd_memory_alloc(1, sizeof *phases);

@@ -12,6 +12,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "modes/archived.h"
 
 enum { DIMENSION_MAX = 2 * HD_MODULATIONS_MAX };
 
@@ -24,6 +25,11 @@ struct hd_pmode {
     double norm[DIMENSION_MAX]; /**< of the fields as sampled */
     double distance;
 };
+
+double hd_pmode_bytes(double disks)
+{
+    return sizeof(hd_pmode) + 2.0 * DIMENSION_MAX * 2.0 * disks * sizeof(double);
+}
 
 hd_status hd_pmode_create(hd_pmode **out, int disks)
 {

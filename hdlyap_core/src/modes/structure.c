@@ -109,6 +109,15 @@ static hd_status plan_waves(hd_structure *s, const hd_scene_def *def)
     return HD_OK;
 }
 
+double hd_structure_bytes(const hd_scene_def *scene, double vectors)
+{
+    const double waves = hd_structure_waves_of(scene), longer = hd_wave_limits_of(scene).node + 1.0,
+                 shorter = waves / longer + 1.0;
+    return sizeof(double) * (2.0 * HD_DIRECTIONS * waves * vectors +
+                             (2.0 * WIDTH + AT_ONCE + HD_DIRECTIONS * FUNCTIONS + 1.0) * vectors +
+                             scene->disks * (WIDTH + 2.0 * (longer + shorter)));
+}
+
 static hd_status prepare(hd_structure *s, const hd_scene_def *def)
 {
     const size_t disks = (size_t)def->disks, waves = (size_t)s->waves, n = s->stride;

@@ -63,6 +63,11 @@ void hd_advance_make_plan(hd_advance *advance, double stop)
     advance->plan = (hd_advance_plan){.begin = now, .end = end, .events = events_so_far(advance)};
 }
 
+void hd_advance_stop(hd_advance *advance, double end)
+{
+    advance->plan.end = fmin(advance->plan.end, end);
+}
+
 bool hd_advance_is_done(const hd_advance *advance)
 {
     return hd_advance_now(advance) >= advance->plan.end;

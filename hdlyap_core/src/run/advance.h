@@ -34,6 +34,8 @@ double hd_advance_longest(const hd_advance *advance);
 
 /** Plans from now to at most `stop`. */
 void hd_advance_make_plan(hd_advance *advance, double stop);
+/** Ends the plan there, unless it ends before. */
+void hd_advance_stop(hd_advance *advance, double end);
 /** True at the end of what was planned. */
 bool hd_advance_is_done(const hd_advance *advance);
 

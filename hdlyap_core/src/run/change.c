@@ -1,33 +1,22 @@
-/** What may change while a run goes on: value -> what is asked for, until run.c takes it up between
- * two samples. */
-#include <math.h>
-
+/** What is asked for while a run goes on: value -> what the agenda takes up where it holds. */
 #include "base/check.h"
 #include "hdlyap/parameters.h"
 #include "run/order.h"
 #include "run/run_state.h"
 
-static bool is_averaging(const hd_run *run)
-{
-    return run->schedule.stage == HD_AVERAGING && run->frame;
-}
-
 double hd_run_change_time(const hd_run *run)
 {
-    return is_averaging(run) ? fmax(hd_run_time(run), run->interval_end) : hd_run_time(run);
+    return hd_agenda_change_time(&run->agenda, hd_run_time(run), run->carrier.frame);
 }
 
 /** Of a run that does not stand at its end: until it holds, time goes on. */
 static hd_status check_duration(const hd_run *run, double duration, char *message, size_t size)
 {
-    const double from = hd_run_change_time(run), least = from - run->schedule.start;
-    hd_schedule asked = run->schedule;
-    asked.length[HD_AVERAGING] = duration;
-    if (asked.stage != HD_AVERAGING || duration == 0 || hd_schedule_reaches(&asked, from))
-        return HD_OK;
+    const double from = hd_run_change_time(run);
+    if (hd_agenda_can_last(&run->agenda, duration, from)) return HD_OK;
     return hd_refuse(message, size,
                      "duration = %.15g: must be 0 or at least %.15g, averaged before it can change",
-                     duration, least);
+                     duration, from - hd_agenda_stage_begin(&run->agenda));
 }
 
 hd_status hd_run_change(hd_run *run, const hd_parameter *row, double value, char *message,
@@ -40,25 +29,41 @@ hd_status hd_run_change(hd_run *run, const hd_parameter *row, double value, char
                                                 .number = value});
     if (!row->live)
         return hd_refuse(message, size, "%s = %.15g: is read at the start", row->name, value);
-    if (run->schedule.stage == HD_FINISHED || run->due.stage_end)
+    if (hd_run_stage(run) == HD_FINISHED || hd_agenda_is_due(&run->agenda, HD_DUE_STAGE))
         return hd_refuse(message, size, "%s = %.15g: the run has ended", row->name, value);
     hd_parameter_assign(row, &asked, value);
     HD_TRY(hd_scene_check(&asked, message, size));
     HD_TRY(check_duration(run, asked.duration, message, size));
     run->scene = asked;
-    run->in_force.changing = true;
-    run->sample.ends |= is_averaging(run);
+    hd_agenda_ask(&run->agenda, run->carrier.frame);
     return HD_OK;
 }
 
 void hd_run_fields_every(hd_run *run, double interval)
 {
-    const bool said = run->fields_said;
     hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_FIELDS_EVERY, .number = interval});
-    run->fields_said = true;
-    if (interval == run->field_interval) return; /* of a run that goes on it may not hold yet */
-    run->field_interval = interval;
-    if (!said) run->in_force.field_interval = interval;
-    run->in_force.changing |= said;
-    run->sample.ends |= said && is_averaging(run);
+    hd_agenda_ask_fields(&run->agenda, interval, run->carrier.frame);
+}
+
+void hd_run_fields_from(hd_run *run, int first)
+{
+    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_FIELDS_FROM, .integer = first});
+    run->fields_first = first;
+}
+
+void hd_run_observe(hd_run *run, unsigned stages)
+{
+    const unsigned now = stages & run->scene.observe;
+    if (now == hd_observables_looked_at(&run->observables)) return;
+    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_OBSERVE, .integer = (int)now});
+    hd_observables_look(&run->observables, now);
+}
+
+void hd_run_watch(hd_run *run, double interval, int first)
+{
+    HD_ASSERT(interval > 0.0 && first >= 0);
+    if (interval == run->watch.interval && first == run->watch.first) return;
+    hd_order_tell(run->communicator,
+                  (hd_order){.kind = HD_ORDER_WATCH, .integer = first, .number = interval});
+    run->watch = (hd_watch){interval, first};
 }

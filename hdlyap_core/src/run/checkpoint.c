@@ -10,14 +10,11 @@
 #include "averages/archived.h"
 #include "base/check.h"
 #include "base/clock.h"
-#include "covariant/archived.h"
 #include "events/archived.h"
 #include "hdlyap/blas.h"
 #include "hdlyap/parameters.h"
-#include "modes/archived.h"
 #include "run/checkpoint.h"
 #include "run/checkpoint_file.h"
-#include "run/factorise.h"
 #include "run/order.h"
 #include "run/run_state.h"
 #include "scene/archived.h"
@@ -35,9 +32,10 @@ static void head_archive(hd_checkpoint *head, hd_archive *archive)
 static void cost_archive(hd_run *run, hd_archive *archive)
 {
     hd_cost *c = &run->cost;
-    double *const numbers[] = {&c->events,    &c->replay, &c->ortho,
-                               &c->spectrum,  &c->modes,  &c->interval,
-                               &c->condition, &c->defect, &run->windows.seconds};
+    hd_windows *windows = hd_observables_part(&run->observables, HD_OBSERVED_covariant);
+    double none = 0.0, *seconds = windows ? hd_windows_seconds(windows) : &none;
+    double *const numbers[] = {&c->events,   &c->replay,    &c->ortho,  &c->spectrum, &c->modes,
+                               &c->interval, &c->condition, &c->defect, seconds};
     long *const counts[] = {&c->orthonormalisations, &c->second_passes, &c->slow_vector_samples,
                             &c->repairs};
     int limit = (int)c->limit;
@@ -74,40 +72,45 @@ static void plan_archive(hd_advance_plan *plan, hd_archive *archive)
 /** What has been asked for may not hold yet. */
 static void in_force_archive(hd_run *run, hd_archive *archive)
 {
-    hd_in_force *now = &run->in_force;
+    hd_agenda *agenda = &run->agenda;
+    hd_wanted *now = &agenda->in_force;
     int changing = now->changing;
     hd_archive_double(archive, "run target", &now->target_std_error);
     hd_archive_double(archive, "run fields", &now->field_interval);
-    hd_archive_double(archive, "run fields asked", &run->field_interval);
+    hd_archive_double(archive, "run fields asked", &agenda->field_interval);
     hd_archive_int(archive, "run changing", &changing, 0, 1);
     now->changing = changing;
-    hd_archive_expect(
-        archive, now->target_std_error >= 0 && now->field_interval >= 0 && run->field_interval >= 0,
-        "run fields", "it is negative");
+    hd_archive_expect(archive,
+                      now->target_std_error >= 0 && now->field_interval >= 0 &&
+                          agenda->field_interval >= 0,
+                      "run fields", "it is negative");
 }
 
 static void numbers_archive(hd_run *run, hd_archive *archive)
 {
-    int observe = (int)run->observe, reported = run->due.report, ends = run->sample.ends,
-        whole = run->whole, limit = (int)run->limit;
+    hd_agenda *agenda = &run->agenda;
+    int observe = (int)hd_observables_looked_at(&run->observables), whole = run->carrier.whole,
+        reported = hd_agenda_is_due(agenda, HD_DUE_REPORT), ends = agenda->sample_ends,
+        limit = (int)agenda->limit;
     hd_archive_int(archive, "run observe", &observe, 0, (int)run->scene.observe);
-    run->observe = (unsigned)observe & run->scene.observe;
+    if (!archive->writing)
+        hd_observables_look(&run->observables, (unsigned)observe & run->scene.observe);
     hd_archive_int(archive, "run reported", &reported, 0, 1);
-    run->due.report = reported;
-    hd_archive_double(archive, "run sample begin", &run->sample.begin);
+    if (!archive->writing) agenda->due = reported ? HD_DUE_REPORT : 0u;
+    hd_archive_double(archive, "run sample begin", &agenda->sample_begin);
     hd_archive_int(archive, "run sample ends", &ends, 0, 1);
-    run->sample.ends = ends;
+    agenda->sample_ends = ends;
     hd_archive_int(archive, "run whole", &whole, 0, 1);
-    run->whole = whole;
+    run->carrier.whole = whole;
     hd_archive_double(archive, "run followed", &run->followed);
-    hd_archive_double(archive, "run interval end", &run->interval_end);
+    hd_archive_double(archive, "run interval end", &agenda->interval_end);
     hd_archive_int(archive, "run limit", &limit, HD_LIMIT_SCHEDULE, HD_LIMIT_NONE);
-    run->limit = (hd_limit)limit;
+    agenda->limit = (hd_limit)limit;
     hd_archive_double(archive, "run advance longest", &run->advance.longest);
     plan_archive(&run->advance.plan, archive);
     hd_archive_double(archive, "run frame start", &run->clocks.frame_start_time);
-    hd_archive_double(archive, "run condition max", &run->rounding.condition_max);
-    hd_archive_double(archive, "run rounding", &run->rounding.sum);
+    hd_archive_double(archive, "run condition max", &run->carrier.rounding.condition_max);
+    hd_archive_double(archive, "run rounding", &run->carrier.rounding.sum);
     in_force_archive(run, archive);
     clocks_archive(run, archive);
     cost_archive(run, archive);
@@ -115,34 +118,29 @@ static void numbers_archive(hd_run *run, hd_archive *archive)
 
 static void parts_archive(hd_run *run, hd_archive *archive)
 {
+    hd_carrier *c = &run->carrier;
+    const hd_trajectory *now = run->advance.trajectory;
     hd_trajectory_archive(run->advance.trajectory, archive);
-    hd_schedule_archive(&run->schedule, archive);
-    hd_interval_archive(&run->interval, archive);
-    if (run->gas)
-        hd_gas_archive(run->gas, archive, hd_run_time(run),
-                       hd_trajectory_collisions(run->advance.trajectory));
-    if (!run->frame || hd_communicator_agree(run->communicator, archive->status) != HD_OK) return;
-    hd_event_log_archive(run->log, archive, run->scene.disks);
-    const hd_status status = hd_frame_archive(run->frame, archive);
+    hd_schedule_archive(&run->agenda.schedule, archive);
+    hd_interval_archive(&c->interval, archive);
+    hd_observables_archive(&run->observables, archive, false, now);
+    if (!c->frame || hd_communicator_agree(run->communicator, archive->status) != HD_OK) return;
+    hd_event_log_archive(c->log, archive, run->scene.disks);
+    const hd_status status = hd_frame_archive(c->frame, archive);
     if (status != HD_OK) hd_archive_fail(archive, status, "frame vectors", NULL);
-    hd_archive_doubles(archive, "run halves", run->halves, 2 * (size_t)run->vectors);
-    hd_spectrum_archive(run->spectrum, archive);
-    if (run->observer.modes) hd_modes_archive(run->observer.modes, archive);
-    if (run->observer.steps) hd_steps_archive(run->observer.steps, archive);
-    if (run->observer.structure) hd_structure_archive(run->observer.structure, archive);
-    for (int k = 0; k < HD_FOLLOWED; k++)
-        if (run->observer.phases[k]) hd_phases_archive(run->observer.phases[k], archive);
-    if (run->shape) hd_localization_archive(run->shape, archive);
-    if (run->windows.covariant) hd_covariant_archive(run->windows.covariant, archive);
+    hd_archive_doubles(archive, "run halves", c->halves, 2 * (size_t)c->vectors);
+    hd_spectrum_archive(c->spectrum, archive);
+    hd_observables_archive(&run->observables, archive, true, now);
 }
 
 static void plan_expect(const hd_run *run, hd_archive *archive)
 {
     const hd_advance_plan *plan = &run->advance.plan;
-    const double cut = run->schedule.stage == HD_FINISHED ? hd_run_time(run)
-                                                          : hd_schedule_cut(&run->schedule);
-    const bool pending = run->log && run->log->duration > 0;
-    const double end = fmax(hd_run_time(run), pending ? fmin(cut, run->interval_end) : cut);
+    const double cut = run->agenda.schedule.stage == HD_FINISHED
+                           ? hd_run_time(run)
+                           : hd_schedule_cut(&run->agenda.schedule);
+    const bool pending = run->carrier.log && run->carrier.log->duration > 0;
+    const double end = fmax(hd_run_time(run), pending ? fmin(cut, run->agenda.interval_end) : cut);
     const uint64_t events = hd_trajectory_collisions(run->advance.trajectory) +
                             hd_trajectory_wall_events(run->advance.trajectory);
     hd_archive_expect(archive, plan->begin <= hd_run_time(run) && plan->end <= end,
@@ -154,20 +152,23 @@ static void plan_expect(const hd_run *run, hd_archive *archive)
 /** Times fit each other: the run can go on from here. */
 static void times_expect(const hd_run *run, hd_archive *archive)
 {
-    const hd_schedule *s = &run->schedule;
+    const hd_schedule *s = &run->agenda.schedule;
     const double now = hd_run_time(run), cut = hd_schedule_cut(s);
     const bool no_more = cut >= now && hd_schedule_stage_end(s) <= now; /* a stage without length */
     const bool ahead = s->stage == HD_FINISHED || cut > now || no_more;
     hd_archive_expect(archive, s->start >= 0 && s->start <= s->origin && s->origin <= now && ahead,
                       "schedule", "it does not go on from this time");
-    const bool pending = run->log && run->log->duration > 0;
+    const bool pending = run->carrier.log && run->carrier.log->duration > 0;
     const double last = s->stage == HD_FINISHED ? now : hd_schedule_stage_end(s);
     const double end = fmax(now, fmin(last, now + run->advance.bound));
-    hd_archive_expect(archive, run->sample.begin <= now && run->followed <= now, "run sample begin",
-                      "it does not fit the time");
-    hd_archive_expect(archive, run->interval_end <= end && (!pending || run->interval_end >= now),
-                      "run interval end", "it does not fit the time");
-    hd_archive_expect(archive, !run->log || (run->log->duration >= 0 && run->log->duration <= now),
+    hd_archive_expect(archive, run->agenda.sample_begin <= now && run->followed <= now,
+                      "run sample begin", "it does not fit the time");
+    hd_archive_expect(
+        archive, run->agenda.interval_end <= end && (!pending || run->agenda.interval_end >= now),
+        "run interval end", "it does not fit the time");
+    hd_archive_expect(archive,
+                      !run->carrier.log ||
+                          (run->carrier.log->duration >= 0 && run->carrier.log->duration <= now),
                       "log duration", "it does not fit the time");
     hd_archive_expect(archive, run->advance.longest > 0, "run advance longest",
                       "it is not positive");
@@ -178,7 +179,7 @@ static void times_expect(const hd_run *run, hd_archive *archive)
 void hd_run_write(hd_run *run, hd_archive *archive, const char *label)
 {
     hd_checkpoint head = {.scene = run->scene, .time = hd_run_time(run)};
-    int threads = run->threads;
+    int threads = run->carrier.threads;
     snprintf(head.label, sizeof head.label, "%s", label);
     head_archive(&head, archive);
     hd_archive_int(archive, "run threads", &threads, 1, INT_MAX);
@@ -290,11 +291,12 @@ static int threads_of(int asked, int before)
 /** A run that had finished goes on if it has become longer. */
 static hd_status reopen(hd_run *run, char *message, size_t size)
 {
-    const double averaged = hd_run_time(run) - run->schedule.start,
+    const double averaged = hd_run_time(run) - run->agenda.schedule.start,
                  target = run->scene.target_std_error;
-    const bool finished = run->schedule.stage == HD_FINISHED && run->spectrum;
-    if (finished && target > 0 && hd_run_smallest_error(run) <= target) return HD_OK;
-    if (run->schedule.stage < HD_AVERAGING || hd_schedule_reopen(&run->schedule, hd_run_time(run)))
+    const bool finished = run->agenda.schedule.stage == HD_FINISHED && run->carrier.spectrum;
+    if (finished && target > 0 && hd_carrier_smallest_error(&run->carrier) <= target) return HD_OK;
+    if (run->agenda.schedule.stage < HD_AVERAGING ||
+        hd_schedule_reopen(&run->agenda.schedule, hd_run_time(run)))
         return HD_OK;
     return hd_refuse(message, size,
                      "duration = %.15g: must be at least %.15g, averaged before the checkpoint",
@@ -309,11 +311,12 @@ static void take_up_scene(hd_run *run, const hd_scene_def *kept)
     for (int k = 0; k < count; k++)
         if (rows[k].live &&
             hd_parameter_value(&rows[k], &run->scene) != hd_parameter_value(&rows[k], kept))
-            run->in_force.changing = true;
+            run->agenda.in_force.changing = true;
     if (run->scene.duration != kept->duration)
-        run->schedule.length[HD_AVERAGING] = hd_schedule_of(&run->scene).length[HD_AVERAGING];
+        run->agenda.schedule.length[HD_AVERAGING] =
+            hd_schedule_of(&run->scene).length[HD_AVERAGING];
     if (run->scene.target_std_error != kept->target_std_error)
-        run->in_force.target_std_error = run->scene.target_std_error;
+        run->agenda.in_force.target_std_error = run->scene.target_std_error;
 }
 
 static hd_status restore(hd_run *run, hd_archive *archive, const hd_checkpoint *kept, char *message,
@@ -326,9 +329,10 @@ static hd_status restore(hd_run *run, hd_archive *archive, const hd_checkpoint *
     if (hd_archive_end(archive) != HD_OK) return inconsistent(archive, message, size);
     take_up_scene(run, &kept->scene);
     HD_TRY(reopen(run, message, size));
-    hd_run_save_accuracy(run);
-    const double last = fmax(hd_run_time(run), hd_schedule_stage_end(&run->schedule));
-    run->interval_end = fmin(run->interval_end, last); /* of a duration that has become shorter */
+    hd_carrier_save_accuracy(&run->carrier, hd_run_stage(run) == HD_AVERAGING);
+    const double last = fmax(hd_run_time(run), hd_schedule_stage_end(&run->agenda.schedule));
+    run->agenda.interval_end = fmin(run->agenda.interval_end,
+                                    last); /* of a duration that has become shorter */
     run->advance.plan.end = fmin(run->advance.plan.end, last);
     times_expect(run, archive);
     plan_expect(run, archive);

@@ -3,132 +3,125 @@
 #include <math.h>
 
 #include "base/clock.h"
-#include "run/order.h"
 #include "run/run_state.h"
 
-bool hd_run_report_due(const hd_run *run) { return run->due.report; }
-bool hd_run_fields_due(const hd_run *run) { return run->due.fields; }
-hd_stage hd_run_stage(const hd_run *run) { return run->schedule.stage; }
+static bool is_due(const hd_run *run, unsigned why) { return hd_agenda_is_due(&run->agenda, why); }
+
+static void *part(const hd_run *run, hd_observed row)
+{
+    return hd_observables_part(&run->observables, row);
+}
+
+bool hd_run_report_due(const hd_run *run) { return is_due(run, HD_DUE_REPORT); }
+bool hd_run_fields_due(const hd_run *run) { return is_due(run, HD_DUE_FIELDS); }
+hd_stage hd_run_stage(const hd_run *run) { return hd_agenda_stage(&run->agenda); }
 double hd_run_time(const hd_run *run) { return hd_advance_now(&run->advance); }
 const hd_scene_def *hd_run_scene(const hd_run *run) { return &run->scene; }
-int hd_run_vectors(const hd_run *run) { return run->vectors; }
+int hd_run_vectors(const hd_run *run) { return run->carrier.vectors; }
 int hd_run_ranks(const hd_run *run) { return hd_communicator_ranks(run->communicator); }
-int hd_run_threads(const hd_run *run) { return run->threads; }
-int hd_run_threads_denied(const hd_run *run) { return run->threads_denied; }
+int hd_run_threads(const hd_run *run) { return run->carrier.threads; }
+int hd_run_threads_denied(const hd_run *run) { return run->carrier.threads_denied; }
 const hd_trajectory *hd_run_trajectory(const hd_run *run) { return run->advance.trajectory; }
-const hd_frame *hd_run_frame(const hd_run *run) { return run->frame; }
-const hd_spectrum *hd_run_spectrum(const hd_run *run) { return run->spectrum; }
-const hd_modes *hd_run_modes(const hd_run *run) { return run->observer.modes; }
-const hd_steps *hd_run_steps(const hd_run *run) { return run->observer.steps; }
-const hd_phases *hd_run_phases(const hd_run *run) { return run->observer.phases[HD_FOLLOWED_LP]; }
-const hd_phases *hd_run_t_phases(const hd_run *run) { return run->observer.phases[HD_FOLLOWED_T]; }
-const hd_structure *hd_run_structure(const hd_run *run) { return run->observer.structure; }
-const hd_covariant *hd_run_covariant(const hd_run *run) { return run->windows.covariant; }
-const hd_gas *hd_run_gas(const hd_run *run) { return run->gas; }
-hd_localization *hd_run_localization(const hd_run *run) { return run->shape; }
+const hd_frame *hd_run_frame(const hd_run *run) { return run->carrier.frame; }
+const hd_spectrum *hd_run_spectrum(const hd_run *run) { return run->carrier.spectrum; }
+const hd_modes *hd_run_modes(const hd_run *run) { return part(run, HD_OBSERVED_modes); }
+const hd_steps *hd_run_steps(const hd_run *run) { return part(run, HD_OBSERVED_steps); }
+const hd_phases *hd_run_phases(const hd_run *run) { return part(run, HD_OBSERVED_phases); }
+const hd_phases *hd_run_t_phases(const hd_run *run) { return part(run, HD_OBSERVED_t_phases); }
+const hd_structure *hd_run_structure(const hd_run *run) { return part(run, HD_OBSERVED_structure); }
+const hd_hydro *hd_run_hydro(const hd_run *run) { return part(run, HD_OBSERVED_hydro); }
+hd_pmode *hd_run_pmode(const hd_run *run) { return part(run, HD_OBSERVED_fields); }
+const hd_gas *hd_run_gas(const hd_run *run) { return part(run, HD_OBSERVED_gas); }
+hd_localization *hd_run_localization(const hd_run *run)
+{
+    return part(run, HD_OBSERVED_localization);
+}
+
+const hd_covariant *hd_run_covariant(const hd_run *run)
+{
+    const hd_windows *windows = part(run, HD_OBSERVED_covariant);
+    return windows ? hd_windows_covariant(windows) : NULL;
+}
 
 double hd_run_followed(const hd_run *run) { return run->followed; }
 
 hd_columns hd_run_columns(const hd_run *run)
 {
-    return run->communicator ? run->gathered : run->observer.known;
+    return run->known ? run->gathered.columns : (hd_columns){.count = 0};
 }
 
 hd_columns hd_run_frame_columns(const hd_run *run)
 {
-    if (run->communicator) return run->gathered;
-    const hd_columns carried = hd_frame_columns(run->frame);
-    return run->conjugate ? hd_conjugate_complete(run->conjugate, carried) : carried;
-}
-
-void hd_run_fields_from(hd_run *run, int first)
-{
-    hd_order_tell(run->communicator, (hd_order){.kind = HD_ORDER_FIELDS_FROM, .integer = first});
-    run->fields_first = first;
+    return run->communicator ? run->gathered.columns : hd_carrier_vectors(&run->carrier);
 }
 
 void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
 {
-    for (int col = 0; col < run->vectors; col++) {
-        const double cosine = run->halves[col], ratio = run->halves[run->vectors + col];
-        cos_theta[col] = cosine == HD_NO_HALF ? NAN : cosine;
-        dp_dq_ratio[col] = ratio == HD_NO_HALF ? NAN : ratio;
-    }
-}
-
-double hd_run_smallest_error(const hd_run *run)
-{
-    return hd_spectrum_error_of_last(run->spectrum, SMALLEST_EXPONENTS);
-}
-
-/** With the sample that has begun. */
-double hd_run_averaged(const hd_run *run)
-{
-    return hd_spectrum_time(run->spectrum) + hd_spectrum_sample_time(run->spectrum);
+    hd_carrier_halves(&run->carrier, cos_theta, dp_dq_ratio);
 }
 
 double hd_run_errors_after(const hd_run *run)
 {
-    return run->spectrum ? HD_SPECTRUM_BLOCKS_MIN * hd_run_block_least(run) : 0.0;
+    const double block = hd_agenda_block(&run->agenda);
+    return run->carrier.spectrum ? HD_SPECTRUM_BLOCKS_MIN * block : 0.0;
 }
 
 /** Simulated time until the target is reached, as errors fall with the root of the time; INFINITY
  * if it is none, or not yet known. */
 static double target_left(const hd_run *run)
 {
-    if (run->scene.target_std_error == 0 || run->schedule.stage != HD_AVERAGING || !run->spectrum)
+    const hd_spectrum *spectrum = run->carrier.spectrum;
+    if (run->scene.target_std_error == 0 || hd_run_stage(run) != HD_AVERAGING || !spectrum)
         return INFINITY;
-    const double ratio = hd_run_smallest_error(run) / run->scene.target_std_error;
-    return hd_spectrum_time(run->spectrum) * fmax(ratio * ratio - 1.0, 0.0);
+    const double error = hd_carrier_smallest_error(&run->carrier);
+    const double ratio = error / run->scene.target_std_error;
+    return hd_spectrum_time(spectrum) * fmax(ratio * ratio - 1.0, 0.0);
 }
 
 /** Simulated time still to come; INFINITY for an endless run. */
 static double time_left(const hd_run *run)
 {
     const hd_scene_def *scene = &run->scene;
-    const hd_stage stage = run->schedule.stage;
+    const hd_stage stage = hd_run_stage(run);
     if (stage == HD_FINISHED) return 0.0;
-    double left = fmin(hd_schedule_stage_end(&run->schedule) - hd_run_time(run), target_left(run));
+    double left = fmin(hd_agenda_stage_end(&run->agenda) - hd_run_time(run), target_left(run));
     if (stage == HD_EQUILIBRATING) left += scene->warmup;
     if (stage < HD_AVERAGING) left += scene->duration > 0 ? scene->duration : INFINITY;
     return left;
 }
 
+static void add_progress(hd_cost *cost, const hd_run *run)
+{
+    const hd_clocks *clocks = &run->clocks;
+    const double now = hd_clock_now(), left = time_left(run), time = hd_run_time(run);
+    const double carried = time - clocks->frame_start_time; /* equilibration is no measure of it */
+    const bool known = clocks->frame_started != 0 && carried > 0 && left < INFINITY;
+    cost->wall = now - clocks->created;
+    cost->progress = left < INFINITY ? time / fmax(time + left, DBL_MIN) : -1.0;
+    if (hd_run_stage(run) == HD_FINISHED) cost->progress = 1.0;
+    cost->remaining = known ? left * (now - clocks->frame_started) / carried : -1.0;
+    if (left == 0) cost->remaining = 0.0;
+}
+
 hd_cost hd_run_cost(const hd_run *run)
 {
     hd_cost cost = run->cost;
-    const double now = hd_clock_now(), left = time_left(run);
-    cost.covariant = run->windows.seconds;
+    hd_windows *windows = part(run, HD_OBSERVED_covariant);
     const hd_traffic traffic = hd_communicator_traffic(run->communicator);
+    const double error = hd_carrier_smallest_error(&run->carrier);
+    const double collisions = (double)hd_trajectory_collisions(run->advance.trajectory);
+    add_progress(&cost, run);
+    cost.covariant = windows ? *hd_windows_seconds(windows) : 0.0;
     cost.communication = traffic.seconds;
     cost.bytes = traffic.bytes;
     cost.calls = traffic.calls;
-    cost.wall = now - run->clocks.created;
-    const double averaged = run->schedule.stage >= HD_AVERAGING && run->spectrum
-                                ? hd_run_averaged(run)
-                                : 0.0;
-    const double rounded = HD_ENLARGED * run->rounding.sum + cost.defect * cost.defect;
-    cost.error_bound = averaged > 0 ? rounded / averaged : NAN;
+    cost.error_bound = hd_run_stage(run) < HD_AVERAGING ? NAN
+                                                        : hd_carrier_error_bound(&run->carrier);
     if (cost.orthonormalisations == 0) {
         cost.interval = cost.condition = cost.defect = NAN;
         cost.limit = HD_LIMIT_NONE;
     }
-    const double error = run->spectrum ? hd_run_smallest_error(run) : INFINITY;
     cost.std_error = error < INFINITY ? error : -1.0;
-    cost.events_per_second = cost.events > 0
-                                 ? (double)hd_trajectory_collisions(run->advance.trajectory) /
-                                       cost.events
-                                 : NAN;
-    cost.progress = left < INFINITY ? hd_run_time(run) / fmax(hd_run_time(run) + left, DBL_MIN)
-                                    : -1.0;
-    if (run->schedule.stage == HD_FINISHED) cost.progress = 1.0;
-    const double carried =
-        hd_run_time(run) -
-        run->clocks.frame_start_time; /* equilibration is no measure of the rest */
-    const bool known = left == 0 ||
-                       (run->clocks.frame_started != 0 && carried > 0 && left < INFINITY);
-    cost.remaining = !known      ? -1.0
-                     : left == 0 ? 0.0
-                                 : left * (now - run->clocks.frame_started) / carried;
+    cost.events_per_second = cost.events > 0 ? collisions / cost.events : NAN;
     return cost;
 }

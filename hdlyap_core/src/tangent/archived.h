@@ -1,4 +1,4 @@
-/** What a checkpoint holds of the frame and its intervals. */
+/** What a checkpoint holds of the frame and its intervals, and bytes that they take. */
 #ifndef HD_TANGENT_ARCHIVED_H
 #define HD_TANGENT_ARCHIVED_H
 
@@ -10,7 +10,13 @@
 /** Of several ranks each reads all of a file, and the one that writes gets all vectors;
  * HD_NO_MEMORY on all of them. */
 HD_MUST_CHECK hd_status hd_frame_archive(hd_frame *frame, hd_archive *archive);
+/** Of a rank that carries so many vectors; without its tangent maps. */
+double hd_frame_bytes(double disks, double vectors, double threads);
+double hd_ortho_bytes(double rows, double vectors, double ranks);
+/** most: as hd_conjugate_create. */
+double hd_conjugate_bytes(double rows, double most);
 void hd_interval_archive(hd_interval *interval, hd_archive *archive);
 void hd_localization_archive(hd_localization *shape, hd_archive *archive);
+double hd_localization_bytes(double vectors);
 
 #endif

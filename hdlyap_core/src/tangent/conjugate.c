@@ -11,6 +11,7 @@
 #include "base/check.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "tangent/archived.h"
 #include "tangent/frame_state.h"
 #include "tangent/product.h"
 
@@ -25,6 +26,11 @@ struct hd_conjugate {
     double *sign;    /**< [half * 2 PAIRS], random */
     double *sum;     /**< [rows * 2 PAIRS]: Q times signs */
 };
+
+double hd_conjugate_bytes(double rows, double most)
+{
+    return sizeof(double) * rows * (1.0 + 2.0 * most + 1.5 * 2.0 * PAIRS);
+}
 
 /** to = J from; entries of a vector in the frame's order. */
 static void turn(double *to, const double *from, int rows)

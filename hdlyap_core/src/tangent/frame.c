@@ -34,6 +34,12 @@ static int block_width(int rows, int stride)
     return width;
 }
 
+double hd_frame_bytes(double disks, double vectors, double threads)
+{
+    const int rows = 4 * (int)disks, stride = padded((int)ceil(vectors));
+    return (2.0 * stride + threads * block_width(rows, stride)) * rows * sizeof(double);
+}
+
 static hd_status frame_allocate(hd_frame *frame)
 {
     const size_t size = (size_t)frame->rows_kept * (size_t)frame->stride;

@@ -21,6 +21,11 @@ struct hd_localization {
     hd_blocks blocks;                 /**< of the entropies; their weight is their number */
 };
 
+double hd_localization_bytes(double vectors)
+{
+    return 5.0 * sizeof(double) * vectors + hd_blocks_bytes(vectors);
+}
+
 static hd_status allocate(hd_localization *shape)
 {
     const size_t n = (size_t)shape->vectors;

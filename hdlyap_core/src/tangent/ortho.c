@@ -20,6 +20,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "tangent/archived.h"
 #include "tangent/panel.h"
 
 /** Cholesky of a Gram matrix breaks down near 1 / sqrt(16 eps) = 2e7. */
@@ -74,6 +75,15 @@ static int panel_width(int vectors)
     const int even = (vectors / PANELS + 7) / 8 * 8;
     const int width = even < PANEL_MIN ? PANEL_MIN : even > PANEL_MAX ? PANEL_MAX : even;
     return width < vectors ? width : vectors;
+}
+
+double hd_ortho_bytes(double rows, double vectors, double ranks)
+{
+    const double width = panel_width((int)vectors), later = fmin(vectors, HD_LATER_MAX);
+    const double copied = ranks > 1 ? width * (width + rows / ranks) : 0.0;
+    const double blocked = 32.0 * vectors; /* that LAPACK wants, as seen */
+    return sizeof(double) *
+           (width * width + fmax(later * width, blocked) + (HD_PROBES + 3.0) * vectors + copied);
 }
 
 hd_status hd_ortho_create(hd_ortho **out, int rows, int vectors)

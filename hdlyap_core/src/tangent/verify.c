@@ -6,8 +6,8 @@
 #include <stdio.h>
 
 #include "base/check.h"
+#include "events/disk.h"
 #include "events/event_log.h"
-#include "events/trajectory_state.h"
 #include "tangent/conjugate.h"
 #include "tangent/interval.h"
 
@@ -24,9 +24,8 @@ static void expect_at_most(double value, double limit, const char *what)
 static void expect_momentum(const hd_trajectory *tr, const hd_scene_def *scene)
 {
     const int n = hd_trajectory_disks(tr);
-    double sum[2] = {0.0, 0.0};
-    for (int i = 0; i < n; i++)
-        for (int d = 0; d < 2; d++) sum[d] += tr->motion.disk[i].p[d];
+    double sum[2];
+    hd_trajectory_momentum(tr, sum);
     for (int d = 0; d < 2; d++)
         if (scene->boundary[d] == HD_PERIODIC)
             expect_at_most(fabs(sum[d]), n * hd_trajectory_energy_rounding(tr), "momentum");

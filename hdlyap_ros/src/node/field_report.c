@@ -22,7 +22,6 @@ struct field_report {
     const publishers *to;
     const field_choice *choice;
     size_t disks;
-    hd_pmode *pmode;
     pair_fields pairs;
     double *block; /**< of the arrays of pairs */
 };
@@ -36,7 +35,7 @@ bool field_report_create(field_report **out, const publishers *to, const setting
     r->disks = (size_t)set->def.disks;
     const size_t length = PAIRS_MAX * 2 * r->disks;
     double *a = r->block = malloc(3 * length * sizeof *a);
-    if (a && hd_pmode_create(&r->pmode, set->def.disks) == HD_OK) {
+    if (a) {
         r->pairs.l = a;
         r->pairs.p = a + length;
         r->pairs.ratio = a + 2 * length;
@@ -50,7 +49,6 @@ bool field_report_create(field_report **out, const publishers *to, const setting
 void field_report_free(field_report *r)
 {
     if (!r) return;
-    hd_pmode_free(r->pmode);
     free(r->block);
     free(r);
 }
@@ -64,19 +62,20 @@ static void reconstruct(field_report *r, const hd_step *step, const snapshot *no
     const hd_modes *modes = hd_run_modes(now->run);
     *pairs = (pair_fields){.l = pairs->l, .p = pairs->p, .ratio = pairs->ratio};
     if (!step || step->kind != HD_MODE_LP) return;
-    if (!hd_pmode_reconstruct(r->pmode, step, modes, hd_run_frame_columns(now->run))) return;
-    const int d = hd_pmode_pairs(r->pmode);
+    hd_pmode *pmode = hd_run_pmode(now->run);
+    if (!hd_pmode_reconstruct(pmode, step, modes, hd_run_frame_columns(now->run))) return;
+    const int d = hd_pmode_pairs(pmode);
     const hd_subspace *subspace = hd_fields_subspace(hd_modes_fields(modes), step->subspace);
     pairs->count = (uint32_t)d;
-    pairs->rotation_distance = hd_pmode_rotation_distance(r->pmode);
+    pairs->rotation_distance = hd_pmode_rotation_distance(pmode);
     for (int c = 0; c < d; c++) {
         const size_t length = 2 * r->disks, at = (size_t)c * length;
         pairs->modulation[c] = subspace->modulations.bits[c];
-        pairs->residual_l[c] = hd_pmode_residual(r->pmode, c);
-        pairs->residual_p[c] = hd_pmode_residual(r->pmode, c + d);
-        memcpy(pairs->l + at, hd_pmode_field(r->pmode, c), length * sizeof *pairs->l);
-        memcpy(pairs->p + at, hd_pmode_field(r->pmode, c + d), length * sizeof *pairs->p);
-        hd_pmode_divide(r->pmode, pairs->ratio + at, c + d, now->p);
+        pairs->residual_l[c] = hd_pmode_residual(pmode, c);
+        pairs->residual_p[c] = hd_pmode_residual(pmode, c + d);
+        memcpy(pairs->l + at, hd_pmode_field(pmode, c), length * sizeof *pairs->l);
+        memcpy(pairs->p + at, hd_pmode_field(pmode, c + d), length * sizeof *pairs->p);
+        hd_pmode_divide(pmode, pairs->ratio + at, c + d, now->p);
     }
 }
 

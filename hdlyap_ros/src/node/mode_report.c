@@ -17,7 +17,6 @@ struct mode_report {
     hdr_lp_phase *phase;
     hdr_t_phase *t_phase;
     hdr_hydro_mode *response;
-    hd_hydro *hydro; /**< NULL unless hydro is asked for */
 };
 
 static bool arrays_create(mode_report *m)
@@ -30,27 +29,25 @@ static bool arrays_create(mode_report *m)
     return m->mode && m->step && m->phase && m->t_phase && m->response;
 }
 
-static bool parts_create(mode_report *m, const hd_run *run, unsigned set)
+static bool parts_create(mode_report *m, const hd_run *run)
 {
     const hd_steps *steps = hd_run_steps(run);
     const hd_phases *phases = hd_run_phases(run), *of_t = hd_run_t_phases(run);
+    const hd_hydro *hydro = hd_run_hydro(run);
     m->vectors = (uint32_t)hd_run_vectors(run);
     m->steps = (uint32_t)hd_steps_count(steps);
     m->phases = phases ? (uint32_t)hd_phases_count(phases) : 0;
     m->t_phases = of_t ? (uint32_t)hd_phases_count(of_t) : 0;
-    if (set & topic_bit(TOPIC_HYDRO)) {
-        if (hd_hydro_create(&m->hydro, hd_run_scene(run), steps) != HD_OK) return false;
-        m->responses = (uint32_t)hd_hydro_count(m->hydro);
-    }
+    m->responses = hydro ? (uint32_t)hd_hydro_count(hydro) : 0;
     return arrays_create(m);
 }
 
-bool mode_report_create(mode_report **out, const publishers *to, const hd_run *run, unsigned set)
+bool mode_report_create(mode_report **out, const publishers *to, const hd_run *run)
 {
     mode_report *m = *out = calloc(1, sizeof *m);
     if (!m) return false;
     m->to = to;
-    if (parts_create(m, run, set)) return true;
+    if (parts_create(m, run)) return true;
     mode_report_free(m);
     *out = NULL;
     return false;
@@ -59,7 +56,6 @@ bool mode_report_create(mode_report **out, const publishers *to, const hd_run *r
 void mode_report_free(mode_report *m)
 {
     if (!m) return;
-    hd_hydro_free(m->hydro);
     free(m->mode);
     free(m->step);
     free(m->phase);
@@ -400,9 +396,8 @@ static hd_status publish_hydro(mode_report *m, const snapshot *now)
         .sim_time = hd_run_time(now->run),
         .responses = {m->response, m->responses},
     };
-    hd_hydro_measure(m->hydro, steps, hd_run_frame_columns(now->run), now->q, now->p);
     for (uint32_t k = 0; k < m->responses; k++)
-        if (!fill_response(&m->response[k], hd_hydro_at(m->hydro, (int)k), steps))
+        if (!fill_response(&m->response[k], hd_hydro_at(hd_run_hydro(now->run), (int)k), steps))
             return HD_NOT_FINITE;
     return publishers_sent(hdr_hydro_publish(m->to->publisher[TOPIC_HYDRO], &message), TOPIC_HYDRO);
 }

@@ -86,8 +86,7 @@ static bool parts_create(report *rep, const hd_run *run)
 {
     const unsigned set = rep->set->observables;
     if (!arrays_create(rep)) return false;
-    if ((set & TOPICS_OF_MODES) && !mode_report_create(&rep->modes, &rep->out, run, set))
-        return false;
+    if ((set & TOPICS_OF_MODES) && !mode_report_create(&rep->modes, &rep->out, run)) return false;
     if ((set & topic_bit(TOPIC_FIELDS)) && !field_report_create(&rep->fields, &rep->out, rep->set))
         return false;
     if ((set & topic_bit(TOPIC_LOCALIZATION)) &&

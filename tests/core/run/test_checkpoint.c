@@ -100,12 +100,13 @@ TEST(pending_events_are_kept)
     hd_scene_def def = scene_from(kept_scene(100, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0),
                                   .report_interval = 0.125);
     hd_run *run = kept_run(&def);
-    while (hd_run_stage(run) != HD_FINISHED && run->log->count < 100) kept_steps(run, 1);
+    while (hd_run_stage(run) != HD_FINISHED && run->carrier.log->count < 100) kept_steps(run, 1);
     hd_run *resumed = kept_and_resumed(run, PATH, NULL);
-    assert_true(run->log->count >= 100);
-    assert_int_equal(resumed->log->count, run->log->count);
-    for (size_t k = 0; k < run->log->count; k++)
-        assert_memory_equal(&resumed->log->event[k], &run->log->event[k], sizeof(hd_event));
+    assert_true(run->carrier.log->count >= 100);
+    assert_int_equal(resumed->carrier.log->count, run->carrier.log->count);
+    for (size_t k = 0; k < run->carrier.log->count; k++)
+        assert_memory_equal(&resumed->carrier.log->event[k], &run->carrier.log->event[k],
+                            sizeof(hd_event));
     hd_run_free(run);
     hd_run_free(resumed);
 }
@@ -131,7 +132,7 @@ TEST(clocks_and_costs_go_on)
     /* seconds left over simulated time left, as over what was carried: wall time runs on */
     assert_true(after.remaining >= before.remaining);
     CHECK_CLOSE(resumed->clocks.frame_start_time, run->clocks.frame_start_time, 0.0);
-    assert_int_equal(resumed->observe, HD_OBSERVE_MODES);
+    assert_int_equal(hd_observables_looked_at(&resumed->observables), HD_OBSERVE_MODES);
     hd_run_free(run);
     hd_run_free(resumed);
 }
@@ -188,9 +189,10 @@ TEST(the_duration_can_end_at_once)
     const hd_scene_def def = kept_scene(20, 0.7, 1.0, HD_EXPONENTS_POSITIVE, KEPT_ALL);
     hd_run *run = kept_run(&def);
     for (int k = 0; kept_steps(run, 1) == 1; k++) {
-        if (hd_run_stage(run) != HD_AVERAGING || hd_run_time(run) == run->schedule.start) continue;
-        hd_scene_def shorter = scene_from(def, .duration = hd_run_time(run) - run->schedule.start +
-                                                           more[k % 5]);
+        if (hd_run_stage(run) != HD_AVERAGING || hd_run_time(run) == run->agenda.schedule.start)
+            continue;
+        hd_scene_def shorter = scene_from(
+            def, .duration = hd_run_time(run) - run->agenda.schedule.start + more[k % 5]);
         hd_run *ended = kept_and_resumed(run, PATH, &shorter);
         kept_steps(ended, 1000);
         assert_int_equal(hd_run_stage(ended), HD_FINISHED);

@@ -50,7 +50,7 @@ TEST(contents_that_no_run_has_are_refused)
                                   .report_interval = 0.1);
     hd_run *run = kept_run(&def), *again = NULL;
     char message[512] = "";
-    while (hd_run_time(run) < 42.0 || run->log->count < 10) kept_steps(run, 1);
+    while (hd_run_time(run) < 42.0 || run->carrier.log->count < 10) kept_steps(run, 1);
     const bytes b = kept_bytes(run);
     static const nonsense_case cases[] = {
         {"scene disks", 0, 0, 61, "another array"},
@@ -137,11 +137,13 @@ TEST(reports_are_not_passed_twice)
     const hd_scene_def def = kept_scene(4, 0.3, 0.3, HD_EXPONENTS_ALL, 0);
     hd_run *run = kept_run(&def), *again = NULL;
     char message[512] = "";
-    while (hd_run_stage(run) < HD_AVERAGING || run->schedule.reports == 0 || run->log->duration > 0)
+    while (hd_run_stage(run) < HD_AVERAGING || run->agenda.schedule.reports == 0 ||
+           run->carrier.log->duration > 0)
         kept_steps(run, 1);
     const bytes b = kept_bytes(run);
     const nonsense_case backwards = {"log duration", 0, -1.0, 0, "log duration"};
-    const nonsense_case twice = {"schedule reports", 0, 0, run->schedule.reports - 1, "schedule"};
+    const nonsense_case twice = {"schedule reports", 0, 0, run->agenda.schedule.reports - 1,
+                                 "schedule"};
     expect_nonsense_refused(&b, &backwards);
     expect_nonsense_refused(&b, &twice);
     const double endless = 1e300;

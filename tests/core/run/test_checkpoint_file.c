@@ -187,7 +187,7 @@ TEST(a_run_that_is_no_number_is_not_written)
     hd_run_free(kept_and_resumed(run, PATH, NULL));
     const bytes before = kept_file(PATH);
     char message[512] = "";
-    hd_frame_data(run->frame)[17] = NAN;
+    hd_frame_data(run->carrier.frame)[17] = NAN;
     assert_int_equal(hd_run_save(run, PATH, KEPT_LABEL, message, sizeof message), HD_NOT_FINITE);
     assert_non_null(strstr(message, "frame vectors: a number is not finite"));
     const bytes after = kept_file(PATH);

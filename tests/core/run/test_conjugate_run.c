@@ -88,7 +88,7 @@ static double gap(const hd_run *run, int col)
 static void check_spaces(hd_run *half, hd_run *whole)
 {
     const hd_covariant *one = hd_run_covariant(half), *other = hd_run_covariant(whole);
-    const double rounding = 400.0 * DBL_EPSILON * half->rounding.condition_max;
+    const double rounding = 400.0 * DBL_EPSILON * half->carrier.rounding.condition_max;
     const hd_splitting *a = hd_covariant_splitting(one), *b = hd_covariant_splitting(other);
     const double met = 1e-3; /* exp(-0.08 * 120) = 7e-5, and growth fluctuates */
     int good = 0;

@@ -47,8 +47,8 @@ static hd_status finish_forced(hd_run *run, double forced)
 static double deviation(const hd_run *run, const double *exact)
 {
     double worst = 0.0;
-    for (int col = 0; col < run->vectors; col++) {
-        const double off = fabs(hd_spectrum_exponent(run->spectrum, col) - exact[col]);
+    for (int col = 0; col < run->carrier.vectors; col++) {
+        const double off = fabs(hd_spectrum_exponent(run->carrier.spectrum, col) - exact[col]);
         assert_true(isfinite(off));
         worst = fmax(worst, off);
     }
@@ -163,10 +163,10 @@ TEST(pieces_are_no_shorter_than_helps)
         hd_scene_def scene = scene_from(small_scene(10, HD_EXPONENTS_ALL_INDEPENDENT, seed),
                                         .accuracy = 1e-12);
         hd_run *run = created(&scene);
-        const double collision = run->sample_max / HD_COLLISIONS_PER_SAMPLE;
+        const double collision = run->carrier.collision;
         while (hd_run_stage(run) != HD_FINISHED) {
             const long before = run->cost.orthonormalisations;
-            const double begin = hd_run_time(run) - run->log->duration;
+            const double begin = hd_run_time(run) - run->carrier.log->duration;
             CHECK_OK(hd_run_advance(run));
             const double length = hd_run_time(run) - begin;
             const long pieces = run->cost.orthonormalisations - before;
@@ -198,8 +198,9 @@ TEST(no_crumb_of_rounding_stops_the_run)
 static double leaning_start(const hd_scene_def *scene, const double *exact, double delta)
 {
     hd_run *run = created(scene);
-    double *v = hd_frame_data(run->frame);
-    for (int row = 0; row < hd_frame_rows(run->frame); row++, v += hd_frame_stride(run->frame))
+    double *v = hd_frame_data(run->carrier.frame);
+    for (int row = 0; row < hd_frame_rows(run->carrier.frame);
+         row++, v += hd_frame_stride(run->carrier.frame))
         v[1] = v[0] + delta * v[1];
     const hd_status status = finish_forced(run, 0.0);
     double off = -1.0;
@@ -208,7 +209,7 @@ static double leaning_start(const hd_scene_def *scene, const double *exact, doub
         CHECK_CLOSE(off, 0.0, hd_run_cost(run).error_bound);
     } else {
         assert_int_equal(status, HD_ILL_CONDITIONED);
-        CHECK_CLOSE(hd_spectrum_time(run->spectrum), 0.0, 0.0);
+        CHECK_CLOSE(hd_spectrum_time(run->carrier.spectrum), 0.0, 0.0);
     }
     hd_run_free(run);
     return off;
@@ -287,16 +288,16 @@ TEST(a_broken_frame_is_a_named_fault)
             scene.report_interval = 1.0;
             hd_run *run = created(&scene);
             double before[VECTORS_MAX];
-            while (!run->spectrum || hd_spectrum_time(run->spectrum) < 5.0)
+            while (!run->carrier.spectrum || hd_spectrum_time(run->carrier.spectrum) < 5.0)
                 CHECK_OK(hd_run_advance(run));
-            for (int col = 0; col < run->vectors; col++)
-                before[col] = hd_spectrum_exponent(run->spectrum, col);
-            const double time = hd_spectrum_time(run->spectrum);
-            break_frame(run->frame, how);
+            for (int col = 0; col < run->carrier.vectors; col++)
+                before[col] = hd_spectrum_exponent(run->carrier.spectrum, col);
+            const double time = hd_spectrum_time(run->carrier.spectrum);
+            break_frame(run->carrier.frame, how);
             assert_int_equal(finish_forced(run, 0.0), HD_ILL_CONDITIONED);
-            CHECK_CLOSE(hd_spectrum_time(run->spectrum), time, 0.0);
-            for (int col = 0; col < run->vectors; col++)
-                CHECK_CLOSE(hd_spectrum_exponent(run->spectrum, col), before[col], 0.0);
+            CHECK_CLOSE(hd_spectrum_time(run->carrier.spectrum), time, 0.0);
+            for (int col = 0; col < run->carrier.vectors; col++)
+                CHECK_CLOSE(hd_spectrum_exponent(run->carrier.spectrum, col), before[col], 0.0);
             assert_true(isfinite(hd_run_cost(run).error_bound));
             hd_run_free(run);
         }

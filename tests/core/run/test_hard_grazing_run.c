@@ -49,9 +49,9 @@ static reference reference_of(hd_trajectory *tr, const hd_frame *frame, double d
 static double deviation(const hd_run *run, const reference *r)
 {
     double worst = 0.0;
-    for (int col = 0; col < run->vectors; col++) {
+    for (int col = 0; col < run->carrier.vectors; col++) {
         const double want = exact_log_stretch(r->x, col) / run->scene.duration;
-        const double off = fabs(hd_spectrum_exponent(run->spectrum, col) - want);
+        const double off = fabs(hd_spectrum_exponent(run->carrier.spectrum, col) - want);
         if (!(off <= worst)) worst = off;
         if (isnan(off)) return off;
     }
@@ -96,7 +96,7 @@ static void check_many(hd_boundary boundary)
     CHECK_OK(hd_trajectory_create(&tr, &scene));
     scene.duration = ceil(events / hd_trajectory_collision_rate(tr));
     hd_run *run = created(&scene);
-    const reference r = reference_of(tr, run->frame, scene.duration);
+    const reference r = reference_of(tr, run->carrier.frame, scene.duration);
     hd_run_free(run);
     print_message("%ld collisions with |p.n| < %g |p|, the least %.1e\n", r.near, NEAR, r.least);
     assert_true((double)r.near > 0.3 * NEAR * NEAR * events);
@@ -150,7 +150,7 @@ static outcome outcome_of(double impact, int exponents)
     hd_run *run = created(&scene);
     hd_trajectory_free(run->advance.trajectory);
     run->advance.trajectory = prepared(&scene, impact);
-    const reference r = reference_of(prepared(&scene, impact), run->frame, scene.duration);
+    const reference r = reference_of(prepared(&scene, impact), run->carrier.frame, scene.duration);
     assert_true(r.least < 1.1 * impact / 1.6 + 4.0 * DBL_EPSILON);
     outcome o = {.status = status_at_end(run),
                  .impact = 2.0 * DBL_EPSILON / r.least / scene.duration};

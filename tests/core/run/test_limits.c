@@ -19,7 +19,8 @@ typedef struct seen {
 static seen seen_of(const hd_run *run)
 {
     const hd_cost cost = hd_run_cost(run);
-    return (seen){cost.interval, cost.limit, hd_run_sample_longest(run)};
+    return (seen){cost.interval, cost.limit,
+                  hd_agenda_sample_longest(&run->agenda, &run->carrier.interval)};
 }
 
 /** Some samples after the averaging began. */
@@ -27,7 +28,8 @@ static seen settled(const hd_scene_def *scene)
 {
     hd_run *run = created(scene);
     until(run, HD_AVERAGING);
-    const double from = run->schedule.start, sample = hd_run_sample_longest(run);
+    const double from = run->agenda.schedule.start,
+                 sample = hd_agenda_sample_longest(&run->agenda, &run->carrier.interval);
     until_time(run, from + 3.5 * fmax(sample, scene->report_interval));
     const seen last = seen_of(run);
     hd_run_free(run);
@@ -55,10 +57,10 @@ static long orthonormalisations_with(double report_interval)
 {
     const hd_scene_def scene = scene_of_disks(60, report_interval);
     hd_run *run = created(&scene);
-    while (hd_run_stage(run) < HD_AVERAGING || hd_run_time(run) < run->schedule.start + 12.0)
+    while (hd_run_stage(run) < HD_AVERAGING || hd_run_time(run) < run->agenda.schedule.start + 12.0)
         CHECK_OK(hd_run_advance(run));
     const long before = hd_run_cost(run).orthonormalisations;
-    until_time(run, run->schedule.start + 132.0);
+    until_time(run, run->agenda.schedule.start + 132.0);
     const long count = hd_run_cost(run).orthonormalisations - before;
     hd_run_free(run);
     return count;

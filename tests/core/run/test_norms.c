@@ -21,7 +21,7 @@ static int finish_counting(hd_run *run)
     for (long before = 0; hd_run_stage(run) != HD_FINISHED;) {
         CHECK_OK(hd_run_advance(run));
         const long now = hd_run_cost(run).orthonormalisations;
-        dq += now > before && hd_run_stage(run) == HD_AVERAGING && !run->whole;
+        dq += now > before && hd_run_stage(run) == HD_AVERAGING && !run->carrier.whole;
         before = now;
     }
     return dq;
@@ -40,8 +40,8 @@ TEST(exponents_do_not_depend_on_it)
     const double bound = hd_run_cost(run).error_bound + hd_run_cost(twin).error_bound;
     double most = 0.0;
     for (int col = 0; col < VECTORS; col++) {
-        const double off = hd_spectrum_exponent(run->spectrum, col) -
-                           hd_spectrum_exponent(twin->spectrum, col);
+        const double off = hd_spectrum_exponent(run->carrier.spectrum, col) -
+                           hd_spectrum_exponent(twin->carrier.spectrum, col);
         CHECK_CLOSE(off, 0.0, bound);
         most = fmax(most, fabs(off));
     }
@@ -63,12 +63,12 @@ TEST(halves_are_those_of_the_measured_state)
         CHECK_OK(hd_run_advance(run));
         if (hd_run_stage(run) != HD_AVERAGING) continue;
         hd_frame_halves(hd_run_frame(run), frame[0], frame[1]);
-        if (hd_run_time(run) == run->sample.begin) memcpy(want, frame, sizeof want);
+        if (hd_run_time(run) == run->agenda.sample_begin) memcpy(want, frame, sizeof want);
         hd_run_halves(run, got[0], got[1]);
         for (int half = 0; half < 2; half++)
             for (int col = 0; col < VECTORS; col++)
                 CHECK_CLOSE(got[half][col], want[half][col], 0.0);
-        between += !run->whole && fabs(frame[0][VECTORS - 1] - got[0][VECTORS - 1]) > 1e-6;
+        between += !run->carrier.whole && fabs(frame[0][VECTORS - 1] - got[0][VECTORS - 1]) > 1e-6;
     }
     assert_true(between > 20);
     hd_run_free(run);

@@ -103,7 +103,7 @@ static void tell(const twins *t, hd_run *run)
 /** Also shorter than it may be, as short as it can be, and to the end that is ahead. */
 static double drawn_duration(hd_random *random, const hd_run *run)
 {
-    const double least = fmax(0.0, hd_run_change_time(run) - run->schedule.start);
+    const double least = fmax(0.0, hd_run_change_time(run) - run->agenda.schedule.start);
     const double more = chance(random, 0.5) ? 0.0 : log_uniform(random, 1e-12, 50.0);
     switch (one_of(random, 4)) {
     case 0: return 0.0;
@@ -178,8 +178,9 @@ static void expect_ended(const hd_run *run)
 {
     const double target = hd_run_scene(run)->target_std_error, end = hd_run_time(run);
     assert_true(hd_run_report_due(run));
-    if (hd_run_spectrum(run) && target > 0 && hd_run_smallest_error(run) <= target) return;
-    CHECK_CLOSE(end, run->schedule.start + hd_run_scene(run)->duration, ROUNDING * end);
+    if (hd_run_spectrum(run) && target > 0 && hd_carrier_smallest_error(&run->carrier) <= target)
+        return;
+    CHECK_CLOSE(end, run->agenda.schedule.start + hd_run_scene(run)->duration, ROUNDING * end);
 }
 
 static bool is_under_way(const twins *t)

@@ -16,10 +16,10 @@ static hd_scene_def small(int disks, int exponents)
 static double deviation(const hd_run *a, const hd_run *b)
 {
     double worst = 0.0;
-    assert_int_equal(a->vectors, b->vectors);
-    for (int col = 0; col < a->vectors; col++) {
-        const double off = fabs(hd_spectrum_exponent(a->spectrum, col) -
-                                hd_spectrum_exponent(b->spectrum, col));
+    assert_int_equal(a->carrier.vectors, b->carrier.vectors);
+    for (int col = 0; col < a->carrier.vectors; col++) {
+        const double off = fabs(hd_spectrum_exponent(a->carrier.spectrum, col) -
+                                hd_spectrum_exponent(b->carrier.spectrum, col));
         assert_true(isfinite(off));
         worst = fmax(worst, off);
     }
@@ -59,7 +59,7 @@ TEST(without_exponents_there_is_no_frame)
     hd_run *run = created(&scene);
     assert_null(hd_run_frame(run));
     assert_null(hd_run_spectrum(run));
-    assert_null(run->log);
+    assert_null(run->carrier.log);
     finish(run);
     assert_true(hd_trajectory_collisions(hd_run_trajectory(run)) > 1000);
     CHECK_CLOSE(run->cost.replay + run->cost.ortho, 0.0, 0.0);
@@ -212,8 +212,8 @@ TEST(the_target_error_ends_the_run)
     scene.duration = 0.0; /* endless otherwise */
     scene.target_std_error = 0.02;
     hd_run *run = finished(&scene);
-    for (int col = run->vectors - SMALLEST_EXPONENTS; col < run->vectors; col++) {
-        const double error = hd_spectrum_std_error(run->spectrum, col);
+    for (int col = run->carrier.vectors - 8; col < run->carrier.vectors; col++) {
+        const double error = hd_spectrum_std_error(run->carrier.spectrum, col);
         assert_true(error > 0 && error <= 0.02);
     }
     hd_run_free(run);
@@ -229,7 +229,7 @@ static double predicted_over_taken(uint64_t seed)
     int count = 0, tenth = 0;
     while (going_on(run)) {
         if (!hd_run_report_due(run) || count == 20000) continue;
-        averaged[count] = hd_spectrum_time(run->spectrum);
+        averaged[count] = hd_spectrum_time(run->carrier.spectrum);
         const double progress = hd_run_cost(run).progress;
         total[count++] = progress > 0 ? hd_run_time(run) / progress : 0.0; /* 0: not yet known */
     }

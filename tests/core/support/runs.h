@@ -45,9 +45,10 @@ static inline bool going_on(hd_run *run)
  * stage. */
 static inline void force_interval(hd_run *run, double length)
 {
-    if (run->log->duration > 0) return;
-    run->interval_end = fmin(hd_run_time(run) + length, hd_schedule_stage_end(&run->schedule));
-    run->sample.ends = true;
+    if (run->carrier.log->duration > 0) return;
+    run->agenda.interval_end = fmin(hd_run_time(run) + length,
+                                    hd_schedule_stage_end(&run->agenda.schedule));
+    run->agenda.sample_ends = true;
 }
 
 #endif

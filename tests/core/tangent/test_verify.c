@@ -108,21 +108,21 @@ TEST(the_log_is_checked)
 TEST(the_frame_is_checked)
 {
     hd_run *run = run_of(HD_EXPONENTS_ALL_INDEPENDENT);
-    const hd_symplectic before = hd_verify_sample(run->frame);
-    double *entry = hd_frame_data(run->frame);
+    const hd_symplectic before = hd_verify_sample(run->carrier.frame);
+    double *entry = hd_frame_data(run->carrier.frame);
     const double right = entry[0];
-    EXPECT_BROKEN(false, hd_verify_symplectic(run->frame, &before, 0.0));
-    EXPECT_BROKEN(false, hd_verify_ortho(run->ortho, run->frame));
+    EXPECT_BROKEN(false, hd_verify_symplectic(run->carrier.frame, &before, 0.0));
+    EXPECT_BROKEN(false, hd_verify_ortho(run->carrier.ortho, run->carrier.frame));
     entry[0] += 1e-5;
-    EXPECT_BROKEN(true, hd_verify_symplectic(run->frame, &before, 0.0));
-    EXPECT_BROKEN(true, hd_verify_ortho(run->ortho, run->frame));
+    EXPECT_BROKEN(true, hd_verify_symplectic(run->carrier.frame, &before, 0.0));
+    EXPECT_BROKEN(true, hd_verify_ortho(run->carrier.ortho, run->carrier.frame));
     entry[0] = NAN;
-    EXPECT_BROKEN(true, hd_verify_symplectic(run->frame, &before, 0.0));
-    EXPECT_BROKEN(true, hd_verify_ortho(run->ortho, run->frame));
+    EXPECT_BROKEN(true, hd_verify_symplectic(run->carrier.frame, &before, 0.0));
+    EXPECT_BROKEN(true, hd_verify_ortho(run->carrier.ortho, run->carrier.frame));
     entry[0] = right;
-    double *stretch = (double *)hd_ortho_log_stretch(run->ortho);
+    double *stretch = (double *)hd_ortho_log_stretch(run->carrier.ortho);
     stretch[3] += 0.1;
-    EXPECT_BROKEN(true, hd_verify_ortho(run->ortho, run->frame));
+    EXPECT_BROKEN(true, hd_verify_ortho(run->carrier.ortho, run->carrier.frame));
     hd_run_free(run);
 }
 
@@ -131,12 +131,12 @@ TEST(the_frame_is_checked_in_the_norm_of_its_step)
 {
     hd_run *run = run_of(HD_EXPONENTS_POSITIVE);
     const hd_ortho_limits limits = {1e7, 1e-6, HD_NORM_DQ};
-    CHECK_OK(hd_ortho_step(run->ortho, run->frame, limits));
-    EXPECT_BROKEN(false, hd_verify_ortho(run->ortho, run->frame));
-    hd_frame_data(run->frame)[2 * hd_frame_stride(run->frame)] += 0.1;
-    EXPECT_BROKEN(false, hd_verify_ortho(run->ortho, run->frame));
-    hd_frame_data(run->frame)[hd_frame_stride(run->frame)] += 1e-3;
-    EXPECT_BROKEN(true, hd_verify_ortho(run->ortho, run->frame));
+    CHECK_OK(hd_ortho_step(run->carrier.ortho, run->carrier.frame, limits));
+    EXPECT_BROKEN(false, hd_verify_ortho(run->carrier.ortho, run->carrier.frame));
+    hd_frame_data(run->carrier.frame)[2 * hd_frame_stride(run->carrier.frame)] += 0.1;
+    EXPECT_BROKEN(false, hd_verify_ortho(run->carrier.ortho, run->carrier.frame));
+    hd_frame_data(run->carrier.frame)[hd_frame_stride(run->carrier.frame)] += 1e-3;
+    EXPECT_BROKEN(true, hd_verify_ortho(run->carrier.ortho, run->carrier.frame));
     hd_run_free(run);
 }
 

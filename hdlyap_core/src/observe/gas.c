@@ -6,7 +6,7 @@
 #include "averages/blocks.h"
 #include "base/check.h"
 #include "base/memory.h"
-#include "events/archived.h"
+#include "observe/observable.h"
 
 /** Series that are averaged: per time unit, in order. */
 enum { COLLISIONS, VIRIAL_X, VIRIAL_Y, SERIES };
@@ -121,17 +121,48 @@ hd_gas_means hd_gas_read(const hd_gas *gas)
     return m;
 }
 
-void hd_gas_archive(hd_gas *gas, hd_archive *archive, double now, uint64_t collisions)
+/* ---- as an observable ---------------------------------------------------------------------- */
+
+static double gas_bytes(const hd_scene_def *scene, int ranks)
 {
+    (void)scene, (void)ranks;
+    return sizeof(hd_gas) + hd_blocks_bytes(SERIES);
+}
+
+static hd_status gas_create(void **self, const hd_observing *with)
+{
+    return hd_gas_create((hd_gas **)self, with->scene, with->block);
+}
+
+static void gas_free(void *self) { hd_gas_free(self); }
+static void gas_clear(void *self, const hd_view *here) { hd_gas_begin(self, here->trajectory); }
+
+static void gas_add(void *self, const hd_observing *with, const hd_view *state)
+{
+    (void)with;
+    hd_gas_add(self, state->trajectory);
+}
+
+static void gas_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+{
+    hd_gas *gas = self;
     hd_archive_double(archive, "gas last time", &gas->last.time);
     hd_archive_doubles(archive, "gas last virial", gas->last.virial, 2);
     hd_archive_bits(archive, "gas last collisions", &gas->last.collisions);
     hd_archive_double(archive, "gas time", &gas->time);
     hd_archive_doubles(archive, "gas sum", gas->sum, SERIES);
-    hd_archive_expect(archive, gas->last.time >= 0 && gas->last.time <= now, "gas last time",
-                      "it does not fit the time");
-    hd_archive_expect(archive, gas->last.collisions <= collisions, "gas last collisions",
-                      "there were not so many");
+    hd_archive_expect(archive, gas->last.time >= 0 && gas->last.time <= hd_trajectory_time(now),
+                      "gas last time", "it does not fit the time");
+    hd_archive_expect(archive, gas->last.collisions <= hd_trajectory_collisions(now),
+                      "gas last collisions", "there were not so many");
     hd_archive_expect(archive, gas->time >= 0, "gas time", "it is negative");
     hd_blocks_archive(&gas->blocks, archive);
 }
+
+const hd_observable hd_gas_row = {.asked = HD_OBSERVE_GAS,
+                                  .bytes = gas_bytes,
+                                  .create = gas_create,
+                                  .free = gas_free,
+                                  .clear = gas_clear,
+                                  .add = gas_add,
+                                  .archive = gas_archive};

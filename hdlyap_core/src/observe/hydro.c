@@ -9,7 +9,9 @@
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "modes/archived.h"
 #include "modes/sets.h"
+#include "observe/observable.h"
 
 enum { RESPONSES = 4 };
 
@@ -181,3 +183,33 @@ const hd_hydro_response *hd_hydro_at(const hd_hydro *hydro, int index)
     HD_ASSERT(index >= 0 && index < hydro->count);
     return &hydro->response[index];
 }
+
+/* ---- as an observable ---------------------------------------------------------------------- */
+
+/** Vectors of a step, times its modulations, at most. */
+static double hydro_bytes(const hd_scene_def *scene, int ranks)
+{
+    const hd_fields_count count = hd_fields_count_of(scene);
+    (void)ranks;
+    return sizeof(hd_hydro_response) * (2.0 * count.lp_phases + count.t_fields * count.t_fields);
+}
+
+static hd_status hydro_create(void **self, const hd_observing *with)
+{
+    return hd_hydro_create((hd_hydro **)self, with->scene, with->part[HD_OBSERVED_steps]);
+}
+
+static void hydro_free(void *self) { hd_hydro_free(self); }
+
+static void hydro_report(void *self, const hd_observing *with, const hd_view *state)
+{
+    hd_hydro_measure(self, with->part[HD_OBSERVED_steps], state->vectors[0], state->q, state->p);
+}
+
+const hd_observable hd_hydro_row = {.asked = HD_OBSERVE_HYDRO,
+                                    .needs = HD_NEEDS_FRAME | HD_NEEDS_MODES | HD_NEEDS_REPORTS |
+                                             HD_NEEDS_ALL,
+                                    .bytes = hydro_bytes,
+                                    .create = hydro_create,
+                                    .free = hydro_free,
+                                    .report = hydro_report};

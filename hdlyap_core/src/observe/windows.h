@@ -4,26 +4,16 @@
 
 #include "hdlyap/covariant.h"
 
-typedef struct hd_windows {
-    hd_covariant *covariant;       /**< NULL unless the scene observes them */
-    hd_communicator *communicator; /**< NULL: a single rank. Others do the same on the way back */
-    double *gathered;              /**< [4N * n], vectors of all ranks; NULL of a single one */
-    double sampling;               /**< from the beginning of a window to its first look */
-    bool due;                      /**< one begins with the next interval */
-    double seconds;                /**< wall seconds spent here */
-} hd_windows;
+/** The observable of HD_OBSERVED_covariant. */
+typedef struct hd_windows hd_windows;
 
-/** Of the communicator that is set. Intervals will be at most `longest`. HD_REFUSED with a line in
- * message where no interval that can be expected makes the windows fit; HD_NO_MEMORY. */
-HD_MUST_CHECK hd_status hd_windows_create(hd_windows *windows, const hd_scene_def *scene,
-                                          hd_ortho *ortho, double longest, int threads,
-                                          char *message, size_t size);
-void hd_windows_free(hd_windows *windows);
-
-/** The averages begin anew with the next interval. */
-void hd_windows_clear(hd_windows *windows);
+const hd_covariant *hd_windows_covariant(const hd_windows *windows);
+double *hd_windows_seconds(hd_windows *windows); /**< wall seconds spent here */
 
 /* Of an interval of the averaging, while somebody looks. */
+
+/** True if a window begins with the next interval. */
+bool hd_windows_begin(const hd_windows *windows);
 
 /** Before the first orthonormalisation: the frame is still that of its start, the next intervals
  * are expected to be so long. */

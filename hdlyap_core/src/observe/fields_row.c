@@ -1,0 +1,25 @@
+/** L and P modes as an observable: whoever reads them has them reconstructed, step by step, at
+ * reports at which fields are due. */
+#include "hdlyap/pmode.h"
+#include "modes/archived.h"
+#include "observe/observable.h"
+
+static double fields_bytes(const hd_scene_def *scene, int ranks)
+{
+    (void)ranks;
+    return hd_pmode_bytes(scene->disks);
+}
+
+static hd_status fields_create(void **self, const hd_observing *with)
+{
+    return hd_pmode_create((hd_pmode **)self, with->scene->disks);
+}
+
+static void fields_free(void *self) { hd_pmode_free(self); }
+
+const hd_observable hd_fields_row = {.asked = HD_OBSERVE_FIELDS,
+                                     .needs = HD_NEEDS_FRAME | HD_NEEDS_MODES | HD_NEEDS_FIELDS |
+                                              HD_NEEDS_ALL,
+                                     .bytes = fields_bytes,
+                                     .create = fields_create,
+                                     .free = fields_free};

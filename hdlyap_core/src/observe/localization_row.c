@@ -1,0 +1,67 @@
+/** Localisation widths as an observable: of the vectors that are carried, as partners [T19] lie on
+ * the same disks. */
+#include "base/check.h"
+#include "hdlyap/localization.h"
+#include "observe/observable.h"
+#include "tangent/archived.h"
+
+static double localization_bytes(const hd_scene_def *scene, int ranks)
+{
+    (void)ranks;
+    return hd_localization_bytes(hd_scene_vectors(scene));
+}
+
+static hd_status localization_create(void **self, const hd_observing *with)
+{
+    return hd_localization_create((hd_localization **)self, with->scene->disks, with->vectors,
+                                  with->threads);
+}
+
+static void localization_free(void *self) { hd_localization_free(self); }
+
+static void localization_clear(void *self, const hd_view *here)
+{
+    (void)here;
+    hd_localization_clear(self);
+}
+
+static hd_status localization_measure(void *self, const hd_observing *with, const hd_view *state)
+{
+    (void)with;
+    if (state->carried.count > 0) hd_localization_measure(self, state->carried);
+    return HD_OK;
+}
+
+static hd_status localization_share(void *self, const hd_observing *with)
+{
+    double *measured = hd_localization_measured(self);
+    const size_t n = (size_t)with->vectors, carried = (size_t)with->carried;
+    HD_TRY(hd_communicator_share(with->communicator, measured,
+                                 (hd_shared){2, n, (size_t)with->width, carried, 0}));
+    for (double *row = measured; row < measured + 2 * n; row += n)
+        for (size_t col = carried; col < n; col++) row[col] = row[n - 1 - col];
+    return HD_OK;
+}
+
+static void localization_add(void *self, const hd_observing *with, const hd_view *state)
+{
+    (void)with, (void)state;
+    hd_localization_add(self);
+}
+
+static void localization_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+{
+    (void)now;
+    hd_localization_archive(self, archive);
+}
+
+const hd_observable hd_localization_row = {.asked = HD_OBSERVE_LOCALIZATION,
+                                           .needs = HD_NEEDS_FRAME,
+                                           .bytes = localization_bytes,
+                                           .create = localization_create,
+                                           .free = localization_free,
+                                           .clear = localization_clear,
+                                           .measure = localization_measure,
+                                           .share = localization_share,
+                                           .add = localization_add,
+                                           .archive = localization_archive};

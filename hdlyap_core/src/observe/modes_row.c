@@ -1,0 +1,104 @@
+/** Modes and steps as observables: the weights of all vectors, then the degenerate sets. */
+#include "base/check.h"
+#include "hdlyap/steps.h"
+#include "modes/archived.h"
+#include "observe/observable.h"
+
+/* ---- modes --------------------------------------------------------------------------------- */
+
+static double modes_bytes(const hd_scene_def *scene, int ranks)
+{
+    (void)ranks;
+    return hd_modes_bytes(scene, hd_scene_vectors(scene));
+}
+
+static hd_status modes_create(void **self, const hd_observing *with)
+{
+    return hd_modes_create((hd_modes **)self, with->scene, with->vectors, with->threads);
+}
+
+static void modes_free(void *self) { hd_modes_free(self); }
+
+static void modes_clear(void *self, const hd_view *here)
+{
+    (void)here;
+    hd_modes_clear(self);
+}
+
+static hd_status modes_measure(void *self, const hd_observing *with, const hd_view *state)
+{
+    (void)with;
+    HD_TRY(hd_modes_measure(self, state->vectors[0], state->q, state->p));
+    if (state->vectors[1].count == 0) return HD_OK;
+    return hd_modes_measure(self, state->vectors[1], state->q, state->p);
+}
+
+static hd_status modes_share(void *self, const hd_observing *with)
+{
+    return hd_modes_share(self, with->communicator, with->width, with->carried);
+}
+
+static void modes_add(void *self, const hd_observing *with, const hd_view *state)
+{
+    (void)with, (void)state;
+    hd_modes_add(self);
+}
+
+static void modes_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+{
+    (void)now;
+    hd_modes_archive(self, archive);
+}
+
+const hd_observable hd_modes_row = {.asked = HD_OBSERVE_OF_MODES,
+                                    .needs = HD_NEEDS_FRAME | HD_NEEDS_MODES,
+                                    .bytes = modes_bytes,
+                                    .create = modes_create,
+                                    .free = modes_free,
+                                    .clear = modes_clear,
+                                    .measure = modes_measure,
+                                    .share = modes_share,
+                                    .add = modes_add,
+                                    .archive = modes_archive};
+
+/* ---- steps --------------------------------------------------------------------------------- */
+
+static double steps_bytes(const hd_scene_def *scene, int ranks)
+{
+    (void)ranks;
+    return hd_fields_count_of(scene).subspaces * sizeof(hd_step);
+}
+
+static hd_status steps_create(void **self, const hd_observing *with)
+{
+    return hd_steps_create((hd_steps **)self, with->scene, with->part[HD_OBSERVED_modes]);
+}
+
+static void steps_free(void *self) { hd_steps_free(self); }
+
+static void steps_clear(void *self, const hd_view *here)
+{
+    (void)here;
+    hd_steps_clear(self);
+}
+
+static void steps_add(void *self, const hd_observing *with, const hd_view *state)
+{
+    (void)with;
+    hd_steps_find(self, state->spectrum);
+}
+
+static void steps_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+{
+    (void)now;
+    hd_steps_archive(self, archive);
+}
+
+const hd_observable hd_steps_row = {.asked = HD_OBSERVE_OF_MODES,
+                                    .needs = HD_NEEDS_FRAME | HD_NEEDS_MODES,
+                                    .bytes = steps_bytes,
+                                    .create = steps_create,
+                                    .free = steps_free,
+                                    .clear = steps_clear,
+                                    .add = steps_add,
+                                    .archive = steps_archive};

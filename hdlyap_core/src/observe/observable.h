@@ -1,0 +1,92 @@
+/** One thing that a scene can have observed. Its row says when it is wanted, what it needs of a
+ * run, how many bytes it takes, and what is to be done with it; the rows stand in rows.inc. A run
+ * knows rows alone: what is off is a row that nobody calls.
+ */
+#ifndef HD_OBSERVABLE_H
+#define HD_OBSERVABLE_H
+
+#include "base/archive.h"
+#include "hdlyap/communicator.h"
+#include "hdlyap/frame.h"
+#include "hdlyap/ortho.h"
+#include "hdlyap/spectrum.h"
+#include "hdlyap/trajectory.h"
+
+/** What modes are measured for. */
+enum {
+    HD_OBSERVE_OF_MODES = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES |
+                          HD_OBSERVE_FIELDS | HD_OBSERVE_HYDRO | HD_OBSERVE_T_PHASES |
+                          HD_OBSERVE_STRUCTURE
+};
+
+/** What an observable needs: a set. */
+enum {
+    HD_NEEDS_FRAME = 1,   /**< vectors; else the disks alone, and it is on as long as the run */
+    HD_NEEDS_MODES = 2,   /**< the modes of all vectors, at measured states */
+    HD_NEEDS_REPORTS = 4, /**< a measured state at every report */
+    HD_NEEDS_FIELDS = 8,  /**< a measured state where fields are due */
+    HD_NEEDS_ALL = 16,    /**< all vectors on each rank, at those of the two above */
+    HD_NEEDS_CLOSE = 32   /**< states no farther apart than it says: see sampling */
+};
+
+/** What an observable is made from, and what it goes on to know. */
+typedef struct hd_observing {
+    const hd_scene_def *scene;
+    int vectors, carried, threads;
+    int width;                     /**< columns that each rank carries, the last one fewer */
+    hd_communicator *communicator; /**< NULL: a single rank */
+    double block;                  /**< shortest block of averages [time units] */
+    hd_ortho *ortho;               /**< NULL without exponents */
+    double longest;                /**< no interval between orthonormalisations will be longer */
+    char *message;                 /**< for the line that refuses, with its size; may be NULL */
+    size_t size;
+    void *const *part; /**< of each row; of those above it when one is created */
+} hd_observing;
+
+/** A state that is observed. */
+typedef struct hd_view {
+    const hd_trajectory *trajectory;
+    const hd_spectrum *spectrum; /**< up to now; NULL without exponents */
+    hd_columns carried;          /**< orthonormal vectors that this rank carries */
+    hd_columns vectors[2];       /**< those that it has: these, or all of them, and then none */
+    const double *q, *p;         /**< [2N] each; NULL unless modes are looked at */
+} hd_view;
+
+/** Functions may be NULL: then there is nothing to do. `self` is what `create` made. */
+typedef struct hd_observable {
+    unsigned asked; /**< set of HD_OBSERVE_*, of which any asks for it */
+    unsigned needs; /**< set of HD_NEEDS_* */
+    /** That it will take on each of so many ranks; on the safe side by some percent. */
+    double (*bytes)(const hd_scene_def *scene, int ranks);
+    /** HD_NO_MEMORY; HD_REFUSED with a line. What it has left in *self is freed. */
+    hd_status (*create)(void **self, const hd_observing *with);
+    void (*free)(void *self);
+    /** Its averages begin here. */
+    void (*clear)(void *self, const hd_view *here);
+    /** Nobody looked at it for a while: what has to be followed without a gap begins anew. */
+    void (*resume)(void *self);
+    /** A snapshot of the vectors that this rank has; then what all ranks have measured. */
+    hd_status (*measure)(void *self, const hd_observing *with, const hd_view *state);
+    hd_status (*share)(void *self, const hd_observing *with);
+    /** The averages take the snapshot up. */
+    void (*add)(void *self, const hd_observing *with, const hd_view *state);
+    /** At a report at which the vectors are known: view->vectors[0] are all of them. */
+    void (*report)(void *self, const hd_observing *with, const hd_view *state);
+    /** Longest time from this measured state to the next; INFINITY. */
+    double (*sampling)(void *self, const hd_observing *with);
+    void (*archive)(void *self, hd_archive *archive, const hd_trajectory *now);
+} hd_observable;
+
+/** The number of each row. */
+typedef enum hd_observed {
+#define HD_ROW(name) HD_OBSERVED_##name,
+#include "observe/rows.inc"
+#undef HD_ROW
+    HD_OBSERVED
+} hd_observed;
+
+#define HD_ROW(name) extern const hd_observable hd_##name##_row;
+#include "observe/rows.inc"
+#undef HD_ROW
+
+#endif

@@ -1,0 +1,164 @@
+/** The table of observables -> what a run has of them, one loop over its rows for each thing to do.
+ */
+#include "observe/observables.h"
+
+#include <math.h>
+
+#include "base/check.h"
+#include "base/memory.h"
+
+static const hd_observable *const rows[HD_OBSERVED] = {
+#define HD_ROW(name) [HD_OBSERVED_##name] = &hd_##name##_row,
+#include "observe/rows.inc"
+#undef HD_ROW
+};
+
+/** For each row k that the run has and somebody looks at, as `row`. */
+#define EACH_LOOKED_AT(o, k)                                                                       \
+    for (int k = 0; k < HD_OBSERVED; k++)                                                          \
+        if (hd_observables_has(o, (hd_observed)k))
+
+static bool is_asked(const hd_observable *row, const hd_scene_def *scene)
+{
+    return scene->observe & row->asked &&
+           (!(row->needs & HD_NEEDS_FRAME) || hd_scene_vectors(scene) > 0);
+}
+
+double hd_observables_bytes(const hd_scene_def *scene, int ranks)
+{
+    double bytes = 0.0;
+    for (int k = 0; k < HD_OBSERVED; k++)
+        if (is_asked(rows[k], scene)) bytes += rows[k]->bytes(scene, ranks);
+    return bytes;
+}
+
+static hd_status create_state(hd_observables *o)
+{
+    const size_t size = 2 * (size_t)o->with.scene->disks;
+    o->q = hd_memory_alloc(size, sizeof *o->q);
+    o->p = hd_memory_alloc(size, sizeof *o->p);
+    return o->q && o->p ? HD_OK : HD_NO_MEMORY;
+}
+
+hd_status hd_observables_create(hd_observables *o, const hd_observing *with)
+{
+    *o = (hd_observables){.with = *with, .looked_at = with->scene->observe};
+    o->with.part = o->part;
+    if (with->vectors > 0 && with->scene->observe & HD_OBSERVE_OF_MODES)
+        HD_TRY(hd_communicator_agree(with->communicator, create_state(o)));
+    for (int k = 0; k < HD_OBSERVED; k++) {
+        if (!is_asked(rows[k], with->scene)) continue;
+        const hd_status status = rows[k]->create(&o->part[k], &o->with);
+        HD_TRY(hd_communicator_agree(with->communicator, status));
+    }
+    o->with.message = NULL; /* the caller's */
+    return HD_OK;
+}
+
+void hd_observables_free(hd_observables *o)
+{
+    for (int k = HD_OBSERVED - 1; k >= 0; k--)
+        if (o->part[k]) rows[k]->free(o->part[k]);
+    hd_memory_free(o->q);
+    hd_memory_free(o->p);
+}
+
+void *hd_observables_part(const hd_observables *o, hd_observed row) { return o->part[row]; }
+
+unsigned hd_observables_looked_at(const hd_observables *o) { return o->looked_at; }
+
+void hd_observables_look(hd_observables *o, unsigned stages)
+{
+    const unsigned begun = stages & ~o->looked_at;
+    for (int k = 0; k < HD_OBSERVED; k++)
+        if (o->part[k] && begun & rows[k]->asked && rows[k]->resume) rows[k]->resume(o->part[k]);
+    o->looked_at = stages;
+}
+
+bool hd_observables_has(const hd_observables *o, hd_observed k)
+{
+    return o->part[k] && (o->looked_at & rows[k]->asked || !(rows[k]->needs & HD_NEEDS_FRAME));
+}
+
+bool hd_observables_any(const hd_observables *o) { return hd_observables_need(o, 0); }
+
+bool hd_observables_need(const hd_observables *o, unsigned needs)
+{
+    EACH_LOOKED_AT(o, k)
+    {
+        if ((rows[k]->needs & needs) == needs) return true;
+    }
+    return false;
+}
+
+double hd_observables_sampling(const hd_observables *o)
+{
+    double longest = INFINITY;
+    EACH_LOOKED_AT(o, k)
+    {
+        if (rows[k]->sampling) longest = fmin(longest, rows[k]->sampling(o->part[k], &o->with));
+    }
+    return longest;
+}
+
+/** With the disks, where they are needed. */
+static hd_view seen(const hd_observables *o, const hd_view *state)
+{
+    hd_view view = *state;
+    if (!hd_observables_need(o, HD_NEEDS_MODES)) return view;
+    hd_trajectory_state(state->trajectory, o->q, o->p);
+    view.q = o->q;
+    view.p = o->p;
+    return view;
+}
+
+static hd_status measure_here(hd_observables *o, const hd_view *state)
+{
+    EACH_LOOKED_AT(o, k)
+    {
+        if (rows[k]->measure) HD_TRY(rows[k]->measure(o->part[k], &o->with, state));
+    }
+    return HD_OK;
+}
+
+hd_status hd_observables_measure(hd_observables *o, const hd_view *state)
+{
+    const hd_view view = seen(o, state);
+    HD_TRY(hd_communicator_agree(o->with.communicator, measure_here(o, &view)));
+    EACH_LOOKED_AT(o, k)
+    {
+        if (rows[k]->share) HD_TRY(rows[k]->share(o->part[k], &o->with));
+    }
+    return HD_OK;
+}
+
+void hd_observables_add(hd_observables *o, const hd_view *state)
+{
+    EACH_LOOKED_AT(o, k)
+    {
+        if (rows[k]->add) rows[k]->add(o->part[k], &o->with, state);
+    }
+}
+
+void hd_observables_report(hd_observables *o, const hd_view *state)
+{
+    const hd_view view = seen(o, state);
+    EACH_LOOKED_AT(o, k)
+    {
+        if (rows[k]->report) rows[k]->report(o->part[k], &o->with, &view);
+    }
+}
+
+void hd_observables_clear(hd_observables *o, const hd_view *here)
+{
+    for (int k = 0; k < HD_OBSERVED; k++)
+        if (o->part[k] && rows[k]->clear) rows[k]->clear(o->part[k], here);
+}
+
+void hd_observables_archive(hd_observables *o, hd_archive *archive, bool of_frame,
+                            const hd_trajectory *now)
+{
+    for (int k = 0; k < HD_OBSERVED; k++)
+        if (o->part[k] && rows[k]->archive && !(rows[k]->needs & HD_NEEDS_FRAME) == !of_frame)
+            rows[k]->archive(o->part[k], archive, now);
+}

@@ -1,0 +1,54 @@
+/** All that a run observes. */
+#ifndef HD_OBSERVABLES_H
+#define HD_OBSERVABLES_H
+
+#include "observe/observable.h"
+
+/** The fields are observables.c's alone. */
+typedef struct hd_observables {
+    hd_observing with;
+    void *part[HD_OBSERVED]; /**< NULL: not asked for */
+    unsigned looked_at;      /**< set of HD_OBSERVE_* */
+    double *q, *p;           /**< [2N] each; NULL unless modes are asked for */
+} hd_observables;
+
+/** What the scene asks for; without exponents, of the disks alone. Ranks agree. Fails as its
+ * rows. */
+HD_MUST_CHECK hd_status hd_observables_create(hd_observables *observables,
+                                              const hd_observing *with);
+void hd_observables_free(hd_observables *observables);
+/** Bytes of those of a scene, on each of so many ranks. */
+double hd_observables_bytes(const hd_scene_def *scene, int ranks);
+
+/** What a row's observable is; NULL unless asked for. */
+void *hd_observables_part(const hd_observables *observables, hd_observed row);
+
+/** Which of them somebody looks at from now on (set of HD_OBSERVE_*); at first all. */
+void hd_observables_look(hd_observables *observables, unsigned stages);
+unsigned hd_observables_looked_at(const hd_observables *observables);
+
+/* Of those that somebody looks at: */
+
+bool hd_observables_any(const hd_observables *observables);
+/** True if one has all of these needs (set of HD_NEEDS_*). */
+bool hd_observables_need(const hd_observables *observables, unsigned needs);
+/** True if it is this one. */
+bool hd_observables_has(const hd_observables *observables, hd_observed row);
+/** Longest time from this measured state to the next, for those that follow something; INFINITY
+ * without one. */
+double hd_observables_sampling(const hd_observables *observables);
+/** Takes a snapshot, of all ranks. What one rank cannot do, none does. */
+HD_MUST_CHECK hd_status hd_observables_measure(hd_observables *observables, const hd_view *state);
+/** The averages take up the snapshot of this state. */
+void hd_observables_add(hd_observables *observables, const hd_view *state);
+/** At a report; state->vectors[0] are all vectors. */
+void hd_observables_report(hd_observables *observables, const hd_view *state);
+
+/** The averages of all of them begin here. */
+void hd_observables_clear(hd_observables *observables, const hd_view *here);
+
+/** Those that need a frame, or those that do not. */
+void hd_observables_archive(hd_observables *observables, hd_archive *archive, bool of_frame,
+                            const hd_trajectory *now);
+
+#endif

@@ -1,0 +1,63 @@
+/** Phases of LP steps and of T steps: two observables of one kind. */
+#include "base/check.h"
+#include "hdlyap/phases.h"
+#include "modes/archived.h"
+#include "observe/observable.h"
+
+static double lp_bytes(const hd_scene_def *scene, int ranks)
+{
+    (void)ranks;
+    return hd_phases_bytes(hd_fields_count_of(scene).lp_phases);
+}
+
+static double t_bytes(const hd_scene_def *scene, int ranks)
+{
+    (void)ranks;
+    return hd_phases_bytes(hd_fields_count_of(scene).t_phases);
+}
+
+static hd_status lp_create(void **self, const hd_observing *with)
+{
+    return hd_phases_create((hd_phases **)self, with->part[HD_OBSERVED_steps], HD_MODE_LP);
+}
+
+static hd_status t_create(void **self, const hd_observing *with)
+{
+    return hd_phases_create((hd_phases **)self, with->part[HD_OBSERVED_steps], HD_MODE_T);
+}
+
+static void phases_free(void *self) { hd_phases_free(self); }
+
+static void phases_clear(void *self, const hd_view *here)
+{
+    (void)here;
+    hd_phases_clear(self);
+}
+
+static void phases_resume(void *self) { hd_phases_clear(self); }
+
+static void phases_add(void *self, const hd_observing *with, const hd_view *state)
+{
+    hd_phases_add(self, with->part[HD_OBSERVED_steps], hd_trajectory_time(state->trajectory));
+}
+
+static double phases_sampling(void *self, const hd_observing *with)
+{
+    return hd_phases_sampling(self, with->part[HD_OBSERVED_steps]);
+}
+
+static void phases_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+{
+    (void)now;
+    hd_phases_archive(self, archive);
+}
+
+#define ROW(of, its_bytes, its_create)                                                             \
+    {                                                                                              \
+        .asked = (of), .needs = HD_NEEDS_FRAME | HD_NEEDS_MODES | HD_NEEDS_CLOSE,                  \
+        .bytes = (its_bytes), .create = (its_create), .free = phases_free, .clear = phases_clear,  \
+        .resume = phases_resume, .add = phases_add, .sampling = phases_sampling,                   \
+        .archive = phases_archive                                                                  \
+    }
+const hd_observable hd_phases_row = ROW(HD_OBSERVE_PHASES, lp_bytes, lp_create);
+const hd_observable hd_t_phases_row = ROW(HD_OBSERVE_T_PHASES, t_bytes, t_create);

@@ -1,0 +1,61 @@
+/** Structure factors of the vectors as an observable. */
+#include "base/check.h"
+#include "hdlyap/modes.h"
+#include "hdlyap/structure.h"
+#include "modes/archived.h"
+#include "observe/observable.h"
+
+static double structure_bytes(const hd_scene_def *scene, int ranks)
+{
+    (void)ranks;
+    return hd_structure_bytes(scene, hd_scene_vectors(scene));
+}
+
+static hd_status structure_create(void **self, const hd_observing *with)
+{
+    return hd_structure_create((hd_structure **)self, with->scene, with->vectors, with->threads);
+}
+
+static void structure_free(void *self) { hd_structure_free(self); }
+
+static void structure_clear(void *self, const hd_view *here)
+{
+    (void)here;
+    hd_structure_clear(self);
+}
+
+static hd_status structure_measure(void *self, const hd_observing *with, const hd_view *state)
+{
+    const double *norms = hd_modes_dq_norms(with->part[HD_OBSERVED_modes]);
+    HD_TRY(hd_structure_measure(self, state->vectors[0], state->q, norms));
+    if (state->vectors[1].count == 0) return HD_OK;
+    return hd_structure_measure(self, state->vectors[1], state->q, norms);
+}
+
+static hd_status structure_share(void *self, const hd_observing *with)
+{
+    return hd_structure_share(self, with->communicator, with->width, with->carried);
+}
+
+static void structure_add(void *self, const hd_observing *with, const hd_view *state)
+{
+    (void)with, (void)state;
+    hd_structure_add(self);
+}
+
+static void structure_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+{
+    (void)now;
+    hd_structure_archive(self, archive);
+}
+
+const hd_observable hd_structure_row = {.asked = HD_OBSERVE_STRUCTURE,
+                                        .needs = HD_NEEDS_FRAME | HD_NEEDS_MODES | HD_NEEDS_REPORTS,
+                                        .bytes = structure_bytes,
+                                        .create = structure_create,
+                                        .free = structure_free,
+                                        .clear = structure_clear,
+                                        .measure = structure_measure,
+                                        .share = structure_share,
+                                        .add = structure_add,
+                                        .archive = structure_archive};

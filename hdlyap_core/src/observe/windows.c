@@ -1,0 +1,164 @@
+/** Orthonormalisations of a run -> covariant vectors of its windows. */
+#include "observe/windows.h"
+
+#include <math.h>
+
+#include "base/check.h"
+#include "base/clock.h"
+#include "base/memory.h"
+#include "covariant/archived.h"
+#include "observe/observable.h"
+
+static const double GO_SECONDS = 0.1;
+
+struct hd_windows {
+    hd_covariant *covariant;
+    hd_communicator *communicator; /**< NULL: a single rank. Others do the same on the way back */
+    double *gathered;              /**< [4N * n], vectors of all ranks; NULL of a single one */
+    double sampling;               /**< from the beginning of a window to its first look */
+    bool due;                      /**< one begins with the next interval */
+    double seconds;                /**< wall seconds spent here */
+};
+
+const hd_covariant *hd_windows_covariant(const hd_windows *windows) { return windows->covariant; }
+double *hd_windows_seconds(hd_windows *windows) { return &windows->seconds; }
+bool hd_windows_begin(const hd_windows *windows) { return windows->due; }
+
+/** Adds the seconds since then to the cost; what one rank cannot do, none does. */
+static hd_status timed(hd_windows *windows, double start, hd_status status)
+{
+    status = hd_communicator_agree(windows->communicator, status);
+    windows->seconds += hd_clock_now() - start;
+    return status;
+}
+
+/** Vectors of all ranks. */
+static hd_columns all_of(hd_windows *windows, const hd_frame *frame)
+{
+    const int n = hd_frame_vectors(frame);
+    if (!windows->communicator) return hd_frame_columns(frame);
+    hd_frame_gather(frame, 0, n, windows->gathered);
+    return (hd_columns){windows->gathered, n, 0, n};
+}
+
+hd_status hd_windows_start(hd_windows *windows, const hd_frame *frame, double begin,
+                           double expected)
+{
+    const double start = hd_clock_now();
+    if (!windows->due) return HD_OK;
+    windows->due = false;
+    return timed(windows, start,
+                 hd_covariant_begin(windows->covariant, all_of(windows, frame), begin, expected));
+}
+
+hd_status hd_windows_add(hd_windows *windows, const hd_ortho *ortho, const hd_frame *frame,
+                         const hd_event_log *log, double t_begin, double t_end)
+{
+    const double start = hd_clock_now();
+    const hd_columns none = {NULL, 0, 0, 0};
+    const hd_columns vectors = hd_covariant_wants_vectors(windows->covariant)
+                                   ? all_of(windows, frame)
+                                   : none;
+    return timed(windows, start,
+                 hd_covariant_add(windows->covariant, ortho, frame, vectors, log, t_begin, t_end));
+}
+
+hd_status hd_windows_end(hd_windows *windows, const hd_frame *frame,
+                         const hd_trajectory *trajectory)
+{
+    const double start = hd_clock_now();
+    if (!hd_covariant_wants_state(windows->covariant)) return HD_OK;
+    return timed(windows, start,
+                 hd_covariant_state(windows->covariant, all_of(windows, frame), trajectory));
+}
+
+double hd_windows_due(const hd_windows *windows, double now)
+{
+    return windows->due ? now + windows->sampling : hd_covariant_due(windows->covariant);
+}
+
+bool hd_windows_is_going(const hd_windows *windows)
+{
+    return !windows->due && hd_covariant_is_going_back(windows->covariant);
+}
+
+/** By the clock of rank 0. */
+static bool has_time(const hd_windows *windows, double start)
+{
+    double left = hd_clock_now() - start < GO_SECONDS;
+    hd_communicator_broadcast(windows->communicator, &left, sizeof left);
+    return left > 0;
+}
+
+hd_status hd_windows_go(hd_windows *windows, bool to_its_end)
+{
+    const double start = hd_clock_now();
+    hd_status status = HD_OK;
+    while (status == HD_OK && hd_windows_is_going(windows) &&
+           (to_its_end || has_time(windows, start)))
+        status = hd_communicator_agree(windows->communicator,
+                                       hd_covariant_step(windows->covariant));
+    return timed(windows, start, status);
+}
+
+/* ---- as an observable ---------------------------------------------------------------------- */
+
+/** Beside the windows themselves, which have a limit of their own (covariant_memory). */
+static double covariant_bytes(const hd_scene_def *scene, int ranks)
+{
+    const double gathered = 4.0 * scene->disks * hd_scene_vectors(scene) * sizeof(double);
+    return hd_covariant_bytes_of(scene) + (ranks > 1 ? gathered : 0.0);
+}
+
+static hd_status prepare(hd_windows *windows, const hd_observing *with)
+{
+    const size_t vectors = 4 * (size_t)with->scene->disks * (size_t)with->vectors;
+    HD_TRY(hd_covariant_check_room(with->scene, with->longest, with->message, with->size));
+    HD_TRY(hd_ortho_keep_factor(with->ortho));
+    if (with->communicator &&
+        !(windows->gathered = hd_memory_alloc(vectors, sizeof *windows->gathered)))
+        return HD_NO_MEMORY;
+    windows->communicator = with->communicator;
+    windows->due = true;
+    windows->sampling = with->scene->covariant_sampling;
+    return hd_covariant_create(&windows->covariant, with->scene, with->threads);
+}
+
+static void covariant_free(void *self)
+{
+    hd_windows *windows = self;
+    hd_covariant_free(windows->covariant);
+    hd_memory_free(windows->gathered);
+    hd_memory_free(windows);
+}
+
+/** Its parts are freed with it if they cannot all be made. */
+static hd_status covariant_create(void **self, const hd_observing *with)
+{
+    hd_windows *windows = *self = hd_memory_alloc(1, sizeof *windows);
+    return windows ? prepare(windows, with) : HD_NO_MEMORY;
+}
+
+static void covariant_resume(void *self) { ((hd_windows *)self)->due = true; }
+
+static void covariant_clear(void *self, const hd_view *here)
+{
+    (void)here;
+    hd_covariant_clear(((hd_windows *)self)->covariant);
+    covariant_resume(self);
+}
+
+static void covariant_archive(void *self, hd_archive *archive, const hd_trajectory *now)
+{
+    (void)now;
+    hd_covariant_archive(((hd_windows *)self)->covariant, archive);
+}
+
+const hd_observable hd_covariant_row = {.asked = HD_OBSERVE_COVARIANT,
+                                        .needs = HD_NEEDS_FRAME,
+                                        .bytes = covariant_bytes,
+                                        .create = covariant_create,
+                                        .free = covariant_free,
+                                        .clear = covariant_clear,
+                                        .resume = covariant_resume,
+                                        .archive = covariant_archive};

@@ -1,0 +1,257 @@
+/** Schedule, conditioning, and what observables need -> the next time at which something is due.
+ *
+ * Stages and reports end where the schedule says. The frame is orthonormalised as late as its
+ * conditioning allows, and early where all vectors must be known. A sample of the averages is as
+ * many such intervals as come nearest to what it should last, or fewer, if phases cannot wait so
+ * long. Without vectors it is a time alone. */
+#include "run/agenda.h"
+
+#include <math.h>
+
+/** A rest that could be longer by less than this factor is an equal share. */
+static const double DIVIDED = 1.25;
+/** Orthonormalisations that come earlier by this factor are cheaper than to measure every state. */
+static const double WORTH_A_STATE = 0.875;
+/** Times that are this close, as a part of an interval, are one. */
+static const double CLOSE = 1e-6;
+/** A sample is no longer than so many collisions of a disk. */
+static const double COLLISIONS_PER_SAMPLE = 80.0;
+/** Collisions of each disk that growth remembers: shorter blocks tell no error. */
+static const double COLLISIONS_PER_BLOCK = 8.0;
+/** Samples of an averaging: fewer would make standard errors late and rough. */
+static const double SAMPLES_MIN = 32.0;
+/** A block is asked to be longer by this, so that samples that are a little shorter fill it. */
+static const double WHOLE_BLOCK = 1.05;
+/** Samples in a block, however short the run. */
+static const double IN_A_BLOCK = 2.0;
+/** Intervals in a sample that need not fit it. */
+static const double IN_A_SAMPLE = 3.0;
+
+hd_agenda hd_agenda_of(const hd_scene_def *scene, double rate)
+{
+    const double sample = COLLISIONS_PER_SAMPLE / rate, collision = sample / COLLISIONS_PER_SAMPLE;
+    const double sound = hd_scene_sound_crossing(scene);
+    return (hd_agenda){.schedule = hd_schedule_of(scene),
+                       .in_force.target_std_error = scene->target_std_error,
+                       .sample_max = sample,
+                       .block = fmax(COLLISIONS_PER_BLOCK * collision, sound)};
+}
+
+double hd_agenda_block(const hd_agenda *a) { return a->block; }
+
+/* ---- stages -------------------------------------------------------------------------------- */
+
+hd_stage hd_agenda_stage(const hd_agenda *a) { return a->schedule.stage; }
+double hd_agenda_stage_begin(const hd_agenda *a) { return a->schedule.start; }
+double hd_agenda_stage_end(const hd_agenda *a) { return hd_schedule_stage_end(&a->schedule); }
+double hd_agenda_next_report(const hd_agenda *a) { return hd_schedule_cut(&a->schedule); }
+
+void hd_agenda_enter(hd_agenda *a, hd_stage stage, double now)
+{
+    a->due &= ~(unsigned)HD_DUE_STAGE;
+    hd_schedule_enter(&a->schedule, stage, now);
+    hd_agenda_pass_sample(a, now);
+}
+
+/* ---- the next interval --------------------------------------------------------------------- */
+
+/** An equal part of what is left, none longer than `most`. */
+static double share(double left, double most)
+{
+    return left < INFINITY ? left / ceil(left / most) : most;
+}
+
+/** In a run that is not much longer than errors need, samples fill the blocks of the averages: each
+ * one interval, where intervals are not much shorter. */
+double hd_agenda_sample_longest(const hd_agenda *a, const hd_interval *interval)
+{
+    const hd_schedule *s = &a->schedule;
+    const double block = WHOLE_BLOCK * a->block;
+    if (s->stage != HD_AVERAGING) return INFINITY;
+    const double wanted = fmax(s->length[HD_AVERAGING] / SAMPLES_MIN, block / IN_A_BLOCK);
+    const double most = fmin(a->sample_max, wanted);
+    const double usual = hd_interval_longest(interval).length;
+    if (most >= block) return most;
+    return share(block, usual < most && usual > most / IN_A_SAMPLE ? usual : most);
+}
+
+double hd_agenda_interval_expected(const hd_agenda *a, const hd_interval *interval, bool at_reports)
+{
+    const double sample = hd_agenda_sample_longest(a, interval);
+    const double most = at_reports ? fmin(sample, a->schedule.report_interval) : sample;
+    return fmin(hd_interval_longest(interval).length, most);
+}
+
+/** The next time at which all vectors must be known: the end of the stage, or a report for which
+ * somebody wants them. */
+static double next_stop(const hd_agenda *a, const hd_pace *p)
+{
+    const hd_schedule *s = &a->schedule;
+    const bool at_cut = p->at_reports || (p->first && s->stage == HD_AVERAGING);
+    const double stop = at_cut ? hd_schedule_cut(s) : hd_schedule_stage_end(s);
+    return p->at_fields ? fmin(stop, hd_schedule_next_multiple(s, a->in_force.field_interval))
+                        : stop;
+}
+
+/** Time until the phases must be known; INFINITY if they need not. */
+static double phases_left(const hd_agenda *a, const hd_pace *p)
+{
+    const double left = a->sample_begin + p->phases - p->now;
+    return left > 0 ? left : INFINITY;
+}
+
+/** A little shorter, if that saves a measured state before the phases must be known. */
+static double rounded_down(double length, double left)
+{
+    if (!(left < INFINITY)) return length;
+    const double part = left / ceil(left / length * (1.0 - CLOSE));
+    return part < length && part > WORTH_A_STATE * length ? part : length;
+}
+
+/** The next interval, up to `left` long, in this norm; why not longer. */
+static hd_interval_length next_interval(const hd_agenda *a, const hd_pace *p, double left,
+                                        hd_norm norm)
+{
+    p->interval->norm = norm;
+    const double sample = hd_agenda_sample_longest(a, p->interval), phases = phases_left(a, p);
+    hd_interval_length next = hd_interval_next(p->interval, left);
+    if (next.length > sample) next = (hd_interval_length){share(left, sample), HD_LIMIT_SAMPLE};
+    if (next.length > p->longest)
+        next = (hd_interval_length){share(left, p->longest), HD_LIMIT_EVENTS};
+    double rounded = next.length < left ? rounded_down(next.length, phases) : next.length;
+    rounded = fmin(rounded, phases);
+    if (rounded < next.length) next = (hd_interval_length){rounded, HD_LIMIT_LOOK};
+    next.length = fmax(next.length, p->shortest);
+    return next;
+}
+
+/** True if the sample should end with an interval of this length: no other end would come closer to
+ * what it should be, or the phases cannot wait. */
+static bool is_last(const hd_agenda *a, const hd_pace *p, double length)
+{
+    const double gone = p->now + length - a->sample_begin, close = CLOSE * length;
+    return gone + 0.5 * length >= hd_agenda_sample_longest(a, p->interval) ||
+           gone + length > p->phases + close;
+}
+
+/** True if nothing but rounding would be left of it. */
+static bool is_rest(double length, double left) { return length >= left * (1.0 - CLOSE); }
+
+/** Why an interval that takes all of what is left is no longer. */
+static hd_limit limit_of_rest(const hd_agenda *a, const hd_pace *p, double left)
+{
+    const hd_interval_length longest = hd_interval_longest(p->interval);
+    if (longest.length < DIVIDED * left) return longest.limit;
+    return p->now + left < hd_schedule_stage_end(&a->schedule) ? HD_LIMIT_SCHEDULE : HD_LIMIT_STAGE;
+}
+
+void hd_agenda_plan(hd_agenda *a, const hd_pace *p)
+{
+    if (!p->framed || p->now < a->interval_end) return;
+    const double measured = next_stop(a, p), left = fmin(measured, p->snapshot) - p->now;
+    hd_interval_length next = next_interval(a, p, left, p->norm);
+    a->sample_ends = is_rest(next.length, measured - p->now) || is_last(a, p, next.length);
+    if (a->sample_ends) next = next_interval(a, p, left, HD_NORM_FULL);
+    a->interval_end = is_rest(next.length, left)
+                          ? fmin(measured, p->snapshot)
+                          : hd_schedule_snap(&a->schedule, p->now, next.length);
+    a->limit = next.limit == HD_LIMIT_SCHEDULE ? limit_of_rest(a, p, left) : next.limit;
+}
+
+/* ---- what is due --------------------------------------------------------------------------- */
+
+/** End of a sample of what the disks alone do; a file may say that it is overdue. */
+static double sample_end(const hd_agenda *a, const hd_pace *p)
+{
+    if (!p->sampled) return INFINITY;
+    return fmax(a->sample_begin + hd_agenda_sample_longest(a, p->interval), p->now);
+}
+
+double hd_agenda_next(const hd_agenda *a, const hd_pace *p)
+{
+    return fmin(hd_schedule_cut(&a->schedule), p->framed ? a->interval_end : sample_end(a, p));
+}
+
+unsigned hd_agenda_reached(const hd_agenda *a, const hd_pace *p)
+{
+    const unsigned report = p->now >= hd_schedule_cut(&a->schedule) ? HD_DUE_REPORT : 0u;
+    const bool sampled = p->sampled && (report || p->now >= sample_end(a, p));
+    if (!p->framed) return report | (sampled ? HD_DUE_SAMPLE : 0u);
+    const unsigned sample = a->sample_ends ? HD_DUE_SAMPLE : 0u;
+    return report | (p->now >= a->interval_end ? HD_DUE_INTERVAL | sample : 0u);
+}
+
+void hd_agenda_begin(hd_agenda *a) { a->due &= HD_DUE_STAGE; }
+bool hd_agenda_is_due(const hd_agenda *a, unsigned why) { return a->due & why; }
+
+hd_limit hd_agenda_limit(const hd_agenda *a) { return a->limit; }
+void hd_agenda_pass_interval(hd_agenda *a, double now) { a->interval_end = now; }
+
+void hd_agenda_pass_sample(hd_agenda *a, double now)
+{
+    a->sample_begin = now;
+    a->sample_ends = false;
+}
+
+bool hd_agenda_is_measured(const hd_agenda *a, double now) { return now == a->sample_begin; }
+
+void hd_agenda_pass_report(hd_agenda *a, bool reached)
+{
+    hd_schedule *s = &a->schedule;
+    const double multiple = hd_schedule_next_multiple(s, a->in_force.field_interval);
+    const bool fields = s->stage == HD_AVERAGING && (reached || multiple <= hd_schedule_cut(s));
+    const bool ends = hd_schedule_pass(s) & HD_ENDS_STAGE || reached;
+    a->due |= HD_DUE_REPORT | (fields ? HD_DUE_FIELDS : 0u) | (ends ? HD_DUE_STAGE : 0u);
+}
+
+/* ---- changes ------------------------------------------------------------------------------- */
+
+/** While averages are taken the end of the present interval, else at once. */
+double hd_agenda_change_time(const hd_agenda *a, double now, bool framed)
+{
+    return framed && a->schedule.stage == HD_AVERAGING ? fmax(now, a->interval_end) : now;
+}
+
+void hd_agenda_ask(hd_agenda *a, bool framed)
+{
+    a->in_force.changing = true;
+    a->sample_ends |= framed && a->schedule.stage == HD_AVERAGING;
+}
+
+void hd_agenda_ask_fields(hd_agenda *a, double interval, bool framed)
+{
+    const bool said = a->fields_said;
+    a->fields_said = true;
+    if (interval == a->field_interval) return; /* of a run that goes on it may not hold yet */
+    a->field_interval = interval;
+    if (said)
+        hd_agenda_ask(a, framed);
+    else
+        a->in_force.field_interval = interval;
+}
+
+bool hd_agenda_can_last(const hd_agenda *a, double duration, double from)
+{
+    hd_schedule asked = a->schedule;
+    asked.length[HD_AVERAGING] = duration;
+    return asked.stage != HD_AVERAGING || duration == 0 || hd_schedule_reaches(&asked, from);
+}
+
+bool hd_agenda_change(hd_agenda *a, const hd_scene_def *scene, double now)
+{
+    if (!a->in_force.changing) return false;
+    a->in_force = (hd_wanted){.target_std_error = scene->target_std_error,
+                              .field_interval = a->field_interval};
+    hd_schedule_change(&a->schedule, scene, now);
+    return true;
+}
+
+void hd_agenda_end_averaging(hd_agenda *a, bool reached, double now)
+{
+    if (a->schedule.stage != HD_AVERAGING) return;
+    a->due &= ~(unsigned)HD_DUE_STAGE;
+    if (reached || hd_schedule_is_over(&a->schedule, now))
+        a->due |= HD_DUE_REPORT | HD_DUE_FIELDS | HD_DUE_STAGE;
+}
+
+double hd_agenda_target(const hd_agenda *a) { return a->in_force.target_std_error; }

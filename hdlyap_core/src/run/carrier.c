@@ -1,0 +1,404 @@
+/** Log -> frame -> orthonormal frame, spectrum, and what the next interval may be. An interval that
+ * turned out too long is taken back and replayed in pieces; a shortest piece that is still too much
+ * holds a grazing collision and is factored by reflections. */
+#include "run/carrier.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "averages/archived.h"
+#include "base/check.h"
+#include "base/clock.h"
+#include "base/memory.h"
+#include "events/archived.h"
+#include "hdlyap/blas.h"
+#include "observe/observable.h"
+#include "tangent/archived.h"
+#include "tangent/threads.h"
+#include "tangent/verify.h"
+
+/** Loss of orthogonality allowed where nobody looks at the vectors, as the logarithms telescope
+ * [T5]; its square enters a mean. */
+static const double DEFECT_LOOSE = 1e-4;
+/** The same where somebody does. */
+static const double DEFECT_MEASURED = 1e-6;
+/** Of a frame that is orthonormal in the norm of dq, at most: few collisions are that sharp. */
+static const double CONDITION_COMPLETE = 1e12;
+/** Loss of orthogonality allowed where Y takes both ends of an interval to be orthonormal to
+ * rounding [T19]: a second pass. */
+static const double DEFECT_COUPLED = 1e-12;
+/** Part of an interval's share of the accuracy that its square may be, as it too bounds a mean. */
+static const double DEFECT_SHARE = 0.1;
+/** Pieces of an interval, beyond which dividing costs more than it saves [T6]; and beyond which
+ * what even reflections cannot factor is given up. */
+enum { PIECES_MAX = 8, PIECES_LAST = 512 };
+/** Vectors from which on the norm of dq is worth while; and orthonormalisations after which the
+ * vectors of a random start have dq halves as independent as the vectors themselves. */
+enum { HALVES_MANY = 64, HALVES_ALIGNED = 8 };
+/** Loss of isotropy beyond which the frame is made isotropic again: as much as orthogonality may
+ * lack where somebody looks [T19]. */
+static const double ISOTROPY = 1e-6;
+/** Loss of orthogonality of a random frame that does not matter; a pass leaves less. */
+static const double ORTHONORMAL = 1e-10;
+/** Collisions of each disk between two orthonormalisations that no accuracy and no density exceed.
+ */
+static const double COLLISIONS_MOST = 60.0;
+/** Exponents nearest to zero, which target_std_error is for. */
+enum { SMALLEST_EXPONENTS = 8 };
+/** Kept for a half that is no number. */
+static const double NO_HALF = -2.0;
+/** Events between two orthonormalisations, of each disk and in all, of which the log has room. */
+static const double EVENTS_OF_A_DISK = 30.0, EVENTS_MAX = 2e5;
+
+/* ---- creation ------------------------------------------------------------------------------ */
+
+static hd_status agree(const hd_carrier *c, hd_status status)
+{
+    return hd_communicator_agree(c->communicator, status);
+}
+
+static hd_status create_random(hd_carrier *c, uint64_t seed)
+{
+    return hd_frame_create_shared(&c->frame, c->disks, c->carried, seed, c->threads,
+                                  c->communicator);
+}
+
+/** A random frame, orthonormal. Random vectors are hardly ever dependent: then reflections. */
+static hd_status create_frame(hd_carrier *c, uint64_t seed)
+{
+    const hd_ortho_limits once = {1e7, ORTHONORMAL, HD_NORM_FULL};
+    HD_TRY(create_random(c, seed));
+    if (c->carried < c->vectors) return hd_conjugate_start(c->frame);
+    if (hd_ortho_step(c->ortho, c->frame, once) == HD_OK) return HD_OK;
+    hd_frame_free(c->frame);
+    c->frame = NULL;
+    HD_TRY(create_random(c, seed));
+    return hd_ortho_step_stable(c->ortho, c->frame, 1.0 / DBL_EPSILON);
+}
+
+int hd_carrier_threads_most(const hd_scene_def *scene, const hd_communicator *communicator)
+{
+    const int wanted = scene->threads, cores = hd_blas_query().cores;
+    const int most = hd_threads_most(wanted, 4 * scene->disks, hd_scene_carried(scene));
+    if (!communicator || wanted > 0) return most;
+    const int own = cores / communicator->beside; /* ranks share the cores of their machine */
+    return own < 1 ? 1 : own < most ? own : most;
+}
+
+static hd_status prepare_threads(hd_carrier *c, const hd_scene_def *scene)
+{
+    const int most = hd_carrier_threads_most(scene, c->communicator);
+    if (most > 1) HD_TRY(hd_blas_room(most)); /* one has its buffer since the start */
+    const int granted = c->threads = hd_blas_threads_granted(most);
+    hd_blas_use_threads(granted);
+    if (scene->threads == 0 && !c->communicator)
+        HD_TRY(hd_threads_choose(&c->threads, c->ortho, c->disks, c->carried, granted));
+    c->threads_denied = c->threads == granted ? most - granted : 0;
+    hd_blas_use_threads(c->threads);
+    return HD_OK;
+}
+
+/** Vectors of the half that are completed at once: those that a rank has, if modes are looked at.
+ */
+static int completed(const hd_scene_def *scene, int here)
+{
+    return scene->observe & HD_OBSERVE_OF_MODES ? here : 0;
+}
+
+static hd_status prepare_conjugate(hd_carrier *c, const hd_scene_def *scene)
+{
+    const int here = c->communicator ? hd_frame_stride(c->frame) : c->carried;
+    if (c->carried == c->vectors) return HD_OK;
+    return hd_conjugate_create(&c->conjugate, 4 * c->disks, completed(scene, here));
+}
+
+/** Of a frame that is orthonormal in the whole norm: the next one may be so in that of dq alone. */
+static hd_status keep_halves(hd_carrier *c)
+{
+    const hd_shared shared = {2, (size_t)c->vectors, (size_t)hd_frame_stride(c->frame),
+                              (size_t)c->carried, 0};
+    const hd_columns own = hd_frame_columns(c->frame);
+    double *cos_theta = c->halves, *ratio = c->halves + c->vectors;
+    if (own.count > 0) hd_frame_halves(c->frame, cos_theta + own.first, ratio + own.first);
+    HD_TRY(hd_communicator_share(c->communicator, c->halves, shared));
+    if (c->conjugate) hd_conjugate_halves(cos_theta, ratio, c->carried);
+    for (int k = 0; k < 2 * c->vectors; k++)
+        if (isnan(c->halves[k])) c->halves[k] = NO_HALF;
+    return HD_OK;
+}
+
+static hd_status prepare(hd_carrier *c, const hd_scene_def *scene, double block)
+{
+    const int rows = 4 * c->disks, n = c->vectors;
+    HD_TRY(agree(c, hd_event_log_create(&c->log)));
+    HD_TRY(hd_ortho_create_shared(&c->ortho, rows, c->carried, c->communicator));
+    HD_TRY(agree(c, prepare_threads(c, scene)));
+    HD_TRY(agree(c, hd_spectrum_create(&c->spectrum, rows, n, block)));
+    c->halves = hd_memory_alloc(2 * (size_t)n, sizeof *c->halves);
+    HD_TRY(agree(c, c->halves ? HD_OK : HD_NO_MEMORY));
+    HD_TRY(create_frame(c, scene->seed));
+    HD_TRY(agree(c, prepare_conjugate(c, scene)));
+    return keep_halves(c);
+}
+
+hd_status hd_carrier_create(hd_carrier *c, const hd_scene_def *scene, double collision,
+                            double block, hd_communicator *communicator, hd_cost *cost)
+{
+    const double limit = scene->interval > 0 ? scene->interval : INFINITY;
+    *c = (hd_carrier){.communicator = communicator,
+                      .disks = scene->disks,
+                      .vectors = hd_scene_vectors(scene),
+                      .carried = hd_scene_carried(scene),
+                      .positive = (4 * scene->disks - hd_scene_zero_exponents(scene)) / 2,
+                      .threads = 1,
+                      .accuracy = scene->accuracy,
+                      .collision = collision,
+                      .interval = hd_interval_first(2.0 * collision, limit, scene->accuracy),
+                      .cost = cost};
+    if (c->vectors == 0) return HD_OK;
+    c->whole = true;
+    return prepare(c, scene, block);
+}
+
+void hd_carrier_free(hd_carrier *c)
+{
+    hd_event_log_free(c->log);
+    hd_frame_free(c->frame);
+    hd_ortho_free(c->ortho);
+    hd_conjugate_free(c->conjugate);
+    hd_spectrum_free(c->spectrum);
+    hd_memory_free(c->halves);
+}
+
+double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks)
+{
+    const double disks = scene->disks, n = hd_scene_vectors(scene),
+                 carried = hd_scene_carried(scene), here = ceil(carried / ranks);
+    if (n == 0) return 0.0;
+    const double log = hd_event_log_bytes(fmin(EVENTS_MAX, EVENTS_OF_A_DISK * disks));
+    const double frame = hd_frame_bytes(disks, here, threads);
+    const double ortho = hd_ortho_bytes(4.0 * disks, carried, ranks);
+    const double conjugate = carried < n
+                                 ? hd_conjugate_bytes(4.0 * disks, completed(scene, (int)here))
+                                 : 0.0;
+    return log + frame + ortho + conjugate + hd_spectrum_bytes(n) + 2.0 * sizeof(double) * n;
+}
+
+/* ---- from one orthonormalisation to the next ------------------------------------------------ */
+
+/** Carries the frame from t_begin to t_end of the log. */
+static hd_status replay(hd_carrier *c, double t_begin, double t_end)
+{
+    hd_symplectic before;
+    if (HD_VERIFIES) before = hd_verify_sample(c->frame);
+    HD_TRY(hd_frame_replay(c->frame, c->log, t_begin, t_end));
+    if (HD_VERIFIES) hd_verify_symplectic(c->frame, &before, (double)c->log->count);
+    return HD_OK;
+}
+
+/** Pieces of the log that are factored by reflections: a collision of each disk, or an eighth of an
+ * interval that is only a few collisions long. */
+static double shortest_piece(const hd_carrier *c)
+{
+    return fmin(c->log->duration / PIECES_MAX, c->collision);
+}
+
+hd_norm hd_carrier_norm(const hd_carrier *c, bool windowing)
+{
+    const bool many = c->carried >= HALVES_MANY && c->carried <= c->positive;
+    const bool aligned = c->cost->orthonormalisations >= HALVES_ALIGNED;
+    return !many || !aligned || windowing ? HD_NORM_FULL : HD_NORM_DQ;
+}
+
+double hd_carrier_longest(const hd_carrier *c)
+{
+    return fmin(COLLISIONS_MOST * c->collision, c->interval.limit);
+}
+
+/** What is lost of isotropy decays [T19]; should it ever not, the frame gets it back. */
+static hd_status keep_isotropic(hd_carrier *c)
+{
+    if (hd_conjugate_isotropy(c->conjugate, c->frame) > ISOTROPY)
+        HD_TRY(hd_conjugate_start(c->frame));
+    if (HD_VERIFIES) hd_verify_isotropy(c->frame);
+    return HD_OK;
+}
+
+/** Carries the frame from t_begin to t_end of the log and orthonormalises it. */
+static hd_status frame_piece(hd_carrier *c, double t_begin, double t_end, hd_ortho_limits limits)
+{
+    const double start = hd_clock_now(), length = t_end - t_begin;
+    HD_TRY(replay(c, t_begin, t_end));
+    const double replayed = hd_clock_now();
+    limits.condition = hd_interval_piece_max(&c->interval, length, c->log->duration);
+    hd_status status = length > shortest_piece(c)
+                           ? hd_ortho_step(c->ortho, c->frame, limits)
+                           : hd_ortho_step_stable(c->ortho, c->frame, HD_CONDITION_STABLE);
+    if (c->conjugate && status == HD_OK) status = keep_isotropic(c);
+    c->cost->replay += replayed - start;
+    c->cost->ortho += hd_clock_now() - replayed;
+    if (HD_VERIFIES && status == HD_OK) hd_verify_ortho(c->ortho, c->frame);
+    return status;
+}
+
+double hd_carrier_averaged(const hd_carrier *c)
+{
+    return hd_spectrum_time(c->spectrum) + hd_spectrum_sample_time(c->spectrum);
+}
+
+void hd_carrier_save_accuracy(hd_carrier *c, bool averaging)
+{
+    const double used = HD_ENLARGED * c->rounding.sum / c->accuracy;
+    c->interval.saved = averaging && c->spectrum ? hd_carrier_averaged(c) - used : INFINITY;
+}
+
+/** What an accepted orthonormalisation says about spectrum, interval and cost. */
+static void piece_accepted(hd_carrier *c, double length, bool averaging)
+{
+    const hd_norm norm = hd_ortho_norm(c->ortho); /* of a stable step always the whole one */
+    const double start = hd_clock_now();
+    const double *stretch = hd_ortho_log_stretch(c->ortho);
+    const double condition = hd_ortho_condition(c->ortho);
+    double most = 0.0;
+    for (int col = 0; col < c->carried; col++) most = fmax(most, fabs(stretch[col]));
+    c->interval.norm = norm;
+    if (length > 0) hd_interval_learn(&c->interval, length, condition, most);
+    if (c->conjugate) stretch = hd_conjugate_stretch(c->conjugate, stretch);
+    if (averaging) hd_spectrum_add(c->spectrum, stretch, length);
+    hd_cost *cost = c->cost;
+    if (length > 0) cost->interval = length;
+    cost->condition = condition;
+    cost->defect = hd_ortho_defect(c->ortho);
+    const double counted = hd_interval_counted(condition, norm);
+    c->rounding.condition_max = fmax(c->rounding.condition_max, counted);
+    c->rounding.sum += HD_ROUNDING * counted;
+    cost->orthonormalisations++;
+    cost->second_passes += hd_ortho_passes(c->ortho) > 1;
+    hd_carrier_save_accuracy(c, averaging);
+    cost->spectrum += hd_clock_now() - start;
+}
+
+/** Before the window's first orthonormalisation. */
+static hd_status window_starts(hd_carrier *c, const hd_carrying *how)
+{
+    if (!how->windows) return HD_OK;
+    if (c->conjugate && hd_windows_begin(how->windows)) HD_TRY(hd_conjugate_start(c->frame));
+    return hd_windows_start(how->windows, c->frame,
+                            hd_trajectory_time(how->trajectory) - c->log->duration, how->expected);
+}
+
+/** The frame is orthonormal in the norm of dq: in the whole norm, too, at the same time. */
+static hd_status complete_norm(hd_carrier *c, bool averaging)
+{
+    const double start = hd_clock_now();
+    const hd_ortho_limits limits = {.condition = CONDITION_COMPLETE, .defect = DEFECT_MEASURED};
+    if (c->whole) return HD_OK;
+    HD_TRY(hd_ortho_step(c->ortho, c->frame, limits));
+    c->cost->ortho += hd_clock_now() - start;
+    c->whole = true;
+    piece_accepted(c, 0.0, averaging);
+    return HD_OK;
+}
+
+/** Loss of orthogonality that an interval may leave. */
+static double defect_allowed(const hd_carrier *c, const hd_carrying *how, hd_norm norm)
+{
+    const bool looked_at = norm == HD_NORM_FULL && (how->windows || how->observed);
+    if (how->windows && c->conjugate) return DEFECT_COUPLED;
+    return fmin(looked_at ? DEFECT_MEASURED : DEFECT_LOOSE,
+                sqrt(DEFECT_SHARE * c->accuracy * c->log->duration));
+}
+
+/** A part of the log, if the conditioning allows it. */
+static hd_status carry_piece(hd_carrier *c, const hd_carrying *how, double t_begin, double t_end)
+{
+    const bool whole = how->measured && t_end >= c->log->duration;
+    const hd_norm norm = whole ? HD_NORM_FULL : hd_carrier_norm(c, how->windows);
+    c->interval.norm = norm;
+    return frame_piece(c, t_begin, t_end,
+                       (hd_ortho_limits){.defect = defect_allowed(c, how, norm), .norm = norm});
+}
+
+/** A part of the log has been carried through. */
+static hd_status take_piece(hd_carrier *c, const hd_carrying *how, double t_begin, double t_end)
+{
+    piece_accepted(c, t_end - t_begin, how->averaging);
+    c->whole = hd_ortho_norm(c->ortho) == HD_NORM_FULL;
+    if (!how->windows) return HD_OK;
+    return hd_windows_add(how->windows, c->ortho, c->frame, c->log, t_begin, t_end);
+}
+
+static hd_status carry_through(hd_carrier *c, const hd_carrying *how)
+{
+    const double duration = c->log->duration;
+    double begin = 0.0, end = duration;
+    HD_TRY(window_starts(c, how));
+    while (begin < duration) {
+        const double piece = end - begin;
+        const hd_status status = carry_piece(c, how, begin, end);
+        if (status != HD_OK && status != HD_ILL_CONDITIONED) return status;
+        if (status == HD_OK) {
+            HD_TRY(take_piece(c, how, begin, end));
+            begin = end;
+            end = duration - end < 1.5 * piece ? duration
+                                               : end + piece; /* no crumb of rounding is left */
+            continue;
+        }
+        if (piece <= duration / PIECES_LAST) return HD_ILL_CONDITIONED;
+        c->cost->repairs += piece >= duration;
+        c->cost->limit = HD_LIMIT_REPAIR;
+        hd_interval_failed(&c->interval, piece);
+        hd_frame_rewind(c->frame);
+        end = begin + 0.5 * piece;
+    }
+    hd_event_log_clear(c->log);
+    return how->windows ? hd_windows_end(how->windows, c->frame, how->trajectory) : HD_OK;
+}
+
+hd_status hd_carrier_orthonormalise(hd_carrier *c, hd_carrying how)
+{
+    if (c->log->duration > 0) return carry_through(c, &how);
+    return how.measured ? complete_norm(c, how.averaging) : HD_OK;
+}
+
+hd_status hd_carrier_sample(hd_carrier *c, bool averaging)
+{
+    HD_TRY(keep_halves(c));
+    if (averaging) hd_spectrum_sample(c->spectrum);
+    return HD_OK;
+}
+
+void hd_carrier_clear(hd_carrier *c)
+{
+    if (c->spectrum) hd_spectrum_clear(c->spectrum);
+    c->rounding.sum = HD_ROUNDING * c->rounding.condition_max;
+}
+
+/* ---- what can be read ---------------------------------------------------------------------- */
+
+hd_columns hd_carrier_vectors(const hd_carrier *c)
+{
+    const hd_columns carried = hd_frame_columns(c->frame);
+    return c->conjugate ? hd_conjugate_complete(c->conjugate, carried) : carried;
+}
+
+void hd_carrier_halves(const hd_carrier *c, double *cos_theta, double *dp_dq_ratio)
+{
+    for (int col = 0; col < c->vectors; col++) {
+        const double cosine = c->halves[col], ratio = c->halves[c->vectors + col];
+        cos_theta[col] = cosine == NO_HALF ? NAN : cosine;
+        dp_dq_ratio[col] = ratio == NO_HALF ? NAN : ratio;
+    }
+}
+
+double hd_carrier_smallest_error(const hd_carrier *c)
+{
+    return c->spectrum ? hd_spectrum_error_of_last(c->spectrum, SMALLEST_EXPONENTS) : INFINITY;
+}
+
+double hd_carrier_error_bound(const hd_carrier *c)
+{
+    const double averaged = c->spectrum ? hd_carrier_averaged(c) : 0.0, defect = c->cost->defect;
+    const double rounded = HD_ENLARGED * c->rounding.sum + defect * defect;
+    return averaged > 0 ? rounded / averaged : NAN;
+}

@@ -1,0 +1,87 @@
+/** What carries the tangent vectors of a run: the log of the events since the last
+ * orthonormalisation, the frame, and what its orthonormalisations tell: spectrum, conditioning,
+ * halves.
+ */
+#ifndef HD_CARRIER_H
+#define HD_CARRIER_H
+
+#include "hdlyap/run.h"
+#include "observe/windows.h"
+#include "tangent/conjugate.h"
+#include "tangent/interval.h"
+
+/** What rounding may have done. */
+typedef struct hd_rounding {
+    double condition_max; /**< so far: how well the start of the averaging is known */
+    double sum;           /**< HD_ROUNDING times that and the conditions since, summed */
+} hd_rounding;
+
+/** The fields are carrier.c's, and of checkpoint.c. Without exponents pointers are NULL. */
+typedef struct hd_carrier {
+    hd_communicator *communicator; /**< NULL: a single rank */
+    int disks, vectors, carried, positive, threads, threads_denied;
+    double accuracy, collision; /**< of an exponent; between two collisions of a disk */
+    hd_event_log *log;
+    hd_frame *frame;
+    hd_ortho *ortho;
+    hd_conjugate *conjugate; /**< NULL where all vectors are carried */
+    double *halves; /**< [2 * vectors], of the last measured state: as hd_run_halves gives them */
+    hd_spectrum *spectrum;
+    hd_interval interval;
+    hd_rounding rounding;
+    bool whole; /**< the frame was orthonormalised in the whole norm, not in that of dq alone */
+    hd_cost *cost;
+} hd_carrier;
+
+/** How a log is to be carried through. */
+typedef struct hd_carrying {
+    bool averaging;      /**< the spectrum takes it up */
+    bool measured;       /**< the frame becomes orthonormal in the whole norm */
+    bool observed;       /**< somebody looks at measured vectors */
+    hd_windows *windows; /**< NULL unless covariant vectors are wanted */
+    double expected;     /**< time units that the next intervals are expected to last */
+    const hd_trajectory *trajectory;
+} hd_carrying;
+
+/** Of a scene; collision: time between two of a disk; block: shortest of the averages. What it
+ * costs is added to `cost`. Without exponents only its interval is there. What one rank cannot do,
+ * none does. */
+HD_MUST_CHECK hd_status hd_carrier_create(hd_carrier *carrier, const hd_scene_def *scene,
+                                          double collision, double block,
+                                          hd_communicator *communicator, hd_cost *cost);
+void hd_carrier_free(hd_carrier *carrier);
+/** On each of so many ranks. */
+double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks);
+/** Threads that a rank of these may use. */
+int hd_carrier_threads_most(const hd_scene_def *scene, const hd_communicator *communicator);
+
+/** The norm in which the frame is orthonormalised where nobody wants its vectors; windowing:
+ * covariant vectors are wanted. */
+hd_norm hd_carrier_norm(const hd_carrier *carrier, bool windowing);
+/** The longest that intervals between orthonormalisations can become. */
+double hd_carrier_longest(const hd_carrier *carrier);
+
+/** Carries the frame through the whole log and orthonormalises it. HD_ILL_CONDITIONED if no piece
+ * is short enough. */
+HD_MUST_CHECK hd_status hd_carrier_orthonormalise(hd_carrier *carrier, hd_carrying how);
+/** Halves are those of this measured state, and the spectrum takes its sample up. */
+HD_MUST_CHECK hd_status hd_carrier_sample(hd_carrier *carrier, bool averaging);
+
+/** The averages begin here. */
+void hd_carrier_clear(hd_carrier *carrier);
+/** Tells the interval how much of the accuracy the averaging has not used up. */
+void hd_carrier_save_accuracy(hd_carrier *carrier, bool averaging);
+
+/** All n vectors, of a single rank. */
+hd_columns hd_carrier_vectors(const hd_carrier *carrier);
+/** hd_frame_halves of all n vectors at the last measured state; [n] each. */
+void hd_carrier_halves(const hd_carrier *carrier, double *cos_theta, double *dp_dq_ratio);
+/** Averaged time, that of the sample under way included. */
+double hd_carrier_averaged(const hd_carrier *carrier);
+/** Largest standard error of the exponents nearest to zero; INFINITY while one is unknown, and
+ * without exponents. */
+double hd_carrier_smallest_error(const hd_carrier *carrier);
+/** See hd_cost.error_bound; NaN before the averaging. */
+double hd_carrier_error_bound(const hd_carrier *carrier);
+
+#endif
