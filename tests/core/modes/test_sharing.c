@@ -49,7 +49,7 @@ static void check_sharing(double gap, double noise, int samples, hd_sharing expe
     world_free(&w);
 }
 
-/** The frame is as old as warm-up (50) and averages: 306 time units. */
+/** The frame is as old as warm-up (91, that of the scene) and averages: 347 time units. */
 TEST(exponents_and_time_tell)
 {
     check_sharing(0.0, 0.02, 8, HD_SHARING_UNKNOWN); /* no errors yet */
@@ -57,6 +57,15 @@ TEST(exponents_and_time_tell)
     check_sharing(0.0, 0.02, SAMPLES, HD_SHARING_COINCIDENT);
     check_sharing(0.02, 0.02, SAMPLES, HD_SHARING_MIXING);
     check_sharing(0.05, 0.02, SAMPLES, HD_SHARING_BLENDED);
+}
+
+/** That of the scene, whose default is not a number: half of it is enough to part. */
+TEST(a_warmup_that_nobody_gave_counts)
+{
+    const hd_scene_def def = scene_of_places(0.8);
+    assert_true(def.warmup == HD_WARMUP_AUTO);
+    check_sharing(10.0 / (0.5 * hd_scene_warmup(&def) + SAMPLES), 0.02, SAMPLES,
+                  HD_SHARING_BLENDED);
 }
 
 TEST(who_is_alone_shares_nothing)
