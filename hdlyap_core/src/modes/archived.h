@@ -22,7 +22,8 @@ double hd_pmode_bytes(double disks);
 
 void hd_modes_archive(hd_modes *modes, hd_archive *archive);
 void hd_steps_archive(hd_steps *steps, hd_archive *archive);
-void hd_phases_archive(hd_phases *phases, hd_archive *archive);
+/** `now`: simulated time of the run. */
+void hd_phases_archive(hd_phases *phases, hd_archive *archive, double now);
 void hd_structure_archive(hd_structure *structure, hd_archive *archive);
 
 #endif

@@ -219,11 +219,14 @@ double hd_phases_sampling(const hd_phases *phases, const hd_steps *steps)
 
 /* ---- file ---------------------------------------------------------------------------------- */
 
-void hd_phases_archive(hd_phases *phases, hd_archive *archive)
+void hd_phases_archive(hd_phases *phases, hd_archive *archive, double now)
 {
     for (int k = 0; k < phases->rotors; k++)
-        hd_rotor_archive(&phases->rotor[k], archive, phases->vectors);
-    for (int t = 0; t < phases->tracks; t++)
-        hd_track_archive(&phases->track[t], archive, phases->vectors);
+        hd_rotor_archive(&phases->rotor[k], archive, phases->vectors, now);
+    for (int k = 0; k < phases->rotors; k++) {
+        const hd_rotor *r = &phases->rotor[k];
+        for (int t = 0; t < r->slots * r->pairs; t++)
+            hd_track_archive(&r->track[t], archive, phases->vectors, r->time);
+    }
     hd_blocks_archive(&phases->blocks, archive);
 }

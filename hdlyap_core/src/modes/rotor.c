@@ -248,7 +248,7 @@ double hd_rotor_sampling(const hd_rotor *r, const hd_step *step)
 /* ---- file ---------------------------------------------------------------------------------- */
 
 /** The vectors in the slots are those of the set. */
-void hd_rotor_archive(hd_rotor *r, hd_archive *archive, int vectors)
+void hd_rotor_archive(hd_rotor *r, hd_archive *archive, int vectors, double now)
 {
     hd_archive_int(archive, "rotor col", &r->col, -1, vectors - 1);
     hd_archive_int(archive, "rotor count", &r->count, 0, HD_SET_VECTORS_MAX);
@@ -262,6 +262,7 @@ void hd_rotor_archive(hd_rotor *r, hd_archive *archive, int vectors)
     for (int v = 0; v < r->slots; v++)
         hd_archive_doubles(archive, "rotor z", (double *)r->z[v], 2 * (size_t)r->pairs);
     hd_archive_double(archive, "rotor time", &r->time);
+    hd_archive_expect(archive, r->time <= now, "rotor time", "it does not fit the time");
     hd_foresight_archive(&r->ahead, archive);
     hd_archive_double(archive, "rotor turned", &r->turned);
     hd_archive_double(archive, "rotor turning", &r->turning);

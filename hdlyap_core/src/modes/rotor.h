@@ -48,6 +48,7 @@ int hd_rotor_tracked(const hd_rotor *r); /**< tracks that have a phase now */
 /** Longest time to the next sample of a resolved step. */
 double hd_rotor_sampling(const hd_rotor *r, const hd_step *step);
 
-void hd_rotor_archive(hd_rotor *r, hd_archive *archive, int vectors);
+/** Without its tracks; `now`: simulated time of the run. */
+void hd_rotor_archive(hd_rotor *r, hd_archive *archive, int vectors, double now);
 
 #endif

@@ -73,7 +73,7 @@ bool hd_track_add(hd_track *t, double complex z, double time, double omega, doub
     return true;
 }
 
-void hd_track_archive(hd_track *t, hd_archive *archive, int vectors)
+void hd_track_archive(hd_track *t, hd_archive *archive, int vectors, double sampled)
 {
     int state = (int)t->out.state;
     hd_archive_int(archive, "phase col", &t->out.col, -1, vectors - 1);
@@ -87,6 +87,8 @@ void hd_track_archive(hd_track *t, hd_archive *archive, int vectors)
     for (int k = 0; k < 6; k++) hd_archive_next_doubles(archive, of_out[k], 1);
     hd_archive_of_doubles(archive, "phase sums", 6);
     for (int k = 0; k < 6; k++) hd_archive_next_doubles(archive, sums[k], 1);
+    hd_archive_expect(archive, t->begin <= t->last && t->last <= sampled, "phase sums",
+                      "they do not fit the time");
     hd_archive_long(archive, "phase count", &t->count, 0, LONG_MAX / 2);
     hd_blocks_archive(&t->turns, archive);
 }

@@ -31,6 +31,7 @@ bool hd_track_add(hd_track *t, double complex z, double time, double omega, doub
 /** Phase nearest to the prediction that differs from `phase` by turns. */
 double hd_track_unwrapped(double phase, double predicted);
 
-void hd_track_archive(hd_track *t, hd_archive *archive, int vectors);
+/** `sampled`: time of the last sample that its rotor took. */
+void hd_track_archive(hd_track *t, hd_archive *archive, int vectors, double sampled);
 
 #endif

@@ -48,8 +48,7 @@ static double phases_sampling(void *self, const hd_observing *with)
 
 static void phases_archive(void *self, hd_archive *archive, const hd_trajectory *now)
 {
-    (void)now;
-    hd_phases_archive(self, archive);
+    hd_phases_archive(self, archive, hd_trajectory_time(now));
 }
 
 #define ROW(of, its_bytes, its_create)                                                             \

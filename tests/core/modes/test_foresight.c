@@ -96,11 +96,11 @@ TEST(a_file_keeps_all)
     FILE *file = tmpfile();
     assert_non_null(file);
     hd_archive out = hd_archive_writer(file);
-    hd_phases_archive(r.phases, &out);
+    hd_phases_archive(r.phases, &out, INFINITY);
     CHECK_OK(hd_archive_end(&out));
     rewind(file);
     hd_archive in = hd_archive_reader(file, out.bytes);
-    hd_phases_archive(read, &in);
+    hd_phases_archive(read, &in, INFINITY);
     CHECK_OK(hd_archive_end(&in));
     fclose(file);
     const double sampling = hd_phases_sampling(r.phases, r.w.steps);

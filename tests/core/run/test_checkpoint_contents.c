@@ -102,9 +102,12 @@ TEST(contents_that_no_run_has_are_refused)
         {"step count", 0, 0, 1, "vectors that it needs"},
         {"steps of vector", 0, 0, 1000, "out of its range"},
         {"rotor count", 0, 0, 64, "rotor"},
+        {"rotor time", 0, 1e9, 0, "rotor time"},
         {"rotor slots", 0, 0, 0, "out of its range"},
         {"phase state", 0, 0, 4, "out of its range"},
         {"phase col", 0, 0, 117, "out of its range"},
+        {"phase sums", 0, 1e9, 0, "phase"},
+        {"phase sums", 1, 1e9, 0, "phase"},
     };
     CHECK_OK(kept_read(&again, &b, NULL, message, sizeof message));
     hd_run_free(again);
