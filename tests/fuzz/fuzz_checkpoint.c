@@ -17,7 +17,7 @@
 /** Of a file before its arrays; of an array before its elements, with their number in the last
  * eight bytes. */
 enum { FILE_HEAD = 48, ARRAY_HEAD = HD_ARCHIVE_NAME + 16, ELEMENT = 8 };
-enum { STEPS = 2 };
+enum { STEPS_MAX = 8 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size);
 size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t most, unsigned seed);
@@ -49,15 +49,16 @@ static void read_file(const uint8_t *bytes, size_t size)
 }
 
 /** A run out of a file may end in any of the documented ways, but does not crash, and does not
- * stand still. */
+ * stand still: until its modes have been looked at twice, as what is followed needs. */
 static void go_on(hd_run *run)
 {
-    for (int step = 0; step < STEPS; step++) {
-        const double before = hd_run_time(run);
+    for (int step = 0, looks = 0; step < STEPS_MAX && looks < 2; step++) {
+        const double before = hd_run_time(run), followed = hd_run_followed(run);
         const hd_stage phase = hd_run_stage(run);
         if (phase == HD_FINISHED || hd_run_advance(run) != HD_OK) return;
         require(hd_run_time(run) >= before, "the time goes back", "");
         require(isfinite(hd_run_time(run)), "the time is no number", "");
+        looks += hd_run_followed(run) != followed;
     }
 }
 

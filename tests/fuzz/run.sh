@@ -12,20 +12,29 @@ build() {
     cmake --build "$WORK/build" -- -j "$(nproc)"
 }
 
-# fuzz TARGET RUNS OPTION...: a leak, an input that takes 10 s or 2 GB of memory are findings too.
+# fuzz TARGET CORPUS RUNS OPTION...: a leak, an input that takes 10 s or 2 GB of memory are findings too.
 fuzz() {
-    local target=$1 runs=$2 corpus=$WORK/corpus/$1
-    shift 2
+    local target=$1 corpus=$WORK/corpus/$2 runs=$3
+    shift 3
     mkdir -p "$corpus"
     "$WORK/build/$target" -runs="$runs" -seed=1 -timeout=10 -rss_limit_mb=2048 \
         -artifact_prefix="$WORK/$target-" "$@" "$corpus"
 }
 
+# Single elements of a run whose phases are followed: among all seeds and changes too few are met.
+fuzz_phases() {
+    unset HDLYAP_SEEDS
+    mkdir -p "$WORK/corpus/phases"
+    cp "$WORK/corpus/checkpoint/steps_24_3" "$WORK/corpus/phases" || return
+    fuzz fuzz_checkpoint phases 4000 -mutate_depth=1
+}
+
 rm -rf "$WORK/corpus"
-mkdir -p "$WORK/corpus/fuzz_checkpoint"
+mkdir -p "$WORK/corpus/checkpoint"
 # few threads and no pool: what a file asks for is not this machine's to give
-export OMP_THREAD_LIMIT=2 OPENBLAS_NUM_THREADS=1 HDLYAP_SEEDS=$WORK/corpus/fuzz_checkpoint
+export OMP_THREAD_LIMIT=2 OPENBLAS_NUM_THREADS=1 HDLYAP_SEEDS=$WORK/corpus/checkpoint
 check fuzz_build build
-check fuzz_settings fuzz fuzz_settings 60000 -max_len=400 -len_control=0
-check fuzz_checkpoint fuzz fuzz_checkpoint 20000
+check fuzz_settings fuzz fuzz_settings settings 60000 -max_len=400 -len_control=0
+check fuzz_checkpoint fuzz fuzz_checkpoint checkpoint 20000
+check fuzz_phases fuzz_phases
 exit "$FAILED"

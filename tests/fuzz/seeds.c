@@ -1,5 +1,6 @@
-/** Checkpoints to begin with, of runs of 2, 4 and 10 disks in each phase, with and without modes:
- * written to the folder HDLYAP_SEEDS, if it is set, before the fuzzer reads its folders. */
+/** Checkpoints to begin with, of runs of 2, 4 and 10 disks in each phase, with and without modes,
+ * and of one that has phases to follow: written to the folder HDLYAP_SEEDS, if it is set, before
+ * the fuzzer reads its folders. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -53,6 +54,10 @@ static int save_all(const char *folder)
                  {"modes", HD_EXPONENTS_POSITIVE, modes}};
     static const int disks[] = {2, 4, 10};
     int failed = 0;
+    hd_scene_def steps = scene_of(24, HD_EXPONENTS_POSITIVE, modes | HD_OBSERVE_T_PHASES);
+    steps.density = 0.8;
+    steps.aspect = 0.1; /* LP(1,0) and T(1,0) are resolved in the last */
+    failed = save_run(folder, "steps_24", &steps);
     for (int k = 0; k < 9 && !failed; k++) {
         const hd_scene_def def = scene_of(disks[k / 3], kinds[k % 3].exponents,
                                           kinds[k % 3].observe);
