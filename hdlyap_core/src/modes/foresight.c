@@ -20,7 +20,7 @@ static const double GROWTH = 2.0;
 /** In times that need no foresight: longest between samples, and of a phase that is weak. */
 static const double MOST = 10.0, GAP_MAX = 21.0;
 /** A sample may come later than foreseen by this. */
-static const double LATE = 4.0 / 3.0;
+static const double LATE = 1.0 / HD_FORESIGHT_PART;
 /** Misses are forgotten within so many samples of mean length. */
 static const double MEMORY = 48.0;
 /** Samples that show how large misses are; turns of the whole far off, one after the other, that no

@@ -6,6 +6,10 @@
 
 #include "base/archive.h"
 
+/** Part of the time since the last sample that must have been foreseen: a sample that comes later
+ * is too late. */
+#define HD_FORESIGHT_PART 0.75
+
 typedef struct hd_foresight {
     double off;      /**< that phases may be expected to be [rad] */
     double omega;    /**< mean turn of the whole step per time */

@@ -218,7 +218,7 @@ void hd_rotor_add(hd_rotor *r, const hd_step *step, const hd_modes *modes, doubl
     const bool same = r->col == step->col && r->count == step->count;
     if (same && !(dt > 0)) return;
     const double gap = hd_foresight_gap(&r->ahead, unseen(step));
-    bool coarse = same && dt * SAFE > hd_foresight_sampling(&r->ahead, unseen(step));
+    bool coarse = same && dt * HD_FORESIGHT_PART > hd_foresight_sampling(&r->ahead, unseen(step));
     if (same && !coarse) {
         if (r->samples > LEARN) slots_match(r, step, modes, dt);
         if (r->samples > LEARN) hd_foresight_sample(&r->ahead, dt);

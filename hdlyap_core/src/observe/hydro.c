@@ -15,7 +15,7 @@
 
 enum { RESPONSES = 4 };
 
-/** One step at one modulation: its vectors' entries are `modulations` apart. */
+/** One response for each vector of each step and each modulation: see entries_of. */
 struct hd_hydro {
     hd_boundary boundary[2];
     int disks, count;
