@@ -16,10 +16,12 @@
 #include "covariant/store.h"
 #include "events/event_log.h"
 #include "hdlyap/ortho.h"
+#include "tangent/interval.h"
 
-static const hd_ortho_limits LIMITS = {1e7, 1e-6, HD_NORM_FULL};
+/** Of the condition: what the forward pass accepts at most. */
+static const hd_ortho_limits LIMITS = {HD_CONDITION_MAX, 1e-6, HD_NORM_FULL};
 /** To rounding, as Y takes both ends to be [T19]. */
-static const hd_ortho_limits LIMITS_COUPLED = {1e7, 1e-12, HD_NORM_FULL};
+static const hd_ortho_limits LIMITS_COUPLED = {HD_CONDITION_MAX, 1e-12, HD_NORM_FULL};
 
 struct hd_recompute {
     hd_recompute_def def;

@@ -7,8 +7,6 @@
 
 #include "tangent/archived.h"
 
-/** Beyond, block Gram-Schmidt may meet panels that Cholesky cannot factor. */
-static const double CONDITION_MAX = 1e12;
 /** A few collisions alone can make as much: shorter intervals would not lower it, only add up more
  * of it. */
 static const double CONDITION_MIN = 1e3;
@@ -52,7 +50,7 @@ static double condition_of(const hd_interval *interval, double time)
 {
     const double counted = interval->accuracy * time / (HD_ENLARGED * HD_ROUNDING);
     const double condition = counted / hd_interval_counted(1.0, interval->norm);
-    return fmax(CONDITION_MIN, fmin(CONDITION_MAX, condition));
+    return fmax(CONDITION_MIN, fmin(HD_CONDITION_MAX, condition));
 }
 
 double hd_interval_condition_max(const hd_interval *interval, double length)

@@ -18,6 +18,10 @@
 /** Neighbouring vectors that change places enlarge that: seen up to 18 times [T6]. */
 #define HD_ENLARGED 20.0
 
+/** Most that an orthonormalisation by products may leave: beyond, block Gram-Schmidt may meet
+ * panels that Cholesky cannot factor. */
+#define HD_CONDITION_MAX 1e12
+
 /** Most that reflections are asked to factor: they stay right to eps * condition, 1e-3 of one
  * interval, once. */
 #define HD_CONDITION_STABLE 1e13

@@ -6,6 +6,7 @@
 #include "covariant/recompute.h"
 #include "triangles.h"
 #include "interval.h"
+#include "tangent/interval.h"
 
 enum { DISKS = 8, STRETCH = 4, SLOTS = 5 * STRETCH, KEPT = SLOTS - STRETCH, INTERVALS = 67 };
 
@@ -111,6 +112,25 @@ TEST(triangles_are_those_of_the_forward_pass)
     check_ring(HD_EXPONENTS_ALL_INDEPENDENT);
     check_ring(HD_EXPONENTS_POSITIVE);
     check_ring(1);
+}
+
+/** What products can factor is not factored by reflections here: the same bits. Panel by panel they
+ * can in all, where the whole is far worse than one panel may be. */
+TEST(what_passed_passes_again)
+{
+    const hd_ortho_limits limits = {HD_CONDITION_MAX, 1e-6, HD_NORM_FULL};
+    kept *k = started(HD_EXPONENTS_ALL_INDEPENDENT);
+    const int n = forward_vectors(&k->f);
+    double *found = malloc((size_t)n * (size_t)n * sizeof *found);
+    CHECK_OK(trajectory_to(k->f.trajectory, k->f.log, hd_trajectory_time(k->f.trajectory) + 3.2));
+    CHECK_OK(hd_frame_replay(k->f.frame, k->f.log, 0.0, k->f.log->duration));
+    CHECK_OK(hd_ortho_step(k->f.ortho, k->f.frame, limits));
+    assert_true(hd_ortho_condition(k->f.ortho) > 1e8);
+    CHECK_OK(hd_recompute_events(k->r, 0, k->f.log, 0.0, k->f.log->duration));
+    CHECK_OK(hd_recompute_factor(k->r, found, NULL, 0, 0));
+    check_same_triangle(found, hd_ortho_factor(k->f.ortho), n);
+    free(found);
+    freed(k);
 }
 
 /* ---- logs written by hand ------------------------------------------------------------------ */
