@@ -28,7 +28,7 @@ struct hd_modes {
     hd_fields *fields;
     int disks, vectors, threads;
     size_t stride;       /**< of every array over the vectors */
-    double *gram;        /**< [columns * columns] */
+    double *gram;        /**< [columns][DIMENSION_MAX]: with those of its own subspace */
     double *coefficient; /**< [columns][stride]: overlaps, then coefficients */
     double *work;        /**< [DIMENSION_MAX][stride] */
     double *dq_norm;     /**< [stride] */
@@ -62,9 +62,12 @@ static hd_status modes_allocate(hd_modes *modes, const hd_scene_def *def)
     struct {
         double **array;
         size_t size;
-    } wanted[] = {{&modes->gram, columns * columns}, {&modes->coefficient, columns * n},
-                  {&modes->work, DIMENSION_MAX * n}, {&modes->dq_norm, n},
-                  {&modes->null_dp, HD_NULLS * n},   {&modes->snapshot, rows * n},
+    } wanted[] = {{&modes->gram, columns * DIMENSION_MAX},
+                  {&modes->coefficient, columns * n},
+                  {&modes->work, DIMENSION_MAX * n},
+                  {&modes->dq_norm, n},
+                  {&modes->null_dp, HD_NULLS * n},
+                  {&modes->snapshot, rows * n},
                   {&modes->average, rows * n}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
         if (!(*wanted[k].array = hd_memory_alloc(wanted[k].size, sizeof(double))))
@@ -118,12 +121,25 @@ static void overlaps(const hd_modes *modes, hd_columns v, int half, int column, 
                  out + v.first, (int)modes->stride);
 }
 
+static double *gram_of(const hd_modes *modes, const hd_subspace *s)
+{
+    return modes->gram + (size_t)s->column * DIMENSION_MAX;
+}
+
+/** Subspace by subspace: the products of fields of two are not needed. Row by row, as they lie. */
 static void gram_fill(hd_modes *modes)
 {
-    const int columns = hd_fields_columns(modes->fields);
-    cblas_dsyrk(CblasRowMajor, CblasUpper, CblasTrans, columns, 2 * modes->disks, 1.0,
-                hd_fields_data(modes->fields), hd_fields_stride(modes->fields), 0.0, modes->gram,
-                columns);
+    const size_t columns = (size_t)hd_fields_columns(modes->fields);
+    const size_t stride = (size_t)hd_fields_stride(modes->fields), rows = 2 * (size_t)modes->disks;
+    memset(modes->gram, 0, columns * DIMENSION_MAX * sizeof *modes->gram);
+    for (size_t row = 0; row < rows; row++)
+        for (int k = 0; k < hd_fields_subspaces(modes->fields); k++) {
+            const hd_subspace *s = hd_fields_subspace(modes->fields, k);
+            const double *x = hd_fields_data(modes->fields) + row * stride + s->column;
+            double *gram = gram_of(modes, s);
+            for (int a = 0; a < s->dimension; a++)
+                for (int b = 0; b < s->dimension; b++) gram[a * DIMENSION_MAX + b] += x[a] * x[b];
+        }
 }
 
 static void dq_norms(hd_modes *modes, hd_columns v)
@@ -170,13 +186,13 @@ static void measure_null(hd_modes *modes, hd_columns v)
  * a vector of 8. */
 static void whitening(const hd_modes *modes, const hd_subspace *s, double *whiten)
 {
-    const int d = s->dimension, columns = hd_fields_columns(modes->fields);
+    const int d = s->dimension;
+    const double *products = gram_of(modes, s);
     double gram[DIMENSION_MAX * DIMENSION_MAX], vectors[DIMENSION_MAX * DIMENSION_MAX];
     double value[DIMENSION_MAX], work[64 * DIMENSION_MAX], none;
     for (int a = 0; a < d; a++)
         for (int b = a; b < d; b++)
-            gram[a * d + b] = gram[b * d + a] =
-                modes->gram[(s->column + a) * columns + s->column + b];
+            gram[a * d + b] = gram[b * d + a] = products[a * DIMENSION_MAX + b];
     const int failed = LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'A', 'N', d, d, gram, d, value,
                                            vectors, d, &none, 1, work,
                                            (int)(sizeof work / sizeof *work));
@@ -191,12 +207,11 @@ static void whitening(const hd_modes *modes, const hd_subspace *s, double *white
 static void part_weight(const hd_modes *modes, const hd_subspace *s, int from, int to, hd_columns v,
                         double *out)
 {
-    const int columns = hd_fields_columns(modes->fields);
+    const double *gram = gram_of(modes, s);
     memset(out, 0, (size_t)v.count * sizeof *out);
     for (int a = from; a < to; a++)
         for (int b = a; b < to; b++) {
-            const double g = modes->gram[(s->column + a) * columns + s->column + b] *
-                             (a == b ? 1.0 : 2.0);
+            const double g = gram[a * DIMENSION_MAX + b] * (a == b ? 1.0 : 2.0);
             const double *x = hd_modes_coefficients(modes, s->column + a) + v.first;
             const double *y = hd_modes_coefficients(modes, s->column + b) + v.first;
             for (int l = 0; l < v.count; l++) out[l] += g * x[l] * y[l];
@@ -247,7 +262,7 @@ hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const
     const int columns = hd_fields_columns(modes->fields);
     hd_fields_sample(modes->fields, q, p);
     gram_fill(modes);
-    if (!all_finite(modes->gram, (size_t)columns * (size_t)columns)) return HD_NOT_FINITE;
+    if (!all_finite(modes->gram, (size_t)columns * DIMENSION_MAX)) return HD_NOT_FINITE;
     dq_norms(modes, v);
     overlaps(modes, v, 0, 0, columns, modes->coefficient);
     overlaps(modes, v, 2, columns - HD_NULLS, HD_NULLS, modes->null_dp);

@@ -7,7 +7,9 @@
 #include "runs.h"
 #include "scenes.h"
 
+#include "hdlyap/modes.h"
 #include "hdlyap/room.h"
+#include "hdlyap/wave.h"
 
 static double asked_for(const hd_scene_def *scene)
 {
@@ -52,6 +54,9 @@ TEST(the_estimate_is_what_is_asked_for)
     compare("with structure factors", &scene, 0.93, 1.07);
     scene.aspect = 0.01;
     compare("structure factors in a channel", &scene, 0.93, 1.07);
+    scene = short_run(300, HD_EXPONENTS_POSITIVE, MODES);
+    scene.max_wave_number = hd_wave_limits_of(&scene).largest;
+    compare("all wave vectors", &scene, 0.93, 1.07);
     scene = short_run(200, HD_EXPONENTS_ALL, MODES);
     compare("all exponents", &scene, 0.93, 1.07);
     scene = short_run(2000, 60, 0);
@@ -61,6 +66,25 @@ TEST(the_estimate_is_what_is_asked_for)
     scene.warmup = scene.equilibration = 0.0;
     scene.duration = 0.5;
     compare("disks alone", &scene, 0.93, 1.07);
+}
+
+/** Of each field: its values at the disks, and some numbers of each vector; none of each other
+ * field.
+ */
+TEST(fields_take_no_more_the_more_there_are)
+{
+    double of_one[2];
+    for (int k = 0; k < 2; k++) {
+        hd_modes *modes;
+        hd_scene_def scene = short_run(100, 60, HD_OBSERVE_STEPS);
+        scene.max_mode_number = k == 0 ? 3 : 8;
+        ledger_reset_peak();
+        CHECK_OK(hd_modes_create(&modes, &scene, 60, 1));
+        of_one[k] = (double)ledger_now().peak / hd_fields_columns(hd_modes_fields(modes));
+        hd_modes_free(modes);
+    }
+    print_message("%.0f and %.0f bytes of each field\n", of_one[0], of_one[1]);
+    assert_true(of_one[1] <= of_one[0]);
 }
 
 TEST(what_is_too_much_is_said)
