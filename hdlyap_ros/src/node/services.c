@@ -1,4 +1,6 @@
-/** Services in: answered on the callback thread, obeyed by the worker between two steps. */
+/** Services in: answered on the callback thread, obeyed by the worker between two steps. Who asks
+ * for a checkpoint or a change waits for it, and all other callbacks with it: there is one such
+ * thread. */
 #include "services.h"
 
 #include <stdio.h>

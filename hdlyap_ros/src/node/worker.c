@@ -23,8 +23,8 @@ static const double examination_share = 0.01;
 
 /** A change that is asked for, and what the worker says to it. */
 typedef struct set_request {
-    bool waits, made;
-    const char *assignment; /**< the asker's, as the next */
+    bool waits, taken, made; /**< taken: the worker is at it, and its asker stays for the answer */
+    const char *assignment;  /**< the asker's, as the next */
     char *message;
     size_t size;
 } set_request;
@@ -87,16 +87,21 @@ static void publish_changes(worker *w)
     pthread_mutex_lock(&w->lock);
 }
 
-/** Changes what is asked for. Lock held. */
+/** Changes what is asked for. Lock held, but not while it is changed: that may take a search for a
+ * lattice, and a word to all ranks. */
 static void answer_set(worker *w)
 {
     set_request *r = &w->set_asked;
-    r->made = changes_ask(w->changes, w->set, w->run, r->assignment, r->message, r->size);
-    r->waits = false;
+    r->taken = true;
+    pthread_mutex_unlock(&w->lock);
+    const bool made = changes_ask(w->changes, w->set, w->run, r->assignment, r->message, r->size);
+    if (made) hdr_log(HDR_INFO, "set: %s", r->message);
+    pthread_mutex_lock(&w->lock);
+    r->made = made;
+    r->waits = r->taken = false;
     w->due = 0.0; /* of another pace */
-    if (r->made) hdr_log(HDR_INFO, "set: %s", r->message);
     pthread_cond_broadcast(&w->changed);
-    if (r->made) publish_changes(w);
+    if (made) publish_changes(w);
 }
 
 /** False if asked to stop. */
@@ -232,8 +237,9 @@ static hd_status step(worker *w)
     if (status == HD_OK) status = w->set->pace > 0.0 ? paced_step(w) : hd_run_advance(w->run);
     if (status != HD_OK) return status;
     status = publish(w);
+    const progress now = progress_of(w->run);
     pthread_mutex_lock(&w->lock);
-    w->state.last = progress_of(w->run);
+    w->state.last = now;
     error_trend_add(&w->state.errors, w->state.last.averaged, w->state.last.cost.std_error);
     pthread_mutex_unlock(&w->lock);
     return status;
@@ -393,6 +399,14 @@ bool worker_checkpoint(worker *w, double seconds, char *message, size_t size)
     return done;
 }
 
+/** False if the change that is asked for will not be made. Lock held. */
+static bool wait_for_answer(worker *w, double until)
+{
+    if (w->set_asked.taken) return wait_until(w, INFINITY);
+    if (w->stop || w->state.stage == WORKER_ENDED) return false;
+    return wait_until(w, until) || w->set_asked.taken;
+}
+
 bool worker_set(worker *w, double seconds, const char *assignment, char *message, size_t size)
 {
     const double until = clock_seconds() + seconds;
@@ -400,8 +414,7 @@ bool worker_set(worker *w, double seconds, const char *assignment, char *message
     w->set_asked = (set_request){
         .waits = true, .assignment = assignment, .message = message, .size = size};
     pthread_cond_broadcast(&w->changed);
-    while (w->set_asked.waits && !w->stop && w->state.stage != WORKER_ENDED && wait_until(w, until))
-        continue;
+    while (w->set_asked.waits && wait_for_answer(w, until)) continue;
     if (w->set_asked.waits)
         snprintf(message, size, "%s",
                  w->stop || w->state.stage == WORKER_ENDED ? "the run has ended"

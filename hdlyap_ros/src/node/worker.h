@@ -54,8 +54,8 @@ void worker_examine(worker *w);
  * not written, with the reason in message. */
 bool worker_checkpoint(worker *w, double seconds, char *message, size_t size);
 
-/** Changes a parameter before the next step, as changes_ask does, and waits for it at most that
- * long. False with the reason in message: nothing has changed then, nor will. */
+/** Changes a parameter before the next step, as changes_ask does, and waits at most that long until
+ * that begins. False with the reason in message: nothing has changed then, nor will. */
 bool worker_set(worker *w, double seconds, const char *assignment, char *message, size_t size);
 
 /** Waits at most that long for the end; true if it has come. */
