@@ -129,7 +129,7 @@ int main(int argc, char **argv)
     hd_run *run;
     char message[300] = "";
     sample w = {0};
-    require(hd_mpi_begin(&ranks, &argc, &argv), "MPI");
+    require(hd_mpi_begin(&ranks, &argc, &argv, message, sizeof message), "MPI");
     options_read(argc, argv, list);
     const hd_scene_def scene = scene_of(&a);
     if (hd_run_create_shared(&run, &scene, ranks, message, sizeof message) != HD_OK) {

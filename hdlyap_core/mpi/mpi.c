@@ -3,7 +3,9 @@
 
 #include <limits.h>
 #include <mpi.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /** Of one message: MPI counts in int; and room that an exchange takes beside what it exchanges. */
 enum { PIECE = 1 << 17 };
@@ -68,15 +70,41 @@ static int ranks_beside(void)
     return ranks;
 }
 
-hd_status hd_mpi_begin(hd_communicator **out, int *argc, char ***argv)
+static hd_status refuse(char *message, size_t size, const char *line)
+{
+    if (message && size > 0) snprintf(message, size, "%s", line);
+    return HD_REFUSED;
+}
+
+/** A single rank, unless what has started it says otherwise. */
+static hd_status alone(char *message, size_t size)
+{
+    char library[MPI_MAX_LIBRARY_VERSION_STRING] = "", line[MPI_MAX_LIBRARY_VERSION_STRING + 256];
+    const char *variable;
+    int length;
+    const int started = hd_ranks_started(&variable);
+    if (started == 1) return HD_OK;
+    MPI_Get_library_version(library, &length);
+    library[strcspn(library, ",\n")] = '\0';
+    MPI_Finalize();
+    snprintf(
+        line, sizeof line,
+        "%s = %d, but %s, which is loaded, finds a single rank: start it by the mpirun of that "
+        "MPI, or unset %s for one process alone",
+        variable, started, library, variable);
+    return refuse(message, size, line);
+}
+
+hd_status hd_mpi_begin(hd_communicator **out, int *argc, char ***argv, char *message, size_t size)
 {
     int provided, rank, ranks;
     *out = NULL;
     MPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &provided);
-    if (provided < MPI_THREAD_SERIALIZED) return HD_REFUSED;
+    if (provided < MPI_THREAD_SERIALIZED)
+        return refuse(message, size, "this MPI cannot be called by several threads");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-    if (ranks == 1) return HD_OK;
+    if (ranks == 1) return alone(message, size);
     hd_communicator *c = calloc(1, sizeof *c);
     if (!c) return HD_NO_MEMORY;
     c->rank = rank;

@@ -212,6 +212,12 @@ class Ranks(harness.Case):
         self.assertEqual(len(node.lines('FATAL')), 1, node.text())
         self.assertEqual(len(node.lines('ranks = 4: must be 1, as this build has no MPI (')), 1)
 
+    def test_another_mpi(self):
+        """Started by another MPI than the one that is loaded, each rank would run by itself."""
+        node = self.start(SHORT, PMI_SIZE='4', **ENVIRONMENT)
+        self.assertEqual(node.wait(harness.SOON), 2, node.text())
+        self.assertEqual(len(node.lines('ranks = 4: PMI_SIZE = 4, but ')), 1, node.text())
+
     def test_checkpoint(self):
         """Kept by two, it goes on with one."""
         with tempfile.TemporaryDirectory() as folder:

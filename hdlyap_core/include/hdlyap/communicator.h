@@ -48,6 +48,10 @@ struct hd_communicator {
     hd_traffic traffic[HD_CALLS];
 };
 
+/** How many ranks have been started, as what starts them says in the environment, and in which
+ * variable; 1 and NULL: in none. */
+int hd_ranks_started(const char **variable);
+
 int hd_communicator_rank(const hd_communicator *c);           /**< 0 without one */
 int hd_communicator_ranks(const hd_communicator *c);          /**< 1 without one */
 hd_traffic hd_communicator_traffic(const hd_communicator *c); /**< of all kinds together */

@@ -1,6 +1,7 @@
 /** Calls of a run's ranks -> its transport, counted. */
 #include "hdlyap/communicator.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
@@ -8,6 +9,22 @@
 
 /** Rows that are shared at once: room for them, not for all, is taken beside them. */
 enum { ROWS_AT_ONCE = 32 };
+
+/** Open MPI, and what speaks PMI or PMIx, as MPICH and srun do. The first one that is set: mpirun
+ * may start one process within a step of srun. */
+int hd_ranks_started(const char **variable)
+{
+    static const char *const sizes[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"};
+    *variable = NULL;
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        const char *text = getenv(sizes[k]);
+        const int ranks = text ? atoi(text) : 0;
+        if (ranks < 1) continue;
+        *variable = sizes[k];
+        return ranks;
+    }
+    return 1;
+}
 
 int hd_communicator_rank(const hd_communicator *c) { return c ? c->rank : 0; }
 int hd_communicator_ranks(const hd_communicator *c) { return c ? c->ranks : 1; }

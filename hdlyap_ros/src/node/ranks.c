@@ -10,25 +10,22 @@
 
 static const char library_name[] = "libhdlyap_mpi.so.0";
 
-typedef hd_status begin_function(hd_communicator **out, int *argc, char ***argv);
+typedef hd_status begin_function(hd_communicator **out, int *argc, char ***argv, char *message,
+                                 size_t size);
 typedef void end_function(hd_communicator *ranks);
 
 static void *library;
 
-/** Open MPI, and what speaks PMI or PMIx, as MPICH and srun do. */
-static const char *const sizes[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"};
-static const char *const here[] = {"OMPI_COMM_WORLD_LOCAL_RANK", "MPI_LOCALRANKID",
-                                   "SLURM_LOCALID"};
-enum { STARTERS = sizeof sizes / sizeof *sizes };
-
-/** What it says by the first of these that is more than least; least if none is. */
-static int said(const char *const *names, int least)
+/** The first one of a machine tells what is wrong, in the words of Open MPI, MPICH or srun. */
+static bool is_first_here(void)
 {
-    for (int k = 0; k < STARTERS; k++) {
-        const char *text = getenv(names[k]);
-        if (text && atoi(text) > least) return atoi(text);
+    static const char *const here[] = {"OMPI_COMM_WORLD_LOCAL_RANK", "MPI_LOCALRANKID",
+                                       "SLURM_LOCALID"};
+    for (size_t k = 0; k < sizeof here / sizeof *here; k++) {
+        const char *text = getenv(here[k]);
+        if (text && atoi(text) > 0) return false;
     }
-    return least;
+    return true;
 }
 
 /** A function of the library; POSIX says how to make one of a pointer. */
@@ -41,22 +38,22 @@ static bool find(void *function, const char *name)
 
 bool ranks_join(hd_communicator **out, int *argc, char ***argv, char *message, size_t size)
 {
-    const int ranks = said(sizes, 1);
+    const char *variable;
+    const int ranks = hd_ranks_started(&variable);
+    char line[256];
     begin_function *begin;
+    hd_status status = HD_REFUSED;
     *out = NULL;
     if (ranks == 1) return true;
-    if (!find(&begin, "hd_mpi_begin")) {
-        *message = '\0';
-        if (said(here, 0) > 0) return false; /* the first one of this machine tells it */
-        snprintf(message, size, "ranks = %d: must be 1, as this build has no MPI (%s)", ranks,
-                 dlerror());
-        return false;
-    }
-    const hd_status status = begin(out, argc, argv);
+    if (find(&begin, "hd_mpi_begin"))
+        status = begin(out, argc, argv, line, sizeof line);
+    else
+        snprintf(line, sizeof line, "must be 1, as this build has no MPI (%s)", dlerror());
     if (status == HD_OK) return true;
-    snprintf(message, size, "ranks = %d: %s", ranks,
-             status == HD_REFUSED ? "this MPI cannot be called by several threads"
-                                  : hd_status_text(status));
+    *message = '\0';
+    if (is_first_here())
+        snprintf(message, size, "ranks = %d: %s", ranks,
+                 status == HD_REFUSED ? line : hd_status_text(status));
     return false;
 }
 

@@ -9,7 +9,8 @@
 #include "hdlyap/communicator.h"
 
 /** *out is NULL for a single rank; then nothing of MPI is loaded. False with a line in `message`:
- * this build has no MPI. It is empty where another rank of this machine tells it. */
+ * this build has no MPI, or another one than has started them. It is empty where another rank of
+ * this machine tells it. */
 bool ranks_join(hd_communicator **out, int *argc, char ***argv, char *message, size_t size);
 
 /** Of the others: all that they do. */

@@ -47,10 +47,28 @@ static void late_broadcast(void *context, void *x, size_t bytes)
 
 static const hd_transport late = {late_sum, late_gather, late_exchange, late_broadcast};
 
-/** Usage: test [late | TEST]. Of a single rank there is nothing to compare. */
+/** Of a single process that is said to be one of several. */
+static inline void refused_alone(int argc, char **argv)
+{
+    char line[512] = "", wanted[64];
+    const char *variable;
+    snprintf(wanted, sizeof wanted, "PMI_SIZE = %d, but ", hd_ranks_started(&variable));
+    assert_string_equal(variable, "PMI_SIZE");
+    assert_int_equal(hd_mpi_begin(&ranks, &argc, &argv, line, sizeof line), HD_REFUSED);
+    print_message("%s\n", line);
+    assert_null(ranks);
+    assert_ptr_equal(strstr(line, wanted), line);
+    assert_non_null(strstr(line, "or unset PMI_SIZE"));
+}
+
+/** Usage: test [alone | late | TEST]. Of a single rank there is nothing to compare. */
 static inline int ranks_main(int argc, char **argv)
 {
-    CHECK_OK(hd_mpi_begin(&ranks, &argc, &argv));
+    if (argc > 1 && strcmp(argv[1], "alone") == 0) {
+        refused_alone(argc, argv);
+        return 0;
+    }
+    CHECK_OK(hd_mpi_begin(&ranks, &argc, &argv, NULL, 0));
     if (!ranks) return 77;
     srand((unsigned)ranks->rank);
     in_time = ranks->transport;

@@ -9,10 +9,12 @@
 extern "C" {
 #endif
 
-/** Starts MPI; *out is NULL for a single rank. Calls may come from several threads, one at a time:
- * HD_REFUSED if this MPI cannot do that; HD_NO_MEMORY. What MPI itself finds wrong ends all ranks,
- * as is its way. */
-HD_MUST_CHECK hd_status hd_mpi_begin(hd_communicator **out, int *argc, char ***argv);
+/** Starts MPI; *out is NULL for a single rank. HD_REFUSED, with a line in message[size]: calls may
+ * come from several threads, one at a time, and this MPI cannot do that; or it finds one rank where
+ * another MPI has started several (hd_ranks_started), each of which would do all by itself.
+ * HD_NO_MEMORY. What MPI itself finds wrong ends all ranks, as is its way. */
+HD_MUST_CHECK hd_status hd_mpi_begin(hd_communicator **out, int *argc, char ***argv, char *message,
+                                     size_t size);
 /** Ends MPI; called by all ranks. */
 void hd_mpi_end(hd_communicator *c);
 
