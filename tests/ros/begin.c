@@ -27,3 +27,13 @@ bool begin_run(const hdr_params *params, bool tiny, char *line, size_t size)
     hd_run_free(run);
     return published;
 }
+
+/** In place of the wrapper's. */
+hdr_lag hdr_publisher_lag(hdr_publisher *publisher) { return *(hdr_lag *)publisher; }
+
+hdr_lag worst_of(hdr_lag *each, int count)
+{
+    publishers out = {.node = ""};
+    for (int k = 0; k < count; k++) out.publisher[k] = (hdr_publisher *)&each[k];
+    return publishers_lag(&out);
+}

@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "hdlyap_ros/params.h"
+#include "hdlyap_ros/publisher.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -15,6 +16,9 @@ extern "C" {
  * refuses one of them. tiny: the run is of two disks instead, for what run_info says of the
  * parameters alone. */
 bool begin_run(const hdr_params *params, bool tiny, char *line, size_t size);
+
+/** What diagnostics tell of a node whose topics are behind as these. */
+hdr_lag worst_of(hdr_lag *each, int count);
 
 #ifdef __cplusplus
 }

@@ -97,8 +97,11 @@ class Check(harness.Case):
     def test_speed(self):
         """Of the same order as a run's: the machine may be busy with one of the two."""
         params = dict(MODES, observables=['spectrum'], warmup=100.0, duration=100.0)
-        said = checked(self.file_of(params)).stdout
+        said = checked(self.file_of(params), 'duration:=5e5').stdout  # of minutes
         seconds = float(re.search(r'(\S+) s per time unit', said).group(1))
+        number, unit = re.search(r'(\S+) (s|min|h) of averaging', said).groups()
+        whole = float(number) * dict(s=1, min=60, h=3600)[unit]
+        self.assertAlmostEqual(whole / (5e5 * seconds), 1.0, delta=0.02)
         cost = harness.whole_run(dict(params, wait_for_subscribers=['cost']), ['cost'])['cost'][-1]
         taken = cost.wall_seconds / cost.sim_time
         self.assertTrue(0.1 < seconds / taken < 10.0, (seconds, taken))

@@ -154,6 +154,12 @@ class Differing(Pairs):
         after_head = text[text.index('largest deviations') :].splitlines()[2]
         self.assertRegex(after_head, r'  lambda_21 +.* -10\.00  \d\.\de-0\d')
 
+    def test_one_in_a_hundred(self):
+        """Of 47, as Student's t with 14 degrees of freedom: the chances are 0.019 and 0.0063."""
+        for off, status in ((4.6, verdict.AGREE), (5.2, verdict.DIFFER)):
+            comparison = self.compared(run(), run(shifted(off * np.eye(37)[20]), seed='2'))
+            self.assertEqual(verdict.verdict(comparison)[1], status)
+
     def test_one_step_or_fit(self):
         far = made.exponent(INFO, T, 1, 0) + 10 * sqrt(2) * made.ERROR
         faster = run()
@@ -225,11 +231,12 @@ class Steps(Pairs):
         for value in (0.0, -1.0):
             zero = made.zero_modes(38)
             zero.exponent = value or zero.exponent
-            whole = [*EXPONENTS, *[value] * 6, *-EXPONENTS[::-1]]
+            half = EXPONENTS if value else shifted(np.ones(37))
+            whole = [*half, *[value] * 6, *-EXPONENTS[::-1]]
             pair.append(run(whole, made_steps=[zero]))
         comparison = self.compared(*pair)
         said = 'exponents: 74 of 80 compared, 0 of unknown error, 6 zero'
-        self.assertIn(said, verdict.report(comparison))
+        self.assertIn(said + '\n  chi^2 / exponent 0.50;', verdict.report(comparison))
         names = [one.name for one in comparison.exponents if not one.judged]
         self.assertEqual(names, [f'lambda_{index}' for index in range(38, 44)])
         self.assertEqual(verdict.verdict(comparison)[1], verdict.AGREE)

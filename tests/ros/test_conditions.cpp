@@ -145,6 +145,9 @@ TEST(Backlog, Latched)
     waiting = kept;
     EXPECT_EQ(backlog.look(5.0).waiting, 1);
     EXPECT_EQ(backlog.look(5.0).seconds, 3.0);
+    kept.reset(new uint8_t[1]);
+    backlog.add(kept, 6.0); /* behind the one that waits */
+    EXPECT_EQ(backlog.look(7.0).seconds, 5.0);
     waiting.reset();
     EXPECT_EQ(backlog.look().waiting, 0);
 }

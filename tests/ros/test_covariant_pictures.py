@@ -272,14 +272,15 @@ class Figures(Bags):
         self.assertEqual(len(off), 74)
 
     def test_error_bars(self):
-        """Of each pass its own."""
+        """Of each pass its own, where they are known."""
         messages = everything()
-        messages[-1].std_errors = [0.02] * ALL
+        messages[-1].std_errors = [-1.0] + [0.02] * (ALL - 1)
         axes = self.draw(covariant_exponents, self.recorded(messages))[0]
         drawn = [one for one in axes.containers if one.lines[2]]
         names = [one.get_label() for one in drawn]
         self.assertEqual(names, ['forward (Gram-Schmidt)', 'backward (covariant)'])
-        ends = [[bar[:, 1] for bar in one.lines[2][0].get_segments()] for one in drawn]
+        ends = [[bar[:, 1] for bar in one.lines[2][0].get_segments() if len(bar)] for one in drawn]
+        self.assertEqual([len(found) for found in ends], [ALL, ALL - 1])
         for found, error in zip(ends, (0.01, 0.02)):
             np.testing.assert_allclose(np.diff(found), 2 * error)
 

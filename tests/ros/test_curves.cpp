@@ -17,7 +17,7 @@ TEST(curves, numbers_with_errors)
                  {5.262, 0.00996, "5.262(10)"},       {12.34, 1.52, "12.3(1.5)"},
                  {1234.0, 15.2, "1234(15)"},          {0.61252, -1.0, "0.6125"},
                  {-0.00128, 0.00047, "-0.00128(47)"}, {1.5, 1e-12, "1.5e+00"},
-                 {6.5, 0.099951, "6.50(10)"}};
+                 {6.5, 0.099951, "6.50(10)"},         {12.34, 1.0, "12.3(1.0)"}};
     for (const auto &c : cases) {
         char text[48];
         number_with_error(text, sizeof text, c.value, c.error);
@@ -105,6 +105,7 @@ TEST(curves, dispersion_is_the_numbers)
     EXPECT_TRUE(is_blue(dots.colors[0])); // T
     EXPECT_FALSE(is_blue(dots.colors[1]));
     ASSERT_EQ(4u, lines.size()); // axes, two fits, errors
+    EXPECT_GT(lines[0].points[0].x, in(array, "spectrum", Marker::LINE_LIST).at(1).points[1].x);
     const double c[2][3] = {{3.2, 0.2, 0.5}, {4.2, 0.0, 0.0}};
     for (const int fit : {0, 1}) {
         EXPECT_EQ(fit == 0, is_blue(lines[1 + fit].color));

@@ -209,8 +209,12 @@ class Arrays(Loaded):
             self.load([made.run_info()]).exponents
 
     def test_resets(self):
-        run = self.load([made.run_info(), *(made.spectrum([3.0], t) for t in (0, 5, 6, 1, 2))])
+        messages = [made.spectrum([3.0], t) for t in (0, 5, 6, 1, 2)]
+        for message in messages:
+            message.local_time = 0.5
+        run = self.load([made.run_info(), *messages])
         self.equal(run.averaged_times, [1, 2])
+        self.equal(run.local.times, [101, 102])
 
     def test_no_bag(self):
         """What never ends, or never begins, is not read; nor is a file without an end of line."""

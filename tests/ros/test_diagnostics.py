@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What /diagnostics says of a run on which something is wrong, and that it stops saying so."""
 
+import re
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 import rospy
@@ -34,7 +35,7 @@ class Diagnostics(harness.Case):
         self.addCleanup(subscriber.unregister)
 
     def said(self, level, *words):
-        """The first status from now on of that level with these words; its values."""
+        """The first status from now on of that level with these words; its values and message."""
         start = len(self.statuses)
 
         def fits():
@@ -45,12 +46,14 @@ class Diagnostics(harness.Case):
             ]
 
         self.assertTrue(harness.wait_until(fits), self.statuses[-1:])
-        return {pair.key: pair.value for pair in fits()[0].values}
+        status = fits()[0]
+        return dict({pair.key: pair.value for pair in status.values}, message=status.message)
 
     def test_several_at_once(self):
         """Of a run whose disks overlap and whose errors stay what they are."""
         self.start(
-            dict(LIVE, pace=200.0), probe=dict(PROBE_OVERLAP='1e-10', PROBE_STD_ERROR='0.25')
+            dict(LIVE, equilibration=100.0, pace=200.0),
+            probe=dict(PROBE_OVERLAP='1e-10', PROBE_STD_ERROR='0.25'),
         )
         values = self.said(
             ERROR,
@@ -59,6 +62,10 @@ class Diagnostics(harness.Case):
         )
         self.assertEqual(values['overlap'], '1e-10')
         self.assertEqual(values['error of the smallest exponents'], '0.25')
+        averaged = float(values['averaged time'])
+        self.assertLess(averaged, float(values['simulated time']) - 99)
+        told = re.search('averaged, 0.25 after ([^;]*)', values['message']).group(1)
+        self.assertAlmostEqual(float(told) / averaged, 1.0, delta=0.01)
 
     def test_subscriber_behind(self):
         """One that does not read for seconds; and then does."""

@@ -143,6 +143,13 @@ class Figures(Bags):
         np.testing.assert_allclose(upper.get_xticks(), [made.K, 2**0.5 * made.K])
         self.assertEqual(upper.get_xlim(), axes.get_xlim())
         self.assertEqual([one.get_text() for one in upper.get_xticklabels()], ['(1,0)', '(1,1)'])
+        info = made.run_info(disks=400, density=0.4)  # the paper has curves of it
+        axes, _ = self.draw(dispersion, made.steps([LOW]), info=info)
+        published = [line for line in axes.lines if line.get_label() == '_published']
+        for line, c, c2 in zip(published, (1.422, 1.412), (0.55, 0.086)):
+            k = line.get_xdata()
+            self.shows(line, k, c * k + c2 * k**2)
+        self.assertEqual(len(published), 2)
 
     def test_steps(self):
         """What was found in % of what is expected, and each exponent from their mean in %."""
@@ -227,7 +234,10 @@ class Figures(Bags):
             wave = mode.amplitude(column) * np.sin(2 * np.pi * place / INFO.box_y)
             self.shows(axes[2 + column].lines[2], place, wave)
             self.assertAlmostEqual(mode.amplitude(column), 1.0, delta=0.3)
-        self.draw(p_mode, made.steps([diagonal]), fields[0])
+        dots = self.draw(p_mode, made.steps([diagonal]), fields[0])[0].collections[0]
+        clear = abs(dots.get_array()) > 0.1
+        red, _, blue, _ = dots.get_facecolors()[clear].T
+        np.testing.assert_array_equal(red > blue, dots.get_array()[clear] > 0)
 
     def test_phases(self):
         """In turns, and in % of a turn from the straight line; v beside the name."""

@@ -122,6 +122,13 @@ TEST(heard, numbers_of_the_run)
     EXPECT_EQ(0.03, p.lambda_max_error);
     EXPECT_TRUE(p.progress == 0.25 && p.averaged == 7.5 && p.time == 2.0);
     EXPECT_STREQ("warming up", p.stage);
+    on.state(2.0);
+    on.h.changed = false;
+    heard_status(&on.h, &status);
+    EXPECT_FALSE(on.h.changed);
+    status.stage = HDR_RUN_STATUS_AVERAGING;
+    heard_status(&on.h, &status);
+    EXPECT_TRUE(on.h.changed);
 }
 
 /** The run is described, and nothing else is known of it yet. */
@@ -242,6 +249,7 @@ TEST(heard, only_modes_that_there_can_be)
 {
     hearing walls("reflecting");
     EXPECT_TRUE(walls.h.has_t); // (0,1) has a node between them
+    EXPECT_TRUE(walls.drawn().periodic[0] && !walls.drawn().periodic[1]);
     walls.info.run_id = "narrow", walls.info.wave_nx.count = walls.info.wave_ny.count = 1;
     EXPECT_TRUE(heard_run_info(&walls.h, &walls.info));
     EXPECT_FALSE(walls.h.has_t);

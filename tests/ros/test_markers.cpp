@@ -94,6 +94,20 @@ TEST(markers, nothing_is_found_yet)
     EXPECT_TRUE(in(array, "dispersion", Marker::POINTS).empty());
 }
 
+/** As after a reset of the averages. */
+TEST(markers, errors_that_are_known_no_more_are_deleted)
+{
+    scene s(20.0, 20.0, 10, 2, 9);
+    drawing on;
+    s.measure(40);
+    const int id = in(on.of(s.p), "dispersion", Marker::LINE_LIST).back().id;
+    for (hdr_step &step : s.step) step.std_error = -1.0;
+    const MarkerArray array = on.of(s.p);
+    EXPECT_TRUE(std::any_of(array.markers.begin(), array.markers.end(), [id](const Marker &m) {
+        return m.ns == "dispersion" && m.id == id && m.action == Marker::DELETE;
+    }));
+}
+
 TEST(markers, disks_and_boxes_lie_where_they_are)
 {
     scene s(20.0, 10.0, 40, 2, 2);

@@ -133,7 +133,8 @@ struct refusal {
 #define FOR_CHANGES "changes that ~set can make: "
 
 const std::vector<std::string> no_number = {"x", "''", "[1.0]", "true", "1 2"};
-const std::vector<std::string> no_integer = {"1.0", "'2'", "x", "''", "[2]", "false"};
+const std::vector<std::string> no_integer = {"1.0", "'2'",   "x",   "''",
+                                             "[2]", "false", "010", "0.30000000000000004"};
 const std::vector<std::string> no_time = {"-1", "-1e-09", "2000000000000", "nan", "inf"};
 const std::vector<std::string> no_length = {"0", "-1", "0.9e-6", "2000000000000", "nan", "inf"};
 const std::vector<std::string> no_interval = {"0",  "0.0", "-1",  "2000000000000", "never",
@@ -416,6 +417,9 @@ TEST(Parameters, Taken)
          "wait_for_subscribers: [run_info, state, status, cost]"},
         {"{pace: 3, slow_vectors_rate: 0.5, slow_vectors_count: 4}",
          "pace: 3, slow_vectors_rate: 0.5, slow_vectors_count: 4"},
+        {"slow_vectors_rate: 0.01", "slow_vectors_rate: 0.01"}, /* the least and the most */
+        {"slow_vectors_rate: 100", "slow_vectors_rate: 100"},
+        {"changes: ['0 duration=9']", "duration: 2"}, /* made when it runs */
         {"{covariant_window: 50, covariant_transient: '100', covariant_sampling: 5.0, "
          "covariant_memory: 4, covariant_storage: memory}",
          "covariant_storage: memory, covariant_memory: 4"},
@@ -476,6 +480,20 @@ TEST(Parameters, Scenes)
     }
     closedir(folder);
     EXPECT_GE(scenes, 17);
+}
+
+/** What is lost is worse than what comes late. */
+TEST(Subscribers, TheWorst)
+{
+    hdr_lag each[] = {{"late", 5.0, 3, 0},
+                      {"later", 9.0, 1, 0},
+                      {"few", 0.0, 0, 2},
+                      {"many", 1.0, 1, 7},
+                      {"some", 2.0, 9, 4}};
+    EXPECT_STREQ(worst_of(each, 0).topic, "");
+    EXPECT_STREQ(worst_of(each, 2).topic, "later");
+    EXPECT_STREQ(worst_of(each, 3).topic, "few");
+    EXPECT_STREQ(worst_of(each, 5).topic, "many");
 }
 } // namespace
 

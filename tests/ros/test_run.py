@@ -116,8 +116,9 @@ class Run(harness.Case):
         self.assertTrue(pause(True).success)
         self.assertTrue(harness.wait_until(lambda: self.diagnostic().message == 'paused'))
         before = len(cost.messages)
-        self.diagnostic()  # of a second later: at this pace forty messages
+        later = self.diagnostic()  # of a second later: at this pace forty messages
         self.assertEqual(len(cost.messages), before)
+        self.assertIn(('collisions per second', '0'), [(p.key, p.value) for p in later.values])
         self.assertTrue(pause(False).success)
         time = cost.messages[-1].sim_time
         self.assertTrue(cost.wait_for(lambda message: message.sim_time > time + 1))

@@ -130,6 +130,8 @@ class Recorded(Bags):
         self.assertEqual(got.across.loc[37, (1, 0)], 8.0)
         self.assertTrue((got.peaks.loc[32:, ['nx', 'ny']] == (1, 0)).all().all())
         self.assertTrue(np.allclose(got.peaks.wave_number[32:], last.wave_number[0]))
+        peaks = [tuple(got.peaks.loc[index, ['along', 'across']]) for index in (33, 37)]
+        self.assertEqual(peaks, [(8.0, 0.5), (0.5, 8.0)])
 
     def test_amplitudes(self):
         self.messages[3].peak = list(self.messages[3].peak)

@@ -11,6 +11,7 @@ import unittest
 from math import nan
 from xml.etree import ElementTree
 
+import numpy as np
 import rosbag
 from roslaunch import arg_dump
 import rospkg
@@ -64,6 +65,11 @@ class Grid(unittest.TestCase):
         )
         self.assertEqual(self.runs(seeds='3')[0].parameters['scene'], 'quick')
 
+    def test_large_systems_are_most_of_the_work(self):
+        """By which progress and the time that is left are told."""
+        small, large = (run.seconds - grid.BEGIN for run in self.runs(disks='100 200'))
+        self.assertAlmostEqual(large, 4 * small)
+
     def test_refused(self):
         for given, what in (
             ({}, 'nothing to sweep over: must be values of at least one of disks, densities, '),
@@ -99,7 +105,7 @@ class InFolder(harness.Traced):
 class Results(InFolder):
     """Of bags made up."""
 
-    def bag(self, name, density=0.5, seed='1', boundary='periodic', value=9.0, **changes):
+    def bag(self, name, density=0.5, seed='1', boundary='periodic', value=9.0, size=2, **changes):
         info = made.run_info(
             density=density, seed=seed, run_id=name, boundary_x=boundary, boundary_y=boundary
         )
@@ -107,7 +113,7 @@ class Results(InFolder):
         message.run_id = name
         for key, changed in changes.items():
             setattr(message, key, changed)
-        said = [info, made.spectrum([value, 1.0], 50.0, run_id=name), message]
+        said = [info, made.spectrum(np.linspace(value, 1.0, size), 50.0, run_id=name), message]
         made.write(self.path(name + '.bag'), said)
         return self.path(name + '.bag')
 
@@ -154,11 +160,14 @@ class Results(InFolder):
             self.assertEqual(len(axes.containers), count, name)
             is_open = [bars.lines[0].get_markerfacecolor() == 'white' for bars in axes.containers]
             self.assertEqual(sum(is_open), 1 if name == 'c_T' and count == 3 else 0, name)
+            errors = [point.values[name].error for point in found if name in point.values]
+            ends = [bars.lines[2][0].get_segments()[0][:, 1] for bars in axes.containers]
+            np.testing.assert_allclose(sorted(np.ptp(ends, axis=1)), 2 * np.sort(errors))
 
     def test_over_seeds(self):
         """One point of each system; both errors and chi^2 as hdlyap.load has them; a fit that is
         not of one form in all is none."""
-        paths = [self.bag(f'p{k}', seed=str(k), value=9 + 0.1 * k) for k in (1, 2, 3)]
+        paths = [self.bag(f'p{k}', seed=str(k), value=9 + 0.1 * k, size=37) for k in (1, 2, 3)]
         walls = [self.bag('r1', boundary='reflecting', seed='1')]
         walls += [self.bag('r2', boundary='reflecting', seed='2', c_t2=nan, c_t3=nan)]
         found = self.read(*walls, *paths)
@@ -169,11 +178,13 @@ class Results(InFolder):
         self.assertRegex(lines[3], r'^reflecting +9\.0000\(71\) +unlike +1\.500')
         self.assertIn('unlike: fits of the seeds have not the same form or wave numbers', lines)
         self.assertRegex(lines[-2], r'^periodic +0\.0058 0\.058 1e\+02 ')
-        expected = hdlyap.load(*paths).results.loc['lambda_max']
-        value = found[0].values['lambda_max']
-        for name in ('value', 'std_error', 'scatter', 'chi2'):
-            self.assertAlmostEqual(getattr(value, name), expected[name], 12)
-        self.assert_drawn(found, {'c_T': 1, 'c_L': 2, 'v': 2, 'lambda_max': 2})
+        results = hdlyap.load(*paths).results
+        for name, shown, factor in (('lambda_max', 'lambda_max', 1), ('h_KS', 'h_KS/N', 1 / 20)):
+            value, expected = found[0].values[shown], results.loc[name]
+            self.assertAlmostEqual(value.chi2, expected.chi2, 12)
+            for part in ('value', 'std_error', 'scatter'):
+                self.assertAlmostEqual(getattr(value, part), factor * expected[part], 12)
+        self.assert_drawn(found, {'c_T': 1, 'c_L': 2, 'v': 2, 'lambda_max': 2, 'h_KS/N': 1})
 
     def test_bags_that_are_none(self):
         """A line for each; the others are shown."""

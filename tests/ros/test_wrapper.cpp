@@ -12,6 +12,7 @@
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Log.h>
 #include <std_srvs/Trigger.h>
 
 #include "hdlyap_ros/hdlyap_ros.h"
@@ -227,13 +228,13 @@ TEST(queue, long_enough_loses_nothing)
 
 /* ---- who has subscribed -------------------------------------------------------------------- */
 
-/** A subscriber that the master alone knows. */
-static void at_master(const char *call, const std::string &topic)
+/** A subscriber or publisher that the master alone knows. */
+static void at_master(const char *call, const std::string &topic, const char *type = nullptr)
 {
     XmlRpc::XmlRpcValue request, response, payload;
     request[0] = "/elsewhere";
     request[1] = topic;
-    if (strcmp(call, "registerSubscriber") == 0) request[2] = "std_msgs/Float64";
+    if (type) request[2] = type;
     request[request.size()] = "http://localhost:1/";
     EXPECT_TRUE(ros::master::execute(call, request, response, payload, false));
 }
@@ -251,7 +252,7 @@ TEST(publishers, registered)
         return counts;
     };
     EXPECT_EQ((std::vector<int>{0, 0, 1}), registered());
-    at_master("registerSubscriber", topic);
+    at_master("registerSubscriber", topic, "std_msgs/Float64");
     EXPECT_EQ((std::vector<int>{0, 0, 2}), registered());
     EXPECT_EQ(1, hdr_publisher_subscribers(publishers[2]));
     hdr_subscriber_free(subscriber);
@@ -372,6 +373,54 @@ TEST(refused, queues_and_names)
     EXPECT_NE(nullptr, strstr(hdr_error_text(), "no name"));
     EXPECT_EQ(nullptr, subscriber);
     EXPECT_EQ(nullptr, publisher);
+}
+
+/* ---- what the log says --------------------------------------------------------------------- */
+
+/** Its lines from now on. */
+struct log_lines {
+    ros::CallbackQueue apart;
+    ros::NodeHandle handle;
+    ros::Subscriber subscriber;
+    std::vector<std::string> lines;
+    log_lines()
+    {
+        handle.setCallbackQueue(&apart);
+        subscriber = handle.subscribe<rosgraph_msgs::Log>(
+            "/rosout", 1000,
+            [this](const rosgraph_msgs::LogConstPtr &line) { lines.push_back(line->msg); });
+    }
+    long count(const std::string &line)
+    {
+        apart.callAvailable();
+        return std::count(lines.begin(), lines.end(), line);
+    }
+};
+
+TEST(log, steers_no_terminal)
+{
+    log_lines log;
+    hdr_log(HDR_WARN, "a\033b\177c\302\233d");
+    EXPECT_TRUE(wait_until([&] { return log.count("a?b?c??d") == 1; }));
+}
+
+/** Comes, goes and comes: each time it is said. */
+TEST(log, topics_of_another_type)
+{
+    log_lines log;
+    seen s;
+    hdr_subscriber *subscriber = subscribe("~strange", &s);
+    const std::string topic = std::string(hdr_node_name(node)) + "/strange",
+                      line = topic + " is published as std_msgs/String, not as std_msgs/Float64: "
+                                     "not connected";
+    for (int tries = 0; tries < 20 && log.count(line) < 2; tries++) {
+        at_master("registerPublisher", topic, "std_msgs/String");
+        hdr_node_wait(0.7); /* it looks each half a second */
+        at_master("unregisterPublisher", topic);
+        hdr_node_wait(0.7);
+    }
+    EXPECT_GE(log.count(line), 2);
+    hdr_subscriber_free(subscriber);
 }
 
 TEST(node, waits)
