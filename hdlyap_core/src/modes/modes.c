@@ -50,7 +50,7 @@ double hd_modes_bytes(const hd_scene_def *scene, double vectors)
     const hd_fields_count count = hd_fields_count_of(scene);
     const double columns = count.columns + HD_NULLS, rows = count.subspaces * HD_WEIGHTS + HD_NULLS,
                  fields = 2.0 * scene->disks * (columns + 4.0);
-    return sizeof(double) * (fields + columns * columns +
+    return sizeof(double) * (fields + DIMENSION_MAX * columns +
                              (columns + DIMENSION_MAX + 1.0 + HD_NULLS + 2.0 * rows) * vectors);
 }
 
