@@ -5,7 +5,7 @@
 cmake_minimum_required(VERSION 3.16)
 
 set(STAGES base scene averages events tangent modes covariant observe run)
-set(LINEAR_ALGEBRA base/blas tangent/conjugate tangent/ortho tangent/panel tangent/product tangent/reflections modes/dispersion modes/modes modes/pmode
+set(LINEAR_ALGEBRA base/blas tangent/conjugate tangent/ortho tangent/panel tangent/product modes/dispersion modes/modes modes/pmode
   covariant/backward covariant/coupling covariant/starts covariant/angles covariant/covariant)
 
 # stage_of(OUT HEADER): number of the folder of a header as it is included: FOLDER/NAME.h or hdlyap/NAME.h.

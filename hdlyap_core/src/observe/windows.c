@@ -22,6 +22,7 @@ struct hd_windows {
 
 const hd_covariant *hd_windows_covariant(const hd_windows *windows) { return windows->covariant; }
 double *hd_windows_seconds(hd_windows *windows) { return &windows->seconds; }
+void hd_windows_lose(hd_windows *windows) { windows->due = true; }
 bool hd_windows_begin(const hd_windows *windows) { return windows->due; }
 
 /** Adds the seconds since then to the cost; what one rank cannot do, none does. */
@@ -56,6 +57,7 @@ hd_status hd_windows_add(hd_windows *windows, const hd_ortho *ortho, const hd_fr
 {
     const double start = hd_clock_now();
     const hd_columns none = {NULL, 0, 0, 0};
+    if (windows->due) return HD_OK;
     const hd_columns vectors = hd_covariant_wants_vectors(windows->covariant)
                                    ? all_of(windows, frame)
                                    : none;
@@ -67,7 +69,7 @@ hd_status hd_windows_end(hd_windows *windows, const hd_frame *frame,
                          const hd_trajectory *trajectory)
 {
     const double start = hd_clock_now();
-    if (!hd_covariant_wants_state(windows->covariant)) return HD_OK;
+    if (windows->due || !hd_covariant_wants_state(windows->covariant)) return HD_OK;
     return timed(windows, start,
                  hd_covariant_state(windows->covariant, all_of(windows, frame), trajectory));
 }

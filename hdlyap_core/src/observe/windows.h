@@ -12,6 +12,9 @@ double *hd_windows_seconds(hd_windows *windows); /**< wall seconds spent here */
 
 /* Of an interval of the averaging, while somebody looks. */
 
+/** What the window has is of no use: another one begins with the next interval. Until then nothing
+ * is added. */
+void hd_windows_lose(hd_windows *windows);
 /** True if a window begins with the next interval. */
 bool hd_windows_begin(const hd_windows *windows);
 

@@ -1,6 +1,6 @@
 /** Log -> frame -> orthonormal frame, spectrum, and what the next interval may be. An interval that
  * turned out too long is taken back and replayed in pieces; a shortest piece that is still too much
- * holds a grazing collision and is factored by reflections. */
+ * holds a grazing collision and is factored by repeated passes. */
 #include "run/carrier.h"
 
 #include <float.h>
@@ -22,15 +22,13 @@
 static const double DEFECT_LOOSE = 1e-4;
 /** The same where somebody does. */
 static const double DEFECT_MEASURED = 1e-6;
-/** Of a frame that is orthonormal in the norm of dq, at most: few collisions are that sharp. */
-static const double CONDITION_COMPLETE = 1e12;
 /** Loss of orthogonality allowed where Y takes both ends of an interval to be orthonormal to
  * rounding [T19]: a second pass. */
 static const double DEFECT_COUPLED = 1e-12;
 /** Part of an interval's share of the accuracy that its square may be, as it too bounds a mean. */
 static const double DEFECT_SHARE = 0.1;
 /** Pieces of an interval, beyond which dividing costs more than it saves [T6]; and beyond which
- * what even reflections cannot factor is given up. */
+ * what even repeated passes cannot factor is given up. */
 enum { PIECES_MAX = 8, PIECES_LAST = 512 };
 /** Vectors from which on the norm of dq is worth while; and orthonormalisations after which the
  * vectors of a random start have dq halves as independent as the vectors themselves. */
@@ -63,7 +61,7 @@ static hd_status create_random(hd_carrier *c, uint64_t seed)
                                   c->communicator);
 }
 
-/** A random frame, orthonormal. Random vectors are hardly ever dependent: then reflections. */
+/** A random frame, orthonormal. Random vectors are hardly ever dependent: then repeated passes. */
 static hd_status create_frame(hd_carrier *c, uint64_t seed)
 {
     const hd_ortho_limits once = {1e7, ORTHONORMAL, HD_NORM_FULL};
@@ -196,8 +194,8 @@ static hd_status replay(hd_carrier *c, double t_begin, double t_end)
     return HD_OK;
 }
 
-/** Pieces of the log that are factored by reflections: a collision of each disk, or an eighth of an
- * interval that is only a few collisions long. */
+/** Pieces of the log that are factored by repeated passes: a collision of each disk, or an eighth
+ * of an interval that is only a few collisions long. */
 static double shortest_piece(const hd_carrier *c)
 {
     return fmin(c->log->duration / PIECES_MAX, c->collision);
@@ -215,17 +213,21 @@ double hd_carrier_longest(const hd_carrier *c)
     return fmin(COLLISIONS_MOST * c->collision, c->interval.limit);
 }
 
-/** What is lost of isotropy decays [T19]; should it ever not, the frame gets it back. */
-static hd_status keep_isotropic(hd_carrier *c)
+/** What is lost of isotropy decays [T19]; should it ever not, the frame gets it back. The triangle
+ * of the step then is not that of the frame any more: a window begins anew. */
+static hd_status keep_isotropic(hd_carrier *c, hd_windows *windows)
 {
-    if (hd_conjugate_isotropy(c->conjugate, c->frame) > ISOTROPY)
+    if (hd_conjugate_isotropy(c->conjugate, c->frame) > ISOTROPY) {
         HD_TRY(hd_conjugate_start(c->frame));
+        if (windows) hd_windows_lose(windows);
+    }
     if (HD_VERIFIES) hd_verify_isotropy(c->frame);
     return HD_OK;
 }
 
 /** Carries the frame from t_begin to t_end of the log and orthonormalises it. */
-static hd_status frame_piece(hd_carrier *c, double t_begin, double t_end, hd_ortho_limits limits)
+static hd_status frame_piece(hd_carrier *c, double t_begin, double t_end, hd_ortho_limits limits,
+                             hd_windows *windows)
 {
     const double start = hd_clock_now(), length = t_end - t_begin;
     HD_TRY(replay(c, t_begin, t_end));
@@ -234,7 +236,7 @@ static hd_status frame_piece(hd_carrier *c, double t_begin, double t_end, hd_ort
     hd_status status = length > shortest_piece(c)
                            ? hd_ortho_step(c->ortho, c->frame, limits)
                            : hd_ortho_step_stable(c->ortho, c->frame, HD_CONDITION_STABLE);
-    if (c->conjugate && status == HD_OK) status = keep_isotropic(c);
+    if (c->conjugate && status == HD_OK) status = keep_isotropic(c, windows);
     c->cost->replay += replayed - start;
     c->cost->ortho += hd_clock_now() - replayed;
     if (HD_VERIFIES && status == HD_OK) hd_verify_ortho(c->ortho, c->frame);
@@ -291,7 +293,7 @@ static hd_status window_starts(hd_carrier *c, const hd_carrying *how)
 static hd_status complete_norm(hd_carrier *c, bool averaging)
 {
     const double start = hd_clock_now();
-    const hd_ortho_limits limits = {.condition = CONDITION_COMPLETE, .defect = DEFECT_MEASURED};
+    const hd_ortho_limits limits = {.condition = HD_CONDITION_MAX, .defect = DEFECT_MEASURED};
     if (c->whole) return HD_OK;
     HD_TRY(hd_ortho_step(c->ortho, c->frame, limits));
     c->cost->ortho += hd_clock_now() - start;
@@ -316,7 +318,8 @@ static hd_status carry_piece(hd_carrier *c, const hd_carrying *how, double t_beg
     const hd_norm norm = whole ? HD_NORM_FULL : hd_carrier_norm(c, how->windows);
     c->interval.norm = norm;
     return frame_piece(c, t_begin, t_end,
-                       (hd_ortho_limits){.defect = defect_allowed(c, how, norm), .norm = norm});
+                       (hd_ortho_limits){.defect = defect_allowed(c, how, norm), .norm = norm},
+                       how->windows);
 }
 
 /** A part of the log has been carried through. */

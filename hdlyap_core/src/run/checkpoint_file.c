@@ -177,7 +177,8 @@ hd_status hd_checkpoint_file_end(hd_checkpoint_file *f, hd_archive *archive, cha
     if (error)
         (void)fault(message, size, f->part, "%s", strerror(error));
     else
-        (void)fault(message, size, f->part, "%s: %s", archive->name, archive->fault);
+        (void)fault(message, size, f->part, "%s: %s", archive->name,
+                    archive->fault ? archive->fault : hd_status_text(status));
     hd_checkpoint_file_drop(f);
     return status;
 }

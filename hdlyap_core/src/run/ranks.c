@@ -30,10 +30,12 @@ static hd_status same_programs(hd_communicator *c, char *message, size_t size)
     const size_t ranks = (size_t)hd_communicator_ranks(c), words = sizeof(program) / sizeof(double);
     if (ranks == 1) return HD_OK;
     program *all = hd_memory_alloc(ranks, sizeof *all);
-    HD_TRY(hd_communicator_agree(c, all ? HD_OK : HD_NO_MEMORY));
-    all[c->rank] = this_program();
-    const hd_shared shared = {1, ranks * words, words, ranks * words, 0};
-    hd_status status = hd_communicator_share(c, (double *)all, shared);
+    hd_status status = hd_communicator_agree(c, all ? HD_OK : HD_NO_MEMORY);
+    if (status == HD_OK) {
+        all[c->rank] = this_program();
+        const hd_shared shared = {1, ranks * words, words, ranks * words, 0};
+        status = hd_communicator_share(c, (double *)all, shared);
+    }
     for (size_t rank = 1; rank < ranks && status == HD_OK; rank++)
         if (memcmp(&all[rank], &all[0], sizeof *all) != 0)
             status = hd_refuse(message, size, "rank %zu is %s: must be %s, as rank 0", rank,

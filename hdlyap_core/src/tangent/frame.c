@@ -83,7 +83,11 @@ hd_status hd_frame_create_shared(hd_frame **out, int disks, int vectors, uint64_
     HD_ASSERT(disks >= 1 && vectors >= 1 && vectors <= 4 * disks && threads >= 1);
     hd_frame *frame = hd_memory_alloc(1, sizeof *frame);
     *out = NULL;
-    HD_TRY(hd_communicator_agree(communicator, frame ? HD_OK : HD_NO_MEMORY));
+    const hd_status head = hd_communicator_agree(communicator, frame ? HD_OK : HD_NO_MEMORY);
+    if (head != HD_OK) {
+        hd_memory_free(frame);
+        return head;
+    }
     frame->disks = disks;
     frame->rows = 4 * disks;
     frame->vectors = vectors;

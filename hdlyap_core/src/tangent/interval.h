@@ -22,7 +22,7 @@
  * panels that Cholesky cannot factor. */
 #define HD_CONDITION_MAX 1e12
 
-/** Most that reflections are asked to factor: they stay right to eps * condition, 1e-3 of one
+/** Most that repeated passes are asked to factor: they stay right to eps * condition, 1e-3 of one
  * interval, once. */
 #define HD_CONDITION_STABLE 1e13
 

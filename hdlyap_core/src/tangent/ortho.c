@@ -27,39 +27,26 @@
 static const double PANEL_CONDITION_MAX = 1e7;
 /** Loss of orthogonality that repeated passes come down to. */
 static const double REPEATED = 1e-13;
+/** Condition that a second pass may find: of what a first one has left. */
+static const double CONDITION_AGAIN = 2.0;
 
 /** PANELS of them if there are that many vectors: the last half of the flops then falls into wide
  * products. */
 enum { PANELS = 8, PANEL_MIN = 8, PANEL_MAX = 160 };
 
-/** Entries of workspace that LAPACK wants for the stable step. */
-static int stable_workspace(int rows, int vectors)
-{
-    double lq = 0.0, q = 0.0, unused = 0.0;
-    (void)LAPACKE_dgelqf_work(LAPACK_COL_MAJOR, vectors, rows, &unused, vectors, &unused, &lq, -1);
-    (void)LAPACKE_dorglq_work(LAPACK_COL_MAJOR, vectors, rows, vectors, &unused, vectors, &unused,
-                              &q, -1);
-    return (int)fmax(fmax(lq, q), vectors);
-}
-
 static hd_status ortho_allocate(hd_ortho *ortho)
 {
     const size_t n = (size_t)ortho->vectors, width = (size_t)ortho->width;
-    const int wanted_by_lapack = ortho->communicator
-                                     ? 0
-                                     : stable_workspace(ortho->rows, ortho->vectors);
-    ortho->lwork = (ortho->vectors < HD_LATER_MAX ? ortho->vectors : HD_LATER_MAX) * ortho->width;
-    if (ortho->lwork < wanted_by_lapack) ortho->lwork = wanted_by_lapack;
+    const size_t later = n < HD_LATER_MAX ? n : HD_LATER_MAX;
     const struct {
         double **array;
         size_t size;
     } wanted[] = {{&ortho->gram, width * width},
-                  {&ortho->projection, (size_t)ortho->lwork},
+                  {&ortho->projection, later * width},
                   {&ortho->norm2, n},
                   {&ortho->scale, width},
                   {&ortho->probe, n * HD_PROBES},
                   {&ortho->log_stretch, n},
-                  {&ortho->reflector, n},
                   {&ortho->sum, ortho->communicator ? width * width : 0},
                   {&ortho->copy, ortho->communicator ? width * (size_t)ortho->rows : 0}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
@@ -124,7 +111,6 @@ void hd_ortho_free(hd_ortho *ortho)
     hd_memory_free(ortho->scale);
     hd_memory_free(ortho->probe);
     hd_memory_free(ortho->log_stretch);
-    hd_memory_free(ortho->reflector);
     hd_memory_free(ortho->sum);
     hd_memory_free(ortho->copy);
     hd_memory_free(ortho->factor[0]);
@@ -253,14 +239,16 @@ hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits
 }
 
 /** With one vector at a time no factor of Cholesky can break down: what a pass leaves is rounding
- * times the condition, and the next one finds vectors that are nearly orthonormal. */
+ * times the condition, and the next one finds vectors that are nearly orthonormal. If it does not,
+ * the first one has left nothing but rounding of some vector, and its condition was higher than it
+ * could tell. */
 static hd_status repeat_by_rows(hd_ortho *ortho, hd_frame *frame, double condition_max)
 {
     enum { PASSES_MAX = 4 };
     HD_TRY(pass(ortho, frame, condition_max));
     const double condition = ortho->condition;
     while (defect_foreseen(ortho) > REPEATED && ortho->passes < PASSES_MAX) {
-        HD_TRY(pass(ortho, frame, condition_max));
+        HD_TRY(pass(ortho, frame, CONDITION_AGAIN));
         factors_multiply(ortho);
     }
     ortho->defect = defect_foreseen(ortho);
@@ -268,7 +256,7 @@ static hd_status repeat_by_rows(hd_ortho *ortho, hd_frame *frame, double conditi
     return HD_OK;
 }
 
-hd_status hd_ortho_step_repeated(hd_ortho *ortho, hd_frame *frame, double condition_max)
+hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame, double condition_max)
 {
     hd_ortho_begin(ortho, frame, HD_NORM_FULL);
     ortho->leaf = 1;

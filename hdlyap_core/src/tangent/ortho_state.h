@@ -1,5 +1,5 @@
-/** What an orthonormaliser holds, for the files that make it up: ortho.c takes panels,
- * reflections.c the whole frame. */
+/** What an orthonormaliser holds, for the files that make it up: ortho.c takes the panels one after
+ * the other, panel.c orthonormalises one. */
 #ifndef HD_ORTHO_STATE_H
 #define HD_ORTHO_STATE_H
 
@@ -20,7 +20,7 @@ struct hd_ortho {
     double panel_condition_max;
     int width;          /**< of a panel */
     double *gram;       /**< [width * width], column-major, lower triangle: G, then L */
-    double *projection; /**< [later * width], column-major: S; LAPACK's workspace */
+    double *projection; /**< [later * width], column-major: S */
     double *inverse;    /**< L^-1, as gram; in the room of S, which comes later */
     double *sum;        /**< [width * width], of all ranks; NULL with a single one */
     /** [vectors], |V e_k|^2, of a panel complete when its turn comes */
@@ -28,11 +28,9 @@ struct hd_ortho {
     double *scale;       /**< [width], diagonal of G */
     double *probe;       /**< [HD_PROBES][vectors]: R^-T D x, see hd_ortho_condition_from_probes */
     double *log_stretch; /**< [vectors] */
-    double *reflector;   /**< [vectors], of the stable step */
     /** [vectors * vectors], column-major: L of each pass; NULL unless kept */
     double *factor[2];
     double *copy; /**< [rows * width], of a panel of several ranks */
-    int lwork;    /**< of projection */
     double condition, defect;
     hd_norm norm; /**< of the present or last step */
     /** Largest of the panels as they were accepted, at least HD_PANEL_CONDITION_LEAST */
@@ -53,10 +51,6 @@ bool hd_is_square(double sum);
 double hd_ortho_condition_from_probes(const hd_ortho *ortho);
 
 void hd_ortho_probes_clear(hd_ortho *ortho);
-
-/** hd_ortho_step_stable of several ranks, by Gram-Schmidt alone. */
-HD_MUST_CHECK hd_status hd_ortho_step_repeated(hd_ortho *ortho, hd_frame *frame,
-                                               double condition_max);
 
 void hd_ortho_begin(hd_ortho *ortho, const hd_frame *frame, hd_norm norm);
 

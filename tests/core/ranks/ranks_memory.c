@@ -33,9 +33,11 @@ TEST(memory_falls_with_the_ranks)
     hd_run_free(run);
 }
 
-/** Whatever it is that the last rank does not get: all of them end, and say so. */
+/** Whatever it is that the last rank does not get: all of them end, say so, and give back what they
+ * had. */
 TEST(what_one_does_not_get_ends_all)
 {
+    const size_t before = ledger_now().live;
     hd_scene_def scene = short_scene(16, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES);
     for (int kind = 0; kind < 3; kind++) {
         size_t refused = 0;
@@ -58,6 +60,7 @@ TEST(what_one_does_not_get_ends_all)
                 hd_run_free(run);
             else
                 assert_int_equal(status, HD_NO_MEMORY);
+            assert_int_equal(ledger_now().live, before);
         }
         assert_true(refused > 30);
     }

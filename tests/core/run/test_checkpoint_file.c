@@ -198,6 +198,19 @@ TEST(a_run_that_is_no_number_is_not_written)
     hd_run_free(run);
 }
 
+/** Of what cannot be written for another reason than the file, the status says why. */
+TEST(a_fault_without_words_is_named)
+{
+    hd_checkpoint_file file;
+    char message[512] = "";
+    CHECK_OK(hd_checkpoint_file_begin(&file, PATH, message, sizeof message));
+    hd_archive archive = hd_archive_writer(file.file);
+    hd_archive_fail(&archive, HD_NO_MEMORY, "frame vectors", NULL);
+    assert_int_equal(hd_checkpoint_file_end(&file, &archive, message, sizeof message),
+                     HD_NO_MEMORY);
+    assert_non_null(strstr(message, "frame vectors: out of memory"));
+}
+
 static void put(const char *path, const char *text, size_t size)
 {
     FILE *file = fopen(path, "wb");
