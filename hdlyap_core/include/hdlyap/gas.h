@@ -17,9 +17,9 @@ typedef struct hd_gas_means {
     double collision_rate_error; /**< negative if not yet known, as the next ones */
     double pressure;             /**< mean of both directions [energy/sigma^2] */
     double pressure_error;
-    double pressure_of[2]; /**< momentum along x that crosses a line across it, per length and time;
-                              and along y */
-    double pressure_of_error[2];
+    double pressure_of[HD_DIM]; /**< momentum along x that crosses a line across it, per length and
+                              time; and along y */
+    double pressure_of_error[HD_DIM];
     double compressibility; /**< Z = pressure area / N, 1 without collisions */
 } hd_gas_means;
 

@@ -12,6 +12,9 @@
 extern "C" {
 #endif
 
+/** Components of a position, and of a vector of tangent space at one disk: dq, then dp. */
+enum { HD_DIM = 2, HD_ROWS = 2 * HD_DIM };
+
 typedef enum hd_boundary { HD_PERIODIC, HD_REFLECTING } hd_boundary;
 
 /** Stages of a run, one after the other: disks alone; with the frame; averages are taken; done. */
@@ -54,7 +57,7 @@ typedef enum hd_storage {
 /** Each parameter's default, range, unit and text stands in parameters.inc, which declares those
  * that are plain numbers. */
 typedef struct hd_scene_def {
-    hd_boundary boundary[2]; /**< boundary_x, boundary_y */
+    hd_boundary boundary[HD_DIM]; /**< boundary_x, boundary_y */
     uint64_t seed;
     int exponents;         /**< number of leading ones, 1 .. 4N, or one of HD_EXPONENTS_* */
     double warmup;         /**< HD_WARMUP_AUTO, see hd_scene_warmup [time units] */
@@ -75,7 +78,7 @@ hd_scene_def hd_scene_def_default(void);
 HD_MUST_CHECK hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size);
 
 /** Box edges [sigma]: Lx = sqrt(N / (rho A)), Ly = A Lx. */
-void hd_scene_box(const hd_scene_def *def, double box[2]);
+void hd_scene_box(const hd_scene_def *def, double box[HD_DIM]);
 
 /** Time that sound takes through the longer edge of the box, by Henderson's equation of state (Mol.
  * Phys. 30, 971 (1975)) [time units]. */
@@ -87,6 +90,9 @@ double hd_scene_mean_free_path(const hd_scene_def *def);
 
 /** Number of vanishing exponents: 6, 4 or 2 for both, one or no direction periodic. */
 int hd_scene_zero_exponents(const hd_scene_def *def);
+
+/** Number of positive exponents, (4N - Z) / 2. */
+int hd_scene_positive_exponents(const hd_scene_def *def);
 
 /** Directions of the exact null space [T9]: uniform along x, along y (where periodic), momenta. */
 enum { HD_NULL_X, HD_NULL_Y, HD_NULL_P, HD_NULLS };

@@ -17,11 +17,11 @@ enum { HD_WALL_X = -1, HD_WALL_Y = -2 };
 
 /** One event; self-contained: with the disks' order in the log it fixes the tangent map [T3]. */
 typedef struct hd_event {
-    double t;    /**< since the start of the log [time units] */
-    int32_t i;   /**< disk, 0-based; i < j for a pair */
-    int32_t j;   /**< other disk, or HD_WALL_* */
-    double n[2]; /**< unit vector from i to j at contact; for a wall its axis */
-    double p[2]; /**< p_j - p_i before the collision; for a wall the momentum before it */
+    double t;         /**< since the start of the log [time units] */
+    int32_t i;        /**< disk, 0-based; i < j for a pair */
+    int32_t j;        /**< other disk, or HD_WALL_* */
+    double n[HD_DIM]; /**< unit vector from i to j at contact; for a wall its axis */
+    double p[HD_DIM]; /**< p_j - p_i before the collision; for a wall the momentum before it */
 } hd_event;
 
 /** Events of one interval in their total order: time, pairs before walls, i, j; in a corner the x
@@ -60,11 +60,11 @@ HD_MUST_CHECK hd_status hd_trajectory_extend(hd_trajectory *trajectory, hd_event
 
 double hd_trajectory_time(const hd_trajectory *trajectory); /**< simulated time */
 int hd_trajectory_disks(const hd_trajectory *trajectory);   /**< N */
-void hd_trajectory_box(const hd_trajectory *trajectory, double box[2]);
+void hd_trajectory_box(const hd_trajectory *trajectory, double box[HD_DIM]);
 uint64_t hd_trajectory_collisions(const hd_trajectory *trajectory); /**< pair events so far */
 uint64_t hd_trajectory_wall_events(const hd_trajectory *trajectory);
 /** Virial of the pair events so far, by direction: sum of |p.n| n_d^2 [sigma momentum] [T20]. */
-void hd_trajectory_virial(const hd_trajectory *trajectory, double virial[2]);
+void hd_trajectory_virial(const hd_trajectory *trajectory, double virial[HD_DIM]);
 /** Estimate of the pair events per time unit, Enskog with Henderson's contact value [T2]. */
 double hd_trajectory_collision_rate(const hd_trajectory *trajectory);
 
@@ -73,7 +73,7 @@ void hd_trajectory_state(const hd_trajectory *trajectory, double *q, double *p);
 
 double hd_trajectory_kinetic_energy(const hd_trajectory *trajectory); /**< sum p^2 / 2, = N */
 /** Of all disks together. */
-void hd_trajectory_momentum(const hd_trajectory *trajectory, double sum[2]);
+void hd_trajectory_momentum(const hd_trajectory *trajectory, double sum[HD_DIM]);
 /** More than rounding makes of its relative error: each event so far rounds the energy of its disks
  * by some eps, and the roundings add up as a random walk. Seen: 0.01 of this. */
 double hd_trajectory_energy_rounding(const hd_trajectory *trajectory);

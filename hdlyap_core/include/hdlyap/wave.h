@@ -12,9 +12,9 @@ extern "C" {
 
 /** Number of nodes along x and y, both >= 0, not both 0. */
 typedef struct hd_wave {
-    int n[2];
-    double k[2];   /**< components of the wave vector, >= 0 [1/sigma] */
-    double number; /**< |k| [1/sigma] */
+    int n[HD_DIM];
+    double k[HD_DIM]; /**< components of the wave vector, >= 0 [1/sigma] */
+    double number;    /**< |k| [1/sigma] */
 } hd_wave;
 
 /** A is a product of a function of x and one of y; a set bit: sine, otherwise cosine (1 for n = 0).
@@ -30,9 +30,9 @@ typedef struct hd_modulations {
 } hd_modulations;
 
 /** Modulations of the transverse fields: sine and n >= 1 along a reflecting direction. */
-hd_modulations hd_wave_transverse(const hd_wave *wave, const hd_boundary boundary[2]);
+hd_modulations hd_wave_transverse(const hd_wave *wave, const hd_boundary boundary[HD_DIM]);
 /** Modulations of the LP pairs: cosine along a reflecting direction. */
-hd_modulations hd_wave_pairs(const hd_wave *wave, const hd_boundary boundary[2]);
+hd_modulations hd_wave_pairs(const hd_wave *wave, const hd_boundary boundary[HD_DIM]);
 
 /** k along direction d for n nodes: 2 pi n / L periodic, pi n / (L - 1) reflecting. */
 double hd_wave_component(const hd_scene_def *def, int d, int n);

@@ -14,6 +14,7 @@
 
 #include "base/check.h"
 #include "base/memory.h"
+#include "tangent/conjugate.h"
 #include "tangent/product.h"
 
 enum { PANEL = 96 };
@@ -29,7 +30,7 @@ hd_status hd_coupling_create(hd_coupling **out, int disks, int threads)
     hd_coupling *c = hd_memory_alloc(1, sizeof *c);
     *out = NULL;
     if (!c) return HD_NO_MEMORY;
-    c->rows = 4 * disks;
+    c->rows = HD_ROWS * disks;
     c->half = 2 * disks;
     c->y = hd_memory_alloc((size_t)c->half * (size_t)c->half, sizeof(double));
     if (!c->y || hd_frame_create(&c->frame, disks, c->half, 1, threads) != HD_OK) {
@@ -55,9 +56,9 @@ static void load(hd_coupling *c, const hd_frame *frame)
     const double *before = hd_frame_before(frame);
     double *to = hd_frame_data(c->frame);
     for (int row = 0; row < c->rows; row++, to += stride) {
-        const double *from = before + (size_t)(row % 4 < 2 ? row + 2 : row - 2) * stride;
+        const double *from = before + (size_t)hd_turned(row) * stride;
         memcpy(to, from, (size_t)c->half * sizeof *to);
-        if (row % 4 >= 2) cblas_dscal(c->half, -1.0, to, 1);
+        if (hd_turned_sign(row) < 0) cblas_dscal(c->half, -1.0, to, 1);
     }
 }
 

@@ -144,7 +144,7 @@ static hd_status allocate(hd_covariant *c)
 
 double hd_covariant_bytes_of(const hd_scene_def *scene)
 {
-    const double rows = 4.0 * scene->disks, n = hd_scene_vectors(scene),
+    const double rows = HD_ROWS * (double)scene->disks, n = hd_scene_vectors(scene),
                  carried = hd_scene_carried(scene);
     const double factors = 2.0 * carried * carried, ways = (carried < n ? 8.25 : 5.0) * n * n;
     return sizeof(double) * (factors + ways + rows * n) + 3.0 * hd_modes_bytes(scene, n) +
@@ -153,14 +153,13 @@ double hd_covariant_bytes_of(const hd_scene_def *scene)
 
 hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int threads)
 {
-    const int positive = (4 * def->disks - hd_scene_zero_exponents(def)) / 2,
-              zero = hd_scene_zero_exponents(def);
+    const int positive = hd_scene_positive_exponents(def), zero = hd_scene_zero_exponents(def);
     *out = NULL;
     hd_covariant *c = hd_memory_alloc(1, sizeof *c);
     if (!c) return HD_NO_MEMORY;
     c->scene = *def;
     c->threads = threads;
-    c->rows = 4 * def->disks;
+    c->rows = HD_ROWS * def->disks;
     c->vectors = hd_scene_vectors(def);
     c->carried = hd_scene_carried(def);
     c->centre = c->vectors >= positive + zero ? zero : 0;
@@ -356,8 +355,8 @@ static void swap_halves(hd_covariant *c)
 {
     const int n = c->vectors;
     for (int disk = 0; disk < c->scene.disks; disk++)
-        cblas_dswap(2 * n, c->frame + 4 * (size_t)disk * (size_t)n, 1,
-                    c->frame + (4 * (size_t)disk + 2) * (size_t)n, 1);
+        cblas_dswap(2 * n, c->frame + HD_ROWS * (size_t)disk * (size_t)n, 1,
+                    c->frame + (HD_ROWS * (size_t)disk + 2) * (size_t)n, 1);
 }
 
 /** What the vectors grew by since the look before, which came later. */

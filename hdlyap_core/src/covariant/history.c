@@ -34,7 +34,7 @@ struct hd_history {
 
 static size_t record_size(const hd_history_def *def)
 {
-    return 4 * (size_t)def->disks * ((size_t)def->vectors + 1);
+    return HD_ROWS * (size_t)def->disks * ((size_t)def->vectors + 1);
 }
 
 /** R, and Y with it. */
@@ -47,7 +47,7 @@ static size_t triangle_size(const hd_history_def *def)
  * is there. */
 static hd_recompute_def recompute_of(const hd_history_def *def)
 {
-    const int rows = 4 * def->disks;
+    const int rows = HD_ROWS * def->disks;
     const long stretch = hd_recompute_stretch(def->intervals, def->conjugate ? rows / 2 : rows,
                                               def->vectors);
     return (hd_recompute_def){.rows = rows,
@@ -87,7 +87,7 @@ hd_status hd_history_create(hd_history **out, const hd_history_def *def)
     *out = NULL;
     if (!past) return HD_NO_MEMORY;
     past->def = *def;
-    past->rows = 4 * def->disks;
+    past->rows = HD_ROWS * def->disks;
     past->slots = def->recompute ? recompute_of(def).slots : def->intervals;
     const hd_status status = allocate(past);
     if (status == HD_OK)

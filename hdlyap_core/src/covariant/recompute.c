@@ -64,10 +64,10 @@ static hd_status allocate(hd_recompute *r)
 {
     const hd_recompute_def *def = &r->def;
     const size_t triangle = triangle_size(def);
-    if (def->conjugate) HD_TRY(hd_coupling_create(&r->coupling, def->rows / 4, def->threads));
+    if (def->conjugate) HD_TRY(hd_coupling_create(&r->coupling, def->rows / HD_ROWS, def->threads));
     HD_TRY(hd_store_create(&r->frames, frame_size(r), def->slots / def->stretch));
     HD_TRY(hd_store_create(&r->triangles, triangle, def->stretch));
-    HD_TRY(hd_frame_create(&r->frame, def->rows / 4, def->vectors, 1, def->threads));
+    HD_TRY(hd_frame_create(&r->frame, def->rows / HD_ROWS, def->vectors, 1, def->threads));
     HD_TRY(hd_ortho_create(&r->ortho, def->rows, def->vectors));
     HD_TRY(hd_ortho_keep_factor(r->ortho));
     r->log = hd_memory_alloc((size_t)def->slots, sizeof *r->log);

@@ -41,7 +41,7 @@ hd_status hd_cells_create(hd_cells *cells, const hd_scene_def *def)
     *cells = (hd_cells){.boundary = {def->boundary[0], def->boundary[1]}};
     hd_scene_box(def, cells->box);
     const double edge = fmax(EDGE_MIN, sqrt(DISKS_PER_CELL / def->density));
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < HD_DIM; d++) {
         cells->size[d] = (int32_t)fmax(1.0, floor(cells->box[d] / edge));
         cells->line[d] = hd_memory_alloc((size_t)cells->size[d], sizeof *cells->line[d]);
         if (!cells->line[d]) return HD_NO_MEMORY;
@@ -106,7 +106,7 @@ void hd_cells_book(hd_cells *cells, const hd_disk *disks, int32_t i)
 
 void hd_cells_add(hd_cells *cells, hd_disk *disks, int32_t i)
 {
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < HD_DIM; d++) {
         const int32_t c = (int32_t)(disks[i].q[d] / cells->box[d] * cells->size[d]);
         disks[i].cell[d] = c >= cells->size[d] ? cells->size[d] - 1 : c;
     }

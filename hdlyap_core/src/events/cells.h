@@ -25,10 +25,10 @@ typedef struct hd_cell {
 } hd_cell;
 
 typedef struct hd_cells {
-    double box[2];
-    hd_boundary boundary[2];
-    int32_t size[2];       /**< columns, rows */
-    hd_cell_line *line[2]; /**< [size[d]] */
+    double box[HD_DIM];
+    hd_boundary boundary[HD_DIM];
+    int32_t size[HD_DIM];       /**< columns, rows */
+    hd_cell_line *line[HD_DIM]; /**< [size[d]] */
     hd_cell *cell; /**< [(size[0] + 1) * (size[1] + 1)]; the last column and row stay empty */
     int32_t *next; /**< [disks], links of the crowded cells' lists; -1 at their ends */
 } hd_cells;

@@ -4,18 +4,20 @@
 
 #include <stdint.h>
 
+#include "hdlyap/scene.h"
+
 /** Deeper than this [sigma], an overlap is a fault and not rounding. */
 #define HD_OVERLAP_MAX 1e-9
 
 /** q and p are those of time t (of the present epoch) and stay untouched until the disk's next
  * collision: what is predicted from them does not depend on when it is predicted. */
 typedef struct hd_disk {
-    double q[2]; /**< where it was at t; may have drifted out of the box since */
-    double p[2];
+    double q[HD_DIM]; /**< where it was at t; may have drifted out of the box since */
+    double p[HD_DIM];
     double t;
-    int32_t wrap[2];     /**< box edges to subtract from its present position to be in its cell */
-    int32_t cell[2];     /**< column, row */
-    uint32_t collisions; /**< changes whenever q, p, t do; tells stale predictions */
+    int32_t wrap[HD_DIM]; /**< box edges to subtract from its present position to be in its cell */
+    int32_t cell[HD_DIM]; /**< column, row */
+    uint32_t collisions;  /**< changes whenever q, p, t do; tells stale predictions */
 } hd_disk;
 
 #endif

@@ -61,7 +61,10 @@ static bool disks_exist(const hd_event *event, int disks)
 static double product(const double a[2], const double b[2]) { return a[0] * b[0] + a[1] * b[1]; }
 
 /** A quotient of a vector and its length: each is right to an ulp or two. */
-static bool is_unit(const double n[2]) { return fabs(product(n, n) - 1.0) <= 8.0 * DBL_EPSILON; }
+static bool is_unit(const double n[HD_DIM])
+{
+    return fabs(product(n, n) - 1.0) <= 8.0 * DBL_EPSILON;
+}
 
 /** Within the rounding of the normal. */
 static bool approach(const hd_event *event)

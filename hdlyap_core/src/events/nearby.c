@@ -88,7 +88,7 @@ static inline void earliest_lower(earliest *e, hd_pair t, int64_t k)
 
 static inline int earliest_number(const earliest *e)
 {
-    const int64_t number[2] = {e->number[0], e->number[1]};
+    const int64_t number[HD_DIM] = {e->number[0], e->number[1]};
     const double t = e->t[1] < e->t[0] ? e->t[1] : e->t[0];
     if (t == INFINITY) return HD_NEARBY_NONE;
     if ((e->t[0] == e->t[1]) | (int)(e->tied[0] | e->tied[1])) return HD_NEARBY_TIED;
@@ -97,7 +97,7 @@ static inline int earliest_number(const earliest *e)
 
 /** Contacts of the two disks a with numbers k and k + 1. */
 static inline hd_pair contacts_with(const hd_two_disks *a, const hd_nearby *near, int k,
-                                    const hd_disk *disks, const double box[2])
+                                    const hd_disk *disks, const double box[HD_DIM])
 {
     const hd_disk *b0 = &disks[near->disk[k]], *b1 = &disks[near->disk[k + 1]];
     const int32_t *x = &near->image[0][k], *y = &near->image[1][k];
@@ -110,7 +110,7 @@ static inline hd_pair contacts_with(const hd_two_disks *a, const hd_nearby *near
 /** hd_nearby_contacts, without what fills the last step. */
 HD_MULTIVERSION
 static int contacts(double *contact, const hd_nearby *near, const hd_disk *disks, int32_t i,
-                    const double box[2])
+                    const double box[HD_DIM])
 {
     const hd_two_disks a = hd_two_disks_of(&disks[i], &disks[i]);
     earliest e = {.t = hd_pair_both(INFINITY)};
@@ -126,10 +126,10 @@ static int contacts(double *contact, const hd_nearby *near, const hd_disk *disks
 }
 
 int hd_nearby_contacts(double *contact, hd_nearby *near, const hd_disk *disks, int32_t i,
-                       const double box[2])
+                       const double box[HD_DIM])
 {
     const int_quad self = spread(i), zero = spread(0);
     memcpy(&near->disk[near->count], &self, sizeof self); /* it never meets itself: p = 0 */
-    for (int d = 0; d < 2; d++) memcpy(&near->image[d][near->count], &zero, sizeof zero);
+    for (int d = 0; d < HD_DIM; d++) memcpy(&near->image[d][near->count], &zero, sizeof zero);
     return contacts(contact, near, disks, i, box);
 }

@@ -14,7 +14,7 @@ typedef struct hd_nearby {
     int32_t disk[HD_NEARBY_MAX + HD_NEARBY_SPARE];
     /** Box edges to add to each one's position, less its own wraps, to see it where its cell is
      * seen. */
-    int32_t image[2][HD_NEARBY_MAX + HD_NEARBY_SPARE];
+    int32_t image[HD_DIM][HD_NEARBY_MAX + HD_NEARBY_SPARE];
 } hd_nearby;
 
 /** The disks in the places of the 9 cells around a disk, itself among them. */
@@ -34,6 +34,6 @@ enum { HD_NEARBY_NONE = -1, HD_NEARBY_TIED = -2 };
  * Returns the number of the earliest, HD_NEARBY_NONE, or HD_NEARBY_TIED if several may be as
  * early. Fills the places after near->disk[count]. */
 int hd_nearby_contacts(double *contact, hd_nearby *near, const hd_disk *disks, int32_t i,
-                       const double box[2]);
+                       const double box[HD_DIM]);
 
 #endif

@@ -9,7 +9,7 @@
 
 /** The order of two contacts of disk i at the same time: by partner, then by image as seen from the
  * disk with the lower number. */
-static bool comes_first(int32_t i, int32_t j, const int32_t image[2], const prediction *other)
+static bool comes_first(int32_t i, int32_t j, const int32_t image[HD_DIM], const prediction *other)
 {
     if (j != other->partner) return j < other->partner;
     const int32_t sign = i < j ? 1 : -1;
@@ -24,7 +24,7 @@ static void predict_contact(hd_motion *m, int32_t i, const hd_nearby *near, int 
     prediction *best = &m->predicted[i];
     const int32_t j = near->disk[k];
     const hd_disk *b = &m->disk[j];
-    const int32_t image[2] = {near->image[0][k] - b->wrap[0], near->image[1][k] - b->wrap[1]};
+    const int32_t image[HD_DIM] = {near->image[0][k] - b->wrap[0], near->image[1][k] - b->wrap[1]};
     if (!(contact < INFINITY && contact <= best->contact)) return;
     if (contact == best->contact && !comes_first(i, j, image, best)) return;
     best->contact = contact;
@@ -98,14 +98,14 @@ static void schedule(hd_motion *m, int32_t i)
 {
     const hd_disk *disk = &m->disk[i];
     prediction *next = &m->predicted[i];
-    const double edge[2] = {edge_time(m, disk, 0), edge_time(m, disk, 1)};
-    const int32_t side[2] = {HIGH * (disk->p[0] > 0), HIGH * (disk->p[1] > 0)};
-    const int wall[2] = {is_wall(m, disk, 0, side[0]), is_wall(m, disk, 1, side[1])};
+    const double edge[HD_DIM] = {edge_time(m, disk, 0), edge_time(m, disk, 1)};
+    const int32_t side[HD_DIM] = {HIGH * (disk->p[0] > 0), HIGH * (disk->p[1] > 0)};
+    const int wall[HD_DIM] = {is_wall(m, disk, 0, side[0]), is_wall(m, disk, 1, side[1])};
     const int d = (edge[1] < edge[0]) | ((edge[1] == edge[0]) & (wall[1] > wall[0]));
     const int32_t j = next->partner;
     next->direction = d;
     next->side = side[d];
-    const hd_queue_key key[2] = {
+    const hd_queue_key key[HD_DIM] = {
         {edge[d], hd_queue_order(wall[d] ? WALL : EDGE, i, -1 - d)},
         {next->contact, hd_queue_order(PAIR, i < j ? i : j, i < j ? j : i)}};
     hd_queue_put(&m->queue, i, key[(next->contact < INFINITY) & (next->contact <= edge[d])]);

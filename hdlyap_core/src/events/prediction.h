@@ -14,7 +14,7 @@ typedef struct prediction {
     double contact; /**< time of the earliest known contact, or INFINITY */
     int32_t partner;
     uint32_t partner_collisions; /**< when it was predicted */
-    int32_t image[2];            /**< box edges to add to the partner's position */
+    int32_t image[HD_DIM];       /**< box edges to add to the partner's position */
     int32_t direction, side;     /**< of the next cell edge or wall */
 } prediction;
 

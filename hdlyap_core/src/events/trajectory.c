@@ -31,7 +31,7 @@ static const double MOMENTUM_MAX = 1e6;
 /** Back into the box; the cell that it is booked in stays. */
 static void fold(const hd_trajectory *tr, hd_disk *disk)
 {
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < HD_DIM; d++) {
         if (tr->motion.cells.boundary[d] != HD_PERIODIC) continue;
         const double turns = floor(disk->q[d] / tr->motion.cells.box[d]);
         disk->q[d] -= turns * tr->motion.cells.box[d];
@@ -41,7 +41,7 @@ static void fold(const hd_trajectory *tr, hd_disk *disk)
 
 static void move_to(hd_disk *disk, double t)
 {
-    for (int d = 0; d < 2; d++) disk->q[d] += disk->p[d] * (t - disk->t);
+    for (int d = 0; d < HD_DIM; d++) disk->q[d] += disk->p[d] * (t - disk->t);
     disk->t = t;
 }
 
@@ -58,7 +58,7 @@ static double square_minus_one(hd_pair r)
 {
     const double splitter = 134217729.0; /* 2^27 + 1 */
     double product[2], error[2];
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < HD_DIM; d++) {
         const double big = splitter * r[d], high = big - (big - r[d]), low = r[d] - high;
         product[d] = r[d] * r[d];
         error[d] = ((high * high - product[d]) + 2.0 * high * low) + low * low;
@@ -79,7 +79,7 @@ static bool exchange(hd_disk *a, hd_disk *b, hd_pair r, double approach, double 
     if (approach < -lost) {
         /* approach / r.r; with r.r rounded near 1 the energy would drift, 3e-16 a collision */
         const double per_r = approach - approach * excess;
-        for (int d = 0; d < 2; d++) {
+        for (int d = 0; d < HD_DIM; d++) {
             a->p[d] += per_r * r[d];
             b->p[d] -= per_r * r[d];
         }
@@ -108,7 +108,7 @@ static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *c
     const hd_pair r = hd_contact_separation(a, b, shift, t);
     const double distance = sqrt(hd_contact_dot(r, r));
     double approach = 0;
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < HD_DIM; d++) {
         event.n[d] = r[d] / distance;
         event.p[d] = b->p[d] - a->p[d];
         approach += event.p[d] * r[d];
@@ -118,7 +118,7 @@ static hd_status collide(hd_trajectory *tr, hd_event_log *log, const hd_event *c
     hd_status status = HD_OK;
     if (exchange(a, b, r, approach, excess)) {
         tr->collisions++;
-        for (int d = 0; d < 2; d++) tr->virial[d] -= approach * event.n[d] * event.n[d];
+        for (int d = 0; d < HD_DIM; d++) tr->virial[d] -= approach * event.n[d] * event.n[d];
         status = log_append(log, &event);
     }
     a->collisions++;
@@ -271,10 +271,10 @@ static hd_status trajectory_start(hd_trajectory *tr, const double *q, const doub
 {
     for (int32_t i = 0; i < tr->motion.count; i++) {
         hd_disk *disk = &tr->motion.disk[i];
-        for (int d = 0; d < 2; d++) {
+        for (int d = 0; d < HD_DIM; d++) {
             const double reach = tr->motion.cells.boundary[d] == HD_REFLECTING ? 0.5 : 0.0;
-            disk->q[d] = q[2 * i + d];
-            disk->p[d] = p[2 * i + d];
+            disk->q[d] = q[HD_DIM * i + d];
+            disk->p[d] = p[HD_DIM * i + d];
             if (!(fabs(disk->p[d]) <= MOMENTUM_MAX)) return HD_REFUSED;
             if (!(disk->q[d] >= reach && disk->q[d] <= tr->motion.cells.box[d] - reach))
                 return HD_REFUSED;
@@ -291,7 +291,7 @@ static void momenta_fill(double *p, const hd_scene_def *def)
 {
     hd_random random = hd_random_seeded(def->seed, 0);
     const int n = def->disks;
-    double mean[2] = {0, 0}, square = 0;
+    double mean[HD_DIM] = {0, 0}, square = 0;
     for (int k = 0; k < 2 * n; k++) mean[k % 2] += p[k] = hd_random_symmetric(&random);
     for (int k = 0; k < 2 * n; k++) {
         if (def->boundary[k % 2] == HD_PERIODIC) p[k] -= mean[k % 2] / n;
@@ -328,11 +328,11 @@ hd_status hd_trajectory_create(hd_trajectory **out, const hd_scene_def *def)
 {
     *out = NULL;
     if (hd_scene_check(def, NULL, 0) != HD_OK) return HD_REFUSED;
-    double box[2];
+    double box[HD_DIM];
     hd_scene_box(def, box);
     const hd_lattice lattice = hd_lattice_best(def->disks, box, def->boundary);
-    double *q = hd_memory_alloc(2 * (size_t)def->disks, sizeof *q);
-    double *p = hd_memory_alloc(2 * (size_t)def->disks, sizeof *p);
+    double *q = hd_memory_alloc(HD_DIM * (size_t)def->disks, sizeof *q);
+    double *p = hd_memory_alloc(HD_DIM * (size_t)def->disks, sizeof *p);
     hd_status status = HD_NO_MEMORY;
     if (q && p) {
         hd_lattice_fill(&lattice, q, def->disks, box, def->boundary);
@@ -362,13 +362,13 @@ uint64_t hd_trajectory_collisions(const hd_trajectory *tr) { return tr->collisio
 uint64_t hd_trajectory_wall_events(const hd_trajectory *tr) { return tr->wall_events; }
 double hd_trajectory_collision_rate(const hd_trajectory *tr) { return tr->rate; }
 
-void hd_trajectory_virial(const hd_trajectory *tr, double virial[2])
+void hd_trajectory_virial(const hd_trajectory *tr, double virial[HD_DIM])
 {
     virial[0] = tr->virial[0];
     virial[1] = tr->virial[1];
 }
 
-void hd_trajectory_box(const hd_trajectory *tr, double box[2])
+void hd_trajectory_box(const hd_trajectory *tr, double box[HD_DIM])
 {
     box[0] = tr->motion.cells.box[0];
     box[1] = tr->motion.cells.box[1];
@@ -380,18 +380,18 @@ void hd_trajectory_state(const hd_trajectory *tr, double *q, double *p)
         hd_disk disk = tr->motion.disk[i];
         move_to(&disk, tr->now - tr->epoch_start);
         fold(tr, &disk);
-        for (int d = 0; d < 2; d++) {
-            if (q) q[2 * i + d] = disk.q[d];
-            if (p) p[2 * i + d] = disk.p[d];
+        for (int d = 0; d < HD_DIM; d++) {
+            if (q) q[HD_DIM * i + d] = disk.q[d];
+            if (p) p[HD_DIM * i + d] = disk.p[d];
         }
     }
 }
 
-void hd_trajectory_momentum(const hd_trajectory *tr, double sum[2])
+void hd_trajectory_momentum(const hd_trajectory *tr, double sum[HD_DIM])
 {
     sum[0] = sum[1] = 0.0;
     for (int i = 0; i < tr->motion.count; i++)
-        for (int d = 0; d < 2; d++) sum[d] += tr->motion.disk[i].p[d];
+        for (int d = 0; d < HD_DIM; d++) sum[d] += tr->motion.disk[i].p[d];
 }
 
 double hd_trajectory_kinetic_energy(const hd_trajectory *tr)
@@ -411,7 +411,7 @@ double hd_trajectory_energy_rounding(const hd_trajectory *tr)
 
 /** Distance squared from disk i to disk j, `edges` of the box further, now; to itself infinite. */
 static double distance_squared(const hd_trajectory *tr, int32_t i, int32_t j,
-                               const int32_t edges[2])
+                               const int32_t edges[HD_DIM])
 {
     const hd_disk *a = &tr->motion.disk[i], *b = &tr->motion.disk[j];
     const hd_pair shift = {(edges[0] + a->wrap[0] - b->wrap[0]) * tr->motion.cells.box[0],
@@ -427,7 +427,7 @@ static double nearest_in_cell(const hd_trajectory *tr, int32_t i, int32_t x, int
     const hd_cell_line *lx = &tr->motion.cells.line[0][disk->cell[0]];
     const hd_cell_line *ly = &tr->motion.cells.line[1][disk->cell[1]];
     const hd_cell *cell = hd_cells_at(&tr->motion.cells, lx->near[x], ly->near[y]);
-    const int32_t edges[2] = {lx->shift[x], ly->shift[y]};
+    const int32_t edges[HD_DIM] = {lx->shift[x], ly->shift[y]};
     double least = INFINITY;
     for (int k = 0; k < cell->count; k++)
         least = fmin(least, distance_squared(tr, i, cell->disk[k], edges));

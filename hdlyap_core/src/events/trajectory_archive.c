@@ -22,7 +22,7 @@ static void disks_archive(hd_trajectory *tr, hd_archive *archive)
     }
     hd_archive_of_ints(archive, "trajectory wrap cell", 4 * n);
     for (size_t i = 0; i < n; i++)
-        for (int d = 0; d < 2; d++) {
+        for (int d = 0; d < HD_DIM; d++) {
             hd_archive_next_int(archive, &tr->motion.disk[i].wrap[d], -WRAP_MAX, WRAP_MAX);
             hd_archive_next_int(archive, &tr->motion.disk[i].cell[d], 0,
                                 tr->motion.cells.size[d] - 1);
@@ -31,7 +31,7 @@ static void disks_archive(hd_trajectory *tr, hd_archive *archive)
 
 static bool in_its_cell(const hd_trajectory *tr, const hd_disk *disk)
 {
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < HD_DIM; d++) {
         const double *bound = tr->motion.cells.line[d][disk->cell[d]].bound;
         const double flight = disk->p[d] * (tr->now - tr->epoch_start - disk->t);
         const double place = disk->q[d] + flight - disk->wrap[d] * tr->motion.cells.box[d];

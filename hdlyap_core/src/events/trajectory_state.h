@@ -14,7 +14,7 @@ struct hd_trajectory {
     double epoch_start; /**< simulated time, a multiple of epoch_length */
     double now;         /**< simulated time */
     uint64_t collisions, wall_events;
-    double virial[2]; /**< of the collisions */
+    double virial[HD_DIM]; /**< of the collisions */
 };
 
 #endif

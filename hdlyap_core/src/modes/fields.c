@@ -16,7 +16,7 @@
 
 struct hd_fields {
     int disks, columns, stride, subspaces;
-    hd_harmonics along[2];
+    hd_harmonics along[HD_DIM];
     hd_null_space null;
     hd_subspace *subspace; /**< [subspaces] */
     double *data;          /**< [2 disks * stride] */
@@ -33,7 +33,7 @@ static void subspace_add(hd_fields *fields, hd_mode_kind kind, const hd_wave *wa
     fields->subspace[fields->subspaces++] = (hd_subspace){kind, *wave, modulations, fields->columns,
                                                           dimension};
     fields->columns += dimension;
-    for (int d = 0; d < 2; d++)
+    for (int d = 0; d < HD_DIM; d++)
         if (wave->n[d] > fields->along[d].nodes) fields->along[d].nodes = wave->n[d];
 }
 
@@ -76,12 +76,12 @@ static hd_status subspaces_create(hd_fields *fields, const hd_scene_def *def)
 static hd_status fields_prepare(hd_fields *fields, const hd_scene_def *def)
 {
     HD_TRY(subspaces_create(fields, def));
-    for (int d = 0; d < 2; d++)
+    for (int d = 0; d < HD_DIM; d++)
         HD_TRY(hd_harmonics_create(&fields->along[d], def, d, fields->along[d].nodes));
     fields->null = hd_null_space_of(def->boundary);
     fields->columns += HD_NULLS;
     fields->stride = (fields->columns + 7) / 8 * 8;
-    fields->data = hd_memory_alloc(2 * (size_t)fields->disks * (size_t)fields->stride,
+    fields->data = hd_memory_alloc(HD_DIM * (size_t)fields->disks * (size_t)fields->stride,
                                    sizeof(double));
     fields->norm = hd_memory_alloc((size_t)fields->stride, sizeof(double));
     return fields->data && fields->norm ? HD_OK : HD_NO_MEMORY;
@@ -104,7 +104,7 @@ hd_status hd_fields_create(hd_fields **out, const hd_scene_def *def)
 void hd_fields_free(hd_fields *fields)
 {
     if (!fields) return;
-    for (int d = 0; d < 2; d++) hd_harmonics_clear(&fields->along[d]);
+    for (int d = 0; d < HD_DIM; d++) hd_harmonics_clear(&fields->along[d]);
     hd_memory_free(fields->subspace);
     hd_memory_free(fields->data);
     hd_memory_free(fields->norm);
@@ -134,7 +134,7 @@ static void sample_modulation(const hd_fields *fields, const hd_subspace *s, int
 static void sample_disk(hd_fields *fields, const double *q, const double *p, double *x, double *y)
 {
     const int null = fields->columns - HD_NULLS;
-    for (int d = 0; d < 2; d++) hd_harmonics_fill(&fields->along[d], q[d]);
+    for (int d = 0; d < HD_DIM; d++) hd_harmonics_fill(&fields->along[d], q[d]);
     for (int s = 0; s < fields->subspaces; s++)
         for (int c = 0; c < fields->subspace[s].modulations.count; c++)
             sample_modulation(fields, &fields->subspace[s], c, p, x, y);
@@ -148,7 +148,7 @@ static void sample_disk(hd_fields *fields, const double *q, const double *p, dou
 /** A column that vanishes at every disk stays zero. */
 static void normalise(hd_fields *fields)
 {
-    const size_t rows = 2 * (size_t)fields->disks, stride = (size_t)fields->stride;
+    const size_t rows = HD_DIM * (size_t)fields->disks, stride = (size_t)fields->stride;
     for (int c = 0; c < fields->columns; c++) fields->norm[c] = 0.0;
     for (size_t row = 0; row < rows; row++)
         for (int c = 0; c < fields->columns; c++) {
@@ -166,7 +166,7 @@ void hd_fields_sample(hd_fields *fields, const double *q, const double *p)
     const size_t stride = (size_t)fields->stride;
     for (int j = 0; j < fields->disks; j++) {
         double *x = fields->data + 2 * stride * (size_t)j;
-        sample_disk(fields, q + 2 * j, p + 2 * j, x, x + stride);
+        sample_disk(fields, q + HD_DIM * j, p + HD_DIM * j, x, x + stride);
     }
     normalise(fields);
 }

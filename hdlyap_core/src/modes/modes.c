@@ -114,9 +114,9 @@ static void overlaps(const hd_modes *modes, hd_columns v, int half, int column, 
                      double *out)
 {
     const int fields = hd_fields_stride(modes->fields);
-    for (int d = 0; d < 2; d++)
+    for (int d = 0; d < HD_DIM; d++)
         hd_dgemm(CblasNoTrans, CblasTrans, v.count, count, modes->disks, 1.0,
-                 v.data + (size_t)(half + d) * (size_t)v.stride, 4 * v.stride,
+                 v.data + (size_t)(half + d) * (size_t)v.stride, HD_ROWS * v.stride,
                  hd_fields_data(modes->fields) + (size_t)d * (size_t)fields + column, 2 * fields, d,
                  out + v.first, (int)modes->stride);
 }
@@ -130,7 +130,8 @@ static double *gram_of(const hd_modes *modes, const hd_subspace *s)
 static void gram_fill(hd_modes *modes)
 {
     const size_t columns = (size_t)hd_fields_columns(modes->fields);
-    const size_t stride = (size_t)hd_fields_stride(modes->fields), rows = 2 * (size_t)modes->disks;
+    const size_t stride = (size_t)hd_fields_stride(modes->fields),
+                 rows = HD_DIM * (size_t)modes->disks;
     memset(modes->gram, 0, columns * DIMENSION_MAX * sizeof *modes->gram);
     for (size_t row = 0; row < rows; row++)
         for (int k = 0; k < hd_fields_subspaces(modes->fields); k++) {
@@ -144,13 +145,13 @@ static void gram_fill(hd_modes *modes)
 
 static void dq_norms(hd_modes *modes, hd_columns v)
 {
-    const int n = v.count, rows = 4 * modes->disks;
+    const int n = v.count, rows = HD_ROWS * modes->disks;
 #pragma omp parallel for schedule(static) num_threads(modes->threads) if (modes->threads > 1)
     for (int col = 0; col < n; col += BLOCK) {
         const int end = col + BLOCK < n ? col + BLOCK : n;
         double *sum = modes->dq_norm + v.first;
         for (int l = col; l < end; l++) sum[l] = 0.0;
-        for (int row = 0; row < rows; row += row % 4 == 0 ? 1 : 3)
+        for (int row = 0; row < rows; row += row % HD_ROWS == 0 ? 1 : 3)
             for (int l = col; l < end; l++) {
                 const double dq = v.data[(size_t)row * (size_t)v.stride + (size_t)l];
                 sum[l] += dq * dq;

@@ -33,7 +33,7 @@ double hd_pmode_bytes(double disks)
 
 hd_status hd_pmode_create(hd_pmode **out, int disks)
 {
-    const size_t size = (size_t)DIMENSION_MAX * 2 * (size_t)disks;
+    const size_t size = (size_t)DIMENSION_MAX * HD_DIM * (size_t)disks;
     hd_pmode *pmode = hd_memory_alloc(1, sizeof *pmode);
     *out = NULL;
     if (!pmode) return HD_NO_MEMORY;
@@ -58,7 +58,7 @@ void hd_pmode_free(hd_pmode *pmode)
 
 static double *row_of(double *rows, int row, const hd_pmode *pmode)
 {
-    return rows + 2 * (size_t)row * (size_t)pmode->disks;
+    return rows + HD_DIM * (size_t)row * (size_t)pmode->disks;
 }
 
 static double dot(const double *a, const double *b, int n)
@@ -76,25 +76,26 @@ static void psi_load(hd_pmode *pmode, hd_columns vectors, int col)
         double *psi = row_of(pmode->psi, m, pmode);
         const double *v = vectors.data + (col - vectors.first) + m;
         for (int j = 0; j < pmode->disks; j++)
-            for (int d = 0; d < 2; d++) psi[2 * j + d] = v[(size_t)(4 * j + d) * stride];
-        const double norm = sqrt(dot(psi, psi, 2 * pmode->disks));
+            for (int d = 0; d < HD_DIM; d++)
+                psi[HD_DIM * j + d] = v[(size_t)(HD_ROWS * j + d) * stride];
+        const double norm = sqrt(dot(psi, psi, HD_DIM * pmode->disks));
         const double scale = norm > HD_MODES_DQ_MIN ? 1.0 / norm
                                                     : 0.0; /* then dependent: refused */
-        for (int k = 0; k < 2 * pmode->disks; k++) psi[k] *= scale;
+        for (int k = 0; k < HD_DIM * pmode->disks; k++) psi[k] *= scale;
     }
 }
 
 static void field_column(double *out, const hd_fields *fields, int column, int disks)
 {
     const size_t stride = (size_t)hd_fields_stride(fields);
-    for (int row = 0; row < 2 * disks; row++)
+    for (int row = 0; row < HD_DIM * disks; row++)
         out[row] = hd_fields_data(fields)[(size_t)row * stride + (size_t)column];
 }
 
 /** q <- (psi^T psi)^-1 psi^T B, with B in field. False if the vectors are dependent. */
 static bool solve(hd_pmode *pmode)
 {
-    const int n = pmode->dimension, rows = 2 * pmode->disks;
+    const int n = pmode->dimension, rows = HD_DIM * pmode->disks;
     double gram[DIMENSION_MAX * DIMENSION_MAX];
     for (int m = 0; m < n; m++)
         for (int c = 0; c < n; c++) {
@@ -108,7 +109,7 @@ static bool solve(hd_pmode *pmode)
 /** field c: psi Q e_c in the place of B e_c, whose distance is the residual. */
 static void combine(hd_pmode *pmode, int c)
 {
-    const int n = pmode->dimension, rows = 2 * pmode->disks;
+    const int n = pmode->dimension, rows = HD_DIM * pmode->disks;
     double *field = row_of(pmode->field, c, pmode), distance2 = 0.0;
     for (int k = 0; k < rows; k++) {
         double sum = 0.0;
@@ -168,7 +169,7 @@ double hd_pmode_rotation_distance(const hd_pmode *pmode) { return pmode->distanc
 
 void hd_pmode_divide(const hd_pmode *pmode, double *out, int c, const double *p)
 {
-    const int rows = 2 * pmode->disks;
+    const int rows = HD_DIM * pmode->disks;
     const double *field = hd_pmode_field(pmode, c);
     const double eps = HD_PMODE_EPSILON * dot(p, p, rows) / rows;
     for (int k = 0; k < rows; k++) out[k] = pmode->norm[c] * field[k] * p[k] / (p[k] * p[k] + eps);

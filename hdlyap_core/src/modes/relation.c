@@ -18,10 +18,10 @@ static const double CROWDED = 7.0, DENSE = 0.8;
  * by ELSEWHERE times the part of its weight that lies in the columns of other steps. */
 static const double MISSING = 0.02, ELSEWHERE = 0.006;
 
-static double walls_of(const hd_scene_def *def, const double box[2])
+static double walls_of(const hd_scene_def *def, const double box[HD_DIM])
 {
     double square = 0.0;
-    for (int d = 0; d < 2; d++)
+    for (int d = 0; d < HD_DIM; d++)
         if (def->boundary[d] == HD_REFLECTING) square += WALL * WALL / (box[d] * box[d]);
     return sqrt(square);
 }
@@ -30,7 +30,7 @@ hd_relation hd_relation_of(const hd_scene_def *def, hd_mode_kind kind)
 {
     const bool t = kind == HD_MODE_T;
     const double l = hd_scene_mean_free_path(def);
-    double box[2];
+    double box[HD_DIM];
     hd_scene_box(def, box);
     const double walls = walls_of(def, box), edge = fmin(box[0], box[1]), square = edge * edge;
     const double rows = CROWDED * pow(def->density / DENSE, 8.0) / (square * square);
@@ -54,7 +54,7 @@ static double longest_of(const hd_scene_def *def, hd_mode_kind kind)
     double longest = INFINITY;
     for (int n = 1; n < 4; n++) {
         const int nx = n & 1, ny = n >> 1;
-        const double k[2] = {hd_wave_component(def, 0, nx), hd_wave_component(def, 1, ny)};
+        const double k[HD_DIM] = {hd_wave_component(def, 0, nx), hd_wave_component(def, 1, ny)};
         const hd_wave wave = {{nx, ny}, {k[0], k[1]}, hypot(k[0], k[1])};
         const hd_modulations found = kind == HD_MODE_T ? hd_wave_transverse(&wave, def->boundary)
                                                        : hd_wave_pairs(&wave, def->boundary);

@@ -58,8 +58,8 @@ static int smaller(int a, int b) { return a < b ? a : b; }
 /** Where the halves and the zero modes lie; a frame need not reach so far. */
 static void place(hd_steps *steps, const hd_scene_def *def)
 {
-    const int n = steps->vectors, all = 4 * def->disks;
-    const int positive = (all - hd_scene_zero_exponents(def)) / 2;
+    const int n = steps->vectors, all = HD_ROWS * def->disks;
+    const int positive = hd_scene_positive_exponents(def);
     steps->positive = (hd_half){0, smaller(n, positive)};
     steps->zero_first = smaller(n, positive);
     steps->zero_end = smaller(n, all - positive);
@@ -74,12 +74,12 @@ hd_status hd_steps_create(hd_steps **out, const hd_scene_def *def, const hd_mode
     const hd_fields *fields = hd_modes_fields(modes);
     steps->modes = modes;
     steps->vectors = hd_modes_vectors(modes);
-    steps->rows = 4 * def->disks;
+    steps->rows = HD_ROWS * def->disks;
     steps->warmup = hd_scene_warmup(def);
     steps->of_t = hd_relation_of(def, HD_MODE_T);
     steps->of_lp = hd_relation_of(def, HD_MODE_LP);
     steps->subspaces = hd_fields_subspaces(fields);
-    const bool all = steps->vectors == 4 * def->disks;
+    const bool all = steps->vectors == HD_ROWS * def->disks;
     steps->count = steps->subspaces * (all ? 2 : 1) + 1;
     place(steps, def);
     const hd_status status = steps_allocate(steps);

@@ -23,23 +23,23 @@ enum { AT_ONCE = 16, FUNCTIONS = HD_MODULATIONS_MAX, WIDTH = AT_ONCE * FUNCTIONS
 typedef struct planned {
     hd_wave wave;
     hd_modulations modulations[HD_DIRECTIONS];
-    int column[2][FUNCTIONS]; /**< by the bits of the function, among those of AT_ONCE waves */
-    double root;              /**< of 2 for each direction with walls and nodes */
+    int column[HD_DIM][FUNCTIONS]; /**< by the bits of the function, among those of AT_ONCE waves */
+    double root;                   /**< of 2 for each direction with walls and nodes */
 } planned;
 
 struct hd_structure {
     int disks, vectors, waves, threads;
-    hd_harmonics along[2];
-    planned *plan;     /**< [waves] */
-    size_t stride;     /**< of every array over the vectors */
-    double *value[2];  /**< [disks][2 (nodes + 1)]: harmonics of each disk */
-    double *factor;    /**< [disks][WIDTH]: of one component and some waves */
-    double *sum[2];    /**< [WIDTH][stride]: of dq_x, dq_y times these */
-    double *snapshot;  /**< [waves][HD_DIRECTIONS][stride] */
-    double *mean;      /**< same, over samples */
-    double *amplitude; /**< [HD_DIRECTIONS][FUNCTIONS][stride] */
-    double *work;      /**< [AT_ONCE][stride] */
-    int *peak, *shown; /**< [vectors]: of the mean now, and when the snapshot was taken */
+    hd_harmonics along[HD_DIM];
+    planned *plan;         /**< [waves] */
+    size_t stride;         /**< of every array over the vectors */
+    double *value[HD_DIM]; /**< [disks][2 (nodes + 1)]: harmonics of each disk */
+    double *factor;        /**< [disks][WIDTH]: of one component and some waves */
+    double *sum[HD_DIM];   /**< [WIDTH][stride]: of dq_x, dq_y times these */
+    double *snapshot;      /**< [waves][HD_DIRECTIONS][stride] */
+    double *mean;          /**< same, over samples */
+    double *amplitude;     /**< [HD_DIRECTIONS][FUNCTIONS][stride] */
+    double *work;          /**< [AT_ONCE][stride] */
+    int *peak, *shown;     /**< [vectors]: of the mean now, and when the snapshot was taken */
     long samples;
 };
 
@@ -70,12 +70,12 @@ static unsigned function_of(unsigned bits, hd_direction e, int d)
     return other(bits, e == HD_ALONG ? d : 1 - d);
 }
 
-static void plan_columns(planned *p, int used[2])
+static void plan_columns(planned *p, int used[HD_DIM])
 {
     memset(p->column, -1, sizeof p->column);
     for (int e = 0; e < HD_DIRECTIONS; e++)
         for (int c = 0; c < p->modulations[e].count; c++)
-            for (int d = 0; d < 2; d++) {
+            for (int d = 0; d < HD_DIM; d++) {
                 const int from = e == HD_ALONG ? d : 1 - d; /* no derivative of a constant */
                 int *column =
                     &p->column[d][function_of(p->modulations[e].bits[c], (hd_direction)e, d)];
@@ -93,14 +93,14 @@ static hd_status plan_waves(hd_structure *s, const hd_scene_def *def)
         return HD_NO_MEMORY;
     }
     (void)hd_waves(&all, wave, s->waves);
-    for (int w = 0, used[2] = {0, 0}; w < s->waves; w++) {
+    for (int w = 0, used[HD_DIM] = {0, 0}; w < s->waves; w++) {
         if (w % AT_ONCE == 0) used[0] = used[1] = 0;
         s->plan[w] = (planned){.wave = wave[w],
                                .modulations = {hd_wave_pairs(&wave[w], def->boundary),
                                                hd_wave_transverse(&wave[w], def->boundary)}};
         plan_columns(&s->plan[w], used);
         s->plan[w].root = 1.0;
-        for (int d = 0; d < 2; d++) {
+        for (int d = 0; d < HD_DIM; d++) {
             if (wave[w].n[d] > s->along[d].nodes) s->along[d].nodes = wave[w].n[d];
             if (wave[w].n[d] > 0 && def->boundary[d] == HD_REFLECTING) s->plan[w].root *= sqrt(2.0);
         }
@@ -122,7 +122,7 @@ static hd_status prepare(hd_structure *s, const hd_scene_def *def)
 {
     const size_t disks = (size_t)def->disks, waves = (size_t)s->waves, n = s->stride;
     HD_TRY(plan_waves(s, def));
-    for (int d = 0; d < 2; d++)
+    for (int d = 0; d < HD_DIM; d++)
         HD_TRY(hd_harmonics_create(&s->along[d], def, d, s->along[d].nodes));
     struct {
         double **array;
@@ -168,7 +168,7 @@ hd_status hd_structure_create(hd_structure **out, const hd_scene_def *def, int v
 void hd_structure_free(hd_structure *s)
 {
     if (!s) return;
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < HD_DIM; d++) {
         hd_harmonics_clear(&s->along[d]);
         hd_memory_free(s->value[d]);
         hd_memory_free(s->sum[d]);
@@ -188,10 +188,10 @@ void hd_structure_free(hd_structure *s)
 
 static void fill_values(hd_structure *s, const double *q)
 {
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < HD_DIM; d++) {
         const size_t size = 2 * ((size_t)s->along[d].nodes + 1);
         for (int j = 0; j < s->disks; j++) {
-            hd_harmonics_fill(&s->along[d], q[2 * j + d]);
+            hd_harmonics_fill(&s->along[d], q[HD_DIM * j + d]);
             memcpy(s->value[d] + (size_t)j * size, s->along[d].value, size * sizeof(double));
         }
     }
@@ -200,8 +200,8 @@ static void fill_values(hd_structure *s, const double *q)
 /** factor[disks][WIDTH] of component d at waves [from, to); returns how many columns there are. */
 static int fill_factors(hd_structure *s, int d, int from, int to)
 {
-    const size_t size[2] = {2 * ((size_t)s->along[0].nodes + 1),
-                            2 * ((size_t)s->along[1].nodes + 1)};
+    const size_t size[HD_DIM] = {2 * ((size_t)s->along[0].nodes + 1),
+                                 2 * ((size_t)s->along[1].nodes + 1)};
     int columns = 0;
     for (int w = from; w < to; w++)
         for (unsigned bits = 0; bits < FUNCTIONS; bits++) {
@@ -219,11 +219,11 @@ static int fill_factors(hd_structure *s, int d, int from, int to)
 
 static void sum_up(hd_structure *s, hd_columns v, int from, int to)
 {
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < HD_DIM; d++) {
         const int columns = fill_factors(s, d, from, to);
         if (columns == 0) continue;
         hd_dgemm(CblasNoTrans, CblasTrans, v.count, columns, s->disks, 1.0,
-                 v.data + (size_t)d * (size_t)v.stride, 4 * v.stride, s->factor, WIDTH, 0.0,
+                 v.data + (size_t)d * (size_t)v.stride, HD_ROWS * v.stride, s->factor, WIDTH, 0.0,
                  s->sum[d] + v.first, (int)s->stride);
     }
 }
@@ -247,10 +247,11 @@ static const double *row_of(const hd_structure *s, const planned *p, unsigned bi
 static void amplitudes(const hd_structure *s, double *out, const planned *p, hd_direction e,
                        unsigned bits, hd_columns v)
 {
-    const double factor[2] = {e == HD_ALONG ? slope(&p->wave, bits, 0) : slope(&p->wave, bits, 1),
-                              e == HD_ALONG ? slope(&p->wave, bits, 1) : -slope(&p->wave, bits, 0)};
+    const double factor[HD_DIM] = {
+        e == HD_ALONG ? slope(&p->wave, bits, 0) : slope(&p->wave, bits, 1),
+        e == HD_ALONG ? slope(&p->wave, bits, 1) : -slope(&p->wave, bits, 0)};
     memset(out, 0, (size_t)v.count * sizeof *out);
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < HD_DIM; d++) {
         const double *row = row_of(s, p, function_of(bits, e, d), d);
         if (!row || factor[d] == 0.0) continue;
         for (int l = 0; l < v.count; l++) out[l] += factor[d] * row[v.first + l];

@@ -13,13 +13,13 @@ enum { COLLISIONS, VIRIAL_X, VIRIAL_Y, SERIES };
 
 /** What a trajectory has counted. */
 typedef struct counts {
-    double time, virial[2];
+    double time, virial[HD_DIM];
     uint64_t collisions;
 } counts;
 
 struct hd_gas {
     double disks, area,
-        kinetic[2];           /**< of kinetic: that along each direction, twice, in the mean */
+        kinetic[HD_DIM];      /**< of kinetic: that along each direction, twice, in the mean */
     counts last;              /**< where the last sample ended */
     double time, sum[SERIES]; /**< since the beginning */
     hd_blocks blocks;
@@ -46,9 +46,9 @@ double hd_gas_temperature(const hd_scene_def *def)
 
 double hd_gas_area(const hd_scene_def *def)
 {
-    double box[2];
+    double box[HD_DIM];
     hd_scene_box(def, box);
-    for (int d = 0; d < 2; d++) box[d] -= def->boundary[d] == HD_REFLECTING;
+    for (int d = 0; d < HD_DIM; d++) box[d] -= def->boundary[d] == HD_REFLECTING;
     return box[0] * box[1];
 }
 
@@ -59,7 +59,7 @@ hd_status hd_gas_create(hd_gas **out, const hd_scene_def *def, double block)
     if (!gas) return HD_NO_MEMORY;
     gas->disks = def->disks;
     gas->area = hd_gas_area(def);
-    for (int d = 0; d < 2; d++) gas->kinetic[d] = momenta(def, d) * hd_gas_temperature(def);
+    for (int d = 0; d < HD_DIM; d++) gas->kinetic[d] = momenta(def, d) * hd_gas_temperature(def);
     const hd_status status = hd_blocks_create(&gas->blocks, SERIES, block);
     if (status == HD_OK)
         *out = gas;
@@ -112,7 +112,7 @@ hd_gas_means hd_gas_read(const hd_gas *gas)
                       .collision_rate = each * gas->sum[COLLISIONS] / t,
                       .collision_rate_error = error_of(gas, COLLISIONS, COLLISIONS, each),
                       .pressure_error = error_of(gas, VIRIAL_X, VIRIAL_Y, 0.5 / a)};
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < HD_DIM; d++) {
         m.pressure_of[d] = (gas->kinetic[d] + gas->sum[VIRIAL_X + d] / t) / a;
         m.pressure_of_error[d] = error_of(gas, VIRIAL_X + d, VIRIAL_X + d, 1.0 / a);
     }

@@ -17,7 +17,7 @@ enum { RESPONSES = 4 };
 
 /** One response for each vector of each step and each modulation: see entries_of. */
 struct hd_hydro {
-    hd_boundary boundary[2];
+    hd_boundary boundary[HD_DIM];
     int disks, count;
     hd_hydro_response *response; /**< [count] */
 };
@@ -118,12 +118,13 @@ static void measure(const hd_hydro *hydro, double sum[RESPONSES][HD_SET_VECTORS_
     const size_t stride = (size_t)vectors.stride;
     memset(sum, 0, RESPONSES * sizeof *sum);
     for (int j = 0; j < hydro->disks; j++) {
-        const modulation a = modulation_at(hydro, &step->wave, bits, q + 2 * j);
+        const modulation a = modulation_at(hydro, &step->wave, bits, q + HD_DIM * j);
         const modulation b = modulation_at(hydro, &step->wave, transverse_bits(hydro, bits),
-                                           q + 2 * j);
-        const double *row = vectors.data + 4 * (size_t)j * stride + (step->col - vectors.first);
+                                           q + HD_DIM * j);
+        const double *row = vectors.data + HD_ROWS * (size_t)j * stride +
+                            (step->col - vectors.first);
         functionals f;
-        functionals_at(f, &step->wave, &a, &b, p + 2 * j);
+        functionals_at(f, &step->wave, &a, &b, p + HD_DIM * j);
         for (int r = 0; r < RESPONSES; r++)
             for (int d = 0; d < 4; d++)
                 for (int v = 0; v < step->count; v++)

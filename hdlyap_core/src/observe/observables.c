@@ -34,7 +34,7 @@ double hd_observables_bytes(const hd_scene_def *scene, int ranks)
 
 static hd_status create_state(hd_observables *o)
 {
-    const size_t size = 2 * (size_t)o->with.scene->disks;
+    const size_t size = HD_DIM * (size_t)o->with.scene->disks;
     o->q = hd_memory_alloc(size, sizeof *o->q);
     o->p = hd_memory_alloc(size, sizeof *o->p);
     return o->q && o->p ? HD_OK : HD_NO_MEMORY;

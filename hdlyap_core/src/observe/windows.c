@@ -108,13 +108,14 @@ hd_status hd_windows_go(hd_windows *windows, bool to_its_end)
 /** Beside the windows themselves, which have a limit of their own (covariant_memory). */
 static double covariant_bytes(const hd_scene_def *scene, int ranks)
 {
-    const double gathered = 4.0 * scene->disks * hd_scene_vectors(scene) * sizeof(double);
+    const double gathered = HD_ROWS * (double)scene->disks * hd_scene_vectors(scene) *
+                            sizeof(double);
     return hd_covariant_bytes_of(scene) + (ranks > 1 ? gathered : 0.0);
 }
 
 static hd_status prepare(hd_windows *windows, const hd_observing *with)
 {
-    const size_t vectors = 4 * (size_t)with->scene->disks * (size_t)with->vectors;
+    const size_t vectors = HD_ROWS * (size_t)with->scene->disks * (size_t)with->vectors;
     HD_TRY(hd_covariant_check_room(with->scene, with->longest, with->message, with->size));
     HD_TRY(hd_ortho_keep_factor(with->ortho));
     if (with->communicator &&

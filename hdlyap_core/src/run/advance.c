@@ -13,9 +13,10 @@ static const double SHORTEST = 1e-12;
 /** Pair and wall events of one disk per time unit, roughly: momenta across a box are about 1. */
 static double events_per_disk(const hd_advance *advance, const hd_scene_def *scene)
 {
-    double box[2], rate = 2.0 * hd_trajectory_collision_rate(advance->trajectory) / scene->disks;
+    double box[HD_DIM],
+        rate = 2.0 * hd_trajectory_collision_rate(advance->trajectory) / scene->disks;
     hd_scene_box(scene, box);
-    for (int d = 0; d < 2; d++)
+    for (int d = 0; d < HD_DIM; d++)
         if (scene->boundary[d] == HD_REFLECTING) rate += 1.0 / (box[d] - 1.0);
     return rate;
 }

@@ -77,7 +77,7 @@ static hd_status create_frame(hd_carrier *c, uint64_t seed)
 int hd_carrier_threads_most(const hd_scene_def *scene, const hd_communicator *communicator)
 {
     const int wanted = scene->threads, cores = hd_blas_query().cores;
-    const int most = hd_threads_most(wanted, 4 * scene->disks, hd_scene_carried(scene));
+    const int most = hd_threads_most(wanted, HD_ROWS * scene->disks, hd_scene_carried(scene));
     if (!communicator || wanted > 0) return most;
     const int own = cores / communicator->beside; /* ranks share the cores of their machine */
     return own < 1 ? 1 : own < most ? own : most;
@@ -107,7 +107,7 @@ static hd_status prepare_conjugate(hd_carrier *c, const hd_scene_def *scene)
 {
     const int here = c->communicator ? hd_frame_stride(c->frame) : c->carried;
     if (c->carried == c->vectors) return HD_OK;
-    return hd_conjugate_create(&c->conjugate, 4 * c->disks, completed(scene, here));
+    return hd_conjugate_create(&c->conjugate, HD_ROWS * c->disks, completed(scene, here));
 }
 
 /** Of a frame that is orthonormal in the whole norm: the next one may be so in that of dq alone. */
@@ -127,7 +127,7 @@ static hd_status keep_halves(hd_carrier *c)
 
 static hd_status prepare(hd_carrier *c, const hd_scene_def *scene, double block)
 {
-    const int rows = 4 * c->disks, n = c->vectors;
+    const int rows = HD_ROWS * c->disks, n = c->vectors;
     HD_TRY(agree(c, hd_event_log_create(&c->log)));
     HD_TRY(hd_ortho_create_shared(&c->ortho, rows, c->carried, c->communicator));
     HD_TRY(agree(c, prepare_threads(c, scene)));
@@ -147,7 +147,7 @@ hd_status hd_carrier_create(hd_carrier *c, const hd_scene_def *scene, double col
                       .disks = scene->disks,
                       .vectors = hd_scene_vectors(scene),
                       .carried = hd_scene_carried(scene),
-                      .positive = (4 * scene->disks - hd_scene_zero_exponents(scene)) / 2,
+                      .positive = hd_scene_positive_exponents(scene),
                       .threads = 1,
                       .accuracy = scene->accuracy,
                       .collision = collision,
@@ -175,10 +175,10 @@ double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks)
     if (n == 0) return 0.0;
     const double log = hd_event_log_bytes(fmin(EVENTS_MAX, EVENTS_OF_A_DISK * disks));
     const double frame = hd_frame_bytes(disks, here, threads);
-    const double ortho = hd_ortho_bytes(4.0 * disks, carried, ranks);
-    const double conjugate = carried < n
-                                 ? hd_conjugate_bytes(4.0 * disks, completed(scene, (int)here))
-                                 : 0.0;
+    const double ortho = hd_ortho_bytes(HD_ROWS * (double)disks, carried, ranks);
+    const double conjugate = carried < n ? hd_conjugate_bytes(HD_ROWS * (double)disks,
+                                                              completed(scene, (int)here))
+                                         : 0.0;
     return log + frame + ortho + conjugate + hd_spectrum_bytes(n) + 2.0 * sizeof(double) * n;
 }
 

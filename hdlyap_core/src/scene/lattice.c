@@ -32,7 +32,7 @@ static double smallest_distance(const hd_lattice *l, hd_boundary across)
 }
 
 static void try_rows(hd_lattice *best, int disks, int rows, int along, int kind,
-                     const double box[2], const hd_boundary boundary[2])
+                     const double box[HD_DIM], const hd_boundary boundary[HD_DIM])
 {
     const hd_boundary in_row = boundary[along], across = boundary[1 - along];
     hd_lattice l = {.along = along, .rows = rows, .staggered = kind > 0, .odd_short = kind == 2};
@@ -46,7 +46,7 @@ static void try_rows(hd_lattice *best, int disks, int rows, int along, int kind,
     if (l.distance > best->distance) *best = l;
 }
 
-hd_lattice hd_lattice_best(int disks, const double box[2], const hd_boundary boundary[2])
+hd_lattice hd_lattice_best(int disks, const double box[HD_DIM], const hd_boundary boundary[HD_DIM])
 {
     enum { ROW_KINDS = 3 }; /* in line, staggered, staggered with short odd rows */
     hd_lattice best = {.distance = -1.0};
@@ -57,8 +57,8 @@ hd_lattice hd_lattice_best(int disks, const double box[2], const hd_boundary bou
     return best;
 }
 
-static void place(const hd_lattice *l, double q[2], int row, int column, const double box[2],
-                  const hd_boundary boundary[2])
+static void place(const hd_lattice *l, double q[HD_DIM], int row, int column,
+                  const double box[HD_DIM], const hd_boundary boundary[HD_DIM])
 {
     const int along = l->along, across = 1 - along;
     const double shift = l->staggered && row % 2 ? 0.5 : 0.0;
@@ -66,13 +66,13 @@ static void place(const hd_lattice *l, double q[2], int row, int column, const d
     const double off_row = (double)row * l->row;
     q[along] = boundary[along] == HD_PERIODIC ? in_row + 0.25 * l->column : 0.5 + in_row;
     q[across] = boundary[across] == HD_PERIODIC ? off_row + 0.5 * l->row : 0.5 + off_row;
-    for (int d = 0; d < 2; d++)
+    for (int d = 0; d < HD_DIM; d++)
         if (boundary[d] == HD_REFLECTING)
             q[d] = fmin(q[d], box[d] - 0.5); /* rounding of the last */
 }
 
-void hd_lattice_fill(const hd_lattice *lattice, double *q, int disks, const double box[2],
-                     const hd_boundary boundary[2])
+void hd_lattice_fill(const hd_lattice *lattice, double *q, int disks, const double box[HD_DIM],
+                     const hd_boundary boundary[HD_DIM])
 {
     const int64_t sites = site_count(lattice->rows, lattice->columns, lattice->odd_short);
     int64_t site = 0;
@@ -92,7 +92,7 @@ double hd_lattice_density_max(const hd_scene_def *def)
     hd_scene_def trial = *def;
     double low = 0.0, high = 2.0 / sqrt(3.0) * (1.0 + 1e-9);
     for (int k = 0; k < BISECTIONS; k++) {
-        double box[2];
+        double box[HD_DIM];
         trial.density = 0.5 * (low + high);
         hd_scene_box(&trial, box);
         const int fits = box[0] > 1.0 && box[1] > 1.0 &&

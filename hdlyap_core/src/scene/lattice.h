@@ -18,11 +18,11 @@ typedef struct hd_lattice {
 } hd_lattice;
 
 /** The lattice with at least N sites and the largest smallest distance. Cost O(N). */
-hd_lattice hd_lattice_best(int disks, const double box[2], const hd_boundary boundary[2]);
+hd_lattice hd_lattice_best(int disks, const double box[HD_DIM], const hd_boundary boundary[HD_DIM]);
 
 /** Fills q[2 disks]; spare sites are left empty evenly. */
-void hd_lattice_fill(const hd_lattice *lattice, double *q, int disks, const double box[2],
-                     const hd_boundary boundary[2]);
+void hd_lattice_fill(const hd_lattice *lattice, double *q, int disks, const double box[HD_DIM],
+                     const hd_boundary boundary[HD_DIM]);
 
 /** Largest density that hd_lattice_best can hold with these N, aspect ratio and boundaries. */
 double hd_lattice_density_max(const hd_scene_def *def);

@@ -12,7 +12,7 @@ typedef struct hd_null_space {
     int axis[HD_NULLS];
 } hd_null_space;
 
-static inline hd_null_space hd_null_space_of(const hd_boundary boundary[2])
+static inline hd_null_space hd_null_space_of(const hd_boundary boundary[HD_DIM])
 {
     hd_null_space null = {0};
     for (int axis = 0; axis < HD_NULLS; axis++)
@@ -27,11 +27,11 @@ static inline double hd_null_entry(int axis, int d, double p)
 }
 
 /** column[2 count][4 disks]: each direction in dq and in dp; p[2 disks]: momenta. */
-static inline void hd_null_space_fill(const hd_boundary boundary[2], const double *p, int disks,
-                                      double *column)
+static inline void hd_null_space_fill(const hd_boundary boundary[HD_DIM], const double *p,
+                                      int disks, double *column)
 {
     const hd_null_space null = hd_null_space_of(boundary);
-    const size_t rows = 4 * (size_t)disks;
+    const size_t rows = HD_ROWS * (size_t)disks;
     for (int k = 0; k < 2 * null.count; k++, column += rows) {
         memset(column, 0, rows * sizeof *column);
         for (int j = 0; j < 2 * disks; j++)

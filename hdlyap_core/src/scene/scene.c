@@ -16,7 +16,7 @@ hd_scene_def hd_scene_def_default(void)
     return def;
 }
 
-void hd_scene_box(const hd_scene_def *def, double box[2])
+void hd_scene_box(const hd_scene_def *def, double box[HD_DIM])
 {
     box[0] = sqrt((double)def->disks / (def->density * def->aspect));
     box[1] = def->aspect * box[0];
@@ -28,7 +28,7 @@ double hd_scene_sound_crossing(const hd_scene_def *def)
     const double eta = 0.25 * 3.14159265358979323846 * def->density, free = 1.0 - eta;
     const double z = (1.0 + eta * eta / 8.0) / (free * free);
     const double slope = (0.25 * eta + 2.0 * z * free) / (free * free); /* dZ / d eta */
-    double box[2];
+    double box[HD_DIM];
     hd_scene_box(def, box);
     return fmax(box[0], box[1]) / sqrt(z + eta * slope + z * z);
 }
@@ -47,15 +47,21 @@ int hd_scene_zero_exponents(const hd_scene_def *def)
 
 int hd_scene_vectors(const hd_scene_def *def)
 {
-    const int all = 4 * def->disks;
+    const int all = HD_ROWS * def->disks;
     if (def->exponents <= HD_EXPONENTS_ALL) return all;
-    if (def->exponents == HD_EXPONENTS_POSITIVE) return (all - hd_scene_zero_exponents(def)) / 2;
+    if (def->exponents == HD_EXPONENTS_POSITIVE) return hd_scene_positive_exponents(def);
     return def->exponents;
+}
+
+int hd_scene_positive_exponents(const hd_scene_def *def)
+{
+    return (HD_ROWS * def->disks - hd_scene_zero_exponents(def)) / 2;
 }
 
 int hd_scene_carried(const hd_scene_def *def)
 {
-    return def->exponents == HD_EXPONENTS_ALL ? 2 * def->disks : hd_scene_vectors(def);
+    const int all = hd_scene_vectors(def);
+    return def->exponents == HD_EXPONENTS_ALL ? all / 2 : all;
 }
 
 /** Steps that differ by this part of the smallest of all are to part by so many factors of e: most
@@ -76,8 +82,7 @@ double hd_scene_warmup(const hd_scene_def *def)
 {
     if (def->warmup != HD_WARMUP_AUTO) return def->warmup;
     if (def->exponents == HD_EXPONENTS_NONE) return 0.0;
-    const bool leading = hd_scene_vectors(def) <
-                         (4 * def->disks - hd_scene_zero_exponents(def)) / 2;
+    const bool leading = hd_scene_vectors(def) < hd_scene_positive_exponents(def);
     const double k = hd_wave_limits_of(def).smallest; /* INFINITY: no step, nothing parts */
     const double parting = FOLDS / (GAP * slope(def->density) * k);
     const double time = leading ? WARMUP_LEADING : fmax(parting, WARMUP_MIN);

@@ -47,10 +47,10 @@ static bool is_wide_enough(const hd_scene_def *def, int d, double edge)
 
 hd_status hd_scene_check_box(const hd_scene_def *def, char *message, size_t size)
 {
-    double box[2];
+    double box[HD_DIM];
     HD_TRY(check_ranges(def, false, message, size));
     hd_scene_box(def, box);
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < HD_DIM; d++) {
         const char *room = def->boundary[d] == HD_REFLECTING ? " by 1e-9" : "";
         if (is_wide_enough(def, d, box[d])) continue;
         return hd_refuse(message, size,
@@ -112,15 +112,15 @@ static hd_status check_covariant(const hd_scene_def *def, char *message, size_t 
 
 hd_status hd_scene_check(const hd_scene_def *def, char *message, size_t size)
 {
-    double box[2];
+    double box[HD_DIM];
     HD_TRY(hd_scene_check_box(def, message, size));
     hd_scene_box(def, box);
-    if (def->exponents < HD_EXPONENTS_ALL_INDEPENDENT || def->exponents > 4 * def->disks)
+    if (def->exponents < HD_EXPONENTS_ALL_INDEPENDENT || def->exponents > HD_ROWS * def->disks)
         return hd_refuse(
             message, size,
             "exponents = %d: must be positive, all, all_independent, none or from 1 to 4 "
             "disks = %d",
-            def->exponents, 4 * def->disks);
+            def->exponents, HD_ROWS * def->disks);
     HD_TRY(check_waves(def, message, size));
     HD_TRY(check_covariant(def, message, size));
     if (hd_lattice_best(def->disks, box, def->boundary).distance < HD_LATTICE_DISTANCE_MIN)

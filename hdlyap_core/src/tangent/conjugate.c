@@ -35,11 +35,7 @@ double hd_conjugate_bytes(double rows, double most)
 /** to = J from; entries of a vector in the frame's order. */
 static void turn(double *to, const double *from, int rows)
 {
-    for (int row = 0; row < rows; row += 4)
-        for (int d = 0; d < 2; d++) {
-            to[row + d] = from[row + 2 + d];
-            to[row + 2 + d] = -from[row + d];
-        }
+    for (int row = 0; row < rows; row++) to[row] = hd_turned_sign(row) * from[hd_turned(row)];
 }
 
 /* ---- the start ----------------------------------------------------------------------------- */
@@ -107,7 +103,7 @@ static void project_out(const panel *x, hd_frame *frame)
             double *a = column_of(x, x->a, col), *along = column_of(x, x->turned, col);
             if (conjugate) /* A += J Q (Q^T J A) */
                 for (int row = 0; row < x->rows; row++)
-                    a[row] += row % 4 < 2 ? along[row + 2] : -along[row - 2];
+                    a[row] += hd_turned_sign(row) * along[hd_turned(row)];
             else
                 cblas_daxpy(x->rows, -1.0, along, 1, a, 1);
         }
@@ -235,9 +231,8 @@ void hd_conjugate_fill(double *whole, hd_columns half, int rows)
 {
     const int n = half.count;
     for (int row = 0; row < rows; row++) {
-        const double *partner = half.data +
-                                (size_t)(row % 4 < 2 ? row + 2 : row - 2) * (size_t)half.stride;
-        const double sign = row % 4 < 2 ? 1.0 : -1.0;
+        const double *partner = half.data + (size_t)hd_turned(row) * (size_t)half.stride;
+        const double sign = hd_turned_sign(row);
         double *to = whole + (size_t)row * 2 * (size_t)n;
         memcpy(to, half.data + (size_t)row * (size_t)half.stride, (size_t)n * sizeof *to);
         for (int col = 0; col < n; col++) to[2 * n - 1 - col] = sign * partner[col];
@@ -274,9 +269,9 @@ void hd_conjugate_halves(double *cos_theta, double *dp_dq_ratio, int half)
 static double product(const double *a, const double *b, int rows)
 {
     double sum = 0.0;
-    for (int row = 0; row < rows; row += 4)
-        for (int d = 0; d < 2; d++)
-            sum += a[row + d] * b[row + 2 + d] - a[row + 2 + d] * b[row + d];
+    for (int row = 0; row < rows; row += HD_ROWS)
+        for (int d = 0; d < HD_DIM; d++)
+            sum += a[row + d] * b[row + HD_DIM + d] - a[row + HD_DIM + d] * b[row + d];
     return sum;
 }
 
@@ -299,10 +294,10 @@ double hd_conjugate_isotropy(hd_conjugate *c, const hd_frame *frame)
 static double product_of_columns(const hd_frame *frame, int a, int b)
 {
     const size_t stride = (size_t)hd_frame_stride(frame);
-    const int disks = hd_frame_rows(frame) / 4, step = 4 * hd_frame_stride(frame);
+    const int disks = hd_frame_rows(frame) / HD_ROWS, step = HD_ROWS * hd_frame_stride(frame);
     const double *x = hd_frame_read(frame) + a, *y = hd_frame_read(frame) + b;
     double sum = 0.0;
-    for (size_t d = 0; d < 2; d++)
+    for (size_t d = 0; d < HD_DIM; d++)
         sum += cblas_ddot(disks, x + d * stride, step, y + (2 + d) * stride, step) -
                cblas_ddot(disks, x + (2 + d) * stride, step, y + d * stride, step);
     return sum;

@@ -10,6 +10,13 @@
 
 #include "hdlyap/frame.h"
 
+/** Entry `row` of J v is that of v at hd_turned(row), times hd_turned_sign(row). */
+static inline int hd_turned(int row)
+{
+    return row % HD_ROWS < HD_DIM ? row + HD_DIM : row - HD_DIM;
+}
+static inline double hd_turned_sign(int row) { return row % HD_ROWS < HD_DIM ? 1.0 : -1.0; }
+
 /** Turns the 2N vectors of a frame, whatever they are, into orthonormal and isotropic ones: each
  * loses its part along those before it and along their conjugates. A random frame becomes a random
  * one (columns of a random unitary matrix); one that is nearly isotropic changes as little as it

@@ -36,7 +36,7 @@ static int block_width(int rows, int stride)
 
 double hd_frame_bytes(double disks, double vectors, double threads)
 {
-    const int rows = 4 * (int)disks, stride = padded((int)ceil(vectors));
+    const int rows = HD_ROWS * (int)disks, stride = padded((int)ceil(vectors));
     return (2.0 * stride + threads * block_width(rows, stride)) * rows * sizeof(double);
 }
 
@@ -80,7 +80,7 @@ hd_status hd_frame_create(hd_frame **out, int disks, int vectors, uint64_t seed,
 hd_status hd_frame_create_shared(hd_frame **out, int disks, int vectors, uint64_t seed, int threads,
                                  hd_communicator *communicator)
 {
-    HD_ASSERT(disks >= 1 && vectors >= 1 && vectors <= 4 * disks && threads >= 1);
+    HD_ASSERT(disks >= 1 && vectors >= 1 && vectors <= HD_ROWS * disks && threads >= 1);
     hd_frame *frame = hd_memory_alloc(1, sizeof *frame);
     *out = NULL;
     const hd_status head = hd_communicator_agree(communicator, frame ? HD_OK : HD_NO_MEMORY);
@@ -89,11 +89,11 @@ hd_status hd_frame_create_shared(hd_frame **out, int disks, int vectors, uint64_
         return head;
     }
     frame->disks = disks;
-    frame->rows = 4 * disks;
+    frame->rows = HD_ROWS * disks;
     frame->vectors = vectors;
     frame->communicator = communicator;
     frame->stride = padded(part_of(frame, vectors));
-    frame->rows_kept = 4 * part_of(frame, disks) * hd_communicator_ranks(communicator);
+    frame->rows_kept = HD_ROWS * part_of(frame, disks) * hd_communicator_ranks(communicator);
     frame->width = block_width(frame->rows, frame->stride);
     frame->threads = frame->threads_max = threads;
     const hd_status status = hd_communicator_agree(communicator, frame_allocate(frame));
@@ -205,8 +205,8 @@ static void halves_of_columns(const hd_frame *frame, double sum[3][HD_BLOCK_WIDT
                               int count)
 {
     memset(sum, 0, 3 * sizeof *sum);
-    for (int row = 0; row < frame->rows; row += 4)
-        for (int d = 0; d < 2; d++) {
+    for (int row = 0; row < frame->rows; row += HD_ROWS)
+        for (int d = 0; d < HD_DIM; d++) {
             const double *v = frame->copy[frame->current] + col;
             const double *dq = v + (size_t)(row + d) * (size_t)frame->stride;
             const double *dp = dq + 2 * (size_t)frame->stride;

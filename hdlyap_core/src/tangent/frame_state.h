@@ -15,7 +15,7 @@ enum { HD_BLOCK_BYTES = 512 * 1024, HD_BLOCK_WIDTH_MAX = 64 };
 typedef struct hd_tangent_map {
     int32_t i, j;     /**< as in hd_event */
     double flight[2]; /**< of i, of j */
-    double n[2];
+    double n[HD_DIM];
     double normal;     /**< b = p.n < 0 */
     double tangential; /**< p_t = p.t, t = n turned by +90 degrees */
     double ratio;      /**< p_t / b */

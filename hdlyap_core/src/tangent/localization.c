@@ -97,7 +97,7 @@ static void measure_block(const hd_localization *shape, hd_columns v, int begin)
     const int count = v.count - begin < BLOCK ? v.count - begin : BLOCK;
     double *entropy = shape->measured + v.first + begin, *cosine = entropy + shape->vectors;
     for (int disk = 0; disk < shape->disks; disk++)
-        add_disk(&s, v.data + 4 * (size_t)disk * stride + begin, stride, count);
+        add_disk(&s, v.data + HD_ROWS * (size_t)disk * stride + begin, stride, count);
     for (int col = 0; col < count; col++) {
         const double product = sqrt(s.dq[col]) * sqrt(s.dp[col]);
         entropy[col] = s.entropy[col];

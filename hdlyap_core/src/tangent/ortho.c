@@ -91,7 +91,7 @@ hd_status hd_ortho_create_shared(hd_ortho **out, int rows, int vectors,
     }
     const int ranks = hd_communicator_ranks(communicator);
     ortho->communicator = communicator;
-    ortho->rows = 4 * ((rows / 4 + ranks - 1) / ranks);
+    ortho->rows = HD_ROWS * ((rows / HD_ROWS + ranks - 1) / ranks);
     ortho->vectors = vectors;
     ortho->width = panel_width(vectors);
     const hd_status status = hd_communicator_agree(communicator, ortho_allocate(ortho));

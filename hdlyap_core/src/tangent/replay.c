@@ -120,7 +120,7 @@ typedef struct maps {
 static inline __attribute__((always_inline)) void fetch(const double *buffer,
                                                         const hd_tangent_map *map, int width)
 {
-    const size_t disk = 4 * (size_t)width;
+    const size_t disk = HD_ROWS * (size_t)width;
     const double *vi = buffer + disk * (size_t)map->i;
     const double *vj = map->j >= 0 ? buffer + disk * (size_t)map->j : vi;
     for (size_t k = 0; k < disk; k += LINE) {
@@ -132,7 +132,7 @@ static inline __attribute__((always_inline)) void fetch(const double *buffer,
 static inline __attribute__((always_inline)) void replay_width(double *buffer, maps m, bool walls,
                                                                int width)
 {
-    const size_t disk = 4 * (size_t)width;
+    const size_t disk = HD_ROWS * (size_t)width;
     const hd_tangent_map *map = m.map;
     for (size_t e = 0; e < m.count; e++) {
         if (e < m.fetching) fetch(buffer, &map[e + FETCH_AHEAD], width);
@@ -204,7 +204,7 @@ static void block_replay(const hd_frame *frame, double *buffer, size_t count, in
     else
         replay_block(buffer, m, width);
     for (int i = 0; i < frame->disks; i++)
-        fly(buffer + 4 * (size_t)width * (size_t)i, frame->since[i], width);
+        fly(buffer + HD_ROWS * (size_t)width * (size_t)i, frame->since[i], width);
     block_store(frame, buffer, col, used);
 }
 

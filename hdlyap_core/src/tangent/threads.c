@@ -54,7 +54,7 @@ hd_status hd_threads_choose(int *threads, hd_ortho *ortho, int disks, int vector
     double all = 0.0, one = 0.0;
     hd_frame *frame;
     *threads = most;
-    if (most == 1 || 4.0 * disks * vectors > ENTRIES_MANY) return HD_OK;
+    if (most == 1 || HD_ROWS * (double)disks * vectors > ENTRIES_MANY) return HD_OK;
     HD_TRY(hd_frame_create(&frame, disks, vectors, 1, most));
     const hd_status status = try_both(&all, &one, ortho, frame, most);
     hd_frame_free(frame);

@@ -24,9 +24,9 @@ static void expect_at_most(double value, double limit, const char *what)
 static void expect_momentum(const hd_trajectory *tr, const hd_scene_def *scene)
 {
     const int n = hd_trajectory_disks(tr);
-    double sum[2];
+    double sum[HD_DIM];
     hd_trajectory_momentum(tr, sum);
-    for (int d = 0; d < 2; d++)
+    for (int d = 0; d < HD_DIM; d++)
         if (scene->boundary[d] == HD_PERIODIC)
             expect_at_most(fabs(sum[d]), n * hd_trajectory_energy_rounding(tr), "momentum");
 }
@@ -61,11 +61,10 @@ static void pair_products(const hd_frame *frame, int a, int b, double *product, 
     const double *data = hd_frame_read(frame);
     double sum = 0.0, aa = 0.0, bb = 0.0;
     for (int row = 0; row < hd_frame_rows(frame); row++) {
-        const int other = row % 4 < 2 ? row + 2 : row - 2;
         const double x = data[(size_t)row * (size_t)hd_frame_stride(frame) + (size_t)a];
         const double y = data[(size_t)row * (size_t)hd_frame_stride(frame) + (size_t)b];
-        sum += (row % 4 < 2 ? x : -x) *
-               data[(size_t)other * (size_t)hd_frame_stride(frame) + (size_t)b];
+        sum += hd_turned_sign(row) * x *
+               data[(size_t)hd_turned(row) * (size_t)hd_frame_stride(frame) + (size_t)b];
         aa += x * x;
         bb += y * y;
     }

@@ -55,8 +55,7 @@ static bool arrays_create(slow_vectors_report *r)
 
 static int positive_exponents(const hd_run *run)
 {
-    const hd_scene_def *def = hd_run_scene(run);
-    const int positive = 2 * def->disks - hd_scene_zero_exponents(def) / 2;
+    const int positive = hd_scene_positive_exponents(hd_run_scene(run));
     const int vectors = hd_run_vectors(run);
     return vectors < positive ? vectors : positive;
 }
