@@ -1,0 +1,107 @@
+/** The table of observables: a row that is off takes no memory and is never called. */
+#define _GNU_SOURCE
+#include <string.h>
+
+#include "hdlyap/hdlyap.h"
+#include "kept.h"
+#include "runs.h"
+
+static const hd_observable *const rows[HD_OBSERVED] = {
+#define HD_ROW(name) [HD_OBSERVED_##name] = &hd_##name##_row,
+#include "observe/rows.inc"
+#undef HD_ROW
+};
+#define OF(row) (1u << HD_OBSERVED_##row)
+
+/** A narrow channel, whose steps are soon known: after 50 time units of averages. */
+static hd_scene_def channel(unsigned observe)
+{
+    hd_scene_def scene = scene(.disks = 40, .density = 0.5, .aspect = 0.08, .threads = 1,
+                               .exponents = HD_EXPONENTS_ALL_INDEPENDENT, .equilibration = 20.0,
+                               .warmup = 50.0, .duration = 1000.0, .observe = observe);
+    if (!(observe & HD_OBSERVE_COVARIANT)) return scene;
+    scene.covariant_window = scene.covariant_transient = 5.0;
+    scene.covariant_sampling = 1.0;
+    return scene;
+}
+
+TEST(a_run_has_what_it_needs)
+{
+    const unsigned steps = OF(modes) | OF(steps);
+    const struct {
+        unsigned observe, parts;
+    } cases[] = {{0, 0},
+                 {HD_OBSERVE_MODES, steps},
+                 {HD_OBSERVE_STEPS, steps},
+                 {HD_OBSERVE_PHASES, steps | OF(phases)},
+                 {HD_OBSERVE_FIELDS, steps | OF(fields)},
+                 {HD_OBSERVE_HYDRO, steps | OF(hydro)},
+                 {HD_OBSERVE_COVARIANT, OF(covariant)},
+                 {HD_OBSERVE_T_PHASES, steps | OF(t_phases)},
+                 {HD_OBSERVE_STRUCTURE, steps | OF(structure)},
+                 {HD_OBSERVE_GAS, OF(gas)},
+                 {HD_OBSERVE_LOCALIZATION, OF(localization)},
+                 {HD_OBSERVE_ALL, (1u << HD_OBSERVED) - 1}};
+    unsigned tried = 0;
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        const hd_scene_def scene = channel(cases[c].observe);
+        hd_run *run = created(&scene);
+        unsigned parts = 0;
+        double sum = 0.0;
+        for (int k = 0; k < HD_OBSERVED; k++) {
+            const bool there = hd_observables_part(&run->observables, (hd_observed)k) != NULL;
+            parts |= (unsigned)there << k;
+            if (cases[c].parts >> k & 1) sum += rows[k]->bytes(&scene, 1);
+        }
+        assert_int_equal(parts, cases[c].parts);
+        CHECK_CLOSE(hd_observables_bytes(&scene, 1), sum, 0.0);
+        assert_int_equal(run->observables.q != NULL, (parts & OF(modes)) != 0);
+        if (cases[c].observe != HD_OBSERVE_ALL) tried |= cases[c].observe;
+        hd_run_free(run);
+    }
+    assert_int_equal(tried, HD_OBSERVE_ALL);
+}
+
+/** Its arrays. */
+static bytes archived(const hd_run *run, int k)
+{
+    bytes b = {NULL, 0};
+    FILE *file = open_memstream(&b.data, &b.size);
+    hd_archive archive = hd_archive_writer(file);
+    rows[k]->archive(run->observables.part[k], &archive, hd_run_trajectory(run));
+    CHECK_OK(hd_archive_end(&archive));
+    fclose(file);
+    return b;
+}
+
+/** One observable after the other is not looked at for a while: in a checkpoint the arrays of all
+ * rows that nothing else asks for stay as they were, and all others change. Fields and hydro keep
+ * none. */
+TEST(what_nobody_looks_at_stays)
+{
+    const hd_scene_def scene = channel(HD_OBSERVE_ALL);
+    hd_run *run = created(&scene);
+    until_time(run, 120.0);
+    for (int off = 0; off < HD_OBSERVED; off++) {
+        const unsigned looked_at = HD_OBSERVE_ALL & ~rows[off]->asked;
+        bytes before[HD_OBSERVED] = {{NULL, 0}};
+        CHECK_OK(hd_run_settle(run)); /* as kept_bytes does */
+        hd_run_observe(run, looked_at);
+        for (int k = 0; k < HD_OBSERVED; k++)
+            if (rows[k]->archive) before[k] = archived(run, k);
+        until_time(run, hd_run_time(run) + 20.0);
+        const bytes after = kept_bytes(run);
+        for (int k = 0; k < HD_OBSERVED; k++) {
+            const bool goes_on = looked_at & rows[k]->asked || !(rows[k]->needs & HD_NEEDS_FRAME);
+            const void *kept = before[k].data
+                                   ? memmem(after.data, after.size, before[k].data, before[k].size)
+                                   : NULL;
+            if (before[k].data && goes_on == (kept != NULL))
+                fail_msg("row %d without row %d: %s", k, off, goes_on ? "stays" : "changes");
+            free(before[k].data);
+        }
+        free(after.data);
+        hd_run_observe(run, HD_OBSERVE_ALL);
+    }
+    hd_run_free(run);
+}
