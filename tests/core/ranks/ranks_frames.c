@@ -46,6 +46,31 @@ TEST(shares_are_put_together)
     expect_put_together(1);
 }
 
+/** They are started by one mpirun, here. */
+TEST(all_are_on_one_machine) { assert_int_equal(ranks->beside, ranks->ranks); }
+
+/** Of rank `from`: no two of all that are exchanged are the same. */
+static double exchanged(int from, int to, size_t k) { return 1e8 * from + 1e6 * to + (double)k; }
+
+/** One block, and one that takes three messages (PIECE of mpi.c). */
+TEST(blocks_of_any_size_are_exchanged)
+{
+    const size_t counts[] = {3, (2 << 17) + 5};
+    const int all = ranks->ranks, here = ranks->rank;
+    double *x = calloc((size_t)all * counts[1], sizeof *x);
+    assert_non_null(x);
+    for (int c = 0; c < 2; c++) {
+        const size_t count = counts[c];
+        for (size_t k = 0; k < (size_t)all * count; k++)
+            x[k] = exchanged(here, (int)(k / count), k % count);
+        hd_communicator_exchange(ranks, x, count);
+        for (size_t k = 0; k < (size_t)all * count; k++)
+            if (x[k] != exchanged((int)(k / count), here, k % count))
+                fail_msg("number %zu, blocks of %zu: %.0f", k, count, x[k]);
+    }
+    free(x);
+}
+
 /** Each kind by itself, and all together. */
 TEST(calls_are_counted)
 {
