@@ -337,6 +337,25 @@ TEST(overlap_is_refused)
     assert_int_equal(start(HD_REFLECTING, by_the_walls, p), HD_OK);
 }
 
+/** Two of six disks in one of four cells overlap, whichever they are: two disks have places of
+ * their own there, the others are in a list. */
+TEST(overlap_in_a_crowded_cell_is_refused)
+{
+    enum { DISKS = 6 };
+    const hd_scene_def def = scene_in_box(DISKS, 100.0, 100.0, HD_PERIODIC, HD_PERIODIC, 1);
+    const double p[2 * DISKS] = {0};
+    for (int a = 0; a < DISKS; a++)
+        for (int b = 0; b < DISKS; b++) {
+            double q[2 * DISKS];
+            hd_trajectory *tr;
+            for (int k = 0; k < DISKS; k++) q[2 * k] = 5.0 + 7.0 * k, q[2 * k + 1] = 20.0;
+            if (b != a) q[2 * b] = q[2 * a] + 0.9;
+            const hd_status status = hd_trajectory_create_from(&tr, &def, q, p);
+            assert_int_equal(status, b == a ? HD_OK : HD_OVERLAP);
+            hd_trajectory_free(tr);
+        }
+}
+
 TEST(refused_scenes_give_nothing)
 {
     hd_scene_def def = hd_scene_def_default();
