@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "averages/blocks.h"
+#include "base/arrays.h"
 #include "base/check.h"
 #include "base/memory.h"
 #include "covariant/angles.h"
@@ -110,7 +111,7 @@ static void add_neighbours(hd_splitting *s, const double *c)
     const size_t n = (size_t)s->vectors;
     for (int col = 0; col + 1 < s->vectors; col++) {
         const double *x = c + (size_t)col * n, angle = angle_between(x, x + n, col + 2);
-        s->mean[col] += (angle - s->mean[col]) / (double)s->samples;
+        hd_mean_add(&s->mean[col], &angle, 1, s->samples);
         s->least[col] = fmin(s->least[col], angle);
     }
 }
@@ -128,9 +129,10 @@ static void add_angles(hd_angle_of_spaces *a, const double *found, int count, lo
         sum += found[k];
         a->all[bin_of(found[k])]++;
     }
+    const double mean = sum / count;
     a->last = found[0];
-    a->mean += (a->last - a->mean) / (double)samples;
-    a->mean_of_all += (sum / count - a->mean_of_all) / (double)samples;
+    hd_mean_add(&a->mean, &a->last, 1, samples);
+    hd_mean_add(&a->mean_of_all, &mean, 1, samples);
     a->least = fmin(a->least, a->last);
     a->smallest[bin_of(a->last)]++;
 }

@@ -132,7 +132,7 @@ static result result_of(const fit *f, int term)
 }
 
 /** Factor of a step's exponent in the result. */
-static double share(const hd_step *step, const void *context)
+static double share_of_step(const hd_step *step, const void *context)
 {
     const result *r = context;
     double row[TERMS], sum = 0.0;
@@ -151,12 +151,12 @@ static hd_coefficient coefficient(const fit *f, const hd_spectrum *spectrum, int
     double square = r.factor[1] * r.factor[1] + r.factor[2] * r.factor[2];
     for (int i = 0; i < hd_steps_count(f->steps); i++) {
         const hd_step *step = hd_steps_step(f->steps, i);
-        const double part = share(step, &r);
+        const double part = share_of_step(step, &r);
         out.value += part * step->exponent;
         if (part != 0) square += pow(part * stray(f, step), 2.0);
     }
     square += pow(f->prior->box_error * out.value, 2.0);
-    *sampling = hd_steps_error_of_sum(f->steps, spectrum, share, &r);
+    *sampling = hd_steps_error_of_sum(f->steps, spectrum, share_of_step, &r);
     if (*sampling >= 0) out.error = hypot(*sampling, sqrt(square));
     return out;
 }

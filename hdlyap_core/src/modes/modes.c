@@ -13,6 +13,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/arrays.h"
 #include "base/check.h"
 #include "base/memory.h"
 #include "modes/archived.h"
@@ -250,27 +251,21 @@ static void normalise(hd_modes *modes, hd_columns v)
     }
 }
 
-static bool all_finite(const double *x, size_t count)
-{
-    double sum = 0.0;
-    for (size_t k = 0; k < count; k++) sum += x[k];
-    return isfinite(sum);
-}
-
 hd_status hd_modes_measure(hd_modes *modes, hd_columns v, const double *q, const double *p)
 {
     HD_ASSERT(v.first >= 0 && v.first + v.count <= modes->vectors);
     const int columns = hd_fields_columns(modes->fields);
     hd_fields_sample(modes->fields, q, p);
     gram_fill(modes);
-    if (!all_finite(modes->gram, (size_t)columns * DIMENSION_MAX)) return HD_NOT_FINITE;
+    if (!hd_all_finite(modes->gram, (size_t)columns * DIMENSION_MAX)) return HD_NOT_FINITE;
     dq_norms(modes, v);
     overlaps(modes, v, 0, 0, columns, modes->coefficient);
     overlaps(modes, v, 2, columns - HD_NULLS, HD_NULLS, modes->null_dp);
     measure_null(modes, v);
     normalise(modes, v);
     for (int s = 0; s < hd_fields_subspaces(modes->fields); s++) measure_subspace(modes, s, v);
-    return all_finite(modes->snapshot, weight_rows(modes) * modes->stride) ? HD_OK : HD_NOT_FINITE;
+    return hd_all_finite(modes->snapshot, weight_rows(modes) * modes->stride) ? HD_OK
+                                                                              : HD_NOT_FINITE;
 }
 
 /** What is computed for each vector; all of it, for vectors that any rank has. */
@@ -296,8 +291,7 @@ void hd_modes_add(hd_modes *modes)
 {
     const size_t size = weight_rows(modes) * modes->stride;
     modes->samples++;
-    for (size_t k = 0; k < size; k++)
-        modes->average[k] += (modes->snapshot[k] - modes->average[k]) / (double)modes->samples;
+    hd_mean_add(modes->average, modes->snapshot, size, modes->samples);
 }
 
 void hd_modes_clear(hd_modes *modes)

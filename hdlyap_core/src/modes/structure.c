@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/arrays.h"
 #include "base/check.h"
 #include "base/memory.h"
 #include "hdlyap/modes.h"
@@ -292,13 +293,6 @@ static void measure_waves(hd_structure *s, int from, int to, hd_columns v, const
         measure_wave(s, s->work + (size_t)(w - from) * s->stride, w, v, dq_norm);
 }
 
-static bool all_finite(const double *x, size_t count)
-{
-    double sum = 0.0;
-    for (size_t k = 0; k < count; k++) sum += x[k];
-    return isfinite(sum);
-}
-
 hd_status hd_structure_measure(hd_structure *s, hd_columns v, const double *q,
                                const double *dq_norm)
 {
@@ -313,7 +307,7 @@ hd_status hd_structure_measure(hd_structure *s, hd_columns v, const double *q,
         sum_up(s, v, from, to);
         measure_waves(s, from, to, v, dq_norm);
     }
-    return all_finite(s->snapshot, size) ? HD_OK : HD_NOT_FINITE;
+    return hd_all_finite(s->snapshot, size) ? HD_OK : HD_NOT_FINITE;
 }
 
 hd_status hd_structure_share(hd_structure *s, hd_communicator *communicator, int width, int carried)
@@ -345,8 +339,7 @@ void hd_structure_add(hd_structure *s)
 {
     const size_t size = (size_t)s->waves * HD_DIRECTIONS * s->stride;
     s->samples++;
-    for (size_t k = 0; k < size; k++)
-        s->mean[k] += (s->snapshot[k] - s->mean[k]) / (double)s->samples;
+    hd_mean_add(s->mean, s->snapshot, size, s->samples);
     find_peaks(s);
 }
 

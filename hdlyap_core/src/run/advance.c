@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/check.h"
+#include "run/schedule.h"
 
 static const double EVENTS_MAX = 200000.0; /* bounds memory, and the wait for an answer */
 /** None is planned shorter: simulated time must move. */
@@ -50,17 +51,16 @@ double hd_advance_longest(const hd_advance *advance)
     return fmax(advance->longest, hd_advance_shortest(advance));
 }
 
-/** Equal shares of what is left until `stop`, none longer than `most`. */
-static double share(double now, double stop, double most)
+/** The end of the next equal part of what is left until `stop`, none longer than `most`. */
+static double end_of_part(double now, double stop, double most)
 {
-    const double left = stop - now;
-    return left <= most ? stop : now + left / ceil(left / most);
+    return stop - now <= most ? stop : now + hd_equal_part(stop - now, most);
 }
 
 void hd_advance_make_plan(hd_advance *advance, double stop)
 {
     const double now = hd_advance_now(advance);
-    const double end = share(now, stop, hd_advance_longest(advance));
+    const double end = end_of_part(now, stop, hd_advance_longest(advance));
     advance->plan = (hd_advance_plan){.begin = now, .end = end, .events = events_so_far(advance)};
 }
 
@@ -86,8 +86,8 @@ static void learn(hd_advance *advance)
 
 hd_status hd_advance_on(hd_advance *advance, hd_event_log *log, double most)
 {
-    const double end = share(hd_advance_now(advance), advance->plan.end,
-                             fmax(most, hd_advance_shortest(advance)));
+    const double end = end_of_part(hd_advance_now(advance), advance->plan.end,
+                                   fmax(most, hd_advance_shortest(advance)));
     HD_TRY(hd_trajectory_extend(advance->trajectory, log, end));
     if (hd_advance_is_done(advance)) learn(advance);
     return HD_OK;

@@ -55,12 +55,6 @@ void hd_agenda_enter(hd_agenda *a, hd_stage stage, double now)
 
 /* ---- the next interval --------------------------------------------------------------------- */
 
-/** An equal part of what is left, none longer than `most`. */
-static double share(double left, double most)
-{
-    return left < INFINITY ? left / ceil(left / most) : most;
-}
-
 /** In a run that is not much longer than errors need, samples fill the blocks of the averages: each
  * one interval, where intervals are not much shorter. */
 double hd_agenda_sample_longest(const hd_agenda *a, const hd_interval *interval)
@@ -72,7 +66,7 @@ double hd_agenda_sample_longest(const hd_agenda *a, const hd_interval *interval)
     const double most = fmin(a->sample_max, wanted);
     const double usual = hd_interval_longest(interval).length;
     if (most >= block) return most;
-    return share(block, usual < most && usual > most / IN_A_SAMPLE ? usual : most);
+    return hd_equal_part(block, usual < most && usual > most / IN_A_SAMPLE ? usual : most);
 }
 
 double hd_agenda_interval_expected(const hd_agenda *a, const hd_interval *interval, bool at_reports)
@@ -115,9 +109,10 @@ static hd_interval_length next_interval(const hd_agenda *a, const hd_pace *p, do
     p->interval->norm = norm;
     const double sample = hd_agenda_sample_longest(a, p->interval), phases = phases_left(a, p);
     hd_interval_length next = hd_interval_next(p->interval, left);
-    if (next.length > sample) next = (hd_interval_length){share(left, sample), HD_LIMIT_SAMPLE};
+    if (next.length > sample)
+        next = (hd_interval_length){hd_equal_part(left, sample), HD_LIMIT_SAMPLE};
     if (next.length > p->longest)
-        next = (hd_interval_length){share(left, p->longest), HD_LIMIT_EVENTS};
+        next = (hd_interval_length){hd_equal_part(left, p->longest), HD_LIMIT_EVENTS};
     double rounded = next.length < left ? rounded_down(next.length, phases) : next.length;
     rounded = fmin(rounded, phases);
     if (rounded < next.length) next = (hd_interval_length){rounded, HD_LIMIT_LOOK};

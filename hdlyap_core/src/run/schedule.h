@@ -2,6 +2,7 @@
 #ifndef HD_SCHEDULE_H
 #define HD_SCHEDULE_H
 
+#include <math.h>
 #include <stdbool.h>
 
 #include "base/archive.h"
@@ -21,6 +22,12 @@ typedef struct hd_schedule {
     double origin; /**< from which reports are counted: start, or a change */
     long reports;  /**< whole ones since the origin */
 } hd_schedule;
+
+/** Of what is left, none longer than `most`. */
+static inline double hd_equal_part(double left, double most)
+{
+    return left < INFINITY ? left / ceil(left / most) : most;
+}
 
 hd_schedule hd_schedule_of(const hd_scene_def *scene);
 

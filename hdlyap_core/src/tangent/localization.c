@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "averages/blocks.h"
+#include "base/arrays.h"
 #include "base/check.h"
 #include "base/memory.h"
 #include "tangent/archived.h"
@@ -116,12 +117,11 @@ double *hd_localization_measured(hd_localization *shape) { return shape->measure
 
 void hd_localization_add(hd_localization *shape)
 {
-    const double *entropy = shape->measured, *cosine = entropy + shape->vectors;
+    const size_t n = (size_t)shape->vectors;
+    const double *entropy = shape->measured, *cosine = entropy + n;
     shape->samples++;
-    for (int col = 0; col < shape->vectors; col++) {
-        shape->entropy[col] += (entropy[col] - shape->entropy[col]) / (double)shape->samples;
-        shape->cosine[col] += (cosine[col] - shape->cosine[col]) / (double)shape->samples;
-    }
+    hd_mean_add(shape->entropy, entropy, n, shape->samples);
+    hd_mean_add(shape->cosine, cosine, n, shape->samples);
     hd_blocks_add(&shape->blocks, entropy, 1.0);
 }
 

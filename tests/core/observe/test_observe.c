@@ -168,7 +168,7 @@ TEST(a_watcher_sees_what_a_measured_state_shows)
     print_message("%d states: coefficients apart by up to %.1e\n", compared, worst);
     assert_true(compared > 150);
     assert_int_equal(hd_run_cost(measuring).slow_vector_samples, 0);
-    assert_true(worst < 2e-6); /* DEFECT_MEASURED of factorise.c, twice */
+    assert_true(worst < 2e-6); /* DEFECT_MEASURED of carrier.c, twice */
     hd_run_free(watched);
     hd_run_free(measuring);
 }

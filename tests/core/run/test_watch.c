@@ -67,7 +67,8 @@ static void check_orthonormal(hd_columns v, int rows)
 {
     for (int a = v.first; a < v.first + v.count; a++)
         for (int b = v.first; b <= a; b++)
-            CHECK_CLOSE(dot(v, a, v, b, rows), a == b, 2e-6); /* DEFECT_MEASURED of run.c, twice */
+            CHECK_CLOSE(dot(v, a, v, b, rows), a == b,
+                        2e-6); /* DEFECT_MEASURED of carrier.c, twice */
 }
 
 /** Until the averaging has steps. */
