@@ -48,8 +48,8 @@ HD_MUST_CHECK hd_status hd_checkpoint_read(hd_checkpoint *out, const char *path,
  */
 HD_MUST_CHECK hd_status hd_run_resume(hd_run **out, const char *path, const hd_scene_def *scene,
                                       char *message, size_t size);
-/** The same by several ranks, each of which reads the file; of any number, whatever it was before.
- */
+/** hd_run_resume by several ranks together, each of which reads the file; there may be more or
+ * fewer of them than before. */
 HD_MUST_CHECK hd_status hd_run_resume_shared(hd_run **out, const char *path,
                                              const hd_scene_def *scene,
                                              hd_communicator *communicator, char *message,

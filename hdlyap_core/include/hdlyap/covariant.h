@@ -63,7 +63,8 @@ HD_MUST_CHECK hd_status hd_covariant_step(hd_covariant *covariant);
 
 int hd_covariant_vectors(const hd_covariant *covariant);  /**< n */
 long hd_covariant_windows(const hd_covariant *covariant); /**< whole ones in the averages */
-/** That found no room, as the intervals had become shorter */
+/** Windows that were lost because intervals had become too short for them to fit covariant_memory
+ */
 long hd_covariant_lost(const hd_covariant *covariant);
 /** What may wait for the way back; 0 before the first window */
 double hd_covariant_bytes(const hd_covariant *covariant);
@@ -98,7 +99,8 @@ double hd_covariant_null_most(const hd_covariant *covariant);
 /** Weights [T11] of the dq half (0) and of the dp half (1), each normalised by itself; running
  * averages of all looks. */
 const hd_modes *hd_covariant_half(const hd_covariant *covariant, int half);
-/** The same of the dq half of the frame, the Gram-Schmidt vectors, at the same times. */
+/** Weights [T11] of the dq halves of the frame, the Gram-Schmidt vectors; running averages of the
+ * same looks. */
 const hd_modes *hd_covariant_of_frame(const hd_covariant *covariant);
 /** Localisation widths, [n], 1 / N .. 1, and mean |cos| of the angle between both halves. */
 const double *hd_covariant_widths(const hd_covariant *covariant);

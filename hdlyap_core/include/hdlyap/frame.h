@@ -17,7 +17,8 @@ typedef struct hd_frame hd_frame;
 /** vectors: 1 .. 4 disks. Random entries from the seed; orthonormalise before use. */
 HD_MUST_CHECK hd_status hd_frame_create(hd_frame **out, int disks, int vectors, uint64_t seed,
                                         int threads);
-/** The same of all ranks together; HD_NO_MEMORY if any of them has too little. */
+/** A frame of which each rank carries some vectors, by all of them together. HD_NO_MEMORY on all if
+ * any of them has too little. */
 HD_MUST_CHECK hd_status hd_frame_create_shared(hd_frame **out, int disks, int vectors,
                                                uint64_t seed, int threads,
                                                hd_communicator *communicator);

@@ -37,10 +37,10 @@ typedef struct hd_ortho_limits {
  * dgemm. */
 HD_MUST_CHECK hd_status hd_ortho_step(hd_ortho *ortho, hd_frame *frame, hd_ortho_limits limits);
 
-/** The same in the full norm, one vector at a time and repeatedly: orthonormal to rounding, several
- * times slower. For the single event (a grazing collision) that no shorter interval can tame.
- * HD_ILL_CONDITIONED when the condition is above the limit, which may go to 1 / DBL_EPSILON, or
- * when a second pass shows that the first one has left nothing but rounding of some vector. */
+/** hd_ortho_step in the full norm, one vector at a time and repeatedly: orthonormal to rounding,
+ * several times slower. For the single event (a grazing collision) that no shorter interval can
+ * tame. HD_ILL_CONDITIONED when the condition is above the limit, which may go to 1 / DBL_EPSILON,
+ * or when a second pass shows that the first one has left nothing but rounding of some vector. */
 HD_MUST_CHECK hd_status hd_ortho_step_stable(hd_ortho *ortho, hd_frame *frame,
                                              double condition_max);
 

@@ -61,9 +61,9 @@ typedef struct hd_run hd_run;
 /** HD_REFUSED with its line in `message` as by hd_scene_check (`message` may be NULL). */
 HD_MUST_CHECK hd_status hd_run_create(hd_run **out, const hd_scene_def *def, char *message,
                                       size_t size);
-/** The same by several ranks together, which then make all calls together, in the same order. What
- * is read of the run is on each of them, but for vectors: of those each has some. HD_REFUSED also
- * for what one rank alone can do. */
+/** A run that several ranks carry: they make this and all later calls together, in the same order.
+ * What is read of the run is on each of them, but for vectors: of those each has some. HD_REFUSED
+ * also for what one rank alone can do. */
 HD_MUST_CHECK hd_status hd_run_create_shared(hd_run **out, const hd_scene_def *def,
                                              hd_communicator *communicator, char *message,
                                              size_t size);

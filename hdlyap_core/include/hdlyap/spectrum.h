@@ -40,8 +40,8 @@ double hd_spectrum_exponent(const hd_spectrum *spectrum,
  * as long as they are. It is itself known to 7-10 % from 48 blocks on, to 18 % from 16. O(blocks).
  */
 double hd_spectrum_std_error(const hd_spectrum *spectrum, int col);
-/** The same of sum_i factor_i lambda_i, which knows how the exponents fluctuate together: of a
- * mean, a sum, or a fit. O(count blocks). */
+/** Standard error of sum_i factor_i lambda_i (a mean, a sum, a fit), which knows how the exponents
+ * fluctuate together; negative while it cannot be known. O(count blocks). */
 double hd_spectrum_error_of_sum(const hd_spectrum *spectrum, const hd_part *parts, int count);
 /** Largest of the standard errors of the last `count` exponents carried; INFINITY while one is
  * unknown. */

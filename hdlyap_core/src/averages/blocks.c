@@ -126,7 +126,8 @@ static double correlation(const double *x, int count)
     return products / sum_of_squares(x, count);
 }
 
-/** The same of few: without its bias (Marriott and Pope, Biometrika 41, 390 (1954)). */
+/** The correlation of few deviations, without its bias (Marriott and Pope, Biometrika 41, 390
+ * (1954)). */
 static double memory_of(const double *x, int count)
 {
     return (correlation(x, count) + 1.0 / count) / (1.0 - 4.0 / count);

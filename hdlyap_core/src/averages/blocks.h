@@ -41,8 +41,8 @@ void hd_blocks_forget(hd_blocks *blocks, int series);
  * HD_SPECTRUM_BLOCKS_MIN blocks, or with a memory as long as they are. O(count times blocks). */
 double hd_blocks_error(const hd_blocks *blocks, const hd_part *parts, int count);
 
-/** The same of series 0 where it holds the increments of a phase that diffuses and, beside that,
- * trembles: what a block has too much, the next has too little. */
+/** Standard error of the mean of series 0 where it holds the increments of a phase that diffuses
+ * and, beside that, trembles: what a block has too much, the next has too little. */
 double hd_blocks_error_of_turns(const hd_blocks *blocks);
 
 /** D of such a phase, mean square 2 D weight about its mean rate, from all blocks, and its standard

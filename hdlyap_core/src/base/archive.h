@@ -40,7 +40,7 @@ void hd_archive_fail(hd_archive *archive, hd_status status, const char *name, co
 
 /** What was read cannot be: the archive fails, unless it has failed before or is being written. */
 void hd_archive_refuse(hd_archive *archive, const char *name, const char *fault);
-/** The same unless the condition holds. */
+/** hd_archive_refuse unless the condition holds. */
 void hd_archive_expect(hd_archive *archive, bool condition, const char *name, const char *fault);
 
 /** True while what is read can be relied on. */

@@ -23,8 +23,9 @@ void hd_angles_free(hd_angles *angles);
 HD_MUST_CHECK hd_status hd_angles_between(hd_angles *angles, double *angle, const double *c,
                                           hd_span a, hd_span b);
 
-/** The same for the first `count` coordinates, which the first columns of an upper triangle span,
- * and columns b; b.count <= count, n - count. Cost about 8 n b^2 flops. */
+/** Angles between the span of the first `count` coordinates, which the first columns of an upper
+ * triangle span, and that of columns b: as hd_angles_between gives them; b.count <= count, n -
+ * count. Cost about 8 n b^2 flops. */
 HD_MUST_CHECK hd_status hd_angles_leading(hd_angles *angles, double *angle, const double *c,
                                           int count, hd_span b);
 

@@ -33,7 +33,7 @@ const double *hd_backward_read(const hd_backward *backward);
 /** Sine of the angle between column `col` of one C and that of another, whatever their signs. */
 double hd_backward_apart(const hd_backward *one, const hd_backward *other, int col);
 
-/** The same of two vectors of length 1. */
+/** Sine of the angle between two vectors of length 1, whatever their signs. */
 double hd_vectors_apart(const double *x, const double *y, int count);
 
 /** Packed triangles: n (n + 1) / 2 doubles of R, row after row from the diagonal on. */

@@ -39,7 +39,7 @@ void hd_cells_clear(hd_cells *cells);
 /** Books disk i, inside the box, into the cell of its position q. */
 void hd_cells_add(hd_cells *cells, hd_disk *disks, int32_t i);
 
-/** The same for the cell that it names. */
+/** Books disk i into the cell that it names, wherever its position is. */
 void hd_cells_book(hd_cells *cells, const hd_disk *disks, int32_t i);
 
 /** No disk is in any cell. */

@@ -20,7 +20,7 @@ typedef struct hd_nearby {
 /** The disks in the places of the 9 cells around a disk, itself among them. */
 void hd_nearby_around(hd_nearby *near, const hd_cells *cells, const hd_disk *disk);
 
-/** The same for the 3 cells at one side of it (0 low, 2 high) in direction d. */
+/** The disks in the places of the 3 cells at one side (0 low, 2 high) of a disk in direction d. */
 void hd_nearby_beside(hd_nearby *near, const hd_cells *cells, const hd_disk *disk, int d, int side);
 
 /** Those of one cell that find no place there: what comes after j in its list, as many as `near`

@@ -44,8 +44,8 @@ static void predict_nearby(hd_motion *m, int32_t i, hd_nearby *near)
     for (int k = 0; k < near->count; k++) predict_contact(m, i, near, k, contact[k]);
 }
 
-/** The same by those in the cell at side u in x, v in y (0 low, 1 here, 2 high) that have no place.
- */
+/** Lowers the prediction of disk i by its contacts with those that have no place in the cell at
+ * side u in x, v in y (0 low, 1 here, 2 high). */
 static void predict_listed(hd_motion *m, int32_t i, int u, int v)
 {
     const hd_disk *disk = &m->disk[i];

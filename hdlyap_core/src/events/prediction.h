@@ -31,8 +31,9 @@ typedef struct hd_motion {
  */
 void hd_prediction_renew(hd_motion *m, int32_t i);
 
-/** The same for what has newly come into reach: disk i has crossed the edge of its cell in
- * direction d to that side. What was predicted before stays. */
+/** Predicts what has newly come into reach of disk i, which has crossed the edge of its cell in
+ * direction d to that side, and hands the earliest to the queue. What was predicted before stays.
+ */
 void hd_prediction_extend(hd_motion *m, int32_t i, int d, int side);
 
 #endif

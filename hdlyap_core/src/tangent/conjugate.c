@@ -123,8 +123,9 @@ static double length_of(const panel *x, hd_communicator *c, const double *a)
     return c ? sqrt(inner(x, c, a, a)) : cblas_dnrm2(x->rows, a, 1);
 }
 
-/** The same within the panel, one vector after the other. */
-static hd_status orthonormalise(const panel *x, hd_communicator *c)
+/** Each vector of the panel loses its part along those before it in the panel and along their
+ * conjugates, and gets length 1. */
+static hd_status orthonormalise_panel(const panel *x, hd_communicator *c)
 {
     for (int col = 0; col < x->width; col++) {
         double *a = column_of(x, x->a, col);
@@ -150,7 +151,7 @@ static hd_status start_panel(const panel *x, hd_frame *frame)
     load(x, frame);
     for (int pass = 0; pass < 2; pass++) {
         project_out(x, frame);
-        HD_TRY(orthonormalise(x, frame->communicator));
+        HD_TRY(orthonormalise_panel(x, frame->communicator));
     }
     store(x, frame);
     return HD_OK;

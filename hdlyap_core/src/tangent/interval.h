@@ -54,9 +54,9 @@ double hd_interval_counted(double condition, hd_norm norm);
  * interval this long; some part of the share of one as long as usual is always given. */
 double hd_interval_condition_max(const hd_interval *interval, double length);
 
-/** The same for a piece of an interval of `whole`, which uses no more than the share of a usual
- * one: those that were not taken back mostly stay far below what they are allowed, pieces of the
- * others just below. */
+/** Largest condition that a piece of an interval of `whole` may have: it uses no more than the
+ * share of a usual interval. Intervals that were not taken back mostly stay far below what they are
+ * allowed, pieces of the others just below. */
 double hd_interval_piece_max(const hd_interval *interval, double length, double whole);
 
 /** What an interval of `length` showed. */

@@ -204,8 +204,8 @@ static double defect_foreseen(const hd_ortho *ortho)
     return DBL_EPSILON * ortho->condition * ortho->panel_condition * ortho->panel_condition;
 }
 
-/** What is no number in dp halves, which the norm of dq does not see, has gone on to the last
- * vector: each is added to all later ones. */
+/** The norm of dq does not see a NaN in a dp half. Each vector is subtracted from all later ones,
+ * so the last one shows it. */
 static hd_status unseen_check(const hd_ortho *ortho, hd_frame *frame)
 {
     const double *last = hd_frame_vector(frame, ortho->vectors - 1);

@@ -74,7 +74,7 @@ static void inner_products_here(const hd_ortho *ortho, double *s, int lds, hd_pa
                  lds);
 }
 
-/** The same of all ranks. */
+/** s <- A_y A_x^T of the disks of all ranks, in the norm, column-major. */
 static void inner_products(const hd_ortho *ortho, double *s, int lds, hd_panel y, hd_panel x)
 {
     const size_t height = (size_t)y.width, width = (size_t)x.width;
@@ -163,7 +163,7 @@ static void invert_corner(hd_ortho *ortho, hd_panel whole, hd_panel first, hd_pa
                 first.width, 1.0, one, ld, inverse, ld);
 }
 
-/** The same as cholesky of a part of any width: the first half, which is then taken out of the
+/** A part of any width: as `cholesky` leaves it, by its first half, which is then taken out of the
  * second. Most of the work is thus in dgemm. */
 static hd_status by_halves(hd_ortho *ortho, hd_panel whole, hd_panel x)
 {

@@ -159,10 +159,11 @@ static inline __attribute__((always_inline)) void replay_any(double *buffer, map
     }
 }
 
+/** Of a log without wall events. */
 HD_MULTIVERSION
 static void replay_block(double *buffer, maps m, int width) { replay_any(buffer, m, false, width); }
 
-/** The same for a log that holds wall events. */
+/** Of a log that holds wall events. */
 HD_MULTIVERSION
 static void replay_block_with_walls(double *buffer, maps m, int width)
 {
