@@ -2,7 +2,7 @@
 #ifndef HD_ORDER_H
 #define HD_ORDER_H
 
-#include "hdlyap/follow.h"
+#include "hdlyap/communicator.h"
 #include "hdlyap/scene.h"
 
 typedef enum hd_order_kind {
@@ -25,10 +25,18 @@ typedef struct hd_order {
     int integer; /**< stages, a column, a row of the table of parameters */
     double number;
     const hd_scene_def *scene; /**< NULL: none */
-    const char *path;          /**< the same */
+    const char *path;          /**< NULL: none */
 } hd_order;
 
-/** Nothing unless this rank leads. */
+/** Where an order that was heard keeps its scene and its path. */
+typedef struct hd_order_room {
+    hd_scene_def scene;
+    char path[4096];
+} hd_order_room;
+
+/** Tells it to the other ranks; nothing unless this rank leads. */
 void hd_order_tell(hd_communicator *communicator, hd_order order);
+/** Waits for the next one. */
+hd_order hd_order_hear(hd_communicator *communicator, hd_order_room *room);
 
 #endif
