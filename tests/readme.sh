@@ -10,7 +10,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/../launch/common.sh"
 readonly WORK=$1 SETUP=$2
 
 readonly WRAPPER=$ROOT/doc/wrapper.md CORE=$ROOT/doc/core.md
-readonly DOCUMENTS=("$ROOT/README.md" "$ROOT/tests/README.md" "$ROOT/CONTRIBUTING.md" "$ROOT/doc/user_guide.md" "$ROOT/doc/performance.md")
+readonly DOCUMENTS=("$ROOT/README.md" "$ROOT/tests/README.md" "$ROOT/CONTRIBUTING.md" "$ROOT/doc/user_guide.md" "$ROOT/doc/performance.md"
+    "$ROOT/doc/findings.md")
 
 # shellcheck source=tests/check.sh
 source "$ROOT/tests/check.sh"
@@ -46,6 +47,7 @@ type_in() {
             ;;
         'rosrun hdlyap hdlyap_node') run timeout --preserve-status -s INT 8 rosrun hdlyap hdlyap_node ;;
         *bench/run.sh*) run bash -ec "$1 --quick" ;; # fifteen minutes otherwise
+        build/findings/*) run bash -ec "${1/ / --quick }" ;; # minutes otherwise
         *scene:=covariant*) # a minute otherwise
             sed 's/^disks: .*/disks: 40/' "$ROOT/launch/scenes/covariant.yaml" >few.yaml
             run bash -ec "${1/scene:=covariant/scene:=$PWD/few.yaml}"

@@ -85,7 +85,7 @@ run_all() {
     elif [[ -x $PROGRAMS/hdlyap_effects ]]; then
         with_effects=1
     fi
-    TOTAL=$((${#QUICK[@]} ? 15 : 2462))
+    TOTAL=$((${#QUICK[@]} ? 12 : 2212))
     if ((with_effects)); then TOTAL=$((TOTAL + 60)); fi
     stage 220 'what accuracy costs' "$PROGRAMS/hdlyap_precision" --out "$OUT" "${QUICK[@]}"
     stage 45 'how long a wanted error takes' "$PROGRAMS/hdlyap_convergence" --out "$OUT" "${QUICK[@]}"
@@ -102,9 +102,6 @@ run_all() {
     fi
     stage 250 'what covariant vectors cost' "$PROGRAMS/hdlyap_covariant" --out "$OUT" "${QUICK[@]}"
     stage 900 'whether the errors are true' "$PROGRAMS/hdlyap_errors" --out "$OUT" "${QUICK[@]}"
-    stage 150 'how the halves of LP modes stand to each other' "$PROGRAMS/hdlyap_halves" --out "$OUT" "${QUICK[@]}"
-    stage 30 'sound beside LP modes' "$PROGRAMS/hdlyap_sound" --out "$OUT" "${QUICK[@]}"
-    stage 70 'dilute gases' "$PROGRAMS/hdlyap_dilute" --out "$OUT" "${QUICK[@]}"
     stage 40 'what others write' "$PROGRAMS/hdlyap_rivals" --out "$OUT" "${small[@]}"
     stage 350 'a long trajectory' "$PROGRAMS/hdlyap_endurance" --out "$OUT" "${QUICK[@]}"
     if ((with_effects)); then
@@ -117,7 +114,6 @@ draw() {
     local scratch=$PROGRAMS/matplotlib
     mkdir -p "$scratch"
     MPLCONFIGDIR=$scratch PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 "$HERE/draw.py" "$OUT"
-    MPLCONFIGDIR=$scratch PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 "$HERE/findings.py" "$OUT"
 }
 
 BEGAN=$SECONDS

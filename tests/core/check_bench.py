@@ -40,11 +40,8 @@ COLUMNS = {  # the first ones of each table, without units
     ],
     'errors': ['quantity', 'from', 'box', 'length', 'seeds', 'stated', 'mean', 'stated error'],
     'rivals': ['quantity', 'disks', 'minimum', 'median', 'maximum', 'rounds'],
-    'findings_trailing': ['density', 'disks', 'height', 'ends of x', 'nodes', 'k', 'lambda'],
-    'findings_sound': ['density', 'height', 'disks', 'sound', 'sound error', 'v', 'v error'],
-    'findings_dilute': ['density', 'disks', 'collisions of a disk', 'h_KS / N over it'],
 }
-PICTURES = ('precision', 'convergence', 'scaling', 'errors', 'whole', 'findings_trailing')
+PICTURES = ('precision', 'convergence', 'scaling', 'errors', 'whole')
 ACCURACY = 1e-8  # asked for, and so the largest deviation allowed
 SPREAD = 0.05  # of the grey values of a picture that shows something
 RUN_SH, PROGRAMS, FOLDER = sys.argv[1:4]
@@ -120,34 +117,6 @@ class Bench(unittest.TestCase):
             ratio = float(row['scatter / stated'])
             self.assertTrue(ratio == -1 or 0.2 < ratio < 5, row)
 
-    def test_halves_of_lp_modes(self):
-        """The form of whole vectors vanishes, dp is hardly ahead, the pressure turns the phase."""
-        (number,) = numbers('findings_trailing')
-        self.assertEqual(number['nodes'], 1)
-        self.assertLess(abs(number['sum rule']), 1e-6)
-        self.assertLess(abs(number['angle']), 0.05)
-        self.assertTrue(-0.09 < number['symmetric / mean'] < -0.03, number)
-        self.assertAlmostEqual(number['v'] / number['P_xx / (sqrt(2) rho)'], 1, delta=0.06)
-        self.assertTrue(0.5 < number['mean C'] / number['lambda'] < 0.8, number)
-
-    def test_sound_is_twice_as_fast_in_a_row_of_disks(self):
-        (number,) = numbers('findings_sound')
-        rods = 1 / (1 - 0.8)  # P / (rho kT) where disks are hardly off a line; some less
-        pressure = 2**0.5 * number['P_xx / (sqrt(2) rho)']
-        self.assertTrue(0.7 * rods < pressure < rods, number)
-        self.assertAlmostEqual(number['sound'] / pressure, 2**0.5, delta=0.07 * 2**0.5)
-        self.assertAlmostEqual(number['v'] / pressure, 0.5**0.5, delta=0.07 * 0.5**0.5)
-
-    def test_dilute_gases(self):
-        """h_KS / N nu = (B - ln rho) / 2; nu is Enskog's but for 1/N; all of 16 disks."""
-        for number in numbers('findings_dilute'):
-            rho, rate = number['density'], number['collisions of a disk']
-            self.assertTrue(0.96 < rate / (2 * math.pi**0.5 * rho) < 1.15, number)
-            entropy = number['h_KS / N over it']
-            if rho <= 0.01:
-                self.assertAlmostEqual(2 * entropy + math.log(rho), 1.3, delta=0.15)
-        self.assertGreater(number['lambda_1 over it'], 13)
-
     def test_pictures_show_something(self):
         for name in PICTURES:
             pixels = matplotlib.image.imread(os.path.join(FOLDER, name + '.png'))
@@ -166,9 +135,6 @@ class Bench(unittest.TestCase):
             'scaling',
             'endurance',
             'errors',
-            'halves',
-            'sound',
-            'dilute',
         ):
             for given in (['--nonsense'], ['--out', '/nowhere']):
                 run = subprocess.run(

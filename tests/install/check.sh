@@ -1,40 +1,35 @@
 #!/usr/bin/env bash
-# Builds and runs the consumer against an installed core, found in both ways that are promised.
+# Builds and runs the consumer against an installed core, found in both ways that are promised; and the studies of doc/findings/.
 #   check.sh PREFIX WORK_FOLDER
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-prefix=$1 work=$2
-mkdir -p "$work"
+prefix=$1 WORK=$2
+mkdir -p "$WORK"
+# shellcheck source=tests/check.sh
+source "$here/../check.sh"
 
-with_pkg_config() {
-    local pc
+# Four disks have (16 - 6) / 2 positive exponents, the largest is 3.35 (physics: N = 4, rho = 0.5).
+is_spectrum() {
+    "$@" | tee "$WORK/said"
+    [[ $(grep -cE '^[1-5] [0-9.]+$' "$WORK/said") == 5 ]] && grep -qE '^1 3\.[0-9]+$' "$WORK/said"
+}
+
+with_pkg_config() (
     pc=$(find "$prefix" -name hdlyap_core.pc)
     export PKG_CONFIG_PATH=${pc%/*}
     pkg-config --cflags --libs hdlyap_core |
-        xargs cc -std=c11 -Wall -Wextra -Werror "$here/consumer.c" -o "$work/with_pkg_config" -Wl,-rpath,"${pc%/pkgconfig/*}"
-    env -u LD_LIBRARY_PATH "$work/with_pkg_config"
-}
+        xargs cc -std=c11 -Wall -Wextra -Werror "$here/consumer.c" -o "$WORK/with_pkg_config" -Wl,-rpath,"${pc%/pkgconfig/*}" &&
+        is_spectrum env -u LD_LIBRARY_PATH "$WORK/with_pkg_config"
+)
 
-with_cmake() {
-    cmake -S "$here" -B "$work/with_cmake" -DCMAKE_PREFIX_PATH="$prefix"
-    cmake --build "$work/with_cmake"
-    "$work/with_cmake/consumer"
-}
+# with_cmake SOURCES FOLDER
+with_cmake() { cmake -S "$1" -B "$WORK/$2" -DCMAKE_PREFIX_PATH="$prefix" && cmake --build "$WORK/$2"; }
 
-# Four disks have (16 - 6) / 2 positive exponents, the largest is 3.35 (physics: N = 4, rho = 0.5).
-check() {
-    local log=$work/$1.log
-    if ("$1") >"$log" 2>&1 && [[ $(grep -cE '^[1-5] [0-9.]+$' "$log") == 5 ]] &&
-        grep -qE '^1 3\.[0-9]+$' "$log"; then
-        echo "ok $1"
-    else
-        cat "$log"
-        echo "FAILED $1"
-        return 1
-    fi
-}
+consumer() { with_cmake "$here" with_cmake && is_spectrum "$WORK/with_cmake/consumer"; }
 
-failed=0
-check with_pkg_config || failed=1
-check with_cmake || failed=1
-exit "$failed"
+studies() { with_cmake "$here/../../doc/findings" studies && "$here/studies.py" "$WORK/studies"; }
+
+check with_pkg_config with_pkg_config
+check with_cmake consumer
+check studies studies
+exit "$FAILED"

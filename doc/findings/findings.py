@@ -1,19 +1,50 @@
 #!/usr/bin/python3
-"""Table of hdlyap_halves -> the picture of doc/findings.md.
+"""Table of the study halves -> the picture of doc/findings.md.
 
-Usage: findings.py FOLDER draws findings_trailing.png there from findings_trailing.csv.
+Usage: findings.py findings_trailing.csv draws findings_trailing.png beside it.
 """
 
+import csv
 import math
-import os
 import sys
 
-from draw import BLUE, GREEN, GREY, INK, ORANGE, SKY, STYLE, VERMILION, Table, plt, save
+import matplotlib
 
-NAME = 'findings_trailing'
-COLOURS = {0.1: SKY, 0.2: BLUE, 0.4: GREEN, 0.6: ORANGE, 0.8: VERMILION}
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt  # noqa: E402
+
+GREY, INK = '#8C8C8C', '#1A1A1A'
+# by density: Okabe and Ito's palette, safe for colour-blind readers
+COLOURS = {0.1: '#56B4E9', 0.2: '#0072B2', 0.4: '#009E73', 0.6: '#E69F00', 0.8: '#D55E00'}
+STYLE = {
+    'font.size': 9,
+    'axes.titlesize': 9,
+    'legend.fontsize': 8,
+    'xtick.labelsize': 8,
+    'ytick.labelsize': 8,
+    'xtick.direction': 'in',
+    'ytick.direction': 'in',
+    'xtick.top': True,
+    'ytick.right': True,
+    'axes.linewidth': 0.7,
+    'lines.linewidth': 1.2,
+    'lines.markersize': 4,
+    'legend.frameon': False,
+    'figure.constrained_layout.use': True,
+}
 RATE = 'P_xx / (sqrt(2) rho)'  # of the rotation over k, as the pressure has it
 PLACE = 'turn while a disk flies  $\\omega\\tau$  [rad]'
+
+
+def rows_of(path):
+    """Columns by their names, without the units."""
+    with open(path, encoding='utf-8') as file:
+        rows = csv.reader(line for line in file if not line.startswith('#'))
+        names = [name.partition(' [')[0] for name in next(rows)]
+        return [
+            {name: text if name == 'ends of x' else float(text) for name, text in zip(names, row)}
+            for row in rows
+        ]
 
 
 def turned(row):
@@ -29,11 +60,11 @@ def sources(row):
     return mean + half, mean - half, 2 * (h - x * g)
 
 
-def draw(table):
+def draw(rows):
     figure, ((angles, means), (rates, rest)) = plt.subplots(2, 2, figsize=(7.6, 5.8))
-    _points(angles, table, lambda row: row['angle'], 'angle', 'o')
-    _points(angles, table, lambda row: row['symmetric / mean'], 'symmetric', 's')
-    _points(angles, table, lambda row: row['difference / mean'], 'difference', '^')
+    _points(angles, rows, lambda row: row['angle'], 'angle', 'o')
+    _points(angles, rows, lambda row: row['symmetric / mean'], 'symmetric', 's')
+    _points(angles, rows, lambda row: row['difference / mean'], 'difference', '^')
     angles.axhline(0, color=GREY, linewidth=0.6)
     angles.set(
         ylabel='of dp, beside dq',
@@ -46,15 +77,15 @@ def draw(table):
         (-0.15, r'$(c_{LP} + c_{PL})\,/\,2c$: angle at L less the mean  [rad]'),
     ):
         angles.annotate(text, (0.004, y), fontsize=8)
-    _points(means, table, lambda row: row['mean C'] / row['lambda'], None, 'o')
+    _points(means, rows, lambda row: row['mean C'] / row['lambda'], None, 'o')
     means.set(ylabel=r'mean C / $\lambda$', title='(b) length of dp', ylim=(0.5, 1.02))
-    _points(rates, table, lambda row: row['v'] / row[RATE], 'v', 'o')
+    _points(rates, rows, lambda row: row['v'] / row[RATE], 'v', 'o')
     rates.axhline(1, color=GREY, linewidth=0.6)
     rates.set(
         ylabel=r'$v \cdot \sqrt{2}\,\rho\, /\, P_{xx}$', title='(c) rotation', ylim=(0.9, 1.05)
     )
     for part, marker, text in ((0, 'v', 'L to L'), (1, '^', 'P to P'), (2, 's', 'between L and P')):
-        _points(rest, table, lambda row, part=part: sources(row)[part], None, marker)
+        _points(rest, rows, lambda row, part=part: sources(row)[part], None, marker)
         rest.plot([], [], color=INK, marker=marker, linestyle='none', label=text)
     rest.axhline(0, color=GREY, linewidth=0.6)
     rest.set(ylabel=r'source of dp from dq / (mean C)$^2$', title='(d) source', ylim=(-0.3, 2))
@@ -70,9 +101,9 @@ def draw(table):
     return figure
 
 
-def _points(axes, table, value, error, marker):
+def _points(axes, rows, value, error, marker):
     """Open: waves between walls. error: what its column is called, if it is shown."""
-    for row in table.rows:
+    for row in rows:
         if not math.isfinite(value(row)):
             continue
         bar = 3 * row[f'{error} error'] if error else None
@@ -93,14 +124,12 @@ def _points(axes, table, value, error, marker):
 
 
 def main(arguments):
-    path = os.path.join(arguments[0], NAME + '.csv') if len(arguments) == 1 else ''
-    if not os.path.isfile(path):
-        print(f'findings.py: one folder with {NAME}.csv is needed', file=sys.stderr)
+    if len(arguments) != 1 or not arguments[0].endswith('.csv'):
+        print('findings.py: needs the table of halves, findings_trailing.csv', file=sys.stderr)
         return 2
-    table = Table(path)
     with plt.rc_context(STYLE):
-        picture = path[:-4] + '.png'
-        save(draw(table), table.machine, picture)
+        picture = arguments[0][:-4] + '.png'
+        draw(rows_of(arguments[0])).savefig(picture, dpi=200, bbox_inches='tight')
         print(picture)
     return 0
 

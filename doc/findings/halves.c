@@ -1,18 +1,11 @@
 /** How the dp halves of LP modes stand to their dq halves: dp = C dq on the L and P fields, with
  * the angle between the halves, beside the rotation and the pressure. Long boxes of several
- * densities, several waves each. Usage: hdlyap_halves [--out FOLDER] [--quick]; writes
- * findings_trailing.csv. As many boxes side by side as there are cores, one thread each. */
+ * densities, several waves each. Usage: halves [--quick] >findings_trailing.csv. As many boxes side
+ * by side as there are cores, one thread each. */
 #include <complex.h>
-#include <hdlyap/hdlyap.h>
-#include <lapacke.h>
 #include <math.h>
-#include <string.h>
 
-#include "gemm.h"
-#include "options.h"
-#include "progress.h"
-#include "table.h"
-#include "timing.h"
+#include "study.h"
 
 enum { BLOCKS = 20, STEPS = 32, VECTORS = 12, PAIRS = 2, FIELDS = 2 * PAIRS };
 
@@ -47,13 +40,13 @@ typedef struct sums {
 typedef struct harvest {
     box box;
     hd_run *run;
-    hd_fields *fields;
-    double *q, *p;
+    double *p;
     sums (*sums)[STEPS]; /**< [BLOCKS] */
     double complex before[STEPS][VECTORS][PAIRS];
     int known[STEPS]; /**< column of the first vector of `before`, -1: none */
-    double pressure;  /**< P_xx / (rho kT) */
-    double between;   /**< collisions of one disk [time units] */
+    double flown;     /**< sum of p_x^2 over disks and reports */
+    int reports;
+    double pressure; /**< P_xx / (rho kT) */
 } harvest;
 
 static hd_scene_def scene_of(const box *b)
@@ -68,29 +61,47 @@ static hd_scene_def scene_of(const box *b)
     scene.duration = b->duration;
     scene.report_interval = b->sampling;
     scene.threads = 1;
-    scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_HYDRO; /* all vectors at each report */
+    scene.observe = HD_OBSERVE_GAS | HD_OBSERVE_STEPS;
+    scene.observe |= HD_OBSERVE_HYDRO; /* all vectors at each report */
     return scene;
 }
 
 /* ---- one step at one time ------------------------------------------------------------------- */
+
+static const hd_fields *fields_of(const harvest *h)
+{
+    return hd_modes_fields(hd_run_modes(h->run));
+}
+
+/** right[d][count] <- gram^-1 right, gram[d][d] of fields that are no combination of each other. */
+static void solve(int d, int count, double *gram, double *right)
+{
+    for (int k = 0; k < d; k++)
+        for (int i = 0; i < d; i++) {
+            const double factor = i == k ? 0.0 : gram[i * d + k] / gram[k * d + k];
+            for (int j = 0; j < d; j++) gram[i * d + j] -= factor * gram[k * d + j];
+            for (int v = 0; v < count; v++) right[i * count + v] -= factor * right[k * count + v];
+        }
+    for (int i = 0; i < d; i++)
+        for (int v = 0; v < count; v++) right[i * count + v] /= gram[i * d + i];
+}
 
 /** Least-squares coefficients of dq (half 0) or dp halves (1): on L and P of each pair, real and
  * imaginary part. */
 static void project(double complex z[VECTORS][PAIRS], const harvest *h, const hd_subspace *s,
                     hd_columns x, int half)
 {
-    const int d = s->dimension, stride = hd_fields_stride(h->fields);
+    const int d = s->dimension, stride = hd_fields_stride(fields_of(h));
     double gram[FIELDS * FIELDS] = {0}, right[FIELDS * VECTORS] = {0};
     for (int r = 0; r < 2 * h->box.disks; r++) {
-        const double *f = hd_fields_data(h->fields) + (size_t)r * (size_t)stride + s->column;
+        const double *f = hd_fields_data(fields_of(h)) + (size_t)r * (size_t)stride + s->column;
         const double *row = x.data + (size_t)(4 * (r / 2) + 2 * half + r % 2) * (size_t)x.stride;
         for (int i = 0; i < d; i++) {
             for (int j = 0; j < d; j++) gram[i * d + j] += f[i] * f[j];
             for (int v = 0; v < x.count; v++) right[i * x.count + v] += f[i] * row[v];
         }
     }
-    if (LAPACKE_dposv(LAPACK_ROW_MAJOR, 'U', d, x.count, gram, d, right, x.count) != 0)
-        require(HD_ILL_CONDITIONED, "fields");
+    solve(d, x.count, gram, right);
     for (int v = 0; v < x.count; v++)
         for (int c = 0; c < d / 2; c++)
             z[v][c] = right[c * x.count + v] + I * right[(c + d / 2) * x.count + v];
@@ -129,7 +140,7 @@ static void halves_compare(sums *s, double complex z[VECTORS][PAIRS],
 
 static void step_measure(harvest *h, sums *s, const hd_step *step, int index)
 {
-    const hd_subspace *space = hd_fields_subspace(h->fields, step->subspace);
+    const hd_subspace *space = hd_fields_subspace(fields_of(h), step->subspace);
     hd_columns x = hd_run_frame_columns(h->run);
     double complex z[VECTORS][PAIRS] = {{0.0}}, w[VECTORS][PAIRS];
     const int pairs = space->dimension / 2;
@@ -165,40 +176,13 @@ static bool is_wanted(const hd_steps *steps, int index)
 
 /* ---- one box -------------------------------------------------------------------------------- */
 
-/** The same events as the run's: P_xx from the momenta and from what collisions carry along x. */
-static void pressure_measure(harvest *h)
-{
-    const hd_scene_def scene = scene_of(&h->box);
-    const double begin = scene.equilibration + scene.warmup;
-    hd_trajectory *disks;
-    hd_event_log *log;
-    require(hd_trajectory_create(&disks, &scene), "pressure");
-    require(hd_event_log_create(&log), "pressure");
-    require(hd_trajectory_extend(disks, NULL, begin), "pressure");
-    double flown = 0.0, carried = 0.0;
-    const uint64_t before = hd_trajectory_collisions(disks);
-    const int pieces = (int)ceil(scene.duration / h->box.sampling);
-    for (int k = 1; k <= pieces; k++) {
-        hd_event_log_clear(log);
-        require(hd_trajectory_extend(disks, log, begin + scene.duration * k / pieces), "pressure");
-        hd_trajectory_state(disks, NULL, h->p);
-        for (int j = 0; j < scene.disks; j++) flown += h->p[2 * j] * h->p[2 * j] / pieces;
-        for (const hd_event *e = log->event; e < log->event + log->count; e++)
-            if (e->j >= 0) carried -= (e->n[0] * e->p[0] + e->n[1] * e->p[1]) * e->n[0] * e->n[0];
-    }
-    h->pressure = (flown + carried / scene.duration) / scene.disks;
-    h->between = 0.5 * scene.disks * scene.duration /
-                 (double)(hd_trajectory_collisions(disks) - before);
-    hd_event_log_free(log);
-    hd_trajectory_free(disks);
-}
-
 static void report_measure(harvest *h, double since)
 {
     const int block = (int)fmin(BLOCKS - 1, BLOCKS * since / h->box.duration);
     const hd_steps *steps = hd_run_steps(h->run);
-    hd_trajectory_state(hd_run_trajectory(h->run), h->q, h->p);
-    hd_fields_sample(h->fields, h->q, h->p);
+    hd_trajectory_state(hd_run_trajectory(h->run), NULL, h->p);
+    for (int j = 0; j < h->box.disks; j++) h->flown += h->p[2 * j] * h->p[2 * j];
+    h->reports++;
     for (int k = 0; k < STEPS && k < hd_steps_count(steps); k++) {
         if (is_wanted(steps, k))
             step_measure(h, &h->sums[block][k], hd_steps_step(steps, k), k);
@@ -210,30 +194,26 @@ static void report_measure(harvest *h, double since)
 static void follow(harvest *h)
 {
     const hd_scene_def scene = scene_of(&h->box);
-    char message[512] = "out of memory";
-    if (hd_run_create(&h->run, &scene, message, sizeof message) != HD_OK) {
-        fprintf(stderr, "hdlyap_halves: %s\n", message);
-        exit(2);
-    }
-    require(hd_fields_create(&h->fields, &scene), "fields");
-    h->q = room(2 * (size_t)scene.disks, sizeof *h->q);
+    h->run = created(&scene);
+    double before[2], after[2];
     h->p = room(2 * (size_t)scene.disks, sizeof *h->p);
     h->sums = room(BLOCKS, sizeof *h->sums);
     for (int k = 0; k < STEPS; k++) h->known[k] = -1;
-    while (hd_run_stage(h->run) < HD_AVERAGING) require(hd_run_advance(h->run), "warm-up");
+    go_on(h->run, HD_AVERAGING);
     const double start = hd_run_time(h->run);
+    hd_trajectory_virial(hd_run_trajectory(h->run), before);
     while (hd_run_stage(h->run) < HD_FINISHED) {
         require(hd_run_advance(h->run), "run");
         if (hd_run_report_due(h->run)) report_measure(h, hd_run_time(h->run) - start);
     }
-    pressure_measure(h);
+    hd_trajectory_virial(hd_run_trajectory(h->run), after);
+    h->pressure = h->flown / h->reports + (after[0] - before[0]) / (hd_run_time(h->run) - start);
+    h->pressure /= scene.disks;
 }
 
 static void harvest_free(harvest *h)
 {
     hd_run_free(h->run);
-    hd_fields_free(h->fields);
-    free(h->q);
     free(h->p);
     free(h->sums);
 }
@@ -294,60 +274,33 @@ static const char *const HEADER =
     "error,difference / mean,difference error,symmetric / mean,symmetric error,"
     "v [sigma/time unit],v error,P_xx / (sqrt(2) rho) [sigma/time unit],sum rule";
 
-static void tell(const harvest *h, table *t, int index)
+static void tell(const harvest *h, int index)
 {
     const hd_step *step = hd_steps_step(hd_run_steps(h->run), index);
+    const hd_gas_means gas = hd_gas_read(hd_run_gas(h->run));
     double x[NUMBERS], e[NUMBERS];
     if (!is_wanted(hd_run_steps(h->run), index) || !estimate(x, e, h, index)) return;
     const double k = step->wave.number;
-    const char *end = h->box.end == HD_PERIODIC ? "periodic" : "reflecting";
-    printf("%4g %4d %-10s %d %7.4f %8.4f %8.4f %8.4f %8.3f %10.4f %9.4f %8.4f %8.4f\n",
-           h->box.density, h->box.disks, end, step->wave.n[0], k, x[RATE] * h->between, x[ANGLE],
-           e[ANGLE], x[MEAN] / step->exponent, x[DIFFERENCE], x[SYMMETRIC], x[RATE] / k,
-           h->pressure / sqrt(2.0));
-    table_row(t,
-              "%g,%d,%g,%s,%d,%.6g,%.6g,%.6g,%.6g,%.3g,%.6g,%.3g,%.6g,%.3g,%.6g,%.3g,%.6g,%.3g,"
-              "%.6g,%.3g",
-              h->box.density, h->box.disks, h->box.height, end, step->wave.n[0], k, step->exponent,
-              h->between, x[ANGLE], e[ANGLE], x[MEAN], e[MEAN], x[DIFFERENCE], e[DIFFERENCE],
-              x[SYMMETRIC], e[SYMMETRIC], x[RATE] / k, e[RATE] / k, h->pressure / sqrt(2.0),
-              x[SUM_RULE]);
+    printf("%g,%d,%g,%s,%d,%.6g,%.6g,%.6g,", h->box.density, h->box.disks, h->box.height,
+           h->box.end == HD_PERIODIC ? "periodic" : "reflecting", step->wave.n[0], k,
+           step->exponent, 1.0 / gas.collision_rate);
+    for (int n = 0; n < RATE; n++) printf("%.6g,%.3g,", x[n], e[n]);
+    printf("%.6g,%.3g,%.6g,%.3g\n", x[RATE] / k, e[RATE] / k, h->pressure / sqrt(2.0), x[SUM_RULE]);
 }
-
-static double cost(const box *b) { return pow(b->disks, 3.0) * b->duration / b->sampling; }
 
 int main(int argc, char **argv)
 {
-    const char *out = ".";
-    bool quick = false;
-    const option list[] = {{"--out", .text = &out}, {"--quick", .flag = &quick}, {0}};
-    options_read(argc, argv, list);
+    const bool quick = study_begin(argc, argv, HEADER);
     const int boxes = quick ? 1 : BOXES_ALL;
-    const box *chosen = quick ? &QUICK : BOXES;
-    hd_blas_restart_if_slow(argv);
     harvest *h = room((size_t)boxes, sizeof *h);
-    table *t = table_create(out, "findings_trailing", HEADER);
-    double total = 0.0;
-    for (int b = 0; b < boxes; b++) h[b].box = chosen[b], total += cost(&chosen[b]);
-    progress p = progress_begin("halves", total);
+    for (int b = 0; b < boxes; b++) h[b].box = quick ? QUICK : BOXES[b];
 #pragma omp parallel for schedule(dynamic)
-    for (int b = 0; b < boxes; b++) {
-        follow(&h[b]);
-#pragma omp critical
-        progress_add(&p, cost(&h[b].box));
-    }
-    progress_end();
-    printf("%4s %4s %-10s %s %7s %8s %8s %8s %8s %10s %9s %8s %8s\n", "rho", "N", "ends of x", "n",
-           "k", "om tau", "angle", "error", "C/lambda", "difference", "symmetric", "v", "from P");
+    for (int b = 0; b < boxes; b++) follow(&h[b]);
     for (int b = 0; b < boxes; b++) {
         for (int k = 0; k < STEPS && k < hd_steps_count(hd_run_steps(h[b].run)); k++)
-            tell(&h[b], t, k);
+            tell(&h[b], k);
         harvest_free(&h[b]);
     }
     free(h);
-    gemm *g = gemm_create(1000, 1000); /* the comment says on what machine */
-    gemm_measure(g);
-    table_write(t, argv, gemm_rate(g));
-    gemm_free(g);
     return 0;
 }
