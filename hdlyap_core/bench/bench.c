@@ -111,12 +111,7 @@ static void whole_run(const asked *a, char **argv)
     scene.equilibration = 20.0;
     scene.warmup = 30.0;
     scene.observe = HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
-    hd_run *run;
-    char message[256] = "out of memory";
-    if (hd_run_create(&run, &scene, message, sizeof message) != HD_OK) {
-        fprintf(stderr, "hdlyap_bench: %s\n", message);
-        exit(2);
-    }
+    hd_run *run = created(&scene);
     result r = {0};
     gemm *g = gemm_create(4 * scene.disks, hd_run_vectors(run));
     measure(run, g, a, &r);
@@ -157,8 +152,7 @@ static void one_exponent(int disks, double memory)
     scene.equilibration = 5.0;
     scene.warmup = 5.0;
     scene.duration = 4e6 / disks;
-    hd_run *run;
-    require(hd_run_create(&run, &scene, NULL, 0), "one exponent");
+    hd_run *run = created(&scene);
     while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     const double before = hd_run_cost(run).replay;
     const double first = (double)hd_trajectory_collisions(hd_run_trajectory(run));

@@ -172,8 +172,7 @@ int main(int argc, char **argv)
     options_read(argc, argv, list);
     hd_blas_restart_if_slow(argv);
     const hd_scene_def scene = scene_of(quick, duration);
-    hd_run *run;
-    require(hd_run_create(&run, &scene, NULL, 0), "scene");
+    hd_run *run = created(&scene);
     course *c = room(1, sizeof *c);
     c->g = gemm_create(scene.disks, hd_run_vectors(run));
     follow(run, c);

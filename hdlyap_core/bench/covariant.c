@@ -101,12 +101,7 @@ static void tell(const hd_run *run, row r, table *t, double began)
 static void go(const asked *a, row r, table *t)
 {
     const hd_scene_def scene = scene_of(a, r);
-    char message[512] = "out of memory";
-    hd_run *run;
-    if (hd_run_create(&run, &scene, message, sizeof message) != HD_OK) {
-        fprintf(stderr, "hdlyap_covariant: %s\n", message);
-        exit(2);
-    }
+    hd_run *run = created(&scene);
     while (hd_run_stage(run) < HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     const hd_cost before = hd_run_cost(run);
     while (hd_run_stage(run) < HD_FINISHED) require(hd_run_advance(run), "run");
@@ -140,9 +135,6 @@ int main(int argc, char **argv)
         progress_add(&shown, 1.0);
     }
     progress_end();
-    gemm *g = gemm_create(1000, 1000); /* the comment says on what machine */
-    gemm_measure(g);
-    table_write(t, argv, gemm_rate(g));
-    gemm_free(g);
+    table_write(t, argv, gemm_once());
     return 0;
 }

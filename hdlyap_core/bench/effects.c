@@ -2,17 +2,18 @@
  * intervals of the one after those of the other, so that whatever else the machine does falls on
  * both; medians. Instructions are counted by callgrind, if valgrind is there (nan if not), in a
  * smaller box of the same kind: a long one, in which steps are found soon. What publishing costs:
- * effects_publishing. Usage: hdlyap_effects [effects.csv [disks, default 200 [aspect, default 0.05
- * [rounds, default 15]]]] hdlyap_effects --count EFFECT off|on: one run for callgrind, which
- * collects in count_rounds */
+ * effects_publishing. Usage: hdlyap_effects [--disks N] [--aspect A] [--rounds N] [--out FOLDER];
+ * with --out it writes FOLDER/effects.csv. hdlyap_effects --count EFFECT off|on: one run for
+ * callgrind, which collects in count_rounds */
 #include <hdlyap/hdlyap.h>
 #include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "gemm.h"
+#include "options.h"
+#include "sample.h"
+#include "table.h"
 #include "timing.h"
 
 enum {
@@ -23,13 +24,7 @@ enum {
     EVERYTHING = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_FIELDS |
                  HD_OBSERVE_HYDRO
 };
-enum {
-    ROUNDS_MAX = 1000,
-    WARM_REPORTS = 10,
-    COUNTED_DISKS = 60,
-    COUNTED_ROUNDS = 2,
-    ROUND_REPORTS = 5
-};
+enum { WARM_REPORTS = 10, COUNTED_DISKS = 60, COUNTED_ROUNDS = 2, ROUND_REPORTS = 5 };
 static const double COUNTED_ASPECT = 0.12;
 
 /** What a run has of all the effects. */
@@ -70,7 +65,7 @@ enum { EFFECTS = sizeof effects / sizeof *effects };
 typedef struct side {
     hd_run *run;
     double *q, *p, *field; /**< [2N] */
-    double seconds[ROUNDS_MAX];
+    sample seconds;
 } side;
 
 static hd_scene_def scene_of(const variant *v, int disks, double aspect)
@@ -105,11 +100,9 @@ static side *side_create(const variant *v, int disks, double aspect)
 {
     const hd_scene_def scene = scene_of(v, disks, aspect);
     const size_t size = 2 * (size_t)disks;
-    char message[256] = "";
-    side *s = calloc(1, sizeof *s);
-    double *block = calloc(3 * size, sizeof *block);
-    if (!s || !block) require(HD_NO_MEMORY, "run");
-    require(hd_run_create(&s->run, &scene, message, sizeof message), message);
+    side *s = room(1, sizeof *s);
+    double *block = room(3 * size, sizeof *block);
+    s->run = created(&scene);
     hd_run_observe(s->run, v->look);
     s->q = block, s->p = block + size, s->field = block + 2 * size;
     warm(s);
@@ -173,37 +166,27 @@ typedef struct cost {
 /** Of the run that has the effect, what it would do without. */
 static double percent(cost c) { return 100.0 * (1.0 - c.ratio); }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *x, int count)
-{
-    qsort(x, (size_t)count, sizeof *x, ascending);
-    return 0.5 * (x[(count - 1) / 2] + x[count / 2]);
-}
-
-static void round_timed(side *s, int round)
+/** Seconds of a report interval in this round. */
+static double round_timed(side *s)
 {
     const double start = seconds();
     round_of(s);
-    s->seconds[round] = (seconds() - start) / ROUND_REPORTS;
+    const double taken = (seconds() - start) / ROUND_REPORTS;
+    sample_add(&s->seconds, taken);
+    return taken;
 }
 
 static cost seconds_of(const effect *e, int disks, double aspect, int rounds)
 {
     side *off = side_create(&e->off, disks, aspect), *on = side_create(&e->on, disks, aspect);
+    sample ratio = {0};
     for (int round = 0; round < rounds; round++) {
-        round_timed(round % 2 ? on : off, round);
-        round_timed(round % 2 ? off : on, round);
+        const double first = round_timed(round % 2 ? on : off);
+        const double second = round_timed(round % 2 ? off : on);
+        sample_add(&ratio, round % 2 ? second / first : first / second);
     }
-    double ratio[ROUNDS_MAX];
-    for (int round = 0; round < rounds; round++)
-        ratio[round] = off->seconds[round] / on->seconds[round];
-    const cost c = {median(off->seconds, rounds), median(on->seconds, rounds),
-                    median(ratio, rounds), steps_found(on)};
+    const cost c = {sample_median(&off->seconds), sample_median(&on->seconds),
+                    sample_median(&ratio), steps_found(on)};
     side_free(off);
     side_free(on);
     return c;
@@ -264,32 +247,17 @@ static cost instructions_of(int k, const cost *known)
 
 /* ---- what is written ----------------------------------------------------------------------- */
 
-static void csv_begin(FILE *csv, int disks, double aspect, int rounds)
-{
-    fprintf(
-        csv,
-        "# hdlyap_effects %d %g %d; %s; one thread; instructions of %d disks, aspect %g; all per "
-        "time unit; percent of the run that has the effect\n",
-        disks, aspect, rounds, hd_blas_query().kernel, COUNTED_DISKS, COUNTED_ASPECT);
-    fprintf(csv, "effect,percent,instructions,seconds_off,seconds_on,instructions_off,"
-                 "instructions_on,percent_of_instructions\n");
-}
-
-static void csv_row(FILE *csv, const char *name, cost time, cost work)
-{
-    fprintf(csv, "%s,%.3f,%.0f,%.6g,%.6g,%.0f,%.0f,%.3f\n", name, percent(time), work.on - work.off,
-            time.off, time.on, work.off, work.on, percent(work));
-    fflush(csv);
-}
-
-static void table_row(const char *name, cost time, cost work)
+static void tell(table *t, const char *name, cost time, cost work)
 {
     printf("%-20s %10.3f %10.3f %8.2f %12.4g %12.4g %8.2f %6d\n", name, 1e3 * time.off,
            1e3 * time.on, percent(time), work.off, work.on, percent(work), time.steps);
     fflush(stdout);
+    if (t)
+        table_row(t, "%s,%.3f,%.0f,%.6g,%.6g,%.0f,%.0f,%.3f", name, percent(time),
+                  work.on - work.off, time.off, time.on, work.off, work.on, percent(work));
 }
 
-static void measure_all(FILE *csv, int disks, double aspect, int rounds)
+static void measure_all(table *t, int disks, double aspect, int rounds)
 {
     cost work[EFFECTS];
     printf("%d disks, aspect %g, one thread, %s kernels; instructions of %d disks, aspect %g;\n"
@@ -297,30 +265,31 @@ static void measure_all(FILE *csv, int disks, double aspect, int rounds)
            disks, aspect, hd_blas_query().kernel, COUNTED_DISKS, COUNTED_ASPECT);
     printf("%-20s %10s %10s %8s %12s %12s %8s %6s\n", "effect", "off [ms]", "on [ms]", "%",
            "off [instr]", "on [instr]", "%", "steps");
-    if (csv) csv_begin(csv, disks, aspect, rounds);
     for (int k = 0; k < EFFECTS; k++) {
         const cost time = seconds_of(&effects[k], disks, aspect, rounds);
         work[k] = instructions_of(k, work);
-        table_row(effects[k].name, time, work[k]);
-        if (csv) csv_row(csv, effects[k].name, time, work[k]);
+        tell(t, effects[k].name, time, work[k]);
     }
 }
 
 int main(int argc, char **argv)
 {
+    int disks = 200, rounds = 15;
+    double aspect = 0.05;
+    const char *out = NULL;
+    const option list[] = {{"--disks", .count = &disks, .least = 10, .most = 5000},
+                           {"--aspect", .number = &aspect, .least = 1e-6, .most = 1},
+                           {"--rounds", .count = &rounds, .least = 1, .most = SAMPLE_MAX},
+                           {"--out", .text = &out},
+                           {0}};
     hd_blas_restart_if_slow(argv);
     if (argc == 4 && strcmp(argv[1], "--count") == 0) return count(argv[2], argv[3]);
-    const int disks = argc > 2 ? atoi(argv[2]) : 200, rounds = argc > 4 ? atoi(argv[4]) : 15;
-    const double aspect = argc > 3 ? atof(argv[3]) : 0.05;
-    if (rounds < 1 || rounds > ROUNDS_MAX) {
-        fprintf(stderr, "hdlyap_effects: rounds = %d: must be 1 .. %d\n", rounds, ROUNDS_MAX);
-        return 2;
-    }
-    FILE *csv = argc > 1 ? fopen(argv[1], "w") : NULL;
-    if (argc > 1 && !csv) {
-        perror(argv[1]);
-        return 4;
-    }
-    measure_all(csv, disks, aspect, rounds);
-    return csv && fclose(csv) != 0 ? 4 : 0;
+    options_read(argc, argv, list);
+    table *t = out ? table_create(out, "effects",
+                                  "effect,percent,instructions,seconds_off,seconds_on,"
+                                  "instructions_off,instructions_on,percent_of_instructions")
+                   : NULL;
+    measure_all(t, disks, aspect, rounds);
+    if (t) table_write(t, argv, gemm_once());
+    return 0;
 }

@@ -12,8 +12,6 @@
 #include "table.h"
 #include "timing.h"
 
-enum { GEMM_SIZE = 1000 };
-
 static const double ROW_FIRST = 1e4, COLLISIONS_QUICK = 1e6, COLLISIONS_MAX = 1e12;
 static const double COLLISIONS_PER_LOOK = 1000.0;
 
@@ -26,7 +24,6 @@ typedef struct asked {
 /** The largest seen so far. */
 typedef struct course {
     hd_trajectory *trajectory;
-    double *p; /**< [2N] */
     double energy_at_start;
     double energy;   /**< |K / K_start - 1| */
     double momentum; /**< component of the total momentum, per disk */
@@ -60,9 +57,8 @@ static double overlap_at_contact(hd_trajectory *tr)
 static void look(course *c)
 {
     const int n = hd_trajectory_disks(c->trajectory);
-    double sum[2] = {0, 0};
-    hd_trajectory_state(c->trajectory, NULL, c->p);
-    for (int k = 0; k < 2 * n; k++) sum[k % 2] += c->p[k];
+    double sum[2];
+    hd_trajectory_momentum(c->trajectory, sum);
     for (int d = 0; d < 2; d++) raise(&c->momentum, fabs(sum[d]) / n);
     raise(&c->energy, fabs(hd_trajectory_kinetic_energy(c->trajectory) / c->energy_at_start - 1.0));
     raise(&c->overlap, hd_trajectory_overlap(c->trajectory));
@@ -123,7 +119,7 @@ static void endure(const asked *a, char **argv)
         fprintf(stderr, "hdlyap_endurance: %s\n", message);
         exit(2);
     }
-    course c = {.p = room(2 * (size_t)a->disks, sizeof *c.p)};
+    course c = {0};
     require(hd_trajectory_create(&c.trajectory, &scene), "trajectory");
     c.energy_at_start = hd_trajectory_kinetic_energy(c.trajectory);
     table *t = table_create(a->out, "endurance",
@@ -132,12 +128,8 @@ static void endure(const asked *a, char **argv)
     printf("%d disks, density %g, periodic; the largest so far\n%14s %12s %12s %14s %12s\n",
            a->disks, a->density, "collisions", "time", "energy", "momentum/disk", "overlap");
     follow(&c, a, t);
-    gemm *g = gemm_create(GEMM_SIZE, GEMM_SIZE); /* the comment says on what machine */
-    gemm_measure(g);
-    table_write(t, argv, gemm_rate(g));
-    gemm_free(g);
+    table_write(t, argv, gemm_once());
     hd_trajectory_free(c.trajectory);
-    free(c.p);
 }
 
 int main(int argc, char **argv)

@@ -71,15 +71,6 @@ static hd_scene_def scene_of(const box *b, int seed)
 
 /* ---- running ------------------------------------------------------------------------------- */
 
-static hd_run *created(const hd_scene_def *scene)
-{
-    char message[512] = "out of memory";
-    hd_run *run;
-    if (hd_run_create(&run, scene, message, sizeof message) == HD_OK) return run;
-    fprintf(stderr, "hdlyap_errors: %s\n", message);
-    exit(2);
-}
-
 static harvest harvest_create(const box *b, int seeds)
 {
     const hd_scene_def scene = scene_of(b, 0);
@@ -301,9 +292,6 @@ int main(int argc, char **argv)
         tell_box(&h[k], t);
         harvest_free(&h[k]);
     }
-    gemm *g = gemm_create(1000, 1000); /* the comment says on what machine */
-    gemm_measure(g);
-    table_write(t, argv, gemm_rate(g));
-    gemm_free(g);
+    table_write(t, argv, gemm_once());
     return 0;
 }

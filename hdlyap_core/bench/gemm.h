@@ -12,6 +12,9 @@ void gemm_free(gemm *g);
 /** One more measurement; returns the seconds that it took. */
 double gemm_measure(gemm *g);
 
+/** The same by one measurement of its own: for the comment of a table. */
+double gemm_once(void);
+
 double gemm_last(const gemm *g); /**< flops per second of the last measurement */
 double gemm_rate(const gemm *g); /**< median flops per second */
 

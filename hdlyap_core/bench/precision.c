@@ -158,11 +158,10 @@ static void measure_chosen(study *s, double accuracy, point *p)
 {
     const double length = s->w.length;
     hd_scene_def scene = s->w.scene;
-    hd_run *run;
     sample speed = {0};
     scene.accuracy = accuracy;
     scene.duration = WINDOWS * length;
-    require(hd_run_create(&run, &scene, NULL, 0), "scene");
+    hd_run *run = created(&scene);
     while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     const hd_cost before = hd_run_cost(run);
     average(run, s->g, length, &speed);

@@ -32,8 +32,7 @@ static hd_scene_def scene_of(int disks)
 static hd_run *ours_create(int disks)
 {
     const hd_scene_def scene = scene_of(disks);
-    hd_run *run;
-    require(hd_run_create(&run, &scene, NULL, 0), "scene");
+    hd_run *run = created(&scene);
     while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     return run;
 }

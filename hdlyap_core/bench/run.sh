@@ -70,11 +70,10 @@ fallback() { OPENBLAS_CORETYPE=Prescott "$PROGRAMS/hdlyap_bench" "$@"; }
 
 # Publishing is a matter of the node: where its package is built and sourced.
 effects() {
-    "$PROGRAMS/hdlyap_effects" "$OUT/effects.csv.part"
+    "$PROGRAMS/hdlyap_effects" --out "$OUT"
     if /usr/bin/python3 -c 'import hdlyap.msg' 2>/dev/null; then
-        "$HERE/effects_publishing" "$OUT/effects.csv.part"
+        "$HERE/effects_publishing" "$OUT/effects.csv"
     fi
-    mv "$OUT/effects.csv.part" "$OUT/effects.csv"
 }
 
 run_all() {

@@ -121,11 +121,10 @@ static void measure(study *all, int which, int disks, int exponents, unsigned st
     scene.observe = stages;
     scene.equilibration = 5.0;
     scene.warmup = WARMUP;
-    hd_run *run;
     double before[PARTS];
     point *p = &all->by[which].at[all->by[which].count++];
     *p = (point){.disks = disks};
-    require(hd_run_create(&run, &scene, NULL, 0), "scene");
+    hd_run *run = created(&scene);
     while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up");
     settle(run);
     read_costs(run, before);

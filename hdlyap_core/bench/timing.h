@@ -1,8 +1,9 @@
-/** What the benchmark programs share: the clock, and the end of a program whose run failed. */
+/** What the benchmark programs share: the clock, the beginning of a run, and the end of a program
+ * whose run failed. */
 #ifndef HD_BENCH_TIMING_H
 #define HD_BENCH_TIMING_H
 
-#include <hdlyap/status.h>
+#include <hdlyap/run.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -19,6 +20,16 @@ static inline void require(hd_status status, const char *what)
     if (status == HD_OK) return;
     fprintf(stderr, "%s: %s\n", what, hd_status_text(status));
     exit(3);
+}
+
+/** A scene that is refused ends the program with one line and status 2. */
+static inline hd_run *created(const hd_scene_def *scene)
+{
+    char message[512] = "out of memory";
+    hd_run *run;
+    if (hd_run_create(&run, scene, message, sizeof message) == HD_OK) return run;
+    fprintf(stderr, "%s\n", message);
+    exit(2);
 }
 
 /** calloc that ends the program when memory is out. */

@@ -13,8 +13,7 @@ static void record_start(window *w)
     hd_scene_def tight = w->scene;
     tight.interval = 0.5;
     tight.accuracy = 1e-12;
-    hd_run *run;
-    require(hd_run_create(&run, &tight, NULL, 0), "window");
+    hd_run *run = created(&tight);
     while (hd_run_stage(run) != HD_AVERAGING) require(hd_run_advance(run), "warm-up of the window");
     const hd_frame *frame = hd_run_frame(run);
     w->rows = hd_frame_rows(frame);
