@@ -7,9 +7,9 @@
  *         part alone. */
 #include <hdlyap/hdlyap.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "gemm.h"
-#include "memory_rate.h"
 #include "options.h"
 #include "progress.h"
 #include "ratio.h"
@@ -136,6 +136,25 @@ static void events_alone(int disks, double density, double collisions)
     const double count = (double)hd_trajectory_collisions(trajectory) - first;
     printf("%9d %9.2f %12.0f %22.2f\n", disks, density, count, count / (seconds() - start) * 1e-6);
     hd_trajectory_free(trajectory);
+}
+
+/** Bytes per second, read and written, of copying a block far larger than the caches; the best of a
+ * few. One thread. */
+static double memory_rate(void)
+{
+    const size_t bytes = (size_t)1 << 27;
+    char *from = room(bytes, 1), *to = room(bytes, 1);
+    double best = 0.0;
+    for (int k = 0; k < 5; k++) {
+        from[k] = (char)(k + 1); /* no copy is like the one before */
+        const double start = seconds();
+        memcpy(to, from, bytes);
+        const double rate = 2.0 * (double)bytes / (seconds() - start);
+        if (to[k] == from[k] && rate > best) best = rate;
+    }
+    free(from);
+    free(to);
+    return best;
 }
 
 /** One exponent of many disks: what its replay must move per event, a logged event and a tangent

@@ -45,66 +45,40 @@ void numbers_name(const hd_run *run, uint64_t of, char *out, size_t size)
     }
 }
 
-/* ---- rows ---------------------------------------------------------------------------------- */
+/* ---- one number after the other -------------------------------------------------------------- */
 
-typedef struct rows {
-    row_of_numbers *row;
-    int count, numbers;
-} rows;
+/** Rows and numbers so far; out NULL: only the rows are wanted. */
+typedef struct list {
+    row_of_numbers row[NUMBER_ROWS_MAX];
+    number *out;
+    int rows, numbers;
+} list;
 
-static void row_add(rows *r, const char *name, int count)
+/** Numbers of one row follow each other. */
+static void add(list *l, const char *name, number n)
 {
-    if (count == 0 || r->count == NUMBER_ROWS_MAX) return;
-    row_of_numbers *row = &r->row[r->count++];
-    snprintf(row->name, sizeof row->name, "%s", name);
-    row->first = r->numbers;
-    row->count = count;
-    r->numbers += count;
+    row_of_numbers *row = &l->row[l->rows - 1];
+    if (l->rows == 0 || strcmp(row->name, name) != 0) {
+        if (l->rows == NUMBER_ROWS_MAX) return;
+        row = &l->row[l->rows++];
+        *row = (row_of_numbers){.first = l->numbers};
+        snprintf(row->name, sizeof row->name, "%s", name);
+    }
+    row->count++;
+    if (l->out) l->out[l->numbers] = n;
+    l->numbers++;
 }
 
-/** Phases of a step: as many as tracks, d^2 / 2 of d vectors. */
-static void rows_of_steps(const hd_run *run, rows *r)
-{
-    char name[16], omega[32];
-    for (int k = 0; k < waves(run); k++) {
-        name_step(run, k, name, sizeof name);
-        row_add(r, name, 1);
-    }
-    for (int k = 0; k < waves(run); k++) {
-        const hd_step *step = hd_steps_step(hd_run_steps(run), k);
-        name_step(run, k, name, sizeof name);
-        snprintf(omega, sizeof omega, "omega %s", name);
-        row_add(r, omega, step->kind == HD_MODE_LP ? step->expected * step->expected / 2 : 0);
-    }
-}
-
-int numbers_rows(const hd_run *run, row_of_numbers *out)
-{
-    static const char *const singles[] = {"c_T", "c_L", "v"};
-    rows r = {.row = out};
-    row_add(&r, "exponents", positive(run));
-    row_add(&r, "h_KS", 1);
-    if (hd_run_steps(run)) {
-        for (int k = 0; k < 3; k++) row_add(&r, singles[k], 1);
-        rows_of_steps(run, &r);
-    }
-    if (!hd_run_covariant(run)) return r.count;
-    row_add(&r, "covariant exponents", positive(run));
-    row_add(&r, "angle", 1);
-    return r.count;
-}
-
-/* ---- values -------------------------------------------------------------------------------- */
-
-static number *read_exponents(const hd_spectrum *spectrum, int count, bool known, number *out)
+static void add_exponents(list *l, const char *name, const hd_spectrum *spectrum, int count,
+                          bool known)
 {
     for (int col = 0; col < count; col++)
-        *out++ = (number){hd_spectrum_exponent(spectrum, col), hd_spectrum_std_error(spectrum, col),
-                          known ? NO_STEPS : 0};
-    return out;
+        add(l, name,
+            (number){hd_spectrum_exponent(spectrum, col), hd_spectrum_std_error(spectrum, col),
+                     known ? NO_STEPS : 0});
 }
 
-static number *read_dispersion(const hd_run *run, hd_mode_kind kind, number *out)
+static void add_dispersion(list *l, const hd_run *run, const char *name, hd_mode_kind kind)
 {
     const hd_dispersion d = hd_steps_dispersion(hd_run_steps(run), hd_run_spectrum(run), kind);
     uint64_t of = 0;
@@ -112,12 +86,11 @@ static number *read_dispersion(const hd_run *run, hd_mode_kind kind, number *out
         const hd_step *step = hd_steps_step(hd_run_steps(run), k);
         if (step->resolved && step->kind == kind) of |= bit(k);
     }
-    *out++ = (number){d.c.value, d.c_sampling_error, of};
-    return out;
+    add(l, name, (number){d.c.value, d.c_sampling_error, of});
 }
 
-/** Steps of which a phase is followed. */
-static number *read_velocity(const hd_run *run, number *out)
+/** Of steps of which a phase is followed. */
+static void add_velocity(list *l, const hd_run *run)
 {
     const hd_velocity v = hd_phases_velocity(hd_run_phases(run));
     uint64_t of = 0;
@@ -125,63 +98,79 @@ static number *read_velocity(const hd_run *run, number *out)
         const hd_phase *phase = hd_phases_phase(hd_run_phases(run), k);
         if (phase->state == HD_PHASE_TRACKED && phase->step < waves(run)) of |= bit(phase->step);
     }
-    *out++ = (number){v.v, v.v_error, v.phases > 0 ? of : 0};
-    return out;
+    add(l, "v", (number){v.v, v.v_error, v.phases > 0 ? of : 0});
 }
 
-static number *read_steps(const hd_run *run, number *out)
+static void add_steps(list *l, const hd_run *run)
 {
     for (int k = 0; k < waves(run); k++) {
         const hd_step *step = hd_steps_step(hd_run_steps(run), k);
+        char name[16];
         uint64_t of = 0;
+        name_step(run, k, name, sizeof name);
         for (int other = 0; step->resolved && other < waves(run); other++)
             if (hd_steps_step(hd_run_steps(run), other)->set == step->set) of |= bit(other);
-        *out++ = (number){step->exponent, step->std_error, of};
+        add(l, name, (number){step->exponent, step->std_error, of});
     }
-    return out;
 }
 
 /** Phases that have been followed, also those that are weak just now. */
-static number *read_phases(const hd_run *run, number *out)
+static void add_phases(list *l, const hd_run *run)
 {
     for (int k = 0; k < hd_phases_count(hd_run_phases(run)); k++) {
         const hd_phase *phase = hd_phases_phase(hd_run_phases(run), k);
+        char name[16], omega[32];
         if (phase->step >= waves(run)) break;
+        name_step(run, phase->step, name, sizeof name);
+        snprintf(omega, sizeof omega, "omega %s", name);
         const bool known = phase->state != HD_PHASE_UNRESOLVED && phase->time > 0;
-        *out++ = (number){phase->omega, phase->omega_error, known ? bit(phase->step) : 0};
+        add(l, omega, (number){phase->omega, phase->omega_error, known ? bit(phase->step) : 0});
     }
-    return out;
 }
 
 /** The angle between unstable and stable space; the centre is exactly perpendicular to both [T18].
  */
-static void read_covariant(const hd_run *run, number *out)
+static void add_covariant(list *l, const hd_run *run)
 {
     const hd_covariant *covariant = hd_run_covariant(run);
     const hd_splitting *splitting = hd_covariant_splitting(covariant);
     const bool known = hd_covariant_windows(covariant) > 0;
-    out = read_exponents(hd_covariant_spectrum(covariant), positive(run), known, out);
-    *out = (number){.error = -1.0};
-    if (!known || !hd_splitting_has_spaces(splitting)) return;
-    const hd_angle_of_spaces *angle = hd_splitting_angle(splitting, HD_UNSTABLE_STABLE);
-    *out = (number){angle->mean, angle->std_error, NO_STEPS};
+    number angle = {.error = -1.0};
+    add_exponents(l, "covariant exponents", hd_covariant_spectrum(covariant), positive(run), known);
+    if (known && hd_splitting_has_spaces(splitting)) {
+        const hd_angle_of_spaces *spaces = hd_splitting_angle(splitting, HD_UNSTABLE_STABLE);
+        angle = (number){spaces->mean, spaces->std_error, NO_STEPS};
+    }
+    add(l, "angle", angle);
 }
 
-void numbers_read(const hd_run *run, number *out)
+static list list_of(const hd_run *run, number *out)
 {
     const hd_spectrum *spectrum = hd_run_spectrum(run);
-    out = read_exponents(spectrum, positive(run), true, out);
-    *out++ = (number){hd_spectrum_ks_entropy(spectrum), hd_spectrum_ks_entropy_error(spectrum),
-                      NO_STEPS};
+    list l = {.out = out};
+    add_exponents(&l, "exponents", spectrum, positive(run), true);
+    add(&l, "h_KS",
+        (number){hd_spectrum_ks_entropy(spectrum), hd_spectrum_ks_entropy_error(spectrum),
+                 NO_STEPS});
     if (hd_run_steps(run)) {
-        out = read_dispersion(run, HD_MODE_T, out);
-        out = read_dispersion(run, HD_MODE_LP, out);
-        out = read_velocity(run, out);
-        out = read_steps(run, out);
-        out = read_phases(run, out);
+        add_dispersion(&l, run, "c_T", HD_MODE_T);
+        add_dispersion(&l, run, "c_L", HD_MODE_LP);
+        add_velocity(&l, run);
+        add_steps(&l, run);
+        add_phases(&l, run);
     }
-    if (hd_run_covariant(run)) read_covariant(run, out);
+    if (hd_run_covariant(run)) add_covariant(&l, run);
+    return l;
 }
+
+int numbers_rows(const hd_run *run, row_of_numbers *out)
+{
+    const list l = list_of(run, NULL);
+    memcpy(out, l.row, sizeof l.row);
+    return l.rows;
+}
+
+void numbers_read(const hd_run *run, number *out) { list_of(run, out); }
 
 int numbers_first_of_modes(const hd_run *run)
 {
