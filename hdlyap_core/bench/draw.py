@@ -335,43 +335,7 @@ def _powers(fits, sweep, part, name):
     return ''
 
 
-# ---- ratios ---------------------------------------------------------------------------------
-
-
-RATIOS = (  # table, quantity, label
-    ('whole', 'W/F', 'whole run to its floor'),
-    ('whole_fallback', 'W/F', "the same on OpenBLAS's oldest kernels"),
-    ('whole_small', 'W/F', 'the same on one thread'),
-    ('rivals', 'dgeqrf + dorgqr to ours', 'Householder every 0.5 to hdlyap'),
-    ('rivals', 'modified Gram-Schmidt to ours', 'modified Gram-Schmidt every 1 to hdlyap'),
-)
-
-
-def whole(tables):
-    rows = [
-        (label, row)
-        for name, quantity, label in RATIOS
-        if name in tables
-        for row in tables[name].where(quantity=quantity)
-    ]
-    figure, axes = plt.subplots(figsize=(5.8, 0.8 + 0.35 * len(rows)))
-    for k, (_, row) in enumerate(rows):
-        axes.plot([row['minimum'], row['maximum']], [k, k], color=BLUE, linewidth=2)
-        axes.plot(row['median'], k, 'o', color=VERMILION, zorder=3)
-        axes.annotate(
-            f'{row["median"]:.3g}',
-            (row['median'], k),
-            xytext=(0, 5),
-            textcoords='offset points',
-            ha='center',
-            fontsize=8,
-        )
-    axes.set_yticks(range(len(rows)))
-    axes.set_yticklabels([f'{label}, N = {row["disks"]:g}' for label, row in rows])
-    axes.set_ylim(len(rows) - 0.4, -0.7)
-    axes.set_xlim(0, 1.08 * max(row['maximum'] for _, row in rows))
-    axes.set_xlabel('ratio of seconds: median and range')
-    return figure
+# ---- what each effect costs -----------------------------------------------------------------
 
 
 def effects(tables):
@@ -437,7 +401,7 @@ def errors(tables):
     return figure
 
 
-FIGURES = (precision, convergence, scaling, whole, effects, errors)
+FIGURES = (precision, convergence, scaling, effects, errors)
 
 
 def save(figure, machine, path):

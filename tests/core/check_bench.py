@@ -41,7 +41,7 @@ COLUMNS = {  # the first ones of each table, without units
     'errors': ['quantity', 'from', 'box', 'length', 'seeds', 'stated', 'mean', 'stated error'],
     'rivals': ['quantity', 'disks', 'minimum', 'median', 'maximum', 'rounds'],
 }
-PICTURES = ('precision', 'convergence', 'scaling', 'errors', 'whole')
+PICTURES = ('precision', 'convergence', 'scaling', 'errors')
 ACCURACY = 1e-8  # asked for, and so the largest deviation allowed
 SPREAD = 0.05  # of the grey values of a picture that shows something
 RUN_SH, PROGRAMS, FOLDER = sys.argv[1:4]
