@@ -330,13 +330,14 @@ hd_status hd_run_settle(hd_run *run) { return go_back(run, true); }
 
 /* ---- from one time to the next ------------------------------------------------------------- */
 
-/** Longest time from one measured state to the next. */
+/** Longest time from one measured state to the next; as somebody asks for it, if there is anything
+ * to follow. */
 static double sampling(const hd_run *run)
 {
     const double wanted = run->scene.phase_interval;
     if (!is_needed(run, HD_NEEDS_CLOSE)) return INFINITY;
     const double needed = hd_observables_sampling(&run->observables);
-    return wanted > 0 ? fmin(wanted, needed) : needed;
+    return wanted > 0 && needed < INFINITY ? fmin(wanted, needed) : needed;
 }
 
 static hd_pace pace_of(hd_run *run)
