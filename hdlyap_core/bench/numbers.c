@@ -128,7 +128,7 @@ static void add_phases(list *l, const hd_run *run)
     }
 }
 
-/** The angle between unstable and stable space; the centre is exactly perpendicular to both [T18].
+/** The angle between unstable and stable space; the centre is exactly perpendicular to both [T17].
  */
 static void add_covariant(list *l, const hd_run *run)
 {

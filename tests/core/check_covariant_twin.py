@@ -4,7 +4,7 @@ finds, which has its own disks, tangent maps and way to the vectors, in extended
 
 PROGRAM (covariant_looks.c) prints the disks' states every so often, and what it says of its
 windows. From each state the disks move here by themselves to the next one, and the tangent map M
-with them: nothing has the time to become chaos. No vector is carried back through triangles [T17]:
+with them: nothing has the time to become chaos. No vector is carried back through triangles [T16]:
 Gram-Schmidt vectors F come from the past by M, others, W, from the future by the transpose of M,
 and vector l is what the first l of F have in common with the complement of the first l - 1 of W: F
 U^-1, where W^T F = L U (Kuptsov and Parlitz, J. Nonlinear Sci. 22, 727 (2012)).

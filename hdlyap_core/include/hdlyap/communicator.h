@@ -71,7 +71,7 @@ typedef struct hd_shared {
 HD_MUST_CHECK hd_status hd_communicator_share(hd_communicator *c, double *x, hd_shared shared);
 
 /** Shares what is known of `all` vectors, of which the first carried.count are carried and the
- * others are their partners in reverse order [T19], or there are no others. HD_NO_MEMORY, on all
+ * others are their partners in reverse order [T18], or there are no others. HD_NO_MEMORY, on all
  * ranks. */
 HD_MUST_CHECK hd_status hd_communicator_share_halves(hd_communicator *c, double *x,
                                                      hd_shared carried, size_t all);

@@ -1,4 +1,4 @@
-/** Covariant Lyapunov vectors over windows of a run [T17] (Ginelli et al., Phys. Rev. Lett. 99,
+/** Covariant Lyapunov vectors over windows of a run [T16] (Ginelli et al., Phys. Rev. Lett. 99,
  * 130601 (2007)).
  *
  * A window begins where the one before it ended. The forward pass goes on beyond its end by the

@@ -1,5 +1,5 @@
 /** The disks as a gas: how often they collide, and the pressure that follows, with standard errors
- * [T20]. */
+ * [T19]. */
 #ifndef HDLYAP_GAS_H
 #define HDLYAP_GAS_H
 

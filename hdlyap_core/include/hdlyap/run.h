@@ -136,7 +136,7 @@ int hd_run_ranks(const hd_run *run);          /**< 1 unless shared */
 int hd_run_threads(const hd_run *run);        /**< in use, of this rank */
 int hd_run_threads_denied(const hd_run *run); /**< wanted, but not granted by OpenMP; 0: none */
 const hd_trajectory *hd_run_trajectory(const hd_run *run);
-/** What is carried; of all 4N exponents half of the vectors [T19]. NULL without exponents */
+/** What is carried; of all 4N exponents half of the vectors [T18]. NULL without exponents */
 const hd_frame *hd_run_frame(const hd_run *run);
 const hd_spectrum *hd_run_spectrum(const hd_run *run); /**< NULL without exponents */
 const hd_modes *hd_run_modes(const hd_run *run); /**< NULL unless observed, as the two below */

@@ -24,7 +24,7 @@ typedef enum hd_stage { HD_EQUILIBRATING, HD_WARMING_UP, HD_AVERAGING, HD_FINISH
 enum {
     HD_EXPONENTS_NONE = 0,
     HD_EXPONENTS_POSITIVE = -1,
-    HD_EXPONENTS_ALL = -2,            /**< half of them carried, the other one follows [T19] */
+    HD_EXPONENTS_ALL = -2,            /**< half of them carried, the other one follows [T18] */
     HD_EXPONENTS_ALL_INDEPENDENT = -3 /**< each carried by itself */
 };
 
@@ -103,7 +103,7 @@ double hd_scene_warmup(const hd_scene_def *def);
 /** Number of exponents and tangent vectors that come out, 0 .. 4N (the positive half is (4N - Z) /
  * 2). */
 int hd_scene_vectors(const hd_scene_def *def);
-/** Number of tangent vectors that are carried for them: 2N for all 4N [T19]. */
+/** Number of tangent vectors that are carried for them: 2N for all 4N [T18]. */
 int hd_scene_carried(const hd_scene_def *def);
 
 #ifdef __cplusplus

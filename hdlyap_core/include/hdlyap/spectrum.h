@@ -56,7 +56,7 @@ double hd_spectrum_ks_entropy(const hd_spectrum *spectrum); /**< sum of the posi
 double hd_spectrum_ks_entropy_error(
     const hd_spectrum *spectrum); /**< its standard error; negative if not yet known */
 /** max over pairs of |lambda_l + lambda_(4N+1-l)|; negative unless there are all 4N. Zero by
- * construction where half of them follow from the others [T19]. */
+ * construction where half of them follow from the others [T18]. */
 double hd_spectrum_pairing_error(const hd_spectrum *spectrum);
 
 enum { HD_SPECTRUM_BLOCKS_MIN = 16 };

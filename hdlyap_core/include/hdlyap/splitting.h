@@ -1,5 +1,5 @@
 /** How the covariant vectors split tangent space: angles, and whose finite-time exponents keep
- * their order [T18]. */
+ * their order [T17]. */
 #ifndef HDLYAP_SPLITTING_H
 #define HDLYAP_SPLITTING_H
 

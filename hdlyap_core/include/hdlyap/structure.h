@@ -1,5 +1,5 @@
 /** Structure factors of the vectors along and across every wave vector that the disks sample, and
- * the amplitudes of each vector's strongest wave [T21]. No field is fitted and no step is needed.
+ * the amplitudes of each vector's strongest wave [T20]. No field is fitted and no step is needed.
  */
 #ifndef HDLYAP_STRUCTURE_H
 #define HDLYAP_STRUCTURE_H

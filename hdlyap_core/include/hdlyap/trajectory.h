@@ -63,7 +63,7 @@ int hd_trajectory_disks(const hd_trajectory *trajectory);   /**< N */
 void hd_trajectory_box(const hd_trajectory *trajectory, double box[HD_DIM]);
 uint64_t hd_trajectory_collisions(const hd_trajectory *trajectory); /**< pair events so far */
 uint64_t hd_trajectory_wall_events(const hd_trajectory *trajectory);
-/** Virial of the pair events so far, by direction: sum of |p.n| n_d^2 [sigma momentum] [T20]. */
+/** Virial of the pair events so far, by direction: sum of |p.n| n_d^2 [sigma momentum] [T19]. */
 void hd_trajectory_virial(const hd_trajectory *trajectory, double virial[HD_DIM]);
 /** Estimate of the pair events per time unit, Enskog with Henderson's contact value [T2]. */
 double hd_trajectory_collision_rate(const hd_trajectory *trajectory);

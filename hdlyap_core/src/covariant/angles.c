@@ -1,4 +1,4 @@
-/** Two sets of columns -> principal angles between what they span, by Bjoerck and Golub [T18].
+/** Two sets of columns -> principal angles between what they span, by Bjoerck and Golub [T17].
  *
  * Q_a, Q_b: orthonormal bases by dgeqrf. The singular values of Q_a^T Q_b are the cosines; those
  * of Q_b - Q_a (Q_a^T Q_b) are the sines, from which angles below pi / 4 are taken, as cosines near

@@ -1,4 +1,4 @@
-/** Angles between spaces that are spanned by columns of one matrix [T18]. */
+/** Angles between spaces that are spanned by columns of one matrix [T17]. */
 #ifndef HD_ANGLES_H
 #define HD_ANGLES_H
 

@@ -1,5 +1,5 @@
 /** (R, C at the end of an interval) -> C at its start, and how much each vector grows in between
- * [T17].
+ * [T16].
  *
  * R is row-major, for BLAS the column-major lower triangle R^T; C is column-major. Columns s .. e
  * - 1 of C have no rows below e, so a panel of them needs the leading e x e triangle alone: n^3 / 3

@@ -1,4 +1,4 @@
-/** Covariant vectors, carried backwards in time through the triangles that Gram-Schmidt left [T17].
+/** Covariant vectors, carried backwards in time through the triangles that Gram-Schmidt left [T16].
  */
 #ifndef HD_BACKWARD_H
 #define HD_BACKWARD_H

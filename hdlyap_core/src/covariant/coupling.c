@@ -1,4 +1,4 @@
-/** (Q before an interval, its events, Q and R after it) -> the symmetric Y = R^-1 X [T19].
+/** (Q before an interval, its events, Q and R after it) -> the symmetric Y = R^-1 X [T18].
  *
  * J Q is replayed as Q was: W = S J Q, X = Q'^T W. As Y is symmetric, the part of X from its
  * diagonal on tells all of it, panel by panel of rows, from the last one on:

@@ -1,4 +1,4 @@
-/** What couples the two halves of a triangle of all 4N vectors, of which half are carried [T19]. */
+/** What couples the two halves of a triangle of all 4N vectors, of which half are carried [T18]. */
 #ifndef HD_COUPLING_H
 #define HD_COUPLING_H
 

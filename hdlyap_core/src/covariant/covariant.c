@@ -1,5 +1,5 @@
 /** Triangles of the forward pass -> covariant vectors of a window, and what is measured of them
- * [T17] [T18].
+ * [T16] [T17].
  *
  * The history (history.h) reaches from the window's start to the transient's end. On the way back C
  * is that of the end of the interval that is next: there vectors are looked at if they were kept,

@@ -10,7 +10,7 @@
 /** Where triangles are kept. */
 typedef struct hd_history_def {
     int disks, vectors, threads;
-    bool conjugate; /**< half of the vectors are carried: triangles are R and Y [T19] */
+    bool conjugate; /**< half of the vectors are carried: triangles are R and Y [T18] */
     long intervals; /**< of which triangles are kept, at most */
     long snapshots; /**< at most */
     bool recompute; /**< triangles are computed again instead of being kept */

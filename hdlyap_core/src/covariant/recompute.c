@@ -20,7 +20,7 @@
 
 /** Of the condition: what the forward pass accepts at most. */
 static const hd_ortho_limits LIMITS = {HD_CONDITION_MAX, 1e-6, HD_NORM_FULL};
-/** To rounding, as Y takes both ends to be [T19]. */
+/** To rounding, as Y takes both ends to be [T18]. */
 static const hd_ortho_limits LIMITS_COUPLED = {HD_CONDITION_MAX, 1e-12, HD_NORM_FULL};
 
 struct hd_recompute {

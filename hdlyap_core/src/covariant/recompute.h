@@ -16,7 +16,7 @@ long hd_recompute_stretch(long slots, int rows, int vectors);
 
 typedef struct hd_recompute_def {
     int rows, vectors, threads;
-    bool conjugate;      /**< half of the vectors are carried: a triangle is R and Y [T19] */
+    bool conjugate;      /**< half of the vectors are carried: a triangle is R and Y [T18] */
     long slots, stretch; /**< a frame is kept for every `stretch` slots, which divides `slots` */
 } hd_recompute_def;
 

@@ -1,5 +1,5 @@
 /** C and the growth over finite times -> angles and their distributions, order of finite-time
- * exponents [T18]. */
+ * exponents [T17]. */
 #include "hdlyap/splitting.h"
 
 #include <limits.h>

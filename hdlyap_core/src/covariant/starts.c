@@ -1,8 +1,8 @@
-/** (triangles of intervals) -> C of two starts, how much the first one's vectors grow [T17].
+/** (triangles of intervals) -> C of two starts, how much the first one's vectors grow [T16].
  *
  * Where all vectors are carried, a start is a triangle (backward.h). Where half of them are, it is
  * the triangle C_11 of that half and the symmetric Z of the stable space, the graph of Z in the
- * coordinates (Q, J Q) [T19]. Everything else is made of these when it is looked at. Z is kept with
+ * coordinates (Q, J Q) [T18]. Everything else is made of these when it is looked at. Z is kept with
  * both indices reversed, column-major, upper triangle, for dsygst. The second Z is the first one
  * and a part of a few random directions, W sign W^T. */
 #include "covariant/starts.h"
@@ -173,7 +173,7 @@ static hd_status complete(hd_starts *s, double *whole, const double *c11, const 
     return HD_OK;
 }
 
-/** What the diagonals of triangles say of growth but for those of C [T17]. */
+/** What the diagonals of triangles say of growth but for those of C [T16]. */
 static void end_growth(hd_starts *s)
 {
     for (int col = s->half; col < s->vectors; col++) {

@@ -1,5 +1,5 @@
-/** Two starts of covariant vectors, carried backwards together [T17]; where half of the vectors are
- * carried forward, half of what that takes does [T19]. */
+/** Two starts of covariant vectors, carried backwards together [T16]; where half of the vectors are
+ * carried forward, half of what that takes does [T18]. */
 #ifndef HD_STARTS_H
 #define HD_STARTS_H
 
@@ -18,7 +18,7 @@ void hd_starts_free(hd_starts *starts);
 void hd_starts_begin(hd_starts *starts, uint64_t seed, uint64_t stream);
 
 /** From the end of an interval to its start: the first one, or both. `factor` is R [row-major],
- * `coupling` Y [T19], NULL where all vectors are carried. HD_ILL_CONDITIONED. */
+ * `coupling` Y [T18], NULL where all vectors are carried. HD_ILL_CONDITIONED. */
 HD_MUST_CHECK hd_status hd_starts_step(hd_starts *starts, const double *factor,
                                        const double *coupling, bool both);
 

@@ -1,4 +1,4 @@
-/** Frame -> structure factors of every vector at every wave vector [T21].
+/** Frame -> structure factors of every vector at every wave vector [T20].
  *
  * The sums over the disks of dq_x and dq_y times products of a cosine or sine of x and one of y are
  * two matrix products, over the x and the y rows of the frame where they lie, some waves at a time:

@@ -1,4 +1,4 @@
-/** 2N vectors -> all 4N, by J (dq, dp) = (dp, -dq) [T19].
+/** 2N vectors -> all 4N, by J (dq, dp) = (dp, -dq) [T18].
  *
  * Q is row-major (stride >= n), for BLAS the column-major Q^T with its first rows the first
  * vectors. Panels, and what is turned by J, are column-major with a column for each vector. */

@@ -1,4 +1,4 @@
-/** The conjugate half of a frame: what of all 4N vectors need not be carried [T19].
+/** The conjugate half of a frame: what of all 4N vectors need not be carried [T18].
  *
  * Carried are 2N vectors Q whose span is its own complement with respect to J (dq, dp) = (dp, -dq):
  * orthonormal, and isotropic, Q^T J Q = 0. Then Gram-Schmidt of all 4N is [Q, J Q in reverse

@@ -148,7 +148,7 @@ static void carry(exact_frame *x, hd_trajectory *trajectory, hd_event_log *log, 
     }
 }
 
-/** That of a run: of all 4N vectors half and its conjugates [T19]. */
+/** That of a run: of all 4N vectors half and its conjugates [T18]. */
 static hd_frame *first_frame(const hd_scene_def *scene)
 {
     const int n = hd_scene_vectors(scene), carried = hd_scene_carried(scene);
