@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "averages/blocks.h"
-#include "base/check.h"
 #include "base/memory.h"
 #include "observe/observable.h"
 
@@ -18,8 +17,8 @@ typedef struct counts {
 } counts;
 
 struct hd_gas {
-    double disks, area,
-        kinetic[HD_DIM];      /**< of kinetic: that along each direction, twice, in the mean */
+    double disks, area;
+    double kinetic[HD_DIM];   /**< twice the mean kinetic energy along each direction */
     counts last;              /**< where the last sample ended */
     double time, sum[SERIES]; /**< since the beginning */
     hd_blocks blocks;
@@ -97,7 +96,7 @@ void hd_gas_add(hd_gas *gas, const hd_trajectory *trajectory)
     hd_blocks_add(&gas->blocks, sample, dt);
 }
 
-/** Of factor times the sum of series first .. last, per time. */
+/** Standard error of factor times the sum of series first .. last, per time. */
 static double error_of(const hd_gas *gas, int first, int last, double factor)
 {
     hd_part parts[SERIES];

@@ -25,8 +25,8 @@ enum {
     HD_NEEDS_MODES = 2,   /**< the modes of all vectors, at measured states */
     HD_NEEDS_REPORTS = 4, /**< a measured state at every report */
     HD_NEEDS_FIELDS = 8,  /**< a measured state where fields are due */
-    HD_NEEDS_ALL = 16,    /**< all vectors on each rank, at those of the two above */
-    HD_NEEDS_CLOSE = 32   /**< states no farther apart than it says: see sampling */
+    HD_NEEDS_ALL = 16,    /**< the vectors that are read at reports or fields, on each rank */
+    HD_NEEDS_CLOSE = 32   /**< measured states no farther apart than `sampling` says */
 };
 
 /** What an observable is made from, and what it goes on to know. */
@@ -48,8 +48,10 @@ typedef struct hd_view {
     const hd_trajectory *trajectory;
     const hd_spectrum *spectrum; /**< up to now; NULL without exponents */
     hd_columns carried;          /**< orthonormal vectors that this rank carries */
-    hd_columns vectors[2];       /**< those that it has: these, or all of them, and then none */
-    const double *q, *p;         /**< [2N] each; NULL unless modes are looked at */
+    /** A single rank: all n, and none. One of several: those that it carries, and their partners,
+     * if only half of the vectors are carried. */
+    hd_columns vectors[2];
+    const double *q, *p; /**< [2N] each, to measure and report; NULL unless modes are looked at */
 } hd_view;
 
 /** Functions may be NULL: then there is nothing to do. `self` is what `create` made. */
@@ -70,7 +72,8 @@ typedef struct hd_observable {
     hd_status (*share)(void *self, const hd_observing *with);
     /** The averages take the snapshot up. */
     void (*add)(void *self, const hd_observing *with, const hd_view *state);
-    /** At a report at which the vectors are known: view->vectors[0] are all of them. */
+    /** At a report at which the vectors are known: state->vectors[0] are those that can be read, of
+     * all ranks. */
     void (*report)(void *self, const hd_observing *with, const hd_view *state);
     /** Longest time from this measured state to the next; INFINITY. */
     double (*sampling)(void *self, const hd_observing *with);

@@ -101,7 +101,7 @@ double hd_observables_sampling(const hd_observables *o)
     return longest;
 }
 
-/** With the disks, where they are needed. */
+/** The state, with positions and momenta where modes are looked at. */
 static hd_view seen(const hd_observables *o, const hd_view *state)
 {
     hd_view view = *state;

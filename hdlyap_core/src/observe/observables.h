@@ -32,7 +32,7 @@ unsigned hd_observables_looked_at(const hd_observables *observables);
 bool hd_observables_any(const hd_observables *observables);
 /** True if one has all of these needs (set of HD_NEEDS_*). */
 bool hd_observables_need(const hd_observables *observables, unsigned needs);
-/** True if it is this one. */
+/** True if this row is one of them. */
 bool hd_observables_has(const hd_observables *observables, hd_observed row);
 /** Longest time from this measured state to the next, for those that follow something; INFINITY
  * without one. */
@@ -41,13 +41,13 @@ double hd_observables_sampling(const hd_observables *observables);
 HD_MUST_CHECK hd_status hd_observables_measure(hd_observables *observables, const hd_view *state);
 /** The averages take up the snapshot of this state. */
 void hd_observables_add(hd_observables *observables, const hd_view *state);
-/** At a report; state->vectors[0] are all vectors. */
+/** At a report; state->vectors[0] are the vectors that can be read, of all ranks. */
 void hd_observables_report(hd_observables *observables, const hd_view *state);
 
 /** The averages of all of them begin here. */
 void hd_observables_clear(hd_observables *observables, const hd_view *here);
 
-/** Those that need a frame, or those that do not. */
+/** Arrays of those that need a frame, or of those that do not. */
 void hd_observables_archive(hd_observables *observables, hd_archive *archive, bool of_frame,
                             const hd_trajectory *now);
 

@@ -1,5 +1,4 @@
 /** Phases of LP steps and of T steps: two observables of one kind. */
-#include "base/check.h"
 #include "hdlyap/phases.h"
 #include "modes/archived.h"
 #include "observe/observable.h"

@@ -9,14 +9,15 @@
 #include "covariant/archived.h"
 #include "observe/observable.h"
 
+/** Wall seconds after which no further step of the way back begins in a call. */
 static const double GO_SECONDS = 0.1;
 
 struct hd_windows {
     hd_covariant *covariant;
-    hd_communicator *communicator; /**< NULL: a single rank. Others do the same on the way back */
+    hd_communicator *communicator; /**< NULL: a single rank; all of them go the same way back */
     double *gathered;              /**< [4N * n], vectors of all ranks; NULL of a single one */
     double sampling;               /**< from the beginning of a window to its first look */
-    bool due;                      /**< one begins with the next interval */
+    bool due;                      /**< a window begins with the next interval */
     double seconds;                /**< wall seconds spent here */
 };
 
@@ -25,7 +26,7 @@ double *hd_windows_seconds(hd_windows *windows) { return &windows->seconds; }
 void hd_windows_lose(hd_windows *windows) { windows->due = true; }
 bool hd_windows_begin(const hd_windows *windows) { return windows->due; }
 
-/** Adds the seconds since then to the cost; what one rank cannot do, none does. */
+/** Adds the seconds since `start` to the cost; what one rank cannot do, none does. */
 static hd_status timed(hd_windows *windows, double start, hd_status status)
 {
     status = hd_communicator_agree(windows->communicator, status);
@@ -84,7 +85,7 @@ bool hd_windows_is_going(const hd_windows *windows)
     return !windows->due && hd_covariant_is_going_back(windows->covariant);
 }
 
-/** By the clock of rank 0. */
+/** True while a call may take another step, by the clock of rank 0. */
 static bool has_time(const hd_windows *windows, double start)
 {
     double left = hd_clock_now() - start < GO_SECONDS;

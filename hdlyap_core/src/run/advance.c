@@ -7,11 +7,13 @@
 #include "base/check.h"
 #include "run/schedule.h"
 
-static const double EVENTS_MAX = 200000.0; /* bounds memory, and the wait for an answer */
-/** None is planned shorter: simulated time must move. */
+/** Events of an advance: bounds memory, and the wait for an answer. */
+static const double EVENTS_MAX = 200000.0;
+/** No advance is planned shorter: simulated time must move. */
 static const double SHORTEST = 1e-12;
 
-/** Pair and wall events of one disk per time unit, roughly: momenta across a box are about 1. */
+/** Pair and wall events of one disk per time unit, roughly: it meets walls as with a momentum of 1
+ * across the box. */
 static double events_per_disk(const hd_advance *advance, const hd_scene_def *scene)
 {
     double box[HD_DIM],
@@ -74,8 +76,8 @@ bool hd_advance_is_done(const hd_advance *advance)
     return hd_advance_now(advance) >= advance->plan.end;
 }
 
-/** A channel of hardly more than a disk's width can have 1e9 wall events in a time unit: grows step
- * by step, each by what the last one showed. */
+/** The longest advance grows step by step, each by what the last one showed: a channel of hardly
+ * more than a disk's width can have 1e9 wall events in a time unit. */
 static void learn(hd_advance *advance)
 {
     const double length = advance->plan.end - advance->plan.begin;

@@ -16,7 +16,8 @@ typedef struct hd_advance_plan {
 typedef struct hd_advance {
     hd_trajectory *trajectory;
     double longest; /**< time units; keeps to EVENTS_MAX, as far as the rate of events is known */
-    double bound; /**< of it: several times the events of the longest one, as this scene has them */
+    double
+        bound; /**< that `longest` never exceeds: several times EVENTS_MAX at this scene's rate */
     hd_advance_plan plan;
 } hd_advance;
 
@@ -27,9 +28,9 @@ void hd_advance_clear(hd_advance *advance);
 
 double hd_advance_now(const hd_advance *advance); /**< simulated time */
 
-/** By less, simulated time would not move. */
+/** Shortest plan [time units]: by less, simulated time would not move. */
 double hd_advance_shortest(const hd_advance *advance);
-/** As far as the rate of events is known. */
+/** Longest plan [time units], as far as the rate of events is known. */
 double hd_advance_longest(const hd_advance *advance);
 
 /** Plans from now to at most `stop`. */

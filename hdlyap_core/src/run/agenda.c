@@ -87,7 +87,7 @@ static double next_stop(const hd_agenda *a, const hd_pace *p)
                         : stop;
 }
 
-/** Time until the phases must be known; INFINITY if they need not. */
+/** Time until the phases must be known; INFINITY if they need not, or that time is over. */
 static double phases_left(const hd_agenda *a, const hd_pace *p)
 {
     const double left = a->sample_begin + p->phases - p->now;

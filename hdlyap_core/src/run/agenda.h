@@ -24,8 +24,8 @@ typedef struct hd_wanted {
 typedef struct hd_agenda {
     hd_schedule schedule;
     hd_wanted in_force;
-    double field_interval; /**< asked for */
-    bool fields_said;      /**< by a first call, which holds at once */
+    double field_interval; /**< asked for; in_force has the one that holds */
+    bool fields_said;      /**< an interval of fields was asked for; the first one holds at once */
     double interval_end;   /**< the frame is orthonormalised next */
     hd_limit limit;        /**< why not later */
     double sample_begin;   /**< the last measured state */
@@ -65,7 +65,7 @@ double hd_agenda_next_report(const hd_agenda *agenda);
 /** The first stage at or after `stage` that has any length begins now. */
 void hd_agenda_enter(hd_agenda *agenda, hd_stage stage, double now);
 
-/** Forgets what was due with the last advance. */
+/** An advance begins: forgets what was due with the last one, but for the end of a stage. */
 void hd_agenda_begin(hd_agenda *agenda);
 /** Where the next interval ends, and whether the sample ends with it, unless one is under way. */
 void hd_agenda_plan(hd_agenda *agenda, const hd_pace *pace);
@@ -80,9 +80,9 @@ hd_limit hd_agenda_limit(const hd_agenda *agenda);
 void hd_agenda_pass_interval(hd_agenda *agenda, double now);
 /** A state is measured now; what comes is a new sample. */
 void hd_agenda_pass_sample(hd_agenda *agenda, double now);
-/** True if that was now. */
+/** True if the last measured state is that of now. */
 bool hd_agenda_is_measured(const hd_agenda *agenda, double now);
-/** The report that is due; what is due with it is remembered. reached: the target is. */
+/** A report is made now; what is due with it is remembered. reached: the target is. */
 void hd_agenda_pass_report(hd_agenda *agenda, bool reached);
 
 /** True if any of these is due by now. */
@@ -99,7 +99,8 @@ double hd_agenda_interval_expected(const hd_agenda *agenda, const hd_interval *i
 /** Something else is asked for; framed: of a run with vectors, the sample ends with its interval
  * then. */
 void hd_agenda_ask(hd_agenda *agenda, bool framed);
-/** The same of the interval of fields. The first call holds at once. */
+/** Another interval of fields is asked for. The first one holds at once, the others as what
+ * hd_agenda_ask is told of. */
 void hd_agenda_ask_fields(hd_agenda *agenda, double interval, bool framed);
 /** Time from which a change holds that is asked for now. */
 double hd_agenda_change_time(const hd_agenda *agenda, double now, bool framed);

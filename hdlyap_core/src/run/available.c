@@ -33,6 +33,7 @@ static double number_in(const char *path, const char *name, double otherwise)
     return number;
 }
 
+/** A number of a group: in the file `name` of its folder. */
 static double of_group(const char *folder, const char *name, const char *key, double otherwise)
 {
     char path[PATH];
@@ -40,8 +41,8 @@ static double of_group(const char *folder, const char *name, const char *key, do
     return number_in(path, key, otherwise);
 }
 
-/** Of a group and those above it, down to `root` characters of its folder. Pages of files that are
- * not in use give way. */
+/** What a group and those above it leave; `folder` loses its last parts down to `root` characters.
+ * Pages of files that are not in use give way. */
 static void see_groups(hd_room *room, char *folder, size_t root, int version)
 {
     static const char *const limit[] = {"memory.limit_in_bytes", "memory.max"};
@@ -58,7 +59,7 @@ static void see_groups(hd_room *room, char *folder, size_t root, int version)
     }
 }
 
-/** Its line is 0::/path of version 2, or 4:memory:/path of version 1. */
+/** A line of /proc/self/cgroup: 0::/path of version 2, or 4:memory:/path of version 1. */
 static void see_group(hd_room *room, char *line)
 {
     static const char *const root[] = {"/sys/fs/cgroup/memory", "/sys/fs/cgroup"};

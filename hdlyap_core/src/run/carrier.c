@@ -20,12 +20,13 @@
 /** Loss of orthogonality allowed where nobody looks at the vectors, as the logarithms telescope
  * [T5]; its square enters a mean. */
 static const double DEFECT_LOOSE = 1e-4;
-/** The same where somebody does. */
+/** Loss of orthogonality allowed where somebody looks at the vectors. */
 static const double DEFECT_MEASURED = 1e-6;
 /** Loss of orthogonality allowed where Y takes both ends of an interval to be orthonormal to
  * rounding [T19]: a second pass. */
 static const double DEFECT_COUPLED = 1e-12;
-/** Part of an interval's share of the accuracy that its square may be, as it too bounds a mean. */
+/** Square of the loss of orthogonality, at most, as a part of the interval's share of the accuracy:
+ * it bounds a mean, too. */
 static const double DEFECT_SHARE = 0.1;
 /** Pieces of an interval, beyond which dividing costs more than it saves [T6]; and beyond which
  * what even repeated passes cannot factor is given up. */
@@ -110,7 +111,8 @@ static hd_status prepare_conjugate(hd_carrier *c, const hd_scene_def *scene)
     return hd_conjugate_create(&c->conjugate, HD_ROWS * c->disks, completed(scene, here));
 }
 
-/** Of a frame that is orthonormal in the whole norm: the next one may be so in that of dq alone. */
+/** Keeps the halves of a frame that is orthonormal in the whole norm: the next one may be so in the
+ * norm of dq alone. */
 static hd_status keep_halves(hd_carrier *c)
 {
     const hd_shared shared = {2, (size_t)c->vectors, (size_t)hd_frame_stride(c->frame),
@@ -280,7 +282,7 @@ static void piece_accepted(hd_carrier *c, double length, bool averaging)
     cost->spectrum += hd_clock_now() - start;
 }
 
-/** Before the window's first orthonormalisation. */
+/** A window may start, before its first orthonormalisation. */
 static hd_status window_starts(hd_carrier *c, const hd_carrying *how)
 {
     if (!how->windows) return HD_OK;
@@ -289,7 +291,8 @@ static hd_status window_starts(hd_carrier *c, const hd_carrying *how)
                             hd_trajectory_time(how->trajectory) - c->log->duration, how->expected);
 }
 
-/** The frame is orthonormal in the norm of dq: in the whole norm, too, at the same time. */
+/** A frame that is orthonormal in the norm of dq alone becomes so in the whole norm, at the same
+ * time. */
 static hd_status complete_norm(hd_carrier *c, bool averaging)
 {
     const double start = hd_clock_now();

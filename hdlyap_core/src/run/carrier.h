@@ -13,14 +13,15 @@
 /** What rounding may have done. */
 typedef struct hd_rounding {
     double condition_max; /**< so far: how well the start of the averaging is known */
-    double sum;           /**< HD_ROUNDING times that and the conditions since, summed */
+    double
+        sum; /**< HD_ROUNDING times condition_max as the averaging began and all conditions since */
 } hd_rounding;
 
 /** The fields are carrier.c's, and of checkpoint.c. Without exponents pointers are NULL. */
 typedef struct hd_carrier {
     hd_communicator *communicator; /**< NULL: a single rank */
     int disks, vectors, carried, positive, threads, threads_denied;
-    double accuracy, collision; /**< of an exponent; between two collisions of a disk */
+    double accuracy, collision; /**< asked of an exponent; time between two collisions of a disk */
     hd_event_log *log;
     hd_frame *frame;
     hd_ortho *ortho;
@@ -50,9 +51,9 @@ HD_MUST_CHECK hd_status hd_carrier_create(hd_carrier *carrier, const hd_scene_de
                                           double collision, double block,
                                           hd_communicator *communicator, hd_cost *cost);
 void hd_carrier_free(hd_carrier *carrier);
-/** On each of so many ranks. */
+/** Bytes on each of so many ranks. */
 double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks);
-/** Threads that a rank of these may use. */
+/** Threads that this rank may use; communicator may be NULL. */
 int hd_carrier_threads_most(const hd_scene_def *scene, const hd_communicator *communicator);
 
 /** The norm in which the frame is orthonormalised where nobody wants its vectors; windowing:

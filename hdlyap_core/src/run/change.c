@@ -9,7 +9,7 @@ double hd_run_change_time(const hd_run *run)
     return hd_agenda_change_time(&run->agenda, hd_run_time(run), run->carrier.frame);
 }
 
-/** Of a run that does not stand at its end: until it holds, time goes on. */
+/** Time goes on until a change holds: the averaging must last until then. */
 static hd_status check_duration(const hd_run *run, double duration, char *message, size_t size)
 {
     const double from = hd_run_change_time(run);

@@ -5,7 +5,6 @@
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "averages/archived.h"
 #include "base/check.h"
@@ -336,7 +335,7 @@ static hd_status restore(hd_run *run, hd_archive *archive, const hd_checkpoint *
     run->advance.plan.end = fmin(run->advance.plan.end, last);
     times_expect(run, archive);
     plan_expect(run, archive);
-    /* else a file can ask for an advance without end */
+    /* no file may ask for an advance without end */
     const double bound = run->advance.bound;
     run->advance.longest = fmin(run->advance.longest, bound);
     run->advance.plan.end = fmin(run->advance.plan.end, hd_run_time(run) + bound);

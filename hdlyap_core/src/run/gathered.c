@@ -7,7 +7,7 @@
 
 void hd_gathered_free(hd_gathered *g) { hd_memory_free(g->room); }
 
-/** Of a half both halves, and the half itself. */
+/** Where a half is carried: both halves, and the half as it is gathered. */
 double hd_gathered_bytes(const hd_scene_def *scene, int ranks)
 {
     const double rows = HD_ROWS * (double)scene->disks, carried = hd_scene_carried(scene);
@@ -26,7 +26,7 @@ static hd_status reserve(hd_gathered *g, const hd_carrier *c, size_t size)
     return hd_communicator_agree(c->communicator, g->size >= size ? HD_OK : HD_NO_MEMORY);
 }
 
-/** All 4N: the half, and with it the other one. */
+/** All 4N vectors, from the half that is carried. */
 static hd_status gather_both_halves(hd_gathered *g, const hd_carrier *c)
 {
     const int rows = hd_frame_rows(c->frame), n = c->carried;

@@ -16,7 +16,8 @@ void hd_gathered_free(hd_gathered *gathered);
 /** Bytes of all that can be wanted of a scene, on each of so many ranks. */
 double hd_gathered_bytes(const hd_scene_def *scene, int ranks);
 
-/** Those from `first` on; a single rank has all of them as they are. HD_NO_MEMORY. */
+/** Makes the vectors from `first` on readable; of a single rank all of them, as they are.
+ * HD_NO_MEMORY. */
 HD_MUST_CHECK hd_status hd_gather(hd_gathered *gathered, const hd_carrier *carrier, int first);
 
 #endif

@@ -11,7 +11,8 @@
 #include "hdlyap/hdlyap.h"
 #include "hdlyap/room.h"
 
-/** What must be the same on all of them, in whole numbers of the size that is shared. */
+/** What must be the same on all ranks; its size is a multiple of that of a double, which is what
+ * they share. */
 typedef struct program {
     char text[64];
 } program;

@@ -33,8 +33,8 @@ static bool fits(const hd_scene_def *def, hd_room room)
     return hd_room_needed(def, threads, room.ranks) <= room.bytes;
 }
 
-/** Largest value of a number of the scene, below the one it has, with which it fits; 0: none. The
- * number is within the scene. */
+/** Largest value of a number of the scene, below the one it has, with which the scene fits; 0:
+ * none. `number` points into the copy. */
 static int most_that_fits(const hd_scene_def *copy, hd_room room, int *number)
 {
     int least = 0, most = *number;

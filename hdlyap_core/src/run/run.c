@@ -35,7 +35,7 @@ static bool is_measured(const hd_run *run)
     return hd_agenda_is_measured(&run->agenda, hd_run_time(run));
 }
 
-/** True while somebody has a need of measured states. */
+/** True if averages are taken, and an observable that is looked at has all of these needs. */
 static bool is_needed(const hd_run *run, unsigned needs)
 {
     return is_averaging(run) && hd_observables_need(&run->observables, needs);
@@ -263,6 +263,7 @@ static hd_status end_sample(hd_run *run)
     return measure(run, true);
 }
 
+/** A sample ends here, before its interval was to end. */
 static hd_status end_early(hd_run *run)
 {
     run->cost.limit = HD_LIMIT_LOOK;

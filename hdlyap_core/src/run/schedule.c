@@ -12,8 +12,8 @@
 /** Ends that are this close are one: a report and the end of its stage as a part of a report
  * interval that fits into the stage, an orthonormalisation and a cut as a part of its interval. */
 static const double CLOSE = 1e-6;
-/** The same of the present time and the end of the stage, as a part of it: what is left of a
- * duration with 15 digits, which is 23 eps, and of some sums. */
+/** The present time is the end of the stage, but for this part of it: what is left of a duration
+ * with 15 digits, which is 23 eps, and of some sums. */
 static const double ROUNDING = 64.0 * DBL_EPSILON;
 
 hd_schedule hd_schedule_of(const hd_scene_def *scene)

@@ -50,7 +50,7 @@ unsigned hd_schedule_pass(hd_schedule *schedule);
 void hd_schedule_change(hd_schedule *schedule, const hd_scene_def *scene, double now);
 /** True if the end of the stage is not ahead, but for rounding. */
 bool hd_schedule_is_over(const hd_schedule *schedule, double now);
-/** True if it is not behind, but for rounding. */
+/** True if the end of the stage is not behind, but for rounding. */
 bool hd_schedule_reaches(const hd_schedule *schedule, double now);
 
 /** The next report that is the stage's first at or after a multiple of `interval` since its start
