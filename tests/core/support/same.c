@@ -132,6 +132,7 @@ void expect_same_state(hd_run *a, hd_run *b)
     assert_int_equal(hd_trajectory_wall_events(hd_run_trajectory(a)),
                      hd_trajectory_wall_events(hd_run_trajectory(b)));
     if (hd_run_modes(a)) expect_same_modes(hd_run_modes(a), hd_run_modes(b));
+    CHECK_CLOSE(hd_run_followed(a), hd_run_followed(b), 0.0);
     if (hd_run_phases(a)) expect_same_phases(hd_run_phases(a), hd_run_phases(b));
     if (hd_run_gas(a)) expect_same_gas(hd_run_gas(a), hd_run_gas(b));
     if (hd_run_localization(a))

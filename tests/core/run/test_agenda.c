@@ -1,0 +1,37 @@
+/** When samples end, interval by interval. */
+#include "scenes.h"
+#include "testing.h"
+
+#include "run/agenda.h"
+
+/** Goes to the end of the interval that is planned, and plans the next one. */
+static void next_interval(hd_agenda *agenda, hd_pace *pace)
+{
+    pace->now = hd_agenda_next(agenda, pace);
+    hd_agenda_pass_interval(agenda, pace->now);
+    hd_agenda_plan(agenda, pace);
+}
+
+/** Averages that begin anew where a sample was about to end have a whole one first, although the
+ * interval that is planned stays. */
+TEST(the_first_sample_after_a_reset_is_a_whole_one)
+{
+    const hd_scene_def scene = scene(.disks = 30, .density = 0.6, .equilibration = 0.0,
+                                     .warmup = 0.0, .duration = 1000.0, .report_interval = 1000.0);
+    hd_agenda agenda = hd_agenda_of(&scene, 1.0);
+    hd_interval interval = hd_interval_first(4.0, 4.0, 1e-8);
+    hd_pace pace = {.framed = true,
+                    .phases = INFINITY,
+                    .snapshot = INFINITY,
+                    .interval = &interval,
+                    .longest = INFINITY};
+    hd_agenda_enter(&agenda, HD_AVERAGING, 0.0);
+    hd_agenda_plan(&agenda, &pace);
+    int intervals = 1;
+    for (; !agenda.sample_ends && intervals < 100; intervals++) next_interval(&agenda, &pace);
+    print_message("a sample of %d intervals\n", intervals);
+    assert_true(intervals > 2 && intervals < 100);
+    hd_agenda_enter(&agenda, HD_AVERAGING, pace.now);
+    pace.now = hd_agenda_next(&agenda, &pace);
+    assert_int_equal(hd_agenda_reached(&agenda, &pace), HD_DUE_INTERVAL);
+}
