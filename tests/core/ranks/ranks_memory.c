@@ -33,6 +33,28 @@ TEST(memory_falls_with_the_ranks)
     hd_run_free(run);
 }
 
+/** At a report both halves are on each rank, and the half from which they follow. */
+TEST(gathered_vectors_are_estimated)
+{
+    const hd_scene_def scene = scene_from(short_scene(200, HD_OBSERVE_HYDRO),
+                                          .exponents = HD_EXPONENTS_ALL);
+    hd_run *run;
+    ledger_reset_peak();
+    const double before = (double)ledger_now().live;
+    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    const double created = (double)ledger_now().live;
+    hd_run_watch(run, 1.0, 0);
+    finish(run);
+    const double peak = (double)ledger_now().peak;
+    const double needed = hd_room_needed(&scene, 1, ranks->ranks);
+    if (ranks->rank == 0)
+        print_message("%.2f MB gathered; %.2f MB of each rank, estimated %.3f times that\n",
+                      1e-6 * (peak - created), 1e-6 * (peak - before), needed / (peak - before));
+    assert_true(peak - created >= 3.0 * 8.0 * 800.0 * 400.0);
+    assert_true(needed > 0.95 * (peak - before) && needed < 1.25 * (peak - before));
+    hd_run_free(run);
+}
+
 /** Whatever it is that the last rank does not get: all of them end, say so, and give back what they
  * had. */
 TEST(what_one_does_not_get_ends_all)
