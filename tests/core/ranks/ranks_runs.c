@@ -220,6 +220,21 @@ TEST(vectors_are_gathered_for_reports)
     expect_vectors_of_one_rank(HD_EXPONENTS_ALL);
 }
 
+/** Of fields alone, where they are due. */
+TEST(vectors_are_gathered_for_fields)
+{
+    const hd_scene_def scene = scene_of_runs(30, HD_OBSERVE_FIELDS);
+    hd_run *run;
+    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    hd_run_fields_from(run, 40);
+    finish(run);
+    const hd_columns got = hd_run_frame_columns(run);
+    assert_true(hd_run_fields_due(run));
+    assert_int_equal(got.first + got.count, hd_run_vectors(run));
+    assert_true(got.first <= 40);
+    hd_run_free(run);
+}
+
 /** Windows, kept or computed again, and the way back through them. */
 TEST(covariant_vectors_are_those_of_one_rank)
 {
