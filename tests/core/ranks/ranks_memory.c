@@ -6,6 +6,11 @@
 #include "scenes.h"
 #include "together.h"
 
+static double room_of_machine = 1e15;
+
+/** What a machine leaves to all of its ranks. */
+hd_room hd_room_available(void) { return (hd_room){room_of_machine, "machine", 1}; }
+
 static hd_scene_def short_scene(int disks, unsigned observe)
 {
     return scene(.disks = disks, .density = 0.7, .aspect = 0.3, .seed = 3, .equilibration = 0.1,
@@ -52,6 +57,20 @@ TEST(gathered_vectors_are_estimated)
                       1e-6 * (peak - created), 1e-6 * (peak - before), needed / (peak - before));
     assert_true(peak - created >= 3.0 * 8.0 * 800.0 * 400.0);
     assert_true(needed > 0.95 * (peak - before) && needed < 1.25 * (peak - before));
+    hd_run_free(run);
+}
+
+/** The room of a machine is that of all its ranks. */
+TEST(ranks_share_a_machine)
+{
+    const hd_scene_def scene = short_scene(50, 0);
+    const double all = ranks->ranks * hd_room_needed(&scene, 1, ranks->ranks);
+    hd_run *run;
+    room_of_machine = 0.99 * all;
+    assert_int_equal(hd_run_create_shared(&run, &scene, ranks, NULL, 0), HD_NO_MEMORY);
+    room_of_machine = 1.01 * all;
+    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    room_of_machine = 1e15;
     hd_run_free(run);
 }
 

@@ -10,6 +10,7 @@
 #include "hdlyap/modes.h"
 #include "hdlyap/room.h"
 #include "hdlyap/wave.h"
+#include "observe/observables.h"
 
 static double asked_for(const hd_scene_def *scene)
 {
@@ -85,6 +86,14 @@ TEST(fields_take_no_more_the_more_there_are)
     }
     print_message("%.0f and %.0f bytes of each field\n", of_one[0], of_one[1]);
     assert_true(of_one[1] <= of_one[0]);
+}
+
+/** Beside what the observables have: positions and momenta, of two directions each. */
+TEST(a_state_is_counted_for_modes)
+{
+    const hd_scene_def bare = short_run(50, 10, 0), seen = short_run(50, 10, HD_OBSERVE_MODES);
+    CHECK_CLOSE(hd_room_needed(&seen, 1, 1) - hd_room_needed(&bare, 1, 1),
+                hd_observables_bytes(&seen, 1) + 4.0 * 50.0 * sizeof(double), 1e-6);
 }
 
 TEST(what_is_too_much_is_said)
