@@ -69,6 +69,19 @@ TEST(the_boundary_says_which_modes_there_are)
     }
 }
 
+/** Before the first look, and after a reset, phases are those of no time. */
+TEST(a_reset_forgets_when_phases_were_followed)
+{
+    const hd_scene_def scene = scene_from(channel(HD_PERIODIC, HD_PERIODIC), .warmup = 100.0);
+    hd_run *run = created(&scene);
+    assert_true(hd_run_followed(run) < 0);
+    until_time(run, 300.0);
+    assert_true(hd_run_followed(run) > 200.0);
+    CHECK_OK(hd_run_reset_average(run));
+    assert_true(hd_run_followed(run) < 0);
+    hd_run_free(run);
+}
+
 /** LP(1,0) of the periodic channel by two ways of looking. Within 4 standard errors of the two. */
 TEST(coarse_reports_see_the_same_rotation)
 {

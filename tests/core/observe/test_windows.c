@@ -1,5 +1,6 @@
 /** Covariant vectors of whole runs: when windows begin, what gives them up, and what a run refuses
  * for them. */
+#include <dlfcn.h>
 #include <errno.h>
 #include <float.h>
 #include <string.h>
@@ -57,6 +58,29 @@ static void check_windows(const hd_run *run, long windows, double start)
     assert_int_equal(hd_modes_samples(hd_covariant_half(c, 0)), 10 * windows);
     assert_int_equal(hd_modes_samples(hd_covariant_half(c, 1)), 10 * windows);
     assert_int_equal(hd_modes_samples(hd_covariant_of_frame(c)), 10 * windows);
+}
+
+static bool step_fails;
+
+/** The core's own, or one that finds no memory. */
+hd_status hd_covariant_step(hd_covariant *covariant)
+{
+    hd_status (*real)(hd_covariant *);
+    void *found = dlsym(RTLD_NEXT, "hd_covariant_step");
+    memcpy(&real, &found, sizeof real);
+    return step_fails ? HD_NO_MEMORY : real(covariant);
+}
+
+TEST(a_way_back_that_fails_is_said)
+{
+    const hd_scene_def scene = small();
+    hd_run *run = created(&scene);
+    step_to_the_way_back(run);
+    step_fails = true;
+    assert_int_equal(hd_run_advance(run), HD_NO_MEMORY);
+    step_fails = false;
+    CHECK_OK(hd_run_advance(run));
+    hd_run_free(run);
 }
 
 /** As many as fit with the last one's transient; all are done before the run is finished. */
