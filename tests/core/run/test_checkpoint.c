@@ -230,6 +230,28 @@ TEST(what_the_target_has_ended_stays_ended)
     hd_run_free(run);
 }
 
+/** Not with the interval that is under way. */
+TEST(another_target_holds_at_once)
+{
+    const hd_scene_def def = scene(.disks = 20, .density = 0.1, .exponents = 3, .threads = 1,
+                                   .equilibration = 5.0, .warmup = 20.0, .duration = 1e4,
+                                   .report_interval = 0.05);
+    hd_run *run = kept_run(&def);
+    while (!(hd_run_cost(run).std_error > 0)) CHECK_OK(hd_run_advance(run));
+    while (!hd_run_report_due(run) || hd_agenda_is_measured(&run->agenda, hd_run_time(run)))
+        CHECK_OK(hd_run_advance(run));
+    const hd_scene_def asked = scene_from(def, .target_std_error = 2 * hd_run_cost(run).std_error);
+    hd_run *other = kept_and_resumed(run, PATH, &asked);
+    const double now = hd_run_time(other);
+    assert_true(other->agenda.interval_end > now + 2 * def.report_interval);
+    do CHECK_OK(hd_run_advance(other));
+    while (!hd_run_report_due(other));
+    CHECK_CLOSE(hd_run_time(other), now + def.report_interval, 1e-9);
+    assert_int_equal(hd_run_stage(other), HD_FINISHED);
+    hd_run_free(run);
+    hd_run_free(other);
+}
+
 /** Turns of a thousandth of a sample say nothing about a velocity, and end no tracking. */
 TEST(an_end_that_cuts_a_sample_short_keeps_the_phases)
 {
