@@ -1,5 +1,9 @@
 /** What each of several ranks asks for, and what becomes of a run if one of them does not get it.
  */
+#include <dlfcn.h>
+#include <string.h>
+
+#include "hdlyap/blas.h"
 #include "hdlyap/room.h"
 #include "ledger.h"
 #include "runs.h"
@@ -58,6 +62,33 @@ TEST(gathered_vectors_are_estimated)
     assert_true(peak - created >= 3.0 * 8.0 * 800.0 * 400.0);
     assert_true(needed > 0.95 * (peak - before) && needed < 1.25 * (peak - before));
     hd_run_free(run);
+}
+
+static bool other_kernels;
+
+hd_blas hd_blas_query(void)
+{
+    hd_blas (*real)(void);
+    void *found = dlsym(RTLD_NEXT, "hd_blas_query");
+    memcpy(&real, &found, sizeof real);
+    hd_blas blas = real();
+    if (other_kernels) blas.kernel = "others";
+    return blas;
+}
+
+/** Each in turn, but for rank 0, whose kernels all others have to have. */
+TEST(kernels_of_every_rank_are_compared)
+{
+    const hd_scene_def scene = short_scene(10, 0);
+    for (int other = 1; other < ranks->ranks; other++) {
+        char message[200];
+        hd_run *run;
+        other_kernels = ranks->rank == other;
+        const hd_status status = hd_run_create_shared(&run, &scene, ranks, message, sizeof message);
+        other_kernels = false;
+        assert_int_equal(status, HD_REFUSED);
+        assert_non_null(strstr(message, "others kernels"));
+    }
 }
 
 /** The room of a machine is that of all its ranks. */

@@ -235,6 +235,21 @@ TEST(vectors_are_gathered_for_fields)
     hd_run_free(run);
 }
 
+TEST(nothing_is_gathered_for_nobody)
+{
+    static const int exponents[] = {HD_EXPONENTS_POSITIVE, HD_EXPONENTS_ALL};
+    for (int k = 0; k < 2; k++) {
+        const hd_scene_def scene = scene_from(scene_of_runs(30, HD_OBSERVE_STEPS),
+                                              .exponents = exponents[k]);
+        hd_run *run;
+        CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+        finish(run);
+        assert_true(hd_modes_samples(hd_run_modes(run)) > 0);
+        assert_int_equal(hd_run_frame_columns(run).count, 0);
+        hd_run_free(run);
+    }
+}
+
 /** Windows, kept or computed again, and the way back through them. */
 TEST(covariant_vectors_are_those_of_one_rank)
 {
@@ -376,15 +391,22 @@ static double lead(hd_communicator *c)
     hd_scene_def scene = scene_of_runs(30,
                                        HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_FIELDS);
     char message[300], path[] = "led.checkpoint";
+    int fields = 0;
     hd_run *run;
     scene.observe |= HD_OBSERVE_COVARIANT;
     scene.exponents = HD_EXPONENTS_ALL;
     if (c) assert_int_equal(hd_run_create_shared(&run, &scene, c, message, 300), HD_REFUSED);
     scene.observe &= ~(unsigned)HD_OBSERVE_COVARIANT;
+    scene.exponents = HD_EXPONENTS_POSITIVE; /* of which some are gathered, not all */
     CHECK_OK(hd_run_create_shared(&run, &scene, c, message, 300));
     hd_run_fields_every(run, 2.0);
-    hd_run_fields_from(run, 40);
-    until_time(run, 30.0);
+    hd_run_fields_from(run, 1); /* more than any step has */
+    while (hd_run_time(run) < 30.0) {
+        CHECK_OK(hd_run_advance(run));
+        fields += hd_run_fields_due(run) && hd_run_frame_columns(run).first <= 1 &&
+                  hd_run_frame_columns(run).count > 0;
+    }
+    assert_true(fields > 0);
     hd_run_watch(run, 0.5, hd_run_vectors(run) - 4);
     until_time(run, 35.0);
     hd_run_watch(run, INFINITY, hd_run_vectors(run));

@@ -8,6 +8,7 @@
 #include "scenes.h"
 
 #include "hdlyap/modes.h"
+#include "hdlyap/pmode.h"
 #include "hdlyap/room.h"
 #include "hdlyap/wave.h"
 #include "observe/observables.h"
@@ -117,6 +118,29 @@ TEST(what_is_too_much_is_said)
     one.disks = disks;
     CHECK_OK(hd_room_check(&one, room, NULL, 0));
     assert_true(hd_room_needed(&one, 2, 1) > 0.7 * room.bytes);
+}
+
+TEST(nothing_fits_where_there_is_nothing)
+{
+    char line[256] = "";
+    const hd_scene_def small = short_run(50, 10, 0);
+    assert_int_equal(hd_room_check(&small, (hd_room){1.0, "machine", 1}, line, sizeof line),
+                     HD_NO_MEMORY);
+    assert_non_null(strstr(line, "nothing of it would fit"));
+}
+
+TEST(fields_are_counted)
+{
+    const hd_scene_def scene = short_run(300, 10, HD_OBSERVE_FIELDS);
+    const size_t before = ledger_now().live;
+    hd_pmode *pmode;
+    CHECK_OK(hd_pmode_create(&pmode, scene.disks));
+    const double asked = (double)(ledger_now().live - before);
+    const double stated = hd_fields_row.bytes(&scene, 1);
+    print_message("fields: asked for %.0f bytes, estimated %.3f times that\n", asked,
+                  stated / asked);
+    assert_true(stated >= 0.93 * asked && stated <= 1.07 * asked);
+    hd_pmode_free(pmode);
 }
 
 TEST(nothing_is_allocated_for_it)
