@@ -1,4 +1,4 @@
-/** Counts of the trajectory -> collision rate and pressure [T20], in samples and blocks [T8]. */
+/** Counts of the trajectory -> collision rate and pressure [T19], in samples and blocks [T8]. */
 #include "hdlyap/gas.h"
 
 #include <math.h>

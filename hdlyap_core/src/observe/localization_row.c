@@ -1,4 +1,4 @@
-/** Localisation widths as an observable: of the vectors that are carried, as partners [T19] lie on
+/** Localisation widths as an observable: of the vectors that are carried, as partners [T18] lie on
  * the same disks. */
 #include "base/check.h"
 #include "hdlyap/localization.h"

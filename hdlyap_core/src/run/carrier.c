@@ -23,7 +23,7 @@ static const double DEFECT_LOOSE = 1e-4;
 /** Loss of orthogonality allowed where somebody looks at the vectors. */
 static const double DEFECT_MEASURED = 1e-6;
 /** Loss of orthogonality allowed where Y takes both ends of an interval to be orthonormal to
- * rounding [T19]: a second pass. */
+ * rounding [T18]: a second pass. */
 static const double DEFECT_COUPLED = 1e-12;
 /** Square of the loss of orthogonality, at most, as a part of the interval's share of the accuracy:
  * it bounds a mean, too. */
@@ -35,7 +35,7 @@ enum { PIECES_MAX = 8, PIECES_LAST = 512 };
  * vectors of a random start have dq halves as independent as the vectors themselves. */
 enum { HALVES_MANY = 64, HALVES_ALIGNED = 8 };
 /** Loss of isotropy beyond which the frame is made isotropic again: as much as orthogonality may
- * lack where somebody looks [T19]. */
+ * lack where somebody looks [T18]. */
 static const double ISOTROPY = 1e-6;
 /** Loss of orthogonality of a random frame that does not matter; a pass leaves less. */
 static const double ORTHONORMAL = 1e-10;
@@ -215,7 +215,7 @@ double hd_carrier_longest(const hd_carrier *c)
     return fmin(COLLISIONS_MOST * c->collision, c->interval.limit);
 }
 
-/** What is lost of isotropy decays [T19]; should it ever not, the frame gets it back. The triangle
+/** What is lost of isotropy decays [T18]; should it ever not, the frame gets it back. The triangle
  * of the step then is not that of the frame any more: a window begins anew. */
 static hd_status keep_isotropic(hd_carrier *c, hd_windows *windows)
 {

@@ -175,7 +175,7 @@ TEST(nothing_is_said_of_nothing)
 
 /* ---- exact means --------------------------------------------------------------------------- */
 
-/** <|p.n|>, see [T20]. */
+/** <|p.n|>, see [T19]. */
 static double exact_impact(const hd_scene_def *def)
 {
     const double m = 2.0 * def->disks - (def->boundary[0] == HD_PERIODIC) -
