@@ -26,7 +26,8 @@ static bool is_asked(const hd_observable *row, const hd_scene_def *scene)
 
 double hd_observables_bytes(const hd_scene_def *scene, int ranks)
 {
-    double bytes = 0.0;
+    const bool seen = scene->observe & HD_OBSERVE_OF_MODES && hd_scene_vectors(scene) > 0;
+    double bytes = seen ? 2.0 * HD_DIM * scene->disks * sizeof(double) : 0.0; /* q and p */
     for (int k = 0; k < HD_OBSERVED; k++)
         if (is_asked(rows[k], scene)) bytes += rows[k]->bytes(scene, ranks);
     return bytes;

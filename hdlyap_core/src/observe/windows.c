@@ -24,7 +24,7 @@ struct hd_windows {
 const hd_covariant *hd_windows_covariant(const hd_windows *windows) { return windows->covariant; }
 double *hd_windows_seconds(hd_windows *windows) { return &windows->seconds; }
 void hd_windows_lose(hd_windows *windows) { windows->due = true; }
-bool hd_windows_begin(const hd_windows *windows) { return windows->due; }
+bool hd_windows_begins(const hd_windows *windows) { return windows->due; }
 
 /** Adds the seconds since `start` to the cost; what one rank cannot do, none does. */
 static hd_status timed(hd_windows *windows, double start, hd_status status)

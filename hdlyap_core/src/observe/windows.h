@@ -16,7 +16,7 @@ double *hd_windows_seconds(hd_windows *windows); /**< wall seconds spent here */
  * is added. */
 void hd_windows_lose(hd_windows *windows);
 /** True if a window begins with the next interval. */
-bool hd_windows_begin(const hd_windows *windows);
+bool hd_windows_begins(const hd_windows *windows);
 
 /** Before the first orthonormalisation: the frame is still that of its start, the next intervals
  * are expected to be so long. */

@@ -286,7 +286,7 @@ static void piece_accepted(hd_carrier *c, double length, bool averaging)
 static hd_status window_starts(hd_carrier *c, const hd_carrying *how)
 {
     if (!how->windows) return HD_OK;
-    if (c->conjugate && hd_windows_begin(how->windows)) HD_TRY(hd_conjugate_start(c->frame));
+    if (c->conjugate && hd_windows_begins(how->windows)) HD_TRY(hd_conjugate_start(c->frame));
     return hd_windows_start(how->windows, c->frame,
                             hd_trajectory_time(how->trajectory) - c->log->duration, how->expected);
 }

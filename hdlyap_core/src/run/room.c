@@ -10,19 +10,11 @@
 #include "run/gathered.h"
 #include "tangent/threads.h"
 
-/** Positions and momenta of a state, for those who look at modes. */
-static double state_bytes(const hd_scene_def *scene)
-{
-    const bool seen = scene->observe & HD_OBSERVE_OF_MODES && hd_scene_vectors(scene) > 0;
-    return seen ? 4.0 * sizeof(double) * scene->disks : 0.0;
-}
-
 double hd_room_needed(const hd_scene_def *def, int threads, int ranks)
 {
     const int of_ranks = ranks > 1 ? ranks : 1;
     return hd_trajectory_bytes(def->disks) + hd_carrier_bytes(def, threads, of_ranks) +
-           hd_observables_bytes(def, of_ranks) + hd_gathered_bytes(def, of_ranks) +
-           state_bytes(def);
+           hd_observables_bytes(def, of_ranks) + hd_gathered_bytes(def, of_ranks);
 }
 
 /* ---- what would fit ------------------------------------------------------------------------ */

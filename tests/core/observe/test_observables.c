@@ -25,6 +25,17 @@ static hd_scene_def channel(unsigned observe)
     return scene;
 }
 
+/** What is averaged, or kept in a file, begins anew where averages do; all rows can be made, freed
+ * and counted. */
+TEST(rows_are_whole)
+{
+    for (int k = 0; k < HD_OBSERVED; k++) {
+        const hd_observable *row = rows[k];
+        assert_true(row->asked && row->create && row->free && row->bytes);
+        assert_true(row->clear || !(row->add || row->archive));
+    }
+}
+
 TEST(a_run_has_what_it_needs)
 {
     const unsigned steps = OF(modes) | OF(steps);
