@@ -444,18 +444,9 @@ class Covariant(unittest.TestCase):
             with self.subTest(disks=disks, walls=walls, exponents=exponents, recompute=recompute):
                 self.compare_run(path, scene, told, window, sampling, n)
 
-    def test_few_disks(self):  # each number, and each kind of walls, twice
-        boxes = (
-            (3, 0, 0),
-            (3, 1, 1),
-            (4, 0, 1),
-            (4, 1, 0),
-            (5, 0, 0),
-            (5, 1, 1),
-            (6, 0, 1),
-            (6, 1, 0),
-        )
-        for disks, *walls in boxes:
+    def test_few_disks(self):
+        for disks, wall in itertools.product((3, 4, 5, 6), (0, 1)):
+            walls = wall, (wall + disks + 1) % 2  # each number and each kind twice
             variants = [(ALL, 0, 4, 4), (INDEPENDENT, 1, 4, 4), (2 * disks, 1, 4, 4)]
             variants += [(ALL, 1, 6, 2), (INDEPENDENT, 0, 6, 2), (POSITIVE, 0, 6, 2)]
             self.check(disks, walls, 0.5, variants)
