@@ -28,7 +28,7 @@ SHARES = dict(
         dict(exponents=100, observables=['spectrum'], duration=400.0, report_interval=50.0),
     ),
     ortho=(0.6, dict(interval=0.02, observables=['spectrum'], duration=4.0)),
-    modes=(0.1, dict(max_mode_number=4, observables=['modes'], duration=9.0, report_interval=0.1)),
+    modes=(0.1, dict(max_mode_number=4, observables=['modes'], duration=45.0, report_interval=0.1)),
     covariant=(0.4, dict(WINDOW, duration=60.0)),
     publish=(0.6, dict(NO_EXPONENTS, disks=2000, density=0.1, report_interval=0.002)),
 )
