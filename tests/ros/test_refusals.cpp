@@ -481,20 +481,6 @@ TEST(Parameters, Scenes)
     closedir(folder);
     EXPECT_GE(scenes, 17);
 }
-
-/** What is lost is worse than what comes late. */
-TEST(Subscribers, TheWorst)
-{
-    hdr_lag each[] = {{"late", 5.0, 3, 0},
-                      {"later", 9.0, 1, 0},
-                      {"few", 0.0, 0, 2},
-                      {"many", 1.0, 1, 7},
-                      {"some", 2.0, 9, 4}};
-    EXPECT_STREQ(worst_of(each, 0).topic, "");
-    EXPECT_STREQ(worst_of(each, 2).topic, "later");
-    EXPECT_STREQ(worst_of(each, 3).topic, "few");
-    EXPECT_STREQ(worst_of(each, 5).topic, "many");
-}
 } // namespace
 
 int main(int argc, char **argv)
