@@ -7,11 +7,11 @@
 
 #include "hdlyap/covariant.h"
 #include "hdlyap/gas.h"
+#include "hdlyap/hydro.h"
 #include "hdlyap/interval.h"
 #include "hdlyap/localization.h"
 #include "hdlyap/ortho.h"
 #include "hdlyap/parameters.h"
-#include "hdlyap/hydro.h"
 #include "hdlyap/phases.h"
 #include "hdlyap/pmode.h"
 #include "hdlyap/spectrum.h"
@@ -30,7 +30,7 @@ typedef struct hd_cost {
     double replay;   /**< seconds in the tangent frame */
     double ortho;    /**< seconds in the factorisation */
     double spectrum; /**< seconds in averages */
-    double modes;    /**< seconds in classification, steps and phases; and in widths */
+    double modes;    /**< seconds in classification, steps, phases, responses, widths */
     /** Seconds in covariant vectors: what is kept for them, and the way back */
     double covariant;
     /** Seconds of the above in exchange with other ranks, waiting included; bytes that this rank

@@ -142,15 +142,6 @@ static hd_status allocate(hd_covariant *c)
     return hd_localization_create(&c->shape, c->scene.disks, c->vectors, c->threads);
 }
 
-double hd_covariant_bytes_of(const hd_scene_def *scene)
-{
-    const double rows = HD_ROWS * (double)scene->disks, n = hd_scene_vectors(scene),
-                 carried = hd_scene_carried(scene);
-    const double factors = 2.0 * carried * carried, ways = (carried < n ? 8.25 : 5.0) * n * n;
-    return sizeof(double) * (factors + ways + rows * n) + 3.0 * hd_modes_bytes(scene, n) +
-           hd_spectrum_bytes(n) + hd_localization_bytes(n);
-}
-
 hd_status hd_covariant_create(hd_covariant **out, const hd_scene_def *def, int threads)
 {
     const int positive = hd_scene_positive_exponents(def), zero = hd_scene_zero_exponents(def);
@@ -355,8 +346,8 @@ static void swap_halves(hd_covariant *c)
 {
     const int n = c->vectors;
     for (int disk = 0; disk < c->scene.disks; disk++)
-        cblas_dswap(2 * n, c->frame + HD_ROWS * (size_t)disk * (size_t)n, 1,
-                    c->frame + (HD_ROWS * (size_t)disk + 2) * (size_t)n, 1);
+        cblas_dswap(HD_DIM * n, c->frame + HD_ROWS * (size_t)disk * (size_t)n, 1,
+                    c->frame + (HD_ROWS * (size_t)disk + HD_DIM) * (size_t)n, 1);
 }
 
 /** What the vectors grew by since the look before, which came later. */

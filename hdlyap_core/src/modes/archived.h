@@ -10,12 +10,12 @@
 /** What there is in the fields of a scene; allocates nothing. */
 typedef struct hd_fields_count {
     double columns, subspaces; /**< without the null fields; T and LP subspaces */
-    double t_fields;           /**< of a T subspace, at most */
     double lp_phases, t_phases;
 } hd_fields_count;
 hd_fields_count hd_fields_count_of(const hd_scene_def *scene);
 
 double hd_modes_bytes(const hd_scene_def *scene, double vectors);
+double hd_steps_bytes(const hd_scene_def *scene);
 double hd_structure_bytes(const hd_scene_def *scene, double vectors);
 double hd_phases_bytes(double phases);
 double hd_pmode_bytes(double disks);

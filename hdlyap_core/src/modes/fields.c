@@ -47,7 +47,6 @@ hd_fields_count hd_fields_count_of(const hd_scene_def *scene)
         const double pairs = hd_wave_pairs(&wave[k], scene->boundary).count;
         const double t = hd_wave_transverse(&wave[k], scene->boundary).count;
         all.columns += t + 2.0 * pairs;
-        all.t_fields = fmax(all.t_fields, t);
         all.lp_phases += 2.0 * pairs * pairs;
         all.t_phases += 2.0 * floor(t / 2.0) * floor(t / 2.0);
     }

@@ -40,6 +40,15 @@ static void step_define(hd_step *step, const hd_fields *fields, int s, bool conj
                       .conjugate = conjugate};
 }
 
+double hd_steps_bytes(const hd_scene_def *scene)
+{
+    const double n = hd_scene_vectors(scene), subspaces = hd_fields_count_of(scene).subspaces;
+    const double count = subspaces * (n == HD_ROWS * (double)scene->disks ? 2.0 : 1.0) + 1.0;
+    const double of_a_vector = sizeof(double) + sizeof(hd_part);
+    return count * (sizeof(hd_step) + sizeof(hd_company) + HD_SET_VECTORS_MAX * of_a_vector) +
+           n * (sizeof(int) + sizeof(double));
+}
+
 static hd_status steps_allocate(hd_steps *steps)
 {
     const size_t count = (size_t)steps->count, n = (size_t)steps->vectors;

@@ -187,12 +187,11 @@ const hd_hydro_response *hd_hydro_at(const hd_hydro *hydro, int index)
 
 /* ---- as an observable ---------------------------------------------------------------------- */
 
-/** Vectors of a step, times its modulations, at most. */
+/** A wave with d pairs has 2 d vectors of LP and at most as many of T, each with d responses. */
 static double hydro_bytes(const hd_scene_def *scene, int ranks)
 {
-    const hd_fields_count count = hd_fields_count_of(scene);
     (void)ranks;
-    return sizeof(hd_hydro_response) * (2.0 * count.lp_phases + count.t_fields * count.t_fields);
+    return sizeof(hd_hydro_response) * 2.0 * hd_fields_count_of(scene).lp_phases;
 }
 
 static hd_status hydro_create(void **self, const hd_observing *with)

@@ -66,7 +66,7 @@ const hd_observable hd_modes_row = {.asked = HD_OBSERVE_OF_MODES,
 static double steps_bytes(const hd_scene_def *scene, int ranks)
 {
     (void)ranks;
-    return hd_fields_count_of(scene).subspaces * sizeof(hd_step);
+    return hd_steps_bytes(scene);
 }
 
 static hd_status steps_create(void **self, const hd_observing *with)

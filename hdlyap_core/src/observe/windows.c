@@ -3,11 +3,14 @@
 
 #include <math.h>
 
+#include "averages/archived.h"
 #include "base/check.h"
 #include "base/clock.h"
 #include "base/memory.h"
 #include "covariant/archived.h"
+#include "modes/archived.h"
 #include "observe/observable.h"
+#include "tangent/archived.h"
 
 /** Wall seconds after which no further step of the way back begins in a call. */
 static const double GO_SECONDS = 0.1;
@@ -106,12 +109,16 @@ hd_status hd_windows_go(hd_windows *windows, bool to_its_end)
 
 /* ---- as an observable ---------------------------------------------------------------------- */
 
-/** Beside the windows themselves, which have a limit of their own (covariant_memory). */
+/** Beside the windows themselves, which have a limit of their own (covariant_memory): triangles of
+ * two passes, both ways back with their work, vectors of a look, and what is averaged. */
 static double covariant_bytes(const hd_scene_def *scene, int ranks)
 {
-    const double gathered = HD_ROWS * (double)scene->disks * hd_scene_vectors(scene) *
-                            sizeof(double);
-    return hd_covariant_bytes_of(scene) + (ranks > 1 ? gathered : 0.0);
+    const double n = hd_scene_vectors(scene), carried = hd_scene_carried(scene),
+                 vectors = HD_ROWS * (double)scene->disks * n;
+    const double factors = 2.0 * carried * carried, ways = (carried < n ? 8.25 : 5.0) * n * n;
+    const double gathered = ranks > 1 ? vectors : 0.0;
+    return sizeof(double) * (factors + ways + vectors + gathered) + 3.0 * hd_modes_bytes(scene, n) +
+           hd_spectrum_bytes(n) + hd_localization_bytes(n);
 }
 
 static hd_status prepare(hd_windows *windows, const hd_observing *with)

@@ -7,8 +7,6 @@
 #include "base/check.h"
 #include "run/schedule.h"
 
-/** Events of an advance: bounds memory, and the wait for an answer. */
-static const double EVENTS_MAX = 200000.0;
 /** No advance is planned shorter: simulated time must move. */
 static const double SHORTEST = 1e-12;
 
@@ -29,7 +27,7 @@ hd_status hd_advance_create(hd_advance *advance, const hd_scene_def *scene)
     HD_TRY(hd_trajectory_create(&advance->trajectory, scene));
     const double rate = events_per_disk(advance, scene);
     advance->longest = 1e-3 / rate;
-    advance->bound = 8.0 * EVENTS_MAX / (scene->disks * rate);
+    advance->bound = 8.0 * HD_EVENTS_MAX / (scene->disks * rate);
     return HD_OK;
 }
 
@@ -37,7 +35,7 @@ void hd_advance_clear(hd_advance *advance) { hd_trajectory_free(advance->traject
 
 double hd_advance_now(const hd_advance *advance) { return hd_trajectory_time(advance->trajectory); }
 
-static uint64_t events_so_far(const hd_advance *advance)
+uint64_t hd_advance_events(const hd_advance *advance)
 {
     return hd_trajectory_collisions(advance->trajectory) +
            hd_trajectory_wall_events(advance->trajectory);
@@ -63,7 +61,8 @@ void hd_advance_make_plan(hd_advance *advance, double stop)
 {
     const double now = hd_advance_now(advance);
     const double end = end_of_part(now, stop, hd_advance_longest(advance));
-    advance->plan = (hd_advance_plan){.begin = now, .end = end, .events = events_so_far(advance)};
+    advance->plan = (hd_advance_plan){
+        .begin = now, .end = end, .events = hd_advance_events(advance)};
 }
 
 void hd_advance_stop(hd_advance *advance, double end)
@@ -81,8 +80,9 @@ bool hd_advance_is_done(const hd_advance *advance)
 static void learn(hd_advance *advance)
 {
     const double length = advance->plan.end - advance->plan.begin;
-    const double events = fmax(1.0, (double)(events_so_far(advance) - advance->plan.events));
-    const double grown = fmin(4.0 * fmax(length, advance->longest), length * EVENTS_MAX / events);
+    const double events = fmax(1.0, (double)(hd_advance_events(advance) - advance->plan.events));
+    const double grown = fmin(4.0 * fmax(length, advance->longest),
+                              length * HD_EVENTS_MAX / events);
     if (length > 0) advance->longest = fmin(grown, advance->bound);
 }
 

@@ -6,6 +6,9 @@
 
 #include "hdlyap/trajectory.h"
 
+/** Of one advance, at most: bounds memory, and the wait for an answer. */
+#define HD_EVENTS_MAX 2e5
+
 /** The advance that the disks are in: what is learnt of it waits for its end, however often a
  * watcher stops it. */
 typedef struct hd_advance_plan {
@@ -27,6 +30,8 @@ HD_MUST_CHECK hd_status hd_advance_create(hd_advance *advance, const hd_scene_de
 void hd_advance_clear(hd_advance *advance);
 
 double hd_advance_now(const hd_advance *advance); /**< simulated time */
+/** Of pairs and walls, so far. */
+uint64_t hd_advance_events(const hd_advance *advance);
 
 /** Shortest plan [time units]: by less, simulated time would not move. */
 double hd_advance_shortest(const hd_advance *advance);

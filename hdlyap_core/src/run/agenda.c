@@ -195,7 +195,7 @@ void hd_agenda_pass_report(hd_agenda *a, bool reached)
     hd_schedule *s = &a->schedule;
     const double multiple = hd_schedule_next_multiple(s, a->in_force.field_interval);
     const bool fields = s->stage == HD_AVERAGING && (reached || multiple <= hd_schedule_cut(s));
-    const bool ends = hd_schedule_pass(s) & HD_ENDS_STAGE || reached;
+    const bool ends = hd_schedule_pass(s) || reached;
     a->due |= HD_DUE_REPORT | (fields ? HD_DUE_FIELDS : 0u) | (ends ? HD_DUE_STAGE : 0u);
 }
 

@@ -13,6 +13,7 @@
 #include "events/archived.h"
 #include "hdlyap/blas.h"
 #include "observe/observable.h"
+#include "run/advance.h"
 #include "tangent/archived.h"
 #include "tangent/threads.h"
 #include "tangent/verify.h"
@@ -46,8 +47,8 @@ static const double COLLISIONS_MOST = 60.0;
 enum { SMALLEST_EXPONENTS = 8 };
 /** Kept for a half that is no number. */
 static const double NO_HALF = -2.0;
-/** Events between two orthonormalisations, of each disk and in all, of which the log has room. */
-static const double EVENTS_OF_A_DISK = 30.0, EVENTS_MAX = 2e5;
+/** Events of each disk between two orthonormalisations, for the memory of the log. */
+static const double EVENTS_OF_A_DISK = 30.0;
 
 /* ---- creation ------------------------------------------------------------------------------ */
 
@@ -175,7 +176,7 @@ double hd_carrier_bytes(const hd_scene_def *scene, int threads, int ranks)
     const double disks = scene->disks, n = hd_scene_vectors(scene),
                  carried = hd_scene_carried(scene), here = ceil(carried / ranks);
     if (n == 0) return 0.0;
-    const double log = hd_event_log_bytes(fmin(EVENTS_MAX, EVENTS_OF_A_DISK * disks));
+    const double log = hd_event_log_bytes(fmin(HD_EVENTS_MAX, EVENTS_OF_A_DISK * disks));
     const double frame = hd_frame_bytes(disks, here, threads);
     const double ortho = hd_ortho_bytes(HD_ROWS * (double)disks, carried, ranks);
     const double conjugate = carried < n ? hd_conjugate_bytes(HD_ROWS * (double)disks,
@@ -219,7 +220,7 @@ double hd_carrier_longest(const hd_carrier *c)
  * of the step then is not that of the frame any more: a window begins anew. */
 static hd_status keep_isotropic(hd_carrier *c, hd_windows *windows)
 {
-    if (hd_conjugate_isotropy(c->conjugate, c->frame) > ISOTROPY) {
+    if (!(hd_conjugate_isotropy(c->conjugate, c->frame) <= ISOTROPY)) {
         HD_TRY(hd_conjugate_start(c->frame));
         if (windows) hd_windows_lose(windows);
     }

@@ -140,8 +140,7 @@ static void plan_expect(const hd_run *run, hd_archive *archive)
                            : hd_schedule_cut(&run->agenda.schedule);
     const bool pending = run->carrier.log && run->carrier.log->duration > 0;
     const double end = fmax(hd_run_time(run), pending ? fmin(cut, run->agenda.interval_end) : cut);
-    const uint64_t events = hd_trajectory_collisions(run->advance.trajectory) +
-                            hd_trajectory_wall_events(run->advance.trajectory);
+    const uint64_t events = hd_advance_events(&run->advance);
     hd_archive_expect(archive, plan->begin <= hd_run_time(run) && plan->end <= end,
                       "run advance end", "it does not fit the time");
     hd_archive_expect(archive, plan->events <= events, "run advance events",

@@ -4,6 +4,7 @@
 
 #include "hdlyap/communicator.h"
 #include "hdlyap/scene.h"
+#include "run/checkpoint_file.h"
 
 typedef enum hd_order_kind {
     HD_ORDER_END,
@@ -31,7 +32,7 @@ typedef struct hd_order {
 /** Where an order that was heard keeps its scene and its path. */
 typedef struct hd_order_room {
     hd_scene_def scene;
-    char path[4096];
+    char path[HD_CHECKPOINT_PATH];
 } hd_order_room;
 
 /** Tells it to the other ranks; nothing unless this rank leads. */

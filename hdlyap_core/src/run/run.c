@@ -241,8 +241,8 @@ static hd_status gather(hd_run *run)
 /** A snapshot of this state, whoever looks; `add`: which the averages take up. */
 static hd_status measure(hd_run *run, bool add)
 {
-    const double start = hd_clock_now();
     if (!is_averaging(run) || !hd_observables_any(&run->observables)) return HD_OK;
+    const double start = hd_clock_now();
     const hd_view view = view_of(run);
     HD_TRY(hd_observables_measure(&run->observables, &view));
     if (add) hd_observables_add(&run->observables, &view);
@@ -297,9 +297,11 @@ static hd_status report(hd_run *run)
     if (!is_framed(run) || !needs_state(run)) return HD_OK;
     HD_TRY(is_measured(run) ? gather(run) : end_early(run));
     if (!is_needed(run, HD_NEEDS_REPORTS)) return HD_OK;
+    const double start = hd_clock_now();
     const hd_view view = {.trajectory = run->advance.trajectory,
                           .vectors[0] = hd_run_frame_columns(run)};
     hd_observables_report(&run->observables, &view);
+    run->cost.modes += hd_clock_now() - start;
     return HD_OK;
 }
 
@@ -361,11 +363,12 @@ static hd_pace pace_of(hd_run *run)
                      .longest = hd_advance_longest(&run->advance)};
 }
 
-/** Where the frame is orthonormalised next, if that is not settled. */
-static void plan(hd_run *run)
+/** Settles where the frame is orthonormalised next, if that is open. */
+static hd_pace plan(hd_run *run)
 {
     const hd_pace pace = pace_of(run);
     hd_agenda_plan(&run->agenda, &pace);
+    return pace;
 }
 
 /** Moves the disks on towards that time, as far as a watcher lets them. */
@@ -386,8 +389,7 @@ static hd_status go_on(hd_run *run)
 {
     take_changes(run);
     if (hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) return go_back(run, false);
-    plan(run);
-    hd_pace pace = pace_of(run);
+    hd_pace pace = plan(run);
     HD_TRY(move_disks(run, hd_agenda_next(&run->agenda, &pace)));
     pace.now = hd_run_time(run);
     const unsigned due = hd_agenda_reached(&run->agenda, &pace);
@@ -398,7 +400,7 @@ static hd_status go_on(hd_run *run)
     if (due & HD_DUE_REPORT) HD_TRY(report(run));
     HD_TRY(look(run));
     if (is_averaging(run) && pace.framed && is_measured(run)) take_changes(run);
-    if (!hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) plan(run);
+    if (!hd_agenda_is_due(&run->agenda, HD_DUE_STAGE)) (void)plan(run);
     leave_stage(run);
     return HD_OK;
 }

@@ -63,13 +63,13 @@ double hd_schedule_snap(const hd_schedule *s, double now, double length)
 
 /** A report that the end of the stage cuts short is not passed: it would go on if the stage were
  * made longer. */
-unsigned hd_schedule_pass(hd_schedule *s)
+bool hd_schedule_pass(hd_schedule *s)
 {
     const double last = hd_schedule_stage_end(s);
     const double whole = s->origin + ((double)s->reports + 1.0) * s->report_interval;
     const bool ends = hd_schedule_cut(s) >= last;
     if (whole <= last + CLOSE * s->report_interval) s->reports++;
-    return ends ? HD_ENDS_REPORT | HD_ENDS_STAGE : HD_ENDS_REPORT;
+    return ends;
 }
 
 void hd_schedule_change(hd_schedule *s, const hd_scene_def *scene, double now)

@@ -8,12 +8,6 @@
 #include "base/archive.h"
 #include "hdlyap/scene.h"
 
-/** What ends at a cut. */
-enum {
-    HD_ENDS_REPORT = 1, /**< a report is due */
-    HD_ENDS_STAGE = 2
-};
-
 typedef struct hd_schedule {
     double length[HD_FINISHED]; /**< of the stages; INFINITY for averaging without end */
     double report_interval;
@@ -41,9 +35,9 @@ double hd_schedule_cut(const hd_schedule *schedule);
  * a crumb. */
 double hd_schedule_snap(const hd_schedule *schedule, double now, double length);
 
-/** The time is that of the cut: goes on to the next; a set of HD_ENDS_*. The stage stays: see
+/** The time is that of the cut: goes on to the next; true if the stage ends with it. It stays: see
  * hd_schedule_enter. */
-unsigned hd_schedule_pass(hd_schedule *schedule);
+bool hd_schedule_pass(hd_schedule *schedule);
 
 /** What a scene with another duration or report interval says of it, at any time: reports are
  * counted from now on if their interval changes. The time averaged must not exceed the duration. */

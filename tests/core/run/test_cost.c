@@ -49,6 +49,27 @@ TEST(the_rest_takes_what_the_frame_has_taken)
     hd_run_free(run);
 }
 
+/** What is observed of a sample, and at a report, is of the modes: a second for each. */
+TEST(observables_have_their_seconds)
+{
+    hd_scene_def def = scene(.disks = 20, .density = 0.7, .aspect = 1.0,
+                             .exponents = HD_EXPONENTS_POSITIVE, .equilibration = 1.0,
+                             .warmup = 10.0, .duration = 20.0, .report_interval = 1.0,
+                             .observe = HD_OBSERVE_HYDRO);
+    long samples = 0, reports = 0;
+    now = SINCE;
+    tick = 1.0;
+    hd_run *run = created(&def);
+    while (going_on(run)) {
+        const bool averaged = hd_spectrum_time(hd_run_spectrum(run)) > 0;
+        reports += averaged && hd_run_report_due(run);
+        samples = hd_modes_samples(hd_run_modes(run));
+    }
+    assert_true(samples >= 20 && reports == 20);
+    CHECK_CLOSE(hd_run_cost(run).modes, (double)(samples + reports), 0.0);
+    hd_run_free(run);
+}
+
 /** Each stage looks at the clock before and after: it takes a second each time that it runs. */
 TEST(each_stage_has_its_own_seconds)
 {
