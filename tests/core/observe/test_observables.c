@@ -117,3 +117,79 @@ TEST(what_nobody_looks_at_stays)
     }
     hd_run_free(run);
 }
+
+/* ---- all of them at once -------------------------------------------------------------------- */
+
+static bool is_resolved(const hd_run *run, hd_mode_kind kind)
+{
+    const hd_steps *steps = hd_run_steps(run);
+    for (int k = 0; k < hd_steps_count(steps); k++)
+        if (hd_steps_step(steps, k)->kind == kind && hd_steps_step(steps, k)->resolved) return true;
+    return false;
+}
+
+/** All that there is, averaged until LP and T steps are known. */
+static hd_run *with_everything(double aspect)
+{
+    const hd_scene_def scene = scene_from(channel(HD_OBSERVE_ALL), .aspect = aspect);
+    hd_run *run = created(&scene);
+    until_time(run, 130.0);
+    assert_true(is_resolved(run, HD_MODE_LP) && is_resolved(run, HD_MODE_T));
+    return run;
+}
+
+/** Phases of one kind want the next state sooner than those of the other: here LP, there T. */
+TEST(the_next_state_comes_as_soon_as_one_kind_of_phases_needs_it)
+{
+    const double aspect[] = {0.08, 0.04};
+    for (int k = 0; k < 2; k++) {
+        hd_run *run = with_everything(aspect[k]);
+        const double lp = hd_phases_sampling(hd_run_phases(run), hd_run_steps(run));
+        const double t = hd_phases_sampling(hd_run_t_phases(run), hd_run_steps(run));
+        assert_true(k == 0 ? lp < 0.9 * t : t < 0.9 * lp);
+        CHECK_CLOSE(hd_observables_sampling(&run->observables), fmin(lp, t), 0.0);
+        hd_run_free(run);
+    }
+}
+
+static double steps_resolved(const hd_run *run)
+{
+    int resolved = 0;
+    for (int k = 0; k < hd_steps_count(hd_run_steps(run)); k++)
+        resolved += hd_steps_step(hd_run_steps(run), k)->resolved;
+    return resolved;
+}
+
+/** What each has averaged of: samples, time units, .. */
+enum { AVERAGES = 8 };
+static void read_averages(const hd_run *run, double of[AVERAGES])
+{
+    const double now[AVERAGES] = {hd_gas_read(hd_run_gas(run)).time,
+                                  (double)hd_modes_samples(hd_run_modes(run)),
+                                  steps_resolved(run),
+                                  (double)hd_structure_samples(hd_run_structure(run)),
+                                  hd_phases_velocity(hd_run_phases(run)).phases,
+                                  hd_phases_velocity(hd_run_t_phases(run)).phases,
+                                  (double)hd_localization_samples(hd_run_localization(run)),
+                                  (double)hd_covariant_windows(hd_run_covariant(run))};
+    memcpy(of, now, sizeof now);
+}
+
+TEST(a_reset_forgets_all_averages)
+{
+    int have_some = 0;
+#define HD_ROW(name) have_some += hd_##name##_row.clear != NULL;
+#include "observe/rows.inc"
+#undef HD_ROW
+    assert_int_equal(have_some, AVERAGES);
+    hd_run *run = with_everything(0.08);
+    double before[AVERAGES], after[AVERAGES];
+    read_averages(run, before);
+    CHECK_OK(hd_run_reset_average(run));
+    read_averages(run, after);
+    for (int k = 0; k < AVERAGES; k++) {
+        assert_true(before[k] > 0);
+        CHECK_CLOSE(after[k], 0.0, 0.0);
+    }
+    hd_run_free(run);
+}
