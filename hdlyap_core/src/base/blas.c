@@ -61,7 +61,10 @@ hd_status hd_blas_room(int threads)
     const size_t buffer = (size_t)128 << 20; /* the largest of any version */
     /* of two pools, the caller's and the run's: stacks, and the arena that malloc gives a thread */
     const size_t stacks = (size_t)96 << 20;
-    const size_t bytes = (size_t)threads * (buffer + stacks);
+    /* of the caller's other threads that have not begun, roscpp's too; 2 to 8 threads took up to 34
+     * MiB of it. OpenBLAS before 0.3.30 asks for a buffer for ever if there is no room. */
+    const size_t others = (size_t)160 << 20;
+    const size_t bytes = (size_t)threads * (buffer + stacks) + others;
     void *room = mmap(NULL, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (room == MAP_FAILED) return HD_NO_MEMORY;
     (void)munmap(room, bytes);
