@@ -9,7 +9,6 @@ PACKAGES = [
     '',
     '.data',
     '.follow',
-    '.launching',
     '.plots',
     '.plots.figures',
     '.reproduce',

@@ -87,8 +87,8 @@ node_runs() { beside_a_master 'rosrun hdlyap hdlyap_node _disks:=20 _aspect:=1.0
 # launches ARGUMENT...: to the result.
 launches() {
     as_user "roslaunch hdlyap run.launch scene:=quick $* | tee said
-        grep -q '^result of /hdlyap, quick: ' said
-        ! grep 'has died' said"
+        grep -q ': result: averaged ' said
+        ! grep 'process has died' said"
 }
 
 draws_bag() { as_user 'rosrun hdlyap plot_bag quick.bag --out figures | grep "^lambda_max" && test -s figures/spectrum.png'; }

@@ -42,8 +42,8 @@ is_run_elsewhere() {
 type_in() {
     case $1 in
         'roslaunch hdlyap run.launch') # endless
-            says 'T\(1,0\) .*\([0-9]+\)$' 'LP\(1,0\) .*\([0-9]+\)$' -- roslaunch hdlyap run.launch &&
-                grep -q '^result of /hdlyap, first: ' "$WORK/said.txt" && ! grep -q 'has died' "$WORK/said.txt"
+            says 'T\(1,0\) .*\([0-9]+\)' 'LP\(1,0\) .*\([0-9]+\)' -- roslaunch hdlyap run.launch &&
+                grep -q ': result: averaged ' "$WORK/said.txt" && ! grep -q 'has died' "$WORK/said.txt"
             ;;
         'rosrun hdlyap hdlyap_node') run timeout --preserve-status -s INT 8 rosrun hdlyap hdlyap_node ;;
         *bench/run.sh*) run bash -ec "$1 --quick" ;; # fifteen minutes otherwise

@@ -221,7 +221,7 @@ TEST(Conditions, NothingToSay)
 {
     const worker_state state = healthy();
     const hdr_lag slowest = {"/a", 2.9, 5, 0};
-    const conditions all = conditions_of(&state, &slowest, false);
+    const conditions all = conditions_of(&state, &slowest);
     EXPECT_EQ(all.level, HDR_DIAGNOSTIC_OK);
     EXPECT_STREQ(all.message, "");
 }
@@ -242,26 +242,20 @@ TEST(Conditions, EachHasItsLevelAndMessage)
     const struct {
         const worker_state *state;
         const hdr_lag *lag;
-        bool repaired;
         uint8_t level;
         std::string message;
     } cases[] = {
-        {&fault, &prompt, false, HDR_DIAGNOSTIC_ERROR, hd_status_text(HD_ILL_CONDITIONED)},
-        {&unkept, &prompt, false, HDR_DIAGNOSTIC_ERROR, "disk full"},
-        {&deep, &prompt, false, HDR_DIAGNOSTIC_ERROR,
-         "disks overlap by 1e-12, rounding explains 1e-13"},
-        {&warm, &prompt, false, HDR_DIAGNOSTIC_ERROR,
-         "energy is off by nan, rounding explains 1e-12"},
-        {&well, &prompt, true, HDR_DIAGNOSTIC_WARN,
-         "intervals were too long and had to be repaired"},
-        {&stalled, &prompt, false, HDR_DIAGNOSTIC_WARN,
+        {&fault, &prompt, HDR_DIAGNOSTIC_ERROR, hd_status_text(HD_ILL_CONDITIONED)},
+        {&unkept, &prompt, HDR_DIAGNOSTIC_ERROR, "disk full"},
+        {&deep, &prompt, HDR_DIAGNOSTIC_ERROR, "disks overlap by 1e-12, rounding explains 1e-13"},
+        {&warm, &prompt, HDR_DIAGNOSTIC_ERROR, "energy is off by nan, rounding explains 1e-12"},
+        {&stalled, &prompt, HDR_DIAGNOSTIC_WARN,
          "errors of the smallest exponents do not fall: 0.5 after 4 averaged, 0.5 after 32"},
-        {&well, &behind, false, HDR_DIAGNOSTIC_WARN, "a subscriber of /b/fields is 12.3 s behind"},
-        {&well, &losing, false, HDR_DIAGNOSTIC_WARN,
-         "subscribers of /b/fields have lost 42 messages"},
+        {&well, &behind, HDR_DIAGNOSTIC_WARN, "a subscriber of /b/fields is 12.3 s behind"},
+        {&well, &losing, HDR_DIAGNOSTIC_WARN, "subscribers of /b/fields have lost 42 messages"},
     };
     for (const auto &one : cases) {
-        const conditions all = conditions_of(one.state, one.lag, one.repaired);
+        const conditions all = conditions_of(one.state, one.lag);
         EXPECT_EQ(all.level, one.level) << one.message;
         EXPECT_EQ(all.message, one.message);
     }
@@ -273,11 +267,9 @@ TEST(Conditions, SeveralAtOnce)
     const hdr_lag behind = {"/a", 4, 1, 0};
     state.checkpoint.failed = true;
     memset(state.checkpoint.message, 'x', 400);
-    const conditions all = conditions_of(&state, &behind, true);
+    const conditions all = conditions_of(&state, &behind);
     EXPECT_EQ(all.level, HDR_DIAGNOSTIC_ERROR);
-    EXPECT_EQ(all.message, std::string(400, 'x') +
-                               "; intervals were too long and had to be repaired; "
-                               "a subscriber of /a is 4.0 s behind");
+    EXPECT_EQ(all.message, std::string(400, 'x') + "; a subscriber of /a is 4.0 s behind");
 }
 } // namespace
 

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """What /diagnostics says of a run on which something is wrong, and that it stops saying so."""
 
+import os
 import re
+import tempfile
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 import rospy
@@ -82,6 +84,17 @@ class Diagnostics(harness.Case):
         self.assertEqual(link.gaps(), 0)
         for key in ('overlap', 'energy error'):
             self.assertLess(float(values[key]), 1e-11)
+
+    def test_collisions_of_a_resumed_run(self):
+        """Those before it was resumed do not count as of its first second."""
+        with tempfile.TemporaryDirectory() as folder:
+            kept = os.path.join(folder, 'kept')
+            node = self.start(dict(LIVE, pace=0.0, duration=3000.0, checkpoint=kept))
+            self.assertEqual(node.wait(), 0, node.text())
+            before = int(re.search('([0-9]+) collisions', node.text()).group(1))
+            self.start(dict(resume=kept, duration=0.0, pace=1.0))
+            values = self.said(OK)
+        self.assertLess(float(values['collisions per second']), 0.1 * before)
 
 
 if __name__ == '__main__':

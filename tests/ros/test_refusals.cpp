@@ -207,6 +207,9 @@ const std::vector<refusal> refusals = {
     {"checkpoint_interval", "a number", no_number},
     {"checkpoint_interval", "from 0 (only at the end and when asked) to 1e12", no_time},
     {"resume", "a string", {"5", "true", "[file]"}},
+    {"table", "a number", no_number},
+    {"table", "from 0 (none) to 1e12", no_time},
+    {"bag", "a string", {"5", "true", "[file]"}},
     {"covariant_window", "a number", no_number},
     {"covariant_transient", "a number", no_number},
     {"covariant_sampling", "a number", no_number},
@@ -453,7 +456,8 @@ void check_scene(const std::string &file)
         char usual[PARAMETER_TEXT];
         parameter_usual(usual, &p);
         EXPECT_TRUE(file == "paper_periodic.yaml" || value != usual) << file << ": " << name;
-        if (name == "threads" || name == "changes") continue; /* of the machine; none */
+        static const std::set<std::string> others{"threads", "changes", "table", "bag"};
+        if (others.count(name)) continue; /* of the machine; none; of the log */
         if (value == "auto" && name != "warmup") {
             EXPECT_NE(said().find("\n" + name + ": 0\n"), std::string::npos) << file << name;
         } else if (value == "auto") {

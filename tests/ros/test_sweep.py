@@ -22,7 +22,7 @@ import harness
 import made
 from harness import SOON, Process, wait_until
 from made import LP, T
-from hdlyap.launching.arguments import Refused
+from hdlyap.runs.scene import Refused
 from hdlyap.plots.figures.style import plt
 from hdlyap.sweep import figure, grid, points, table
 

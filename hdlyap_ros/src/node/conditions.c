@@ -40,13 +40,11 @@ static void add_errors(conditions *all, const worker_state *state)
             disks->energy_error_max);
 }
 
-static void add_warnings(conditions *all, const worker_state *state, const hdr_lag *slowest,
-                         bool repaired)
+static void add_warnings(conditions *all, const worker_state *state, const hdr_lag *slowest)
 {
     const error_at *last = &state->errors.last;
     const uint8_t level = HDR_DIAGNOSTIC_WARN;
     error_at since;
-    if (repaired) add(all, level, "intervals were too long and had to be repaired");
     if (error_trend_stalled(&state->errors, &since))
         add(all, level,
             "errors of the smallest exponents do not fall: %.2g after %.3g averaged, %.2g after "
@@ -59,10 +57,10 @@ static void add_warnings(conditions *all, const worker_state *state, const hdr_l
             slowest->lost);
 }
 
-conditions conditions_of(const worker_state *state, const hdr_lag *slowest, bool repaired)
+conditions conditions_of(const worker_state *state, const hdr_lag *slowest)
 {
     conditions all = {.level = HDR_DIAGNOSTIC_OK, .message = ""};
     add_errors(&all, state);
-    add_warnings(&all, state, slowest, repaired);
+    add_warnings(&all, state, slowest);
     return all;
 }

@@ -9,7 +9,7 @@ typedef struct conditions {
     char message[1024]; /**< of each of them, the worst first; "" if there is none */
 } conditions;
 
-/** repaired: intervals were, lately. The levels are in doc/reference.md. */
-conditions conditions_of(const worker_state *state, const hdr_lag *slowest, bool repaired);
+/** The levels are in doc/reference.md. */
+conditions conditions_of(const worker_state *state, const hdr_lag *slowest);
 
 #endif

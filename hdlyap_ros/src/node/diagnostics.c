@@ -9,8 +9,6 @@
 #include "hdlyap_ros/stage.h"
 
 static const double period = 1.0;
-/** How long a repair is worth a warning [s]. */
-static const double warn_seconds = 10.0;
 
 enum { KEYS = 20, TEXT_SIZE = 32 };
 
@@ -22,7 +20,7 @@ typedef struct key_list {
 } key_list;
 
 hdr_status diagnostics_advertise(diagnostics *d, hdr_node *ros, const report *rep,
-                                 const char *blas_kernel)
+                                 uint64_t collisions, const char *blas_kernel)
 {
     const double now = clock_seconds();
     *d = (diagnostics){
@@ -31,7 +29,7 @@ hdr_status diagnostics_advertise(diagnostics *d, hdr_node *ros, const report *re
         .blas_kernel = blas_kernel,
         .next = now,
         .measured = now,
-        .repaired = -HUGE_VAL,
+        .collisions = collisions,
     };
     return hdr_diagnostic_advertise(&d->publisher, ros, "/diagnostics", 10);
 }
@@ -118,18 +116,11 @@ static void fill_watched(key_list *list, const worker_state *state, const hdr_la
     add_number(list, "lost messages", (double)slowest->lost);
 }
 
-static bool was_repaired(diagnostics *d, const worker_state *state, double now)
-{
-    if (state->last.cost.repairs > d->repairs) d->repaired = now;
-    d->repairs = state->last.cost.repairs;
-    return now - d->repaired < warn_seconds;
-}
-
 bool diagnostics_publish(diagnostics *d, const worker_state *state)
 {
     const double now = clock_seconds();
     const hdr_lag slowest = report_lag(d->rep);
-    const conditions all = conditions_of(state, &slowest, was_repaired(d, state, now));
+    const conditions all = conditions_of(state, &slowest);
     key_list list = {.count = 0};
     if (hdr_publisher_subscribers(d->publisher) == 0) return false;
     fill_keys(d, &list, state, now);

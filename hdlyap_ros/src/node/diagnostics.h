@@ -12,13 +12,11 @@ typedef struct diagnostics {
     double next;         /**< when to publish again [s of clock_seconds] */
     double measured;     /**< when collisions was taken */
     uint64_t collisions; /**< at the last message */
-    long repairs;        /**< as of the last change */
-    double repaired;     /**< when it last changed */
 } diagnostics;
 
 /** The report and the string must live as long as d. */
 HDR_MUST_CHECK hdr_status diagnostics_advertise(diagnostics *d, hdr_node *ros, const report *rep,
-                                                const char *blas_kernel);
+                                                uint64_t collisions, const char *blas_kernel);
 
 /** Publishes if anybody listens and a second has passed since the last time; true if so. */
 bool diagnostics_update(diagnostics *d, const worker_state *state);

@@ -16,6 +16,7 @@
 #include "report.h"
 #include "services.h"
 #include "settings.h"
+#include "table.h"
 #include "worker.h"
 
 enum { EXIT_REFUSED = 2, EXIT_NUMERICAL_FAULT = 3, EXIT_FILE_FAULT = 4 };
@@ -88,10 +89,8 @@ static int read_settings(app *a)
 {
     char message[512] = "";
     const char *resume = "";
-    const char *refused; /* by the launch file, with its line */
     const hdr_status created = hdr_params_create(&a->params, a->ros);
     if (created != HDR_OK) return failed_status(created);
-    if (hdr_param_string(a->params, "refused", &refused) == HDR_OK) return refuse(refused);
     if (!settings_resume(&resume, a->params, message, sizeof message)) return refuse(message);
     if (*resume) {
         const hd_status status = hd_checkpoint_read(&a->kept, resume, message, sizeof message);
@@ -169,7 +168,9 @@ static hdr_status advertise(app *a)
 {
     const char *kernel = hd_blas_query().kernel;
     hdr_status status = report_create(&a->rep, a->ros, &a->set, a->run);
-    if (status == HDR_OK) status = diagnostics_advertise(&a->diag, a->ros, a->rep, kernel);
+    if (status == HDR_OK)
+        status = diagnostics_advertise(&a->diag, a->ros, a->rep, progress_of(a->run).collisions,
+                                       kernel);
     if (status == HDR_OK) status = report_run_info(a->rep, a->run, &a->changes);
     if (status == HDR_OK &&
         !worker_create(&a->work, a->run, a->rep, &a->set, &a->changes, &a->keep))
@@ -233,7 +234,7 @@ static bool look_after(app *a)
 }
 
 /** A run at fault has no last message: its end is in the log and in the diagnostics. */
-static int finish(app *a)
+static int finish(app *a, bool ended)
 {
     worker_state state = worker_state_now(a->work);
     const hd_status finished = state.status == HD_OK ? worker_finish(a->work) : state.status;
@@ -241,6 +242,7 @@ static int finish(app *a)
     state.status = finished;
     diagnostics_publish(&a->diag, &state);
     log_end(&state);
+    if (ended) table_result(&a->set, a->run);
     if (state.saving) hdr_log(HDR_ERROR, "checkpoint not written: the disk does not answer");
     if (*a->set.checkpoint && state.status == HD_OK && state.checkpoint.time != state.last.time)
         hdr_log(HDR_WARN, "the checkpoint is not of the end, but of simulated time %.6g",
@@ -270,7 +272,7 @@ static int run(app *a)
     status = failed_status(advertise(a));
     if (status != EXIT_SUCCESS) return status;
     const bool ended = look_after(a);
-    status = finish(a);
+    status = finish(a, ended);
     if (ended) return status;
     hdr_node_free(a->ros, linger_seconds); /* a step under way still uses everything else */
     _exit(status);                         /* mpirun ends the other ranks of that step */

@@ -161,6 +161,28 @@ static const parameter rows[] = {
         .text = "Checkpoint to go on from; empty: from the start. Parameters of the scene that are "
                 "not given are then as in the file.",
     },
+    {
+        .name = "table",
+        .kind = REAL_NUMBER,
+        .offset = offsetof(settings, table),
+        .usual = "0",
+        .most = 1e12,
+        .allowed = "from 0 (none) to 1e12",
+        .unit = "s",
+        .may_differ = true,
+        .text = "Wall time at least between two tables of the steps in the log. One is printed "
+                "when the averages have doubled or more steps are known, and one at the end.",
+    },
+    {
+        .name = "bag",
+        .kind = FILE_PATH,
+        .offset = offsetof(settings, bag),
+        .usual = "",
+        .allowed = "a path in one line",
+        .unit = "",
+        .may_differ = true,
+        .text = "File that a recorder writes, which the last lines of the log name; empty: none.",
+    },
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 

@@ -159,6 +159,7 @@ unsigned report_demand(report *rep)
     rep->demand = publishers_subscribed(&rep->out);
     unsigned stages = topic_stages(rep->demand);
     if (rep->demand & topic_bit(TOPIC_STEPS)) stages |= topic_stages(phases);
+    if (rep->set->table > 0.0) stages |= topic_stages((topic_bit(TOPIC_STEPS) & set) | phases);
     if (rep->modes && slow_vectors_report_watched(rep->slow))
         stages |= topic_stages(topic_bit(TOPIC_STEPS));
     return stages;

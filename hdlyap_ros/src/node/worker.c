@@ -13,6 +13,7 @@
 #include "changes.h"
 #include "clock.h"
 #include "hdlyap/blas.h"
+#include "table.h"
 
 /** How often subscribers are looked for [s]. */
 static const double look_seconds = 0.01;
@@ -39,6 +40,7 @@ struct worker {
     double due;        /**< wall time before which pace allows no further step; the thread's own */
     double examinable; /**< the same of the next examination; the thread's own */
     checkpoint_writer keep; /**< the thread's own */
+    table table;            /**< the thread's own */
 
     pthread_mutex_t lock;
     pthread_cond_t changed;
@@ -237,6 +239,7 @@ static hd_status step(worker *w)
     if (status == HD_OK) status = w->set->pace > 0.0 ? paced_step(w) : hd_run_advance(w->run);
     if (status != HD_OK) return status;
     status = publish(w);
+    if (status == HD_OK && hd_run_report_due(w->run)) table_tell(&w->table, w->set, w->run);
     const progress now = progress_of(w->run);
     pthread_mutex_lock(&w->lock);
     w->state.last = now;

@@ -7,10 +7,9 @@ import re
 
 import yaml
 
-from hdlyap.launching import arguments
-from hdlyap.launching.arguments import Refused
-from hdlyap.runs import run
+from hdlyap.runs import run, scene
 from hdlyap.runs.bag import Bag
+from hdlyap.runs.scene import Refused
 
 PERIODIC, REFLECTING = WALLS = 'periodic', 'reflecting'
 # seconds of a run, about: to come up; of a time unit with 200 disks on one core, as their square
@@ -97,7 +96,7 @@ def runs(given, launch, cwd):
     usual = run.usual(os.path.join(launch, 'scenes'))
     base = _base(given, launch, cwd, usual)
     for swept in chosen:
-        twice = set(swept.parameters) & set(arguments.mapping('params', given['params']))
+        twice = set(swept.parameters) & set(scene.mapping('params', given['params']))
         if twice:
             raise Refused(f'params = {given["params"]}: must be without {min(twice)}: it is swept')
     return [_run({**usual, **base}, chosen) for chosen in itertools.product(*chosen.values())]
@@ -105,7 +104,7 @@ def runs(given, launch, cwd):
 
 def _base(given, launch, cwd, usual):
     """Parameters of the scene, and of what is the same in all runs."""
-    base = arguments.parameters(given, launch, cwd)
+    base = scene.parameters(given, launch, cwd)
     if isinstance(base.get('observables'), str):
         base['observables'] = yaml.safe_load(base['observables'])
     for name, value in base.items():
@@ -119,10 +118,10 @@ def _base(given, launch, cwd, usual):
 def _run(parameters, chosen):
     """Runs that differ in their seeds alone have one scene."""
     names = [name for name, _ in chosen]
-    scene = [name for name, values in chosen if 'seed' not in values]
+    same = [name for name, values in chosen if 'seed' not in values]
     for _, values in chosen:
-        parameters = {**parameters, **{key: arguments.fitting(v) for key, v in values.items()}}
-    parameters['scene'] = '_'.join(scene) or parameters['scene']
+        parameters = {**parameters, **{key: scene.fitting(v) for key, v in values.items()}}
+    parameters['scene'] = '_'.join(same) or parameters['scene']
     try:
         found = Run('_'.join(names), parameters, BEGIN)
     except ValueError as error:

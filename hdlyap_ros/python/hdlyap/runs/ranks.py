@@ -5,7 +5,7 @@ import socket
 
 import roslib.packages
 
-from hdlyap.runs.bag import Bag
+from .bag import Bag
 
 # as Open MPI, PMIx, Slurm and MPICH call it
 NUMBERS = 'OMPI_COMM_WORLD_RANK', 'PMIX_RANK', 'SLURM_PROCID', 'PMI_RANK'

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What launch files have done by programs: arguments become parameters or are refused, bags are not
-overwritten. Needs no ROS master."""
+"""What sweeps and recorders share: a scene and what is given besides become parameters or are
+refused, bags are not overwritten. Needs no ROS master."""
 # Second tier: tests/run.sh --all
 
 import os
@@ -11,7 +11,7 @@ import unittest
 
 import rospkg
 
-from hdlyap.launching import arguments, bags
+from hdlyap.runs import bags, scene
 
 GUIDE = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/user_guide.md')
 LAUNCH = os.path.join(rospkg.RosPack().get_path('hdlyap'), 'launch')
@@ -33,10 +33,10 @@ class InFolder(unittest.TestCase):
 
 class Parameters(InFolder):
     def of(self, **given):
-        return arguments.parameters(given, LAUNCH, self.folder)
+        return scene.parameters(given, LAUNCH, self.folder)
 
     def refused(self, what, says, **given):
-        with self.assertRaises(arguments.Refused) as caught:
+        with self.assertRaises(scene.Refused) as caught:
             self.of(**given)
         line = str(caught.exception)
         self.assertNotIn('\n', line)
@@ -86,26 +86,6 @@ class Parameters(InFolder):
         self.write('own.yaml', 'scene: other\n')
         self.assertEqual(self.of(scene='own.yaml'), dict(scene='other'))
 
-    def test_resumed_alone(self):
-        """The checkpoint has the scene."""
-        kept = self.path('x.checkpoint')
-        self.assertEqual(self.of(resume='x.checkpoint'), dict(resume=kept))
-        self.assertEqual(self.of(resume='x.checkpoint', scene='quick')['disks'], 100)
-        self.assertEqual(self.of()['scene'], 'first')
-
-    def test_what_is_waited_for(self):
-        """The scene's own wish stays but for a recorder, which is to miss nothing."""
-        self.write('own.yaml', 'wait_for_subscribers: [steps]\n')
-        for given, expected in (
-            (dict(), None),
-            (dict(table='true'), ['status']),
-            (dict(table='true', record='true'), 'all'),
-            (dict(table='true', wait='[state]'), '[state]'),
-            (dict(table='true', scene='own.yaml'), ['steps']),
-            (dict(record='1', scene='own.yaml'), 'all'),
-        ):
-            self.assertEqual(self.of(**given).get('wait_for_subscribers'), expected, given)
-
     def test_refused(self):
         self.write('broken.yaml', 'disks: 5\n  aspect: {\n')
         self.write('list.yaml', '[1]\n')
@@ -113,32 +93,9 @@ class Parameters(InFolder):
         self.refused('scene', 'No such file', scene='quik.yaml')
         self.refused('scene', 'line 2', scene='broken.yaml')
         self.refused('scene', 'YAML file of parameters', scene='list.yaml')
-        self.refused('params', 'line 1', params='{warmup: 20')
-        self.refused('params', '{parameter: value', params='warmup')
-        self.refused('params', 'without disks', params='{disks: 20}', disks='30')
-
-    def check(self, *words):
-        arguments.check_names(['python3', '/usr/bin/roslaunch', *words], LAUNCH, self.folder)
-
-    def test_names_of_arguments(self):
-        self.check('hdlyap', 'run.launch', 'disks:=50', '__ns:=grp')
-        self.check('hdlyap', 'sweep.launch', 'densities:=0.5')
-        self.check('-p', '11311', os.path.join(LAUNCH, 'run.launch'), 'scene:=quick')
-        for words, says in (
-            (['hdlyap', 'run.launch', 'disk:=50'], 'params:="{disk: 50}"'),
-            (['hdlyap', 'run.launch', 'ns:=grp'], '__ns:=grp'),
-            (['hdlyap', 'sweep.launch', 'density:=50'], 'sweep.launch has: disks, densities, '),
-            ([os.path.join(LAUNCH, 'record.launch'), 'file:=50'], 'record.launch has: bag, '),
-        ):
-            with self.assertRaises(arguments.Refused) as caught:
-                self.check(*words)
-            self.assertIn(says, str(caught.exception))
-
-    def test_names_of_others(self):
-        """Launch files that are not of hdlyap may have what arguments they like."""
-        self.write('run.launch', '<launch/>')
-        self.check('run.launch', 'disk:=50')
-        arguments.check_names(['rostest', 'run.launch', 'disk:=50'], LAUNCH, self.folder)
+        self.refused('params', 'line 1', scene='quick', params='{warmup: 20')
+        self.refused('params', '{parameter: value', scene='quick', params='warmup')
+        self.refused('params', 'without disks', scene='quick', params='{disks: 20}', disks='30')
 
 
 class Scenes(unittest.TestCase):
@@ -149,7 +106,7 @@ class Scenes(unittest.TestCase):
         stated = dict(re.findall(r'(?m)^\| `(\w+)` \| (\d+) \|', section))
         disks = {}
         for name in os.listdir(os.path.join(LAUNCH, 'scenes')):
-            values = arguments.scene_file(name[: -len('.yaml')], LAUNCH, '.')
+            values = scene.scene_file(name[: -len('.yaml')], LAUNCH, '.')
             disks[values['scene']] = str(values.get('disks', 780))
         self.assertEqual(stated, disks)
 

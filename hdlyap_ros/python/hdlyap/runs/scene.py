@@ -1,0 +1,78 @@
+"""A scene and what is given besides -> the parameters of hdlyap_node, or the line that refuses
+them."""
+
+import os
+import re
+
+import yaml
+
+WHOLE = re.compile(r'[+-]?[0-9]{1,9}$')  # longer ones do not fit into an integer parameter
+LARGEST = 2**31
+
+
+class Refused(Exception):
+    """With its line."""
+
+
+def parameters(given, folder, cwd):
+    """given: {name: text} of scene, params (other parameters, as YAML) and parameters, empty ones
+    are not given; folder: of the launch files; cwd: of relative paths."""
+    given = {name: text for name, text in given.items() if text}
+    values = scene_file(given.pop('scene'), folder, cwd)
+    own = mapping('params', given.pop('params', ''))
+    twice = sorted(set(own) & set(given))
+    if twice:
+        raise Refused(f'params = {own}: must be without {twice[0]}, which is an argument too')
+    values.update((name, typed(text)) for name, text in given.items())
+    values.update(own)
+    return {str(name): fitting(value) for name, value in values.items()}
+
+
+def mapping(name, text):
+    try:
+        found = yaml.safe_load(text) if text else {}
+    except yaml.YAMLError as error:
+        raise Refused(f'{name} = {text}: must be {{parameter: value, ..}}: {in_line(error)}')
+    if not isinstance(found, dict):
+        raise Refused(f'{name} = {text}: must be {{parameter: value, ..}}')
+    return found
+
+
+def scene_file(scene, folder, cwd):
+    """Its parameters. Who does not say a name is named after the file."""
+    scenes = os.path.join(folder, 'scenes')
+    path = os.path.join(cwd, scene) if scene.endswith('.yaml') else f'{scenes}/{scene}.yaml'
+    names = sorted(name[:-5] for name in os.listdir(scenes) if name.endswith('.yaml'))
+    if not scene.endswith('.yaml') and scene not in names:
+        raise Refused(
+            f'scene = {scene}: must be one of {", ".join(names)}; or a file with its .yaml'
+        )
+    try:
+        with open(path) as file:
+            values = yaml.safe_load(file) or {}
+    except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
+        raise Refused(f'scene = {scene}: must be a YAML file of parameters: {in_line(error)}')
+    if not isinstance(values, dict):
+        raise Refused(f'scene = {scene}: must be a YAML file of parameters')
+    return dict({'scene': os.path.basename(path)[: -len('.yaml')]}, **values)
+
+
+def in_line(error):
+    if isinstance(error, yaml.MarkedYAMLError) and error.problem_mark:
+        return f'line {error.problem_mark.line + 1}: {error.problem}'
+    return ' '.join(str(error).split())
+
+
+def typed(text):
+    """A number if it is one; the node itself reads all others."""
+    if WHOLE.match(text):
+        return int(text)
+    try:
+        return float(text) if '.' in text and abs(float(text)) < float('inf') else text
+    except ValueError:
+        return text
+
+
+def fitting(value):
+    """Integers of the parameter server have 32 bits; the node reads a longer one as a string."""
+    return str(value) if type(value) is int and abs(value) >= LARGEST else value

@@ -1,0 +1,142 @@
+/** Run -> lines of the log: averages, a row for each step, what the fits say. */
+#include "table.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "../viewer/numbers.h"
+#include "clock.h"
+#include "hdlyap_ros/node.h"
+
+enum { TEXT = 64 };
+
+/** Of the positive half, without the zero modes. */
+static bool in_table(const hd_step *step)
+{
+    return step->resolved && step->kind != HD_MODE_ZERO && !step->conjugate;
+}
+
+static const char *kind_name(hd_mode_kind kind) { return kind == HD_MODE_T ? "T" : "LP"; }
+
+/** Why it has no vectors of its own; empty if it has. */
+static const char *sharing_name(hd_sharing sharing)
+{
+    static const char *const names[] = {[HD_SHARING_ALONE] = "",
+                                        [HD_SHARING_UNKNOWN] = "  shared",
+                                        [HD_SHARING_MIXING] = "  mixing",
+                                        [HD_SHARING_BLENDED] = "  blended",
+                                        [HD_SHARING_COINCIDENT] = "  coincide"};
+    return names[sharing];
+}
+
+static void print_step(const hd_step *step)
+{
+    char name[TEXT], indices[TEXT], exponent[TEXT];
+    snprintf(name, sizeof name, "%s(%d,%d)", kind_name(step->kind), step->wave.n[0],
+             step->wave.n[1]);
+    snprintf(indices, sizeof indices, "%d-%d", step->col + 1, step->col + step->count);
+    number_with_error(exponent, sizeof exponent, step->exponent, step->std_error);
+    hdr_log(HDR_INFO, "  %-10s %-11s %8.2f %3d %12.5f %13s%s", name, indices, step->multiplicity,
+            step->expected, step->wave.number, exponent, sharing_name(step->sharing));
+}
+
+static void print_fit(const char *name, hd_coefficient c, int count, const char *of, double from,
+                      double to)
+{
+    char text[TEXT];
+    if (count == 0) return;
+    number_with_error(text, sizeof text, c.value, c.error);
+    hdr_log(HDR_INFO, "  %-4s %s over %d %s%s, k from %.4g to %.4g", name, text, count, of,
+            count > 1 ? "s" : "", from, to);
+}
+
+static void print_fits(const hd_run *run, const hd_steps *steps)
+{
+    static const struct {
+        const char *name;
+        hd_mode_kind kind;
+    } fits[] = {{"c_T", HD_MODE_T}, {"c_L", HD_MODE_LP}};
+    for (int k = 0; k < 2; k++) {
+        const hd_dispersion fit = hd_steps_dispersion(steps, hd_run_spectrum(run), fits[k].kind);
+        print_fit(fits[k].name, fit.c, fit.points, "wave number", fit.k_min, fit.k_max);
+    }
+    if (!hd_run_phases(run)) return;
+    const hd_velocity v = hd_phases_velocity(hd_run_phases(run));
+    print_fit("v", (hd_coefficient){v.v, v.v_error}, v.phases, "LP phase", v.k_min, v.k_max);
+}
+
+/** Smallest exponent first. */
+static void print_steps(const hd_run *run)
+{
+    const hd_steps *steps = hd_run_steps(run);
+    const int count = steps ? hd_steps_count(steps) : 0;
+    int missing = 0, found = 0;
+    for (int k = 0; k < count; k++) {
+        const hd_step *step = hd_steps_step(steps, k);
+        missing += !step->resolved && step->kind != HD_MODE_ZERO && !step->conjugate;
+        found += in_table(step);
+    }
+    if (found == 0) return;
+    hdr_log(HDR_INFO, "  %-10s %-11s %8s %3s %12s %13s", "step", "indices", "measured", "of",
+            "k [1/sigma]", "exponent");
+    for (int col = hd_run_vectors(run) - 1; col >= 0; col--)
+        for (int k = 0; k < count; k++)
+            if (in_table(hd_steps_step(steps, k)) && hd_steps_step(steps, k)->col == col)
+                print_step(hd_steps_step(steps, k));
+    print_fits(run, steps);
+    if (missing > 0) hdr_log(HDR_INFO, "  %d steps are not resolved", missing);
+}
+
+static void print(const char *what, const settings *set, const hd_run *run)
+{
+    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    const double remaining = hd_run_cost(run).remaining;
+    char of[TEXT] = "", lambda[TEXT], left[TEXT] = "";
+    number_with_error(lambda, sizeof lambda, hd_spectrum_exponent(spectrum, 0),
+                      hd_spectrum_std_error(spectrum, 0));
+    if (set->def.duration > 0.0) snprintf(of, sizeof of, " of %.6g", set->def.duration);
+    if (remaining > 0.0)
+        snprintf(left, sizeof left, ", %.0f:%02.0f left", floor(remaining / 60.0),
+                 floor(fmod(remaining, 60.0)));
+    hdr_log(HDR_INFO, "%s: averaged %.6g%s time units, lambda_max %s%s", what,
+            hd_spectrum_time(spectrum), of, lambda, left);
+    print_steps(run);
+}
+
+static bool is_averaged(const hd_run *run)
+{
+    return hd_run_spectrum(run) && hd_spectrum_time(hd_run_spectrum(run)) > 0.0;
+}
+
+static int known_steps(const hd_run *run)
+{
+    const hd_steps *steps = hd_run_steps(run);
+    int known = 0;
+    for (int k = 0; steps && k < hd_steps_count(steps); k++) {
+        const hd_step *step = hd_steps_step(steps, k);
+        if (in_table(step)) known += step->std_error > 0.0 ? 2 : 1;
+    }
+    return known;
+}
+
+void table_tell(table *t, const settings *set, const hd_run *run)
+{
+    const double now = clock_seconds();
+    if (!(set->table > 0.0) || now < t->wall + set->table || !is_averaged(run)) return;
+    const double averaged = hd_spectrum_time(hd_run_spectrum(run));
+    const int known = known_steps(run);
+    if (averaged < t->averaged) *t = (table){.wall = t->wall}; /* the averages were reset */
+    if (averaged < 2.0 * t->averaged && known <= t->known) return;
+    if (known == 0 && hd_run_steps(run)) return;
+    *t = (table){now, averaged, known};
+    print("so far", set, run);
+}
+
+void table_result(const settings *set, const hd_run *run)
+{
+    if (set->table > 0.0 && is_averaged(run)) print("result", set, run);
+    if (*set->bag) hdr_log(HDR_INFO, "the bag is %s; hdlyap plot draws its figures", set->bag);
+    if (*set->checkpoint)
+        hdr_log(HDR_INFO, "the checkpoint is %s; resume:=FILE goes on from it", set->checkpoint);
+}
