@@ -7,6 +7,7 @@ from catkin_pkg.python_setup import generate_distutils_setup
 
 PACKAGES = [
     '',
+    '.commands',
     '.data',
     '.follow',
     '.plots',

@@ -60,7 +60,7 @@ run_scene() {
     start roslaunch hdlyap run.launch "scene:=$scene" "duration:=$duration" \
         record:=true "bag:=$out/run.bag" >"$LOG" 2>&1
     launch=$CHILD
-    start rosrun hdlyap follow --line
+    start hdlyap follow --line
     follow=$CHILD
     while is_running "$launch" && is_running "$follow"; do sleep 0.2; done
     finish_soon "$follow" || seen=$?
@@ -92,5 +92,5 @@ build_or_die "$BUILD"
 
 say "running scene $scene, $duration time units"
 run_scene
-run rosrun hdlyap plot_bag "$out/run.bag" --out "$out"
+run hdlyap plot "$out/run.bag" --out "$out"
 say "bag and figures are in $out"

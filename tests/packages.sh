@@ -91,7 +91,7 @@ launches() {
         ! grep 'process has died' said"
 }
 
-draws_bag() { as_user 'rosrun hdlyap plot_bag quick.bag --out figures | grep "^lambda_max" && test -s figures/spectrum.png'; }
+draws_bag() { as_user 'hdlyap plot quick.bag --out figures | grep "^lambda_max" && test -s figures/spectrum.png'; }
 
 python_imports() {
     as_user 'python3 -c "import hdlyap, hdlyap.msg, hdlyap.data; print(hdlyap.__file__, hdlyap.msg.Spectrum._md5sum)"
@@ -100,7 +100,8 @@ python_imports() {
 
 # Each program in Python answers, found by rosrun.
 scripts_answer() {
-    as_user 'for name in $(grep -lE "^#!.*python3" /usr/lib/hdlyap/*); do rosrun hdlyap $(basename $name) --help >/dev/null; done'
+    as_user 'for name in $(grep -lE "^#!.*python3" /usr/lib/hdlyap/*); do rosrun hdlyap $(basename $name) --help >/dev/null; done
+        for name in $(hdlyap | sed -n "s/^  \([a-z]*\)  .*/\1/p"); do hdlyap $name --help >/dev/null; done'
 }
 
 core_in_c() { as_user 'tests/install/check.sh /usr $PWD/consumer'; }

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Runs on a Slurm of its own, as on a cluster: a run of several ranks, the reproduction's job array, a job that is requeued.
+# Runs of several ranks: by mpirun, and on a Slurm of its own, as on a cluster; the reproduction's job array, a job that is
+# requeued.
 # Controller and two nodes are this machine, as root, in one folder, without systemd or munge.
 #   slurm.sh WORK_FOLDER INSTALLED_SETUP
 set -euo pipefail
@@ -60,11 +61,18 @@ ranks_of() {
     /usr/bin/python3 -c 'import sys; from hdlyap.plots import recording; print(recording.run_infos(sys.argv[1])[-1].ranks)' "$1"
 }
 
-runs_together() {
-    srun -N 1 -n 2 hdlyap_run quick --out "$WORK/two.bag" duration:=30 && [[ $(ranks_of "$WORK/two.bag") == 2 ]]
+runs_by_mpirun() {
+    mpirun --bind-to none --oversubscribe -n 2 rosrun hdlyap hdlyap_node _disks:=20 _aspect:=1.0 _equilibration:=1.0 _warmup:=1.0 \
+        _duration:=5.0 | tee "$WORK/mpirun.txt" && [[ $(grep -c 'finished at' "$WORK/mpirun.txt") == 1 ]]
 }
 
-refuses_what_is_no_argument() { ! srun -N 1 -n 1 hdlyap_run quick --out "$WORK/none.bag" duration=30 && [[ ! -e $WORK/none.bag ]]; }
+has_a_master() { rostopic list >/dev/null 2>&1; }
+
+runs_together() {
+    srun -N 1 -n 2 hdlyap run quick --out "$WORK/two.bag" duration:=30 && [[ $(ranks_of "$WORK/two.bag") == 2 ]]
+}
+
+refuses_what_is_no_argument() { ! srun -N 1 -n 1 hdlyap run quick --out "$WORK/none.bag" duration=30 && [[ ! -e $WORK/none.bag ]]; }
 
 gone() { [[ -z $(squeue -h -j "$1" 2>/dev/null) ]]; }
 
@@ -89,7 +97,7 @@ goes_on() {
     cat >job.sh <<END
 #!/usr/bin/env bash
 [[ ! -s run.checkpoint ]] || from=resume:=run.checkpoint
-exec srun -n 2 hdlyap_run quick --out run.bag duration:=3000 params:="{checkpoint_interval: 1}" checkpoint:=run.checkpoint \$from
+exec srun -n 2 hdlyap run quick --out run.bag duration:=3000 params:="{checkpoint_interval: 1}" checkpoint:=run.checkpoint \$from
 END
     job=$(sbatch --parsable -N 1 -n 2 --mem-per-cpu=500M --requeue --open-mode=append job.sh) &&
         wait_for 60 test -s run.checkpoint && sleep 5 && scontrol requeue "$job" && wait_for 30 pending "$job" &&
@@ -102,8 +110,10 @@ resumed() { grep -q 'goes on from simulated time [1-9]' "$WORK/slurm-$1.out"; }
 
 stop_at_exit
 source_setup "$SETUP"
-programs=$(catkin_find --first-only --libexec hdlyap)
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 PATH=$PATH:$programs
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+start roscore -p "${ROS_MASTER_URI##*:}" >"$WORK/log/roscore" 2>&1
+wait_for 30 has_a_master
+check 'mpirun of two ranks' runs_by_mpirun
 check 'a Slurm of two nodes' begin
 check 'srun of two ranks' runs_together
 check 'srun of what is no argument' refuses_what_is_no_argument

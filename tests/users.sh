@@ -96,7 +96,7 @@ by_cmake() {
 used() {
     echo "source $1/setup.bash
         roslaunch hdlyap run.launch scene:=quick duration:=200 record:=true \"bag:=\$PWD/../run.bag\"
-        rosrun hdlyap plot_bag ../run.bag --out ../figures"
+        hdlyap plot ../run.bag --out ../figures"
 }
 
 removed() {
@@ -106,7 +106,7 @@ removed() {
 
 # ---- one after the other, in a copy of the system ----------------------------------------------
 
-# Known lines of the table of plot_bag: the same for all users, whatever they have typed.
+# Known lines of the table of hdlyap plot: the same for all users, whatever they have typed.
 result() { grep -E '^(lambda_max|averaged time) ' "$1" | sort -u; }
 
 try() {

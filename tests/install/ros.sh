@@ -73,8 +73,11 @@ finds_programs() {
         found=$(in_space "$1" rosrun --prefix echo hdlyap "$name" </dev/null)
         [[ $found == "$2/$name" ]] || { echo "$name: '$found'" && return 1; }
     done
-    [[ $(programs) == *hdlyap_node* && $(programs) == *plot_bag* ]]
+    [[ $(programs) == *hdlyap_node* && $(in_space "$1" which hdlyap) == "${2%/lib/hdlyap}/bin/hdlyap" ]]
 }
+
+# commands: of hdlyap, as it lists them.
+commands() { in_prefix hdlyap | sed -n 's/^  \([a-z]\{1,\}\)  .*/\1/p'; }
 
 # Each answers by itself; a folder above the package's own on PYTHONPATH would be another one's.
 scripts_run() {
@@ -84,6 +87,7 @@ scripts_run() {
         head -n 1 "$PREFIX/lib/hdlyap/$name" | grep -qxE '#!/usr/bin/(env )?python3' || return 1
         in_prefix timeout 60 rosrun hdlyap "$name" --help || return 1
     done
+    for name in $(commands); do in_prefix timeout 60 hdlyap "$name" --help || return 1; done
 }
 
 finds_package() {
@@ -147,18 +151,19 @@ builds_alone() {
 # shellcheck disable=SC2016
 in_alone() { in_space "$ALONE/installed/setup.bash" sh -c 'PYTHONPATH=$0:$PYTHONPATH exec "$@"' "$ALONE/hidden" "$@"; }
 
-# Every module is imported; figures and a comparison are made of a bag.
+# Every module is imported but those that draw for rviz and pause a replay; figures and a comparison are made of a bag.
 tools_alone() {
     local bag=$ALONE/run.bag
-    in_alone python3 -c 'import importlib, pkgutil, hdlyap
+    in_alone python3 -c 'import importlib.util, pkgutil, hdlyap
 for one in pkgutil.walk_packages(hdlyap.__path__, "hdlyap."):
-    print(importlib.import_module(one.name).__file__)' >"$ALONE/modules" &&
+    if one.name not in ("hdlyap.commands.replay", "hdlyap.commands.view"): importlib.import_module(one.name)
+    print(importlib.util.find_spec(one.name).origin)' >"$ALONE/modules" &&
         diff <(sed -n '/\/hdlyap\/\(msg\|srv\)\//d; s|.*/dist-packages/||p' "$ALONE/modules" | sort) \
             <(cd "$ROOT/hdlyap_ros/python" && find hdlyap -name '*.py' ! -path hdlyap/__init__.py | sort) || return 1
     in_alone env --chdir="$ROOT/tests/ros" python3 -c 'import sys, made, test_compare
 made.write(sys.argv[1], test_compare.run())' "$bag" &&
-        in_alone rosrun hdlyap plot_bag "$bag" --out "$ALONE" && [[ -s $ALONE/spectrum.png && -s $ALONE/steps.png ]] &&
-        [[ $(in_alone rosrun hdlyap compare "$bag" "$bag") == *identical* ]] && in_alone rosrun hdlyap repeat "$bag"
+        in_alone hdlyap plot "$bag" --out "$ALONE" && [[ -s $ALONE/spectrum.png && -s $ALONE/steps.png ]] &&
+        [[ $(in_alone hdlyap compare "$bag" "$bag") == *identical* && $(in_alone hdlyap view 2>&1) == 'hdlyap view: '* ]] && in_alone hdlyap repeat "$bag"
 }
 
 # A node of the whole package, which waits for those who follow it.
@@ -167,7 +172,7 @@ follows_alone() {
     start in_prefix rosrun hdlyap hdlyap_node _disks:=20 _aspect:=1.0 _equilibration:=1.0 _warmup:=1.0 _duration:=5.0 \
         '_wait_for_subscribers:=[cost, spectrum]'
     node=$CHILD
-    run in_alone timeout 60 rosrun hdlyap follow --line || status=$?
+    run in_alone timeout 60 hdlyap follow --line || status=$?
     stop "$node"
     finish "$node" && ((!status))
 }

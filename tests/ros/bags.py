@@ -5,7 +5,6 @@ import contextlib
 import io
 import os
 import re
-import runpy
 import subprocess
 import sys
 import tempfile
@@ -14,6 +13,7 @@ from collections import namedtuple
 from unittest import mock
 
 import made
+from hdlyap import commands
 from hdlyap.plots import recording
 
 Done = namedtuple('Done', 'status out error')
@@ -23,21 +23,20 @@ def tool(name, *arguments):
     """As if it had been a process."""
     out, error, status = io.StringIO(), io.StringIO(), 0
     with contextlib.ExitStack() as changed:
-        changed.enter_context(mock.patch.object(sys, 'argv', [name, *arguments]))
-        if name == 'plot_bag':
+        if name == 'plot':
             changed.enter_context(mock.patch('hdlyap.plots.figures.save', save_nothing))
         changed.enter_context(contextlib.redirect_stdout(out))
         changed.enter_context(contextlib.redirect_stderr(error))
         try:
-            runpy.run_path(os.path.join(made.SCRIPTS, name), run_name='__main__')
+            status = commands.main([name, *arguments])
         except SystemExit as end:
             status = end.code or 0
     return Done(status, out.getvalue(), error.getvalue())
 
 
-def process(name, *arguments, **how):
+def process(*arguments, script='hdlyap', **how):
     """As a user starts it."""
-    command = [sys.executable, os.path.join(made.SCRIPTS, name), *arguments]
+    command = [sys.executable, os.path.join(made.SCRIPTS, script), *arguments]
     done = subprocess.run(command, text=True, capture_output=True, **how)
     return Done(done.returncode, done.stdout, done.stderr)
 

@@ -95,6 +95,11 @@ def program(name):
     return roslib.packages.find_node('hdlyap', name)[0]
 
 
+def command(name):
+    """Of hdlyap, as a user types it."""
+    return [shutil.which('hdlyap'), name]
+
+
 def executable():
     return program('hdlyap_node')
 

@@ -12,7 +12,6 @@ import xmlrpc.client
 
 import rosbag
 import rosgraph
-import roslib.packages
 import rospy
 from std_srvs.srv import SetBool
 
@@ -52,10 +51,6 @@ PROBED = {
     'fields': 'mode_field',
     'status': 'run_status',
 }  # of topics that the probe knows by another name
-
-
-def program(name):
-    return roslib.packages.find_node('hdlyap', name)[0]
 
 
 def launch(folder, *args):
@@ -290,7 +285,7 @@ class Recorded(harness.Case):
     @harness.more
     def test_repeat(self):
         """From the bag alone: every number of every topic, bit for bit."""
-        repeat = Process([program('repeat'), self.bag, '--run', '2'])
+        repeat = Process([*harness.command('repeat'), self.bag, '--run', '2'])
         self.assertEqual(repeat.wait(), 0, repeat.text())
         with open(os.path.join(self.folder, 'again.yaml'), 'w') as file:
             file.write(repeat.text())
@@ -304,7 +299,9 @@ class Recorded(harness.Case):
             with self.subTest(topic=topic):
                 got = measured.bits(unpacked(repeated['/hdlyap/' + topic]))
                 self.assertEqual(got, measured.bits(self.of_run(topic, 1)))
-        compare = Process([program('compare'), self.bag, os.path.join(self.folder, 'again.bag')])
+        compare = Process(
+            [*harness.command('compare'), self.bag, os.path.join(self.folder, 'again.bag')]
+        )
         self.assertEqual(compare.wait(), 0, compare.text())
         self.assertIn('identical', compare.text())
 
@@ -389,7 +386,7 @@ class Stopped(harness.Case):
         messages = read(paths[0])
         self.assertEqual(len(messages['/hdlyap/run_info']), 1)
         self.assertFalse({'/hdlyap/markers', '/hdlyap/slow_vectors'} & set(messages))
-        plot = self.process(Process([program('plot_bag'), paths[0], '--out', self.folder]))
+        plot = self.process(Process([*harness.command('plot'), paths[0], '--out', self.folder]))
         self.assertEqual(plot.wait(), 0, plot.text())
         self.assertIn('lambda_max', plot.text())
         self.assertGreater(len(self.files('spectrum.png')), 0)

@@ -369,7 +369,7 @@ class Refusals(Pairs):
         ):
             self.cannot_compare(f'{name} .* and {value}$', run(), run(**{name: value}))
         said = 'disks 20 and 40, density 0.5 and 0.6'
-        said = 'compare: the runs are of different systems and are not compared: ' + said
+        said = 'hdlyap compare: the runs are of different systems and are not compared: ' + said
         self.refuses(said, 'compare', *self.bags(run(), run(density=0.6, disks=40)), status=2)
 
     def test_what_is_not_there(self):

@@ -1,4 +1,4 @@
-"""Covariant vectors in plot_bag, from messages made here: what it prints and draws."""
+"""Covariant vectors in hdlyap plot, from messages made here: what it prints and draws."""
 
 import os
 import unittest
@@ -426,10 +426,10 @@ class Partly(Bags):
 
 
 class Command(Bags):
-    def test_plot_bag(self):
+    def test_plot(self):
         """Without the topic it says nothing of it."""
         for messages, there in ((everything(), True), (everything()[:-1], False)):
-            text = self.succeeds('plot_bag', self.write(messages), '--out', self.out)
+            text = self.succeeds('plot', self.write(messages), '--out', self.out)
             self.assertEqual('covariant vectors: 200 time units in 4 windows' in text, there)
             self.assertEqual('covariant' in text, there)
             for name in bags.files(*('covariant_' + name for name in FIGURES)):

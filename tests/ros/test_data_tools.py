@@ -1,5 +1,5 @@
-"""plot_bag and compare of several bags, what plot_bag exports, and bags that somebody has made to
-do harm."""
+"""hdlyap plot and compare of several bags, what plot exports, and bags that somebody has made to do
+harm."""
 
 import json
 import os
@@ -18,7 +18,7 @@ from test_data import Loaded
 from test_data_joined import HALF, numbered, run
 
 ESCAPE = '\x1b]0;gone\x07\x1b[2J\u202e'
-TOOLS = dict(plot_bag=1, compare=2, repeat=1)  # and their exit statuses of a fault
+TOOLS = dict(plot=1, compare=2, repeat=1)  # and their exit statuses of a fault
 
 
 class Tools(Loaded):
@@ -35,7 +35,7 @@ class Tools(Loaded):
 
     def plot(self, *arguments):
         """What it prints."""
-        return self.succeeds('plot_bag', '--out', self.out, *arguments)
+        return self.succeeds('plot', '--out', self.out, *arguments)
 
     def check(self, name, *arguments):
         """What it did: one line if the status is the one of a fault, nothing for a terminal."""
@@ -47,12 +47,12 @@ class Tools(Loaded):
         if done.error:
             self.assertEqual(done.status, TOOLS[name], done.error)
             self.assertEqual(done.error.count('\n'), 1, done.error)
-            self.assertTrue(done.error.startswith(name + ': '))
+            self.assertTrue(done.error.startswith(f'hdlyap {name}: '))
         return done
 
     def all_tools(self, bag):
         with mock.patch('hdlyap.plots.figures.draw_all', lambda *_: []):
-            plotted = self.check('plot_bag', bag, '--out', self.out)
+            plotted = self.check('plot', bag, '--out', self.out)
         return plotted, self.check('compare', bag, bag), self.check('repeat', bag)
 
 
@@ -76,7 +76,7 @@ class Fits(Tools):
         self.assertIn('\n  T steps: c k over 2 wave numbers 0.9935 .. 1.987 (lever', text)
         with self.assertRaisesRegex(hdlyap.data.reader.RecordingError, "form 'k': must be one of"):
             hdlyap.load(path, form='k').results
-        self.refuses('k from 2 to 1: must go up', 'plot_bag', path, '--k', '2', '1')
+        self.refuses('k from 2 to 1: must go up', 'plot', path, '--k', '2', '1')
 
 
 class Several(Tools):
@@ -105,8 +105,8 @@ class Several(Tools):
 
     def test_others(self):
         pair = self.seed(1, 0.0), self.seed(2, 0.0, density=0.6)
-        said = r'\Aplot_bag: .* do not belong together: density is 0\.5 and 0\.6\n\Z'
-        self.refuses(said, 'plot_bag', *pair, '--out', self.out)
+        said = r'\Ahdlyap plot: .* do not belong together: density is 0\.5 and 0\.6\n\Z'
+        self.refuses(said, 'plot', *pair, '--out', self.out)
         self.assertFalse(os.path.exists(self.out))
 
     def test_comparison(self):
@@ -145,7 +145,7 @@ class Export(Tools):
         self.npz = os.path.join(self.folder, 'arrays')
 
     def export(self, *bags):
-        """What plot_bag writes of them: the names of tables."""
+        """What hdlyap plot writes of them: the names of tables."""
         self.plot(*bags, '--csv', self.csv, '--npz', self.npz)
         return sorted(name[: -len('.csv')] for name in os.listdir(self.csv))
 

@@ -174,7 +174,10 @@ class Tables(unittest.TestCase):
         self.assertEqual(len(named), 3)
         self.assertEqual(set(table('status')), {'0', *named.values()})
         for program, (said, *_) in table('program').items():
-            script = ' '.join(read('hdlyap_ros/scripts', program).split('"""')[1].split())
+            place = 'hdlyap_ros/scripts', program
+            if program.startswith('hdlyap '):
+                place = 'hdlyap_ros/python/hdlyap/commands', program[len('hdlyap ') :] + '.py'
+            script = ' '.join(read(*place).split('"""')[1].split())
             stated = script.split('Exit status: ')[1].rstrip('.')
             self.assertEqual(numbers(said), numbers(stated), program)
 

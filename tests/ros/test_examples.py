@@ -74,14 +74,14 @@ class Examples(harness.Case):
 @harness.more
 class Help(harness.Case):
     def test_python_example_explains_itself_without_a_master(self):
-        fit = Process([example('fit_dispersion'), '--help'], ROS_MASTER_URI='http://localhost:1')
+        fit = Process([*harness.command('fit'), '--help'], ROS_MASTER_URI='http://localhost:1')
         self.addCleanup(fit.stop)
         self.assertEqual(fit.wait(), 0)
-        self.assertIn('_node:=', fit.text())
+        self.assertIn('--node', fit.text())
 
     def test_python_example_is_interrupted_without_a_master(self):
         fit = Process(
-            [example('fit_dispersion')], ROS_MASTER_URI='http://localhost:1', PYTHONUNBUFFERED='1'
+            harness.command('fit'), ROS_MASTER_URI='http://localhost:1', PYTHONUNBUFFERED='1'
         )
         self.addCleanup(fit.stop)
         self.assertTrue(harness.wait_until(lambda: 'Will keep trying' in fit.text()), fit.text())
@@ -95,13 +95,13 @@ class Waiting(Examples):
     def test_says_what_it_waits_for(self):
         """And says it again, as it is by then."""
         topic = '/some/node/steps'
-        fit = Process([example('fit_dispersion'), '_node:=/some/node'])
+        fit = Process([*harness.command('fit'), '--node', '/some/node'])
         self.addCleanup(fit.stop)
-        said = f'fit_dispersion waits: nobody publishes {topic}; roslaunch hdlyap run.launch starts'
+        said = f'hdlyap fit waits: nobody publishes {topic}; roslaunch hdlyap run.launch starts'
         self.wait_for(lambda: fit.lines(said), fit)
         publisher = rospy.Publisher(topic, Steps, queue_size=1)
         self.addCleanup(publisher.unregister)
-        self.wait_for(lambda: fit.lines(f'fit_dispersion waits: nothing on {topic}: its node'), fit)
+        self.wait_for(lambda: fit.lines(f'hdlyap fit waits: nothing on {topic}: its node'), fit)
         publisher.publish(Steps(averaged_time=7.0))
         self.wait_for(lambda: fit.lines('t = 7: c_T: not yet; c_L: not yet'), fit)
         self.stop(fit)
@@ -112,7 +112,7 @@ class Beside(Examples):
 
     def test_numbers_of_a_run(self):
         watch = self.watch(number=2)
-        fit = Process([example('fit_dispersion'), '__name:=fit_dispersion'])
+        fit = Process([*harness.command('fit'), '__name:=fit'])
         self.addCleanup(fit.stop)
         deviations, subscriber = self.hear('/watch_phase/deviation', Float64)
         listeners = {topic: harness.Listener(topic) for topic in ('lp_phases', 'steps')}
@@ -121,7 +121,7 @@ class Beside(Examples):
             ('/hdlyap/' + topic, name)
             for topic, name in (
                 ('lp_phases', '/watch_phase'),
-                ('steps', '/fit_dispersion'),
+                ('steps', '/fit'),
                 ('lp_phases', rospy.get_name()),
                 ('steps', rospy.get_name()),
             )

@@ -1,4 +1,4 @@
-"""The figures of plot_bag: what each of them shows is what was recorded, read back from what
+"""The figures of hdlyap plot: what each of them shows is what was recorded, read back from what
 matplotlib has of it."""
 
 import unittest

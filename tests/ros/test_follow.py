@@ -10,7 +10,7 @@ import rosgraph
 from made import SCRIPTS
 from terminal import Terminal
 
-FOLLOW = os.path.join(SCRIPTS, 'follow')
+FOLLOW = os.path.join(SCRIPTS, 'hdlyap'), 'follow'
 PACED = dict(harness.MODES, equilibration=1.0, warmup=20.0, duration=0.0, pace=100.0)
 # a short run does not begin before it is watched
 SEEN = dict(wait_for_subscribers=['cost', 'spectrum'])
@@ -112,7 +112,7 @@ class Running(unittest.TestCase):
         return node
 
     def follow(self, *arguments, **size):
-        terminal = Terminal([sys.executable, FOLLOW, *arguments], **size, **self.env)
+        terminal = Terminal([sys.executable, *FOLLOW, *arguments], **size, **self.env)
         self.addCleanup(terminal.stop)
         return terminal
 
@@ -141,7 +141,7 @@ class Running(unittest.TestCase):
         terminal.press('m')
         self.shows(terminal, 'computed only if somebody listens')
         self.assertEqual(self.listeners(), {'run_info', 'status', 'cost', 'spectrum'})
-        said = 'follow: no /other that publishes a run_info; there is /hdlyap; waits'
+        said = 'hdlyap follow: no /other that publishes a run_info; there is /hdlyap; waits'
         self.shows(other, said)
         other.press('\x03')
         self.assertEqual(other.wait(), 130)
@@ -164,7 +164,7 @@ class Running(unittest.TestCase):
         self.shows(leaving, 'GONE  /hdlyap does not answer')
         leaving.press('q')
         self.assertEqual(leaving.wait(), 3)
-        self.shows(leaving, 'follow: /hdlyap went away before the end of its run')
+        self.shows(leaving, 'hdlyap follow: /hdlyap went away before the end of its run')
         self.master.stop()
         self.shows(patient, 'no master  what connected before goes on')
         self.addClassCleanup(harness.Master(self.port).stop)
@@ -178,7 +178,7 @@ class Running(unittest.TestCase):
 
     def test_one_line_until_the_end(self):
         self.node(duration=60.0, **SEEN)
-        process = harness.Process([sys.executable, FOLLOW], **self.env)
+        process = harness.Process([sys.executable, *FOLLOW], **self.env)
         self.addCleanup(process.stop)
         self.assertTrue(
             harness.wait_until(lambda: self.listeners() == {'status', 'cost', 'spectrum'})
@@ -188,9 +188,9 @@ class Running(unittest.TestCase):
 
     def test_no_node(self):
         terminal = self.follow('--timeout', '0.5')
-        self.shows(terminal, 'follow: no hdlyap_node that publishes a run_info; waits 0.')
+        self.shows(terminal, 'hdlyap follow: no hdlyap_node that publishes a run_info; waits 0.')
         self.assertEqual(terminal.wait(), 1)
-        self.shows(terminal, 'follow: no hdlyap_node is running')
+        self.shows(terminal, 'hdlyap follow: no hdlyap_node is running')
 
     def test_names_that_anybody_gave(self):
         master = rosgraph.Master('/nobody', self.master.uri)
@@ -198,7 +198,7 @@ class Running(unittest.TestCase):
         master.registerPublisher(topic, 'hdlyap/RunStatus', 'http://localhost:1')
         self.addCleanup(master.unregisterPublisher, topic, 'http://localhost:1')
         process = harness.Process(
-            [sys.executable, FOLLOW, '--node', 'other', '--timeout', '0.5'], **self.env
+            [sys.executable, *FOLLOW, '--node', 'other', '--timeout', '0.5'], **self.env
         )
         self.addCleanup(process.stop)
         self.assertEqual(process.wait(), 1)
@@ -208,12 +208,12 @@ class Running(unittest.TestCase):
         """At once, and how to start it; then goes on with what came."""
         port = harness.free_port()
         uri = 'http://localhost:%d' % port
-        terminal = Terminal([sys.executable, FOLLOW], columns=120, ROS_MASTER_URI=uri)
+        terminal = Terminal([sys.executable, *FOLLOW], columns=120, ROS_MASTER_URI=uri)
         self.addCleanup(terminal.stop)
-        self.shows(terminal, f'follow: no master at {uri}; waits ')
+        self.shows(terminal, f'hdlyap follow: no master at {uri}; waits ')
         self.shows(terminal, 'To start one: roslaunch hdlyap run.launch')
         self.addCleanup(harness.Master(port).stop)
-        self.shows(terminal, 'follow: no hdlyap_node that publishes a run_info; waits')
+        self.shows(terminal, 'hdlyap follow: no hdlyap_node that publishes a run_info; waits')
         node = harness.start(PACED, ROS_MASTER_URI=uri)
         self.addCleanup(node.stop)
         self.shows(terminal, 'lambda_max')

@@ -143,18 +143,21 @@ class Launch(harness.Case):
             self.assertEqual(more.lines('averaged'), [])
 
     def replayed(self, *args):
-        """Type of a node of replay.launch -> its arguments."""
+        """Type of a node of replay.launch, or its command -> its arguments."""
         config = roslaunch.config.load_config_default(
             [(os.path.join(LAUNCH, 'replay.launch'), ['bag:=q.bag', *args])], 0
         )
-        return {node.type: node.args for node in config.nodes}
+        of_ours = {
+            node.args.split()[0]: node.args for node in config.nodes if node.type == 'hdlyap'
+        }
+        return {**of_ours, **{node.type: node.args for node in config.nodes}}
 
     def test_replay_in_rviz_stays(self):
         self.assertNotIn('--keep-alive', self.replayed()['replay'])
         looked_at = self.replayed('rviz:=true', 'node:=/other')
         self.assertIn('--keep-alive', looked_at['replay'])
         self.assertIn('--look=/other', looked_at['replay'])
-        self.assertEqual(looked_at['view'], '--node /other')
+        self.assertEqual(looked_at['view'], 'view --node /other')
         self.assertIn('viewer', looked_at)
         self.assertNotIn('viewer', self.replayed('rviz:=true', 'viewer:=false'))
         self.assertNotIn('view', self.replayed('viewer:=true'))

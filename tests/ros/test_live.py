@@ -253,7 +253,7 @@ class Live(harness.Case):
         with rosbag.Bag(bag, 'w') as file:
             for second, info in enumerate(first['run_info'], start=1):
                 file.write('/hdlyap/run_info', info, rospy.Time(second))
-        scene = subprocess.check_output([harness.program('repeat'), bag], text=True)
+        scene = subprocess.check_output([*harness.command('repeat'), bag], text=True)
         params = yaml.safe_load(scene)
         self.assertEqual(
             (params['pace'], params['report_interval'], params['duration']), (SLOW, 1.0, 0.0)

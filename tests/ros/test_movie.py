@@ -187,8 +187,8 @@ class Files(Films):
     def test_read_back(self):
         for name, width, how in (('modes.mp4', 1280, process), ('modes.gif', 480, tool)):
             path = os.path.join(self.folder, name)
-            options = '--movie', path, '--fps', '5', '--pace', '10'
-            text = self.succeeds('redraw', self.bag, *options, how=how)
+            options = '--out', path, '--fps', '5', '--pace', '10'
+            text = self.succeeds('movie', self.bag, *options, how=how)
             self.assertEqual(self.probe(path), (5, width, '5/1'))
             said = f'{name}: T(1,0) and LP(1,0) from t = 10 to 18 in 1.0 s, 5 frames'
             self.assertIn(said, text)
@@ -200,23 +200,23 @@ class Files(Films):
 
     def test_what_is_refused(self):
         for args, words in (
-            (('--movie', 'modes.avi'), 'modes.avi: must end with .mp4 or .gif'),
+            (('--out', 'modes.avi'), 'modes.avi: must end with .mp4 or .gif'),
             (('--pace', '0'), 'must be above 0'),
             (('--modes', 'Q(1,0)'), 'must be lowest or names'),
         ):
-            done = tool('redraw', self.bag, *args)
+            done = tool('movie', self.bag, *args)
             self.assertEqual(done.status, 2)
             self.assertIn(words, done.error)
-        movie = '--movie', os.path.join(self.folder, 'modes.mp4')
+        out = '--out', os.path.join(self.folder, 'modes.mp4')
         with mock.patch.dict(os.environ, PATH=self.folder):
-            self.refuses('redraw: there is no ffmpeg', 'redraw', self.bag, *movie)
+            self.refuses('hdlyap movie: there is no ffmpeg', 'movie', self.bag, *out)
         for but, words in (
             (('state', 'fields'), 'neither state nor fields'),
             (('steps',), 'no step is resolved'),
         ):
             write(self.bag, but=but)
-            said = r'\Aredraw: %s: %s.*\n\Z' % (self.bag, words)
-            self.refuses(said, 'redraw', self.bag, *movie)
+            said = r'\Ahdlyap movie: %s: %s.*\n\Z' % (self.bag, words)
+            self.refuses(said, 'movie', self.bag, *out)
         self.assertEqual(os.listdir(self.folder), ['run.bag'])
 
 

@@ -11,7 +11,6 @@ import time
 from diagnostic_msgs.msg import DiagnosticArray
 import rosgraph
 from rosgraph_msgs.msg import Clock
-import roslib.packages
 import rospy
 from std_srvs.srv import SetBool, Trigger
 
@@ -151,7 +150,7 @@ class Nodes(harness.Case):
         self.assertEqual(process.wait(), 0, process.text())
 
     def check_simulated_time(self):
-        follow = Process([roslib.packages.find_node('hdlyap', 'follow')[0], '--node', '/timeless'])
+        follow = Process([*harness.command('follow'), '--node', '/timeless'])
         self.addCleanup(follow.stop)
         run = Run(self, dict(RUN, duration=0.0, pace=PACE), '/timeless')
         self.assertTrue(run.has(3))

@@ -188,7 +188,7 @@ class Noetic(unittest.TestCase):
         """And so made executable there; rosrun would find an executable source a second time."""
         cmake = text_of('CMakeLists.txt')
         installed = re.findall(r'catkin_install_python\(PROGRAMS([^)]*?)DESTINATION', cmake)
-        programs = ' '.join(installed).split()
+        programs = set(' '.join(installed).split())
         here = os.path.join(ROOT, 'hdlyap_ros/scripts')
         scripts = [name for name in os.listdir(here) if os.path.isfile(os.path.join(here, name))]
         self.assertEqual(sorted(programs), sorted('hdlyap_ros/scripts/' + name for name in scripts))

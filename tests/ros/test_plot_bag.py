@@ -1,4 +1,4 @@
-"""plot_bag against bags that are made here: which files it writes, what it prints beside its table
+"""hdlyap plot of bags that are made here: which files it writes, what it prints beside its table
 (test_plot_bag_table.py), what it refuses; and what is kept of a bag."""
 
 import itertools
@@ -132,7 +132,7 @@ def cases():
 
 class Command(Bags):
     def plot(self, names, *arguments, how=tool):
-        text = self.succeeds('plot_bag', self.path(), '--out', self.out, *arguments, how=how)
+        text = self.succeeds('plot', self.path(), '--out', self.out, *arguments, how=how)
         self.assertEqual(sorted(os.listdir(self.out)), sorted(names))
         return text
 
@@ -167,7 +167,7 @@ class Command(Bags):
         self.assertIn('lambda_max      4.0', self.plot(SPECTRUM, '--node', 'far/away'))
 
     def refuse(self, reason, *arguments, how=tool):
-        self.refuses(reason, 'plot_bag', self.path(), '--out', self.out, *arguments, how=how)
+        self.refuses(reason, 'plot', self.path(), '--out', self.out, *arguments, how=how)
         self.assertFalse(os.path.exists(self.out))
 
     def content(self, data):

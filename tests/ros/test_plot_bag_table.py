@@ -1,4 +1,4 @@
-"""plot_bag against bags that are made here: the table that it prints."""
+"""hdlyap plot against bags that are made here: the table that it prints."""
 
 import numpy as np
 

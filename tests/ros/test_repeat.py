@@ -53,7 +53,7 @@ class Repeat(Bags):
         path = self.write(infos)
         text = self.succeeds('repeat', path, '--node', 'hdlyap', '--run', '2', how=process)
         self.assertEqual(text, repetition.scene_file(infos[1]))
-        said = f'repeat: {path}: several runs, choose with --run: 1 (1), 2 (2)\n'
+        said = f'hdlyap repeat: {path}: several runs, choose with --run: 1 (1), 2 (2)\n'
         self.assertEqual(tool('repeat', path), (1, '', said))
 
     def test_every_scene(self):

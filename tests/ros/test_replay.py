@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The program replay: when it says what a bag holds, for whom it waits, and what it refuses."""
+"""hdlyap replay: when it says what a bag holds, for whom it waits, and what it refuses."""
 
 import os
 import re
@@ -17,7 +17,7 @@ import harness
 import made
 from hdlyap.msg import RunInfo, RunStatus, State, Steps
 
-REPLAY = harness.program('replay')
+REPLAY = harness.command('replay')
 REPORTS = 30  # of a run, a time unit apart; recorded within milliseconds
 
 
@@ -64,7 +64,7 @@ class Replayed(harness.Case):
         self.heard.append((time.monotonic(), name, getattr(message, 'sim_time', None)))
 
     def replay(self, *args):
-        process = harness.Process([REPLAY, self.bag, *args])
+        process = harness.Process([*REPLAY, self.bag, *args])
         self.addCleanup(process.stop)
         return process
 
@@ -108,12 +108,12 @@ class Replayed(harness.Case):
         self.assertLessEqual(set(self.times('state')), {28.0, 29.0, 30.0})
 
     def test_waits_for_who_looks(self):
-        """Not for the program view, which is told what the run is, and opens rviz then."""
+        """Not for hdlyap view, which is told what the run is, and opens rviz then."""
         self.record('one')
         self.listen_to('run_info', 'state', 'status')
         replay = self.replay('--pace', '1000', '--look', '/hdlyap')
         self.assertTrue(harness.wait_until(lambda: self.times('run_info')), replay.text())
-        view = harness.Process([harness.program('view'), '--node', '/hdlyap'])
+        view = harness.Process([*harness.command('view'), '--node', '/hdlyap'])
         self.addCleanup(view.stop)
         self.assertTrue(harness.wait_until(lambda: self.looks('/view_')))
         time.sleep(0.3)  # replay asks every 0.1 s
@@ -182,7 +182,7 @@ class Replayed(harness.Case):
     def check_refused(self, words, *args):
         replay = self.replay(*args)
         self.assertEqual(replay.wait(), 1, replay.text())
-        self.assertRegex(replay.text(), r'\Areplay: %s: .*%s.*\n\Z' % (self.bag, words))
+        self.assertRegex(replay.text(), r'\Ahdlyap replay: %s: .*%s.*\n\Z' % (self.bag, words))
 
 
 if __name__ == '__main__':

@@ -61,7 +61,7 @@ class Machines(Folder):
                 '/b/record': two,
                 '/c/hdlyap': one,
                 '/c/record': one,
-                '/sweep_table': None,
+                '/table': None,
             },
         )
         self.assertEqual(
@@ -71,7 +71,7 @@ class Machines(Folder):
         bags = [node.args for node in config.nodes if node.type == 'record']
         for name, args in zip('abc', bags):
             self.assertIn(f"--node 'hdlyap' --bag '{self.folder}/./{name}.bag' ", args)
-        self.assertFalse(any(node.required for node in config.nodes if node.type != 'sweep_table'))
+        self.assertFalse(any(node.required for node in config.nodes if node.name != 'table'))
 
     def test_one_and_here(self):
         config = self.loaded(['a'], '')

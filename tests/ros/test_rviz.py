@@ -13,7 +13,6 @@ import matplotlib.image
 import numpy as np
 import rosbag
 import rosgraph
-import roslib.packages
 import rospy
 import yaml
 from std_srvs.srv import SetBool
@@ -21,7 +20,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 import harness
 
-VIEW = roslib.packages.find_node('hdlyap', 'view')[0]
+VIEW = harness.command('view')
 SCREEN = (1360, 960)
 PAPER = (250, 251, 255)  # a background that nothing else has
 # steps within seconds, then slow enough to look on
@@ -166,7 +165,7 @@ class Rviz(harness.Case):
 
     def open_rviz(self):
         rviz = harness.Process(
-            [VIEW, '--config', config(self.folder.name)],
+            [*VIEW, '--config', config(self.folder.name)],
             ROS_HOME=self.folder.name,
             **self.screen.env,
         )
@@ -252,13 +251,13 @@ class Rviz(harness.Case):
 
 class View(harness.Case):
     def test_without_a_config_or_a_master(self):
-        view = harness.Process([VIEW, '--config', 'none.rviz'])
+        view = harness.Process([*VIEW, '--config', 'none.rviz'])
         self.addCleanup(view.stop)
         self.assertEqual(view.wait(), 1)
         self.assertEqual(
-            view.text().strip(), "view: [Errno 2] No such file or directory: 'none.rviz'"
+            view.text().strip(), "hdlyap view: [Errno 2] No such file or directory: 'none.rviz'"
         )
-        view = harness.Process([VIEW], ROS_MASTER_URI='http://localhost:1', PYTHONUNBUFFERED='1')
+        view = harness.Process(VIEW, ROS_MASTER_URI='http://localhost:1', PYTHONUNBUFFERED='1')
         self.addCleanup(view.stop)
         self.assertTrue(harness.wait_until(lambda: 'Will keep trying' in view.text()), view.text())
         view.send(signal.SIGINT)

@@ -132,7 +132,7 @@ class Started(harness.Case):
         self.addCleanup(node.stop)
         self.check(
             SOME,
-            lambda k: [harness.program('follow'), '--line', '--node', '/followed'],
+            lambda k: [*harness.command('follow'), '--line', '--node', '/followed'],
             lambda follow: follow.lines('  t = '),
         )
 
@@ -140,14 +140,14 @@ class Started(harness.Case):
         gone = 'ROS_MASTER_URI=http://localhost:%d' % harness.free_port()
         self.check(
             SOME,
-            lambda k: ['env', gone, harness.program('follow'), '--line'],
+            lambda k: ['env', gone, *harness.command('follow'), '--line'],
             lambda follow: follow.lines('follow: no master at'),
         )
 
     def test_view(self):
         self.check(
             SOME[:2],
-            lambda k: [harness.program('view'), '--node', '/nowhere'],
+            lambda k: [*harness.command('view'), '--node', '/nowhere'],
             lambda view: view.lines('waiting for pictures'),
         )
 
@@ -160,13 +160,13 @@ class Started(harness.Case):
             file = leases[process.mark.split('_')[1]]
             return fcntl.fcntl(file, fcntl.F_GETLEASE) != fcntl.F_WRLCK
 
-        for name in ('repeat', 'plot_bag'):
+        for name in ('repeat', 'plot'):
 
             def command(k):
                 file = leases[str(k)] = open(self.path('%d.bag' % k), 'w')
                 self.addCleanup(file.close)
                 fcntl.fcntl(file, fcntl.F_SETLEASE, fcntl.F_WRLCK)
-                return [harness.program(name), file.name]
+                return [*harness.command(name), file.name]
 
             self.check([('background', INT), ('docker', TERM)], command, is_read)
 

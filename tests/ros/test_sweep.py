@@ -191,11 +191,11 @@ class Results(InFolder):
         with open(self.path('broken.bag'), 'wb') as file:
             file.write(b'#ROSBAG V2.0\n' + bytes(500))
         program = Process(
-            [harness.program('sweep_table'), self.bag('a'), self.path('broken.bag'), 'none.bag'],
+            [*harness.command('table'), self.bag('a'), self.path('broken.bag'), 'none.bag'],
             PWD=self.folder,
         )
         self.assertEqual(program.wait(), 1, program.text())
-        self.assertEqual(len(program.lines('sweep_table: ')), 2, program.text())
+        self.assertEqual(len(program.lines('hdlyap table: ')), 2, program.text())
         self.assertEqual(len(program.lines('9.000(10)')), 1, program.text())
         self.assertIsNone(figure.draw(self.read(self.bag('a'))))
 
@@ -222,7 +222,7 @@ class Sweep(InFolder):
 
     def sweep(self, *options, status=0):
         """What it printed."""
-        process = self.start(harness.program('sweep'), '--scene', 'tiny.yaml', *options)
+        process = self.start(*harness.command('sweep'), '--scene', 'tiny.yaml', *options)
         self.assertEqual(process.wait(LATEST), status, process.text())
         return process.text()
 
@@ -285,7 +285,7 @@ class Sweep(InFolder):
         said = self.sweep(*given, '--duration', '151', status=2)
         self.assertEqual(
             said,
-            f'sweep: {self.path("sweep", "density_0_6_seed_1.bag")}: it was run with duration = '
+            f'hdlyap sweep: {self.path("sweep", "density_0_6_seed_1.bag")}: it was run with duration = '
             '150.0, not 151; must be swept with that, or in another folder\n',
         )
 
@@ -293,7 +293,7 @@ class Sweep(InFolder):
         path = self.path('sweep', 'density_0_8_seed_2.bag')
         os.truncate(path, os.path.getsize(path) // 2)
         said = self.sweep(*given)
-        self.assertIn(f'sweep: {path} was there already: it is now {path}.old\n', said)
+        self.assertIn(f'hdlyap sweep: {path} was there already: it is now {path}.old\n', said)
         self.assertRegex(said, r'(?m)^4 of 4 runs done in')
         again = self.sweep(*given)
         self.assertNotIn('runs done', again)

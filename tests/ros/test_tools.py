@@ -38,11 +38,11 @@ class Interrupted(Bags):
                 file.write('import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\n')
                 file.write('time.sleep(60)\n')
         path = os.pathsep.join([self.folder, os.environ['PYTHONPATH']])
-        scripts = 'compare fit_dispersion follow hdlyap_run plot_bag record redraw repeat replay'
-        scripts += ' reproduce sweep sweep_table view'
-        for name in scripts.split():
-            done = process(name, env=dict(os.environ, PYTHONPATH=path))
-            self.assertEqual(done, (-signal.SIGINT, '', ''), name)
+        words = [[name] for name in ('record', 'reproduce')]
+        words += [['hdlyap', name] for name in ('fit', 'follow', 'plot', 'replay', 'sweep', 'view')]
+        for script, *name in words:
+            done = process(*name, script=script, env=dict(os.environ, PYTHONPATH=path))
+            self.assertEqual(done, (-signal.SIGINT, '', ''), (script, *name))
 
 
 if __name__ == '__main__':

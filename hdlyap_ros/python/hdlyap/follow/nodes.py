@@ -32,7 +32,7 @@ UNANSWERED = (
 def wait_for_master(deadline):
     """Says at once that there is none."""
     uri = rosgraph.get_master_uri()
-    missing = f'follow: no master at {uri}'
+    missing = f'hdlyap follow: no master at {uri}'
     if not _wait(lambda: answers(uri, SOON), deadline, lambda: missing):
         sys.exit(missing)
 
@@ -49,12 +49,12 @@ def wait_for_node(name, deadline):
 
     def missing():
         others = f'; there is {_listed(found)}' if found else ''
-        return f'follow: no {name or "hdlyap_node"} that publishes a run_info{others}'
+        return f'hdlyap follow: no {name or "hdlyap_node"} that publishes a run_info{others}'
 
     if not _wait(look, deadline, missing):
         return None
     if name is None and len(found) > 1:
-        sys.exit(f'follow: several nodes, choose one with --node: {_listed(found)}')
+        sys.exit(f'hdlyap follow: several nodes, choose one with --node: {_listed(found)}')
     return name or found.pop()
 
 

@@ -1,4 +1,4 @@
-"""Recording -> what plot_bag prints of covariant vectors."""
+"""Recording -> what hdlyap plot prints of covariant vectors."""
 
 from math import isfinite
 

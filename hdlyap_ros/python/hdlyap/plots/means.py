@@ -90,7 +90,7 @@ class Means(Run):
         message.t_misfit = message.l_misfit = message.v_misfit = -1.0
 
     def table(self):
-        """What plot_bag prints of them beside the exponents: both errors and chi^2."""
+        """What hdlyap plot prints of them beside the exponents: both errors and chi^2."""
         seeds = self.seeds
         count = len(seeds.runs)
         number = '1 seed' if count == 1 else f'{count} seeds'

@@ -1,4 +1,4 @@
-"""Recording -> the text that plot_bag prints."""
+"""Recording -> the text that hdlyap plot prints."""
 
 import numpy as np
 

@@ -69,7 +69,7 @@ SWEPT = (
 
 
 class Run(run.Run):
-    ABOUT = 'A run of a sweep: rosrun hdlyap sweep.'
+    ABOUT = 'A run of a sweep: hdlyap sweep.'
 
     def is_done(self, folder):
         """Whether its bag is whole. Refused if that is of a run with other parameters."""

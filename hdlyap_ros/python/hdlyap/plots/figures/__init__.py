@@ -19,7 +19,7 @@ from . import (
 )
 from .style import STYLE, plt, save
 
-# in the order in which plot_bag names them; each gives None where the bag has nothing for it
+# in the order in which hdlyap plot names them; each gives None where the bag has nothing for it
 FIGURES = (
     spectrum,
     convergence,

@@ -1,8 +1,7 @@
-#!/usr/bin/python3
 """One run on a cluster, recorded: what srun or mpirun starts, on each rank.
 
-srun -n 64 hdlyap_run large.yaml --out large.bag duration:=200
-mpirun -n 4 hdlyap_run dense --out dense.bag
+srun -n 64 hdlyap run large.yaml --out large.bag duration:=200
+mpirun -n 4 hdlyap run dense --out dense.bag
 
 Rank 0 starts a ROS master of its own, the recorder and the node, as run.launch does, whose
 arguments may follow; the other ranks are the node's. All topics are in the bag. Nobody else needs a
@@ -10,41 +9,27 @@ master, or sees this one.
 
 Exit status: 0 the run went to its end; 1 it did not; 2 refused."""
 
-import argparse
 import os
-import sys
 import time
 
-from hdlyap.tool import signals  # first
-
+from hdlyap import signals
 from hdlyap.runs import ranks, tree
 
 PATIENCE = 60.0  # seconds that all may take to end, the last checkpoint included
-PROGRAM = 'hdlyap_run'
 
 
-def options():
-    parser = argparse.ArgumentParser(
-        prog=PROGRAM, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+def options(parser):
+    parser.usage = '%(prog)s SCENE --out FILE [ARGUMENT:=VALUE]..'
     parser.add_argument('scene', help='one of launch/scenes, or a file like those')
     parser.add_argument('--out', required=True, metavar='FILE', help='bag to record to')
-    parser.add_argument('argument', nargs='*', help='of run.launch, as duration:=200')
-    args = parser.parse_intermixed_args()
-    for word in args.argument:
-        if ':=' not in word:
-            parser.error(f'{word}: must be an argument of run.launch, as duration:=200')
-    return args
 
 
-def main():
-    signals.exit_on_all()
-    args = options()
+def main(args):
     if ranks.number() > 0:
         ranks.become_node()
     bag = os.path.abspath(args.out if args.out.endswith('.bag') else args.out + '.bag')
     command = ['roslaunch', '-p', str(ranks.free_port()), 'hdlyap', 'run.launch']
-    command += [f'scene:={args.scene}', 'record:=true', f'bag:={bag}', *args.argument]
+    command += [f'scene:={args.scene}', 'record:=true', f'bag:={bag}', *args.assigned]
     os.environ['ROS_HOSTNAME'] = 'localhost'  # nobody looks at it from outside
     with signals.held() as asked_to_end:
         launch = tree.Tree(command, output=None)
@@ -52,7 +37,3 @@ def main():
             time.sleep(tree.POLL)
         tree.end([launch], PATIENCE)
     return 0 if ranks.is_complete(bag) else 1
-
-
-if __name__ == '__main__':
-    sys.exit(main())

@@ -1,16 +1,15 @@
-#!/usr/bin/python3
-"""A film of modes with the disks moving, from a recorded bag. Needs neither a master nor rviz."""
+"""A film of modes with the disks moving, from a recorded bag.
+
+Needs neither a master nor rviz."""
 
 import argparse
 import os
 import re
 
-from hdlyap.tool import signals  # first
-
-from hdlyap import ending
 from hdlyap.plots import frames, movie
 from hdlyap.plots.numbers import positive
 
+FAULT = 1
 FPS = 10.0
 
 
@@ -30,13 +29,12 @@ def modes(text):
     return None if text == 'lowest' else names
 
 
-def arguments():
-    parser = argparse.ArgumentParser(prog='redraw', description=__doc__)
+def options(parser):
     parser.add_argument(
         'bags', nargs='+', metavar='bag', help='recorded file, or several of one run'
     )
     parser.add_argument(
-        '--movie', type=film_file, default='modes.mp4', metavar='FILE', help='.mp4 or .gif'
+        '--out', type=film_file, default='modes.mp4', metavar='FILE', help='.mp4 or .gif'
     )
     parser.add_argument(
         '--modes', type=modes, metavar='NAMES', help='"T(1,0) LP(1,1)"; default: lowest'
@@ -54,25 +52,20 @@ def arguments():
     parser.add_argument(
         '--run', type=int, metavar='NUMBER', help='which run, from 1 (default: the last)'
     )
-    return parser.parse_args()
 
 
-def main():
-    signals.exit_on_all()
-    args = arguments()
+def main(args):
     film = frames.Film(args.bags, args.modes, args.node, args.run)
     pace = args.pace or args.fps * (film.report or 1.0)
     if film.field_interval > 2 * film.report > 0:
         print(
-            'redraw: vectors are %g time units apart, disks %g: record with field_interval: 0 for '
-            'vectors that move as smoothly' % (film.field_interval, film.report)
+            'hdlyap movie: vectors are %g time units apart, disks %g: record with '
+            'field_interval: 0 for vectors that move as smoothly'
+            % (film.field_interval, film.report)
         )
-    count = movie.write(film, args.movie, pace, args.fps)
+    count = movie.write(film, args.out, pace, args.fps)
     print(
         '%s: %s from t = %g to %g in %.1f s, %d frames'
-        % (args.movie, ' and '.join(film.names), film.begin, film.end, count / args.fps, count)
+        % (args.out, ' and '.join(film.names), film.begin, film.end, count / args.fps, count)
     )
-
-
-if __name__ == '__main__':
-    ending.by('redraw', main)
+    return 0

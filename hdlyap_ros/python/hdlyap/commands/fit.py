@@ -1,15 +1,11 @@
-#!/usr/bin/python3
-"""Fits the dispersion relation lambda = c k + c2 k^2 of the T and of the LP steps of a running
-hdlyap_node, by least squares alone, beside what the node says, which knows the curvature of long
-boxes, too. An example of an analysis in Python.
-    rosrun hdlyap fit_dispersion _node:=hdlyap"""
+"""The dispersion relation of a running node, fitted beside what the node says.
 
-import argparse
+lambda = c k + c2 k^2 of its T and of its LP steps, by least squares alone: the node knows the
+curvature of long boxes, too. An example of an analysis in Python."""
+
 import sys
 import threading
 import time
-
-from hdlyap.tool import signals  # first
 
 import numpy as np
 import rospy
@@ -78,7 +74,7 @@ class Newest:
         if self._subscriber.get_num_connections() == 0:
             return (
                 f'nobody publishes {topic}; roslaunch hdlyap run.launch starts a node, '
-                '_node:=NAME chooses another'
+                '--node chooses another'
             )
         return f'nothing on {topic}: its node sends reports while it averages'
 
@@ -90,18 +86,16 @@ class Newest:
         return self._message
 
 
-def main():
-    signals.exit_on_all(but=rospy.core.is_initialized)
-    argparse.ArgumentParser(
-        prog='fit_dispersion',
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    ).parse_args(rospy.myargv()[1:])
+def options(parser):
+    parser.add_argument('--node', default='hdlyap', metavar='NAME', help='default: %(default)s')
+
+
+def main(args):
     try:
-        rospy.init_node('fit_dispersion')
+        rospy.init_node('fit', anonymous=True)
     except rospy.ROSInitException:  # interrupted while there was no master
         return 130
-    newest = Newest(rospy.get_param('~node', 'hdlyap') + '/steps')
+    newest = Newest(args.node + '/steps')
     stop = threading.Event()
     rospy.on_shutdown(stop.set)
     until = time.monotonic() + PERIOD  # in which a node connects
@@ -113,9 +107,6 @@ def main():
         elif time.monotonic() < until:
             continue
         else:
-            print('fit_dispersion waits: ' + newest.missing, file=sys.stderr, flush=True)
+            print('hdlyap fit waits: ' + newest.missing, file=sys.stderr, flush=True)
         until = time.monotonic() + PATIENCE
-
-
-if __name__ == '__main__':
-    sys.exit(main())
+    return 0

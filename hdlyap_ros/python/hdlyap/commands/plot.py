@@ -1,24 +1,20 @@
-#!/usr/bin/python3
-"""Tables and figures from recorded bags of hdlyap_node: exponents, steps, modes, phases, cost.
+"""Tables and figures from recorded bags: exponents, steps, modes, phases, cost.
+
 Several bags are parts of one run (split, or resumed from a checkpoint), or runs of several seeds,
 whose means are drawn.
 
 Exit status: 0, or 1 if a bag cannot be used or a file cannot be written."""
 
-import argparse
 import os
 
-from hdlyap.tool import signals  # first
-
-from hdlyap import ending
 from hdlyap.plots import figures, fits, means, report
 from hdlyap.plots.progress import Progress
 
 
-def arguments():
-    parser = argparse.ArgumentParser(
-        prog='plot_bag', description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+FAULT = 1
+
+
+def options(parser):
     parser.add_argument('bags', nargs='+', metavar='BAG', help='file recorded by rosbag')
     parser.add_argument(
         '--out', default='.', metavar='DIR', help='folder of the figures (default: the current one)'
@@ -33,7 +29,6 @@ def arguments():
     fits.add_arguments(parser)
     parser.add_argument('--csv', metavar='DIR', help='folder for all tables as CSV')
     parser.add_argument('--npz', metavar='FILE', help='file for all arrays, for numpy.load')
-    return parser.parse_args()
 
 
 def exported(args):
@@ -45,9 +40,7 @@ def exported(args):
     return files + ([export.npz(run, args.npz)] if args.npz else [])
 
 
-def main():
-    signals.exit_on_all()
-    args = arguments()
+def main(args):
     run = means.read(args.bags, args.node, number=args.run, choice=fits.choice(args))
     is_mean = isinstance(run, means.Means)
     print(report.of_means(run) if is_mean else report.report(run), flush=True)
@@ -59,7 +52,4 @@ def main():
     if args.csv or args.npz:
         files += exported(args)
     print('\n' + '\n'.join(files))
-
-
-if __name__ == '__main__':
-    ending.by('plot_bag', main)
+    return 0

@@ -1,30 +1,27 @@
-#!/usr/bin/python3
-"""The table of sweep, of any bags: lambda_max, h_KS/N, c_T, c_L and v of each system, means over
-its seeds. Runs of reproduce.launch are waited for, until all have ended."""
+"""The table of a sweep, of any bags.
 
-import argparse
+lambda_max, h_KS/N, c_T, c_L and v of each system, means over its seeds. Runs of reproduce.launch
+are waited for, until all have ended."""
+
 import os
 import sys
 import time
 import xmlrpc.client
 
-from hdlyap.tool import signals  # first
-
 from roslaunch import netapi
 import rospy
 
-from hdlyap import ending
 from hdlyap.follow import nodes
 from hdlyap.plots import fits
 from hdlyap.sweep import result
 
+FAULT = 1
 POLL = 0.5  # seconds between two looks at the processes
 COMING = 60.0  # seconds for a node on another machine to come up
 SURE = 3  # questions in a row that a node which was there has not answered
 
 
-def arguments():
-    parser = argparse.ArgumentParser(prog='sweep_table', description=__doc__)
+def options(parser):
     parser.add_argument(
         'runs',
         nargs='+',
@@ -36,7 +33,6 @@ def arguments():
         '--out', metavar='DIR', help='writes the table, also as CSV, and a figure there'
     )
     fits.add_arguments(parser)
-    return parser.parse_args(rospy.myargv()[1:])
 
 
 class Nodes:
@@ -92,7 +88,7 @@ def has_ended(group, nodes_now):
 
 
 def wait_for(groups):
-    rospy.init_node('sweep_table')
+    rospy.init_node('table')
     nodes_now = Nodes()
     while groups and not rospy.is_shutdown():
         time.sleep(POLL)
@@ -100,9 +96,7 @@ def wait_for(groups):
         groups = [group for group in groups if not has_ended(group, nodes_now)]
 
 
-def main():
-    signals.exit_on_all(but=rospy.core.is_initialized)
-    args = arguments()
+def main(args):
     groups = [name for name in args.runs if not name.endswith('.bag')]
     if groups:
         wait_for(groups)
@@ -113,9 +107,5 @@ def main():
         os.makedirs(args.out, exist_ok=True)
     wrong = result.write(bags, args.out, fits.choice(args))
     for line in wrong:
-        print(f'sweep_table: {line}', file=sys.stderr, flush=True)
+        print(f'hdlyap table: {line}', file=sys.stderr, flush=True)
     return 1 if wrong else 0
-
-
-if __name__ == '__main__':
-    ending.by('sweep_table', main)

@@ -1,25 +1,20 @@
-#!/usr/bin/python3
-"""What a running hdlyap_node does: a screen on a terminal, until q is pressed; elsewhere one line
-now and then, until the run has finished.
+"""What a running node does, on a screen or in a line.
+
+A screen on a terminal, until q is pressed; elsewhere one line now and then, until the run has
+finished.
 
 Exit status: 0 the run has finished, or q; 1 no node; 3 the node went away before the end of its
 run; 130 interrupted."""
 
-import argparse
 import sys
 import time
-
-from hdlyap.tool import signals  # first
 
 import rospy
 
 from hdlyap.follow import dashboard, line, nodes, screen
 
 
-def arguments():
-    parser = argparse.ArgumentParser(
-        prog='follow', description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+def options(parser):
     parser.add_argument('--node', metavar='NAME', help='default: the only one that is running')
     parser.add_argument(
         '--timeout',
@@ -34,30 +29,27 @@ def arguments():
         help='one line on a terminal too, and the end with that of the run',
     )
     parser.add_argument('--plain', action='store_true', help='a screen of ASCII without colours')
-    return parser.parse_args(rospy.myargv()[1:])
 
 
-def main():
-    signals.exit_on_all(but=rospy.core.is_initialized)
-    args = arguments()
+def main(args):
+    try:
+        return follow(args)
+    except KeyboardInterrupt:
+        return 130
+
+
+def follow(args):
     deadline = time.monotonic() + args.timeout
     nodes.wait_for_master(deadline)
     rospy.init_node('follow', anonymous=True)
     node = nodes.wait_for_node(args.node and '/' + args.node.strip('/'), deadline)
     if node is None:
-        sys.exit(130 if rospy.is_shutdown() else 'follow: no hdlyap_node is running')
+        sys.exit(130 if rospy.is_shutdown() else 'hdlyap follow: no hdlyap_node is running')
     status = (
         line.follow(node)
         if args.line or not screen.is_usable()
         else dashboard.follow(node, args.plain)
     )
     if status == 3:
-        print(f'follow: {node} went away before the end of its run', file=sys.stderr)
+        print(f'hdlyap follow: {node} went away before the end of its run', file=sys.stderr)
     return status
-
-
-if __name__ == '__main__':
-    try:
-        sys.exit(main())
-    except KeyboardInterrupt:
-        sys.exit(130)

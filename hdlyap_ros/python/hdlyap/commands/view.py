@@ -1,15 +1,11 @@
-#!/usr/bin/python3
-"""rviz on a running hdlyap_node, or on a bag that is played, with the whole picture in its window.
+"""rviz with the whole picture in its window: of a running node, or of a bag that is played.
 
 Waits for the first picture, fits rviz's view to it and becomes rviz."""
 
-import argparse
 import glob
 import os
 import sys
 import threading
-
-from hdlyap.tool import signals  # first
 
 import rospkg
 import rospy
@@ -38,7 +34,8 @@ def first_picture(topic):
     subscriber = rospy.Subscriber(topic, MarkerArray, keep, queue_size=1)
     if not arrived.wait(1.0):
         print(
-            'view: waiting for pictures on %s; rviz.launch starts their viewer' % topic, flush=True
+            'hdlyap view: waiting for pictures on %s; rviz.launch starts their viewer' % topic,
+            flush=True,
         )
     while not arrived.wait(0.2) and not rospy.is_shutdown():
         pass
@@ -95,19 +92,19 @@ def fitted(config, topic, picture):
     return config
 
 
-def main():
-    signals.exit_on_all(but=rospy.core.is_initialized)
-    parser = argparse.ArgumentParser(prog='view', description=__doc__.splitlines()[0])
+def options(parser):
     parser.add_argument('--node', default='/hdlyap', metavar='NAME', help='default: %(default)s')
     parser.add_argument(
         '--config', metavar='FILE', help='a view of your own instead of rviz/hdlyap.rviz'
     )
-    args = parser.parse_args(rospy.myargv()[1:])
+
+
+def main(args):
     try:
         with open(args.config or shipped()) as file:
             config = yaml.safe_load(file)
     except (OSError, yaml.YAMLError) as error:
-        sys.exit('view: %s' % error)
+        sys.exit('hdlyap view: %s' % error)
     try:
         rospy.init_node('view', anonymous=True)
     except rospy.ROSInitException:  # interrupted while there was no master
@@ -124,8 +121,6 @@ def main():
         plain = ['--disable-anti-aliasing'] if is_software_gl() else []
         os.execvp('rviz', ['rviz', '-d', own, *plain, '__name:=rviz_' + str(os.getpid())])
     except FileNotFoundError:
-        sys.exit('view: there is no rviz; install it (Debian: rviz, Noetic: ros-noetic-rviz)')
-
-
-if __name__ == '__main__':
-    sys.exit(main())
+        sys.exit(
+            'hdlyap view: there is no rviz; install it (Debian: rviz, Noetic: ros-noetic-rviz)'
+        )

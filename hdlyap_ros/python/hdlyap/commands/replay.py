@@ -1,11 +1,9 @@
-#!/usr/bin/python3
-"""Plays a bag by the wall time of its recording, or by the simulated time of its run.
+"""A bag played: by the wall time of its recording, or by the simulated time of its run.
 
 Publishes the messages as they were recorded, latched topics as latched ones. Waits, at most half a
 minute, for rviz if a picture is looked at (--look); then its viewer is there too.
 Service: ~pause_playback (std_srvs/SetBool)."""
 
-import argparse
 import heapq
 import math
 import struct
@@ -13,8 +11,6 @@ import sys
 import threading
 import time
 import warnings
-
-from hdlyap.tool import signals  # first
 
 import rosgraph
 import rospy
@@ -31,8 +27,7 @@ AFTER_STAMP = 12  # bytes of a header; then come frame_id, run_id, and the simul
 DISORDER = 1.0  # seconds at most by which a recorder mixes topics: their messages come as they can
 
 
-def arguments():
-    parser = argparse.ArgumentParser(prog='replay', description=__doc__.splitlines()[0])
+def options(parser):
     parser.add_argument('bag', help='file recorded by record.launch or rosbag')
     speed = parser.add_mutually_exclusive_group()
     speed.add_argument(
@@ -62,7 +57,6 @@ def arguments():
         '--look', metavar='NODE', help='wait for who looks at pictures of this node'
     )
     parser.add_argument('--keep-alive', action='store_true', help='stay after the end')
-    return parser.parse_args(rospy.myargv()[1:])
 
 
 def raw_class(connection):
@@ -171,7 +165,10 @@ class Player:
                     or connection.header.get('latching') in (b'1', '1'),
                 )
         if older:
-            print('replay: of an earlier version, what they lack is -1: ' + ' '.join(sorted(older)))
+            print(
+                'hdlyap replay: of an earlier version, what they lack is -1: '
+                + ' '.join(sorted(older))
+            )
         rospy.Service('~pause_playback', SetBool, lambda request: self._pause(request.data))
 
     def _pause(self, yes):
@@ -218,7 +215,7 @@ class Player:
                 if message
                 else '%s: an empty bag' % self._args.bag
             )
-        print('replay: at the end, t = %g' % message.time)
+        print('hdlyap replay: at the end, t = %g' % message.time)
 
     def _publish(self, message):
         publisher = self._publishers[message.topic]
@@ -234,7 +231,7 @@ class Player:
         node = '/' + self._args.look.strip('/')
         drawn = [p for t, p in self._publishers.items() if t in {node + '/' + d for d in DRAWN}]
         if not drawn or node + '/run_info' not in self._publishers:
-            print('replay: nothing of %s in this bag can be drawn' % node)
+            print('hdlyap replay: nothing of %s in this bag can be drawn' % node)
             return
         end = time.monotonic() + PATIENCE
         self._wait_until(
@@ -242,7 +239,9 @@ class Player:
             or (is_looked_at(node + '/markers') and all(map(is_heard, drawn)))
         )
         if time.monotonic() > end:
-            print('replay: nobody looks at %s/markers yet; begins without' % node, flush=True)
+            print(
+                'hdlyap replay: nobody looks at %s/markers yet; begins without' % node, flush=True
+            )
 
     @staticmethod
     def _wait_until(condition):
@@ -260,9 +259,7 @@ def is_looked_at(topic):
     return any(not name.startswith('/view_') for name in subscribers.get(topic, ()))
 
 
-def main():
-    signals.exit_on_all(but=rospy.core.is_initialized)
-    args = arguments()
+def main(args):
     sys.stdout.reconfigure(line_buffering=True)
     with reader.opened(args.bag) as bag:
         try:
@@ -277,10 +274,3 @@ def main():
     if args.keep_alive:
         rospy.spin()
     return 0
-
-
-if __name__ == '__main__':
-    try:
-        sys.exit(main())
-    except reader.RecordingError as error:
-        sys.exit('replay: %s' % error)

@@ -1,0 +1,92 @@
+"""The command hdlyap: a module here is a subcommand. It has options(parser), main(args), which
+returns the exit status, and, if it reads bags, FAULT: the status of a bag that cannot be used."""
+
+import argparse
+import ast
+import importlib
+import logging
+import os
+import pkgutil
+import sys
+import traceback
+import warnings
+
+from hdlyap import signals
+
+PROGRAM = 'hdlyap'
+
+
+def main(words):
+    """Exit status."""
+    parser = argparse.ArgumentParser(
+        prog=PROGRAM,
+        usage='%(prog)s COMMAND [ARGUMENT]..',
+        description='What is done with runs of hdlyap_node, and with their bags.',
+        epilog=f'commands:\n{_listed()}\n\n{PROGRAM} COMMAND --help says what it takes.',
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument('command', choices=_names(), metavar='COMMAND', help=argparse.SUPPRESS)
+    chosen = parser.parse_args(words[:1] or ['--help']).command
+    try:
+        module = importlib.import_module(f'{__name__}.{chosen}')
+    except ImportError as error:  # messages and tools were installed alone
+        sys.exit(f'{PROGRAM} {chosen}: {error}; it needs all of hdlyap')
+    signals.exit_on_all(but=_rospy_answers)
+    return _ended(chosen, module, _parsed(chosen, module, words[1:]))
+
+
+def _names():
+    return sorted(module.name for module in pkgutil.iter_modules(__path__))
+
+
+def _listed():
+    """A line for each, of what it says of itself; none is imported."""
+    lines = []
+    for name in _names():
+        with open(os.path.join(__path__[0], name + '.py'), encoding='utf-8') as file:
+            about = ast.get_docstring(ast.parse(file.read()))
+        lines.append(f'  {name:<8} {about.splitlines()[0]}')
+    return '\n'.join(lines)
+
+
+def _parsed(name, module, words):
+    """What a word with := says to ROS, or to a launch file, is in `assigned`."""
+    parser = argparse.ArgumentParser(
+        prog=f'{PROGRAM} {name}',
+        description=module.__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    module.options(parser)
+    args = parser.parse_args([word for word in words if ':=' not in word])
+    args.assigned = [word for word in words if ':=' in word]
+    args.error = parser.error
+    return args
+
+
+def _rospy_answers():
+    """A signal that asks for the end."""
+    return 'rospy.core' in sys.modules and sys.modules['rospy.core'].is_initialized()
+
+
+def _ended(name, module, args):
+    """Whatever is wrong with bags is one line, and the tool's own exit status."""
+    from hdlyap.data.reader import RecordingError, plain
+
+    logging.getLogger('rosout').addHandler(logging.NullHandler())  # genpy's, of texts that are none
+    for kind in (RuntimeWarning, UserWarning):  # numpy's and matplotlib's, of odd numbers
+        warnings.simplefilter('ignore', kind)
+    fault = getattr(module, 'FAULT', None)
+    try:
+        return module.main(args)
+    except (RecordingError, OSError) as error:
+        text = str(error)
+    except Exception as error:  # what no check has foreseen: a bag may say anything
+        if fault is None:
+            raise
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        where = f'{os.path.basename(place.filename)}, line {place.lineno}'
+        what = f'{type(error).__name__}: {error} ({where})'
+        text = f'what is recorded makes no sense here: {what}'
+    print(f'{PROGRAM} {name}: {plain(text, 8192)}', file=sys.stderr)
+    return fault or 1
