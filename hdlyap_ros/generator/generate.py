@@ -1,6 +1,11 @@
 #!/usr/bin/env python3
 """msg/*.msg -> the messages for C: a header of structs, and for the wrapper lists of their fields.
 
+What a float64 is while it is not known stands in its comment, and is sent by that: 'NaN if FIELD is
+VALUE', 'NaN unless FIELD' and the same of -1, where VALUE is a number or a constant (0 if there is
+none), and 'while' says the same as 'if'. Whenever else, it must be finite. A comment that says
+NaN without such a rule allows it at any time; without NaN a number must always be finite.
+
 generate.py PACKAGE HEADER FIELDS MESSAGE_FILE...
 """
 
@@ -31,6 +36,8 @@ ARRAYS = {
     'uint32': 'hdr_uints',
     'uint64': 'hdr_counts',
 }
+
+UNKNOWN = re.compile(r'(NaN|-1) (if|while|unless) (\w+)(?: is (-?\w+))?')
 
 HEADER = '''\
 /** The messages of %(package)s as C has them, one struct each; made from msg/ at build time.
@@ -77,6 +84,8 @@ FIELDS = '''\
 /** What the structs of hdlyap_ros/messages.h stand for, and their fields in the order of the
  * message; made from msg/ at build time. */
 #pragma once
+
+#include <cmath>
 
 %(includes)s
 
@@ -132,12 +141,17 @@ class Message:
             text += '\n * ' + line.lstrip('# ').replace('*/', '* /')
         return ':' + text if text else ''
 
-    def comment_of(self, name):
+    def text_of(self, name):
+        """What its line says of a field or a constant."""
         for line in self.lines:
             found = re.match(r'[\w/\[\]]+\s+%s\b[^#]*#\s*(.*)' % name, line)
             if found:
-                return ' /**< %s */' % found.group(1).replace('*/', '* /')
+                return found.group(1)
         return ''
+
+    def comment_of(self, name):
+        text = self.text_of(name)
+        return ' /**< %s */' % text.replace('*/', '* /') if text else ''
 
     def constants(self):
         rows = []
@@ -171,8 +185,37 @@ class Message:
         fields = [field for message in messages for field in message.spec.parsed_fields()]
         return any(field.is_array and field.base_type == self.type for field in fields)
 
-    def cpp_fields(self):
-        fields = (',\n' + 13 * ' ').join('m.' + name for name in self.spec.names)
+    def value_of(self, word, messages):
+        """A number, or a constant: one of its own, else of the only other message that has one."""
+        if re.fullmatch(r'-?\d+', word):
+            return int(word)
+        for some in ([self], messages):
+            values = {c.val for one in some for c in one.spec.constants if c.name == word}
+            if len(values) == 1:
+                return values.pop()
+        sys.exit('%s: %s: no constant, or more than one' % (self.type, word))
+
+    def passed(self, field, messages):
+        """The field in the program: with what it is while it is not known."""
+        text, name = self.text_of(field.name), 'm.' + field.name
+        if field.base_type != 'float64':
+            return name
+        rule = UNKNOWN.search(text)
+        if not rule or rule.group(3) not in self.spec.names:
+            return 'or_nan(%s)' % name if 'NaN' in text else name
+        unknown, how, other, word = rule.groups()
+        equal = (how == 'unless') == (word is not None)  # alone, a field stands for: is not 0
+        compared = 'm.%s %s %d' % (
+            other,
+            '==' if equal else '!=',
+            self.value_of(word or '0', messages),
+        )
+        return 'known_if(%s, %s, %s)' % (compared, name, 'NAN' if unknown == 'NaN' else '-1.0')
+
+    def cpp_fields(self, messages):
+        fields = (',\n' + 13 * ' ').join(
+            self.passed(field, messages) for field in self.spec.parsed_fields()
+        )
         cpp = self.type.replace('/', '::')
         return MESSAGE % dict(name=self.name, cpp=cpp, fields=fields)
 
@@ -199,7 +242,7 @@ def header(package, messages):
 def fields(messages):
     text = ''
     for message in messages:
-        text += message.cpp_fields()
+        text += message.cpp_fields(messages)
         if message.is_in_arrays_of(messages):
             text += ITEM % vars(message)
     includes = ['#include <%s.h>' % message.type for message in messages]

@@ -1,6 +1,7 @@
 /** C structs against roscpp's messages: the same bytes, the same type; out and in. */
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "message_fields.hpp"
@@ -44,18 +45,32 @@ class distinct
     int last = 0, length = 0;
 };
 
-/** Whatever is not 0 is true, and comes out as 1. */
-void make_bools(hdlyap::Steps &message)
+/** All numbers are known, and go out as they are. Whatever is not 0 is true, and comes out as 1. */
+void make_known(hdlyap::Steps &message)
 {
-    for (hdlyap::Step &step : message.steps) step.conjugate = !(step.resolved = step.nx % 2);
+    message.t_points = message.l_points = message.v_phases = 1;
+    for (hdlyap::Step &step : message.steps) step.conjugate = !(step.resolved = 1);
 }
-template <class Other> void make_bools(Other &) {}
+void make_known(hdlyap::Modes &message)
+{
+    for (hdlyap::Mode &mode : message.modes) mode.kind = hdlyap::Mode::LP;
+}
+void make_known(hdlyap::ModeField &message) { message.kind = message.pairs = 1; }
+void make_known(hdlyap::Cost &message) { message.orthonormalisations = 1; }
+template <class Other> void make_known(Other &) {}
 
 template <class Message> typename message_of<Message>::type filled()
 {
     typename message_of<Message>::type message;
     distinct().next(message);
-    make_bools(message);
+    make_known(message);
+    return message;
+}
+
+template <class Message> typename message_of<Message>::type empty()
+{
+    typename message_of<Message>::type message;
+    make_known(message);
     return message;
 }
 
@@ -91,7 +106,7 @@ const double numbers[] = {1.5, -2.25, 3e300, 4e-300, 5, 6};
     TEST(messages, type)                                                                           \
     {                                                                                              \
         expect_both_ways<type>(filled<type>());                                                    \
-        expect_both_ways<type>({});                                                                \
+        expect_both_ways<type>(empty<type>());                                                     \
     }
 HDR_MESSAGES(TEST_BOTH_WAYS)
 TEST_BOTH_WAYS(hdr_float64)
@@ -138,6 +153,102 @@ TEST(messages, strides)
     message.px = {1.5, 4e-300};
     message.py.assign(numbers, numbers + 6);
     expect_same(state, message);
+}
+
+namespace
+{
+/** As it arrives. */
+template <class Ros, class Message> Ros arrived(const Message &message)
+{
+    Ros in;
+    const sent<Message> out = {message};
+    ros::serialization::deserializeMessage(ros::serialization::serializeMessage(out), in);
+    return in;
+}
+
+template <class Message> Message named()
+{
+    Message message = {};
+    message.header.frame_id = message.run_id = "";
+    return message;
+}
+
+/** Whether the message may go out with this number in that place. */
+template <class Message> bool may_be(Message message, double Message::*place, double number)
+{
+    message.*place = number;
+    return hdlyap_ros::is_finite(message);
+}
+} // namespace
+
+/** By the rules in the comments of Step: what it holds does not go out while it is not known. */
+TEST(messages, unknown)
+{
+    hdr_steps message = named<hdr_steps>();
+    hdr_step step = {};
+    step.multiplicity = step.exponent = step.gap = INFINITY;
+    step.gap_error = step.omega = 7.0;
+    message.steps = {&step, 1};
+    message.c_t = 3.0;
+    message.v_error = 3.0;
+    EXPECT_TRUE(hdlyap_ros::is_finite(message));
+    const auto unknown = arrived<hdlyap::Steps>(message);
+    EXPECT_TRUE(std::isnan(unknown.steps.at(0).multiplicity));
+    EXPECT_TRUE(std::isnan(unknown.steps[0].gap));
+    EXPECT_EQ(-1.0, unknown.steps[0].gap_error);
+    EXPECT_EQ(7.0, unknown.steps[0].omega);
+    EXPECT_TRUE(std::isnan(unknown.c_t));
+    EXPECT_EQ(-1.0, unknown.v_error);
+
+    step.resolved = true;
+    EXPECT_FALSE(hdlyap_ros::is_finite(message));
+    step.multiplicity = step.exponent = 2.0;
+    EXPECT_TRUE(hdlyap_ros::is_finite(message));
+    step.sharing = HDR_STEP_SHARING_MIXING;
+    EXPECT_FALSE(hdlyap_ros::is_finite(message));
+    step.gap = 0.5;
+    message.t_points = message.v_phases = 1;
+    const auto known = arrived<hdlyap::Steps>(message);
+    EXPECT_EQ(2.0, known.steps.at(0).multiplicity);
+    EXPECT_EQ(0.5, known.steps[0].gap);
+    EXPECT_EQ(7.0, known.steps[0].gap_error);
+    EXPECT_EQ(3.0, known.c_t);
+    EXPECT_EQ(3.0, known.v_error);
+}
+
+/** Arrays too. */
+TEST(messages, unknown_arrays)
+{
+    hdr_spectrum message = named<hdr_spectrum>();
+    const double local[] = {1.0, NAN, 2.0};
+    message.local_exponents = {local, 3, 1};
+    EXPECT_TRUE(hdlyap_ros::is_finite(message));
+    const auto unknown = arrived<hdlyap::Spectrum>(message);
+    ASSERT_EQ(3u, unknown.local_exponents.size());
+    EXPECT_TRUE(std::isnan(unknown.local_exponents[0]));
+    message.local_time = 1.0;
+    EXPECT_FALSE(hdlyap_ros::is_finite(message));
+    message.local_exponents.stride = 2;
+    message.local_exponents.count = 2;
+    EXPECT_TRUE(hdlyap_ros::is_finite(message));
+    EXPECT_EQ(2.0, arrived<hdlyap::Spectrum>(message).local_exponents[1]);
+    message.cos_theta = {local, 3, 1};
+    EXPECT_TRUE(hdlyap_ros::is_finite(message)); /* may be NaN */
+    const double far[] = {HUGE_VAL};
+    message.cos_theta = {far, 1, 1};
+    EXPECT_FALSE(hdlyap_ros::is_finite(message));
+}
+
+TEST(messages, finite)
+{
+    const hdr_cost cost = named<hdr_cost>();
+    for (const double number : {double(NAN), HUGE_VAL, -HUGE_VAL}) {
+        EXPECT_FALSE(may_be(cost, &hdr_cost::wall_seconds, number));
+        EXPECT_TRUE(may_be(cost, &hdr_cost::condition, number)); /* of none yet, goes out as NaN */
+        EXPECT_EQ(std::isnan(number), may_be(cost, &hdr_cost::events_per_second, number));
+        EXPECT_FALSE(may_be(named<hdr_gas>(), &hdr_gas::pressure_error, number));
+    }
+    EXPECT_TRUE(may_be(named<hdr_gas>(), &hdr_gas::pressure_error, -1.0));
 }
 
 int main(int argc, char **argv)

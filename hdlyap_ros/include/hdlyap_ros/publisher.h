@@ -25,7 +25,9 @@ typedef struct hdr_publisher hdr_publisher;
  * HDR_FAULT or HDR_NO_MEMORY.
  *
  * The message is serialised before _publish returns and not waited for, but for hdr_publisher_wait.
- * Without a subscriber and without latching it does nothing. HDR_FAULT if the publisher is of
+ * What is not known, by the rules in the comments of its fields (HDR messages alone), goes out as
+ * NaN or -1 whatever the struct has; if another number is not finite, HDR_NOT_FINITE and nothing is
+ * sent. Without a subscriber and without latching it does nothing. HDR_FAULT if the publisher is of
  * another type; HDR_NO_MEMORY.
  */
 #define HDR_PUBLISHER(type)                                                                        \

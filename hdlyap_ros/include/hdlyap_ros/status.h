@@ -12,7 +12,8 @@ typedef enum hdr_status {
     HDR_MISSING,    /**< there is no such parameter */
     HDR_WRONG_TYPE, /**< the parameter has another type */
     HDR_NO_MEMORY,  /**< nor a thread; hdr_error_text says which */
-    HDR_FAULT       /**< roscpp refused; hdr_error_text says why */
+    HDR_FAULT,      /**< roscpp refused; hdr_error_text says why */
+    HDR_NOT_FINITE  /**< a number of a message is not finite that must be */
 } hdr_status;
 
 #if defined(__GNUC__)

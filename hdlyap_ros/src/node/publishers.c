@@ -99,6 +99,7 @@ hdr_header message_header(void)
 
 hd_status publishers_sent(hdr_status status, topic t)
 {
+    if (status == HDR_NOT_FINITE) return HD_NOT_FINITE;
     if (status != HDR_OK) hdr_log(HDR_ERROR, "%s not sent: %s", topic_name(t), hdr_error_text());
     return HD_OK;
 }

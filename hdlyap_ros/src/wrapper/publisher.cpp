@@ -108,6 +108,11 @@ template <class Message> hdr_status publish(hdr_publisher *publisher, const Mess
         send(*publisher, *message);
     });
 }
+
+template <class Message> hdr_status publish_finite(hdr_publisher *publisher, const Message *message)
+{
+    return hdlyap_ros::is_finite(*message) ? publish(publisher, message) : HDR_NOT_FINITE;
+}
 } // namespace
 
 hdr_status hdr_markers_advertise(hdr_publisher **out, hdr_node *node, const char *topic)
@@ -116,12 +121,12 @@ hdr_status hdr_markers_advertise(hdr_publisher **out, hdr_node *node, const char
 }
 
 /* One function each, so that C checks the type of the message. */
-#define HDR_PUBLISH(type)                                                                          \
+#define HDR_PUBLISH_BY(function, type)                                                             \
     hdr_status type##_publish(hdr_publisher *publisher, const type *message)                       \
     {                                                                                              \
-        return publish(publisher, message);                                                        \
+        return function(publisher, message);                                                       \
     }
-#define HDR_PUBLISHER(type)                                                                        \
+#define HDR_ADVERTISE(type)                                                                        \
     hdr_status type##_advertise(hdr_publisher **out, hdr_node *node, const char *topic, int queue) \
     {                                                                                              \
         return advertise<type>(out, node, topic, queue, false);                                    \
@@ -130,13 +135,16 @@ hdr_status hdr_markers_advertise(hdr_publisher **out, hdr_node *node, const char
                                         int queue)                                                 \
     {                                                                                              \
         return advertise<type>(out, node, topic, queue, true);                                     \
-    }                                                                                              \
-    HDR_PUBLISH(type)
+    }
+#define HDR_PUBLISHER(type) HDR_ADVERTISE(type) HDR_PUBLISH_BY(publish_finite, type)
+#define HDR_STANDARD(type) HDR_ADVERTISE(type) HDR_PUBLISH_BY(publish, type)
 HDR_MESSAGES(HDR_PUBLISHER)
-HDR_STANDARD_MESSAGES(HDR_PUBLISHER)
-HDR_PUBLISH(hdr_markers)
+HDR_STANDARD_MESSAGES(HDR_STANDARD)
+HDR_PUBLISH_BY(publish, hdr_markers)
+#undef HDR_STANDARD
 #undef HDR_PUBLISHER
-#undef HDR_PUBLISH
+#undef HDR_PUBLISH_BY
+#undef HDR_ADVERTISE
 
 int hdr_publisher_subscribers(const hdr_publisher *publisher)
 {

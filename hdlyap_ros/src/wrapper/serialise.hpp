@@ -3,6 +3,7 @@
  * buffers. received.hpp reads by the same lists of fields. */
 #pragma once
 
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <type_traits>
@@ -82,6 +83,65 @@ template <class Stream> void put(Stream &stream, const hdr_bytes &list)
     put_numbers(stream, list.data, list.count);
 }
 
+/** A stream that writes nothing, and sees whether the numbers are finite that must be. */
+struct finite_check {
+    bool finite = true, nan_too = false;
+    void next(double x) { finite = finite && (std::isfinite(x) || (nan_too && std::isnan(x))); }
+    template <class Other> void next(const Other &) {}
+};
+
+inline void put(finite_check &check, const hdr_doubles &array)
+{
+    for (uint32_t k = 0; k < array.count; k++) check.next(array.data[size_t(k) * array.stride]);
+}
+
+/** A number, or an array of them, that may be NaN; to be filled it is itself. */
+template <class Field> struct nan_or {
+    const Field &field;
+};
+template <class Field> nan_or<Field> or_nan(const Field &field) { return {field}; }
+template <class Field> Field &or_nan(Field &field) { return field; }
+
+template <class Stream, class Field> void put(Stream &stream, const nan_or<Field> &any)
+{
+    put(stream, any.field);
+}
+
+template <class Field> void put(finite_check &check, const nan_or<Field> &any)
+{
+    check.nan_too = true;
+    put(check, any.field);
+    check.nan_too = false;
+}
+
+/** The same that is known or not; if not, it goes out as what stands for that. */
+template <class Field> struct if_known {
+    bool known;
+    const Field &field;
+    double unknown;
+};
+template <class Field> if_known<Field> known_if(bool known, const Field &field, double unknown)
+{
+    return {known, field, unknown};
+}
+template <class Field> Field &known_if(bool, Field &field, double) { return field; }
+
+inline double unknown_of(double, const double &unknown) { return unknown; }
+inline hdr_doubles unknown_of(const hdr_doubles &array, const double &unknown)
+{
+    return {&unknown, array.count, 0};
+}
+
+template <class Stream, class Field> void put(Stream &stream, const if_known<Field> &perhaps)
+{
+    put(stream, perhaps.known ? perhaps.field : unknown_of(perhaps.field, perhaps.unknown));
+}
+
+template <class Field> void put(finite_check &check, const if_known<Field> &perhaps)
+{
+    if (perhaps.known) put(check, perhaps.field);
+}
+
 /** A message within another one. */
 template <class Stream, class Message, class = typename message_of<Message>::type>
 void put(Stream &stream, const Message &message)
@@ -107,6 +167,14 @@ void pass(Stream &stream, First &&first, Second &&second, Rest &&...rest)
 {
     pass(stream, first);
     pass(stream, second, rest...);
+}
+
+/** False if a number of the message is not finite that must be. */
+template <class Message> bool is_finite(const Message &message)
+{
+    finite_check check;
+    message_of<Message>::fields(check, message);
+    return check.finite;
 }
 
 template <> struct message_of<hdr_header> {
