@@ -72,6 +72,12 @@ STRUCT = '''
 typedef struct %(name)s {
 %(rows)s} %(name)s;
 '''
+SIZES = '''
+/** Bytes on the wire: of the message without what its arrays and strings hold, and of one more
+ * element in each array of numbers. */
+#define %(macro)s_BYTES %(bytes)d.0
+#define %(macro)s_EACH %(each)d.0
+'''
 LIST = '''
 /** %(type)s[] */
 typedef struct %(name)s_list {
@@ -181,6 +187,17 @@ class Message:
             rows += '    %s%s%s;%s\n' % (c_type, space, field.name, self.comment_of(field.name))
         return STRUCT % dict(vars(self), comment=self.comment(), rows=rows)
 
+    def sizes(self):
+        """Of fields, in bytes; arrays, strings and the name in a header begin with their length."""
+        bytes_of = dict(bool=1, int8=1, uint8=1, int16=2, uint16=2, int32=4, uint32=4, float32=4)
+        bytes_of.update({'int64': 8, 'uint64': 8, 'float64': 8, 'string': 4, 'std_msgs/Header': 16})
+        each, fixed = 0, 0
+        for field in self.spec.parsed_fields():
+            fixed += 4 if field.is_array else bytes_of[field.base_type]
+            if field.is_array and field.base_type in NUMBERS:
+                each += bytes_of[field.base_type]
+        return SIZES % dict(macro=self.name.upper(), bytes=fixed, each=each)
+
     def is_in_arrays_of(self, messages):
         fields = [field for message in messages for field in message.spec.parsed_fields()]
         return any(field.is_array and field.base_type == self.type for field in fields)
@@ -232,7 +249,7 @@ def sorted_by_use(messages):
 def header(package, messages):
     structs = ''
     for message in messages:
-        structs += message.constants() + message.struct(messages)
+        structs += message.constants() + message.struct(messages) + message.sizes()
         if message.is_in_arrays_of(messages):
             structs += LIST % vars(message)
     topics = ['    DO(%s)' % message.name for message in messages if message.spec.has_header()]

@@ -2,8 +2,8 @@
 #include "begin.h"
 
 #include "checkpoint_writer.h"
-#include "run_info.h"
 #include "settings.h"
+#include "topics/run_info.h"
 
 bool begin_run(const hdr_params *params, bool tiny, char *line, size_t size)
 {

@@ -23,25 +23,8 @@ import rospy
 import rostest
 import yaml
 
-from hdlyap.msg import (
-    Cost,
-    Covariant,
-    Gas,
-    Hydro,
-    Localization,
-    LpPhases,
-    Mode,
-    ModeField,
-    Modes,
-    RunInfo,
-    RunStatus,
-    SlowVectors,
-    Spectrum,
-    State,
-    Steps,
-    Structure,
-    TPhases,
-)
+from hdlyap import topics
+from hdlyap.msg import Mode, RunStatus
 
 NODE = 'hdlyap'
 # a run of a fraction of a second
@@ -63,22 +46,7 @@ REPEATABLE = dict(
     wait_for_subscribers='all',
 )
 # of a scene that may be short: covariant vectors need long transients
-TYPES = dict(
-    run_info=RunInfo,
-    spectrum=Spectrum,
-    modes=Modes,
-    steps=Steps,
-    lp_phases=LpPhases,
-    t_phases=TPhases,
-    fields=ModeField,
-    hydro=Hydro,
-    structure=Structure,
-    localization=Localization,
-    gas=Gas,
-    state=State,
-    status=RunStatus,
-    cost=Cost,
-)
+TYPES = {name: kind for name, kind in topics.RECORDED.items() if name != 'covariant'}
 OBSERVABLES = [topic for topic in TYPES if topic not in ('run_info', 'status', 'cost')]
 # in every report of the averaging
 AVERAGES = 'spectrum', 'modes', 'steps', 'lp_phases', 't_phases', 'hydro', 'structure'
@@ -246,9 +214,8 @@ class Listener:
         self.messages = []
         self.delay = delay
         self.arrived = threading.Condition()
-        kind = dict(TYPES, covariant=Covariant, slow_vectors=SlowVectors)[topic]
         self.subscriber = rospy.Subscriber(
-            '/%s/%s' % (NODE, topic), kind, self.keep, queue_size=None
+            '/%s/%s' % (NODE, topic), topics.TYPES[topic], self.keep, queue_size=None
         )
 
     def keep(self, message):

@@ -5,7 +5,7 @@
 
 #include "fake_params.h"
 #include "settings.h"
-#include "topic.h"
+#include "topics/topic.h"
 
 static bool has_control_character(const char *text)
 {
@@ -35,9 +35,9 @@ static const char *fields_fault(const settings *set)
 
 static const char *accepted_fault(const settings *set)
 {
-    const unsigned published = set->observables | TOPICS_ALWAYS;
+    const unsigned published = set->observables | topics_that_are(TOPIC_ALWAYS);
     if (hd_scene_check(&set->def, NULL, 0) != HD_OK) return "accepted, and no scene";
-    if (set->observables & ~(unsigned)TOPICS_OBSERVABLE) return "no such observable";
+    if (set->observables & ~topics_that_are(TOPIC_OBSERVABLE)) return "no such observable";
     if (set->awaited & ~published) return "waits for what is not published";
     if (set->def.observe != topic_stages(set->observables)) return "other stages than topics";
     if (set->def.observe && hd_scene_vectors(&set->def) == 0) return "modes without vectors";

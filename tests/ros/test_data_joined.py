@@ -122,9 +122,9 @@ class OneRun(Loaded):
         as_before = {name for name, changes in found if changes == 'HD_AS_BEFORE'}
         self.assertIn('seed', as_before)
         self.assertEqual(as_before - {'observe'} | {'observables'}, set(OF_ONE_RUN))
-        with open(os.path.join(SOURCES, 'hdlyap_ros/src/node/topic.c')) as file:
-            unseen = set(re.findall(r'= \{"(\w+)", 0\}', file.read()))
-        self.assertEqual(unseen - {'run_info', 'status', 'cost'}, set(UNSEEN))
+        with open(os.path.join(SOURCES, 'hdlyap_ros/src/topics/rows.inc')) as file:
+            unseen = set(re.findall(r'TOPIC\((\w+), \w+, 0, TOPIC_OBSERVABLE', file.read()))
+        self.assertEqual(unseen, set(UNSEEN))
 
     def test_averages_that_do_not_follow(self):
         """Of two runs of one seed one was reset, before or after the checkpoint of the other."""

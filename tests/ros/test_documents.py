@@ -7,9 +7,10 @@ import re
 import unittest
 
 import reference
+from hdlyap import topics
 from reference import REFERENCE, ROOT, listed, read
 
-NODE = 'hdlyap_ros/src/node'
+NODE, TOPICS = 'hdlyap_ros/src/node', 'hdlyap_ros/src/topics'
 TABLES = {
     'topic': 'README.md',
     'header': 'doc/wrapper.md',
@@ -17,8 +18,6 @@ TABLES = {
 }  # the others are in REFERENCE
 # messages of others that hdlyap publishes
 FOREIGN = {'Diagnostic': 'diagnostic_msgs/DiagnosticArray'}
-ALWAYS = {'run_info', 'status', 'cost', 'slow_vectors'}  # topics that are no observables
-NOT_AWAITED = {'slow_vectors'}
 
 # where a path that a document names may begin; what is made, or is of others
 PLACES = '', 'doc', 'hdlyap_core', 'hdlyap_core/include', 'hdlyap_core/src', 'hdlyap_ros/include'
@@ -64,13 +63,18 @@ def type_of(struct):
     return FOREIGN.get(name, 'hdlyap/' + name)
 
 
+def rows():
+    """Topic -> type, stages, what it is: the table of topics."""
+    text = read(TOPICS, 'rows.inc').split('*/')[1]
+    found = re.findall(r'TOPIC\((\w+), (\w+), (\w+),\s+([\w |]+)\)', text)
+    assert len(found) == text.count('TOPIC(')
+    return {name: (type, stages, set(what.split(' | '))) for name, type, stages, what in found}
+
+
 def advertised():
     """Topic -> type, of the table of topics and of those advertised by name."""
     text = sources()
-    names = dict(re.findall(r'\[(TOPIC_\w+)\] = \{"(\w+)"', text))
-    structs = dict(re.findall(r'\[(TOPIC_\w+)\] = (hdr_\w+?)_advertise', text))
-    assert names.keys() == structs.keys()
-    found = {'~' + name: structs[topic] for topic, name in names.items()}
+    found = {'~' + name: 'hdr_' + type for name, (type, *_) in rows().items()}
     found.update(
         (name, struct)
         for struct, name in re.findall(
@@ -183,10 +187,22 @@ class Tables(unittest.TestCase):
 
     def test_topics_of_parameters(self):
         """Those that are allowed and those that there are."""
-        topics = {name[1:] for name in advertised() if name.startswith('~')}
-        for name, others in (('observables', ALWAYS), ('wait_for_subscribers', NOT_AWAITED)):
-            allowed = table('parameter')[name][0].split('out of ')[1]
-            self.assertEqual(set(allowed.split(', ')), topics - others)
+        observable = {'TOPIC_OBSERVABLE'}
+        awaited = observable | {'TOPIC_ALWAYS'}
+        for parameter, kinds in (('observables', observable), ('wait_for_subscribers', awaited)):
+            allowed = table('parameter')[parameter][0].split('out of ')[1]
+            self.assertEqual(
+                allowed.split(', '), [name for name, (*_, what) in rows().items() if what & kinds]
+            )
+
+    def test_topics_of_the_tools(self):
+        """What record takes, and what bags are read as."""
+        kept = {
+            name: type_of('hdr_' + type)
+            for name, (type, _, what) in rows().items()
+            if 'TOPIC_ASIDE' not in what
+        }
+        self.assertEqual({name: kind._type for name, kind in topics.RECORDED.items()}, kept)
 
     def test_checkpoint_format(self):
         header = read('hdlyap_core/include/hdlyap/checkpoint.h')

@@ -14,7 +14,7 @@ from harness import MODES, OBSERVABLES, SHORT, TYPES
 
 BOUND = 1.0  # seconds from a request to stop to the end, the contract
 MB = 1 << 20
-QUEUE_BYTES = 128e6  # of one topic at most, see publishers.c
+QUEUE_BYTES = 128e6  # of one topic at most, see topics/publishers.c
 SLACK = 32 * MB  # of what is fragmented, and the node's own growth
 EVERY_TOPIC = dict(
     MODES,

@@ -1,16 +1,18 @@
 /** Scene file -> is it valid, its memory, speed, bag and waves. Speed is that of a second's trial
  * on this machine: the same scene, warmed up until intervals are as long as they become, or one of
- * fewer disks in a box of the same shape. Bytes of messages are those of tests/ros/test_bags.py. */
+ * fewer disks in a box of the same shape. What a bag takes is what the rows of the topics say. */
 #include "check.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "clock.h"
 #include "hdlyap/hdlyap.h"
 #include "settings.h"
-#include "topic.h"
+#include "topics/moment.h"
+#include "topics/topic.h"
 
 enum { REFUSED = 2, FAULT = 3 };
 
@@ -30,7 +32,7 @@ typedef struct trial {
     double seconds;      /**< per time unit */
     double interval;     /**< between orthonormalisations; NaN without exponents */
     double errors_after; /**< averaged time */
-    double steps, phases, t_phases, pairs; /**< in messages; pairs of all LP steps */
+    extent extent;       /**< of all disks */
 } trial;
 
 /* ---- the trial ------------------------------------------------------------------------------ */
@@ -67,19 +69,6 @@ static hd_status measure(trial *out, hd_run *run)
     out->seconds = seconds / (hd_run_time(run) - from);
     out->interval = hd_run_cost(run).interval;
     return status;
-}
-
-static void count_messages(trial *out, const hd_run *run)
-{
-    const hd_steps *steps = hd_run_steps(run);
-    if (!steps) return;
-    out->steps = hd_steps_count(steps);
-    if (hd_run_phases(run)) out->phases = hd_phases_count(hd_run_phases(run));
-    if (hd_run_t_phases(run)) out->t_phases = hd_phases_count(hd_run_t_phases(run));
-    for (int s = 0; s < hd_steps_count(steps); s++) {
-        const hd_step *step = hd_steps_step(steps, s);
-        if (step->kind == HD_MODE_LP && !step->conjugate) out->pairs += step->expected / 2;
-    }
 }
 
 /** A scene of the same shape and waves whose trial is short; false if it is itself one, or there is
@@ -127,40 +116,36 @@ static hd_status try_scene(trial *out, const settings *set, char *message, size_
     status = measure(out, run);
     out->errors_after = hd_run_errors_after(run);
     enlarge(out, &def, &set->def);
-    count_messages(out, run);
+    out->extent = extent_of(set, run);
     hd_run_free(run);
     return status;
 }
 
 /* ---- what is printed ------------------------------------------------------------------------ */
 
-/** Bytes of the messages of a report, but for fields. */
-static double report_bytes(const settings *set, const trial *t)
+/** What a message takes in a bag beside its own bytes: its record, and its place in the index. */
+static const double record_bytes = 58.0;
+
+/** When messages come: with reports; with fields; with windows of covariant vectors. */
+typedef enum coming { REPORTS, FIELDS, WINDOWS, COMINGS } coming;
+
+/** Bytes in a bag of a topic each time. */
+static double bytes_of(const settings *set, const trial *t, topic k, coming when)
 {
-    const double n = hd_scene_vectors(&set->def), waves = hd_structure_waves_of(&set->def);
-    const double of[TOPICS] = {[TOPIC_SPECTRUM] = 162.0 + 40.0 * n,
-                               [TOPIC_MODES] = 98.0 + 89.0 * n,
-                               [TOPIC_STEPS] = 204.0 + 96.0 * t->steps,
-                               [TOPIC_LP_PHASES] = 90.0 + 74.0 * t->phases,
-                               [TOPIC_T_PHASES] = 90.0 + 82.0 * t->t_phases,
-                               [TOPIC_STRUCTURE] = 122.0 + 16.0 * waves + 68.0 * n,
-                               [TOPIC_LOCALIZATION] = 98.0 + 24.0 * n,
-                               [TOPIC_GAS] = 162.0,
-                               [TOPIC_STATE] = 106.0 + 32.0 * set->def.disks};
-    double bytes = 220.0 + 110.0; /* cost, status */
-    for (topic k = 0; k < TOPICS; k++)
-        if (set->observables & topic_bit(k)) bytes += of[k];
-    return bytes;
+    const topic_size s = topic_size_of(k, &t->extent);
+    const double parts[COMINGS] = {s.report, s.fields, s.window}, messages = fmax(s.messages, 1.0);
+    const double texts = (double)(strlen("box") + strlen("20260101T000000.000000Z-00000-") +
+                                  strlen(set->seed));
+    const bool is_part = when != REPORTS && s.report > 0.0; /* of a message of each report */
+    if (!(parts[when] > 0.0)) return 0.0;
+    return parts[when] + (is_part ? 0.0 : messages * (texts + record_bytes));
 }
 
-/** Of all steps, if all are found, and of the means in structure. */
-static double field_bytes(const settings *set, const trial *t)
+static double bytes_of_all(const settings *set, const trial *t, unsigned topics, coming when)
 {
-    const double waves = hd_structure_waves_of(&set->def), n = hd_scene_vectors(&set->def);
     double bytes = 0.0;
-    if (set->observables & topic_bit(TOPIC_FIELDS))
-        bytes += set->def.disks * (64.0 * t->steps + 48.0 * t->pairs);
-    if (set->observables & topic_bit(TOPIC_STRUCTURE)) bytes += 16.0 * waves * n;
+    for (topic k = 0; k < TOPICS; k++)
+        if (topics & topic_bit(k)) bytes += bytes_of(set, t, k, when);
     return bytes;
 }
 
@@ -203,27 +188,63 @@ static void print_speed(const settings *set, const trial *t)
     printf("\n");
 }
 
-/** What comes every field_interval. */
-static const char *of_interval(const settings *set)
+static unsigned topics_recorded(const settings *set)
 {
-    const bool fields = set->observables & topic_bit(TOPIC_FIELDS);
-    if (!(set->observables & topic_bit(TOPIC_STRUCTURE))) return "fields";
-    return fields ? "fields and structure factors" : "structure factors";
+    return set->observables | topics_that_are(TOPIC_ALWAYS);
+}
+
+/** Time units from one to the next. */
+static double time_between(const settings *set, coming when)
+{
+    const double report = set->def.report_interval;
+    if (when == FIELDS) return fmax(set->field_interval, report);
+    return when == WINDOWS ? set->def.covariant_window : report;
+}
+
+/** Each topic's share, in units of `unit` bytes. */
+static void print_shares(const settings *set, const trial *t, coming when, double unit)
+{
+    const char *separator = ":";
+    for (topic k = 0; k < TOPICS; k++) {
+        const double bytes = topics_recorded(set) & topic_bit(k) ? bytes_of(set, t, k, when) : 0.0;
+        if (bytes > 0.0) printf("%s %s %.3g", separator, topic_name(k), bytes / unit);
+        if (bytes > 0.0) separator = ",";
+    }
+    printf("\n");
+}
+
+/** Of a whole run; before the averaging there is what needs none. */
+static double bytes_in_all(const settings *set, const trial *t)
+{
+    const unsigned of_averages = topics_that_are(TOPIC_OF_VECTORS) |
+                                 topics_of_stages(HD_OBSERVE_ALL);
+    const double before = set->def.equilibration + hd_scene_warmup(&set->def);
+    double bytes = before / time_between(set, REPORTS) *
+                   bytes_of_all(set, t, topics_recorded(set) & ~of_averages, REPORTS);
+    for (coming when = REPORTS; when < COMINGS; when++)
+        bytes += set->def.duration / time_between(set, when) *
+                 bytes_of_all(set, t, topics_recorded(set), when);
+    return bytes;
 }
 
 static void print_bag(const settings *set, const trial *t)
 {
-    const double r = set->def.report_interval, fields = fmax(set->field_interval, r);
     const double speed = set->pace > 0 ? fmin(set->pace, 1.0 / t->seconds) : 1.0 / t->seconds;
-    const double per_unit = report_bytes(set, t) / r + field_bytes(set, t) / fields;
-    const double paced = fmin(speed, reports_per_second * r);
-    printf("bag       %.4g kB a report", 1e-3 * report_bytes(set, t));
-    if (field_bytes(set, t) > 0)
-        printf(", at most %.3g MB of %s every %.3g time units", 1e-6 * field_bytes(set, t),
-               of_interval(set), fields);
-    if (set->def.duration > 0) printf(", %.3g MB in all", 1e-6 * set->def.duration * per_unit);
-    printf(";\n          at most %.3g GB an hour if publishing and recording took no time, "
-           "uncompressed\n",
+    const double paced = fmin(speed, reports_per_second * set->def.report_interval);
+    double per_unit = 0.0;
+    for (coming when = REPORTS; when < COMINGS; when++) {
+        const double bytes = bytes_of_all(set, t, topics_recorded(set), when);
+        const double between = time_between(set, when);
+        per_unit += bytes / between;
+        if (when == REPORTS)
+            printf("bag       %.4g kB a report", 1e-3 * bytes);
+        else if (bytes > 0.0)
+            printf("          at most %.3g MB every %.3g time units", 1e-6 * bytes, between);
+        if (bytes > 0.0) print_shares(set, t, when, when == REPORTS ? 1e3 : 1e6);
+    }
+    printf("          ");
+    if (set->def.duration > 0) printf("%.3g MB in all; ", 1e-6 * bytes_in_all(set, t));
+    printf("at most %.3g GB an hour if publishing and recording took no time, uncompressed\n",
            3.6e-6 * paced * per_unit);
 }
 
@@ -281,7 +302,7 @@ static void print_all(const settings *set, const trial *t, hd_room room)
     print_speed(set, t);
     print_bag(set, t);
     if (!hd_scene_vectors(def)) return;
-    if (set->observables & TOPICS_OF_MODES) print_waves(set);
+    if (def->observe & STAGES_OF_MODES) print_waves(set);
     print_errors(set, t);
 }
 

@@ -13,7 +13,7 @@
 #include "parameters.h"
 #include "parameters_text.h"
 #include "ranks.h"
-#include "report.h"
+#include "topics/report.h"
 #include "services.h"
 #include "settings.h"
 #include "table.h"

@@ -5,11 +5,7 @@
 #include <string.h>
 
 #include "settings.h"
-#include "topic.h"
-
-#define OBSERVABLES                                                                                \
-    "spectrum, modes, steps, lp_phases, t_phases, fields, hydro, structure, covariant, "           \
-    "localization, gas, state"
+#include "topics/topic.h"
 
 static const parameter name_row = {
     .name = "scene",
@@ -30,7 +26,7 @@ static const parameter rows[] = {
         .kind = TOPICS_OBSERVED,
         .offset = offsetof(settings, observables),
         .usual = "spectrum, modes, steps, lp_phases, fields, state",
-        .allowed = "a list out of " OBSERVABLES,
+        .allowed = "a list out of ",
         .unit = "",
         .text =
             "Topics that are computed and published, beside run_info, status, cost and "
@@ -46,7 +42,7 @@ static const parameter rows[] = {
         .allowed = "steps or a list of integers from 1",
         .unit = "",
         .may_differ = true,
-        .needs = 1u << TOPIC_FIELDS,
+        .needs = 1u << TOPIC_fields,
         .text = "Vectors that are published as fields: one of each step found, or these Lyapunov "
                 "indices.",
     },
@@ -97,7 +93,7 @@ static const parameter rows[] = {
         .kind = TOPICS_AWAITED,
         .offset = offsetof(settings, awaited),
         .usual = "",
-        .allowed = "all or a list out of run_info, " OBSERVABLES ", status, cost",
+        .allowed = "all or a list out of ",
         .unit = "",
         .may_differ = true,
         .text = "Topics that must have a subscriber before the run starts, so that it misses "
@@ -251,6 +247,19 @@ void parameter_usual(char text[PARAMETER_TEXT], const parameter *p)
         snprintf(text, PARAMETER_TEXT, "%s", word);
     else
         snprintf(text, PARAMETER_TEXT, "%.15g", p->row->usual);
+}
+
+unsigned parameter_topics(const parameter *p)
+{
+    if (p->kind == TOPICS_OBSERVED) return topics_that_are(TOPIC_OBSERVABLE);
+    return p->kind == TOPICS_AWAITED ? topics_that_are(TOPIC_OBSERVABLE | TOPIC_ALWAYS) : 0;
+}
+
+void parameter_allowed(char text[PARAMETER_ALLOWED], const parameter *p)
+{
+    const size_t length = strlen(p->allowed);
+    snprintf(text, PARAMETER_ALLOWED, "%s", p->allowed);
+    topic_names(text + length, PARAMETER_ALLOWED - length, parameter_topics(p));
 }
 
 const char *parameters_why_not(const char *name)

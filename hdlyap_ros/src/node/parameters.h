@@ -27,7 +27,7 @@ typedef struct parameter {
     size_t offset;       /**< in settings */
     const char *usual;   /**< default: the number, the word, or the items of the list */
     double least, most;  /**< of a number */
-    const char *allowed; /**< in words */
+    const char *allowed; /**< in words; of topics it ends where their names begin */
     const char *unit;    /**< "" if it has none */
     bool may_differ;     /**< of a run that goes on from its checkpoint */
     bool live;           /**< may change while the run goes on */
@@ -51,6 +51,14 @@ parameter parameters_named(const char *name);
 enum { PARAMETER_TEXT = 80 };
 /** The default as it is said in a message. */
 void parameter_usual(char text[PARAMETER_TEXT], const parameter *p);
+
+/** Topics that a set of them may have. */
+unsigned parameter_topics(const parameter *p);
+
+/** Room for parameter_allowed. */
+enum { PARAMETER_ALLOWED = 180 };
+/** What is allowed, whole. */
+void parameter_allowed(char text[PARAMETER_ALLOWED], const parameter *p);
 
 /** What to say of a name that is none; names that were some are told what they are now. */
 const char *parameters_why_not(const char *name);

@@ -70,7 +70,9 @@ static void write_value(char *out, size_t size, const parameter *p)
 static void write_allowed(char *out, size_t size, const parameter *p)
 {
     const bool has_unit = *p->unit && !strchr(p->allowed, '[');
-    snprintf(out, size, "%s%s%s%s", p->allowed, has_unit ? " [" : "", has_unit ? p->unit : "",
+    char allowed[PARAMETER_ALLOWED];
+    parameter_allowed(allowed, p);
+    snprintf(out, size, "%s%s%s%s", allowed, has_unit ? " [" : "", has_unit ? p->unit : "",
              has_unit ? "]" : "");
 }
 
@@ -104,7 +106,7 @@ int parameters_print_scene(void)
     print_comment(head);
     for (int k = 0; k < parameters_count(); k++) {
         const parameter p = parameters_at(k);
-        char allowed[200], value[PARAMETER_TEXT + 8], text[400];
+        char allowed[PARAMETER_ALLOWED + 20], value[PARAMETER_TEXT + 8], text[400];
         write_allowed(allowed, sizeof allowed, &p);
         write_value(value, sizeof value, &p);
         snprintf(text, sizeof text, "Allowed: %s. Default: %s.", allowed, value);
@@ -130,7 +132,7 @@ int parameters_print_table(void)
            "| --- | --- | --- | --- | --- | --- |\n");
     for (int k = 0; k < parameters_count(); k++) {
         const parameter p = parameters_at(k);
-        char allowed[200], value[PARAMETER_TEXT + 8], name[PARAMETER_TEXT];
+        char allowed[PARAMETER_ALLOWED + 20], value[PARAMETER_TEXT + 8], name[PARAMETER_TEXT];
         write_allowed(allowed, sizeof allowed, &p);
         write_value(value, sizeof value, &p);
         snprintf(name, sizeof name, "`%s`", p.name);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "settings.h"
-#include "topic.h"
+#include "topics/topic.h"
 
 static bool is_control(char c) { return (unsigned char)c < ' ' || c == 0x7f; }
 
@@ -145,18 +145,18 @@ static bool read_line(const reader *r, const parameter *p, const char **line)
 
 static bool read_topics(const reader *r, const parameter *p, unsigned *set)
 {
-    const unsigned allowed = p->kind == TOPICS_AWAITED ? TOPICS_OBSERVABLE | TOPICS_ALWAYS
-                                                       : TOPICS_OBSERVABLE;
     const char *const *names = NULL;
+    char allowed[PARAMETER_ALLOWED];
     int count = 0;
     if (p->kind == TOPICS_AWAITED && is_word(r, "all")) return *set = ALL_PUBLISHED, true;
     const hdr_status status = hdr_param_string_list(r->params, r->name, &names, &count);
     if (status == HDR_MISSING) return true;
-    if (status != HDR_OK) return reader_refuse(r, p->allowed);
+    parameter_allowed(allowed, p);
+    if (status != HDR_OK) return reader_refuse(r, allowed);
     *set = 0;
     for (int k = 0; k < count; k++) {
         const unsigned bit = topic_bit_of(names[k]);
-        if (!(bit & allowed)) return reader_refuse(r, p->allowed);
+        if (!(bit & parameter_topics(p))) return reader_refuse(r, allowed);
         *set |= bit;
     }
     return true;

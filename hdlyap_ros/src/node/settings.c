@@ -10,12 +10,7 @@
 #include "change.h"
 #include "parameters.h"
 #include "reader.h"
-#include "topic.h"
-
-enum {
-    OF_EXPONENTS = 1u << TOPIC_SPECTRUM | 1u << TOPIC_COVARIANT | 1u << TOPIC_LOCALIZATION |
-                   TOPICS_OF_MODES
-};
+#include "topics/topic.h"
 
 static bool check_names(reader *r)
 {
@@ -78,11 +73,14 @@ static bool check_ranges(settings *set, reader *r)
 /** Without exponents the defaults that need them go silently. */
 static bool check_observables(settings *set, reader *r)
 {
+    const unsigned of_vectors = topics_that_are(TOPIC_OF_VECTORS);
     r->name = "observables";
-    if (set->def.exponents == HD_EXPONENTS_NONE && (set->observables & OF_EXPONENTS)) {
-        if (*hdr_param_text(r->params, r->name))
-            return reader_refuse(r, "a list out of gas, state when exponents = none");
-        set->observables &= ~(unsigned)OF_EXPONENTS;
+    if (set->def.exponents == HD_EXPONENTS_NONE && (set->observables & of_vectors)) {
+        char names[PARAMETER_TEXT], allowed[2 * PARAMETER_TEXT];
+        topic_names(names, sizeof names, topics_that_are(TOPIC_OBSERVABLE) & ~of_vectors);
+        snprintf(allowed, sizeof allowed, "a list out of %s when exponents = none", names);
+        if (*hdr_param_text(r->params, r->name)) return reader_refuse(r, allowed);
+        set->observables &= ~of_vectors;
     }
     set->def.observe = topic_stages(set->observables);
     return true;
@@ -90,7 +88,7 @@ static bool check_observables(settings *set, reader *r)
 
 static bool check_awaited(settings *set, reader *r)
 {
-    const unsigned published = set->observables | TOPICS_ALWAYS;
+    const unsigned published = set->observables | topics_that_are(TOPIC_ALWAYS);
     r->name = "wait_for_subscribers";
     if (set->awaited == ALL_PUBLISHED) set->awaited = published;
     return !(set->awaited & ~published) ||
@@ -189,7 +187,7 @@ bool settings_resume(const char **path, const hdr_params *params, char *message,
 /** What the stages of a checkpoint are published as, and what needs none. */
 static unsigned topics_kept(unsigned stages)
 {
-    unsigned set = TOPICS_OBSERVABLE;
+    unsigned set = topics_that_are(TOPIC_OBSERVABLE);
     for (topic t = 0; t < TOPICS; t++)
         if (topic_stages(topic_bit(t)) & ~stages) set &= ~topic_bit(t);
     return set;

@@ -6,7 +6,7 @@
 #include "checkpoint_writer.h"
 #include "error_trend.h"
 #include "examination.h"
-#include "report.h"
+#include "topics/report.h"
 
 typedef enum worker_stage {
     WORKER_WAITING, /**< for subscribers */

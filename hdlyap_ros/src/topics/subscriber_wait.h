@@ -2,7 +2,7 @@
 #ifndef HDLYAP_SUBSCRIBER_WAIT_H
 #define HDLYAP_SUBSCRIBER_WAIT_H
 
-#include "publishers.h"
+#include "topics/publishers.h"
 
 /** Zero before the first look. */
 typedef struct subscriber_wait {

@@ -3,22 +3,11 @@
 #ifndef HDLYAP_REPORT_H
 #define HDLYAP_REPORT_H
 
-#include "changes.h"
 #include "hdlyap/run.h"
 #include "hdlyap_ros/publisher.h"
-#include "settings.h"
-
-/** What other threads may know of the run: a copy as of its last finished step. */
-typedef struct progress {
-    hd_stage stage;
-    double time;         /**< simulated time since the start */
-    uint64_t collisions; /**< pairs, since the start */
-    hd_cost cost;
-    double averaged;    /**< time; 0 without exponents */
-    int resolved_steps; /**< -1 while nobody looks at them */
-} progress;
-
-progress progress_of(const hd_run *run);
+#include "node/changes.h"
+#include "node/settings.h"
+#include "topics/progress.h"
 
 typedef struct report report;
 

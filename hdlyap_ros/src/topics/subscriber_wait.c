@@ -1,10 +1,10 @@
 /** One subscriber of each topic is not enough: of those that come at the same time, one is
  * connected first, and a recorder would miss what is published before it is. */
-#include "subscriber_wait.h"
+#include "topics/subscriber_wait.h"
 
 #include <math.h>
 
-#include "clock.h"
+#include "node/clock.h"
 
 /** How long those who have subscribed are waited for, once each topic has its first one [s]. */
 static const double patience_seconds = 3.0;

@@ -1,10 +1,11 @@
-/** Settings and run -> run_info. */
-#include "run_info.h"
+/** What is needed to repeat a run -> RunInfo: once, and after a change of parameters. */
+#include "topics/run_info.h"
 
 #include <stdlib.h>
 
 #include "hdlyap/hdlyap.h"
-#include "parameters.h"
+#include "node/parameters.h"
+#include "topics/moment.h"
 
 /** Value of a parameter of the scene that has words. */
 static const char *word_of(const char *name, const hd_scene_def *def)
@@ -104,7 +105,6 @@ hdr_status run_info_publish(const publishers *out, const settings *set, const hd
     wave_list waves;
     hdr_change *changed = changes_listed(all);
     const bool created = waves_create(&waves, &set->def) && changed;
-    hdr_status status = created ? HDR_OK : HDR_NO_MEMORY;
     hdr_run_info info = {
         .header = message_header(),
         .run_id = out->run_id,
@@ -125,8 +125,11 @@ hdr_status run_info_publish(const publishers *out, const settings *set, const hd
     };
     fill_scene(&info, set);
     fill_machine(&info, run);
-    if (status == HDR_OK) status = hdr_run_info_publish(out->publisher[TOPIC_RUN_INFO], &info);
+    hdr_status status = created ? HDR_OK : HDR_NO_MEMORY;
+    if (created) status = hdr_run_info_publish(out->publisher[TOPIC_run_info], &info);
     free(waves.nx);
     free(changed);
     return status;
 }
+
+const topic_maker topic_run_info = {.size = NULL}; /* one in a bag, whatever the scene */

@@ -1,30 +1,16 @@
 /** The node's own topics. */
-#include "topic.h"
+#include "topics/topic.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#include "hdlyap/scene.h"
-
 static const struct {
     const char *name;
-    unsigned stage;
+    unsigned stages, is;
 } topics[TOPICS] = {
-    [TOPIC_RUN_INFO] = {"run_info", 0},
-    [TOPIC_SPECTRUM] = {"spectrum", 0},
-    [TOPIC_MODES] = {"modes", HD_OBSERVE_MODES},
-    [TOPIC_STEPS] = {"steps", HD_OBSERVE_STEPS},
-    [TOPIC_LP_PHASES] = {"lp_phases", HD_OBSERVE_PHASES},
-    [TOPIC_T_PHASES] = {"t_phases", HD_OBSERVE_T_PHASES},
-    [TOPIC_FIELDS] = {"fields", HD_OBSERVE_FIELDS},
-    [TOPIC_HYDRO] = {"hydro", HD_OBSERVE_HYDRO},
-    [TOPIC_STRUCTURE] = {"structure", HD_OBSERVE_STRUCTURE},
-    [TOPIC_COVARIANT] = {"covariant", HD_OBSERVE_COVARIANT},
-    [TOPIC_LOCALIZATION] = {"localization", HD_OBSERVE_LOCALIZATION},
-    [TOPIC_GAS] = {"gas", HD_OBSERVE_GAS},
-    [TOPIC_STATE] = {"state", 0},
-    [TOPIC_STATUS] = {"status", 0},
-    [TOPIC_COST] = {"cost", 0},
+#define TOPIC(name, type, stages, is) [TOPIC_##name] = {#name, stages, is},
+#include "topics/rows.inc"
+#undef TOPIC
 };
 
 const char *topic_name(topic t) { return topics[t].name; }
@@ -60,18 +46,26 @@ void topic_names(char *text, size_t size, unsigned set)
                                        topics[t].name);
 }
 
+unsigned topics_that_are(unsigned any)
+{
+    unsigned set = 0;
+    for (topic t = 0; t < TOPICS; t++)
+        if (topics[t].is & any) set |= topic_bit(t);
+    return set;
+}
+
 unsigned topics_of_stages(unsigned stages)
 {
     unsigned set = 0;
     for (topic t = 0; t < TOPICS; t++)
-        if (topics[t].stage & stages) set |= topic_bit(t);
-    return set;
+        if (topics[t].stages & stages) set |= topic_bit(t);
+    return set & topics_that_are(TOPIC_OBSERVABLE);
 }
 
 unsigned topic_stages(unsigned set)
 {
     unsigned stages = 0;
     for (topic t = 0; t < TOPICS; t++)
-        if (set & topic_bit(t)) stages |= topics[t].stage;
+        if (set & topic_bit(t)) stages |= topics[t].stages;
     return stages;
 }

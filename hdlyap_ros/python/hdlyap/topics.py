@@ -1,0 +1,21 @@
+"""The node's topics: each message with a header has one, of its own name but for these."""
+
+import re
+
+from hdlyap import msg
+
+OTHERWISE = {'ModeField': 'fields', 'RunStatus': 'status'}
+ASIDE = {'slow_vectors'}  # for who looks on
+
+
+def _name(message):
+    name = message.__name__
+    return OTHERWISE.get(name) or re.sub(r'(?<=.)(?=[A-Z])', '_', name).lower()
+
+
+TYPES = {
+    _name(message): message
+    for message in vars(msg).values()
+    if 'header' in getattr(message, '__slots__', ())
+}
+RECORDED = {name: message for name, message in TYPES.items() if name not in ASIDE}

@@ -1,0 +1,192 @@
+/** Averages over windows of covariant vectors -> Covariant. */
+#include "topics/moment.h"
+
+#include <math.h>
+
+_Static_assert((int)HD_CENTRE_STABLE == (int)HDR_COVARIANT_ANGLE_CENTRE_STABLE,
+               "pairs of spaces as in the core");
+
+/** Of one angle, as the message has them. */
+typedef struct histograms {
+    uint64_t smallest[HD_ANGLE_BINS], all[HD_ANGLE_BINS];
+} histograms;
+
+/** Angles of spaces are known to a thousandth then [rad]. */
+static const double SPACES_APART = 1e-3;
+
+/** When they were last looked at. */
+typedef struct seen {
+    long windows, lost;
+    bool warned; /**< of a transient that is too short */
+} seen;
+
+/** What the arrays of a message are in. */
+typedef struct arrays {
+    double *exponents, *std_errors, *local_exponents; /**< [vectors] each */
+    hdr_covariant_weight *weight;                     /**< [weights] */
+    hdr_covariant_angle angle[HD_PAIRS_OF_SPACES];
+    histograms counts[HD_PAIRS_OF_SPACES];
+    uint32_t vectors, weights, angles;
+} arrays;
+
+static topic_size size_of(const extent *e)
+{
+    const double of_angle = HDR_COVARIANT_ANGLE_BYTES + HDR_COVARIANT_ANGLE_EACH * HD_ANGLE_BINS;
+    const double of_weight = HDR_COVARIANT_WEIGHT_BYTES + HDR_COVARIANT_WEIGHT_EACH * e->vectors;
+    return (topic_size){.window = HDR_COVARIANT_BYTES + HDR_COVARIANT_EACH * e->vectors +
+                                  of_angle * e->angles + of_weight * e->subspaces};
+}
+
+/** Windows of before, from a checkpoint, are not published again. */
+static void begin(void *state, const moment *now)
+{
+    *(seen *)state = (seen){.windows = hd_covariant_windows(hd_run_covariant(now->run))};
+}
+
+/** False without memory. */
+static bool arrays_take(arrays *a, const moment *now)
+{
+    const hd_covariant *covariant = hd_run_covariant(now->run);
+    const hd_fields *fields = hd_modes_fields(hd_covariant_half(covariant, 0));
+    const size_t n = (size_t)hd_covariant_vectors(covariant);
+    a->vectors = (uint32_t)n;
+    a->weights = (uint32_t)hd_fields_subspaces(fields);
+    a->angles = hd_splitting_has_spaces(hd_covariant_splitting(covariant)) ? HD_PAIRS_OF_SPACES : 0;
+    a->exponents = moment_take(now, 3 * n, sizeof *a->exponents);
+    a->weight = moment_take(now, a->weights, sizeof *a->weight);
+    if (!a->exponents || !a->weight) return false;
+    a->std_errors = a->exponents + n;
+    a->local_exponents = a->std_errors + n;
+    return true;
+}
+
+static void gather_exponents(arrays *r, const hd_spectrum *spectrum)
+{
+    for (uint32_t k = 0; k < r->vectors; k++) {
+        r->exponents[k] = hd_spectrum_exponent(spectrum, (int)k);
+        r->std_errors[k] = hd_spectrum_std_error(spectrum, (int)k);
+        r->local_exponents[k] = hd_spectrum_local(spectrum, (int)k);
+    }
+}
+
+static hdr_counts counted(uint64_t *out, const long *bins)
+{
+    for (int bin = 0; bin < HD_ANGLE_BINS; bin++) out[bin] = (uint64_t)bins[bin];
+    return (hdr_counts){out, HD_ANGLE_BINS};
+}
+
+static void gather_angles(arrays *r, const hd_splitting *splitting)
+{
+    for (uint32_t pair = 0; pair < r->angles; pair++) {
+        const hd_angle_of_spaces *angle = hd_splitting_angle(splitting, (hd_pair_of_spaces)pair);
+        r->angle[pair] = (hdr_covariant_angle){
+            .spaces = (uint8_t)pair,
+            .last = angle->last,
+            .mean = angle->mean,
+            .std_error = angle->std_error,
+            .least = angle->least,
+            .mean_of_all = angle->mean_of_all,
+            .smallest_counts = counted(r->counts[pair].smallest, angle->smallest),
+            .all_counts = counted(r->counts[pair].all, angle->all),
+        };
+    }
+}
+
+static void gather_weights(arrays *r, const hd_covariant *covariant)
+{
+    const hd_modes *dq = hd_covariant_half(covariant, 0), *dp = hd_covariant_half(covariant, 1);
+    const hd_modes *frame = hd_covariant_of_frame(covariant);
+    for (uint32_t k = 0; k < r->weights; k++) {
+        const int s = (int)k;
+        const hd_subspace *subspace = hd_fields_subspace(hd_modes_fields(dq), s);
+        r->weight[k] = (hdr_covariant_weight){
+            .kind = (uint8_t)subspace->kind,
+            .nx = (uint32_t)subspace->wave.n[0],
+            .ny = (uint32_t)subspace->wave.n[1],
+            .wave_number = subspace->wave.number,
+            .dimension = (uint32_t)subspace->dimension,
+            .dq = message_array(hd_modes_average(dq, s, HD_WEIGHT), r->vectors, 1),
+            .dp = message_array(hd_modes_average(dp, s, HD_WEIGHT), r->vectors, 1),
+            .gram_schmidt = message_array(hd_modes_average(frame, s, HD_WEIGHT), r->vectors, 1),
+        };
+    }
+}
+
+static hdr_covariant message_of(arrays *r, const hd_run *run)
+{
+    const hd_covariant *covariant = hd_run_covariant(run);
+    const hd_splitting *splitting = hd_covariant_splitting(covariant);
+    const hd_covariant_mismatch apart = hd_covariant_start_mismatch(covariant);
+    const uint32_t n = r->vectors;
+    gather_exponents(r, hd_covariant_spectrum(covariant));
+    gather_angles(r, splitting);
+    gather_weights(r, covariant);
+    return (hdr_covariant){
+        .sim_time = hd_covariant_window_end(covariant),
+        .averaged_time = hd_spectrum_time(hd_covariant_spectrum(covariant)),
+        .windows = (uint32_t)hd_covariant_windows(covariant),
+        .lost_windows = (uint32_t)hd_covariant_lost(covariant),
+        .samples = (uint32_t)hd_splitting_samples(splitting),
+        .seconds = hd_run_cost(run).covariant,
+        .first_index = 1,
+        .exponents = message_array(r->exponents, n, 1),
+        .std_errors = message_array(r->std_errors, n, 1),
+        .local_exponents = message_array(r->local_exponents, n, 1),
+        .start_mismatch = message_array(hd_covariant_start_mismatch_each(covariant), n, 1),
+        .neighbour_angles = message_array(hd_splitting_neighbours(splitting), n - 1, 1),
+        .least_neighbour_angles = message_array(hd_splitting_neighbours_least(splitting), n - 1, 1),
+        .violations = message_array(hd_splitting_violations(splitting), n - 1, 1),
+        .domination_violations = message_array(hd_splitting_domination_violations(splitting), n - 1,
+                                               1),
+        .widths = message_array(hd_covariant_widths(covariant), n, 1),
+        .cos_theta = message_array(hd_covariant_cosines(covariant), n, 1),
+        .centre_start_mismatch = apart.centre,
+        .stable_start_mismatch = apart.stable,
+        .null_angle = hd_covariant_null(covariant),
+        .largest_null_angle = hd_covariant_null_most(covariant),
+        .angles = {r->angle, r->angles},
+        .weights = {r->weight, r->weights},
+    };
+}
+
+/** Spaces that have not met are those of the random starts; windows that find no room are missed.
+ */
+static void warn(seen *before, const hd_run *run)
+{
+    const hd_covariant *covariant = hd_run_covariant(run);
+    const hd_covariant_mismatch apart = hd_covariant_start_mismatch(covariant);
+    const double worst = fmax(apart.centre, apart.stable);
+    const long lost = hd_covariant_lost(covariant);
+    if (worst > SPACES_APART && !before->warned)
+        hdr_log(HDR_WARN,
+                "covariant_transient = %g: too short, spaces of two starts are %.2g rad apart "
+                "where a window ends",
+                hd_run_scene(run)->covariant_transient, worst);
+    if (lost > before->lost)
+        hdr_log(HDR_WARN,
+                "covariant vectors: a window found no room, orthonormalisations have become more "
+                "frequent "
+                "(%ld so far)",
+                lost);
+    before->warned = worst > SPACES_APART;
+    before->lost = lost;
+}
+
+/** After any step or checkpoint. */
+static hd_status publish(const moment *now, void *state)
+{
+    seen *last = state;
+    arrays a = {0};
+    const long windows = hd_covariant_windows(hd_run_covariant(now->run)), before = last->windows;
+    last->windows = windows;
+    warn(last, now->run);
+    /* a reset takes them back to none */
+    if (windows == 0 || windows == before ||
+        !(publishers_subscribed(now->out) & topic_bit(TOPIC_covariant)) || !arrays_take(&a, now))
+        return HD_OK;
+    hdr_covariant message = message_of(&a, now->run);
+    return topic_send_covariant(now->out, &message);
+}
+
+const topic_maker topic_covariant = {
+    .size = size_of, .publish = publish, .state = sizeof(seen), .begin = begin};

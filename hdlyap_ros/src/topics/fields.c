@@ -1,0 +1,150 @@
+/** One vector, and the L and P modes of its step -> ModeField. */
+#include "topics/moment.h"
+
+#include <string.h>
+
+#include "hdlyap/pmode.h"
+#include "topics/example.h"
+
+enum { PAIRS_MAX = HD_MODULATIONS_MAX };
+
+/** Reconstructed modes of one step, pair by pair; arrays [pairs][2N]: x0 y0 x1 y1 .. */
+typedef struct pair_fields {
+    uint32_t count;
+    uint8_t modulation[PAIRS_MAX];
+    double residual_l[PAIRS_MAX], residual_p[PAIRS_MAX];
+    double rotation_distance;
+    double *l, *p, *ratio;
+} pair_fields;
+
+/** If all steps are found. */
+static topic_size size_of(const extent *e)
+{
+    const double of_vector = HDR_MODE_FIELD_BYTES + 8.0 * 8.0 * e->disks;
+    const double of_pair = 1.0 + 2.0 * 8.0 + 6.0 * 8.0 * e->disks;
+    return (topic_size){.fields = of_vector * e->fields + of_pair * e->pairs,
+                        .messages = e->fields};
+}
+
+static void reconstruct(pair_fields *pairs, const hd_run *run, const hd_step *step,
+                        const double *momenta)
+{
+    const size_t length = 2 * (size_t)hd_run_scene(run)->disks;
+    const hd_modes *modes = hd_run_modes(run);
+    hd_pmode *pmode = hd_run_pmode(run);
+    if (!hd_pmode_reconstruct(pmode, step, modes, hd_run_frame_columns(run))) return;
+    const int d = hd_pmode_pairs(pmode);
+    const hd_subspace *subspace = hd_fields_subspace(hd_modes_fields(modes), step->subspace);
+    pairs->count = (uint32_t)d;
+    pairs->rotation_distance = hd_pmode_rotation_distance(pmode);
+    for (int c = 0; c < d; c++) {
+        const size_t at = (size_t)c * length;
+        pairs->modulation[c] = subspace->modulations.bits[c];
+        pairs->residual_l[c] = hd_pmode_residual(pmode, c);
+        pairs->residual_p[c] = hd_pmode_residual(pmode, c + d);
+        memcpy(pairs->l + at, hd_pmode_field(pmode, c), length * sizeof *pairs->l);
+        memcpy(pairs->p + at, hd_pmode_field(pmode, c + d), length * sizeof *pairs->p);
+        hd_pmode_divide(pmode, pairs->ratio + at, c + d, momenta);
+    }
+}
+
+/** Component 0 .. 3 of a vector of the frame. */
+static hdr_doubles column_of(hd_columns frame, int col, int component, size_t disks)
+{
+    const size_t stride = (size_t)frame.stride;
+    return message_array(frame.data + (size_t)component * stride + (col - frame.first), disks,
+                         4 * stride);
+}
+
+static void fill_vector(hdr_mode_field *message, const hd_run *run, int col, size_t disks)
+{
+    const hd_columns frame = hd_run_frame_columns(run);
+    message->index = (uint32_t)col + 1;
+    message->exponent = hd_spectrum_exponent(hd_run_spectrum(run), col);
+    message->dqx = column_of(frame, col, 0, disks);
+    message->dqy = column_of(frame, col, 1, disks);
+    message->dpx = column_of(frame, col, 2, disks);
+    message->dpy = column_of(frame, col, 3, disks);
+}
+
+static void fill_step(hdr_mode_field *message, const hd_step *step)
+{
+    if (!step) return;
+    message->kind = (uint8_t)step->kind;
+    message->nx = (uint32_t)step->wave.n[0];
+    message->ny = (uint32_t)step->wave.n[1];
+    message->wave_number = step->wave.number;
+}
+
+static void fill_state(hdr_mode_field *message, const double *q, const double *p, size_t disks)
+{
+    message->x = message_array(q, disks, 2);
+    message->y = message_array(q + 1, disks, 2);
+    message->px = message_array(p, disks, 2);
+    message->py = message_array(p + 1, disks, 2);
+}
+
+static void fill_pairs(hdr_mode_field *message, const pair_fields *pairs, size_t disks)
+{
+    const size_t count = pairs->count * disks;
+    message->pairs = pairs->count;
+    message->modulation = (hdr_bytes){.data = pairs->modulation, .count = pairs->count};
+    message->residual_l = message_array(pairs->residual_l, pairs->count, 1);
+    message->residual_p = message_array(pairs->residual_p, pairs->count, 1);
+    message->rotation_distance = pairs->rotation_distance;
+    message->l_x = message_array(pairs->l, count, 2);
+    message->l_y = message_array(pairs->l + 1, count, 2);
+    message->p_x = message_array(pairs->p, count, 2);
+    message->p_y = message_array(pairs->p + 1, count, 2);
+    message->p_over_px = message_array(pairs->ratio, count, 2);
+    message->p_over_py = message_array(pairs->ratio + 1, count, 2);
+}
+
+static hd_status publish_vector(const moment *now, int col)
+{
+    const hd_steps *steps = hd_run_steps(now->run);
+    const int s = hd_steps_of_vector(steps, col);
+    const hd_step *step = s < 0 ? NULL : hd_steps_step(steps, s);
+    const size_t disks = (size_t)now->set->def.disks, length = PAIRS_MAX * 2 * disks;
+    const double *q, *p;
+    hdr_mode_field message = {.sim_time = hd_run_time(now->run)};
+    now->room->taken = 0; /* for each anew */
+    pair_fields pairs = {.l = moment_take(now, 3 * length, sizeof *pairs.l)};
+    if (!pairs.l || !moment_state(now, &q, &p)) return HD_OK;
+    pairs.p = pairs.l + length;
+    pairs.ratio = pairs.p + length;
+    if (step && step->kind == HD_MODE_LP) reconstruct(&pairs, now->run, step, p);
+    fill_vector(&message, now->run, col, disks);
+    fill_step(&message, step);
+    fill_state(&message, q, p, disks);
+    fill_pairs(&message, &pairs, disks);
+    return topic_send_fields(now->out, &message);
+}
+
+/** Found in the positive half; of steps that share a set the first. */
+static bool has_example(const hd_steps *steps, int s)
+{
+    const hd_step *step = hd_steps_step(steps, s);
+    if (!step->resolved || step->conjugate || step->kind == HD_MODE_ZERO) return false;
+    for (int k = 0; k < s; k++) {
+        const hd_step *before = hd_steps_step(steps, k);
+        if (before->resolved && before->set == step->set) return false;
+    }
+    return true;
+}
+
+static hd_status publish(const moment *now, void *state)
+{
+    const hd_steps *steps = hd_run_steps(now->run);
+    const field_choice *choice = &now->set->fields;
+    hd_status status = HD_OK;
+    (void)state;
+    if (!hd_run_fields_due(now->run)) return HD_OK;
+    for (int k = 0; k < choice->count && status == HD_OK; k++)
+        status = publish_vector(now, choice->index[k] - 1);
+    for (int s = 0; choice->count == 0 && s < hd_steps_count(steps) && status == HD_OK; s++)
+        if (has_example(steps, s)) status = publish_vector(now, example_of(steps, s));
+    return status;
+}
+
+const topic_maker topic_fields = {.size = size_of, .publish = publish};

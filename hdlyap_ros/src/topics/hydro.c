@@ -1,0 +1,40 @@
+/** Hydrodynamic response of the vectors -> Hydro. */
+#include "hdlyap/hydro.h"
+#include "topics/moment.h"
+
+static topic_size size_of(const extent *e)
+{
+    return (topic_size){.report = HDR_HYDRO_BYTES + HDR_HYDRO_MODE_BYTES * e->responses};
+}
+
+static hdr_hydro_mode mode_of(const hd_hydro_response *response, const hd_steps *steps)
+{
+    const hd_step *step = hd_steps_step(steps, response->step);
+    return (hdr_hydro_mode){
+        .step = (uint32_t)response->step,
+        .index = (uint32_t)(response->col + 1),
+        .kind = (uint8_t)step->kind,
+        .nx = (uint32_t)step->wave.n[0],
+        .ny = (uint32_t)step->wave.n[1],
+        .modulation = response->modulation,
+        .density = response->density,
+        .along = response->along,
+        .across = response->across,
+        .energy = response->energy,
+    };
+}
+
+static hd_status publish(const moment *now, void *state)
+{
+    const hd_hydro *hydro = hd_run_hydro(now->run);
+    const uint32_t count = (uint32_t)hd_hydro_count(hydro);
+    hdr_hydro_mode *out = moment_take(now, count, sizeof *out);
+    (void)state;
+    if (!out) return HD_OK;
+    for (uint32_t k = 0; k < count; k++)
+        out[k] = mode_of(hd_hydro_at(hydro, (int)k), hd_run_steps(now->run));
+    hdr_hydro message = {.sim_time = hd_run_time(now->run), .responses = {out, count}};
+    return topic_send_hydro(now->out, &message);
+}
+
+const topic_maker topic_hydro = {.size = size_of, .publish = publish};

@@ -1,0 +1,46 @@
+/** How the LP modes rotate -> LpPhases. */
+#include "topics/moment.h"
+#include "topics/phase.h"
+
+_Static_assert((int)HD_PHASE_TRACKED == (int)HDR_LP_PHASE_TRACKED, "states as in the core");
+
+static topic_size size_of(const extent *e)
+{
+    return (topic_size){.report = HDR_LP_PHASES_BYTES + HDR_LP_PHASE_BYTES * e->phases};
+}
+
+static hdr_lp_phase phase_of(const hd_phase *phase, const hd_step *step)
+{
+    return (hdr_lp_phase){
+        .step = (uint32_t)phase->step,
+        .nx = (uint32_t)step->wave.n[0],
+        .ny = (uint32_t)step->wave.n[1],
+        .modulation = phase->modulation,
+        .index = phase_index(phase),
+        .state = (uint8_t)phase->state,
+        .a = phase->a,
+        .b = phase->b,
+        .phase = phase_angle(phase),
+        .omega = phase->omega,
+        .omega_error = phase->omega_error,
+        .velocity = fabs(phase->omega) / step->wave.number,
+        .tracked_time = phase_time(phase),
+    };
+}
+
+static hd_status publish(const moment *now, void *state)
+{
+    const hd_phases *phases = hd_run_phases(now->run);
+    const uint32_t count = (uint32_t)hd_phases_count(phases);
+    hdr_lp_phase *out = moment_take(now, count, sizeof *out);
+    (void)state;
+    if (!out) return HD_OK;
+    for (uint32_t k = 0; k < count; k++) {
+        const hd_phase *phase = hd_phases_phase(phases, (int)k);
+        out[k] = phase_of(phase, hd_steps_step(hd_run_steps(now->run), phase->step));
+    }
+    hdr_lp_phases message = {.sim_time = time_of_phases(now->run), .phases = {out, count}};
+    return topic_send_lp_phases(now->out, &message);
+}
+
+const topic_maker topic_lp_phases = {.size = size_of, .publish = publish};

@@ -1,0 +1,65 @@
+/** What each vector is -> Modes. */
+#include "topics/moment.h"
+
+_Static_assert((int)HD_MODE_LP == (int)HDR_MODE_LP, "kinds as in the core");
+
+static topic_size size_of(const extent *e)
+{
+    return (topic_size){.report = HDR_MODES_BYTES + HDR_MODE_BYTES * e->vectors};
+}
+
+/** Weights in the fields of its step. */
+static void fill_kind(hdr_mode *mode, const hd_modes *modes, const hd_step *step)
+{
+    const int col = (int)mode->index - 1;
+    mode->kind = (uint8_t)step->kind;
+    mode->nx = (uint32_t)step->wave.n[0];
+    mode->ny = (uint32_t)step->wave.n[1];
+    mode->wave_number = step->wave.number;
+    if (step->kind == HD_MODE_ZERO) {
+        mode->weight = mode->null_x + mode->null_y + mode->null_p;
+        for (int k = 0; k < HD_NULLS; k++)
+            mode->weight_now += hd_modes_null_snapshot(modes, k)[col];
+        return;
+    }
+    mode->weight = hd_modes_average(modes, step->subspace, HD_WEIGHT)[col];
+    mode->weight_now = hd_modes_snapshot(modes, step->subspace, HD_WEIGHT)[col];
+    if (step->kind != HD_MODE_LP) return;
+    mode->weight_l = hd_modes_average(modes, step->subspace, HD_WEIGHT_L)[col];
+    mode->weight_p = hd_modes_average(modes, step->subspace, HD_WEIGHT_P)[col];
+}
+
+static hdr_mode mode_of(const hd_run *run, int col)
+{
+    const hd_modes *modes = hd_run_modes(run);
+    const int s = hd_steps_of_vector(hd_run_steps(run), col);
+    hdr_mode mode = {
+        .index = (uint32_t)col + 1,
+        .exponent = hd_spectrum_exponent(hd_run_spectrum(run), col),
+        .null_x = hd_modes_null_average(modes, HD_NULL_X)[col],
+        .null_y = hd_modes_null_average(modes, HD_NULL_Y)[col],
+        .null_p = hd_modes_null_average(modes, HD_NULL_P)[col],
+        .step = s,
+    };
+    if (s >= 0) fill_kind(&mode, modes, hd_steps_step(hd_run_steps(run), s));
+    return mode;
+}
+
+static hd_status publish(const moment *now, void *state)
+{
+    const hd_run *run = now->run;
+    const uint32_t vectors = (uint32_t)hd_run_vectors(run);
+    hdr_mode *mode = moment_take(now, vectors, sizeof *mode);
+    (void)state;
+    if (!mode) return HD_OK;
+    for (uint32_t k = 0; k < vectors; k++) mode[k] = mode_of(run, (int)k);
+    hdr_modes message = {
+        .sim_time = hd_run_time(run),
+        .averaged_time = hd_spectrum_time(hd_run_spectrum(run)),
+        .samples = (uint32_t)hd_modes_samples(hd_run_modes(run)),
+        .modes = {mode, vectors},
+    };
+    return topic_send_modes(now->out, &message);
+}
+
+const topic_maker topic_modes = {.size = size_of, .publish = publish};

@@ -1,0 +1,39 @@
+/** What is said of a phase, of LP and of T steps alike. */
+#ifndef HDLYAP_PHASE_H
+#define HDLYAP_PHASE_H
+
+#include <math.h>
+
+#include "hdlyap/run.h"
+
+/** Simulated time of the phases. */
+static inline double time_of_phases(const hd_run *run)
+{
+    const double followed = hd_run_followed(run);
+    return followed >= 0 ? followed : hd_run_time(run);
+}
+
+static inline bool phase_is_resolved(const hd_phase *phase)
+{
+    return phase->state != HD_PHASE_UNRESOLVED;
+}
+
+/** Lyapunov index of its vector, from 1; 0 if there is none. */
+static inline uint32_t phase_index(const hd_phase *phase)
+{
+    return phase_is_resolved(phase) ? (uint32_t)phase->col + 1 : 0;
+}
+
+/** NaN before it has one. */
+static inline double phase_angle(const hd_phase *phase)
+{
+    const bool begun = phase->time > 0 || phase->state == HD_PHASE_TRACKED;
+    return phase_is_resolved(phase) && begun ? phase->phase : NAN;
+}
+
+static inline double phase_time(const hd_phase *phase)
+{
+    return phase_is_resolved(phase) ? phase->time : 0.0;
+}
+
+#endif

@@ -1,0 +1,19 @@
+/** How far a run is. */
+#ifndef HDLYAP_PROGRESS_H
+#define HDLYAP_PROGRESS_H
+
+#include "hdlyap/run.h"
+
+/** What other threads may know of the run: a copy as of its last finished step. */
+typedef struct progress {
+    hd_stage stage;
+    double time;         /**< simulated time since the start */
+    uint64_t collisions; /**< pairs, since the start */
+    hd_cost cost;
+    double averaged;    /**< time; 0 without exponents */
+    int resolved_steps; /**< -1 while nobody looks at them */
+} progress;
+
+progress progress_of(const hd_run *run);
+
+#endif

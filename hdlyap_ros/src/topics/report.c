@@ -1,0 +1,223 @@
+/** The table of topics -> what is published of a run, one loop over its rows for each thing to do.
+ * Called by one thread at a time. */
+#include "topics/report.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "node/clock.h"
+#include "topics/moment.h"
+#include "topics/run_info.h"
+#include "topics/slow_vectors.h"
+#include "topics/subscriber_wait.h"
+
+static const topic_maker *const makers[TOPICS] = {
+#define TOPIC(name, type, stages, is) [TOPIC_##name] = &topic_##name,
+#include "topics/rows.inc"
+#undef TOPIC
+};
+
+struct report {
+    const settings *set;
+    publishers out;
+    buffers room;
+    void *state[TOPICS]; /**< NULL where a topic keeps nothing */
+    subscriber_wait awaited;
+    unsigned demand; /**< set of topics that the step under way is made for */
+    double seconds;  /**< spent here */
+};
+
+/** -1 while nobody looks at them. */
+static int resolved_steps(const hd_run *run)
+{
+    const hd_modes *modes = hd_run_modes(run);
+    const hd_steps *steps = hd_run_steps(run);
+    int resolved = 0;
+    if (!modes || hd_modes_samples(modes) == 0) return -1;
+    for (int s = 0; s < hd_steps_count(steps); s++) resolved += hd_steps_step(steps, s)->resolved;
+    return resolved;
+}
+
+progress progress_of(const hd_run *run)
+{
+    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    return (progress){
+        .stage = hd_run_stage(run),
+        .time = hd_run_time(run),
+        .collisions = hd_trajectory_collisions(hd_run_trajectory(run)),
+        .cost = hd_run_cost(run),
+        .averaged = spectrum ? hd_spectrum_time(spectrum) : 0.0,
+        .resolved_steps = resolved_steps(run),
+    };
+}
+
+topic_size topic_size_of(topic t, const extent *e)
+{
+    return makers[t]->size ? makers[t]->size(e) : (topic_size){.messages = 0.0};
+}
+
+/* ---- creation ------------------------------------------------------------------------------- */
+
+static moment moment_of(report *rep, const hd_run *run)
+{
+    rep->room.known = false;
+    return (moment){
+        .out = &rep->out, .set = rep->set, .run = run, .seconds = rep->seconds, .room = &rep->room};
+}
+
+static bool begin(report *rep, const hd_run *run, unsigned set)
+{
+    const moment now = moment_of(rep, run);
+    for (topic t = 0; t < TOPICS; t++) {
+        if (!(set & topic_bit(t)) || makers[t]->state == 0) continue;
+        rep->state[t] = calloc(1, makers[t]->state);
+        if (!rep->state[t]) return false;
+        if (makers[t]->begin) makers[t]->begin(rep->state[t], &now);
+    }
+    return true;
+}
+
+static hdr_status advertise(report *rep, hdr_node *ros, const hd_run *run, unsigned set)
+{
+    const extent e = extent_of(rep->set, run);
+    double bytes[TOPICS];
+    for (topic t = 0; t < TOPICS; t++) {
+        const topic_size s = topic_size_of(t, &e);
+        bytes[t] = (s.report + s.fields + s.window) / fmax(s.messages, 1.0);
+    }
+    return publishers_advertise(&rep->out, ros, set, bytes, rep->set->seed);
+}
+
+hdr_status report_create(report **out, hdr_node *ros, const settings *set, const hd_run *run)
+{
+    const unsigned asked = set->observables | topics_that_are(TOPIC_ALWAYS | TOPIC_ASIDE);
+    report *rep = *out = calloc(1, sizeof *rep);
+    if (!rep) return HDR_NO_MEMORY;
+    rep->set = set;
+    const hdr_status status = begin(rep, run, asked) ? advertise(rep, ros, run, asked)
+                                                     : HDR_NO_MEMORY;
+    if (status == HDR_OK) return HDR_OK;
+    report_free(rep);
+    *out = NULL;
+    return status;
+}
+
+void report_free(report *rep)
+{
+    if (!rep) return;
+    for (topic t = 0; t < TOPICS; t++) free(rep->state[t]);
+    buffers_clear(&rep->room);
+    free(rep);
+}
+
+const char *report_run_id(const report *rep) { return rep->out.run_id; }
+
+hdr_lag report_lag(const report *rep) { return publishers_lag(&rep->out); }
+
+/* ---- who listens ---------------------------------------------------------------------------- */
+
+bool report_awaited_here(report *rep)
+{
+    return subscriber_wait_over(&rep->awaited, &rep->out, rep->set->awaited);
+}
+
+/** The steps have the velocity of the LP phases with them. The table of the log looks at them too.
+ */
+unsigned report_demand(report *rep)
+{
+    rep->demand = publishers_subscribed(&rep->out);
+    const unsigned steps = topic_bit(TOPIC_steps), all = steps | topic_bit(TOPIC_lp_phases);
+    const bool looked_at = (rep->demand & steps) || rep->set->table > 0.0;
+    return topic_stages(rep->demand | (looked_at ? all & rep->set->observables : 0));
+}
+
+void report_demand_slow(report *rep, hd_run *run)
+{
+    const moment now = moment_of(rep, run);
+    slow_vectors_demand(&now, rep->state[TOPIC_slow_vectors], run);
+}
+
+/** Observables that have someone to listen at a report. Vectors were measured only if someone
+ * listened before. */
+static unsigned topics_due(const report *rep, const hd_run *run)
+{
+    const hd_modes *modes = hd_run_modes(run);
+    const unsigned of_modes = topics_of_stages(STAGES_OF_MODES);
+    const unsigned measured = of_modes | topics_of_stages(HD_OBSERVE_LOCALIZATION);
+    unsigned set = publishers_subscribed(&rep->out) & topics_that_are(TOPIC_OBSERVABLE);
+    set &= ~topics_that_are(TOPIC_OF_WINDOWS);
+    if (!modes || hd_modes_samples(modes) == 0) set &= ~of_modes;
+    return set & (rep->demand | ~measured);
+}
+
+/* ---- messages ------------------------------------------------------------------------------- */
+
+static hd_status publish(report *rep, moment *now, unsigned set)
+{
+    hd_status status = HD_OK;
+    for (topic t = 0; t < TOPICS && status == HD_OK; t++) {
+        if (!(set & topic_bit(t)) || !rep->out.publisher[t]) continue;
+        now->topic = t;
+        now->room->taken = 0;
+        status = makers[t]->publish(now, rep->state[t]);
+    }
+    return status;
+}
+
+/** Cost, if anybody listens, and then status. */
+static hd_status publish_progress(report *rep, const progress *last)
+{
+    moment now = moment_of(rep, NULL);
+    now.last = last;
+    const hd_status status = publish(rep, &now,
+                                     publishers_subscribed(&rep->out) & topic_bit(TOPIC_cost));
+    return status == HD_OK ? publish(rep, &now, topic_bit(TOPIC_status)) : status;
+}
+
+/** The last word about a run that has finished is left to report_finish. */
+hd_status report_publish(report *rep, const hd_run *run)
+{
+    const double start = clock_seconds();
+    moment now = moment_of(rep, run);
+    hd_status status = publish(rep, &now, topics_due(rep, run));
+    if (status == HD_OK && hd_run_stage(run) != HD_FINISHED) {
+        const progress last = progress_of(run);
+        status = publish_progress(rep, &last);
+    }
+    rep->seconds += clock_seconds() - start;
+    return status;
+}
+
+hd_status report_window(report *rep, const hd_run *run)
+{
+    const double start = clock_seconds();
+    moment now = moment_of(rep, run);
+    const hd_status status = publish(rep, &now, topics_that_are(TOPIC_OF_WINDOWS));
+    rep->seconds += clock_seconds() - start;
+    return status;
+}
+
+hd_status report_slow(report *rep, const hd_run *run, bool at_rest)
+{
+    const double start = clock_seconds();
+    moment now = moment_of(rep, run);
+    now.topic = TOPIC_slow_vectors;
+    now.room->taken = 0;
+    const hd_status status = at_rest
+                                 ? slow_vectors_rest(&now, rep->state[TOPIC_slow_vectors])
+                                 : topic_slow_vectors.publish(&now, rep->state[TOPIC_slow_vectors]);
+    rep->seconds += clock_seconds() - start;
+    return status;
+}
+
+hdr_status report_run_info(report *rep, const hd_run *run, const changes *all)
+{
+    return run_info_publish(&rep->out, rep->set, run, all);
+}
+
+hd_status report_finish(report *rep, const progress *last)
+{
+    progress finished = *last;
+    finished.stage = HD_FINISHED;
+    return publish_progress(rep, &finished);
+}

@@ -1,0 +1,203 @@
+/** The disks and the slowest vectors, at the time of a step -> SlowVectors. */
+#include "topics/slow_vectors.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "node/clock.h"
+#include "topics/example.h"
+
+enum { PAIRS_MAX = HD_MODULATIONS_MAX };
+
+/** A message this old is as good as new for a run that stands still [s]. */
+static const double rest_seconds = 1.0;
+/** Of the time between two messages, one may be so early: steps are somewhat shorter than that, and
+ * every other one would be too early. On average there are no more than asked for. */
+static const double early = 0.5;
+
+/** What is said of each vector, [vectors] each unless said otherwise. */
+typedef struct vector_arrays {
+    double *exponents, *a, *b; /**< [vectors], [PAIRS_MAX * vectors] twice */
+    uint32_t *nx, *ny;
+    uint8_t *kind, *pairs;
+    double *dq; /**< dqx of all vectors, then dqy */
+} vector_arrays;
+
+/** Of a run that has just begun: zero. */
+typedef struct pace {
+    bool due, sent;    /**< for the step under way; once at least */
+    double next, last; /**< wall times of messages */
+} pace;
+
+/** False without memory. */
+static bool arrays_take(vector_arrays *of, const moment *now, size_t count, size_t known)
+{
+    const size_t disks = (size_t)now->set->def.disks;
+    of->exponents = moment_take(now, (1 + 2 * PAIRS_MAX) * count, sizeof *of->exponents);
+    of->nx = moment_take(now, 2 * count, sizeof *of->nx);
+    of->kind = moment_take(now, 2 * count, sizeof *of->kind);
+    of->dq = moment_take(now, 2 * disks * known, sizeof *of->dq);
+    if (!of->exponents || !of->nx || !of->kind || !of->dq) return false;
+    of->a = of->exponents + count;
+    of->b = of->a + PAIRS_MAX * count;
+    of->ny = of->nx + count;
+    of->pairs = of->kind + count;
+    return true;
+}
+
+/** Columns of positive exponent are before it. */
+static int end_of(const hd_run *run)
+{
+    const int positive = hd_scene_positive_exponents(hd_run_scene(run));
+    const int vectors = hd_run_vectors(run);
+    return vectors < positive ? vectors : positive;
+}
+
+/* ---- which vectors ------------------------------------------------------------------------- */
+
+/** Column that stands for the lowest step of a kind; `end` while none is found. */
+static int lowest_of(const hd_steps *steps, hd_mode_kind kind, int end)
+{
+    int lowest = -1;
+    for (int s = 0; s < hd_steps_count(steps); s++) {
+        const hd_step *step = hd_steps_step(steps, s);
+        if (step->kind != kind || !step->resolved || step->conjugate) continue;
+        if (lowest < 0 || step->exponent < hd_steps_step(steps, lowest)->exponent) lowest = s;
+    }
+    return lowest < 0 ? end : example_of(steps, lowest);
+}
+
+/** Column of the first vector of a message; that of the end if there is none. */
+static int first_of(const settings *set, const hd_run *run)
+{
+    const hd_steps *steps = hd_run_steps(run);
+    const int asked = set->slow_vectors_count, end = end_of(run);
+    if (!steps || hd_run_stage(run) != HD_AVERAGING) return end;
+    if (asked > 0) return asked < end ? end - asked : 0;
+    const int t = lowest_of(steps, HD_MODE_T, end), lp = lowest_of(steps, HD_MODE_LP, end);
+    return t < lp ? t : lp;
+}
+
+static bool is_watched(const publishers *out)
+{
+    return publishers_subscribed(out) & topic_bit(TOPIC_slow_vectors);
+}
+
+void slow_vectors_demand(const moment *now, void *state, hd_run *run)
+{
+    pace *p = state;
+    const settings *set = now->set;
+    const bool watched = is_watched(now->out), paced = set->pace > 0.0;
+    const bool averaging = hd_run_stage(run) == HD_AVERAGING;
+    const double between = paced && averaging ? fmax(set->pace / set->slow_vectors_rate, DBL_MIN)
+                                              : INFINITY;
+    const int end = end_of(run);
+    p->due = watched && clock_seconds() >= p->next - early / set->slow_vectors_rate;
+    const int first = p->due ? first_of(set, run) : end;
+    hd_run_watch(run, watched ? between : INFINITY, first < end ? first : hd_run_vectors(run));
+}
+
+/** True if the vectors from a column on are known, of those up to the end: a step may end
+ * elsewhere. */
+static bool is_known(hd_columns known, int first, int end)
+{
+    return first < end && known.count > 0 && known.first <= first;
+}
+
+/* ---- the message --------------------------------------------------------------------------- */
+
+static void fill_step(vector_arrays *of, int k, const hd_run *run, int col, bool known)
+{
+    const int s = hd_steps_of_vector(hd_run_steps(run), col);
+    const hd_step *step = s < 0 ? NULL : hd_steps_step(hd_run_steps(run), s);
+    const hd_modes *modes = hd_run_modes(run);
+    of->kind[k] = (uint8_t)(step ? step->kind : HD_MODE_NONE);
+    of->nx[k] = step ? (uint32_t)step->wave.n[0] : 0;
+    of->ny[k] = step ? (uint32_t)step->wave.n[1] : 0;
+    of->pairs[k] = 0;
+    for (int c = 0; c < PAIRS_MAX; c++) of->a[PAIRS_MAX * k + c] = of->b[PAIRS_MAX * k + c] = 0.0;
+    if (!known || !step || step->kind != HD_MODE_LP) return;
+    const hd_subspace *subspace = hd_fields_subspace(hd_modes_fields(modes), step->subspace);
+    const int pairs = subspace->dimension / 2;
+    of->pairs[k] = (uint8_t)pairs;
+    for (int c = 0; c < pairs; c++) {
+        of->a[PAIRS_MAX * k + c] = hd_modes_coefficients(modes, subspace->column + c)[col];
+        of->b[PAIRS_MAX * k + c] = hd_modes_coefficients(modes, subspace->column + pairs + c)[col];
+    }
+}
+
+/** Row-major columns -> vector by vector. */
+static void fill_dq(vector_arrays *of, hd_columns known, int first, size_t vectors, size_t disks)
+{
+    const size_t stride = (size_t)known.stride;
+    for (size_t j = 0; j < disks; j++) {
+        const double *row = known.data + 4 * j * stride + (size_t)(first - known.first);
+        for (size_t k = 0; k < vectors; k++) {
+            of->dq[k * disks + j] = row[k];
+            of->dq[(vectors + k) * disks + j] = row[stride + k];
+        }
+    }
+}
+
+/** False without memory. */
+static bool fill_vectors(hdr_slow_vectors *message, const moment *now)
+{
+    const hd_run *run = now->run;
+    const hd_columns known = hd_run_columns(run);
+    const int first = first_of(now->set, run), end = end_of(run);
+    const size_t disks = (size_t)now->set->def.disks, count = (size_t)(end - first);
+    const bool is_here = is_known(known, first, end);
+    const size_t numbers = is_here ? disks * count : 0;
+    vector_arrays of;
+    if (!arrays_take(&of, now, count, is_here ? count : 0)) return false;
+    for (int k = 0; k < end - first; k++) {
+        of.exponents[k] = hd_spectrum_exponent(hd_run_spectrum(run), first + k);
+        fill_step(&of, k, run, first + k, is_here);
+    }
+    if (is_here) fill_dq(&of, known, first, count, disks);
+    message->first_index = (uint32_t)first + 1;
+    message->vectors = (uint32_t)count;
+    message->exponents = message_array(of.exponents, count, 1);
+    message->kind = (hdr_bytes){of.kind, (uint32_t)count};
+    message->nx = (hdr_uints){of.nx, (uint32_t)count};
+    message->ny = (hdr_uints){of.ny, (uint32_t)count};
+    message->pairs = (hdr_bytes){of.pairs, (uint32_t)count};
+    message->a = message_array(of.a, PAIRS_MAX * count, 1);
+    message->b = message_array(of.b, PAIRS_MAX * count, 1);
+    message->dqx = message_array(of.dq, numbers, 1);
+    message->dqy = message_array(of.dq + numbers, numbers, 1);
+    return true;
+}
+
+static hd_status send(const moment *now)
+{
+    const size_t disks = (size_t)now->set->def.disks;
+    const double *q, *p;
+    hdr_slow_vectors message = {.sim_time = hd_run_time(now->run)};
+    if (!moment_state(now, &q, &p) || !fill_vectors(&message, now)) return HD_OK;
+    message.x = message_array(q, disks, 2);
+    message.y = message_array(q + 1, disks, 2);
+    message.px = message_array(p, disks, 2);
+    message.py = message_array(p + 1, disks, 2);
+    return topic_send_slow_vectors(now->out, &message);
+}
+
+static hd_status publish(const moment *now, void *state)
+{
+    pace *p = state;
+    const int end = end_of(now->run), first = p->due ? first_of(now->set, now->run) : end;
+    if (!p->due || (first < end && !is_known(hd_run_columns(now->run), first, end))) return HD_OK;
+    const double wall = clock_seconds();
+    p->next = fmax(p->next + 1.0 / now->set->slow_vectors_rate, wall);
+    p->last = wall;
+    p->sent = true;
+    return send(now);
+}
+
+hd_status slow_vectors_rest(const moment *now, void *state)
+{
+    const pace *p = state;
+    return p->sent && clock_seconds() - p->last < rest_seconds ? HD_OK : send(now);
+}
+
+const topic_maker topic_slow_vectors = {.publish = publish, .state = sizeof(pace)};

@@ -1,0 +1,45 @@
+/** Exponents, their errors, and the halves of the vectors -> Spectrum. */
+#include "topics/moment.h"
+
+static topic_size size_of(const extent *e)
+{
+    return (topic_size){.report = HDR_SPECTRUM_BYTES + HDR_SPECTRUM_EACH * e->vectors};
+}
+
+static hd_status publish(const moment *now, void *state)
+{
+    const hd_run *run = now->run;
+    const hd_spectrum *spectrum = hd_run_spectrum(run);
+    const size_t n = (size_t)hd_run_vectors(run);
+    (void)state;
+    if (!(hd_spectrum_time(spectrum) > 0.0)) return HD_OK;
+    double *exponents = moment_take(now, 5 * n, sizeof *exponents);
+    if (!exponents) return HD_OK;
+    double *std_errors = exponents + n, *local_exponents = std_errors + n;
+    double *cos_theta = local_exponents + n, *dp_dq_ratio = cos_theta + n;
+    for (size_t k = 0; k < n; k++) {
+        exponents[k] = hd_spectrum_exponent(spectrum, (int)k);
+        std_errors[k] = hd_spectrum_std_error(spectrum, (int)k);
+        local_exponents[k] = hd_spectrum_local(spectrum, (int)k);
+    }
+    hd_run_halves(run, cos_theta, dp_dq_ratio);
+    hdr_spectrum message = {
+        .sim_time = hd_run_time(run),
+        .averaged_time = hd_spectrum_time(spectrum),
+        .collisions = hd_trajectory_collisions(hd_run_trajectory(run)),
+        .lambda_max = hd_spectrum_lambda_max(spectrum),
+        .ks_entropy = hd_spectrum_ks_entropy(spectrum),
+        .ks_entropy_error = hd_spectrum_ks_entropy_error(spectrum),
+        .pairing_error = hd_spectrum_pairing_error(spectrum),
+        .first_index = 1,
+        .exponents = message_array(exponents, n, 1),
+        .std_errors = message_array(std_errors, n, 1),
+        .local_time = hd_spectrum_local_time(spectrum),
+        .local_exponents = message_array(local_exponents, n, 1),
+        .cos_theta = message_array(cos_theta, n, 1),
+        .dp_dq_ratio = message_array(dp_dq_ratio, n, 1),
+    };
+    return topic_send_spectrum(now->out, &message);
+}
+
+const topic_maker topic_spectrum = {.size = size_of, .publish = publish};

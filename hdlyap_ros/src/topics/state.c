@@ -1,0 +1,26 @@
+/** Positions and momenta of all disks -> State. */
+#include "topics/moment.h"
+
+static topic_size size_of(const extent *e)
+{
+    return (topic_size){.report = HDR_STATE_BYTES + HDR_STATE_EACH * e->disks};
+}
+
+static hd_status publish(const moment *now, void *state)
+{
+    const size_t disks = (size_t)now->set->def.disks;
+    const double *q, *p;
+    (void)state;
+    if (!moment_state(now, &q, &p)) return HD_OK;
+    hdr_state message = {
+        .sim_time = hd_run_time(now->run),
+        .kinetic_energy = hd_trajectory_kinetic_energy(hd_run_trajectory(now->run)),
+        .x = message_array(q, disks, 2),
+        .y = message_array(q + 1, disks, 2),
+        .px = message_array(p, disks, 2),
+        .py = message_array(p + 1, disks, 2),
+    };
+    return topic_send_state(now->out, &message);
+}
+
+const topic_maker topic_state = {.size = size_of, .publish = publish};

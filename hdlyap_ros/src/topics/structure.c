@@ -1,0 +1,72 @@
+/** Structure factors -> Structure: rows without what pads them. */
+#include "topics/moment.h"
+
+#include <string.h>
+
+enum { MODULATIONS = HD_MODULATIONS_MAX };
+
+/** Means where fields are due. */
+static topic_size size_of(const extent *e)
+{
+    const double of_waves = 16.0 * e->waves, amplitudes = 16.0 * MODULATIONS;
+    return (topic_size){.report = HDR_STRUCTURE_BYTES + of_waves + (4.0 + amplitudes) * e->vectors,
+                        .fields = of_waves * e->vectors};
+}
+
+static void gather_means(double *mean, const hd_structure *s, size_t waves, size_t vectors)
+{
+    for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++)
+        for (size_t w = 0; w < waves; w++, mean += vectors)
+            memcpy(mean, hd_structure_mean(s, (int)w, e), vectors * sizeof *mean);
+}
+
+static void gather_amplitudes(double *amplitude, const hd_structure *s, size_t vectors)
+{
+    for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++)
+        for (unsigned bits = 0; bits < MODULATIONS; bits++, amplitude += vectors)
+            memcpy(amplitude, hd_structure_amplitude(s, e, bits), vectors * sizeof *amplitude);
+}
+
+static void gather_waves(double *number, uint32_t *nodes, const hd_structure *s, size_t waves)
+{
+    for (size_t w = 0; w < waves; w++) {
+        const hd_wave *wave = hd_structure_wave(s, (int)w);
+        nodes[w] = (uint32_t)wave->n[0];
+        nodes[waves + w] = (uint32_t)wave->n[1];
+        number[w] = wave->number;
+    }
+}
+
+static hd_status publish(const moment *now, void *state)
+{
+    const hd_structure *s = hd_run_structure(now->run);
+    const size_t waves = (size_t)hd_structure_waves(s), n = (size_t)hd_structure_vectors(s);
+    const size_t means = hd_run_fields_due(now->run) ? waves * n : 0, amplitudes = MODULATIONS * n;
+    (void)state;
+    if (hd_structure_samples(s) == 0) return HD_OK;
+    double *number = moment_take(now, waves, sizeof *number);
+    double *mean = moment_take(now, 2 * means, sizeof *mean);
+    double *amplitude = moment_take(now, 2 * amplitudes, sizeof *amplitude);
+    uint32_t *nodes = moment_take(now, 2 * waves + n, sizeof *nodes);
+    if (!number || !mean || !amplitude || !nodes) return HD_OK;
+    uint32_t *peak = nodes + 2 * waves;
+    gather_waves(number, nodes, s, waves);
+    if (means > 0) gather_means(mean, s, waves, n);
+    gather_amplitudes(amplitude, s, n);
+    for (size_t col = 0; col < n; col++) peak[col] = (uint32_t)(hd_structure_peak(s, (int)col) + 1);
+    hdr_structure message = {
+        .sim_time = hd_run_time(now->run),
+        .samples = (uint32_t)hd_structure_samples(s),
+        .nx = {nodes, (uint32_t)waves},
+        .ny = {nodes + waves, (uint32_t)waves},
+        .wave_number = message_array(number, waves, 1),
+        .along = message_array(mean, means, 1),
+        .across = message_array(mean + means, means, 1),
+        .peak = {peak, (uint32_t)n},
+        .amplitude_along = message_array(amplitude, amplitudes, 1),
+        .amplitude_across = message_array(amplitude + amplitudes, amplitudes, 1),
+    };
+    return topic_send_structure(now->out, &message);
+}
+
+const topic_maker topic_structure = {.size = size_of, .publish = publish};
