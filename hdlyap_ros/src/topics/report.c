@@ -128,7 +128,7 @@ unsigned report_demand(report *rep)
     rep->demand = publishers_subscribed(&rep->out);
     const unsigned steps = topic_bit(TOPIC_steps), all = steps | topic_bit(TOPIC_lp_phases);
     const bool looked_at = (rep->demand & steps) || rep->set->table > 0.0;
-    return topic_stages(rep->demand | (looked_at ? all & rep->set->observables : 0));
+    return topic_stages(rep->demand | (looked_at ? all : 0));
 }
 
 void report_demand_slow(report *rep, hd_run *run)
