@@ -9,6 +9,7 @@ import time
 import numpy as np
 import rosgraph
 import rospy
+from hdlyap.msg import RunInfo, SlowVectors
 from std_srvs.srv import SetBool
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker
@@ -20,6 +21,7 @@ from pictured import Pictures, are_alike, arrows, lines, mode_name, modes, of, p
 ENDLESS = dict(MODES, duration=0.0)
 # of a bag, with status last
 REPLAYED = ('run_info', 'state', 'spectrum', 'steps', 'lp_phases', 'fields', 'status')
+STAND_INS = 'state', 'lp_phases', 'fields'
 
 
 def found(steps):
@@ -228,6 +230,34 @@ class Markers(harness.Case):
     def listeners_of(self, topic):
         state = rosgraph.Master('/test').getSystemState()[1]
         return [name for name in dict(state).get('/hdlyap/' + topic, ()) if name == '/viewer']
+
+    def test_stand_ins_only_without_slow_vectors(self):
+        """Topics that a bag has instead are not heard for a moment either: a node would compute
+        what is in them."""
+        came = []
+
+        class Visitors(rospy.SubscribeListener):
+            def peer_subscribe(self, topic, publish, peer_publish):
+                came.append(topic.split('/')[-1])
+
+        def publisher(topic, kind, **how):
+            made = rospy.Publisher(
+                '/hdlyap/' + topic, kind, queue_size=1, subscriber_listener=Visitors(), **how
+            )
+            self.addCleanup(made.unregister)
+            return made
+
+        slow = publisher('slow_vectors', SlowVectors)
+        for topic in STAND_INS:
+            publisher(topic, harness.TYPES[topic])
+        info = publisher('run_info', harness.TYPES['run_info'], latch=True)
+        info.publish(RunInfo(run_id='made up', disks=1, box_x=2.0, box_y=2.0))
+        pictures = self.look()
+        self.assertTrue(harness.wait_until(lambda: 'slow_vectors' in came and pictures.empty))
+        time.sleep(1.5)  # the viewer asks ten times in a second
+        self.assertFalse(set(came).intersection(STAND_INS), came)
+        slow.unregister()
+        self.assertTrue(harness.wait_until(lambda: set(came).issuperset(STAND_INS)), came)
 
     @harness.more
     def test_the_node_works_for_who_looks(self):

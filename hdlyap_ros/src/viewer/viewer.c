@@ -18,6 +18,8 @@ static const double poll_seconds = 0.1;
 /** As long as this nobody may look before the topics are left alone: rviz takes its time to open.
  */
 static const double patience_seconds = 10.0;
+/** A node that publishes slow_vectors is connected sooner; a bag's player waits for who listens. */
+static const double connecting_seconds = 1.0;
 /** A picture is sent anew after so long: rviz forgets what is in a box that is not checked. */
 static const double again_seconds = 1.0;
 /** Who has heard nothing new for so long says so in the picture. */
@@ -41,7 +43,7 @@ typedef struct viewer {
     hdr_subscriber *slow;
     /** Of averages; and of state and fields, which a bag has in place of slow_vectors */
     hdr_subscriber *others[2][SUBSCRIBERS_MAX];
-    double seen; /**< when somebody looked last */
+    double seen, asked; /**< when somebody looked last, and since when averages are heard */
 } viewer;
 
 static double seconds_now(void)
@@ -287,13 +289,17 @@ static hdr_status follow(viewer *v, double now)
     hdr_status status = HDR_OK;
     if (hdr_publisher_subscribers(v->markers) > 0) v->seen = now;
     const bool wanted = now - v->seen < patience_seconds && has_begun(v);
-    if (wanted && !v->slow) status = hear_averages(v);
+    if (wanted && !v->slow) {
+        v->asked = now;
+        status = hear_averages(v);
+    }
     if (!wanted && v->slow) {
         hear_no_more(v->others[AVERAGES]);
         hdr_subscriber_free(v->slow);
         v->slow = NULL;
     }
-    const bool live = v->slow && hdr_subscriber_publishers(v->slow) > 0;
+    const bool live = v->slow && (now - v->asked < connecting_seconds ||
+                                  hdr_subscriber_publishers(v->slow) > 0);
     const bool stand_in = wanted && !live, stands_in = v->others[STAND_INS][0];
     if (stand_in && !stands_in && status == HDR_OK) status = hear_stand_ins(v);
     if (!stand_in && stands_in) hear_no_more(v->others[STAND_INS]);
