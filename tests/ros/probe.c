@@ -3,7 +3,9 @@
  */
 #define _GNU_SOURCE /* RTLD_NEXT */
 #include <dlfcn.h>
+#include <errno.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -80,6 +82,18 @@ int fsync(int file)
     atomic_fetch_add(&files, 1);
     next(&real, "fsync");
     return real(file);
+}
+
+/** PROBE_THREADS: that there may be besides the first one. */
+int pthread_create(pthread_t *restrict thread, const pthread_attr_t *restrict how,
+                   void *(*begin)(void *), void *restrict with)
+{
+    static atomic_long threads;
+    int (*real)(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *);
+    const bool is_over = getenv("PROBE_THREADS") &&
+                         (double)atomic_fetch_add(&threads, 1) >= number("PROBE_THREADS");
+    next(&real, "pthread_create");
+    return is_over ? EAGAIN : real(thread, how, begin, with);
 }
 
 /** PROBE_OVERLAP: how deep disks overlap once the run has begun [sigma]. */

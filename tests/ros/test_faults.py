@@ -8,6 +8,7 @@ import random
 import resource
 import signal
 import subprocess
+import tempfile
 import time
 
 from std_srvs.srv import SetBool
@@ -112,6 +113,20 @@ class Faults(harness.Case):
             self.assertEqual(ends[0], FAULT)
         node = self.start(THREADED, command=[*limited(ENOUGH), harness.executable()])
         self.assertEqual(node.wait(), 0, node.text())
+
+    def test_no_thread_to_begin_with(self):
+        """A node that could not be created returns from main: no destructor may run then, of
+        roscpp's that has started by half (or of the probe's, which writes the counts)."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, 'counts')
+            for threads in '01234':
+                viewer = harness.start_viewer(
+                    probe={'PROBE_THREADS': threads, 'PROBE_COUNTS': path}
+                )
+                self.addCleanup(viewer.stop)
+                self.assertEqual(viewer.wait(), FAULT, viewer.text())
+                self.assertEqual(len(viewer.lines('FATAL')), 1, viewer.text())
+                self.assertFalse(os.path.exists(path), threads)
 
     def test_each_part_of_the_run(self):
         """Memory is out for the core, from its first block to the last one, which a report

@@ -26,7 +26,8 @@ typedef enum hdr_level { HDR_DEBUG, HDR_INFO, HDR_WARN, HDR_ERROR, HDR_FATAL } h
  * stop was requested is ended with status 0, whatever it is doing; one in which a thread of
  * roscpp's finds no memory with memory_status, after a line that says so. LC_CTYPE is then that of
  * the environment, for the log. *out is NULL if a stop was requested before there was a master.
- * Fails with HDR_NO_MEMORY or HDR_FAULT (a name that ROS refuses, no timer). */
+ * Fails with HDR_NO_MEMORY or HDR_FAULT (a name that ROS refuses, no timer): the process may then
+ * return from main, which runs no destructors. */
 HDR_MUST_CHECK hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *name,
                                           double stop_seconds, int memory_status);
 

@@ -6,7 +6,10 @@
 #include <clocale>
 #include <cstdarg>
 #include <cstdio>
+#include <cstdlib>
 #include <stdexcept>
+
+#include <unistd.h>
 
 #include <ros/xmlrpc_manager.h>
 
@@ -86,6 +89,13 @@ bool has_subscribers(const hdr_node &node)
     });
 }
 
+/** roscpp that has started by half does not survive its own destructors. */
+void leave(int status, void *)
+{
+    std::fflush(nullptr);
+    _exit(status);
+}
+
 /** What a parameter holds must not look like a line of its own, nor steer a terminal. */
 void one_line(char *text)
 {
@@ -127,13 +137,15 @@ hdr_status hdr_node_create(hdr_node **out, int *argc, char **argv, const char *n
 {
     *out = nullptr;
     stop_without_memory(memory_status);
-    return hdr_guard([&] {
+    const hdr_status status = hdr_guard([&] {
         stop_handlers_install(stop_seconds);
         setlocale(LC_CTYPE, ""); /* or log4cxx writes a question mark for each byte beyond ASCII */
         master_address_check(*argc, argv);
         ros::init(*argc, argv, name, ros::init_options::NoSigintHandler);
         *out = node_start();
     });
+    if (status != HDR_OK) on_exit(leave, nullptr);
+    return status;
 }
 
 void hdr_node_free(hdr_node *node, double linger)
