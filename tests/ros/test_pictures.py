@@ -4,6 +4,7 @@ published, only while somebody looks, as often as asked; live and from what was 
 
 import re
 import signal
+import subprocess
 import time
 
 import numpy as np
@@ -212,6 +213,19 @@ class Markers(harness.Case):
         )
         self.assertEqual(modes(pictures.all[-1]), ['mode/LP(1,0)', 'mode/T(2,0)', 'mode/T(1,0)'])
         self.assertIn('c_T', text(pictures.all[-1]))
+
+    def test_a_mode_that_is_not_looked_for(self):
+        """What the viewer advises are parameters of the node."""
+        pictures = self.look('T(1,0) LP(9,8)')
+        self.start(dict(ENDLESS, max_mode_number=1))
+        self.assertTrue(harness.wait_until(lambda: pictures.viewer.lines('no wave')))
+        (line,) = pictures.viewer.lines('looks for no wave (9,8)')
+        advised = re.findall(r'[a-z]+(?:_[a-z]+)+|observables', line)
+        self.assertEqual(advised, ['max_mode_number', 'max_wave_number', 'observables'])
+        asked = [harness.executable(), '--parameters']
+        known = subprocess.run(asked, stdout=subprocess.PIPE, text=True, check=True).stdout
+        for name in advised:
+            self.assertRegex(known, '(?m)^%s:' % name)
 
     @harness.more
     def test_of_another_node(self):

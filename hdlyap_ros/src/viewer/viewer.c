@@ -141,8 +141,9 @@ static void on_run_info(void *context, const hdr_run_info *info)
     for (int k = 0; k < v->modes.count; k++)
         if (!is_looked_for(info, &v->modes.mode[k]))
             hdr_log(HDR_WARN,
-                    "modes: no wave (%u,%u) is looked for in %s (its max_node, max_wave_number)",
-                    (unsigned)v->modes.mode[k].nx, (unsigned)v->modes.mode[k].ny, info->scene);
+                    "modes: %s looks for no wave (%u,%u): start it with a larger max_mode_number "
+                    "or max_wave_number, and with observables that need modes",
+                    info->scene, (unsigned)v->modes.mode[k].nx, (unsigned)v->modes.mode[k].ny);
 }
 
 static void on_slow_vectors(void *context, const hdr_slow_vectors *slow)
