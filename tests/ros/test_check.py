@@ -129,7 +129,7 @@ class Check(harness.Case):
         for text, said in (
             ('disks: [1, {a: 2}]', 'line 1: a parameter is a number, a word or a list'),
             ('- disks', 'must be a list of parameters, name: value'),
-            ('disks: [1', 'line 2'),
+            ('disks: 4\nseed: [1', 'line 2'),
         ):
             done = checked(self.file_of(text))
             self.assertEqual((done.returncode, done.stdout), (2, ''))

@@ -63,7 +63,7 @@ OF_SYSTEM = {
     'python3-paramiko': 'python3-paramiko',
     'python3-pandas': 'python3-pandas',
     'python3-rospkg': 'python3-rospkg',
-    'yaml': 'libyaml-dev',
+    'yaml-cpp': 'libyaml-cpp-dev',
     'python3-scipy': 'python3-scipy',
     'python3-setuptools': 'python3-setuptools',
     'python3-yaml': 'python3-yaml',

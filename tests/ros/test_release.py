@@ -15,7 +15,7 @@ from test_packaging import OF_ROS, OF_SYSTEM, ROOT, listed, text_of
 # of a build by debhelper, and what lets it build the library for several ranks
 HELPERS = {'debhelper-compat', 'dh-python', 'libopenmpi-dev', 'cmake'}
 # that the C programs and libraries name themselves, or that only a build needs
-LINKED = {'liblapacke-dev', 'libopenblas-openmp-dev', 'libyaml-dev', 'zlib1g-dev'}
+LINKED = {'liblapacke-dev', 'libopenblas-openmp-dev', 'libyaml-cpp-dev', 'zlib1g-dev'}
 BLAS = 'libopenblas0-openmp'  # of libopenblas-openmp-dev: rather than the one with its own threads
 
 

@@ -17,33 +17,13 @@ using XmlRpc::XmlRpcValue;
 
 namespace
 {
-/** An integer if it is one from end to end, otherwise a string; without the spaces around it. */
-XmlRpcValue item_of(const std::string &text)
-{
-    const char *const spaces = " \t";
-    const size_t first = text.find_first_not_of(spaces), last = text.find_last_not_of(spaces);
-    const std::string item = first == std::string::npos ? "" : text.substr(first, last + 1 - first);
-    char *end = nullptr;
-    const long number = std::strtol(item.c_str(), &end, 10);
-    const bool whole = !item.empty() && *end == '\0' && number == static_cast<int>(number);
-    return whole ? XmlRpcValue(static_cast<int>(number)) : XmlRpcValue(item);
-}
-
 /** rosrun's _name:=[a, b] arrives as a string: a list of its items. Anything else as it is. */
 XmlRpcValue listed(XmlRpcValue &value)
 {
     if (value.getType() != XmlRpcValue::TypeString) return value;
     const std::string text = value;
-    if (text.size() < 2 || text.front() != '[' || text.back() != ']') return value;
-    XmlRpcValue list;
-    list.setSize(0);
-    std::istringstream items(text.substr(1, text.size() - 2));
-    std::string item;
-    while (std::getline(items, item, ',')) {
-        const int k = list.size();
-        list[k] = item_of(item);
-    }
-    return list;
+    const bool is_list = text.size() > 1 && text.front() == '[' && text.back() == ']';
+    return is_list ? scene_file_value(text) : value;
 }
 
 /** In as few digits as tell it from every other number. */
