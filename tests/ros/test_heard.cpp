@@ -70,7 +70,7 @@ struct hearing {
         hdr_lp_phase phase = {1, 0, 1, 0, 5, HDR_LP_PHASE_TRACKED, a, b, 0, 0, 0, 0, 0};
         hdr_lp_phases phases = {};
         phases.run_id = "run", phases.phases = {&phase, 1}, phases.sim_time = time;
-        heard_phases(&h, &phases);
+        heard_lp_phases(&h, &phases);
     }
 
     picture drawn() { return compose(&h, &lowest, ""); }
@@ -114,7 +114,7 @@ TEST(heard, numbers_of_the_run)
     hdr_run_status status = {};
     status.run_id = "run", status.sim_time = 2.0, status.progress = 0.25;
     status.stage = HDR_RUN_STATUS_WARMING_UP;
-    heard_status(&on.h, &status);
+    heard_run_status(&on.h, &status);
     const picture p = on.drawn();
     ASSERT_EQ(5u, p.exponents.count);
     for (uint32_t k = 0; k < 5; k++) EXPECT_EQ(0.01 * (30 + k), p.exponents.data[k]);
@@ -124,10 +124,10 @@ TEST(heard, numbers_of_the_run)
     EXPECT_STREQ("warming up", p.stage);
     on.state(2.0);
     on.h.changed = false;
-    heard_status(&on.h, &status);
+    heard_run_status(&on.h, &status);
     EXPECT_FALSE(on.h.changed);
     status.stage = HDR_RUN_STATUS_AVERAGING;
-    heard_status(&on.h, &status);
+    heard_run_status(&on.h, &status);
     EXPECT_TRUE(on.h.changed);
 }
 
@@ -142,7 +142,7 @@ TEST(heard, before_the_first_message)
     EXPECT_EQ(DISKS, p.disks);
     hdr_run_status status = {};
     status.run_id = "run", status.sim_time = 2.0; // a bag without places
-    heard_status(&on.h, &status);
+    heard_run_status(&on.h, &status);
     p = on.drawn();
     EXPECT_EQ(2.0, p.time);
     EXPECT_EQ(0u, p.x.count);

@@ -266,7 +266,7 @@ void heard_steps(heard *h, const hdr_steps *steps)
     h->steps.steps.data = own;
 }
 
-void heard_phases(heard *h, const hdr_lp_phases *phases)
+void heard_lp_phases(heard *h, const hdr_lp_phases *phases)
 {
     if (!is_ours(h, phases->run_id)) return;
     hdr_lp_phase *own = replaced(h->phases.phases.data, phases->phases.data,
@@ -278,7 +278,7 @@ void heard_phases(heard *h, const hdr_lp_phases *phases)
     h->changed |= phases->sim_time == h->time || phases->sim_time == h->vector_time;
 }
 
-void heard_status(heard *h, const hdr_run_status *status)
+void heard_run_status(heard *h, const hdr_run_status *status)
 {
     if (!is_ours(h, status->run_id)) return;
     h->changed |= h->time < 0.0 || h->stage != status->stage;

@@ -55,8 +55,8 @@ void heard_state(heard *h, const hdr_state *state);
 void heard_mode_field(heard *h, const hdr_mode_field *field);
 void heard_spectrum(heard *h, const hdr_spectrum *spectrum);
 void heard_steps(heard *h, const hdr_steps *steps);
-void heard_phases(heard *h, const hdr_lp_phases *phases);
-void heard_status(heard *h, const hdr_run_status *status);
+void heard_lp_phases(heard *h, const hdr_lp_phases *phases);
+void heard_run_status(heard *h, const hdr_run_status *status);
 
 /** Coefficients of a vector's pairs at a time, HEARD_PAIRS_MAX at most, as phases have them; their
  * number, 0 if none are known. */

@@ -29,9 +29,8 @@ static void outline(canvas *on, const rect *r)
     canvas_line(on, r->x, y, r->x, r->y);
 }
 
-void panel_boxes(canvas *on, const layout *l, const picture *p)
+void panel_boxes(canvas *on, const layout *l)
 {
-    (void)p;
     canvas_layer(on, "box", HDR_MARKER_LINE_LIST, PALETTE_INK, LINE * l->unit);
     for (int k = 0; k < l->panels; k++) {
         outline(on, &l->panel[k]);

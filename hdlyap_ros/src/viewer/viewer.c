@@ -146,57 +146,26 @@ static void on_run_info(void *context, const hdr_run_info *info)
                     info->scene, (unsigned)v->modes.mode[k].nx, (unsigned)v->modes.mode[k].ny);
 }
 
-static void on_slow_vectors(void *context, const hdr_slow_vectors *slow)
-{
-    viewer *v = context;
-    pthread_mutex_lock(&v->lock);
-    heard_slow_vectors(&v->said, slow);
-    show(v);
-    pthread_mutex_unlock(&v->lock);
-}
-
-/** With a message of a later time what was heard is whole, also where a bag has no status. */
-static void on_state(void *context, const hdr_state *state)
-{
-    viewer *v = context;
-    pthread_mutex_lock(&v->lock);
-    if (state->sim_time != v->said.time) show(v);
-    heard_state(&v->said, state);
-    pthread_mutex_unlock(&v->lock);
-}
-
-static void on_field(void *context, const hdr_mode_field *field)
-{
-    viewer *v = context;
-    pthread_mutex_lock(&v->lock);
-    if (field->sim_time > v->said.time) show(v);
-    heard_mode_field(&v->said, field);
-    pthread_mutex_unlock(&v->lock);
-}
-
-static void on_spectrum(void *context, const hdr_spectrum *spectrum)
-{
-    viewer *v = context;
-    pthread_mutex_lock(&v->lock);
-    heard_spectrum(&v->said, spectrum);
-    pthread_mutex_unlock(&v->lock);
-}
-
-static void on_steps(void *context, const hdr_steps *steps)
-{
-    viewer *v = context;
-    pthread_mutex_lock(&v->lock);
-    heard_steps(&v->said, steps);
-    pthread_mutex_unlock(&v->lock);
-}
-
-static void on_phases(void *context, const hdr_lp_phases *phases)
-{
-    viewer *v = context;
-    pthread_mutex_lock(&v->lock);
-    heard_phases(&v->said, phases);
-    pthread_mutex_unlock(&v->lock);
-}
+/** on_NAME: hears a message, with what is done before and after it. */
+#define ON(name, before, after)                                                                    \
+    static void on_##name(void *context, const hdr_##name *message)                                \
+    {                                                                                              \
+        viewer *v = context;                                                                       \
+        pthread_mutex_lock(&v->lock);                                                              \
+        before;                                                                                    \
+        heard_##name(&v->said, message);                                                           \
+        after;                                                                                     \
+        pthread_mutex_unlock(&v->lock);                                                            \
+    }
+ON(slow_vectors, , show(v))
+/* With a message of a later time what was heard is whole, also where a bag has no status. */
+ON(state, if (message->sim_time != v->said.time) show(v), )
+ON(mode_field, if (message->sim_time > v->said.time) show(v), )
+ON(spectrum, , )
+ON(steps, , )
+ON(lp_phases, , )
+ON(run_status, , show(v)) /* the last message of a report */
+#undef ON
 
 /** Of the modes alone: "modes=T(1,0) LP(1,1)". */
 static bool on_set(void *context, const char *assignment, char *message, size_t size)
@@ -220,16 +189,6 @@ static bool on_set(void *context, const char *assignment, char *message, size_t 
     return true;
 }
 
-/** The last message of a report. */
-static void on_status(void *context, const hdr_run_status *status)
-{
-    viewer *v = context;
-    pthread_mutex_lock(&v->lock);
-    heard_status(&v->said, status);
-    show(v);
-    pthread_mutex_unlock(&v->lock);
-}
-
 /* ---- topics -------------------------------------------------------------------------------- */
 
 /** Of the node, by its name; valid until the next one. */
@@ -248,7 +207,8 @@ static hdr_status hear_averages(viewer *v)
     if (status == HDR_OK)
         status = hdr_steps_subscribe(&s[1], v->ros, topic(v, "steps"), QUEUE, on_steps, v);
     if (status == HDR_OK)
-        status = hdr_run_status_subscribe(&s[2], v->ros, topic(v, "status"), QUEUE, on_status, v);
+        status = hdr_run_status_subscribe(&s[2], v->ros, topic(v, "status"), QUEUE, on_run_status,
+                                          v);
     if (status == HDR_OK)
         status = hdr_slow_vectors_subscribe(&v->slow, v->ros, topic(v, "slow_vectors"), 1,
                                             on_slow_vectors, v);
@@ -260,9 +220,11 @@ static hdr_status hear_stand_ins(viewer *v)
     hdr_subscriber **s = v->others[STAND_INS];
     hdr_status status = hdr_state_subscribe(&s[0], v->ros, topic(v, "state"), QUEUE, on_state, v);
     if (status == HDR_OK)
-        status = hdr_lp_phases_subscribe(&s[1], v->ros, topic(v, "lp_phases"), QUEUE, on_phases, v);
+        status = hdr_lp_phases_subscribe(&s[1], v->ros, topic(v, "lp_phases"), QUEUE, on_lp_phases,
+                                         v);
     if (status == HDR_OK)
-        status = hdr_mode_field_subscribe(&s[2], v->ros, topic(v, "fields"), QUEUE, on_field, v);
+        status = hdr_mode_field_subscribe(&s[2], v->ros, topic(v, "fields"), QUEUE, on_mode_field,
+                                          v);
     return status;
 }
 
