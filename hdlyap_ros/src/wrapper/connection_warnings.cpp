@@ -1,6 +1,6 @@
 /** Subscribers that are connected to nobody although their topic is published: roscpp keeps to
  * itself why. */
-#include "connection_warnings.hpp"
+#include "node.hpp"
 
 #include <algorithm>
 #include <map>

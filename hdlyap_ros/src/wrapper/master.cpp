@@ -1,4 +1,4 @@
-#include "master.hpp"
+#include "node.hpp"
 
 #include <cstdlib>
 #include <regex>

@@ -1,6 +1,5 @@
 /** The node's life: roscpp started and left without its signal handlers, its clock and its log. */
 #include "node.hpp"
-#include "master.hpp"
 
 #include <algorithm>
 #include <clocale>
@@ -14,7 +13,6 @@
 #include <ros/xmlrpc_manager.h>
 
 #include "guard.hpp"
-#include "stop.hpp"
 
 namespace
 {

@@ -1,4 +1,5 @@
-/** What a node, a publisher and a subscriber are made of; private to the wrapper. */
+/** What a node, a publisher and a subscriber are made of, and what files of the wrapper have for
+ * each other; private to it. */
 #pragma once
 
 #include <atomic>
@@ -54,3 +55,24 @@ uint32_t queue_length(const std::string &topic, int queue);
 
 /** For what roscpp refuses without saying why to its caller. */
 [[noreturn]] void throw_of_another_type(const std::string &topic, const std::string &datatype);
+
+/** From now on, on the callback thread, it is said which subscribers cannot be connected. An ERROR
+ * line for each publisher of another type, a WARN line where somebody of the right type cannot be
+ * reached; while everybody is connected nobody is asked. */
+void connection_warnings_start(hdr_node *node);
+
+/** Throws std::invalid_argument unless the master's address, of __master:= or the environment, is
+ * one: roscpp dies of others. Where the environment has none, it is given rospy's own. */
+void master_address_check(int argc, const char *const *argv);
+
+/** Of a parameter: of a string its contents, of a list as YAML has it. Equal values have one text,
+ * however they were written. */
+std::string param_text(XmlRpc::XmlRpcValue &value);
+
+/** SIGINT and SIGTERM, and SIGHUP unless it is ignored, become hdr_stop_request; stop_seconds after
+ * it the process is ended with status 0. Throws std::system_error. */
+void stop_handlers_install(double stop_seconds);
+
+/** Where a thread of roscpp finds no memory, the process ends with this status instead of a crash.
+ */
+void stop_without_memory(int status) noexcept;

@@ -10,7 +10,7 @@
 #include <ros/ros.h>
 
 #include "guard.hpp"
-#include "params.hpp"
+#include "node.hpp"
 #include "scene_file.hpp"
 
 using XmlRpc::XmlRpcValue;

@@ -8,7 +8,6 @@
 #include "guard.hpp"
 #include "hdlyap_ros/params.h"
 #include "node.hpp"
-#include "params.hpp"
 
 namespace
 {

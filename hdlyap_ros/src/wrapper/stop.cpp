@@ -1,6 +1,5 @@
 /** Signals -> a flag that the node polls, and a timer that ends a process which does not;
  * exceptions that nobody catches -> an exit status. */
-#include "stop.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -19,6 +18,7 @@
 #include <unistd.h>
 
 #include "guard.hpp"
+#include "node.hpp"
 #include "hdlyap_ros/node.h"
 
 namespace

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "connection_warnings.hpp"
 #include "guard.hpp"
 #include "message_fields.hpp"
 #include "node.hpp"
