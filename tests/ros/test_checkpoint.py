@@ -67,7 +67,7 @@ class Checkpoint(harness.Case):
         )
         message = info.messages[0]
         self.assertEqual((message.scene, message.disks, message.exponents), ('kept', 60, '7'))
-        self.assertEqual(message.observables, RUN['observables'])
+        self.assertCountEqual(message.observables, RUN["observables"])
         self.assertEqual(message.duration, 6.0)
 
     def test_file_is_read_as_documented(self):
