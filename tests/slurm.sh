@@ -58,7 +58,7 @@ begin() {
 
 # ranks_of BAG: that its run says it had.
 ranks_of() {
-    /usr/bin/python3 -c 'import sys; from hdlyap.plots import recording; print(recording.run_infos(sys.argv[1])[-1].ranks)' "$1"
+    /usr/bin/python3 -c 'import sys; from hdlyap.data import reader; print(list(reader.run_infos(sys.argv[1]).values())[-1].ranks)' "$1"
 }
 
 runs_by_mpirun() {

@@ -14,7 +14,7 @@ from unittest import mock
 
 import made
 from hdlyap import commands
-from hdlyap.plots import recording
+from hdlyap.plots import recorded
 
 Done = namedtuple('Done', 'status out error')
 
@@ -80,7 +80,9 @@ class Bags(unittest.TestCase):
         return self.path(name)
 
     def recorded(self, messages, **which):
-        return recording.read(self.write(messages), **which)
+        """Is read when it is asked: each has a bag of its own."""
+        name = f'recorded_{len(os.listdir(self.folder))}'
+        return recorded.read(self.write(messages, name), **which)
 
     def succeeds(self, name, *arguments, status=0, how=tool):
         """What it prints."""

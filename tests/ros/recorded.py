@@ -27,7 +27,7 @@ RESULTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/re
 
 
 class Recorded(Run):
-    """In place of recording.Recording."""
+    """In place of plots.recorded.Recorded."""
 
     def __init__(self, info, steps=None, spectrum=None, phases=None):
         self.info, self.steps, self.spectrum = info, steps, spectrum

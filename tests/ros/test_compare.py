@@ -10,7 +10,8 @@ import rospy
 import made
 from bags import Bags, process, tool
 from made import LP, T
-from hdlyap.plots import fits, recording, verdict
+from hdlyap.data.reader import RecordingError
+from hdlyap.plots import fits, recorded, verdict
 from hdlyap.plots.comparison import Comparison
 from hdlyap.plots.deviation import Deviation, chance_of_largest, unlikeliest
 
@@ -58,14 +59,14 @@ class Pairs(Bags):
         return self.write(a, 'a'), self.write(b, 'b')
 
     def compared(self, a, b):
-        return Comparison(*map(recording.read, self.bags(a, b)))
+        return Comparison(*map(recorded.read, self.bags(a, b)))
 
     def compare(self, a, b, status=0, how=tool):
         """What it prints."""
         return self.succeeds('compare', *self.bags(a, b), status=status, how=how)
 
     def cannot_compare(self, reason, a, b):
-        with self.assertRaisesRegex(recording.RecordingError, reason):
+        with self.assertRaisesRegex(RecordingError, reason):
             verdict.verdict(self.compared(a, b))
 
 

@@ -17,8 +17,8 @@ from std_msgs.msg import String
 import made
 from bags import Bags, files, process, tool
 from made import LP, T
-from hdlyap.plots import paper, recording, report, waves
-from hdlyap.plots.course import LIMIT, Course
+from hdlyap.data.reader import RecordingError
+from hdlyap.plots import paper, recorded, report, waves
 from hdlyap.plots.figures import phases, plt
 from hdlyap.plots.numbers import with_error
 
@@ -241,13 +241,13 @@ class Kept(Bags):
             made.spectrum([5.0], 2.0),
         ]
         for number, chosen in ((None, ('two', 4.0)), (1, ('one', 5.0)), (2, ('two', 4.0))):
-            run = self.recorded(messages, number=number)
+            run = self.recorded(messages, run=number)
             self.assertEqual((run.info.run_id, run.spectrum.lambda_max), chosen)
             self.assertIn('one of 2 runs in the bag; --run 1 .. 2 chooses', report.report(run))
-        self.assertEqual(list(self.recorded(messages, number=1).cost()['time']), [1.0])
+        self.assertEqual(list(self.recorded(messages, run=1).cost()['time']), [1.0])
         for number in (0, 3, -1):
-            with self.assertRaisesRegex(recording.RecordingError, f'no run {number} .* 1 .. 2'):
-                self.recorded(messages, number=number)
+            with self.assertRaisesRegex(RecordingError, f'no run {number} .* 1 .. 2'):
+                self.recorded(messages, run=number)
         self.assertNotIn('runs in the bag', report.report(self.recorded(messages[:3])))
 
     def test_phases(self):
@@ -275,27 +275,6 @@ class Kept(Bags):
             for _, phase in run.phases.curves(0):
                 np.testing.assert_allclose(np.diff(phase), -made.VELOCITY * made.K)
 
-    def test_course_is_thinned_evenly_and_ends_with_the_last_row(self):
-        course = Course()
-        self.assertIsNone(course.table())
-        for count in (1, 2, LIMIT, LIMIT + 1, 3 * LIMIT + 2, 10 * LIMIT):
-            course.clear()
-            for row in range(count):
-                course.add((row, -row))
-            kept = course.table()[:, 0]
-            self.assertEqual((kept[0], kept[-1]), (0, count - 1))
-            self.assertLessEqual(len(kept), LIMIT + 1)
-            self.assertGreaterEqual(len(kept), min(count, LIMIT // 2))
-            self.assertEqual(len(set(np.diff(kept[:-1]))), 0 if len(kept) < 3 else 1)
-
-    def test_restart_is_seen_in_a_thinned_course(self):
-        step = made.step(INFO, LP, 1, 0, 37, 37)
-        run = recording.Recording(INFO)
-        for t in range(3 * LIMIT):
-            began = 0.0 if t < LIMIT else LIMIT - 0.5
-            run.phases.add(made.lp_phases(INFO, [step], float(t), modulations=(0,), began=began))
-        self.assertEqual([time[0] for time, _ in run.phases.curves(0)], [0, LIMIT])
-
     def test_memory(self):
         info = made.run_info(disks=2000, box_x=63.2, box_y=63.2)
         step = made.step(info, LP, 1, 0, 3994, 3997)
@@ -305,11 +284,12 @@ class Kept(Bags):
         self.assertGreater(os.path.getsize(self.path()), 100 * one)
         tracemalloc.start()
         try:
-            run = recording.read(self.path())
+            run = recorded.read(self.path())
+            self.assertEqual(len(list(run.fields())), 1)
+            self.assertEqual(len(run.steps.steps), 1)
             _, peak = tracemalloc.get_traced_memory()
         finally:
             tracemalloc.stop()
-        self.assertEqual(len(list(run.fields())), 1)
         self.assertLess(peak, 20 * one)
 
 

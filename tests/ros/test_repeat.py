@@ -9,7 +9,8 @@ import yaml
 from hdlyap.msg import Change
 import made
 from bags import Bags, process, tool
-from hdlyap.plots import recording, repetition
+from hdlyap.data.reader import RecordingError
+from hdlyap.plots import repetition
 
 SCENES = os.path.join(made.SCRIPTS, '../../launch/scenes')
 
@@ -44,7 +45,7 @@ class Repeat(Bags):
         return yaml.safe_load(self.text(node, number))
 
     def refused(self, node=None, number=None):
-        with self.assertRaises(recording.RecordingError) as caught:
+        with self.assertRaises(RecordingError) as caught:
             self.text(node, number)
         return str(caught.exception)
 

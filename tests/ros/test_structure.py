@@ -11,7 +11,7 @@ import hdlyap
 import made
 from bags import Bags
 from hdlyap.msg import Structure
-from hdlyap.plots import figures, recording, structure
+from hdlyap.plots import figures, recorded, structure
 
 OMEGA = made.VELOCITY  # times k
 WAVES = np.array([(1, 0), (0, 1), (1, 1), (2, 0)])
@@ -149,11 +149,11 @@ class Recorded(Bags):
         self.write([*self.head(), *(message(self.info, t, [], means=False) for t in times)])
         with self.assertRaisesRegex(Exception, 'no message of structure with means in it'):
             hdlyap.load(self.bag).structure
-        self.assertIsNone(figures.structure.draw(recording.read([self.bag])))
+        self.assertIsNone(figures.structure.draw(recorded.read(self.bag)))
 
     def test_figure(self):
         """The map has the numbers, the lines are at v k and at 0."""
-        figure = figures.structure.draw(recording.read([self.bag]))
+        figure = figures.structure.draw(recorded.read(self.bag))
         self.addCleanup(plt.close, figure)
         along, across, *others = figure.axes
         (lines,) = (one for one in others if one.get_title(loc='left').startswith('(c)'))

@@ -285,8 +285,8 @@ class Sweep(InFolder):
         said = self.sweep(*given, '--duration', '151', status=2)
         self.assertEqual(
             said,
-            f'hdlyap sweep: {self.path("sweep", "density_0_6_seed_1.bag")}: it was run with duration = '
-            '150.0, not 151; must be swept with that, or in another folder\n',
+            f'hdlyap sweep: {self.path("sweep", "density_0_6_seed_1.bag")}: it was run with '
+            'duration = 150.0, not 151; must be swept with that, or in another folder\n',
         )
 
     def check_cut(self, *given):

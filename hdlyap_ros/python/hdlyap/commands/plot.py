@@ -7,7 +7,8 @@ Exit status: 0, or 1 if a bag cannot be used or a file cannot be written."""
 
 import os
 
-from hdlyap.plots import figures, fits, means, report
+from hdlyap.data import export
+from hdlyap.plots import figures, fits, recorded, report
 from hdlyap.plots.progress import Progress
 
 
@@ -31,25 +32,22 @@ def options(parser):
     parser.add_argument('--npz', metavar='FILE', help='file for all arrays, for numpy.load')
 
 
-def exported(args):
+def exported(run, args):
     """Names of the files."""
-    from hdlyap.data import export, seeds  # only here: pandas takes a while
-
-    run = seeds.load(*args.bags, node=args.node, run=args.run, form=args.form, k=args.k)
     files = export.csv(run, args.csv) if args.csv else []
     return files + ([export.npz(run, args.npz)] if args.npz else [])
 
 
 def main(args):
-    run = means.read(args.bags, args.node, number=args.run, choice=fits.choice(args))
-    is_mean = isinstance(run, means.Means)
-    print(report.of_means(run) if is_mean else report.report(run), flush=True)
+    form, k = fits.choice(args)
+    run = recorded.read(*args.bags, node=args.node, run=args.run, form=form, k=k)
+    print(report.report(run), flush=True)
     if run.spectrum is None:
         print('\nno averaged spectrum in this bag: only the cost can be drawn')
     os.makedirs(args.out, exist_ok=True)
-    kinds = figures.OF_MEANS if is_mean else figures.FIGURES
+    kinds = figures.OF_MEANS if run.is_mean else figures.FIGURES
     files = figures.draw_all(run, args.out, Progress('drawing'), kinds)
     if args.csv or args.npz:
-        files += exported(args)
+        files += exported(run.data, args)
     print('\n' + '\n'.join(files))
     return 0

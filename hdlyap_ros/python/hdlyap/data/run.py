@@ -69,6 +69,7 @@ class Run:
         self._joined = joined
         self._form, self._k = form, k  # of the fits, see plots.fits.chosen
         self.info, self.paths = joined.info, joined.paths
+        self.runs_in_bag = joined.runs  # of the last part
 
     def __repr__(self):
         info = self.info
@@ -259,21 +260,28 @@ class Run:
     def _lasts(self):
         """{type: Packed} of those that are small, so that the bag is read once for all."""
         kinds = reader.MODES, reader.STEPS, reader.PHASES, reader.T_PHASES, reader.COVARIANT
-        kinds += reader.LOCALIZATION, reader.GAS
-        return {packed.kind: packed for packed in self._joined.packed(kinds)}
+        kinds += reader.LOCALIZATION, reader.GAS, reader.SPECTRUM
+        last = {}
+        for packed in self._joined.packed(kinds):
+            if packed.kind == reader.SPECTRUM:
+                before = last.get(reader.SPECTRUM, packed)
+                if packed.averaged_time <= 0:
+                    continue
+                if packed.averaged_time < before.averaged_time:  # the averages were reset
+                    last.pop(reader.COVARIANT, None)  # the next one takes a while
+            last[packed.kind] = packed
+        return last
 
     def has(self, topic):
         """Whether there is a message of 'modes', 'steps', 'lp_phases', 't_phases', 'covariant',
-        'localization' or 'gas'."""
+        'localization' or 'gas', or an averaged one of 'spectrum'."""
         return TOPICS[topic] in self._lasts
 
-    def last(self, topic):
-        """The last message of one of them, or of 'spectrum'."""
-        if topic == 'spectrum':
-            return self._averages.last
+    def last(self, topic, numpy=np):
+        """The last message of one of them, with arrays of numpy, or lists without it."""
         if not self.has(topic):
             raise self._missing(topic)
-        message = self._lasts[TOPICS[topic]].message(np)
+        message = self._lasts[TOPICS[topic]].message(numpy)
         return fits.chosen(message, self._form, self._k) if topic == 'steps' else message
 
     def _all(self, topic):

@@ -128,6 +128,51 @@ class Seeds:
         weights = np.array([run.last('gas').averaged_time for run in self.runs])
         return self._mean(frames, 'value', weights).join(frames[0][['unit']])
 
+    # ---- as messages of one run, which figures and comparison take ----------------------------
+
+    def has(self, topic):
+        return topic == 'spectrum' or topic == 'steps' and all(run.has(topic) for run in self.runs)
+
+    def last(self, topic, numpy=None):
+        """Of 'spectrum' or 'steps', with lists: means, and the larger one of both errors."""
+        message = self.runs[0].last(topic, numpy)
+        message.run_id, message.averaged_time = '', self.averaged_time
+        (self._fill_spectrum if topic == 'spectrum' else self._fill_steps)(message)
+        return message
+
+    def _fill_spectrum(self, message):
+        message.collisions = sum(run.last('spectrum').collisions for run in self.runs)
+        message.exponents = self.spectrum['exponent'].tolist()
+        message.std_errors = errors(self.spectrum).tolist()
+        message.lambda_max, message.ks_entropy = self.results['value'].iloc[:2].tolist()
+        message.ks_entropy_error = float(errors(self.results).iloc[1])
+        message.pairing_error = -1.0
+
+    def _fill_steps(self, message):
+        """As in the first run that has them: multiplicities and exponents are means. A fit that is
+        not of the same form in all runs is none."""
+        found = {}
+        for run in self.runs:
+            for name, step in zip(run.steps.index, run.last('steps').steps):
+                if step.resolved:
+                    found.setdefault(name, step)
+        names = self.runs[0].steps.index
+        message.steps = [found.get(name, step) for name, step in zip(names, message.steps)]
+        for name, error in errors(self.steps).items():
+            mean = self.steps.loc[name]
+            found[name].exponent, found[name].std_error = mean['exponent'], error
+            found[name].multiplicity = mean['multiplicity']
+        for symbol, points in (('c_T', 't_points'), ('c_L', 'l_points'), ('v', 'v_phases')):
+            if symbol not in self.results.index:
+                setattr(message, points, 0)
+        for name, error in errors(self.results).iloc[2:].items():
+            field, row = name.lower(), self.results.loc[name]
+            setattr(message, field, row['value'])
+            setattr(message, field + '_error', error)
+            if hasattr(message, field + '_sampling_error'):
+                setattr(message, field + '_sampling_error', row['sampling_error'])
+        message.t_misfit = message.l_misfit = message.v_misfit = -1.0
+
     def _is_in_all(self, fit):
         return all(any(fit.is_like(other) for other in run.fits) for run in self.runs)
 
@@ -145,6 +190,11 @@ class Seeds:
         made = dict(zip(columns, mean(values, errors, weights, there)))
         units = dict.fromkeys(columns[:3], '1/time unit' if name == 'exponent' else '')
         return tables.frame(made, units, index)
+
+
+def errors(frame):
+    """The larger one of both; the only one while the other is not known."""
+    return np.fmax(frame['std_error'], frame['scatter'])
 
 
 def _of_sampling(frame):

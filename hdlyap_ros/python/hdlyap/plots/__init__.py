@@ -1,1 +1,1 @@
-"""From a recorded bag of hdlyap_node to tables and figures: recording -> report, figures."""
+"""From a recorded bag of hdlyap_node to tables and figures: recorded -> report, figures."""

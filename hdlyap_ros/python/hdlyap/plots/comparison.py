@@ -5,9 +5,10 @@ import io
 
 import numpy as np
 
+from hdlyap.data.reader import RecordingError
+
 from . import fits, steps
 from .deviation import Deviation
-from .recording import RecordingError
 
 SAME = 1e-9  # relative: parameters that were given as the same decimal number
 SYSTEM = ('disks', 'density', 'aspect', 'boundary_x', 'boundary_y')

@@ -4,10 +4,11 @@ from math import isfinite
 
 import numpy as np
 
-from hdlyap.data import joined
-from hdlyap.data.reader import FIELD, PHASES, STATE, STEPS, RecordingError
+from hdlyap.data import joined, run
+from hdlyap.data.reader import FIELD, PHASES, STATE, RecordingError
 
-from . import recording, steps
+from . import steps
+from .recorded import Recorded
 
 MOST = 1e6  # frames of a film: ten of them a second are a day
 
@@ -61,7 +62,7 @@ class Film:
     def __init__(self, paths, names=None, node=None, number=None):
         self._run = joined.one(paths, node, number)
         self.info = self._run.info
-        self.steps = steps.resolved(recording.of(self._run, (STEPS,)).steps)
+        self.steps = steps.resolved(Recorded(run.Run(self._run)).steps)
         self.names = names or lowest(self.steps)
         if not self.names:
             raise RecordingError(f'{self._run.name}: no step is resolved in it')

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from .course import Course
 from .numbers import known, stated
 
 SHORTEST = 3  # points of a curve
@@ -19,7 +18,7 @@ class PhaseCourse:
 
     def __init__(self):
         self.last = None
-        self._course = Course()
+        self._course = []
 
     def add(self, msg):
         """Two reports can tell the same state: the second one adds nothing."""
@@ -28,7 +27,7 @@ class PhaseCourse:
         if known:
             return
         tracked = [phase.state == phase.TRACKED for phase in msg.phases]
-        self._course.add(
+        self._course.append(
             (
                 msg.sim_time,
                 *(phase.phase if on else np.nan for phase, on in zip(msg.phases, tracked)),
@@ -42,7 +41,7 @@ class PhaseCourse:
 
     def curves(self, number):
         """(times, phases) of each stretch that was tracked without a break."""
-        table = self._course.table()
+        table = np.array(self._course)
         time, phase = table[:, 0], table[:, 1 + number]
         tracked = table[:, 1 + len(self.last.phases) + number]
         on = np.isfinite(phase)

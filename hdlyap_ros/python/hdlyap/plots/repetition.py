@@ -4,7 +4,7 @@ import re
 
 import yaml
 
-from . import recording
+from hdlyap.data import reader
 
 # of run_info, what is no parameter: what follows from them, and what the run ran on
 RESULTS = (
@@ -34,14 +34,14 @@ OLDER = dict(field_interval=0.0, wait_for_subscribers=[], changes=[])
 
 def chosen(path, node=None, number=None):
     """run_info of one of the bag's runs; number: from 1."""
-    infos = recording.run_infos(path, node)
+    infos = list(reader.run_infos(path, node).values())
     if number is None and len(infos) == 1:
         return infos[0]
     if number is not None and 1 <= number <= len(infos):
         return infos[number - 1]
     names = ', '.join(f'{k} ({info.run_id})' for k, info in enumerate(infos, start=1))
     what = 'several runs' if number is None else f'no run {number} in it'
-    raise recording.RecordingError(f'{path}: {what}, choose with --run: {names}')
+    raise reader.RecordingError(f'{path}: {what}, choose with --run: {names}')
 
 
 def scene_file(info):

@@ -1,15 +1,21 @@
-"""Recording -> the text that hdlyap plot prints."""
+"""recorded.Recorded -> the text that hdlyap plot prints."""
 
 import numpy as np
 
+from hdlyap.data import seeds
+
 from . import covariant_table, equation, paper, step_table
-from .numbers import known
+from .numbers import known, with_error
 
 TAIL = 64  # exponents in the table
 COLUMNS = 3
+MEAN = '  {:<16} {:>15} {:>15} {:>15} {:>12} {:>4}  {}'
+HEAD = MEAN.format('', 'mean', 'stated error', 'from scatter', 'chi^2/(n-1)', 'n', '').rstrip()
 
 
 def report(recording):
+    if recording.is_mean:
+        return _of_means(recording)
     blocks = [_head(recording)]
     if recording.gas is not None:
         blocks.append(_gas(recording))
@@ -23,18 +29,45 @@ def report(recording):
     return '\n\n'.join(blocks)
 
 
-def of_means(means):
-    """The same of plots.means.Means."""
-    blocks = [_head(means), means.table(), _tail(means)]
-    if means.steps is not None:
-        blocks.append(next(step_table.blocks(means)))
+def _of_means(recording):
+    blocks = [_head(recording), _means(recording), _tail(recording)]
+    if recording.steps is not None:
+        blocks.append(next(step_table.blocks(recording)))
     return '\n\n'.join(blocks)
+
+
+def _means(recording):
+    """Both errors and chi^2 of each."""
+    of_all = recording.data
+    count = len(of_all.runs)
+    number = '1 seed' if count == 1 else f'{count} seeds'
+    lines = [f'means over {number}, weighted with their averaged times', HEAD]
+    lines += [_mean(name, row, 'value', row['basis']) for name, row in of_all.results.iterrows()]
+    if recording.steps is not None:
+        lines += [_mean(name, row, 'exponent') for name, row in of_all.steps.iterrows()]
+    lost = [fit.symbol for fit in of_all.runs[0].fits if fit.symbol not in of_all.results.index]
+    if lost:
+        lines.append(f'  {", ".join(lost)}: of other forms or wave numbers in other runs')
+    lines += [f'  {line}' for line in of_all.left_out]
+    return '\n'.join(lines)
+
+
+def _mean(name, row, column, remark=''):
+    count = int(row['runs'])
+    chi2 = f'{row["chi2"] / (count - 1):.2f}' if count > 1 and np.isfinite(row['chi2']) else '-'
+    stated, scatter = (
+        f'{row[error]:.2g}' if np.isfinite(row[error]) else '-'
+        for error in ('std_error', 'scatter')
+    )
+    value = with_error(row[column], float(seeds.errors(row)))
+    return MEAN.format(name, value, stated, scatter, chi2, count, remark).rstrip()
 
 
 def _head(recording):
     head = f'scene {recording.info.scene}: {system(recording.info)}\n{origin(recording.info)}'
-    if recording.runs > 1:
-        head += f'\none of {recording.runs} runs in the bag; --run 1 .. {recording.runs} chooses'
+    runs = 1 if recording.is_mean else recording.data.runs_in_bag
+    if runs > 1:
+        head += f'\none of {runs} runs in the bag; --run 1 .. {runs} chooses'
     return head
 
 

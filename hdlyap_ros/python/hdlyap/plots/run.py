@@ -7,7 +7,7 @@ class Run:
     """Its run_info, its last spectrum (None without exponents), its last steps, covariant
     vectors, widths and gas (None if nobody listened)."""
 
-    choice = None, None  # of the fits: form and wave numbers, see fits.chosen
+    is_mean = False  # over seeds
     left_out = ()  # lines of runs that are in none of its means
     info = spectrum = steps = covariant = localization = gas = None
 

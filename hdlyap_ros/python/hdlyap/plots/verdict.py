@@ -3,10 +3,11 @@
 import textwrap
 from math import inf
 
+from hdlyap.data.reader import RecordingError
+
 from . import steps
 from .deviation import FREEDOM, chance_of_largest, unlikeliest
 from .numbers import with_error
-from .recording import RecordingError
 from .report import origin, system
 
 AGREE, DIFFER = 0, 1  # exit status

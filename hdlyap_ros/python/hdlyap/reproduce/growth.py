@@ -4,7 +4,7 @@ a time t, times t. It does not depend on t once t is long against what the growt
 import numpy as np
 
 from hdlyap.plots import steps
-from hdlyap.plots.recording import SPECTRUM
+from hdlyap.data.reader import SPECTRUM
 
 from . import blocks
 

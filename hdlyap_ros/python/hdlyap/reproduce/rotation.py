@@ -6,7 +6,7 @@ from hdlyap.msg import LpPhase
 
 from hdlyap.plots import waves
 from hdlyap.plots.phases import goes_on
-from hdlyap.plots.recording import PHASES
+from hdlyap.data.reader import PHASES
 from hdlyap.plots.steps import wave_name
 
 from . import blocks

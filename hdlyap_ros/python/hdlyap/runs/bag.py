@@ -1,7 +1,8 @@
 """The bag of one run, read as often as the parts of the paper need and no more."""
 
 from hdlyap.msg import RunStatus
-from hdlyap.plots import recording, repetition
+from hdlyap.data import joined, reader
+from hdlyap.plots import repetition
 
 # parameters that make no difference to what is measured, or that run_info has as they were resolved
 HERE = ('threads', 'wait_for_subscribers', 'checkpoint', 'resume')
@@ -16,19 +17,22 @@ class Bag:
 
     @property
     def recording(self):
-        """All of it, thinned."""
+        """All of it, as figures take it."""
         if self._recording is None:
-            self._recording = recording.read(self.path)
+            from hdlyap.plots import recorded  # only here: pandas takes a while
+
+            self._recording = recorded.read(self.path)
         return self._recording
 
     @property
     def info(self):
         """Its run_info, without reading the rest."""
-        return recording.run_infos(self.path)[-1]
+        return list(reader.run_infos(self.path).values())[-1]
 
     def messages(self, kind):
         """Every message of a type, 'hdlyap/LpPhases' say, of the last run in its order."""
-        yield from recording.messages(self.path, kind)
+        for packed in joined.one(self.path).packed((kind,)):
+            yield packed.message()
 
     def last(self, kind):
         """The last message of a type; None if there is none."""
@@ -36,13 +40,13 @@ class Bag:
         try:
             for last in self.messages(kind):
                 pass
-        except recording.RecordingError:
+        except reader.RecordingError:
             return None
         return last
 
     def is_complete(self):
         """Whether the run went to its end."""
-        last = self.last(recording.STATUS)
+        last = self.last(reader.STATUS)
         return last is not None and last.stage == RunStatus.FINISHED and last.progress >= 1
 
     def was_run_with(self, parameters):

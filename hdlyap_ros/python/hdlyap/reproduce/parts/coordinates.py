@@ -4,7 +4,8 @@ lengths."""
 import numpy as np
 from matplotlib import ticker
 
-from hdlyap.plots import paper, recording, steps
+from hdlyap.data import reader
+from hdlyap.plots import paper, steps
 from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, ZERO, plt, scene
 
 from .. import averages, zeros
@@ -27,7 +28,7 @@ class Halves:
 
     def __init__(self, bag):
         messages = [
-            message for message in bag.messages(recording.SPECTRUM) if message.averaged_time > 0
+            message for message in bag.messages(reader.SPECTRUM) if message.averaged_time > 0
         ]
         run = bag.recording
         self.info, self.positive_end = run.info, run.positive_end

@@ -3,7 +3,8 @@ scalar patterns."""
 
 import numpy as np
 
-from hdlyap.plots import recording, steps, waves
+from hdlyap.data import reader
+from hdlyap.plots import steps, waves
 from hdlyap.plots.figures import modes
 from hdlyap.plots.figures.pattern import pattern
 from hdlyap.plots.figures.style import GREEN, INK, KIND_COLOURS, plt, scene
@@ -64,7 +65,7 @@ def claims(bags):
 def _by_step(bag):
     """{name: the fields of its vectors at all times}"""
     found = {}
-    for field in bag.messages(recording.FIELD):
+    for field in bag.messages(reader.FIELD):
         if steps.NAMES.get(field.kind) in ('T', 'LP'):
             found.setdefault(steps.name(field), []).append(field)
     return found

@@ -9,7 +9,7 @@ from hdlyap.msg import LpPhase, Mode
 from hdlyap.plots import waves
 from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, plt, scene
 from hdlyap.plots.numbers import with_error
-from hdlyap.plots.recording import PHASES
+from hdlyap.data.reader import PHASES
 
 from .. import blocks, halves
 from ..row import SIGMAS, Claim, Row

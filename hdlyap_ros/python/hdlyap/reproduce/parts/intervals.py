@@ -6,7 +6,8 @@ import math
 import numpy as np
 
 from hdlyap.msg import RunStatus
-from hdlyap.plots import recording, steps
+from hdlyap.data import reader
+from hdlyap.plots import steps
 from hdlyap.plots.figures.style import GREY, MEMBER_COLOURS, plt, scene
 
 from .. import averages
@@ -38,11 +39,11 @@ class Trial:
         # exponents by averaged time: they end at the last orthonormalisation
         self.spectra = {
             message.averaged_time: np.array(message.exponents)
-            for message in bag.messages(recording.SPECTRUM)
+            for message in bag.messages(reader.SPECTRUM)
             if message.averaged_time > 0
         }
         began = self.recording.began.get(RunStatus.AVERAGING, math.inf)
-        costs = [message for message in bag.messages(recording.COST) if message.sim_time >= began]
+        costs = [message for message in bag.messages(reader.COST) if message.sim_time >= began]
         self.longest = max((message.interval for message in costs), default=None)
         self.mean = _mean_interval(costs)
         self.bound = costs[-1].error_bound if costs else None

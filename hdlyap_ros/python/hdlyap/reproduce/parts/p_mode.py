@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from hdlyap.plots import recording, steps
+from hdlyap.data import reader
+from hdlyap.plots import steps
 from hdlyap.plots.figures import p_mode
 
 from .. import averages
@@ -118,7 +119,7 @@ def _times(bag):
 def _fields(bag):
     return [
         field
-        for field in bag.messages(recording.FIELD)
+        for field in bag.messages(reader.FIELD)
         if field.pairs and (steps.NAMES[field.kind], field.nx, field.ny) == ('LP', 1, 0)
     ]
 

@@ -5,7 +5,7 @@ import numpy as np
 from hdlyap.plots.figures import modes
 from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, plt, scene
 from hdlyap.plots.numbers import with_error
-from hdlyap.plots.recording import FIELD
+from hdlyap.data.reader import FIELD
 from hdlyap.plots.steps import LP, name as step_name
 
 from .. import blocks, rotation

@@ -1,0 +1,135 @@
+"""Recorded runs as tables and figures take them: messages, and the courses of what they draw."""
+
+import copy
+
+import numpy as np
+
+from hdlyap.data import seeds
+
+from .numbers import known
+from .phases import PhaseCourse
+from .run import Run
+from .stages import PARTS
+from .structure import StructureCourse
+
+SMALLEST = 4  # exponents whose course is drawn, counted back from the last positive one
+
+
+def read(*bags, **which):
+    """Of these bags: see data.seeds.load."""
+    return Recorded(seeds.load(*bags, **which))
+
+
+class Recorded(Run):
+    """Of a data.run.Run, or of data.seeds.Seeds, whose spectrum, steps and fits are means. Each
+    message is the last one, None if there is none; what was averaged before ~reset_average does not
+    count. Nothing is read before it is asked for."""
+
+    def __init__(self, data):
+        self.data, self.info = data, data.info
+        self.is_mean = hasattr(data, 'seeds')
+        if self.is_mean:
+            self.info, self.left_out = copy.copy(data.info), data.left_out
+            self.info.seed, self.info.run_id = ', '.join(data.seeds), ''
+        self._read = {}
+
+    @property
+    def spectrum(self):
+        return self._once('spectrum', self._averaged)
+
+    @property
+    def steps(self):
+        return self._once('steps', self._averaged)
+
+    @property
+    def gas(self):
+        return self._once('gas', self._averaged)
+
+    @property
+    def localization(self):
+        return self._once('localization', self._last)
+
+    @property
+    def covariant(self):
+        """There is at least one window."""
+        return self._once('covariant', self._averaged)
+
+    @property
+    def phases(self):
+        return self._once('lp_phases', self._phases)
+
+    @property
+    def structure(self):
+        return self._once('structure', self._structure)
+
+    @property
+    def smallest(self):
+        """Lyapunov indices of the smallest positive exponents carried."""
+        end = min(self.positive_end, self.last_index)
+        return list(range(max(self.spectrum.first_index, end - SMALLEST + 1), end + 1))
+
+    @property
+    def began(self):
+        """Simulated time of the first status of each stage."""
+        found = {}
+        for message in self.data.messages('status'):
+            found.setdefault(message.stage, message.sim_time)
+        return found
+
+    def fields(self):
+        """The last ModeField of each vector, one after the other, largest index first."""
+        return reversed(list(self.data.fields.values()))
+
+    def course(self):
+        """Running means against averaged time, unknown errors as NaN."""
+        small, rows = [index - self.spectrum.first_index for index in self.smallest], []
+        for message in self.data.messages('spectrum'):
+            if message.averaged_time > 0:
+                if rows and message.averaged_time < rows[-1][0]:
+                    rows.clear()  # the averages were reset
+                errors = message.std_errors
+                means = message.averaged_time, message.lambda_max, errors[0], max(errors)
+                rows.append((*means, *message.exponents[small], *errors[small]))
+        table, n = np.array(rows), len(small)
+        return {
+            'time': table[:, 0],
+            'lambda_max': table[:, 1],
+            'lambda_max_error': known(table[:, 2]),
+            'largest_error': known(table[:, 3]),
+            'small': table[:, 4 : 4 + n],
+            'small_errors': known(table[:, 4 + n :]),
+        }
+
+    def cost(self):
+        """Wall seconds since the start against simulated time, by part; None if unrecorded."""
+        # older bags do not know every part
+        names = ['sim_time', 'wall_seconds', *(part + '_seconds' for part in PARTS)]
+        rows = [
+            [getattr(message, name, 0.0) for name in names]
+            for message in self.data.messages('cost')
+        ]
+        return dict(zip(('time', 'wall', *PARTS), np.array(rows).T)) if rows else None
+
+    def _once(self, topic, of):
+        if topic not in self._read:
+            self._read[topic] = of(topic)
+        return self._read[topic]
+
+    def _last(self, topic):
+        return self.data.last(topic, numpy=None) if self.data.has(topic) else None
+
+    def _averaged(self, topic):
+        message = self._last(topic)
+        return message if message is not None and message.averaged_time > 0 else None
+
+    def _phases(self, topic):
+        course = PhaseCourse()
+        for message in self.data.messages(topic):
+            course.add(message)
+        return course
+
+    def _structure(self, topic):
+        course = StructureCourse()
+        for message in self.data.messages(topic):
+            course.add(message, self.positive_end)
+        return course
