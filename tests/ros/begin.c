@@ -3,7 +3,7 @@
 
 #include "checkpoint_writer.h"
 #include "settings.h"
-#include "topics/run_info.h"
+#include "topics/moment.h"
 
 bool begin_run(const hdr_params *params, bool tiny, char *line, size_t size)
 {
@@ -23,7 +23,10 @@ bool begin_run(const hdr_params *params, bool tiny, char *line, size_t size)
         checkpoint_writer_check(&set, line, size) != HD_OK ||
         hd_run_create_shared(&run, tiny ? &two : &set.def, NULL, line, size) != HD_OK)
         return false;
-    const bool published = run_info_publish(&out, &set, run, &none) == HDR_OK;
+    buffers room = {.taken = 0};
+    const moment now = {.out = &out, .set = &set, .run = run, .room = &room, .changes = &none};
+    const bool published = topic_publish_run_info(&now) == HD_OK;
+    buffers_clear(&room);
     hd_run_free(run);
     return published;
 }

@@ -22,11 +22,10 @@ unsigned report_demand(report *) { return 0; }
 void report_demand_slow(report *, hd_run *) {}
 hd_status report_finish(report *, const progress *) { return HD_OK; }
 hd_status report_publish(report *, const hd_run *) { return HD_OK; }
-hdr_status report_run_info(report *, const hd_run *, const changes *) { return HDR_OK; }
+hd_status report_run_info(report *, const hd_run *, const changes *) { return HD_OK; }
 hd_status report_slow(report *, const hd_run *, bool) { return HD_OK; }
 hd_status report_window(report *, const hd_run *) { return HD_OK; }
 void table_tell(table *, const settings *, const hd_run *) {}
-const char *hdr_error_text(void) { return ""; }
 void hdr_log(hdr_level, const char *, ...) {}
 }
 

@@ -22,8 +22,8 @@ typedef enum hdr_status {
 #define HDR_MUST_CHECK
 #endif
 
-/** What the last HDR_FAULT or HDR_NO_MEMORY of this thread was about; never NULL, valid until its
- * next one. */
+/** What the last HDR_FAULT, HDR_NO_MEMORY or HDR_NOT_FINITE of this thread was about; never NULL,
+ * valid until its next one. */
 const char *hdr_error_text(void);
 
 #ifdef __cplusplus

@@ -171,7 +171,8 @@ static hdr_status advertise(app *a)
     if (status == HDR_OK)
         status = diagnostics_advertise(&a->diag, a->ros, a->rep, progress_of(a->run).collisions,
                                        kernel);
-    if (status == HDR_OK) status = report_run_info(a->rep, a->run, &a->changes);
+    if (status == HDR_OK && report_run_info(a->rep, a->run, &a->changes) != HD_OK)
+        status = HDR_NOT_FINITE;
     if (status == HDR_OK &&
         !worker_create(&a->work, a->run, a->rep, &a->set, &a->changes, &a->keep))
         status = HDR_NO_MEMORY;

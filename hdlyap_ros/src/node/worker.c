@@ -83,8 +83,8 @@ static void publish_changes(worker *w)
 {
     pthread_mutex_unlock(&w->lock);
     pthread_mutex_lock(&w->publishing);
-    if (!w->closed && report_run_info(w->rep, w->run, w->changes) != HDR_OK)
-        hdr_log(HDR_WARN, "no run_info of the change: %s", hdr_error_text());
+    if (!w->closed && report_run_info(w->rep, w->run, w->changes) != HD_OK)
+        hdr_log(HDR_WARN, "no run_info of the change: %s", hd_status_text(HD_NOT_FINITE));
     pthread_mutex_unlock(&w->publishing);
     pthread_mutex_lock(&w->lock);
 }

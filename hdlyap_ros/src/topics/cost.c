@@ -3,13 +3,7 @@
 
 _Static_assert((int)HD_LIMIT_NONE == (int)HDR_COST_LIMIT_NONE, "limits as in the core");
 
-static topic_size size_of(const extent *e)
-{
-    (void)e;
-    return (topic_size){.report = HDR_COST_BYTES};
-}
-
-static hd_status publish(const moment *now, void *state)
+hd_status topic_publish_cost(const moment *now)
 {
     const hd_cost *cost = &now->last->cost;
     hdr_cost message = {
@@ -36,8 +30,5 @@ static hd_status publish(const moment *now, void *state)
         .communication_bytes = cost->bytes,
         .communication_calls = cost->calls,
     };
-    (void)state;
     return topic_send_cost(now->out, &message);
 }
-
-const topic_maker topic_cost = {.size = size_of, .publish = publish};

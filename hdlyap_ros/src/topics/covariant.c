@@ -14,12 +14,6 @@ typedef struct histograms {
 /** Angles of spaces are known to a thousandth then [rad]. */
 static const double SPACES_APART = 1e-3;
 
-/** When they were last looked at. */
-typedef struct seen {
-    long windows, lost;
-    bool warned; /**< of a transient that is too short */
-} seen;
-
 /** What the arrays of a message are in. */
 typedef struct arrays {
     double *exponents, *std_errors, *local_exponents; /**< [vectors] each */
@@ -28,20 +22,6 @@ typedef struct arrays {
     histograms counts[HD_PAIRS_OF_SPACES];
     uint32_t vectors, weights, angles;
 } arrays;
-
-static topic_size size_of(const extent *e)
-{
-    const double of_angle = HDR_COVARIANT_ANGLE_BYTES + HDR_COVARIANT_ANGLE_EACH * HD_ANGLE_BINS;
-    const double of_weight = HDR_COVARIANT_WEIGHT_BYTES + HDR_COVARIANT_WEIGHT_EACH * e->vectors;
-    return (topic_size){.window = HDR_COVARIANT_BYTES + HDR_COVARIANT_EACH * e->vectors +
-                                  of_angle * e->angles + of_weight * e->subspaces};
-}
-
-/** Windows of before, from a checkpoint, are not published again. */
-static void begin(void *state, const moment *now)
-{
-    *(seen *)state = (seen){.windows = hd_covariant_windows(hd_run_covariant(now->run))};
-}
 
 /** False without memory. */
 static bool arrays_take(arrays *a, const moment *now)
@@ -151,7 +131,7 @@ static hdr_covariant message_of(arrays *r, const hd_run *run)
 
 /** Spaces that have not met are those of the random starts; windows that find no room are missed.
  */
-static void warn(seen *before, const hd_run *run)
+static void warn(covariant_said *before, const hd_run *run)
 {
     const hd_covariant *covariant = hd_run_covariant(run);
     const hd_covariant_mismatch apart = hd_covariant_start_mismatch(covariant);
@@ -165,17 +145,16 @@ static void warn(seen *before, const hd_run *run)
     if (lost > before->lost)
         hdr_log(HDR_WARN,
                 "covariant vectors: a window found no room, orthonormalisations have become more "
-                "frequent "
-                "(%ld so far)",
+                "frequent (%ld so far)",
                 lost);
     before->warned = worst > SPACES_APART;
     before->lost = lost;
 }
 
 /** After any step or checkpoint. */
-static hd_status publish(const moment *now, void *state)
+hd_status topic_publish_covariant(const moment *now)
 {
-    seen *last = state;
+    covariant_said *last = &now->kept->covariant;
     arrays a = {0};
     const long windows = hd_covariant_windows(hd_run_covariant(now->run)), before = last->windows;
     last->windows = windows;
@@ -187,6 +166,3 @@ static hd_status publish(const moment *now, void *state)
     hdr_covariant message = message_of(&a, now->run);
     return topic_send_covariant(now->out, &message);
 }
-
-const topic_maker topic_covariant = {
-    .size = size_of, .publish = publish, .state = sizeof(seen), .begin = begin};

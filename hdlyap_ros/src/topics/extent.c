@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "hdlyap_ros/messages.h"
+
 /** Kinds of fields of all wave vectors. */
 static double subspaces_of(const hd_scene_def *def)
 {
@@ -50,4 +52,14 @@ extent extent_of(const settings *set, const hd_run *run)
     if (hd_run_t_phases(run)) e.t_phases = hd_phases_count(hd_run_t_phases(run));
     if (hd_run_hydro(run)) e.responses = hd_hydro_count(hd_run_hydro(run));
     return e;
+}
+
+topic_size topic_size_of(topic t, const extent *e)
+{
+    const topic_size sizes[TOPICS] = {
+#define TOPIC(name, type, stages, is, ...) [TOPIC_##name] = {__VA_ARGS__},
+#include "topics/rows.inc"
+#undef TOPIC
+    };
+    return sizes[t];
 }

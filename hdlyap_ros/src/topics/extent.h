@@ -4,6 +4,7 @@
 
 #include "hdlyap/run.h"
 #include "node/settings.h"
+#include "topics/topic.h"
 
 typedef struct extent {
     double disks, vectors;
@@ -18,12 +19,15 @@ typedef struct extent {
 /** Of a scene, whose run it is; or of which it is a smaller one, with the same waves. */
 extent extent_of(const settings *set, const hd_run *run);
 
-/** Bytes of a topic's messages. */
+/** Bytes of a topic's messages, without texts. */
 typedef struct topic_size {
     double report;   /**< that come with every report */
     double fields;   /**< and with fields, when these are due */
     double window;   /**< and with each window of covariant vectors */
     double messages; /**< that come at one time; 0 stands for 1 */
 } topic_size;
+
+/** By its row. */
+topic_size topic_size_of(topic t, const extent *e);
 
 #endif

@@ -17,15 +17,6 @@ typedef struct pair_fields {
     double *l, *p, *ratio;
 } pair_fields;
 
-/** If all steps are found. */
-static topic_size size_of(const extent *e)
-{
-    const double of_vector = HDR_MODE_FIELD_BYTES + 8.0 * 8.0 * e->disks;
-    const double of_pair = 1.0 + 2.0 * 8.0 + 6.0 * 8.0 * e->disks;
-    return (topic_size){.fields = of_vector * e->fields + of_pair * e->pairs,
-                        .messages = e->fields};
-}
-
 static void reconstruct(pair_fields *pairs, const hd_run *run, const hd_step *step,
                         const double *momenta)
 {
@@ -133,12 +124,11 @@ static bool has_example(const hd_steps *steps, int s)
     return true;
 }
 
-static hd_status publish(const moment *now, void *state)
+hd_status topic_publish_fields(const moment *now)
 {
     const hd_steps *steps = hd_run_steps(now->run);
     const field_choice *choice = &now->set->fields;
     hd_status status = HD_OK;
-    (void)state;
     if (!hd_run_fields_due(now->run)) return HD_OK;
     for (int k = 0; k < choice->count && status == HD_OK; k++)
         status = publish_vector(now, choice->index[k] - 1);
@@ -146,5 +136,3 @@ static hd_status publish(const moment *now, void *state)
         if (has_example(steps, s)) status = publish_vector(now, example_of(steps, s));
     return status;
 }
-
-const topic_maker topic_fields = {.size = size_of, .publish = publish};

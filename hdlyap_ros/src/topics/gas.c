@@ -1,13 +1,7 @@
 /** Averages of collisions and their virial -> Gas. */
 #include "topics/moment.h"
 
-static topic_size size_of(const extent *e)
-{
-    (void)e;
-    return (topic_size){.report = HDR_GAS_BYTES};
-}
-
-static hd_status publish(const moment *now, void *state)
+hd_status topic_publish_gas(const moment *now)
 {
     const hd_gas_means m = hd_gas_read(hd_run_gas(now->run));
     hdr_gas message = {
@@ -23,8 +17,5 @@ static hd_status publish(const moment *now, void *state)
         .pressure_y_error = m.pressure_of_error[1],
         .compressibility = m.compressibility,
     };
-    (void)state;
     return m.time > 0.0 ? topic_send_gas(now->out, &message) : HD_OK;
 }
-
-const topic_maker topic_gas = {.size = size_of, .publish = publish};

@@ -2,11 +2,6 @@
 #include "hdlyap/hydro.h"
 #include "topics/moment.h"
 
-static topic_size size_of(const extent *e)
-{
-    return (topic_size){.report = HDR_HYDRO_BYTES + HDR_HYDRO_MODE_BYTES * e->responses};
-}
-
 static hdr_hydro_mode mode_of(const hd_hydro_response *response, const hd_steps *steps)
 {
     const hd_step *step = hd_steps_step(steps, response->step);
@@ -24,17 +19,14 @@ static hdr_hydro_mode mode_of(const hd_hydro_response *response, const hd_steps 
     };
 }
 
-static hd_status publish(const moment *now, void *state)
+hd_status topic_publish_hydro(const moment *now)
 {
     const hd_hydro *hydro = hd_run_hydro(now->run);
     const uint32_t count = (uint32_t)hd_hydro_count(hydro);
     hdr_hydro_mode *out = moment_take(now, count, sizeof *out);
-    (void)state;
     if (!out) return HD_OK;
     for (uint32_t k = 0; k < count; k++)
         out[k] = mode_of(hd_hydro_at(hydro, (int)k), hd_run_steps(now->run));
     hdr_hydro message = {.sim_time = hd_run_time(now->run), .responses = {out, count}};
     return topic_send_hydro(now->out, &message);
 }
-
-const topic_maker topic_hydro = {.size = size_of, .publish = publish};

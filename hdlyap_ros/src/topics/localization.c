@@ -1,16 +1,10 @@
 /** How far the vectors spread over the disks -> Localization. */
 #include "topics/moment.h"
 
-static topic_size size_of(const extent *e)
-{
-    return (topic_size){.report = HDR_LOCALIZATION_BYTES + HDR_LOCALIZATION_EACH * e->vectors};
-}
-
-static hd_status publish(const moment *now, void *state)
+hd_status topic_publish_localization(const moment *now)
 {
     hd_localization *shape = hd_run_localization(now->run);
     const size_t n = (size_t)hd_run_vectors(now->run);
-    (void)state;
     if (hd_localization_samples(shape) == 0) return HD_OK;
     double *std_errors = moment_take(now, 2 * n, sizeof *std_errors);
     if (!std_errors) return HD_OK;
@@ -29,5 +23,3 @@ static hd_status publish(const moment *now, void *state)
     };
     return topic_send_localization(now->out, &message);
 }
-
-const topic_maker topic_localization = {.size = size_of, .publish = publish};

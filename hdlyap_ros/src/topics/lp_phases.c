@@ -4,11 +4,6 @@
 
 _Static_assert((int)HD_PHASE_TRACKED == (int)HDR_LP_PHASE_TRACKED, "states as in the core");
 
-static topic_size size_of(const extent *e)
-{
-    return (topic_size){.report = HDR_LP_PHASES_BYTES + HDR_LP_PHASE_BYTES * e->phases};
-}
-
 static hdr_lp_phase phase_of(const hd_phase *phase, const hd_step *step)
 {
     return (hdr_lp_phase){
@@ -28,12 +23,11 @@ static hdr_lp_phase phase_of(const hd_phase *phase, const hd_step *step)
     };
 }
 
-static hd_status publish(const moment *now, void *state)
+hd_status topic_publish_lp_phases(const moment *now)
 {
     const hd_phases *phases = hd_run_phases(now->run);
     const uint32_t count = (uint32_t)hd_phases_count(phases);
     hdr_lp_phase *out = moment_take(now, count, sizeof *out);
-    (void)state;
     if (!out) return HD_OK;
     for (uint32_t k = 0; k < count; k++) {
         const hd_phase *phase = hd_phases_phase(phases, (int)k);
@@ -42,5 +36,3 @@ static hd_status publish(const moment *now, void *state)
     hdr_lp_phases message = {.sim_time = time_of_phases(now->run), .phases = {out, count}};
     return topic_send_lp_phases(now->out, &message);
 }
-
-const topic_maker topic_lp_phases = {.size = size_of, .publish = publish};

@@ -3,11 +3,6 @@
 
 _Static_assert((int)HD_MODE_LP == (int)HDR_MODE_LP, "kinds as in the core");
 
-static topic_size size_of(const extent *e)
-{
-    return (topic_size){.report = HDR_MODES_BYTES + HDR_MODE_BYTES * e->vectors};
-}
-
 /** Weights in the fields of its step. */
 static void fill_kind(hdr_mode *mode, const hd_modes *modes, const hd_step *step)
 {
@@ -45,12 +40,11 @@ static hdr_mode mode_of(const hd_run *run, int col)
     return mode;
 }
 
-static hd_status publish(const moment *now, void *state)
+hd_status topic_publish_modes(const moment *now)
 {
     const hd_run *run = now->run;
     const uint32_t vectors = (uint32_t)hd_run_vectors(run);
     hdr_mode *mode = moment_take(now, vectors, sizeof *mode);
-    (void)state;
     if (!mode) return HD_OK;
     for (uint32_t k = 0; k < vectors; k++) mode[k] = mode_of(run, (int)k);
     hdr_modes message = {
@@ -61,5 +55,3 @@ static hd_status publish(const moment *now, void *state)
     };
     return topic_send_modes(now->out, &message);
 }
-
-const topic_maker topic_modes = {.size = size_of, .publish = publish};

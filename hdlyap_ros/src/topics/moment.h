@@ -3,6 +3,7 @@
 #define HDLYAP_MOMENT_H
 
 #include "hdlyap/run.h"
+#include "node/changes.h"
 #include "node/settings.h"
 #include "topics/extent.h"
 #include "topics/progress.h"
@@ -19,13 +20,33 @@ typedef struct buffers {
     bool known;    /**< they are those of now */
 } buffers;
 
+/** What covariant has said last. */
+typedef struct covariant_said {
+    long windows, lost;
+    bool warned; /**< of a transient that is too short */
+} covariant_said;
+
+/** When slow_vectors were published last. */
+typedef struct slow_vectors_pace {
+    bool due, sent;    /**< for the step under way; once at least */
+    double next, last; /**< wall times of messages */
+} slow_vectors_pace;
+
+/** What topics know from one message to the next. */
+typedef struct kept_of_topics {
+    covariant_said covariant;
+    slow_vectors_pace slow_vectors;
+} kept_of_topics;
+
 typedef struct moment {
     const publishers *out;
     const settings *set;
-    const hd_run *run;    /**< as of the last step; status and cost do not look at it */
-    const progress *last; /**< for these */
-    double seconds;       /**< spent in publishing */
+    const hd_run *run;      /**< as of the last step; status and cost do not look at it */
+    const progress *last;   /**< for these */
+    const changes *changes; /**< for run_info */
+    double seconds;         /**< spent in publishing */
     buffers *room;
+    kept_of_topics *kept;
     topic topic; /**< that is to be published */
 } moment;
 
@@ -45,20 +66,8 @@ static inline hdr_doubles message_array(const double *data, size_t count, size_t
     return (hdr_doubles){.data = data, .count = (uint32_t)count, .stride = (uint32_t)stride};
 }
 
-/** What a topic can do, beside its row: topic_name in its file. */
-typedef struct topic_maker {
-    /** But for texts; NULL: one message in a bag */
-    topic_size (*size)(const extent *e);
-    /** Sends its messages by topic_send_name, if there is something to say. HD_NOT_FINITE. */
-    hd_status (*publish)(const moment *now, void *state);
-    size_t state; /**< bytes that it keeps between messages, at first all 0; 0: none */
-    void (*begin)(void *state, const moment *now); /**< NULL: all 0 will do */
-} topic_maker;
-
-/** Of a topic's messages in a scene. */
-topic_size topic_size_of(topic t, const extent *e);
-
-#define TOPIC(name, type, stages, is) extern const topic_maker topic_##name;
+/** Sends a topic's messages by topic_send_name, if there is something to say. HD_NOT_FINITE. */
+#define TOPIC(name, ...) HD_MUST_CHECK hd_status topic_publish_##name(const moment *now);
 #include "topics/rows.inc"
 #undef TOPIC
 

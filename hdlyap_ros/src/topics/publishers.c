@@ -13,7 +13,7 @@ static const double queue_bytes = 128e6;
 typedef hdr_status (*advertise_function)(hdr_publisher **, hdr_node *, const char *, int);
 
 static const advertise_function advertise[TOPICS] = {
-#define TOPIC(name, type, stages, is)                                                              \
+#define TOPIC(name, type, stages, is, ...)                                                         \
     [TOPIC_##name] = (is)&TOPIC_LATCHED ? hdr_##type##_advertise_latched : hdr_##type##_advertise,
 #include "topics/rows.inc"
 #undef TOPIC
@@ -92,7 +92,7 @@ static hd_status sent(hdr_status status, topic t)
     return HD_OK;
 }
 
-#define TOPIC(name, type, stages, is)                                                              \
+#define TOPIC(name, type, stages, is, ...)                                                         \
     hd_status topic_send_##name(const publishers *to, hdr_##type *message)                         \
     {                                                                                              \
         message->header = message_header();                                                        \

@@ -31,7 +31,7 @@ hdr_header message_header(void);
 /** Sends a message of each topic, with header and run_id. HD_NOT_FINITE, and nothing is sent, if a
  * number of it is not that must be. What ROS refuses is lost with a line in the log; it does not
  * end the run. */
-#define TOPIC(name, type, stages, is)                                                              \
+#define TOPIC(name, type, stages, is, ...)                                                         \
     HD_MUST_CHECK hd_status topic_send_##name(const publishers *to, hdr_##type *message);
 #include "topics/rows.inc"
 #undef TOPIC

@@ -7,12 +7,11 @@
 
 #include "node/clock.h"
 #include "topics/moment.h"
-#include "topics/run_info.h"
 #include "topics/slow_vectors.h"
 #include "topics/subscriber_wait.h"
 
-static const topic_maker *const makers[TOPICS] = {
-#define TOPIC(name, type, stages, is) [TOPIC_##name] = &topic_##name,
+static hd_status (*const publish_topic[TOPICS])(const moment *) = {
+#define TOPIC(name, ...) [TOPIC_##name] = topic_publish_##name,
 #include "topics/rows.inc"
 #undef TOPIC
 };
@@ -21,7 +20,7 @@ struct report {
     const settings *set;
     publishers out;
     buffers room;
-    void *state[TOPICS]; /**< NULL where a topic keeps nothing */
+    kept_of_topics kept;
     subscriber_wait awaited;
     unsigned demand; /**< set of topics that the step under way is made for */
     double seconds;  /**< spent here */
@@ -51,31 +50,7 @@ progress progress_of(const hd_run *run)
     };
 }
 
-topic_size topic_size_of(topic t, const extent *e)
-{
-    return makers[t]->size ? makers[t]->size(e) : (topic_size){.messages = 0.0};
-}
-
 /* ---- creation ------------------------------------------------------------------------------- */
-
-static moment moment_of(report *rep, const hd_run *run)
-{
-    rep->room.known = false;
-    return (moment){
-        .out = &rep->out, .set = rep->set, .run = run, .seconds = rep->seconds, .room = &rep->room};
-}
-
-static bool begin(report *rep, const hd_run *run, unsigned set)
-{
-    const moment now = moment_of(rep, run);
-    for (topic t = 0; t < TOPICS; t++) {
-        if (!(set & topic_bit(t)) || makers[t]->state == 0) continue;
-        rep->state[t] = calloc(1, makers[t]->state);
-        if (!rep->state[t]) return false;
-        if (makers[t]->begin) makers[t]->begin(rep->state[t], &now);
-    }
-    return true;
-}
 
 static hdr_status advertise(report *rep, hdr_node *ros, const hd_run *run, unsigned set)
 {
@@ -94,8 +69,10 @@ hdr_status report_create(report **out, hdr_node *ros, const settings *set, const
     report *rep = *out = calloc(1, sizeof *rep);
     if (!rep) return HDR_NO_MEMORY;
     rep->set = set;
-    const hdr_status status = begin(rep, run, asked) ? advertise(rep, ros, run, asked)
-                                                     : HDR_NO_MEMORY;
+    /* windows of before, from a checkpoint, are not published again */
+    if (hd_run_covariant(run))
+        rep->kept.covariant.windows = hd_covariant_windows(hd_run_covariant(run));
+    const hdr_status status = advertise(rep, ros, run, asked);
     if (status == HDR_OK) return HDR_OK;
     report_free(rep);
     *out = NULL;
@@ -105,7 +82,6 @@ hdr_status report_create(report **out, hdr_node *ros, const settings *set, const
 void report_free(report *rep)
 {
     if (!rep) return;
-    for (topic t = 0; t < TOPICS; t++) free(rep->state[t]);
     buffers_clear(&rep->room);
     free(rep);
 }
@@ -133,8 +109,7 @@ unsigned report_demand(report *rep)
 
 void report_demand_slow(report *rep, hd_run *run)
 {
-    const moment now = moment_of(rep, run);
-    slow_vectors_demand(&now, rep->state[TOPIC_slow_vectors], run);
+    slow_vectors_demand(&rep->kept.slow_vectors, &rep->out, rep->set, run);
 }
 
 /** Observables that have someone to listen at a report. Vectors were measured only if someone
@@ -152,6 +127,17 @@ static unsigned topics_due(const report *rep, const hd_run *run)
 
 /* ---- messages ------------------------------------------------------------------------------- */
 
+static moment moment_of(report *rep, const hd_run *run)
+{
+    rep->room.known = false;
+    return (moment){.out = &rep->out,
+                    .set = rep->set,
+                    .run = run,
+                    .seconds = rep->seconds,
+                    .room = &rep->room,
+                    .kept = &rep->kept};
+}
+
 static hd_status publish(report *rep, moment *now, unsigned set)
 {
     hd_status status = HD_OK;
@@ -159,7 +145,7 @@ static hd_status publish(report *rep, moment *now, unsigned set)
         if (!(set & topic_bit(t)) || !rep->out.publisher[t]) continue;
         now->topic = t;
         now->room->taken = 0;
-        status = makers[t]->publish(now, rep->state[t]);
+        status = publish_topic[t](now);
     }
     return status;
 }
@@ -203,16 +189,16 @@ hd_status report_slow(report *rep, const hd_run *run, bool at_rest)
     moment now = moment_of(rep, run);
     now.topic = TOPIC_slow_vectors;
     now.room->taken = 0;
-    const hd_status status = at_rest
-                                 ? slow_vectors_rest(&now, rep->state[TOPIC_slow_vectors])
-                                 : topic_slow_vectors.publish(&now, rep->state[TOPIC_slow_vectors]);
+    const hd_status status = at_rest ? slow_vectors_rest(&now) : topic_publish_slow_vectors(&now);
     rep->seconds += clock_seconds() - start;
     return status;
 }
 
-hdr_status report_run_info(report *rep, const hd_run *run, const changes *all)
+hd_status report_run_info(report *rep, const hd_run *run, const changes *all)
 {
-    return run_info_publish(&rep->out, rep->set, run, all);
+    moment now = moment_of(rep, run);
+    now.changes = all;
+    return publish(rep, &now, topic_bit(TOPIC_run_info));
 }
 
 hd_status report_finish(report *rep, const progress *last)

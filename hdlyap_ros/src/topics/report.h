@@ -25,8 +25,8 @@ hdr_lag report_lag(const report *rep);
 /** True once those are connected whom the settings say to wait for; may ask the master. */
 bool report_awaited_here(report *rep);
 
-/** Publishes everything needed to repeat the run; latched. */
-HDR_MUST_CHECK hdr_status report_run_info(report *rep, const hd_run *run, const changes *all);
+/** Publishes everything needed to repeat the run; latched. HD_NOT_FINITE. */
+HD_MUST_CHECK hd_status report_run_info(report *rep, const hd_run *run, const changes *all);
 
 /** Stages of the core (HD_OBSERVE_*) that somebody listens to now: of the modes, what the next step
  * does not measure is not published after it. */

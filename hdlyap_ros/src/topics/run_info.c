@@ -1,11 +1,8 @@
 /** What is needed to repeat a run -> RunInfo: once, and after a change of parameters. */
-#include "topics/run_info.h"
-
-#include <stdlib.h>
+#include "topics/moment.h"
 
 #include "hdlyap/hdlyap.h"
 #include "node/parameters.h"
-#include "topics/moment.h"
 
 /** Value of a parameter of the scene that has words. */
 static const char *word_of(const char *name, const hd_scene_def *def)
@@ -24,39 +21,34 @@ static uint32_t names_of(const char *names[TOPICS], unsigned set)
 }
 
 /** Nodes of the wave vectors that are classified; none where nothing needs them. */
-typedef struct wave_list {
-    uint32_t count;
-    uint32_t *nx, *ny; /**< in one block at nx */
-} wave_list;
-
-static bool waves_create(wave_list *list, const hd_scene_def *def)
+static bool fill_waves(hdr_run_info *info, const moment *now)
 {
-    const int count = def->observe & HD_OBSERVE_WAVES ? hd_waves(def, NULL, 0) : 0;
-    hd_wave *waves = malloc(((size_t)count + 1) * sizeof *waves);
-    *list = (wave_list){.nx = malloc((2 * (size_t)count + 1) * sizeof *list->nx)};
-    const bool created = waves && list->nx;
-    if (created) {
-        list->count = (uint32_t)count;
-        list->ny = list->nx + count;
-        hd_waves(def, waves, count);
+    const hd_scene_def *def = &now->set->def;
+    const uint32_t count = def->observe & HD_OBSERVE_WAVES ? (uint32_t)hd_waves(def, NULL, 0) : 0;
+    hd_wave *waves = moment_take(now, count, sizeof *waves);
+    uint32_t *nodes = moment_take(now, 2 * (size_t)count, sizeof *nodes);
+    if (!waves || !nodes) return false;
+    hd_waves(def, waves, (int)count);
+    for (uint32_t k = 0; k < count; k++) {
+        nodes[k] = (uint32_t)waves[k].n[0];
+        nodes[count + k] = (uint32_t)waves[k].n[1];
     }
-    for (uint32_t k = 0; k < list->count; k++) {
-        list->nx[k] = (uint32_t)waves[k].n[0];
-        list->ny[k] = (uint32_t)waves[k].n[1];
-    }
-    free(waves);
-    return created;
+    info->wave_nx = (hdr_uints){nodes, count};
+    info->wave_ny = (hdr_uints){nodes + count, count};
+    return true;
 }
 
-/** Those that have been made; NULL without memory. */
-static hdr_change *changes_listed(const changes *all)
+/** Those that have been made. */
+static bool fill_changes(hdr_run_info *info, const moment *now)
 {
-    hdr_change *list = malloc(((size_t)all->made + 1) * sizeof *list);
-    for (int k = 0; list && k < all->made; k++) {
-        const change *c = &all->list[k];
+    const int count = now->changes->made;
+    hdr_change *list = moment_take(now, (size_t)count, sizeof *list);
+    for (int k = 0; list && k < count; k++) {
+        const change *c = &now->changes->list[k];
         list[k] = (hdr_change){
             .sim_time = c->time, .name = c->name, .before = c->before, .value = c->value};
     }
+    info->changes = (hdr_change_list){list, (uint32_t)count};
     return list;
 }
 
@@ -98,19 +90,12 @@ static void fill_machine(hdr_run_info *info, const hd_run *run)
     info->blas_threading = blas.threading;
 }
 
-hdr_status run_info_publish(const publishers *out, const settings *set, const hd_run *run,
-                            const changes *all)
+hd_status topic_publish_run_info(const moment *now)
 {
+    const settings *set = now->set;
     const char *names[TOPICS], *awaited[TOPICS];
-    wave_list waves;
-    hdr_change *changed = changes_listed(all);
-    const bool created = waves_create(&waves, &set->def) && changed;
     hdr_run_info info = {
-        .header = message_header(),
-        .run_id = out->run_id,
         .observables = {.data = names, .count = names_of(names, set->observables)},
-        .wave_nx = {.data = waves.nx, .count = waves.count},
-        .wave_ny = {.data = waves.ny, .count = waves.count},
         .field_indices = set->fields.text,
         .field_interval = set->field_interval,
         .wait_for_subscribers = {.data = awaited, .count = names_of(awaited, set->awaited)},
@@ -119,17 +104,11 @@ hdr_status run_info_publish(const publishers *out, const settings *set, const hd
         .slow_vectors_count = (uint32_t)set->slow_vectors_count,
         .checkpoint = set->checkpoint,
         .checkpoint_interval = set->checkpoint_interval,
-        .changes = {.data = changed, .count = (uint32_t)all->made},
         .resume = set->resume,
-        .resumed_time = *set->resume ? hd_run_time(run) : -1.0,
+        .resumed_time = *set->resume ? hd_run_time(now->run) : -1.0,
     };
+    if (!fill_waves(&info, now) || !fill_changes(&info, now)) return HD_OK;
     fill_scene(&info, set);
-    fill_machine(&info, run);
-    hdr_status status = created ? HDR_OK : HDR_NO_MEMORY;
-    if (created) status = hdr_run_info_publish(out->publisher[TOPIC_run_info], &info);
-    free(waves.nx);
-    free(changed);
-    return status;
+    fill_machine(&info, now->run);
+    return topic_send_run_info(now->out, &info);
 }
-
-const topic_maker topic_run_info = {.size = NULL}; /* one in a bag, whatever the scene */

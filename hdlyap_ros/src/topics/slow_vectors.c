@@ -23,12 +23,6 @@ typedef struct vector_arrays {
     double *dq; /**< dqx of all vectors, then dqy */
 } vector_arrays;
 
-/** Of a run that has just begun: zero. */
-typedef struct pace {
-    bool due, sent;    /**< for the step under way; once at least */
-    double next, last; /**< wall times of messages */
-} pace;
-
 /** False without memory. */
 static bool arrays_take(vector_arrays *of, const moment *now, size_t count, size_t known)
 {
@@ -78,22 +72,17 @@ static int first_of(const settings *set, const hd_run *run)
     return t < lp ? t : lp;
 }
 
-static bool is_watched(const publishers *out)
+void slow_vectors_demand(slow_vectors_pace *pace, const publishers *out, const settings *set,
+                         hd_run *run)
 {
-    return publishers_subscribed(out) & topic_bit(TOPIC_slow_vectors);
-}
-
-void slow_vectors_demand(const moment *now, void *state, hd_run *run)
-{
-    pace *p = state;
-    const settings *set = now->set;
-    const bool watched = is_watched(now->out), paced = set->pace > 0.0;
+    const bool watched = publishers_subscribed(out) & topic_bit(TOPIC_slow_vectors);
     const bool averaging = hd_run_stage(run) == HD_AVERAGING;
-    const double between = paced && averaging ? fmax(set->pace / set->slow_vectors_rate, DBL_MIN)
-                                              : INFINITY;
+    const double between = set->pace > 0.0 && averaging
+                               ? fmax(set->pace / set->slow_vectors_rate, DBL_MIN)
+                               : INFINITY;
     const int end = end_of(run);
-    p->due = watched && clock_seconds() >= p->next - early / set->slow_vectors_rate;
-    const int first = p->due ? first_of(set, run) : end;
+    pace->due = watched && clock_seconds() >= pace->next - early / set->slow_vectors_rate;
+    const int first = pace->due ? first_of(set, run) : end;
     hd_run_watch(run, watched ? between : INFINITY, first < end ? first : hd_run_vectors(run));
 }
 
@@ -182,22 +171,20 @@ static hd_status send(const moment *now)
     return topic_send_slow_vectors(now->out, &message);
 }
 
-static hd_status publish(const moment *now, void *state)
+hd_status topic_publish_slow_vectors(const moment *now)
 {
-    pace *p = state;
-    const int end = end_of(now->run), first = p->due ? first_of(now->set, now->run) : end;
-    if (!p->due || (first < end && !is_known(hd_run_columns(now->run), first, end))) return HD_OK;
-    const double wall = clock_seconds();
-    p->next = fmax(p->next + 1.0 / now->set->slow_vectors_rate, wall);
-    p->last = wall;
-    p->sent = true;
+    slow_vectors_pace *pace = &now->kept->slow_vectors;
+    const int end = end_of(now->run), first = pace->due ? first_of(now->set, now->run) : end;
+    if (!pace->due || (first < end && !is_known(hd_run_columns(now->run), first, end)))
+        return HD_OK;
+    pace->last = clock_seconds();
+    pace->next = fmax(pace->next + 1.0 / now->set->slow_vectors_rate, pace->last);
+    pace->sent = true;
     return send(now);
 }
 
-hd_status slow_vectors_rest(const moment *now, void *state)
+hd_status slow_vectors_rest(const moment *now)
 {
-    const pace *p = state;
-    return p->sent && clock_seconds() - p->last < rest_seconds ? HD_OK : send(now);
+    const slow_vectors_pace *pace = &now->kept->slow_vectors;
+    return pace->sent && clock_seconds() - pace->last < rest_seconds ? HD_OK : send(now);
 }
-
-const topic_maker topic_slow_vectors = {.publish = publish, .state = sizeof(pace)};

@@ -6,10 +6,11 @@
 #include "topics/moment.h"
 
 /** Tells the run which vectors the next step is to end with. */
-void slow_vectors_demand(const moment *now, void *state, hd_run *run);
+void slow_vectors_demand(slow_vectors_pace *pace, const publishers *out, const settings *set,
+                         hd_run *run);
 
 /** Publishes a run that will stand still, unless that has just been done: who comes while it does
  * gets this message. HD_NOT_FINITE. */
-HD_MUST_CHECK hd_status slow_vectors_rest(const moment *now, void *state);
+HD_MUST_CHECK hd_status slow_vectors_rest(const moment *now);
 
 #endif

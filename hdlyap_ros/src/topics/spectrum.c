@@ -1,17 +1,11 @@
 /** Exponents, their errors, and the halves of the vectors -> Spectrum. */
 #include "topics/moment.h"
 
-static topic_size size_of(const extent *e)
-{
-    return (topic_size){.report = HDR_SPECTRUM_BYTES + HDR_SPECTRUM_EACH * e->vectors};
-}
-
-static hd_status publish(const moment *now, void *state)
+hd_status topic_publish_spectrum(const moment *now)
 {
     const hd_run *run = now->run;
     const hd_spectrum *spectrum = hd_run_spectrum(run);
     const size_t n = (size_t)hd_run_vectors(run);
-    (void)state;
     if (!(hd_spectrum_time(spectrum) > 0.0)) return HD_OK;
     double *exponents = moment_take(now, 5 * n, sizeof *exponents);
     if (!exponents) return HD_OK;
@@ -41,5 +35,3 @@ static hd_status publish(const moment *now, void *state)
     };
     return topic_send_spectrum(now->out, &message);
 }
-
-const topic_maker topic_spectrum = {.size = size_of, .publish = publish};

@@ -1,16 +1,10 @@
 /** Positions and momenta of all disks -> State. */
 #include "topics/moment.h"
 
-static topic_size size_of(const extent *e)
-{
-    return (topic_size){.report = HDR_STATE_BYTES + HDR_STATE_EACH * e->disks};
-}
-
-static hd_status publish(const moment *now, void *state)
+hd_status topic_publish_state(const moment *now)
 {
     const size_t disks = (size_t)now->set->def.disks;
     const double *q, *p;
-    (void)state;
     if (!moment_state(now, &q, &p)) return HD_OK;
     hdr_state message = {
         .sim_time = hd_run_time(now->run),
@@ -22,5 +16,3 @@ static hd_status publish(const moment *now, void *state)
     };
     return topic_send_state(now->out, &message);
 }
-
-const topic_maker topic_state = {.size = size_of, .publish = publish};

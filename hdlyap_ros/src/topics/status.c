@@ -3,13 +3,7 @@
 
 _Static_assert((int)HD_FINISHED == (int)HDR_RUN_STATUS_FINISHED, "stages as in the core");
 
-static topic_size size_of(const extent *e)
-{
-    (void)e;
-    return (topic_size){.report = HDR_RUN_STATUS_BYTES};
-}
-
-static hd_status publish(const moment *now, void *state)
+hd_status topic_publish_status(const moment *now)
 {
     const progress *last = now->last;
     hdr_run_status message = {
@@ -19,8 +13,5 @@ static hd_status publish(const moment *now, void *state)
         .remaining_seconds = last->cost.remaining,
         .std_error = last->cost.std_error,
     };
-    (void)state;
     return topic_send_status(now->out, &message);
 }
-
-const topic_maker topic_status = {.size = size_of, .publish = publish};

@@ -3,11 +3,6 @@
 
 #include <math.h>
 
-static topic_size size_of(const extent *e)
-{
-    return (topic_size){.report = HDR_STEPS_BYTES + HDR_STEP_BYTES * e->steps};
-}
-
 static hdr_step step_of(const hd_steps *steps, int s)
 {
     const hd_step *step = hd_steps_step(steps, s);
@@ -59,7 +54,7 @@ static void fill_rate(hdr_step *out, const hd_phases *phases, int step)
     .x##_long_c2_error = d.in_long_boxes->c2_error, .x##_long_c3 = d.in_long_boxes->c3,            \
     .x##_long_c3_error = d.in_long_boxes->c3_error, .x##_box_error = d.in_long_boxes->box_error
 
-static hd_status publish(const moment *now, void *state)
+hd_status topic_publish_steps(const moment *now)
 {
     const hd_run *run = now->run;
     const hd_steps *steps = hd_run_steps(run);
@@ -70,7 +65,6 @@ static hd_status publish(const moment *now, void *state)
     const hd_dispersion of_l = hd_steps_dispersion(steps, hd_run_spectrum(run), HD_MODE_LP);
     const uint32_t count = (uint32_t)hd_steps_count(steps);
     hdr_step *step = moment_take(now, count, sizeof *step);
-    (void)state;
     if (!step) return HD_OK;
     for (uint32_t k = 0; k < count; k++) {
         step[k] = step_of(steps, (int)k);
@@ -92,5 +86,3 @@ static hd_status publish(const moment *now, void *state)
     };
     return topic_send_steps(now->out, &message);
 }
-
-const topic_maker topic_steps = {.size = size_of, .publish = publish};

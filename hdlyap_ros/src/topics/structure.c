@@ -5,14 +5,6 @@
 
 enum { MODULATIONS = HD_MODULATIONS_MAX };
 
-/** Means where fields are due. */
-static topic_size size_of(const extent *e)
-{
-    const double of_waves = 16.0 * e->waves, amplitudes = 16.0 * MODULATIONS;
-    return (topic_size){.report = HDR_STRUCTURE_BYTES + of_waves + (4.0 + amplitudes) * e->vectors,
-                        .fields = of_waves * e->vectors};
-}
-
 static void gather_means(double *mean, const hd_structure *s, size_t waves, size_t vectors)
 {
     for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++)
@@ -37,12 +29,11 @@ static void gather_waves(double *number, uint32_t *nodes, const hd_structure *s,
     }
 }
 
-static hd_status publish(const moment *now, void *state)
+hd_status topic_publish_structure(const moment *now)
 {
     const hd_structure *s = hd_run_structure(now->run);
     const size_t waves = (size_t)hd_structure_waves(s), n = (size_t)hd_structure_vectors(s);
     const size_t means = hd_run_fields_due(now->run) ? waves * n : 0, amplitudes = MODULATIONS * n;
-    (void)state;
     if (hd_structure_samples(s) == 0) return HD_OK;
     double *number = moment_take(now, waves, sizeof *number);
     double *mean = moment_take(now, 2 * means, sizeof *mean);
@@ -68,5 +59,3 @@ static hd_status publish(const moment *now, void *state)
     };
     return topic_send_structure(now->out, &message);
 }
-
-const topic_maker topic_structure = {.size = size_of, .publish = publish};

@@ -2,11 +2,6 @@
 #include "topics/moment.h"
 #include "topics/phase.h"
 
-static topic_size size_of(const extent *e)
-{
-    return (topic_size){.report = HDR_T_PHASES_BYTES + HDR_T_PHASE_BYTES * e->t_phases};
-}
-
 static hdr_t_phase phase_of(const hd_phases *phases, int index, const hd_steps *steps)
 {
     const hd_phase *phase = hd_phases_phase(phases, index);
@@ -31,16 +26,13 @@ static hdr_t_phase phase_of(const hd_phases *phases, int index, const hd_steps *
     };
 }
 
-static hd_status publish(const moment *now, void *state)
+hd_status topic_publish_t_phases(const moment *now)
 {
     const hd_phases *phases = hd_run_t_phases(now->run);
     const uint32_t count = (uint32_t)hd_phases_count(phases);
     hdr_t_phase *out = moment_take(now, count, sizeof *out);
-    (void)state;
     if (!out) return HD_OK;
     for (uint32_t k = 0; k < count; k++) out[k] = phase_of(phases, (int)k, hd_run_steps(now->run));
     hdr_t_phases message = {.sim_time = time_of_phases(now->run), .phases = {out, count}};
     return topic_send_t_phases(now->out, &message);
 }
-
-const topic_maker topic_t_phases = {.size = size_of, .publish = publish};

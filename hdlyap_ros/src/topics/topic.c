@@ -8,7 +8,7 @@ static const struct {
     const char *name;
     unsigned stages, is;
 } topics[TOPICS] = {
-#define TOPIC(name, type, stages, is) [TOPIC_##name] = {#name, stages, is},
+#define TOPIC(name, type, stages, is, ...) [TOPIC_##name] = {#name, stages, is},
 #include "topics/rows.inc"
 #undef TOPIC
 };

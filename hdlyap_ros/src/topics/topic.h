@@ -17,7 +17,7 @@ enum {
 };
 
 typedef enum topic {
-#define TOPIC(name, type, stages, is) TOPIC_##name,
+#define TOPIC(name, type, stages, is, ...) TOPIC_##name,
 #include "topics/rows.inc"
 #undef TOPIC
     TOPICS

@@ -111,7 +111,9 @@ template <class Message> hdr_status publish(hdr_publisher *publisher, const Mess
 
 template <class Message> hdr_status publish_finite(hdr_publisher *publisher, const Message *message)
 {
-    return hdlyap_ros::is_finite(*message) ? publish(publisher, message) : HDR_NOT_FINITE;
+    if (hdlyap_ros::is_finite(*message)) return publish(publisher, message);
+    hdr_error_keep("a number of the message is not finite");
+    return HDR_NOT_FINITE;
 }
 } // namespace
 
