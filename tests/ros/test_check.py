@@ -2,20 +2,31 @@
 """hdlyap_node --check: what it says of a scene file is what the node makes of it, in the same words
 where it is refused."""
 
-import io
 import os
 import re
 import subprocess
 import tempfile
 
+import rosbag
 import yaml
 
 import harness
 from harness import MODES, OBSERVABLES
 
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../launch/scenes')
-TOPICS = [topic for topic in OBSERVABLES if topic not in ('hydro', 'fields', 'covariant')]
-REPORT = [*TOPICS, 'cost', 'status']
+COVARIANT = dict(
+    disks=24,
+    density=0.7,
+    aspect=0.15,
+    exponents='all',
+    equilibration=5.0,
+    warmup=20.0,
+    duration=60.0,
+    covariant_window=10.0,
+    covariant_transient=20.0,
+    covariant_sampling=0.5,
+    observables=['covariant'],
+)
 NO_MASTER = dict(os.environ, ROS_MASTER_URI='http://localhost:1')
 
 
@@ -33,10 +44,27 @@ def said_by_node(node):
     return re.sub(r'^.*?\]: ', '', re.sub(r'\x1b\[\d*m', '', node.text().strip()))
 
 
-def size_of(message):
-    buffer = io.BytesIO()
-    message.serialize(buffer)
-    return len(buffer.getvalue())
+def in_bag(topic, messages):
+    """Bytes that they take in a bag, beside those of any bag."""
+    sizes = []
+    with tempfile.TemporaryDirectory() as folder:
+        for times in (1, 2):
+            path = os.path.join(folder, '%d.bag' % times)
+            with rosbag.Bag(path, 'w') as bag:
+                for message in messages * times:
+                    bag.write('/hdlyap/' + topic, message, message.header.stamp)
+            sizes.append(os.path.getsize(path))
+    return sizes[1] - sizes[0]
+
+
+def shares(said):
+    """Bytes of each topic that come with reports, with fields and with windows."""
+    found = [{}, {}, {}]
+    for unit, every, text in re.findall(r'(kB|MB) (a report|every .* units): (.*)', said):
+        of = found[0 if unit == 'kB' else 2 if 'covariant' in text else 1]
+        for topic, size in (share.split() for share in text.split(', ')):
+            of[topic] = float(size) * dict(kB=1e3, MB=1e6)[unit]
+    return found
 
 
 class Check(harness.Case):
@@ -77,22 +105,53 @@ class Check(harness.Case):
         self.assertIn('by a trial of a second of 800 disks', done.stdout)
         self.assertRegex(done.stdout, r'(?m)^waves +T,LP\(1,0\) T,LP\(0,1\) T,LP\(1,1\)$')
 
+    def run_of(self, params):
+        """Its messages, and what is said of it before."""
+        topics = [*params['observables'], 'cost']
+        params = dict(params, wait_for_subscribers=['status', *topics])
+        got = harness.whole_run(params, topics)
+        return got, checked(self.file_of(params)).stdout
+
+    def assert_near(self, said, true, delta=0.02):
+        self.assertAlmostEqual(said / true, 1.0, delta=delta)
+
     def test_bag(self):
-        """Bytes of a report are those of the messages that a run publishes."""
-        params = dict(MODES, observables=TOPICS, wait_for_subscribers=REPORT)
-        last = {topic: got[-1] for topic, got in harness.whole_run(params, REPORT).items()}
-        means = 16 * len(last['structure'].along)  # every field_interval
-        want = sum(size_of(message) for message in last.values()) - means
-        said = checked(self.file_of(params)).stdout
-        got = 1e3 * float(re.search(r'(\S+) kB a report', said).group(1))
-        self.assertAlmostEqual(got / want, 1.0, delta=0.02)
-        got = 1e6 * float(re.search(r'(\S+) MB of structure factors every', said).group(1))
-        self.assertAlmostEqual(got / means, 1.0, delta=0.01)
+        """Of each topic, and of all, what a bag takes; every step that is found has a field."""
+        params = dict(MODES, observables=OBSERVABLES, duration=40.0)
+        got, said = self.run_of(params)
+        steps = got['steps'][-1].steps
+        report, fields, window = shares(said)
+        self.assertEqual(set(report), set(got) - {'fields'})
+        for topic in report:
+            with self.subTest(topic=topic):
+                of = [m for m in got[topic] if not len(getattr(m, 'along', ()))]
+                self.assert_near(report[topic], in_bag(topic, of) / len(of))
+        last = got['structure'][-1]
+        self.assert_near(fields['structure'], 16 * len(last.along))
+        by_pairs = {field.pairs: in_bag('fields', [field]) for field in got['fields']}
+        of_steps = [s.expected // 2 * (s.kind == s.LP) for s in steps if s.nx + s.ny > 0]
+        self.assert_near(fields['fields'], sum(by_pairs[pairs] for pairs in of_steps))
+        self.assertEqual(window, {})
         waves = re.search(r'(?m)^waves (.*)$', said).group(1).split()
-        steps = {(s.nx, s.ny) for s in last['steps'].steps if s.nx + s.ny > 0}
         self.assertEqual(
-            {tuple(map(int, re.search(r'\((\d+),(\d+)\)', wave).groups())) for wave in waves}, steps
+            {tuple(map(int, re.search(r'\((\d+),(\d+)\)', wave).groups())) for wave in waves},
+            {(s.nx, s.ny) for s in steps if s.nx + s.ny > 0},
         )
+
+    def test_bag_of_covariant_vectors(self):
+        got, said = self.run_of(COVARIANT)
+        report, fields, window = shares(said)
+        self.assertEqual((set(report), fields), ({'status', 'cost'}, {}))
+        self.assert_near(
+            window['covariant'], in_bag('covariant', got['covariant']) / len(got['covariant'])
+        )
+
+    def test_bag_in_all(self):
+        """With what comes before the averaging."""
+        observables = [topic for topic in OBSERVABLES if topic not in ('fields', 'structure')]
+        got, said = self.run_of(dict(MODES, observables=observables))
+        whole = sum(in_bag(topic, messages) for topic, messages in got.items())
+        self.assert_near(1e6 * float(re.search(r'(\S+) MB in all', said).group(1)), whole)
 
     def test_speed(self):
         """Of the same order as a run's: the machine may be busy with one of the two."""
