@@ -65,8 +65,8 @@ def type_of(struct):
 
 def rows():
     """Topic -> type, stages, what it is: the table of topics."""
-    text = read(TOPICS, 'rows.inc').split('*/')[1]
-    found = re.findall(r'TOPIC\((\w+), (\w+), (\w+),\s+([\w |]+)\)', text)
+    text = re.sub(r'(?s)/\*.*?\*/', '', read(TOPICS, 'rows.inc'))
+    found = re.findall(r'TOPIC\((\w+), (\w+), (\w+),\s+([\w |]+),', text)
     assert len(found) == text.count('TOPIC(')
     return {name: (type, stages, set(what.split(' | '))) for name, type, stages, what in found}
 
