@@ -81,6 +81,9 @@ class Fits(Tools):
         self.assertIn('c k over 2 wave numbers 0.9935 .. 1.987', two['basis']['c_T'])
         text = self.plot(path, '--form', 'c k', '--k', '0', '2.1')
         self.assertIn('\n  T steps: c k over 2 wave numbers 0.9935 .. 1.987 (lever', text)
+        # the node's is not made again
+        own = hdlyap.load(path, form='c k + c2 k^2 + c3 k^3').results
+        self.assertTrue(own.equals(hdlyap.load(path).results))
         with self.assertRaisesRegex(hdlyap.data.reader.RecordingError, "form 'k': must be one of"):
             hdlyap.load(path, form='k').results
         self.refuses('k from 2 to 1: must go up', 'plot', path, '--k', '2', '1')

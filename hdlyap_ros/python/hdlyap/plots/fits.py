@@ -117,6 +117,8 @@ def chosen(message, form=None, k=None):
     if k is not None and not 0 <= k[0] <= k[1]:
         raise RecordingError(f'k from {k[0]:g} to {k[1]:g}: must go up, from 0 or above')
     terms = {words: number for number, words in RELATIONS.items()}.get(form, 3)
+    if k is None and terms == 3 and hasattr(message, 'c_t3'):  # the node's own
+        return message
     message = copy.copy(message)
     for letter, kind in KINDS.items():
         found = _fitted(message, kind, k)

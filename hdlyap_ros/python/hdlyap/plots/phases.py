@@ -27,13 +27,9 @@ class PhaseCourse:
         if known:
             return
         tracked = [phase.state == phase.TRACKED for phase in msg.phases]
-        self._course.append(
-            (
-                msg.sim_time,
-                *(phase.phase if on else np.nan for phase, on in zip(msg.phases, tracked)),
-                *(phase.tracked_time for phase in msg.phases),
-            )
-        )
+        phases = (phase.phase if on else np.nan for phase, on in zip(msg.phases, tracked))
+        times = (phase.tracked_time for phase in msg.phases)
+        self._course.append(np.array([msg.sim_time, *phases, *times]))
 
     def of_step(self, step):
         """Numbers of the phases of an element of Steps.steps."""
