@@ -165,11 +165,6 @@ class Tables(unittest.TestCase):
             self.assertEqual(said - set(re.findall(r'\w+', code)), set(), name)
             self.assertEqual(set(re.findall(r'\b(hdr_\w+)\(', code)) - said, set(), name)
 
-    def test_what_lists_the_recorded_topics(self):
-        path = re.search(r'`(\S+)` lists the topics that are rec', read(TABLES['header'])).group(1)
-        topics = {name[1:] for name in advertised() if name.startswith('~')} - NOT_AWAITED
-        self.assertEqual(topics - set(re.findall(r'\w+', read(path))), set(), path)
-
     def test_diagnostics(self):
         keys = re.findall(r'add_(?:text|number)\(list, "([^"]+)"', sources())
         self.assertGreater(len(keys), 10)

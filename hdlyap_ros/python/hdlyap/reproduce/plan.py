@@ -25,7 +25,7 @@ class Run(run.Run):
         seconds = entry['seconds'][0 if quick else 1]
         base = _load(os.path.join(scenes, entry['base'] + '.yaml'))
         asked = {key: value for key, value in entry.items() if key not in OWN}
-        parameters = {**usual(scenes), **base, 'threads': 1, **asked}
+        parameters = {**usual(), **base, 'threads': 1, **asked}
         parameters.update(entry.get(which, {}), scene=name)
         super().__init__(name, parameters, seconds)
         if (

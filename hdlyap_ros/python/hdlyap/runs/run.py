@@ -1,10 +1,12 @@
 """One run of many: its name, the parameters of its node, and about how many seconds it takes: on
 all of two cores if it is wide, else on one."""
 
+import functools
 from math import isfinite
 import os
-import re
+import subprocess
 
+import roslib.packages
 import yaml
 
 from . import files
@@ -67,13 +69,12 @@ class Run:
         """To be called when the bag is whole; facts: seconds, run_id, commit."""
 
 
-def usual(scenes):
-    """The default of every parameter, as the complete one of the scenes says in its comments."""
-    with open(os.path.join(scenes, 'paper_periodic.yaml')) as file:
-        text = file.read().replace('\n# ', ' ')
-    return {
-        name: yaml.safe_load(value) for value, name in re.findall(r'Default: (.*)\.\n(\w+):', text)
-    }
+@functools.lru_cache(maxsize=None)
+def usual():
+    """The default of every parameter, as the node says."""
+    node = roslib.packages.find_node('hdlyap', 'hdlyap_node')[0]
+    said = subprocess.run([node, '--parameters'], check=True, stdout=subprocess.PIPE).stdout
+    return yaml.safe_load(said)
 
 
 def is_number(value):

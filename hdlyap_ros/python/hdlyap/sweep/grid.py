@@ -2,7 +2,6 @@
 
 from collections import namedtuple
 import itertools
-import os
 import re
 
 import yaml
@@ -93,7 +92,7 @@ def runs(given, launch, cwd):
     if not chosen:
         names = ', '.join(swept.argument for swept in SWEPT)
         raise Refused(f'nothing to sweep over: must be values of at least one of {names}')
-    usual = run.usual(os.path.join(launch, 'scenes'))
+    usual = run.usual()
     base = _base(given, launch, cwd, usual)
     for swept in chosen:
         twice = set(swept.parameters) & set(scene.mapping('params', given['params']))
