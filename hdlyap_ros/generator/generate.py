@@ -96,7 +96,7 @@ FIELDS = '''\
 %(includes)s
 
 #include "hdlyap_ros/messages.h"
-#include "serialise.hpp"
+#include "wrapper/serialise.hpp"
 
 namespace hdlyap_ros
 {

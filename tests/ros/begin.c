@@ -1,8 +1,8 @@
 /** As node.c begins a run. */
 #include "begin.h"
 
-#include "checkpoint_writer.h"
-#include "settings.h"
+#include "node/checkpoint_writer.h"
+#include "node/settings.h"
 #include "topics/moment.h"
 
 bool begin_run(const hdr_params *params, bool tiny, char *line, size_t size)

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "standard_messages.hpp"
+#include "wrapper/standard_messages.hpp"
 
 extern "C" {
-#include "draw.h"
+#include "viewer/draw.h"
 }
 
 namespace drawn

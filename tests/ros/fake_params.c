@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "parameters.h"
+#include "node/parameters.h"
 
 enum { PARAMS_MAX = 12, TEXT_MAX = 200, ITEMS_MAX = 6 };
 

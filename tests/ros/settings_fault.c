@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "fake_params.h"
-#include "settings.h"
+#include "node/settings.h"
 #include "topics/topic.h"
 
 static bool has_control_character(const char *text)

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "backlog.hpp"
+#include "wrapper/backlog.hpp"
 #include "hdlyap/scene.h"
 #include "hdlyap_ros/messages.h"
 
 extern "C" {
-#include "conditions.h"
+#include "node/conditions.h"
 }
 
 namespace

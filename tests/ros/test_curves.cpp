@@ -2,12 +2,12 @@
 #include "drawn.hpp"
 
 extern "C" {
-#include "numbers.h"
+#include "viewer/numbers.h"
 }
 
 using namespace drawn;
 
-/** As the tables of plot_bag have them. */
+/** As the tables of hdlyap plot have them. */
 TEST(curves, numbers_with_errors)
 {
     const struct {

@@ -2,7 +2,7 @@
 #include "drawn.hpp"
 
 extern "C" {
-#include "compose.h"
+#include "viewer/compose.h"
 }
 
 namespace

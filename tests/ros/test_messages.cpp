@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "message_fields.hpp"
-#include "received.hpp"
+#include "wrapper/received.hpp"
 
 namespace
 {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "message_fields.hpp"
-#include "received.hpp"
+#include "wrapper/received.hpp"
 
 namespace
 {

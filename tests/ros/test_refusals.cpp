@@ -16,12 +16,12 @@
 
 #include "hdlyap/RunInfo.h"
 #include "message_fields.hpp"
-#include "received.hpp"
+#include "wrapper/received.hpp"
 
 #include "begin.h"
 
 extern "C" {
-#include "parameters.h"
+#include "node/parameters.h"
 }
 
 namespace

@@ -8,8 +8,8 @@
 #include <thread>
 
 extern "C" {
-#include "table.h"
-#include "worker.h"
+#include "node/table.h"
+#include "node/worker.h"
 
 /* what the worker calls of the node */
 bool changes_take(changes *, settings *, hd_run *) { return false; }

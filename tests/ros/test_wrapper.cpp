@@ -16,9 +16,9 @@
 #include <std_srvs/Trigger.h>
 
 #include "hdlyap_ros/hdlyap_ros.h"
-#include "node.hpp"
+#include "wrapper/node.hpp"
 #include "message_fields.hpp"
-#include "received.hpp"
+#include "wrapper/received.hpp"
 
 namespace
 {

@@ -4,8 +4,8 @@
 
 #include <stddef.h>
 
-/** 0.61252(67): the error in units of the last digits, two of them, as the tables of plot_bag have
- * it; the value alone, with four decimals, while its error is not known (not above 0). */
+/** 0.61252(67): the error in units of the last digits, two of them, as the tables of hdlyap plot
+ * have it; the value alone, with four decimals, while its error is not known (not above 0). */
 void number_with_error(char *text, size_t size, double value, double error);
 
 #endif

@@ -1,5 +1,5 @@
 /** Colours of Okabe and Ito, safe for colour-blind readers; hue says the kind, as in the figures of
- * plot_bag. */
+ * hdlyap plot. */
 #ifndef HDLYAP_PALETTE_H
 #define HDLYAP_PALETTE_H
 
