@@ -27,6 +27,7 @@ from hdlyap.msg import (
     TPhase,
     TPhases,
 )
+from hdlyap import topics
 from hdlyap.plots import waves
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../hdlyap_ros/scripts')
@@ -34,23 +35,7 @@ T, LP, ZERO = Step.T, Step.LP, Step.ZERO
 CURVES = {T: (1.4, 0.1), LP: (1.5, 0.5)}  # c, c2
 ERROR = 0.002  # of the exponents of steps
 VELOCITY = 1.6
-TOPICS = {
-    'hdlyap/RunInfo': 'run_info',
-    'hdlyap/Spectrum': 'spectrum',
-    'hdlyap/RunStatus': 'status',
-    'hdlyap/Cost': 'cost',
-    'hdlyap/Modes': 'modes',
-    'hdlyap/Steps': 'steps',
-    'hdlyap/LpPhases': 'lp_phases',
-    'hdlyap/TPhases': 't_phases',
-    'hdlyap/ModeField': 'fields',
-    'hdlyap/Hydro': 'hydro',
-    'hdlyap/Structure': 'structure',
-    'hdlyap/Covariant': 'covariant',
-    'hdlyap/Localization': 'localization',
-    'hdlyap/Gas': 'gas',
-    'hdlyap/State': 'state',
-}
+TOPICS = {message._type: name for name, message in topics.TYPES.items()}
 BINS = 90  # of the histograms of angles
 
 

@@ -106,6 +106,9 @@ const hd_step *hd_steps_step(const hd_steps *steps, int index);
 /** Step to which a vector belongs: the one of its set with the largest average weight; -1 if none:
  * outside all sets, or with less than that part of it in its set. */
 int hd_steps_of_vector(const hd_steps *steps, int col);
+/** Column that stands for a resolved step: the first of its set that belongs to the step itself,
+ * else the first one. */
+int hd_steps_example(const hd_steps *steps, int index);
 
 /** Standard error of the sum over the resolved steps of factor(step, context) times exponent; see
  * hd_spectrum_error_of_sum. `spectrum` as in hd_steps_find. */

@@ -295,6 +295,14 @@ int hd_steps_of_vector(const hd_steps *steps, int col)
     return steps->of_vector[col];
 }
 
+int hd_steps_example(const hd_steps *steps, int index)
+{
+    const hd_step *step = hd_steps_step(steps, index);
+    for (int col = step->col; col < step->col + step->count; col++)
+        if (steps->of_vector[col] == index) return col;
+    return step->col;
+}
+
 /* ---- file ---------------------------------------------------------------------------------- */
 
 /** The rest of a step is the same in every run of its scene. */

@@ -307,11 +307,7 @@ static int lead(app *a, int argc, char **argv)
     if (a->ranks) hd_run_lead(a->ranks);
     const hdr_status created = hdr_node_create(&a->ros, &argc, argv, "hdlyap", stop_seconds,
                                                fault_status(HD_NO_MEMORY));
-    if (created != HDR_OK) { /* roscpp that has started by half does not survive the end of main */
-        const int failed = failed_status(created);
-        ranks_leave(a->ranks);
-        _exit(failed);
-    }
+    if (created != HDR_OK) return failed_status(created);
     if (!a->ros) return EXIT_SUCCESS;
     const int status = argc > 1 ? refuse_argument(argv[1]) : run(a);
     app_free(a);

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "hdlyap/pmode.h"
-#include "topics/example.h"
 
 enum { PAIRS_MAX = HD_MODULATIONS_MAX };
 
@@ -133,6 +132,6 @@ hd_status topic_publish_fields(const moment *now)
     for (int k = 0; k < choice->count && status == HD_OK; k++)
         status = publish_vector(now, choice->index[k] - 1);
     for (int s = 0; choice->count == 0 && s < hd_steps_count(steps) && status == HD_OK; s++)
-        if (has_example(steps, s)) status = publish_vector(now, example_of(steps, s));
+        if (has_example(steps, s)) status = publish_vector(now, hd_steps_example(steps, s));
     return status;
 }

@@ -5,7 +5,6 @@
 #include <math.h>
 
 #include "node/clock.h"
-#include "topics/example.h"
 
 enum { PAIRS_MAX = HD_MODULATIONS_MAX };
 
@@ -58,7 +57,7 @@ static int lowest_of(const hd_steps *steps, hd_mode_kind kind, int end)
         if (step->kind != kind || !step->resolved || step->conjugate) continue;
         if (lowest < 0 || step->exponent < hd_steps_step(steps, lowest)->exponent) lowest = s;
     }
-    return lowest < 0 ? end : example_of(steps, lowest);
+    return lowest < 0 ? end : hd_steps_example(steps, lowest);
 }
 
 /** Column of the first vector of a message; that of the end if there is none. */

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 import pandas
 
-from hdlyap import msg
+from hdlyap import msg, topics
 from hdlyap.plots import fits, run as common
 from hdlyap.plots.numbers import known
 
@@ -15,22 +15,7 @@ from . import fields, reader, structure, tables
 from .disks import Disks
 from .reader import Missing
 
-TOPICS = {
-    'spectrum': reader.SPECTRUM,
-    'modes': reader.MODES,
-    'steps': reader.STEPS,
-    'lp_phases': reader.PHASES,
-    't_phases': reader.T_PHASES,
-    'fields': reader.FIELD,
-    'hydro': reader.HYDRO,
-    'structure': reader.STRUCTURE,
-    'covariant': reader.COVARIANT,
-    'localization': reader.LOCALIZATION,
-    'gas': reader.GAS,
-    'state': reader.STATE,
-    'status': reader.STATUS,
-    'cost': reader.COST,
-}
+TOPICS = {name: message._type for name, message in topics.RECORDED.items()}
 FRAMES = {
     'spectrum': tables.arrays,
     'modes': tables.of_modes,
