@@ -65,6 +65,7 @@ class Checkpoint(harness.Case):
         self.ends(
             self.start(dict(resume=self.file, duration=6.0)), 0, 'finished at simulated time 31'
         )
+        self.assertTrue(info.wait_for(lambda message: True))
         message = info.messages[0]
         self.assertEqual((message.scene, message.disks, message.exponents), ('kept', 60, '7'))
         self.assertCountEqual(message.observables, RUN["observables"])

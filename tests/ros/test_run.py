@@ -29,13 +29,13 @@ class Run(harness.Case):
         node = self.start(dict(SHORT, wait_for_subscribers=topics, exponents='all'))
         self.assert_finished(node)
         self.assertTrue(listeners['status'].wait_for(is_last))
-        info = listeners['run_info'].messages[0]
-        spectrum = listeners['spectrum'].messages[-1]
-        state = listeners['state'].messages[-1]
         counts = [1, 2, 4, 4, 4]
         self.assertTrue(
             harness.wait_until(lambda: [len(one.messages) for one in listeners.values()] == counts)
         )
+        info = listeners['run_info'].messages[0]
+        spectrum = listeners['spectrum'].messages[-1]
+        state = listeners['state'].messages[-1]
         cost, status = listeners['cost'].messages[-1], listeners['status'].messages[-1]
         self.assertRegex(info.run_id, r'^\d{8}T\d{6}\.\d{6}Z-%d-1$' % node.process.pid)
         for message in (spectrum, state, cost, status):

@@ -196,7 +196,7 @@ class Security(harness.Case):
         path = os.path.join(folder.name, '$(touch nasty); `touch nasty` %s%n ')
         self.check_all([dict(SHORT, checkpoint=path + FORGED)], 2, 1)
         ours = [folder.name + '/', path, path + '.part']
-        self.check_watched(dict(SHORT, checkpoint=path), 0, 2, ours)
+        self.check_watched(dict(SHORT, checkpoint=path), 0, 3, ours)
         self.check_watched(dict(resume=path, duration=3.0), 0, 3, ours[1:2])
         self.assertEqual(os.listdir(folder.name), [os.path.basename(path)])
 
