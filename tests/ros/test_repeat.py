@@ -26,6 +26,8 @@ def complete(name):
     for path in ('paper_periodic.yaml', name):
         with open(os.path.join(SCENES, path)) as file:
             scene.update(yaml.safe_load(file))
+    for name in 'table', 'bag':  # of the log: they do not belong to the run
+        scene.pop(name)
     return scene
 
 

@@ -115,7 +115,7 @@ class Plan(Folder):
     def test_parameters(self):
         """Those of the scene, then of the entry, then of quick or full."""
         with open(os.path.join(LAUNCH, 'scenes/quick.yaml')) as file:
-            scene = {**plan.usual(os.path.join(LAUNCH, 'scenes')), **yaml.safe_load(file)}
+            scene = {**plan.usual(), **yaml.safe_load(file)}
         for quick, disks, seconds in ((False, 20, 9), (True, 10, 4)):
             run = self.runs(quick, one=ENTRY)['one']
             self.assertEqual(

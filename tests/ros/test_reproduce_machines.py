@@ -64,13 +64,12 @@ class Machines(Folder):
                 '/table': None,
             },
         )
-        self.assertEqual(
-            {key: value.value for key, value in config.params.items() if 'hdlyap' in key},
-            {f'/{name}/hdlyap': dict(scene=name, wait_for_subscribers='all') for name in 'abc'},
-        )
-        bags = [node.args for node in config.nodes if node.type == 'record']
-        for name, args in zip('abc', bags):
-            self.assertIn(f"--node 'hdlyap' --bag '{self.folder}/./{name}.bag' ", args)
+        params = {key: value.value for key, value in config.params.items()}
+        for name in 'abc':
+            self.assertEqual(params[f'/{name}/hdlyap/scene'], name)
+            self.assertEqual(params[f'/{name}/hdlyap/wait_for_subscribers'], 'all')
+            self.assertEqual(params[f'/{name}/record/node'], 'hdlyap')
+            self.assertEqual(params[f'/{name}/record/bag'], f'{self.folder}/./{name}.bag')
         self.assertFalse(any(node.required for node in config.nodes if node.name != 'table'))
 
     def test_one_and_here(self):
