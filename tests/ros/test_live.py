@@ -294,7 +294,8 @@ class Live(harness.Case):
         self.assertEqual(ended['run_info'][0].duration, 60.0)
         again = self.ends(self.started(dict(params, resume=kept)))
         self.same(second, again)
-        self.assertEqual(again['run_info'][0].changes, changes)
+        # the second one is of a later interval if it came late
+        self.assertEqual(again['run_info'][-1].changes, changes)
 
     def test_modes_of_the_viewer(self):
         viewer = harness.start_viewer()
