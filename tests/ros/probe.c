@@ -155,6 +155,28 @@ double hd_covariant_null(const hd_covariant *covariant)
     return getenv("PROBE_NAN_ANGLE") ? NAN : real(covariant);
 }
 
+/** PROBE_NAN_PHASE: that of the followed vectors of a resolved step is not a number. */
+const hd_phase *hd_phases_phase(const hd_phases *of, int index)
+{
+    static hd_phase said;
+    const hd_phase *(*real)(const hd_phases *, int);
+    next(&real, "hd_phases_phase");
+    if (!getenv("PROBE_NAN_PHASE")) return real(of, index);
+    said = *real(of, index);
+    if (said.state != HD_PHASE_UNRESOLVED) said.phase = NAN;
+    return &said;
+}
+
+/** PROBE_NAN_RATE: where a step has one, it is not a number. */
+bool hd_phases_rate(const hd_phases *of, int step, double *omega, double *error)
+{
+    bool (*real)(const hd_phases *, int, double *, double *);
+    next(&real, "hd_phases_rate");
+    const bool known = real(of, step, omega, error);
+    if (known && getenv("PROBE_NAN_RATE")) *omega = NAN;
+    return known;
+}
+
 void hd_run_halves(const hd_run *run, double *cos_theta, double *dp_dq_ratio)
 {
     void (*real)(const hd_run *, double *, double *);

@@ -31,6 +31,7 @@ hd_status topic_publish_lp_phases(const moment *now)
     if (!out) return HD_OK;
     for (uint32_t k = 0; k < count; k++) {
         const hd_phase *phase = hd_phases_phase(phases, (int)k);
+        if (!phase_is_finite(phase)) return HD_NOT_FINITE;
         out[k] = phase_of(phase, hd_steps_step(hd_run_steps(now->run), phase->step));
     }
     hdr_lp_phases message = {.sim_time = time_of_phases(now->run), .phases = {out, count}};

@@ -31,6 +31,12 @@ static inline double phase_angle(const hd_phase *phase)
     return phase_is_resolved(phase) && begun ? phase->phase : NAN;
 }
 
+/** False if it has a number that is none: what is not known yet would stand for it. */
+static inline bool phase_is_finite(const hd_phase *phase)
+{
+    return !phase_is_resolved(phase) || isfinite(phase->phase + phase->omega);
+}
+
 static inline double phase_time(const hd_phase *phase)
 {
     return phase_is_resolved(phase) ? phase->time : 0.0;

@@ -35,13 +35,14 @@ static hdr_step step_of(const hd_steps *steps, int s)
     return out;
 }
 
-/** NULL: no phases are followed. */
-static void fill_rate(hdr_step *out, const hd_phases *phases, int step)
+/** NULL: no phases are followed. False if the rate is none. */
+static bool fill_rate(hdr_step *out, const hd_phases *phases, int step)
 {
     double omega, error;
-    if (!phases || !out->resolved || !hd_phases_rate(phases, step, &omega, &error)) return;
+    if (!phases || !out->resolved || !hd_phases_rate(phases, step, &omega, &error)) return true;
     out->omega = omega;
     out->omega_error = error;
+    return isfinite(omega);
 }
 
 /** The fields of a coefficient, and of the fit of one kind. */
@@ -68,7 +69,7 @@ hd_status topic_publish_steps(const moment *now)
     if (!step) return HD_OK;
     for (uint32_t k = 0; k < count; k++) {
         step[k] = step_of(steps, (int)k);
-        fill_rate(&step[k], phases, (int)k);
+        if (!fill_rate(&step[k], phases, (int)k)) return HD_NOT_FINITE;
     }
     hdr_steps message = {
         .sim_time = hd_run_time(run),
