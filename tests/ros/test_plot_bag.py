@@ -19,8 +19,10 @@ from bags import Bags, files, process, tool
 from made import LP, T
 from hdlyap.data.reader import RecordingError
 from hdlyap.plots import paper, recorded, report, waves
+from hdlyap.plots.course import LIMIT, Course
 from hdlyap.plots.figures import phases, plt
 from hdlyap.plots.numbers import with_error
+from hdlyap.plots.phases import PhaseCourse
 
 INFO = made.run_info()
 HALF = np.linspace(3, 1, 37)
@@ -274,6 +276,26 @@ class Kept(Bags):
             self.assertEqual(phases.chosen(run), [(0, [0, 3])] if curves else [])
             for _, phase in run.phases.curves(0):
                 np.testing.assert_allclose(np.diff(phase), -made.VELOCITY * made.K)
+
+    def test_course_is_thinned_evenly_and_ends_with_the_last_row(self):
+        course = Course()
+        self.assertIsNone(course.table())
+        for count in (1, 2, LIMIT, LIMIT + 1, 3 * LIMIT + 2, 10 * LIMIT):
+            course.clear()
+            for row in range(count):
+                course.add((row, -row))
+            kept = course.table()[:, 0]
+            self.assertEqual((kept[0], kept[-1]), (0, count - 1))
+            self.assertLessEqual(len(kept), LIMIT + 1)
+            self.assertGreaterEqual(len(kept), min(count, LIMIT // 2))
+            self.assertEqual(len(set(np.diff(kept[:-1]))), 0 if len(kept) < 3 else 1)
+
+    def test_restart_is_seen_in_a_thinned_course(self):
+        step, course = made.step(INFO, LP, 1, 0, 37, 37), PhaseCourse()
+        for t in range(3 * LIMIT):
+            began = 0.0 if t < LIMIT else LIMIT - 0.5
+            course.add(made.lp_phases(INFO, [step], float(t), modulations=(0,), began=began))
+        self.assertEqual([time[0] for time, _ in course.curves(0)], [0, LIMIT])
 
     def test_memory(self):
         info = made.run_info(disks=2000, box_x=63.2, box_y=63.2)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from .course import Course
 from .numbers import known, stated
 
 SHORTEST = 3  # points of a curve
@@ -18,7 +19,7 @@ class PhaseCourse:
 
     def __init__(self):
         self.last = None
-        self._course = []
+        self._course = Course()
 
     def add(self, msg):
         """Two reports can tell the same state: the second one adds nothing."""
@@ -29,7 +30,7 @@ class PhaseCourse:
         tracked = [phase.state == phase.TRACKED for phase in msg.phases]
         phases = (phase.phase if on else np.nan for phase, on in zip(msg.phases, tracked))
         times = (phase.tracked_time for phase in msg.phases)
-        self._course.append(np.array([msg.sim_time, *phases, *times]))
+        self._course.add((msg.sim_time, *phases, *times))
 
     def of_step(self, step):
         """Numbers of the phases of an element of Steps.steps."""
@@ -37,7 +38,7 @@ class PhaseCourse:
 
     def curves(self, number):
         """(times, phases) of each stretch that was tracked without a break."""
-        table = np.array(self._course)
+        table = self._course.table()
         time, phase = table[:, 0], table[:, 1 + number]
         tracked = table[:, 1 + len(self.last.phases) + number]
         on = np.isfinite(phase)

@@ -2,10 +2,10 @@
 
 import copy
 
-import numpy as np
 
 from hdlyap.data import seeds
 
+from .course import Course
 from .numbers import known
 from .phases import PhaseCourse
 from .run import Run
@@ -82,15 +82,16 @@ class Recorded(Run):
 
     def course(self):
         """Running means against averaged time, unknown errors as NaN."""
-        small, rows = [index - self.spectrum.first_index for index in self.smallest], []
+        small = [index - self.spectrum.first_index for index in self.smallest]
+        course, n, last = Course(), len(small), 0.0
         for message in self.data.messages('spectrum'):
             if message.averaged_time > 0:
-                if rows and message.averaged_time < rows[-1][0]:
-                    rows.clear()  # the averages were reset
-                errors = message.std_errors
-                means = message.averaged_time, message.lambda_max, errors[0], max(errors)
-                rows.append((*means, *message.exponents[small], *errors[small]))
-        table, n = np.array(rows), len(small)
+                if message.averaged_time < last:
+                    course.clear()  # the averages were reset
+                last, errors = message.averaged_time, message.std_errors
+                means = last, message.lambda_max, errors[0], max(errors)
+                course.add((*means, *message.exponents[small], *errors[small]))
+        table = course.table()
         return {
             'time': table[:, 0],
             'lambda_max': table[:, 1],
@@ -104,11 +105,11 @@ class Recorded(Run):
         """Wall seconds since the start against simulated time, by part; None if unrecorded."""
         # older bags do not know every part
         names = ['sim_time', 'wall_seconds', *(part + '_seconds' for part in PARTS)]
-        rows = [
-            [getattr(message, name, 0.0) for name in names]
-            for message in self.data.messages('cost')
-        ]
-        return dict(zip(('time', 'wall', *PARTS), np.array(rows).T)) if rows else None
+        course = Course()
+        for message in self.data.messages('cost'):
+            course.add([getattr(message, name, 0.0) for name in names])
+        table = course.table()
+        return None if table is None else dict(zip(('time', 'wall', *PARTS), table.T))
 
     def _once(self, topic, of):
         if topic not in self._read:
