@@ -198,7 +198,7 @@ class Running(unittest.TestCase):
         master.registerPublisher(topic, 'hdlyap/RunStatus', 'http://localhost:1')
         self.addCleanup(master.unregisterPublisher, topic, 'http://localhost:1')
         process = harness.Process(
-            [sys.executable, *FOLLOW, '--node', 'other', '--timeout', '0.5'], **self.env
+            [sys.executable, *FOLLOW, '--node', 'other', '--timeout', '3'], **self.env
         )
         self.addCleanup(process.stop)
         self.assertEqual(process.wait(), 1)

@@ -16,3 +16,9 @@ TEST(Subscribers, TheWorst)
     EXPECT_STREQ(worst_of(each, 3).topic, "few");
     EXPECT_STREQ(worst_of(each, 5).topic, "many");
 }
+
+int main(int argc, char **argv)
+{
+    testing::InitGoogleTest(&argc, argv);
+    return RUN_ALL_TESTS();
+}

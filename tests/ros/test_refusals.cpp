@@ -497,9 +497,3 @@ TEST(Parameters, Scenes)
     EXPECT_GE(scenes, 17);
 }
 } // namespace
-
-int main(int argc, char **argv)
-{
-    testing::InitGoogleTest(&argc, argv);
-    return RUN_ALL_TESTS();
-}

@@ -2,7 +2,6 @@
 
 import copy
 
-
 from hdlyap.data import seeds
 
 from .course import Course
