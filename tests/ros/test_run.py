@@ -7,10 +7,16 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 import rospy
 from std_srvs.srv import SetBool, Trigger
 
+from hdlyap.plots.numbers import with_error
+
 import harness
 import measured
 from harness import SHORT, is_last
 
+# at least two waves of each kind
+TWO_WAVES = dict(
+    disks=120, density=0.7, aspect=0.1, equilibration=20.0, warmup=50.0, duration=400.0
+)
 ENDLESS = dict(SHORT, duration=0.0, pace=20.0, report_interval=0.5)
 
 
@@ -138,6 +144,70 @@ class Run(harness.Case):
                 self.assertTrue(listener.wait_for(lambda message: averaged(message) >= before + 2))
                 found = [averaged(message) for message in listener.messages]
                 self.assertTrue(any(now < last for last, now in zip(found, found[1:])), found)
+
+    def test_table(self):
+        """What the log says at the end are the numbers of the last messages."""
+        topics = ['spectrum', 'steps']
+        params = dict(TWO_WAVES, table=0.001, wait_for_subscribers=topics)
+        listeners = {topic: self.listen(topic) for topic in topics}
+        node = self.start(params)
+        self.assert_finished(node)
+        end = sum(params[name] for name in ('equilibration', 'warmup', 'duration'))
+        for listener in listeners.values():
+            self.assertTrue(listener.wait_for(lambda message: message.sim_time == end))
+        spectrum, last = (listeners[topic].messages[-1] for topic in topics)
+        self.assertGreater(len(node.lines('so far: averaged')), 1)
+        said = node.text().split('result: ')[1]
+        largest = self.number(spectrum.lambda_max, spectrum.std_errors[0])
+        self.assertTrue(
+            said.startswith(f'averaged 400 of 400 time units, lambda_max {largest}\x1b'), said
+        )
+        fits = [
+            ('c_T', last.c_t, last.c_t_error, last.t_points, 'wave number'),
+            ('c_L', last.c_l, last.c_l_error, last.l_points, 'wave number'),
+            ('v', last.v, last.v_error, last.v_phases, 'LP phase'),
+        ]
+        waves = (last.t_k_min, last.t_k_max), (last.l_k_min, last.l_k_max)
+        for (name, value, error, count, of), ends in zip(
+            fits, [*waves, (last.v_k_min, last.v_k_max)]
+        ):
+            self.assertGreater(ends[1], ends[0])
+            of += 's' * (count > 1)
+            line = f'  {name:<4} {self.number(value, error)} over {count} {of}, k from %.4g to %.4g'
+            self.assertIn(line % ends, said)
+        self.check_rows(said, last)
+
+    @staticmethod
+    def number(value, error):
+        return with_error(value, error, decimals=4)
+
+    def check_rows(self, said, last):
+        """One for each resolved step, smallest exponent first."""
+        rows = re.findall(
+            r' (T|LP)\((\d+),(\d+)\) +(\d+)-(\d+) +([0-9.]+) +(\d+)'
+            r' +([0-9.]+) +([0-9.]+(?:\([0-9.]+\))?)(?:  (\w+))?\x1b',
+            said,
+        )
+        found = [step for step in last.steps if step.resolved and step.kind != step.ZERO]
+        found.sort(key=lambda step: -step.first_index)
+        words = ['', 'shared', 'mixing', 'blended', 'coincide']
+        self.assertEqual(
+            rows,
+            [
+                (
+                    {step.T: 'T', step.LP: 'LP'}[step.kind],
+                    *map(str, (step.nx, step.ny, step.first_index, step.last_index)),
+                    f'{step.multiplicity:.2f}',
+                    str(step.expected),
+                    f'{step.wave_number:.5f}',
+                    self.number(step.exponent, step.std_error),
+                    words[step.sharing],
+                )
+                for step in found
+            ],
+        )
+        missing = sum(not step.resolved and step.kind != step.ZERO for step in last.steps)
+        self.assertIn(f' {missing} steps are not resolved', said)
 
     def test_reset_average_without_averages(self):
         self.start(dict(ENDLESS, equilibration=1e6))

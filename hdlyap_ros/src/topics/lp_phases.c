@@ -7,19 +7,8 @@ _Static_assert((int)HD_PHASE_TRACKED == (int)HDR_LP_PHASE_TRACKED, "states as in
 static hdr_lp_phase phase_of(const hd_phase *phase, const hd_step *step)
 {
     return (hdr_lp_phase){
-        .step = (uint32_t)phase->step,
-        .nx = (uint32_t)step->wave.n[0],
-        .ny = (uint32_t)step->wave.n[1],
-        .modulation = phase->modulation,
-        .index = phase_index(phase),
-        .state = (uint8_t)phase->state,
-        .a = phase->a,
-        .b = phase->b,
-        .phase = phase_angle(phase),
-        .omega = phase->omega,
-        .omega_error = phase->omega_error,
+        PHASE_FIELDS(phase, step),
         .velocity = fabs(phase->omega) / step->wave.number,
-        .tracked_time = phase_time(phase),
     };
 }
 

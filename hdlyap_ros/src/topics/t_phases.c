@@ -9,20 +9,9 @@ static hdr_t_phase phase_of(const hd_phases *phases, int index, const hd_steps *
     double error;
     const double diffusion = hd_phases_diffusion(phases, index, &error);
     return (hdr_t_phase){
-        .step = (uint32_t)phase->step,
-        .nx = (uint32_t)step->wave.n[0],
-        .ny = (uint32_t)step->wave.n[1],
-        .modulation = phase->modulation,
-        .index = phase_index(phase),
-        .state = (uint8_t)phase->state,
-        .a = phase->a,
-        .b = phase->b,
-        .phase = phase_angle(phase),
-        .omega = phase->omega,
-        .omega_error = phase->omega_error,
+        PHASE_FIELDS(phase, step),
         .diffusion = diffusion,
         .diffusion_error = error,
-        .tracked_time = phase_time(phase),
     };
 }
 
