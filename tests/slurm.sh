@@ -111,6 +111,8 @@ resumed() { grep -q 'goes on from simulated time [1-9]' "$WORK/slurm-$1.out"; }
 stop_at_exit
 source_setup "$SETUP"
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+ROS_MASTER_URI=http://localhost:$(free_port) # that of the suite may be in use beside this
+export ROS_MASTER_URI
 start roscore -p "${ROS_MASTER_URI##*:}" >"$WORK/log/roscore" 2>&1
 wait_for 30 has_a_master
 check 'mpirun of two ranks' runs_by_mpirun

@@ -99,7 +99,9 @@ class Replayed(harness.Case):
         self.assertTrue(harness.wait_until(lambda: len(self.heard) == 2 * REPORTS))
         self.assertEqual(self.times('state'), list(range(1, REPORTS + 1)))
         walls = [wall for wall, name, _ in self.heard if name == 'state']
-        self.assertGreater(walls[-1] - walls[REPORTS // 2], 0.95 * (REPORTS // 2 - 1) / 100)
+        after = range(REPORTS // 2, REPORTS // 2 + 5)  # one may come late on a busy machine
+        paces = [(walls[-1] - walls[k]) / (REPORTS - 1 - k) for k in after]
+        self.assertGreater(max(paces), 0.95 / 100)
 
     def test_from_some_time_on(self):
         self.record('one')

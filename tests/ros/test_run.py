@@ -36,9 +36,12 @@ class Run(harness.Case):
         self.assert_finished(node)
         self.assertTrue(listeners['status'].wait_for(is_last))
         counts = [1, 2, 4, 4, 4]
-        self.assertTrue(
-            harness.wait_until(lambda: [len(one.messages) for one in listeners.values()] == counts)
-        )
+
+        def heard():
+            return [len(listener.messages) for listener in listeners.values()]
+
+        harness.wait_until(lambda: heard() == counts)
+        self.assertEqual(heard(), counts, node.text())
         info = listeners['run_info'].messages[0]
         spectrum = listeners['spectrum'].messages[-1]
         state = listeners['state'].messages[-1]
