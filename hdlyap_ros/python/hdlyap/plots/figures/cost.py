@@ -5,7 +5,7 @@ import numpy as np
 from hdlyap.msg import RunStatus
 
 from ..stages import LABELS, PARTS
-from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, plt, scene, thinned
+from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, plt, thinned, titled
 
 PART_COLOURS = {
     'events': BLUE,
@@ -34,8 +34,7 @@ def draw(recording):
     cost['other'] = np.maximum(0, cost['wall'] - sum(cost[part] for part in PARTS))
     _course(course, cost, recording.began)
     _shares(share, cost)
-    figure.suptitle(scene(recording.info), fontsize=9)
-    return figure
+    return titled(figure, recording.info)
 
 
 def _course(axes, cost, began):
