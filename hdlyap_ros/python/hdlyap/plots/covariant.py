@@ -4,16 +4,13 @@ from math import pi
 
 import numpy as np
 
+from hdlyap.data.fields import words
 from hdlyap.msg import CovariantAngle
 
 from . import steps
 from .numbers import known
 
-SPACES = {
-    CovariantAngle.UNSTABLE_STABLE: 'unstable-stable',
-    CovariantAngle.UNSTABLE_CENTRE: 'unstable-centre',
-    CovariantAngle.CENTRE_STABLE: 'centre-stable',
-}
+SPACES = words(CovariantAngle, 'spaces')
 RIGHT_ANGLE = pi / 2
 
 

@@ -2,7 +2,10 @@
 
 import numpy as np
 
-NAMES = {1: 'zero', 2: 'T', 3: 'LP'}  # of Mode's kinds
+from hdlyap.data.fields import words
+from hdlyap.msg import Step
+
+NAMES = words(Step, 'kind')
 ZERO, T, LP = NAMES
 
 

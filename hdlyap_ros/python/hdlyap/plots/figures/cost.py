@@ -4,7 +4,7 @@ import numpy as np
 
 from hdlyap.msg import RunStatus
 
-from ..stages import LABELS, PARTS
+from ..stages import LABELS, PARTS, STAGES
 from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, plt, thinned, titled
 
 PART_COLOURS = {
@@ -16,11 +16,6 @@ PART_COLOURS = {
     'covariant': INK,
     'publish': PURPLE,
     'other': '#BFBFBF',
-}
-STAGES = {
-    RunStatus.EQUILIBRATING: 'equilibration',
-    RunStatus.WARMING_UP: 'warm-up',
-    RunStatus.AVERAGING: 'averaging',
 }
 
 
@@ -46,7 +41,7 @@ def _course(axes, cost, began):
         linewidth=0,
     )
     for stage, name in STAGES.items():
-        if stage in began:
+        if stage in began and stage != RunStatus.FINISHED:
             axes.axvline(began[stage], color=INK, linewidth=0.6, linestyle=':')
             axes.annotate(
                 name,
