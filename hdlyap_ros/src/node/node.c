@@ -116,10 +116,7 @@ static int first_field(const settings *set)
  */
 static void log_creation(const hd_scene_def *def)
 {
-    char unused[512];
-    if (hd_scene_check(def, unused, sizeof unused) != HD_OK ||
-        hd_room_check(def, hd_room_available(), unused, sizeof unused) != HD_OK)
-        return;
+    if (hd_room_check(def, hd_room_available(), NULL, 0) != HD_OK) return;
     const int vectors = hd_scene_carried(def);
     if (4.0 * def->disks * vectors > ENTRIES_MANY)
         hdr_log(HDR_INFO, "makes %d vectors of %d disks orthonormal", vectors, def->disks);

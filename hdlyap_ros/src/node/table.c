@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "viewer/numbers.h"
+#include "common/numbers.h"
 #include "clock.h"
 #include "hdlyap_ros/messages.h"
 

@@ -111,18 +111,6 @@ static hd_status publish_vector(const moment *now, int col)
     return topic_send_fields(now->out, &message);
 }
 
-/** Found in the positive half; of steps that share a set the first. */
-static bool has_example(const hd_steps *steps, int s)
-{
-    const hd_step *step = hd_steps_step(steps, s);
-    if (!step->resolved || step->conjugate || step->kind == HD_MODE_ZERO) return false;
-    for (int k = 0; k < s; k++) {
-        const hd_step *before = hd_steps_step(steps, k);
-        if (before->resolved && before->set == step->set) return false;
-    }
-    return true;
-}
-
 hd_status topic_publish_fields(const moment *now)
 {
     const hd_steps *steps = hd_run_steps(now->run);
@@ -132,6 +120,6 @@ hd_status topic_publish_fields(const moment *now)
     for (int k = 0; k < choice->count && status == HD_OK; k++)
         status = publish_vector(now, choice->index[k] - 1);
     for (int s = 0; choice->count == 0 && s < hd_steps_count(steps) && status == HD_OK; s++)
-        if (has_example(steps, s)) status = publish_vector(now, hd_steps_example(steps, s));
+        if (hd_steps_is_shown(steps, s)) status = publish_vector(now, hd_steps_example(steps, s));
     return status;
 }

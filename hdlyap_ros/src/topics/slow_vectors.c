@@ -51,12 +51,7 @@ static int end_of(const hd_run *run)
 /** Column that stands for the lowest step of a kind; `end` while none is found. */
 static int lowest_of(const hd_steps *steps, hd_mode_kind kind, int end)
 {
-    int lowest = -1;
-    for (int s = 0; s < hd_steps_count(steps); s++) {
-        const hd_step *step = hd_steps_step(steps, s);
-        if (step->kind != kind || !step->resolved || step->conjugate) continue;
-        if (lowest < 0 || step->exponent < hd_steps_step(steps, lowest)->exponent) lowest = s;
-    }
+    const int lowest = hd_steps_lowest(steps, kind);
     return lowest < 0 ? end : hd_steps_example(steps, lowest);
 }
 

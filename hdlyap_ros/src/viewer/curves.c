@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "numbers.h"
+#include "common/numbers.h"
 #include "palette.h"
 #include "plot.h"
 

@@ -50,6 +50,7 @@ static void check_run(const hd_scene_def *def, double collisions)
         CHECK_OK(hd_trajectory_extend(tr, NULL, t));
         CHECK_CLOSE(hd_trajectory_kinetic_energy(tr), def->disks, ENERGY_DRIFT * def->disks);
         CHECK_CLOSE(hd_trajectory_overlap(tr), 0.0, overlap_rounding(box));
+        assert_true(overlap_rounding(box) < hd_trajectory_overlap_rounding(tr));
         check_inside(tr, def, work);
         momentum_of(tr, work, sum);
         for (int d = 0; d < 2; d++)
@@ -98,4 +99,20 @@ TEST(large_coordinates)
 {
     const hd_scene_def def = scene_in_box(500, 4000.0, 1.5, HD_PERIODIC, HD_REFLECTING, 5);
     check_run(&def, 0.1 * MEDIUM_RUN);
+}
+
+/** Long before the core gives such disks up, and not as soon as they touch. */
+TEST(an_overlap_is_more_than_rounding)
+{
+    static const double below[] = {32.0 * DBL_EPSILON, 5e-10};
+    const hd_scene_def def = scene(.disks = 2, .density = 0.3, .aspect = 1.0);
+    for (int k = 0; k < 2; k++) {
+        const double q[] = {0.1, 1.0, 1.1 - below[k], 1.0}, p[] = {-1.0, 0.0, 0.0, sqrt(3.0)};
+        hd_trajectory *tr;
+        CHECK_OK(hd_trajectory_create_from(&tr, &def, q, p));
+        CHECK_CLOSE(hd_trajectory_overlap(tr), below[k], 1e-15);
+        assert_int_equal(hd_trajectory_overlap(tr) > hd_trajectory_overlap_rounding(tr), k);
+        assert_true(hd_trajectory_overlap_rounding(tr) < 1e-9);
+        hd_trajectory_free(tr);
+    }
 }

@@ -241,3 +241,31 @@ TEST(clear_forgets_everything)
     assert_true(step_of(&w, 0)->std_error < 0);
     world_free(&w);
 }
+
+/** Of a set the first step is shown, none of the negative half, and the lowest is by its exponent.
+ */
+TEST(what_is_shown_and_what_is_lowest)
+{
+    double exponents[VECTORS];
+    world w = steps_in_place(exponents, 0.0);
+    assert_int_equal(hd_steps_lowest(w.steps, HD_MODE_T), -1);
+    assert_false(hd_steps_is_shown(w.steps, 0));
+    world_find(&w, exponents);
+    const int lowest[] = {hd_steps_lowest(w.steps, HD_MODE_T),
+                          hd_steps_lowest(w.steps, HD_MODE_LP)};
+    int shown = 0, sets = 0;
+    for (int k = 0; k < hd_steps_count(w.steps); k++) {
+        const hd_step *step = hd_steps_step(w.steps, k);
+        const bool wave = step->kind != HD_MODE_ZERO, found = step->resolved && wave;
+        shown += hd_steps_is_shown(w.steps, k);
+        if (found && step->set + 1 > sets) sets = step->set + 1;
+        if (hd_steps_is_shown(w.steps, k)) assert_true(found && !step->conjugate);
+        if (!found || step->conjugate) continue;
+        const hd_step *least = hd_steps_step(w.steps, lowest[step->kind == HD_MODE_LP]);
+        assert_int_equal(least->kind, step->kind);
+        assert_true(least->exponent <= step->exponent);
+    }
+    assert_true(lowest[0] >= 0 && lowest[1] >= 0);
+    assert_true(shown > 0 && shown <= sets);
+    world_free(&w);
+}

@@ -88,3 +88,34 @@ TEST(each_stage_has_its_own_seconds)
                 (double)hd_trajectory_collisions(hd_run_trajectory(run)), 1e-6);
     hd_run_free(run);
 }
+
+static bool errors_stall;
+
+/** In place of the core's: once they stall, errors stay what they are. */
+double hd_spectrum_error_of_last(const hd_spectrum *spectrum, int count)
+{
+    (void)count;
+    return errors_stall ? 0.25 : 1.0 / sqrt(fmax(hd_spectrum_time(spectrum), 1e-3));
+}
+
+/** The run knows since when its errors do not fall; not any more once its averages begin anew. */
+TEST(errors_that_do_not_fall_are_told)
+{
+    hd_scene_def def = scene(.disks = 20, .density = 0.7, .aspect = 1.0,
+                             .exponents = HD_EXPONENTS_POSITIVE, .equilibration = 1.0,
+                             .warmup = 10.0, .duration = 2000.0, .report_interval = 1.0);
+    hd_run *run = until(created(&def), HD_AVERAGING);
+    until_time(run, 11.0 + 400.0);
+    CHECK_CLOSE(hd_run_cost(run).stalled_since, -1.0, 0.0);
+    errors_stall = true;
+    until_time(run, 11.0 + 1950.0);
+    const hd_cost cost = hd_run_cost(run);
+    const double averaged = hd_spectrum_time(hd_run_spectrum(run));
+    CHECK_CLOSE(cost.std_error, 0.25, 0.0);
+    assert_true(cost.stalled_since > 0.0 && 8.0 * cost.stalled_since <= averaged);
+    CHECK_CLOSE(cost.stalled_error, 1.0 / sqrt(cost.stalled_since), 1e-12);
+    CHECK_OK(hd_run_reset_average(run));
+    CHECK_CLOSE(hd_run_cost(run).stalled_since, -1.0, 0.0);
+    hd_run_free(run);
+    errors_stall = false;
+}

@@ -1,5 +1,5 @@
 /** Numbers as a physicist prints them. */
-#include "numbers.h"
+#include "common/numbers.h"
 
 #include <math.h>
 #include <stdio.h>
