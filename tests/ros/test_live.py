@@ -169,7 +169,6 @@ class Live(harness.Case):
             'target_std_error=-1': 'must be from 0',
             'duration=5': 'duration = 5: must be 0 or at least',
             'field_interval=-5': 'must be from 0',
-            'marker_rate=5': 'it is slow_vectors_rate now',
             'paces=5': 'paces=5: there is no parameter of this name',
             'pace': 'must be one NAME=VALUE',
             '': 'must be one NAME=VALUE',
@@ -194,17 +193,16 @@ class Live(harness.Case):
         params.update(observables='[state,fields]', field_indices='[1,2]')
         node = self.started(dict(params, changes='[1e9 pace=3,2e9 pace=4]'))
         self.until(3.0)
-        for name, value in dict(disks=50, pace=1.5, scene='other', nonsense=1, max_node=1).items():
+        for name, value in dict(disks=50, pace=1.5, scene='other', nonsense=1).items():
             rospy.set_param('/%s/%s' % (NODE, name), value)
-        self.assertTrue(harness.wait_until(lambda: len(node.lines('parameter ')) == 5))
+        self.assertTrue(harness.wait_until(lambda: len(node.lines('parameter ')) == 4))
         rospy.set_param('/%s/density' % NODE, 0.70000001)
         self.assertTrue(harness.wait_until(lambda: node.lines('density')))
         for line in (
             'parameter disks was set to 50, but is read at the start',
             'parameter scene was set to other, but is read at the start',
             'to change it now: rosservice call /hdlyap/set "pace=1.5"',
-            'parameter nonsense was set, but there is no parameter of this name',
-            'parameter max_node was set, but it is max_mode_number now',
+            'parameter nonsense was set, but there is none of this name',
             'parameter density was set to 0.70000001, but is read at the start',
         ):
             self.assertEqual(len(node.lines(line)), 1, node.text())

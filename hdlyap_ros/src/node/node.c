@@ -156,7 +156,7 @@ static void on_parameter_set(void *context, const char *name, const char *text)
         hdr_log(HDR_WARN, "parameter %.40s was set to %.100s, but is read at the start", name,
                 text);
     else
-        hdr_log(HDR_WARN, "parameter %.100s was set, but %s", name, parameters_instead(name));
+        hdr_log(HDR_WARN, "parameter %.100s was set, but there is none of this name", name);
 }
 
 /** From here on the node can be seen by others. The run begins once all of it is registered:
