@@ -49,31 +49,16 @@ class Faults(harness.Case):
         return node, cost
 
     def test_no_address_of_a_master(self):
-        hosts = 'http://localhost', 'http://:1', 'http://a b:1', 'http://a@b:1', 'http://[::1]:1'
-        ports = [
-            'http://localhost:' + port for port in ('', '0', '70000', '1x', '1/x', '1/?', '-1')
-        ]
-        schemes = (
-            '',
-            'localhost:1',
-            'ftp://localhost:1',
-            'https://localhost:1',
-            ' http://localhost:1',
+        """Is for roscpp to refuse, which does so with a line of its own."""
+        ended = subprocess.run(
+            [harness.executable(), '__master:=localhost:1'],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            timeout=harness.PATIENCE,
+            text=True,
         )
-        for address in (*schemes, *hosts, *ports):
-            for argument in ([], ['__master:=' + address]):
-                own = 'http://localhost:1' if argument else address
-                ended = subprocess.run(
-                    [harness.executable(), *argument],
-                    env=dict(os.environ, ROS_MASTER_URI=own),
-                    stdout=subprocess.PIPE,
-                    stderr=subprocess.STDOUT,
-                    timeout=harness.PATIENCE,
-                    text=True,
-                )
-                self.assertEqual(ended.returncode, 2, ended.stdout)
-                self.assertIn("= '%s': must be http://HOST:PORT" % address, ended.stdout)
-                self.assertEqual(len(ended.stdout.strip().splitlines()), 1, ended.stdout)
+        self.assertNotEqual(ended.returncode, 0)
+        self.assertIn('localhost:1', ended.stdout)
 
     def goes_on(self, node, cost):
         now = len(cost.seqs)

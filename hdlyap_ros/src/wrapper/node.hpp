@@ -61,10 +61,6 @@ uint32_t queue_length(const std::string &topic, int queue);
  * reached; while everybody is connected nobody is asked. */
 void connection_warnings_start(hdr_node *node);
 
-/** Throws std::invalid_argument unless the master's address, of __master:= or the environment, is
- * one: roscpp dies of others. Where the environment has none, it is given rospy's own. */
-void master_address_check(int argc, const char *const *argv);
-
 /** Of a parameter: of a string its contents, of a list as YAML has it. Equal values have one text,
  * however they were written. */
 std::string param_text(XmlRpc::XmlRpcValue &value);
