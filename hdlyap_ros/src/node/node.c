@@ -10,7 +10,6 @@
 #include "diagnostics.h"
 #include "hdlyap/follow.h"
 #include "hdlyap/hdlyap.h"
-#include "parameters.h"
 #include "parameters_text.h"
 #include "ranks.h"
 #include "topics/report.h"
@@ -142,23 +141,6 @@ static int create_run(app *a)
     return fault_logged(status, message);
 }
 
-/** On the parameter server, which is read at the start. */
-static void on_parameter_set(void *context, const char *name, const char *text)
-{
-    const char *node = hdr_node_name(((const app *)context)->ros);
-    const bool known = parameters_has(name);
-    if (known && parameters_named(name).live)
-        hdr_log(HDR_WARN,
-                "parameter %.40s was set to %.100s, but is read at the start; to change it now: "
-                "rosservice call %s/set \"%.40s=%.100s\"",
-                name, text, node, name, text);
-    else if (known)
-        hdr_log(HDR_WARN, "parameter %.40s was set to %.100s, but is read at the start", name,
-                text);
-    else
-        hdr_log(HDR_WARN, "parameter %.100s was set, but there is none of this name", name);
-}
-
 /** From here on the node can be seen by others. The run begins once all of it is registered:
  * another node of this name that takes over would have to end for what comes later. */
 static hdr_status advertise(app *a)
@@ -174,7 +156,6 @@ static hdr_status advertise(app *a)
         !worker_create(&a->work, a->run, a->rep, &a->set, &a->changes, &a->keep))
         status = HDR_NO_MEMORY;
     if (status == HDR_OK) status = services_advertise(a->ros, a->work);
-    if (status == HDR_OK) status = hdr_params_watch(a->params, a->ros, on_parameter_set, a);
     return status == HDR_OK && !worker_begin(a->work) ? HDR_NO_MEMORY : status;
 }
 
