@@ -1,13 +1,26 @@
 """Parts of the reproduction over bags that are made."""
 
 import os
+import sys
 import tempfile
 import unittest
 
-import made  # also finds the scripts
+import yaml
+
+import made
 from hdlyap.plots.figures.style import STYLE, plt
-from hdlyap.runs.bag import Bag
-from hdlyap.reproduce.row import HEADER
+
+STUDY = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/reproduction')
+sys.path.append(STUDY)
+
+from study.bags import Bag  # noqa: E402
+from study.row import HEADER  # noqa: E402
+
+
+def plan():
+    """{run: what is asked of it}, of the runs that the study needs."""
+    with open(os.path.join(STUDY, 'runs.yaml')) as file:
+        return yaml.safe_load(file)
 
 
 class Part(unittest.TestCase):
