@@ -188,24 +188,6 @@ class Started(harness.Case):
 
         self.check(TREES, command, records)
 
-    def test_reproduce(self):
-        def command(k):
-            out = ['--quick', '--part', '1', '--jobs', '1', '--out', self.path('out%d' % k)]
-            own = 'ROS_MASTER_URI=http://localhost:%d' % harness.free_port()
-            return ['env', own, harness.program('reproduce'), *out]
-
-        def command_of(pid):
-            try:
-                with open('/proc/%d/cmdline' % pid, 'rb') as file:
-                    return file.read()
-            except OSError:  # it has ended meanwhile
-                return b''
-
-        def runs(process):
-            return any(b'hdlyap_node' in command_of(pid) for pid in self.ours(process.mark))
-
-        self.check([('background', INT)], command, runs)
-
 
 if __name__ == '__main__':
     harness.main('started')
