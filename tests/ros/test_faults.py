@@ -7,7 +7,6 @@ import os
 import random
 import resource
 import signal
-import subprocess
 import tempfile
 import time
 
@@ -45,7 +44,7 @@ class Faults(harness.Case):
         cost = links.Link(links.node_port(node), 'cost')
         self.addCleanup(cost.close)
         self.addCleanup(links.Reader([cost]).join, harness.PATIENCE)
-        self.assertTrue(harness.wait_until(lambda: len(cost.seqs) > 0))
+        self.sees(lambda: len(cost.seqs) > 0)
         return node, cost
 
     def test_no_address_of_a_master(self):
@@ -62,17 +61,17 @@ class Faults(harness.Case):
 
     def goes_on(self, node, cost):
         now = len(cost.seqs)
-        self.assertTrue(harness.wait_until(lambda: len(cost.seqs) > now + 5), node.text())
+        self.sees(lambda: len(cost.seqs) > now + 5, node)
         self.assertEqual(cost.gaps(), 0)
 
     def stops(self, node, numbers=(signal.SIGINT,)):
         with harness.within(self, BOUND):
             for number in numbers:
                 node.send(number)
-            self.assertEqual(node.wait(), 0, node.text())
+            self.ends(node)
 
     def check_out_of_memory(self, node):
-        self.assertEqual(node.wait(), FAULT, node.text())
+        self.ends(node, FAULT)
         self.assertEqual(len(node.lines('FATAL')), 1, node.text())
         self.assertEqual(len(node.lines('out of memory')), 1, node.text())
 
@@ -96,8 +95,7 @@ class Faults(harness.Case):
                     if node.wait() != 0:
                         self.check_out_of_memory(node)
             self.assertEqual(ends[0], FAULT)
-        node = self.start(THREADED, command=[*limited(ENOUGH), harness.executable()])
-        self.assertEqual(node.wait(), 0, node.text())
+        self.runs(THREADED, command=[*limited(ENOUGH), harness.executable()])
 
     def test_no_thread_to_begin_with(self):
         """A node that could not be created returns from main: no destructor may run then, of
@@ -109,7 +107,7 @@ class Faults(harness.Case):
                     probe={'PROBE_THREADS': threads, 'PROBE_COUNTS': path}
                 )
                 self.addCleanup(viewer.stop)
-                self.assertEqual(viewer.wait(), FAULT, viewer.text())
+                self.ends(viewer, FAULT)
                 self.assertEqual(len(viewer.lines('FATAL')), 1, viewer.text())
                 self.assertFalse(os.path.exists(path), threads)
 
@@ -158,8 +156,7 @@ class Faults(harness.Case):
             (dict(OMP_DYNAMIC='true'), 2),
         ):
             with self.subTest(limit=limit):
-                node = self.start(THREADED, **limit)
-                self.assertEqual(node.wait(), 0, node.text())
+                node = self.runs(THREADED, **limit)
                 self.assertIn(f'{granted} threads', node.text())
                 said = node.lines('OpenMP grants 1 of 2 threads')
                 self.assertEqual(len(said), 2 - granted, node.text())
@@ -171,17 +168,14 @@ class Faults(harness.Case):
         self.stops(node, [signal.SIGHUP])
         self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())
 
-    def test_ignored_hangup(self):
-        node, cost = self.running(dict(ENDLESS, pace=20.0), command=['nohup', harness.executable()])
-        node.send(signal.SIGHUP)
-        self.goes_on(node, cost)
-        self.stops(node)
-
-    def test_somebody_elses_alarm(self):
-        node, cost = self.running(dict(ENDLESS, pace=20.0))
-        node.send(signal.SIGALRM)
-        self.goes_on(node, cost)
-        self.stops(node)
+    def test_ignored(self):
+        """Hangups below nohup, and somebody else's alarm."""
+        for number, before in ((signal.SIGHUP, ['nohup']), (signal.SIGALRM, [])):
+            command = [*before, harness.executable()]
+            node, cost = self.running(dict(ENDLESS, pace=20.0), command=command)
+            node.send(number)
+            self.goes_on(node, cost)
+            self.stops(node)
 
     def test_closed_output(self):
         """Nobody reads what it says: SIGPIPE."""
@@ -224,11 +218,6 @@ class Faults(harness.Case):
                     self.assertTrue(harness.service('pause', SetBool)(True).success)
                 self.stops(node, self.burst(randomly))
 
-    def test_burst_while_waiting(self):
-        node = self.start(dict(SHORT, wait_for_subscribers=['state']))
-        self.assertTrue(harness.wait_until(lambda: node.lines('waiting for subscribers')))
-        self.stops(node, self.burst(random.Random(4)))
-
     def test_at_any_moment_of_the_start(self):
         """Before main nobody but the kernel answers a signal; not a line has been printed then."""
         for delay in (0.0, 0.01, 0.02, 0.04, 0.08, 0.16):
@@ -247,12 +236,11 @@ class Faults(harness.Case):
         """What a node says is lost with the disk; what it computes is not."""
         for args in (['__log:=/dev/full'], ['__log:=/nowhere/at/all.log'], ['__log:=/']):
             with self.subTest(args=args):
-                node = self.start(
+                self.runs(
                     SHORT,
                     args=args,
                     command=['sh', '-c', 'exec "$@" >/dev/full', 'sh', harness.executable()],
                 )
-                self.assertEqual(node.wait(), 0, node.text())
 
 
 if __name__ == '__main__':
