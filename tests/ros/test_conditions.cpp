@@ -69,17 +69,6 @@ TEST(Backlog, Latched)
     EXPECT_EQ(backlog.look().waiting, 0);
 }
 
-TEST(Backlog, TakenAtOnce)
-{
-    Queue queue(1000);
-    for (int k = 0; k < 20; k++) {
-        queue.publish(10.0 * k);
-        EXPECT_EQ(queue.backlog.look().waiting, 1);
-        queue.take();
-        EXPECT_EQ(queue.backlog.look(10.0 * k + 9.0).waiting, 0);
-    }
-}
-
 TEST(Backlog, DeafThenWellAgain)
 {
     Queue queue(1000);
