@@ -129,19 +129,6 @@ class Tables(unittest.TestCase):
         self.assertEqual({name: cells[0] for name, cells in table('service').items()}, services())
         self.assertGreater(len(services()), 2)
 
-    def test_messages(self):
-        """Each is the type of a topic, or an element of another one."""
-        kinds = {cells[0] for cells in table('topic').values()}
-        messages = {name[:-4]: read('msg', name) for name in listed('msg', '.msg')}
-        for name in messages:
-            if 'hdlyap/' + name not in kinds:
-                self.assertTrue(
-                    any(
-                        re.search(r'(?m)^%s(\[\d*\])? ' % name, text) for text in messages.values()
-                    ),
-                    name,
-                )
-
     def test_headers_of_the_core(self):
         said = [
             name
