@@ -42,8 +42,6 @@ class Run:
                 name + '/' + topic, TYPES[topic], messages.append, queue_size=None
             )
             test.addCleanup(subscriber.unregister)
-        if rospy.has_param(name):
-            rospy.delete_param(name)
         rospy.set_param(name, params)
         namespace, base = name.rsplit('/', 1)
         self.node = Process(
