@@ -16,6 +16,7 @@ import rospy
 from std_srvs.srv import SetBool
 
 import harness
+from hdlyap.plots import recorded, report
 import measured
 import links
 from harness import MODES, NODE, OBSERVABLES, SHORT, TYPES, Process
@@ -115,7 +116,9 @@ class Recorded(harness.Case):
         cls.counts = [cls.run_of(params) for params in (FIRST, RUN)]
         end(recorder)
         cls.messages = read(cls.bag)
-        cls.infos = unpacked(cls.messages['/hdlyap/run_info'])
+        # a latched one comes twice to whom connects while it is published, by roscpp
+        infos = unpacked(cls.messages['/hdlyap/run_info'])
+        cls.infos = list({info.run_id: info for info in infos}.values())
 
     @classmethod
     def run_of(cls, params):
@@ -143,6 +146,7 @@ class Recorded(harness.Case):
             for topic, count in counts.items():
                 with self.subTest(run=number, topic=topic):
                     seqs = [message.header.seq for message in self.of_run(topic, number)]
+                    seqs = sorted(set(seqs)) if topic == 'run_info' else seqs
                     self.assertEqual(len(seqs), count)
                     self.assertEqual(seqs, list(range(seqs[0], seqs[0] + count)) if seqs else [])
         self.assertEqual([len(self.of_run('state', k)) for k in (0, 1)], [4, REPORTS])
@@ -309,7 +313,7 @@ class Stopped(harness.Case):
 
     def test_in_the_middle(self):
         """A recorder that is asked to end has closed its files; one that comes late is told
-        run_info; when its node is killed, its bag can still be drawn."""
+        run_info; when its node is killed, its bag can still be read."""
         first = self.record('bag:=first.bag', 'options:=--lz4 --split --repeat-latched --size=1')
         node = self.start(BULKY)
         self.sees(lambda: len(self.files('first_*')) > 2)
@@ -324,7 +328,7 @@ class Stopped(harness.Case):
         node.stop()
         end(second)
         self.check_parts(self.files('first_*'))
-        self.check_drawn(self.files('second*'))
+        self.check_read(self.files('second*'))
 
     def check_parts(self, paths):
         """Files of one recording: run_info in each, the rest in one of them, nothing left out."""
@@ -340,14 +344,12 @@ class Stopped(harness.Case):
         seqs = [message.header.seq for message in states]
         self.assertEqual(seqs, list(range(seqs[0], seqs[0] + len(seqs))))
 
-    def check_drawn(self, paths):
+    def check_read(self, paths):
         self.assertEqual([os.path.basename(path) for path in paths], ['second.bag'])
         messages = read(paths[0])
         self.assertEqual(len(messages['/hdlyap/run_info']), 1)
         self.assertFalse({'/hdlyap/markers', '/hdlyap/slow_vectors'} & set(messages))
-        plot = self.process([*harness.command('plot'), paths[0], '--out', self.folder])
-        self.ends(plot, 0, 'lambda_max')
-        self.assertGreater(len(self.files('spectrum.png')), 0)
+        self.assertIn('lambda_max', report.report(recorded.read(paths[0])))
 
 
 if __name__ == '__main__':
