@@ -49,15 +49,9 @@ class Faults(harness.Case):
 
     def test_no_address_of_a_master(self):
         """Is for roscpp to refuse, which does so with a line of its own."""
-        ended = subprocess.run(
-            [harness.executable(), '__master:=localhost:1'],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            timeout=harness.PATIENCE,
-            text=True,
-        )
-        self.assertNotEqual(ended.returncode, 0)
-        self.assertIn('localhost:1', ended.stdout)
+        node = self.process([harness.executable(), '__master:=localhost:1'])
+        self.assertNotEqual(node.wait(), 0)
+        self.assertIn('localhost:1', node.text())
 
     def goes_on(self, node, cost):
         now = len(cost.seqs)
