@@ -72,22 +72,22 @@ def told(title, found, errors, chi2, freedom):
 
 
 def limits(rows):
-    """Straight lines in omega tau of v over that of the pressure, and of pressure and C."""
-    for density in [*sorted({row['density'] for row in rows}), 'all']:
-        some = [row for row in rows if density in ('all', row['density'])]
-        if len(some) < 4:
+    """Lines in omega tau of v over that of the pressure, and of pressure and C: for each density,
+    and with one limit for all of them."""
+    densities = sorted({row['density'] for row in rows})
+    for some in [*([d] for d in densities), densities]:
+        few = [row for row in rows if row['density'] in some]
+        if len(few) < len(some) + 3:
             continue
-        place = [turned(row) for row in some]
-        for title, values, errors in (
-            (
-                'P',
-                [row['v'] / row[RATE] for row in some],
-                [row['v error'] / row[RATE] for row in some],
-            ),
-            ('P and C', [row[OVER] for row in some], [row['over error'] for row in some]),
+        slopes = [[turned(row) * (row['density'] == d) for row in few] for d in some]
+        name = ', '.join(f'{d:g}' for d in some)
+        for title, column, error, unit in (
+            ('P', 'v', 'v error', [row[RATE] for row in few]),
+            ('P and C', OVER, 'over error', np.ones(len(few))),
         ):
-            line = fit(np.array(values), errors, np.ones(len(some)), place)
-            yield told(f'density {density}, v over that of {title} = a + b omega tau', *line)
+            values, errors = ([row[key] for row in few] / np.array(unit) for key in (column, error))
+            line = fit(values, errors, np.ones(len(few)), *slopes)
+            yield told(f'density {name}: v over that of {title} = a + b omega tau', *line)
 
 
 def constant(rows):
@@ -218,37 +218,31 @@ def _points(axes, rows, value, error, marker):
 
 
 def draw_sound(rows):
-    """Measured over what the pressure says: of sound, and of LP modes."""
-    figure, axes = plt.subplots(figsize=(4.6, 3.1))
+    """Of sound over LP modes, measured and as pressures have it. Bars: one standard error. Marks
+    of a box are a little apart along k, to be seen."""
+    figure, axes = plt.subplots(figsize=(4.8, 3.3))
+    kinds = ('o', r'$c_s / v$'), ('s', r'$c_s \sqrt{2} \rho / P$'), ('x', 'of the pressures')
     for row, found, errors in ratios(rows):
         colour, narrow = COLOURS[row['density']], row['height'] < 2
-        for value, error, marker in (
-            (found[0] / 2, errors[0] / 2, 'o'),
-            (found[1] / 2, errors[1] / 2, 's'),
-            (found[2] / 2, errors[2] / 2, 'x'),
-        ):
+        for place, (marker, _) in enumerate(kinds):
             axes.errorbar(
-                row['k'],
-                2 * value,
-                yerr=2 * BAR * error,
+                row['k'] + 0.001 * (place - 1),
+                found[place],
+                yerr=errors[place],
                 color=colour,
                 marker=marker,
                 markerfacecolor=colour if narrow else 'white',
                 elinewidth=0.7,
                 linestyle='none',
             )
-    for marker, text in (
-        ('o', r'$c_s / v$'),
-        ('s', r'$c_s \sqrt{2} \rho / P$'),
-        ('x', 'of the pressures'),
-    ):
+    for marker, text in kinds:
         axes.plot([], [], marker, color=INK, label=text)
     axes.plot([], [], 'o', color=INK, markerfacecolor='white', label='not in a row')
     for density in sorted({row['density'] for row in rows}):
         axes.plot([], [], 's', color=COLOURS[density], label=rf'$\rho = {density:g}$')
     axes.axhline(2, color=GREY, linewidth=0.6)
     axes.set(xlabel=r'$k$  [$1/\sigma$]', ylabel='sound over LP modes', xlim=(0, None))
-    axes.legend(ncol=2)
+    axes.legend(ncol=2, loc='lower left')
     return figure
 
 

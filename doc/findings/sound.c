@@ -174,18 +174,21 @@ static void tell(const double *value, const double *stated, int count, const cha
     printf("%.6g,%.3g%s", mean, error, end);
 }
 
+/** Seeds side by side, as many as there are cores. */
 static void go(const box *b, bool quick)
 {
     const int samples = quick ? SAMPLES / 8 : SAMPLES, modes = quick ? 1 : MODES;
     const double collisions = quick ? 2e3 : 6e4, none[SEEDS] = {0.0};
-    double c[SEEDS], expected[SEEDS], pressure[SEEDS], v[MODES], error[MODES], rate;
+    double c[SEEDS], expected[SEEDS], pressure[SEEDS], rate[SEEDS], v[MODES], error[MODES];
+#pragma omp parallel for schedule(dynamic)
     for (int s = 0; s < SEEDS; s++) {
         double z;
-        c[s] = sound(b, s, samples, &z, &rate);
+        c[s] = sound(b, s, samples, &z, &rate[s]);
         expected[s] = sound_of_pressure(b, z, s, collisions);
         pressure[s] = z / sqrt(2.0);
     }
-    for (int s = 0; s < modes; s++) v[s] = mode(b, s, rate, quick ? 0.25 : 1.0, &error[s]);
+#pragma omp parallel for schedule(dynamic)
+    for (int s = 0; s < modes; s++) v[s] = mode(b, s, rate[s], quick ? 0.25 : 1.0, &error[s]);
     printf("%g,%g,%d,%.6g,", b->density, b->height, b->disks, wave_number(b));
     tell(c, none, SEEDS, ",");
     tell(expected, none, SEEDS, ",");
