@@ -156,12 +156,9 @@ static hd_status send(const moment *now)
 {
     const size_t disks = (size_t)now->set->def.disks;
     const double *q, *p;
-    hdr_slow_vectors message = {.sim_time = hd_run_time(now->run)};
-    if (!moment_state(now, &q, &p) || !fill_vectors(&message, now)) return HD_OK;
-    message.x = message_array(q, disks, 2);
-    message.y = message_array(q + 1, disks, 2);
-    message.px = message_array(p, disks, 2);
-    message.py = message_array(p + 1, disks, 2);
+    if (!moment_state(now, &q, &p)) return HD_OK;
+    hdr_slow_vectors message = {.sim_time = hd_run_time(now->run), STATE_FIELDS(q, p, disks)};
+    if (!fill_vectors(&message, now)) return HD_OK;
     return topic_send_slow_vectors(now->out, &message);
 }
 
