@@ -1,6 +1,5 @@
 /** Random numbers against values of an independent program, and against what uniform means. */
 #include "base/random.h"
-
 #include "testing.h"
 
 static const double Z = 4.0;

@@ -1,8 +1,5 @@
 /** Queue against a plain search of all keys. */
 #include "events/queue.h"
-
-#include <math.h>
-
 #include "base/random.h"
 #include "testing.h"
 

@@ -1,16 +1,6 @@
 /** Sampled fields against differences of the modulations, and against what a T, L or P field must
  * be. */
-#include <float.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "testing.h"
-
-#include "hdlyap/fields.h"
-#include "scenes.h"
 #include "synthetic.h"
-
-static const hd_boundary P = HD_PERIODIC, R = HD_REFLECTING;
 
 enum { DISKS = 60, ROWS = 2 * DISKS };
 /** Step of central differences, about the cube root of the rounding. */

@@ -1,12 +1,6 @@
 /** Whole runs of several ranks. */
 #define _GNU_SOURCE
-#include <string.h>
-
-#include "hdlyap/checkpoint.h"
-#include "hdlyap/follow.h"
-#include "hdlyap/hydro.h"
 #include "runs.h"
-#include "scenes.h"
 #include "together.h"
 
 /* ---- runs ----------------------------------------------------------------------------------- */
@@ -39,13 +33,11 @@ TEST(exponents_are_those_of_one_rank)
     for (int k = 0; k < 3; k++) {
         hd_scene_def scene = scene_of_runs(k == 0 ? 60 : 24, 0);
         scene.exponents = exponents[k];
-        hd_run *run, *alone = created(&scene);
+        OWNED(hd_run) *alone = created(scene), *run = NULL;
         CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
         finish(run);
         finish(alone);
         expect_same_exponents(run, alone);
-        hd_run_free(run);
-        hd_run_free(alone);
     }
 }
 
@@ -76,7 +68,7 @@ static void expect_modes_of_one_rank(int exponents)
     hd_scene_def scene = scene_from(
         scene_of_runs(60, HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES | HD_OBSERVE_STRUCTURE),
         .exponents = exponents);
-    hd_run *run, *alone = created(&scene);
+    OWNED(hd_run) *alone = created(scene), *run = NULL;
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     finish(run);
     finish(alone);
@@ -112,8 +104,6 @@ static void expect_modes_of_one_rank(int exponents)
         CHECK_CLOSE(cosine[0][col], cosine[1][col], 1e-6);
         CHECK_CLOSE(ratio[0][col], ratio[1][col], 1e-6);
     }
-    hd_run_free(run);
-    hd_run_free(alone);
 }
 
 TEST(modes_are_those_of_one_rank)
@@ -126,7 +116,7 @@ TEST(modes_are_those_of_one_rank)
 TEST(widths_and_gas_are_those_of_one_rank)
 {
     const hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_LOCALIZATION | HD_OBSERVE_GAS);
-    hd_run *run, *alone = created(&scene);
+    OWNED(hd_run) *alone = created(scene), *run = NULL;
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     finish(run);
     finish(alone);
@@ -141,8 +131,6 @@ TEST(widths_and_gas_are_those_of_one_rank)
     const hd_gas_means a = hd_gas_read(hd_run_gas(run)), b = hd_gas_read(hd_run_gas(alone));
     CHECK_CLOSE(a.time, b.time, 1e-9);
     CHECK_CLOSE(a.pressure, b.pressure, 1e-9);
-    hd_run_free(run);
-    hd_run_free(alone);
 }
 
 /** The same on every rank, and once more the same: with other delays. */
@@ -152,7 +140,7 @@ TEST(bits_are_the_same)
     double kept[2 * 30];
     int n = 0;
     for (int again = 0; again < 2; again++) {
-        hd_run *run;
+        OWNED(hd_run) *run = NULL;
         CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
         finish(run);
         n = hd_run_vectors(run);
@@ -163,7 +151,6 @@ TEST(bits_are_the_same)
             if (again) CHECK_CLOSE(here, kept[col], 0.0);
             kept[col] = here;
         }
-        hd_run_free(run);
     }
 }
 
@@ -181,7 +168,7 @@ static void expect_vectors_of_one_rank(int exponents)
     hd_scene_def scene = scene_from(
         scene_of_runs(60, HD_OBSERVE_ALL & ~(unsigned)HD_OBSERVE_COVARIANT),
         .exponents = exponents);
-    hd_run *run, *alone = created(&scene);
+    hd_run *run, *alone = created(scene);
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     hd_run_fields_from(run, 100);
     finish(run);
@@ -224,7 +211,7 @@ TEST(vectors_are_gathered_for_reports)
 TEST(vectors_are_gathered_for_fields)
 {
     const hd_scene_def scene = scene_of_runs(30, HD_OBSERVE_FIELDS);
-    hd_run *run;
+    OWNED(hd_run) *run = NULL;
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     hd_run_fields_from(run, 40);
     finish(run);
@@ -232,7 +219,6 @@ TEST(vectors_are_gathered_for_fields)
     assert_true(hd_run_fields_due(run));
     assert_int_equal(got.first + got.count, hd_run_vectors(run));
     assert_true(got.first <= 40);
-    hd_run_free(run);
 }
 
 TEST(nothing_is_gathered_for_nobody)
@@ -241,12 +227,11 @@ TEST(nothing_is_gathered_for_nobody)
     for (int k = 0; k < 2; k++) {
         const hd_scene_def scene = scene_from(scene_of_runs(30, HD_OBSERVE_STEPS),
                                               .exponents = exponents[k]);
-        hd_run *run;
+        OWNED(hd_run) *run = NULL;
         CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
         finish(run);
         assert_true(hd_modes_samples(hd_run_modes(run)) > 0);
         assert_int_equal(hd_run_frame_columns(run).count, 0);
-        hd_run_free(run);
     }
 }
 
@@ -258,7 +243,7 @@ TEST(covariant_vectors_are_those_of_one_rank)
         .covariant_window = 10.0, .covariant_transient = 10.0, .covariant_sampling = 1.0);
     for (int k = 0; k < 2; k++) {
         scene.covariant_storage = k == 0 ? HD_STORAGE_MEMORY : HD_STORAGE_RECOMPUTE;
-        hd_run *run, *alone = created(&scene);
+        OWNED(hd_run) *alone = created(scene), *run = NULL;
         CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
         finish(run);
         finish(alone);
@@ -273,8 +258,6 @@ TEST(covariant_vectors_are_those_of_one_rank)
         }
         CHECK_CLOSE(hd_splitting_angle(hd_covariant_splitting(a), HD_UNSTABLE_STABLE)->mean,
                     hd_splitting_angle(hd_covariant_splitting(b), HD_UNSTABLE_STABLE)->mean, 1e-6);
-        hd_run_free(run);
-        hd_run_free(alone);
     }
 }
 
@@ -283,7 +266,7 @@ TEST(disks_are_compared)
 {
     for (int with_frame = 0; with_frame < 2; with_frame++) {
         hd_scene_def scene = scene_of_runs(20, 0);
-        hd_run *run;
+        OWNED(hd_run) *run = NULL;
         hd_status status = HD_OK;
         if (!with_frame) scene.exponents = HD_EXPONENTS_NONE;
         scene.seed += ranks->rank == ranks->ranks - 1;
@@ -291,7 +274,6 @@ TEST(disks_are_compared)
         while (status == HD_OK && hd_run_time(run) < 1.5) status = hd_run_advance(run);
         assert_int_equal(status, HD_RANKS_APART);
         CHECK_CLOSE(hd_run_time(run), 1.0, 1e-9);
-        hd_run_free(run);
     }
 }
 
@@ -299,7 +281,7 @@ TEST(disks_are_compared)
 static void expect_watched(int disks)
 {
     const hd_scene_def scene = scene_of_runs(disks, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES);
-    hd_run *run;
+    OWNED(hd_run) *run = NULL;
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     const int first = hd_run_vectors(run) - 6;
     hd_run_watch(run, 0.25, first);
@@ -313,7 +295,6 @@ static void expect_watched(int disks)
         seen++;
     }
     assert_true(seen >= 36);
-    hd_run_free(run);
 }
 
 TEST(the_slowest_are_watched)
@@ -330,7 +311,7 @@ TEST(checkpoints_fit_any_number_of_ranks)
     const hd_scene_def scene = scene_of_runs(30, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES);
     char message[300] = "", own[40], path[] = "ranks.checkpoint";
     snprintf(own, sizeof own, "ranks_%d.checkpoint", ranks->rank);
-    hd_run *run, *same, *fewer, *more, *alone = created(&scene);
+    hd_run *run, *same, *fewer, *more, *alone = created(scene);
     CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
     until_time(run, 40.0);
     until_time(alone, 40.0);
@@ -392,7 +373,7 @@ static double lead(hd_communicator *c)
                                        HD_OBSERVE_STEPS | HD_OBSERVE_PHASES | HD_OBSERVE_FIELDS);
     char message[300], path[] = "led.checkpoint";
     int fields = 0;
-    hd_run *run;
+    OWNED(hd_run) *run = NULL;
     scene.observe |= HD_OBSERVE_COVARIANT;
     scene.exponents = HD_EXPONENTS_ALL;
     if (c) assert_int_equal(hd_run_create_shared(&run, &scene, c, message, 300), HD_REFUSED);
@@ -424,7 +405,6 @@ static double lead(hd_communicator *c)
     finish(run);
     const double sum = hd_spectrum_ks_entropy(hd_run_spectrum(run));
     CHECK_CLOSE(hd_run_time(run), 100.0, 1e-9);
-    hd_run_free(run);
     return sum;
 }
 

@@ -3,23 +3,15 @@
 #define _POSIX_C_SOURCE 200809L
 #include <fcntl.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include "testing.h"
-
 #include "run/checkpoint_file.h"
 #include "kept.h"
 #include "run/run_state.h"
 
 static const char PATH[] = "checkpoint_file.test", PART[] = "checkpoint_file.test.part";
-
-/* ---- files that are not whole -------------------------------------------------------------- */
 
 static void expect_refused(const char *word)
 {
@@ -42,12 +34,10 @@ static void file_write(const char *path, const char *data, size_t size)
 /** A small one: of two disks. */
 static bytes checkpoint_bytes(void)
 {
-    const hd_scene_def def = kept_scene(2, 0.3, 1.0, 1, 0);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(kept_scene(2, 0.3, 1.0, 1, 0));
     char message[512] = "";
     kept_steps(run, 15);
     CHECK_OK(hd_run_save(run, PATH, KEPT_LABEL, message, sizeof message));
-    hd_run_free(run);
     return kept_file(PATH);
 }
 
@@ -118,8 +108,6 @@ TEST(another_format_is_refused_as_such)
     expect_format_refused(HD_CHECKPOINT_FORMAT - 1, "an older hdlyap");
 }
 
-/* ---- files that cannot be written ---------------------------------------------------------- */
-
 static void expect_unwritable(hd_run *run, const char *path, const char *word)
 {
     char message[512] = "";
@@ -130,8 +118,7 @@ static void expect_unwritable(hd_run *run, const char *path, const char *word)
 
 TEST(what_cannot_be_written_is_named)
 {
-    const hd_scene_def def = kept_scene(4, 0.3, 1.0, 1, 0);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(kept_scene(4, 0.3, 1.0, 1, 0));
     char message[512] = "", too_long[5000];
     memset(too_long, 'a', sizeof too_long);
     too_long[sizeof too_long - 1] = 0;
@@ -148,14 +135,12 @@ TEST(what_cannot_be_written_is_named)
     remove(PART);
     CHECK_OK(hd_checkpoint_writable(PATH, message, sizeof message));
     assert_int_not_equal(access(PART, F_OK), 0);
-    hd_run_free(run);
 }
 
 /** A file may not become larger than a part of it: what is there stays, what was begun goes. */
 TEST(a_write_that_fails_leaves_the_file)
 {
-    const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0));
     hd_run_free(kept_and_resumed(run, PATH, NULL));
     const bytes before = kept_file(PATH);
     struct rlimit limit, few;
@@ -177,13 +162,11 @@ TEST(a_write_that_fails_leaves_the_file)
         free(after.data);
     }
     free(before.data);
-    hd_run_free(run);
 }
 
 TEST(a_run_that_is_no_number_is_not_written)
 {
-    const hd_scene_def def = kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0);
-    hd_run *run = kept_run(&def);
+    OWNED(hd_run) *run = kept_run(kept_scene(30, 0.7, 1.0, HD_EXPONENTS_POSITIVE, 0));
     hd_run_free(kept_and_resumed(run, PATH, NULL));
     const bytes before = kept_file(PATH);
     char message[512] = "";
@@ -195,7 +178,6 @@ TEST(a_run_that_is_no_number_is_not_written)
     assert_memory_equal(after.data, before.data, before.size);
     free(before.data);
     free(after.data);
-    hd_run_free(run);
 }
 
 /** Of what cannot be written for another reason than the file, the status says why. */

@@ -2,16 +2,13 @@
 #ifndef HD_RUNS_H
 #define HD_RUNS_H
 
-#include <math.h>
-
 #include "run/run_state.h"
-#include "scenes.h"
 #include "testing.h"
 
-static inline hd_run *created(const hd_scene_def *scene)
+static inline hd_run *created(hd_scene_def scene)
 {
     hd_run *run = NULL;
-    CHECK_OK(hd_run_create(&run, scene, NULL, 0));
+    CHECK_OK(hd_run_create(&run, &scene, NULL, 0));
     return run;
 }
 
@@ -24,7 +21,7 @@ static inline hd_run *until(hd_run *run, hd_stage stage)
 
 static inline hd_run *finish(hd_run *run) { return until(run, HD_FINISHED); }
 
-static inline hd_run *finished(const hd_scene_def *scene) { return finish(created(scene)); }
+static inline hd_run *finished(hd_scene_def scene) { return finish(created(scene)); }
 
 /** Goes on to that simulated time, or to the end. */
 static inline void until_time(hd_run *run, double time)
