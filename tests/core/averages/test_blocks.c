@@ -183,16 +183,6 @@ TEST(a_memory_as_long_as_the_series_gives_no_error)
     }
 }
 
-TEST(a_constant_has_error_zero)
-{
-    hd_blocks blocks;
-    CHECK_OK(hd_blocks_create(&blocks, 2, 0.0));
-    for (int k = 0; k < 100; k++) hd_blocks_add(&blocks, (double[]){3.0, k % 2 ? 1.0 : -1.0}, 1.0);
-    CHECK_CLOSE(error_of(&blocks, 0), 0.0, ROUNDING);
-    CHECK_CLOSE(error_of(&blocks, 1), 0.0, ROUNDING); /* blocks of two agree */
-    hd_blocks_clear(&blocks);
-}
-
 /** In few blocks and in many: unknown is something else. */
 TEST(what_is_no_number_has_no_error)
 {

@@ -181,8 +181,7 @@ TEST(a_wedge_in_a_corner_comes_apart)
 static double epoch_of(const hd_scene_def *def, const double *q, const double *p)
 {
     OWNED(hd_trajectory) *tr = started(def, q, p);
-    const double length = tr->epoch_length;
-    return length;
+    return tr->epoch_length;
 }
 
 /** Each in just one of the two intervals, whichever the cut: that which begins there. */

@@ -188,20 +188,6 @@ TEST(events_are_approaching_unit_contacts)
     }
 }
 
-/** Late times: an interval far from 0 is resolved as finely as the first one. */
-TEST(late_intervals_lose_nothing)
-{
-    OWNED(hd_trajectory) *tr = trajectory_of(scene_of(2, 0.01, 1.0, P, P, 1));
-    OWNED(hd_event_log) *log = new_log();
-    const double late = 1e6;
-    CHECK_OK(hd_trajectory_extend(tr, NULL, late));
-    CHECK_OK(trajectory_to(tr, log, late + 4096.0));
-    int fine = 0; /* times that a sum with 1e6 could not hold */
-    for (size_t e = 0; e < log->count; e++)
-        fine += (late + log->event[e].t) - late != log->event[e].t;
-    assert_true(log->count > 50 && fine > (int)log->count / 2);
-}
-
 /* ---- creation ------------------------------------------------------------------------------ */
 
 TEST(starts_at_rest_of_the_centre)

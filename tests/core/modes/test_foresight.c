@@ -277,15 +277,11 @@ TEST(exchanges_within_two_turns_are_followed)
     for (int d = 1; d <= 4; d *= 2) {
         HELD(rotating) r = pairs(d);
         for (int t = 0; t < 200; t++) {
-            const int a = t % (2 * d), b = (t + 1) % (2 * d), column = r.column[a];
-            if (t >= 20 && t % 2) {
-                r.column[a] = r.column[b];
-                r.column[b] = column;
-                r.sign[a] *= t % 4 == 1 ? -1.0 : 1.0;
-            }
+            if (t >= 20 && t % 2)
+                exchange(&r, t % (2 * d), (t + 1) % (2 * d), t % 4 == 1 ? -1.0 : 1.0);
             r.dt = fmin(sampling(&r), 4.0 * PI / 2.6);
             turn(&r, 2.6);
-            for (int v = 0; v < 2 * d; v++) assert_int_equal(phase_of(&r, v, 0)->col, r.column[v]);
+            check_columns(&r);
         }
         assert_int_equal(slips(&r), 0);
         assert_true(check_tracks(&r, 2.6 * r.time, r.time, 2e3 * ROUNDING) >= 2 * d);

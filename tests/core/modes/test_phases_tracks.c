@@ -1,21 +1,6 @@
 /** Tracks of vectors that change places, come and go, or begin anew. */
 #include "rotating.h"
 
-static void exchange(rotating *r, int a, int b, double sign)
-{
-    const int column = r->column[a];
-    r->column[a] = r->column[b];
-    r->column[b] = column;
-    r->sign[a] *= sign;
-}
-
-/** The slots go with their vectors. */
-static void check_columns(const rotating *r)
-{
-    for (int v = 0; v < 2 * r->d; v++)
-        for (int c = 0; c < r->d; c++) assert_int_equal(phase_of(r, v, c)->col, r->column[v]);
-}
-
 TEST(exchanges_do_not_break_the_tracks)
 {
     const double rates[] = {0.0, 0.7, -2.0};

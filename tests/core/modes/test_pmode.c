@@ -160,20 +160,6 @@ TEST(modes_are_those_of_least_squares)
         }
 }
 
-/** Vectors of length sqrt(1 + noise^2) of which noise stands across: sin of the angle between. The
- * noise of 128 numbers is known to 6 %, and 4 of its 128 directions lie within. */
-TEST(noise_raises_the_residual)
-{
-    const double noises[] = {0.01, 0.1, 0.5};
-    for (int k = 0; k < 3; k++) {
-        HELD(reconstruction) r = reconstruction_of(1, 0, true, noises[k]);
-        assert_true(reconstruct(&r));
-        const double want = noises[k] / sqrt(1.0 + noises[k] * noises[k]);
-        for (int c = 0; c < 4; c++) CHECK_CLOSE(hd_pmode_residual(r.pmode, c), want, 0.25 * want);
-        assert_true(hd_pmode_rotation_distance(r.pmode) > 0.1 * noises[k] * noises[k]);
-    }
-}
-
 /* ---- division ------------------------------------------------------------------------------ */
 
 static double mean_square(const double *p)

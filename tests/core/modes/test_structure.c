@@ -184,32 +184,6 @@ TEST(means_are_means)
     CHECK_CLOSE(hd_structure_amplitude(x.s, HD_ALONG, 0)[0], 0.0, 0.0);
 }
 
-/** Random vectors have 1/2, along and across: over waves and vectors. */
-TEST(noise_has_one_half)
-{
-    const hd_boundary of[][2] = {{P, P}, {P, R}, {R, R}};
-    for (int b = 0; b < 3; b++) {
-        HELD(looked) x = looked_of(scene_of(150, 0.6, 0.8, of[b][0], of[b][1], 11), 1);
-        double sum[HD_DIRECTIONS] = {0.0};
-        long count[HD_DIRECTIONS] = {0};
-        for (int k = 0; k < 20; k++) {
-            world_noise(&x.w);
-            measure(&x);
-            for (int w = 0; w < hd_structure_waves(x.s); w++)
-                for (hd_direction e = HD_ALONG; e < HD_DIRECTIONS; e++)
-                    for (int col = 0; col < VECTORS; col++) {
-                        if (has_none(&x.w, hd_structure_wave(x.s, w), e)) continue;
-                        sum[e] += hd_structure_snapshot(x.s, w, e)[col];
-                        count[e]++;
-                    }
-        }
-        for (int e = 0; e < HD_DIRECTIONS; e++) {
-            /* each number scatters by 1/2 to 1/sqrt(2), the more the fewer modulations */
-            CHECK_CLOSE(sum[e] / (double)count[e], 0.5, 5.0 * 0.75 / sqrt((double)count[e]) + 0.01);
-        }
-    }
-}
-
 /** As ranks and threads have them. */
 TEST(columns_and_threads_change_nothing)
 {
@@ -248,44 +222,4 @@ TEST(degenerate_vectors)
     assert_int_equal(
         hd_structure_measure(x.s, hd_frame_columns(x.w.frame), x.w.q, hd_modes_dq_norms(x.w.modes)),
         HD_NOT_FINITE);
-}
-
-/** The amplitude along k of a vector that turns between L and P, while disks move. */
-static double power_of(double (*amplitude)[2], int count, double omega)
-{
-    double sum = 0.0;
-    for (int m = 0; m < 2; m++) {
-        double complex turned = 0.0;
-        for (int t = 0; t < count; t++) turned += amplitude[t][m] * cexp(-I * omega * t);
-        sum += creal(turned * conj(turned));
-    }
-    return sum;
-}
-
-/** An LP pair, turned by hand: its line is at its omega, and nowhere else. L and P overlap by
- * N^(-1/2), differently at each time. */
-TEST(a_turning_vector_has_its_line)
-{
-    enum { SAMPLES = 200 };
-    const double omega = 0.4, resolution = 2.0 * 3.14159265358979323846 / SAMPLES;
-    static double amplitude[SAMPLES][2];
-    HELD(rotating) r = pairs(2);
-    MADE(hd_structure, s, &r.w.scene, 4, 1);
-    for (int t = -1; t < SAMPLES; t++) {
-        world_move(&r.w, 0.2);
-        turn(&r, omega);
-        CHECK_OK(hd_structure_measure(s, hd_frame_columns(r.w.frame), r.w.q,
-                                      hd_modes_dq_norms(r.w.modes)));
-        hd_structure_add(s);
-        for (unsigned bits = 0; bits < 2 && t >= 0; bits++)
-            amplitude[t][bits] = hd_structure_amplitude(s, HD_ALONG, bits)[1];
-    }
-    const hd_wave *wave = hd_structure_wave(s, hd_structure_peak(s, 1));
-    assert_true(wave->n[0] == 1 && wave->n[1] == 0);
-    const double at_line = power_of(amplitude, SAMPLES, omega);
-    for (double other = 0.0; other < 3.0; other += 0.25 * resolution)
-        if (fabs(other - omega) > 1.5 * resolution)
-            assert_true(power_of(amplitude, SAMPLES, other) < 0.1 * at_line);
-        else if (fabs(other - omega) > 0.5 * resolution)
-            assert_true(power_of(amplitude, SAMPLES, other) < at_line);
 }

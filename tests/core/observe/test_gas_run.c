@@ -19,8 +19,7 @@ static hd_gas_means by_itself(const hd_scene_def *scene, double begin, double en
     hd_gas_begin(gas, tr);
     CHECK_OK(hd_trajectory_extend(tr, NULL, end));
     hd_gas_add(gas, tr);
-    const hd_gas_means means = hd_gas_read(gas);
-    return means;
+    return hd_gas_read(gas);
 }
 
 static void expect_same(hd_gas_means got, hd_gas_means want)
@@ -62,8 +61,7 @@ static hd_gas_means watched(const hd_scene_def *scene, double between)
     OWNED(hd_run) *run = created(*scene);
     hd_run_watch(run, between, hd_run_vectors(run));
     finish(run);
-    const hd_gas_means means = hd_gas_read(hd_run_gas(run));
-    return means;
+    return hd_gas_read(hd_run_gas(run));
 }
 
 /** Nor does it matter who looks on; one report at the end is enough for an error. */

@@ -65,18 +65,6 @@ TEST(widths_are_those_of_the_vectors)
     }
 }
 
-/** The largest exponent's vector lies on few disks, the slowest ones on all (Taniguchi and Morriss
- * 2003). */
-TEST(the_fastest_vector_is_the_narrowest)
-{
-    OWNED(hd_run) *run = finished(
-        scene_from(scene_with(HD_EXPONENTS_POSITIVE, HD_OBSERVE_LOCALIZATION), .density = 0.2));
-    const double *width = hd_localization_widths(hd_run_localization(run));
-    const int n = hd_run_vectors(run);
-    assert_true(width[0] < 0.5 * width[n - 1]);
-    for (int col = 0; col < n; col++) assert_true(width[col] >= 1.0 / DISKS && width[col] <= 1.0);
-}
-
 /** Widths of independent runs scatter as their errors say. */
 TEST(errors_are_those_of_seeds)
 {
@@ -115,11 +103,7 @@ TEST(nothing_is_measured_while_nobody_looks)
     OWNED(hd_run) *run = created(asked), *other = created(plain);
     assert_null(hd_run_localization(other));
     hd_run_observe(run, 0);
-    while (going_on(run)) {
-        CHECK_OK(hd_run_advance(other));
-    }
+    while (going_on(run)) CHECK_OK(hd_run_advance(other));
     assert_true(hd_localization_samples(hd_run_localization(run)) == 0);
-    for (int col = 0; col < hd_run_vectors(run); col++)
-        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(run), col),
-                    hd_spectrum_exponent(hd_run_spectrum(other), col), 0.0);
+    check_same_exponents(run, other, 0.0);
 }

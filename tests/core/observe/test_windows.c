@@ -7,18 +7,13 @@
 
 enum { VECTORS = 32 };
 
+/** Looks fall on multiples of the interval. */
 static hd_scene_def small(void)
 {
-    hd_scene_def scene = scene(.disks = VECTORS / 4, .density = 0.5, .exponents = HD_EXPONENTS_ALL,
-                               .equilibration = 10.0, .warmup = 100.0, .duration = 300.0,
-                               .report_interval = 1.0);
-    scene.interval = 0.25; /* looks fall on multiples of it */
-    scene.observe = HD_OBSERVE_COVARIANT;
-    scene.covariant_window = 20.0;
-    scene.covariant_transient = 60.0;
-    scene.covariant_sampling = 2.0;
-    scene.threads = 1;
-    return scene;
+    return scene(.disks = VECTORS / 4, .density = 0.5, .exponents = HD_EXPONENTS_ALL,
+                 .equilibration = 10.0, .warmup = 100.0, .duration = 300.0, .report_interval = 1.0,
+                 .interval = 0.25, .observe = HD_OBSERVE_COVARIANT, .covariant_window = 20.0,
+                 .covariant_transient = 60.0, .covariant_sampling = 2.0, .threads = 1);
 }
 
 static double averaging_start(const hd_run *run)
@@ -106,10 +101,7 @@ static void check_forward_pass(int exponents)
     assert_null(hd_run_covariant(other));
     assert_true(hd_run_cost(other).covariant == 0.0);
     const double rounding = hd_run_cost(run).error_bound + hd_run_cost(other).error_bound;
-    for (int col = 0; col < VECTORS; col++)
-        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(run), col),
-                    hd_spectrum_exponent(hd_run_spectrum(other), col),
-                    exponents == HD_EXPONENTS_ALL ? rounding : 0.0);
+    check_same_exponents(run, other, exponents == HD_EXPONENTS_ALL ? rounding : 0.0);
 }
 
 /** Half of the vectors are orthonormalised better and at other times for them. */
@@ -208,21 +200,6 @@ TEST(other_stages_do_not_disturb)
         const double condition = scene.accuracy / (2.0 * DBL_EPSILON);
         CHECK_CLOSE(hd_covariant_null_most(c), 0.0, 16.0 * DBL_EPSILON * condition);
     }
-}
-
-TEST(the_positive_half_has_no_spaces)
-{
-    OWNED(hd_run) *run = finished(scene_from(small(), .exponents = HD_EXPONENTS_POSITIVE));
-    check_windows(run, 12, averaging_start(run));
-    const hd_covariant *c = hd_run_covariant(run);
-    assert_int_equal(hd_covariant_vectors(c), (VECTORS - 6) / 2);
-    assert_false(hd_splitting_has_spaces(hd_covariant_splitting(c)));
-    assert_true(hd_covariant_null(c) < 0 && hd_covariant_start_mismatch(c).centre < 0 &&
-                hd_covariant_start_mismatch(c).stable < 0);
-    assert_true(hd_covariant_start_mismatch(c).most >= 0);
-    for (int col = 0; col < hd_covariant_vectors(c); col++)
-        assert_true(hd_covariant_widths(c)[col] >= 4.0 / VECTORS &&
-                    hd_covariant_widths(c)[col] <= 1.0);
 }
 
 /* ---- room ---------------------------------------------------------------------------------- */

@@ -12,6 +12,14 @@ static hd_scene_def scene_of_runs(int disks, unsigned observe)
                  .observe = observe);
 }
 
+/** By all ranks together. */
+static hd_run *shared(hd_scene_def scene)
+{
+    hd_run *run = NULL;
+    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    return run;
+}
+
 static void expect_same_exponents(const hd_run *run, const hd_run *alone)
 {
     const double bound = hd_run_cost(run).error_bound + hd_run_cost(alone).error_bound;
@@ -33,10 +41,7 @@ TEST(exponents_are_those_of_one_rank)
     for (int k = 0; k < 3; k++) {
         hd_scene_def scene = scene_of_runs(k == 0 ? 60 : 24, 0);
         scene.exponents = exponents[k];
-        OWNED(hd_run) *alone = created(scene), *run = NULL;
-        CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
-        finish(run);
-        finish(alone);
+        OWNED(hd_run) *run = finish(shared(scene)), *alone = finished(scene);
         expect_same_exponents(run, alone);
     }
 }
@@ -68,10 +73,7 @@ static void expect_modes_of_one_rank(int exponents)
     hd_scene_def scene = scene_from(
         scene_of_runs(60, HD_OBSERVE_PHASES | HD_OBSERVE_T_PHASES | HD_OBSERVE_STRUCTURE),
         .exponents = exponents);
-    OWNED(hd_run) *alone = created(scene), *run = NULL;
-    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
-    finish(run);
-    finish(alone);
+    OWNED(hd_run) *run = finish(shared(scene)), *alone = finished(scene);
     expect_same_exponents(run, alone);
     const hd_modes *own = hd_run_modes(alone), *shared = hd_run_modes(run);
     const int n = hd_run_vectors(run), subspaces = hd_fields_subspaces(hd_modes_fields(own));
@@ -116,10 +118,7 @@ TEST(modes_are_those_of_one_rank)
 TEST(widths_and_gas_are_those_of_one_rank)
 {
     const hd_scene_def scene = scene_of_runs(60, HD_OBSERVE_LOCALIZATION | HD_OBSERVE_GAS);
-    OWNED(hd_run) *alone = created(scene), *run = NULL;
-    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
-    finish(run);
-    finish(alone);
+    OWNED(hd_run) *run = finish(shared(scene)), *alone = finished(scene);
     hd_localization *shared = hd_run_localization(run), *own = hd_run_localization(alone);
     assert_true(hd_localization_samples(own) > 0);
     assert_true(hd_localization_samples(shared) == hd_localization_samples(own));
@@ -140,9 +139,7 @@ TEST(bits_are_the_same)
     double kept[2 * 30];
     int n = 0;
     for (int again = 0; again < 2; again++) {
-        OWNED(hd_run) *run = NULL;
-        CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
-        finish(run);
+        OWNED(hd_run) *run = finish(shared(scene));
         n = hd_run_vectors(run);
         for (int col = 0; col < n; col++) {
             double here = hd_spectrum_exponent(hd_run_spectrum(run), col), first = here;
@@ -168,8 +165,7 @@ static void expect_vectors_of_one_rank(int exponents)
     hd_scene_def scene = scene_from(
         scene_of_runs(60, HD_OBSERVE_ALL & ~(unsigned)HD_OBSERVE_COVARIANT),
         .exponents = exponents);
-    hd_run *run, *alone = created(scene);
-    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    hd_run *run = shared(scene), *alone = created(scene);
     hd_run_fields_from(run, 100);
     finish(run);
     finish(alone);
@@ -211,8 +207,7 @@ TEST(vectors_are_gathered_for_reports)
 TEST(vectors_are_gathered_for_fields)
 {
     const hd_scene_def scene = scene_of_runs(30, HD_OBSERVE_FIELDS);
-    OWNED(hd_run) *run = NULL;
-    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    OWNED(hd_run) *run = shared(scene);
     hd_run_fields_from(run, 40);
     finish(run);
     const hd_columns got = hd_run_frame_columns(run);
@@ -227,9 +222,7 @@ TEST(nothing_is_gathered_for_nobody)
     for (int k = 0; k < 2; k++) {
         const hd_scene_def scene = scene_from(scene_of_runs(30, HD_OBSERVE_STEPS),
                                               .exponents = exponents[k]);
-        OWNED(hd_run) *run = NULL;
-        CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
-        finish(run);
+        OWNED(hd_run) *run = finish(shared(scene));
         assert_true(hd_modes_samples(hd_run_modes(run)) > 0);
         assert_int_equal(hd_run_frame_columns(run).count, 0);
     }
@@ -243,10 +236,7 @@ TEST(covariant_vectors_are_those_of_one_rank)
         .covariant_window = 10.0, .covariant_transient = 10.0, .covariant_sampling = 1.0);
     for (int k = 0; k < 2; k++) {
         scene.covariant_storage = k == 0 ? HD_STORAGE_MEMORY : HD_STORAGE_RECOMPUTE;
-        OWNED(hd_run) *alone = created(scene), *run = NULL;
-        CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
-        finish(run);
-        finish(alone);
+        OWNED(hd_run) *run = finish(shared(scene)), *alone = finished(scene);
         const hd_covariant *a = hd_run_covariant(run), *b = hd_run_covariant(alone);
         assert_int_equal(hd_covariant_windows(a), hd_covariant_windows(b));
         assert_true(hd_covariant_windows(a) >= 2);
@@ -281,8 +271,7 @@ TEST(disks_are_compared)
 static void expect_watched(int disks)
 {
     const hd_scene_def scene = scene_of_runs(disks, HD_OBSERVE_STEPS | HD_OBSERVE_PHASES);
-    OWNED(hd_run) *run = NULL;
-    CHECK_OK(hd_run_create_shared(&run, &scene, ranks, NULL, 0));
+    OWNED(hd_run) *run = shared(scene);
     const int first = hd_run_vectors(run) - 6;
     hd_run_watch(run, 0.25, first);
     int seen = 0;

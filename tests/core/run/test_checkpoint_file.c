@@ -31,6 +31,14 @@ static void file_write(const char *path, const char *data, size_t size)
     fclose(file);
 }
 
+static void expect_as_before(const bytes *before)
+{
+    const bytes now = kept_file(PATH);
+    assert_int_equal(now.size, before->size);
+    assert_memory_equal(now.data, before->data, before->size);
+    free(now.data);
+}
+
 /** A small one: of two disks. */
 static bytes checkpoint_bytes(void)
 {
@@ -156,10 +164,7 @@ TEST(a_write_that_fails_leaves_the_file)
         assert_int_equal(status, HD_FILE_FAULT);
         assert_non_null(strstr(message, "File too large"));
         assert_int_not_equal(access(PART, F_OK), 0);
-        const bytes after = kept_file(PATH);
-        assert_int_equal(after.size, before.size);
-        assert_memory_equal(after.data, before.data, before.size);
-        free(after.data);
+        expect_as_before(&before);
     }
     free(before.data);
 }
@@ -173,11 +178,8 @@ TEST(a_run_that_is_no_number_is_not_written)
     hd_frame_data(run->carrier.frame)[17] = NAN;
     assert_int_equal(hd_run_save(run, PATH, KEPT_LABEL, message, sizeof message), HD_NOT_FINITE);
     assert_non_null(strstr(message, "frame vectors: a number is not finite"));
-    const bytes after = kept_file(PATH);
-    assert_int_equal(after.size, before.size);
-    assert_memory_equal(after.data, before.data, before.size);
+    expect_as_before(&before);
     free(before.data);
-    free(after.data);
 }
 
 /** Of what cannot be written for another reason than the file, the status says why. */
@@ -193,14 +195,6 @@ TEST(a_fault_without_words_is_named)
     assert_non_null(strstr(message, "frame vectors: out of memory"));
 }
 
-static void put(const char *path, const char *text, size_t size)
-{
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(text, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
-}
-
 /** What a killed process has left is written over; what somebody else has there, stays. */
 TEST(only_a_part_is_written_over)
 {
@@ -209,16 +203,16 @@ TEST(only_a_part_is_written_over)
     const char *const left[] = {begun, zeros, begun};
     const size_t sizes[] = {sizeof begun, sizeof zeros, 0};
     for (int k = 0; k < 3; k++) {
-        put(PART, left[k], sizes[k]);
+        file_write(PART, left[k], sizes[k]);
         CHECK_OK(hd_checkpoint_writable(PATH, message, sizeof message));
     }
-    put(PART, "notes of somebody, longer than a head", 37);
+    file_write(PART, "notes of somebody, longer than a head", 37);
     assert_int_equal(hd_checkpoint_writable(PATH, message, sizeof message), HD_FILE_FAULT);
     assert_non_null(strstr(message, "no part of a checkpoint"));
     bytes now = kept_file(PART);
     assert_int_equal(now.size, 37);
     free(now.data);
-    put(PART, begun, sizeof begun);
+    file_write(PART, begun, sizeof begun);
     (void)remove("other.name");
     assert_int_equal(link(PART, "other.name"), 0);
     assert_int_equal(hd_checkpoint_writable(PATH, message, sizeof message), HD_FILE_FAULT);

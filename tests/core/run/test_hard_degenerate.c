@@ -131,16 +131,14 @@ static void check_watch(const watch *w, int resolved, long moves)
     assert_true(w->largest < PI);
 }
 
+/** One sample of the phases in each report. */
 static hd_scene_def watched(int disks, double density, double aspect, hd_boundary x, hd_boundary y)
 {
-    hd_scene_def scene = scene(.disks = disks, .density = density, .aspect = aspect,
-                               .boundary[0] = x, .boundary[1] = y, .equilibration = 50.0,
-                               .warmup = 200.0, .duration = HD_SANITIZED ? 200.0 : 300.0);
-    scene.report_interval = 0.25; /* one sample of the phases per report */
-    scene.observe = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES;
-    scene.max_mode_number = 1;
-    scene.threads = 1;
-    return scene;
+    return scene(.disks = disks, .density = density, .aspect = aspect, .boundary[0] = x,
+                 .boundary[1] = y, .equilibration = 50.0, .warmup = 200.0,
+                 .duration = HD_SANITIZED ? 200.0 : 300.0, .report_interval = 0.25,
+                 .observe = HD_OBSERVE_MODES | HD_OBSERVE_STEPS | HD_OBSERVE_PHASES,
+                 .max_mode_number = 1, .threads = 1);
 }
 
 /** A step is lost and found, or moves, at two of 800 looks at most. */

@@ -63,27 +63,8 @@ TEST(gas_to_solid_is_the_twins)
 {
     for (int k = 0; k < DENSITIES; k++) {
         const hd_scene_def def = packed(5, DENSITY[k]);
-        hd_trajectory *fast;
-        CHECK_OK(hd_trajectory_create(&fast, &def));
-        twin_compare(fast, &def, 2000);
+        twin_compare(trajectory_of(def), &def, 2000);
         check_conserved(&def, HD_SANITIZED || !second_tier() ? 2e4 : 2e5);
-    }
-}
-
-/** [T2] within a percent; 1e5 collisions scatter by a third of that. */
-TEST(thin_gas_collides_as_enskog_says)
-{
-    const double count = HD_SANITIZED ? 2e4 : 1e5, allowed = HD_SANITIZED ? 0.02 : 0.01;
-    for (int k = 0; k < 3; k++) {
-        const hd_scene_def def = scene_of(400, DENSITY[k], 1.0, P, P, 31);
-        const double eta = PI * DENSITY[k] / 4.0;
-        const double contact = (1.0 - 7.0 * eta / 16.0) / ((1.0 - eta) * (1.0 - eta));
-        const double rate = sqrt(PI) * DENSITY[k] * contact * def.disks, start = 1e4 / rate;
-        MADE(hd_trajectory, tr, &def);
-        CHECK_OK(hd_trajectory_extend(tr, NULL, start));
-        const double before = (double)hd_trajectory_collisions(tr);
-        CHECK_OK(hd_trajectory_extend(tr, NULL, start + count / rate));
-        CHECK_CLOSE((double)hd_trajectory_collisions(tr) - before, count, allowed * count);
     }
 }
 
@@ -165,11 +146,10 @@ TEST(several_grazes_in_an_interval_are_divided)
     for (int k = 0; k < 2; k++) {
         hd_scene_def scene = scene_of(3, 0.001, 1.0, P, P, seeds[k]);
         const double time = 300.0 / (3.5 * scene.density);
-        OWNED(hd_run) *run = NULL;
         scene.exponents = HD_EXPONENTS_ALL_INDEPENDENT;
         scene.equilibration = scene.warmup = 0.0;
         scene.duration = scene.report_interval = time;
-        run = finished(scene);
+        OWNED(hd_run) *run = finished(scene);
         CHECK_CLOSE(hd_spectrum_pairing_error(hd_run_spectrum(run)) * time, 0.0, 12.0);
     }
 }
@@ -185,9 +165,7 @@ static void check_channel(const channel *c, hd_boundary x, hd_boundary y)
     enum { CHAIN = 4 };
     const double length = x == R ? 1.0 + (CHAIN - 1) * (1.0 + c->gap) : CHAIN * (1.0 + c->gap);
     const hd_scene_def scene = scene_in_box(CHAIN, length, 1.0 + c->width, x, y, 2);
-    hd_trajectory *fast;
-    CHECK_OK(hd_trajectory_create(&fast, &scene));
-    twin_compare(fast, &scene, 1000);
+    twin_compare(trajectory_of(scene), &scene, 1000);
     OWNED(hd_run) *run = finished_after(scene,
                                         time_of(&scene, HD_SANITIZED ? 0.2 * c->count : c->count));
     check_spectrum(run);

@@ -29,8 +29,7 @@ static seen settled(const hd_scene_def *scene)
     const double from = run->agenda.schedule.start,
                  sample = hd_agenda_sample_longest(&run->agenda, &run->carrier.interval);
     until_time(run, from + 3.5 * fmax(sample, scene->report_interval));
-    const seen last = seen_of(run);
-    return last;
+    return seen_of(run);
 }
 
 /** What the conditioning allows where nothing else limits: reports are far apart, and far from a
@@ -56,8 +55,7 @@ static long orthonormalisations_with(double report_interval)
         CHECK_OK(hd_run_advance(run));
     const long before = hd_run_cost(run).orthonormalisations;
     until_time(run, run->agenda.schedule.start + 132.0);
-    const long count = hd_run_cost(run).orthonormalisations - before;
-    return count;
+    return hd_run_cost(run).orthonormalisations - before;
 }
 
 /** Conditions scatter: within a tenth. */

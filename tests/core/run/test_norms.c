@@ -34,9 +34,7 @@ TEST(exponents_do_not_depend_on_it)
     assert_true(with > 40);
     assert_int_equal(without, 0);
     const double bound = hd_run_cost(run).error_bound + hd_run_cost(twin).error_bound;
-    for (int col = 0; col < VECTORS; col++)
-        CHECK_CLOSE(hd_spectrum_exponent(run->carrier.spectrum, col),
-                    hd_spectrum_exponent(twin->carrier.spectrum, col), bound);
+    check_same_exponents(run, twin, bound);
 }
 
 /** Angles and ratios of the halves are those of the last measured state, like the averages, and not

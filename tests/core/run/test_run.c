@@ -69,9 +69,7 @@ TEST(no_crumbs_are_left_at_reports)
                                         .duration = 80.0, .observe = 0);
         OWNED(hd_run) *run = until(created(scene), HD_AVERAGING);
         double shortest = INFINITY;
-        while (going_on(run)) {
-            shortest = fmin(shortest, hd_run_cost(run).interval);
-        }
+        while (going_on(run)) shortest = fmin(shortest, hd_run_cost(run).interval);
         CHECK_CLOSE(shortest, fmax(shortest, scene.report_interval), 1e-9);
     }
 }

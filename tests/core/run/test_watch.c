@@ -41,9 +41,7 @@ TEST(a_view_of_the_disks_changes_nothing)
     const int few = finish_counting(plain), many = finish_counting(viewed);
     assert_true(many > 105.0 / 0.037);
     assert_true(few < many / 10);
-    for (int col = 0; col < hd_run_vectors(plain); col++)
-        assert_true(hd_spectrum_exponent(hd_run_spectrum(plain), col) ==
-                    hd_spectrum_exponent(hd_run_spectrum(viewed), col));
+    check_same_exponents(plain, viewed, 0.0);
     check_same_phases(plain, viewed);
 }
 
@@ -116,9 +114,7 @@ TEST(looking_spoils_no_exponent)
     finish_counting(viewed);
     const double bound = hd_run_cost(plain).error_bound + hd_run_cost(viewed).error_bound;
     assert_true(bound > 0.0 && bound < 4e-8); /* accuracy 1e-8, stated with room [T6] */
-    for (int col = 0; col < hd_run_vectors(plain); col++)
-        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(viewed), col),
-                    hd_spectrum_exponent(hd_run_spectrum(plain), col), bound);
+    check_same_exponents(viewed, plain, bound);
 }
 
 /** In the middle of an interval nothing is known unless somebody wants it, and modes are wanted at

@@ -118,6 +118,20 @@ rotating t_pairs(int d)
         HD_MODE_T, 1, d - 1, 2 * d, 2.4);
 }
 
+void exchange(rotating *r, int a, int b, double sign)
+{
+    const int column = r->column[a];
+    r->column[a] = r->column[b];
+    r->column[b] = column;
+    r->sign[a] *= sign;
+}
+
+void check_columns(const rotating *r)
+{
+    for (int v = 0; v < 2 * r->d; v++)
+        for (int c = 0; c < r->d; c++) assert_int_equal(phase_of(r, v, c)->col, r->column[v]);
+}
+
 double strength_of(const hd_phase *phase) { return phase->a * phase->a + phase->b * phase->b; }
 
 int check_tracks(const rotating *r, double angle, double time, double tolerance)

@@ -48,6 +48,12 @@ void turn(rotating *r, double omega);
 /** Exponents all alike, and the steps anew. */
 void find(rotating *r, double exponent);
 
+/** Vectors a and b change places; a takes this sign, too. */
+void exchange(rotating *r, int a, int b, double sign);
+
+/** Fails unless the slots are in the columns of their vectors. */
+void check_columns(const rotating *r);
+
 const hd_phase *phase_of(const rotating *r, int slot, int c);
 double strength_of(const hd_phase *phase);
 /** Every strong track turned by `angle` in all, tracked for so long. Returns how many there are. */

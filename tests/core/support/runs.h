@@ -38,6 +38,15 @@ static inline bool going_on(hd_run *run)
     return true;
 }
 
+/** All exponents of both runs, apart by no more than this. */
+static inline void check_same_exponents(const hd_run *a, const hd_run *b, double tolerance)
+{
+    assert_int_equal(hd_run_vectors(a), hd_run_vectors(b));
+    for (int col = 0; col < hd_run_vectors(a); col++)
+        CHECK_CLOSE(hd_spectrum_exponent(hd_run_spectrum(a), col),
+                    hd_spectrum_exponent(hd_run_spectrum(b), col), tolerance);
+}
+
 /** Behind the controller's back: where an interval would be planned, one of this length, within the
  * stage. */
 static inline void force_interval(hd_run *run, double length)

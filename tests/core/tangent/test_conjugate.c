@@ -17,8 +17,7 @@ static double rounding_of(int disks) { return 8.0 * DBL_EPSILON * sqrt(2.0 * dis
 static double defect_of(hd_frame *frame)
 {
     MADE(hd_ortho, ortho, hd_frame_rows(frame), hd_frame_vectors(frame));
-    const double defect = hd_ortho_defect_measured(ortho, frame, HD_NORM_FULL);
-    return defect;
+    return hd_ortho_defect_measured(ortho, frame, HD_NORM_FULL);
 }
 
 /** One, a part of a panel, and several. */

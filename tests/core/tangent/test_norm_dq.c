@@ -144,8 +144,7 @@ TEST(the_defect_is_foreseen)
 static hd_status step_of(hd_frame *frame, hd_ortho_limits limits)
 {
     MADE(hd_ortho, ortho, hd_frame_rows(frame), hd_frame_vectors(frame));
-    const hd_status status = hd_ortho_step(ortho, frame, limits);
-    return status;
+    return hd_ortho_step(ortho, frame, limits);
 }
 
 /** Two vectors with the same dq half: different for the full norm. */

@@ -254,8 +254,7 @@ static hd_status step_with_entry(double value, double condition, int twin)
         for (int row = 0; row < 40; row++)
             v[row * hd_frame_stride(frame) + 9] = v[row * hd_frame_stride(frame) + 2];
     const hd_ortho_limits limits = {condition, 0.5, HD_NORM_FULL};
-    const hd_status status = hd_ortho_step(ortho, frame, limits);
-    return status;
+    return hd_ortho_step(ortho, frame, limits);
 }
 
 TEST(what_cannot_be_trusted_is_refused)
