@@ -59,7 +59,7 @@ def bags(factors=(1.0, 1.0, 1.0, 1.0)):
 
 class Aspect(unittest.TestCase):
     def test_the_runs_are_those_of_the_plan(self):
-        self.assertEqual(sorted(bags()), sorted(aspect.runs(None)))
+        self.assertEqual(sorted(bags()), sorted(reproduced.part_of(aspect).runs))
 
     def test_wave_numbers_of_the_plan(self):
         """All within what the rounding of N moves: k falls as N^-1/2, and N is rounded by a
@@ -92,9 +92,9 @@ class Aspect(unittest.TestCase):
             row = rows[f'{name} about their mean']
             self.assertEqual((row.verdict, row.published, row.count), ('differs', 3, 4))
             self.assertRegex(row.remark, r'; farthest at A = 1\.00, \+6\.[0-9]+ %$')
-        for claim in aspect.claims(bags()):
+        for claim in reproduced.claims(aspect, bags()).values():
             self.assertEqual(claim.verdict, 'agrees')
-        found = [(claim.name, claim.values) for claim in aspect.claims(bags())]
+        found = [(claim.name, claim.values) for claim in reproduced.claims(aspect, bags()).values()]
         name = 'slopes do not depend on the aspect ratio'
         self.assertEqual(found, [(f'{name}, periodic', 8), (f'{name}, reflecting', 12)])
 

@@ -102,7 +102,8 @@ class Coordinates(Part):
             self.assertAlmostEqual(rows[quantity].measured, 0.0, delta=ROUNDING)
         pairing = rows['pairing error, max |lambda_l + lambda_(4N+1-l)|']
         self.assertEqual(pairing.measured, 0.25)
-        self.assertTrue(pairing.remark.endswith('all of the half: 5.0e-01'), pairing.remark)
+        total = rows['sum of the exponents of both halves']
+        self.assertAlmostEqual(total.measured, 0.5, delta=ROUNDING)
 
     def test_one_vector_off_in_one_report(self):
         def change(cos, ratio, report):
@@ -172,7 +173,7 @@ class Coordinates(Part):
             rows['cos Theta just below the zero modes, index 1557'].verdict, 'not measured'
         )
 
-    def test_zero_modes_beside_their_neighbours(self):
+    def test_zero_modes_beside_the_limits(self):
         """Their angle falls like the inverse of the age of the frame: 3 / age here."""
 
         def change(cos, ratio, report):
@@ -180,18 +181,32 @@ class Coordinates(Part):
             cos[END : END + 3] = 1 - 0.5 * (3.0 / age) ** 2
             cos[END + 3 : END + 6] = -cos[END]
 
-        for far, verdict in ((0.98, 'differs'), (1.0, 'agrees')):
+        claim = self.claims(self.full(change))[
+            'cos Theta of the zero modes lies between these limits'
+        ]
+        self.assertEqual((claim.verdict, claim.values), ('agrees', 6))
+        row = self.rows(self.full(change))['|cos Theta| of zero mode 41']
+        self.assertTrue(row.remark.startswith('cos Theta -0.9'), row.remark)
+        self.assertTrue(row.remark.endswith('of the frame: 3.00 to 3.00'), row.remark)
 
-            def nearer(cos, ratio, report, far=far):
-                change(cos, ratio, report)
-                cos[END - 1], cos[END + 6] = far, -far
-
-            bags = self.full(nearer)
-            claim = self.claims(bags)['cos Theta of the zero modes lies between these limits']
-            self.assertEqual((claim.verdict, claim.values), (verdict, 6))
-            row = self.rows(bags)['|cos Theta| of zero mode 41']
-            self.assertTrue(row.remark.startswith('cos Theta -0.9'), row.remark)
-            self.assertTrue(row.remark.endswith('of the frame: 3.00 to 3.00'), row.remark)
+    def test_independent_pairs(self):
+        """EXPONENTS are no pairs but for what is set so: chi^2 of the vectors of steps."""
+        info = made.run_info(accuracy=ACCURACY)
+        steps = made.steps([made.step(info, made.T, 1, 0, 36, 37)])
+        for off, verdict in ((0.0, 'agrees'), (0.08, 'differs')):
+            half = np.linspace(3, 1, END)
+            exponents = [*half, *[0.0] * (COUNT - 2 * END), *-half[::-1]]
+            exponents[-37] += off
+            last = made.spectrum(exponents, 20.0, error=1e-3)
+            last.cos_theta, last.dp_dq_ratio = symmetric()
+            bags = {'halves': self.bag(f'halves{off}', [info, last, steps])}
+            rows = self.rows(bags)
+            row = rows['lambda_l + lambda_(4N+1-l) of the vectors of steps']
+            self.assertAlmostEqual(row.measured, off**2 / 2 / 1e-6, delta=1e-6)
+            self.assertEqual((row.published, row.verdict), (2, verdict))
+            total = rows['sum of the exponents of both halves']
+            self.assertAlmostEqual(total.measured, off, delta=1e-9)
+            self.assertEqual((total.left_open, total.verdict), (2 * ACCURACY, verdict))
 
     def test_cosines_of_steps(self):
         rows = self.rows(self.full())

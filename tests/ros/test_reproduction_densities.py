@@ -15,6 +15,7 @@ from study.parts import densities
 
 OFF = 1.01  # our slopes over the paper's fits
 ERROR = 0.001  # relative, of exponents
+CROSS = 'c_T is above c_L at low density and below it at high density'
 V_OVER_C = {0.7: 1.08, 0.8: 1.14}
 
 
@@ -74,10 +75,11 @@ class Densities(unittest.TestCase):
         self.assertEqual(
             v.remark, f'8 phases of LP(1,0); all 8 phases: 1.612(23), {over:.3f} Z / sqrt(2)'
         )
-        close = rows['v / c_L at density 0.5']
-        self.assertAlmostEqual(close.measured, 1.0, places=9)
-        self.assertAlmostEqual(close.error, np.hypot(0.001, 0.002), places=9)
-        self.assertEqual((close.published, close.left_open, close.verdict), (1.0, 0.03, 'agrees'))
+        close, c_l = rows['v - c_L at density 0.5'], OFF * paper.slope_l(0.5)
+        self.assertAlmostEqual(close.measured, 0.0, places=9)
+        self.assertAlmostEqual(close.error, np.hypot(0.001, 0.002) * c_l, places=9)
+        self.assertEqual((close.published, close.left_open, close.verdict), (0.0, 0.1, 'agrees'))
+        self.assertEqual(close.remark, 'v / c_L 1.0000(22)')
         self.assertEqual(rows['v / c_L at density 0.6'].verdict, '')
         for density, said in ((0.7, '1.0800(24)'), (0.8, '1.1400(25)')):
             above = rows[f'v / c_L at density {density}']
@@ -91,9 +93,9 @@ class Densities(unittest.TestCase):
             self.assertAlmostEqual(over, 1.0, delta=0.03)
 
     def test_a_velocity_elsewhere_differs(self):
-        far = run(0.5, velocity=1.05 * OFF * paper.slope_l(0.5))
+        far = run(0.5, velocity=0.12 + OFF * paper.slope_l(0.5))
         rows = recorded.by_quantity(densities, bags(density_05=far))
-        self.assertEqual(rows['v / c_L at density 0.5'].verdict, 'differs')
+        self.assertEqual(rows['v - c_L at density 0.5'].verdict, 'differs')
         for v, verdict in (
             (0.99, 'differs'),
             (0.995, 'not decided'),  # 2.2 standard errors to either side
@@ -117,22 +119,31 @@ class Densities(unittest.TestCase):
         self.assertAlmostEqual(row.error, np.std(off, ddof=1) / 8**0.5, places=9)
 
     def test_crossing(self):
-        row = recorded.by_quantity(densities, bags())['c_T = c_L at density']
-        low, high = crossing.of_fits_between()
-        place = crossing.of_fits()
-        self.assertAlmostEqual(row.published, place)
-        self.assertAlmostEqual(row.left_open, max(place - low, high - place))
-        self.assertLess(
-            abs(row.measured - place), 3 * row.error
-        )  # both branches are off by the same factor
+        """On the side of the fits at each density; exchanged, all are wrong."""
+        rows = recorded.by_quantity(densities, bags())
+        row, low = rows['density at which c_T = c_L'], rows['c_T - c_L at density 0.1']
+        # both branches are off by the same factor
+        self.assertLess(abs(row.measured - crossing.of_fits()), 3 * row.error)
         self.assertLess(row.error, 0.003)
         self.assertNotIn('slopes', row.remark)
+        apart = OFF * (paper.slope_t(0.1) - paper.slope_l(0.1))
+        self.assertAlmostEqual(low.measured, apart, places=9)
+        error = ERROR * OFF * np.hypot(paper.slope_t(0.1), paper.slope_l(0.1))
+        self.assertAlmostEqual(low.error, error, places=9)
+        self.assertIn(f'{apart / error:+.0f} standard errors', low.remark)
+        self.assertEqual([low.cells()[1], low.verdict], ['above 0', 'agrees'])
+        self.assertEqual(rows['c_T - c_L at density 0.4'].cells()[1], 'below 0')
+        exchanged = bags()
+        for bag in exchanged.values():
+            t, lp = bag.recording.steps.steps
+            t.exponent, lp.exponent = lp.exponent, t.exponent
+        self.assertEqual(recorded.verdicts(densities, exchanged)[CROSS], 'differs')
 
     def test_a_crossing_says_which_slopes_share_their_vectors(self):
         mixed = run(0.3)
         t, lp = mixed.recording.steps.steps
         lp.first_index, lp.last_index, lp.set = t.first_index, t.last_index, t.set
-        row = recorded.by_quantity(densities, bags(density_03=mixed))['c_T = c_L at density']
+        row = recorded.by_quantity(densities, bags(density_03=mixed))['density at which c_T = c_L']
         self.assertTrue(row.remark.endswith('; 16 slopes, 2 of them share vectors'), row.remark)
 
     def test_by_degeneracy_where_unresolved(self):
@@ -153,8 +164,8 @@ class Densities(unittest.TestCase):
             'c_L at density 0.1',
             'c_T at density 0.2',
             'v at density 0.2',
-            'v / c_L at density 0.1',
-            'v / c_L at density 0.2',
+            'v - c_L at density 0.1',
+            'v - c_L at density 0.2',
         ):
             verdict = rows[quantity].verdict
             self.assertEqual(verdict, 'not measured', quantity)

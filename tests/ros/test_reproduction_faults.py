@@ -25,7 +25,7 @@ CURVES = ['lambda_T = 1.412 k + 0.086 k^2', 'lambda_L = 1.422 k + 0.55 k^2']
 FIELDS = (
     'T and LP modes are the vector fields of their wave vectors',
     'T modes are free of divergence',
-    'L modes, reconstructed from the vectors of an LP step, are free of rotation',
+    'L modes are free of rotation, reconstructed from the vectors of an LP step',
 )
 CK = 'exponents of the five smallest steps are c k, with c of the fits at density 0.8'
 

@@ -8,7 +8,7 @@ import numpy as np
 import made
 import recorded
 from made import LP, T
-import reproduced  # noqa: F401, finds the study
+import reproduced
 from study import growth
 from study.parts import fluctuations, smallest
 
@@ -141,7 +141,7 @@ class Fluctuations(unittest.TestCase):
         cls.rows = recorded.by_quantity(fluctuations, cls.bags)
 
     def test_the_runs_are_those_of_the_plan(self):
-        self.assertEqual(sorted(SHAPES), sorted(fluctuations.runs(None)))
+        self.assertEqual(sorted(SHAPES), sorted(reproduced.part_of(fluctuations).runs))
 
     def test_against_the_number_of_disks(self):
         for group in growth.GROUPS:

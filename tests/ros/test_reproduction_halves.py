@@ -11,7 +11,7 @@ import reproduced  # noqa: F401, finds the study
 from study import halves
 from study.parts import hydro
 from study.row import UNDECIDED
-from test_hydro import Run
+from test_reproduction_hydro import Run
 from turned import Turned
 
 Q, ERROR = 0.8, 0.004
@@ -37,7 +37,12 @@ def responses(c, k, error=ERROR):
 
 def rows(c, error=ERROR):
     found = {wave: responses(c, k, error) for wave, k in NUMBERS.items()}
-    return list(halves.rows(found, NUMBERS))
+    return judged({wave: halves.matrix(found[wave], k) for wave, k in NUMBERS.items()})
+
+
+def judged(matrices):
+    found = halves.ratio(matrices), halves.ahead(matrices), halves.swing(matrices, NUMBERS)
+    return [row.judge({'open': of}) for row, of in zip(found, (0.05, 0.02, 0.02))]
 
 
 class Halves(unittest.TestCase):
@@ -108,8 +113,15 @@ class OfABag(Turned):
         self.assertAlmostEqual(row.measured, -0.05 / 0.64, 9)
         self.assertAlmostEqual(found['angle of dp ahead of dq, mean of a turn'].measured, 0, 9)
 
+    def test_finding(self):
+        """What is symmetric lags near L; a number does not."""
+        for c, verdict in ((SYMMETRIC, 'agrees'), (NUMBER, 'not decided')):
+            matrices = {wave: halves.matrix(responses(c, k), k) for wave, k in NUMBERS.items()}
+            row = halves.swing(matrices, NUMBERS).judge({'below': 0.0})
+            self.assertEqual(row.verdict, verdict)
+
     def test_nothing_measured(self):
-        verdicts = [row.verdict for row in halves.rows({}, {})]
+        verdicts = [row.verdict for row in judged({})]
         self.assertEqual(verdicts, ['not measured'] * 3)
 
 

@@ -241,7 +241,7 @@ class Responses(Turned):
         ):
             bag = self.bag(messages)
             rows = self.rows(bag)
-            self.assertEqual(len(rows), 15)
+            self.assertEqual(len(rows), 16)
             self.assertEqual({row.verdict for row in rows.values()}, {'not measured'})
             self.assertEqual(self.figures(bag), {})
             ((_, lines),) = self.tables(bag).values()

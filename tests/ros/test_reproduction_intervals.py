@@ -7,6 +7,7 @@ import numpy as np
 
 import made
 from made import LP, T
+import reproduced
 from reproduced import Part
 from study.parts import intervals
 
@@ -39,7 +40,7 @@ class Intervals(Part):
         return {f'interval_{number}': trial for number, trial in enumerate(trials)}
 
     def test_runs(self):
-        found = intervals.runs(None)
+        found = reproduced.part_of(intervals).runs
         self.assertEqual(len(found), len(set(found)))
         for start, count in (('interval_', 5), ('independent_0_5_', 6), ('independent_8_', 6)):
             self.assertEqual(sum(name.startswith(start) for name in found), count)

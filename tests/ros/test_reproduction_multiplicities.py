@@ -7,17 +7,19 @@ import os
 import tempfile
 import unittest
 from math import log
+from unittest import mock
 
 import numpy as np
 
 import made
 import recorded
 from made import LP, T
-import reproduced  # noqa: F401, finds the study
+import reproduced
 from study.bags import Bag
 from study.parts import multiplicities as part
 
 PERIODIC, WALLS = 'periodic', 'reflecting'
+OF_BOXES = part.counted, part.steps_found
 
 
 def sampled_rank(info, kind, nx, ny):
@@ -117,9 +119,9 @@ def usual(boundaries=(PERIODIC, PERIODIC)):
 
 class Rows(unittest.TestCase):
     def rows(self, found):
-        levels = part.levels(found)
-        rows = part._step_rows(found, 'box', levels) + [part._found_row(found, 'box', levels)]
-        return {row.quantity: row for row in rows}
+        with mock.patch.object(part, 'BOXES', {'one': 'box'}):
+            bags = {'one': recorded.Bag(found)}
+            return {row.quantity: row for of in OF_BOXES for row in of(bags)}
 
     def test_counted(self):
         rows = self.rows(usual())
@@ -224,6 +226,11 @@ class Rows(unittest.TestCase):
         self.assertEqual({row.verdict for row in rows.values()}, {'not measured'})
 
 
+def zero_rows(bag, count):
+    with mock.patch.object(part, 'ZEROS', {'one': (count, 'so')}):
+        return [row for of in (part.vanishing, part.zero_modes) for row in of({'one': bag})]
+
+
 class Zeros(unittest.TestCase):
     """Through bags: 40 exponents of 10 disks, some of which vanish like ln(t)/t."""
 
@@ -252,7 +259,7 @@ class Zeros(unittest.TestCase):
 
     def test_counted(self):
         for count in (6, 4, 2):
-            number, trace, size = part._zero_rows(self.bag(count), count, 'so')
+            number, trace, size = zero_rows(self.bag(count), count)
             self.assertEqual((number.measured, number.verdict), (count, 'agrees'))
             self.assertIn(
                 f'indices {21 - count // 2}-{20 + count // 2}, smaller than 0.18; the next is 1',
@@ -266,23 +273,23 @@ class Zeros(unittest.TestCase):
             )
 
     def test_without_a_warm_up(self):
-        size = part._zero_rows(self.bag(4, warmup=0.0), 4, 'so')[-1]
+        size = zero_rows(self.bag(4, warmup=0.0), 4)[-1]
         self.assertAlmostEqual(size.measured, 0.5)
 
     def test_another_number_differs(self):
-        number, _, _ = part._zero_rows(self.bag(4), 6, 'so')
+        number, _, _ = zero_rows(self.bag(4), 6)
         self.assertEqual((number.measured, number.verdict), (4, 'differs'))
 
     def test_exponents_that_do_not_vanish(self):
-        number, _, _ = part._zero_rows(self.bag(6, size=15.0), 6, 'so')
+        number, _, _ = zero_rows(self.bag(6, size=15.0), 6)
         self.assertEqual(number.verdict, 'differs')
 
     def test_without_steps_or_spectrum(self):
-        number, mode, _ = part._zero_rows(self.bag(6, with_steps=False), 6, 'so')
+        number, mode, _ = zero_rows(self.bag(6, with_steps=False), 6)
         self.assertEqual((number.verdict, mode.verdict), ('agrees', 'not measured'))
         made.write(self.path, [made.run_info(), made.cost(1.0)])
         self.assertEqual(
-            [row.verdict for row in part._zero_rows(Bag(self.path), 6, 'so')], ['not measured']
+            [row.verdict for row in zero_rows(Bag(self.path), 6)], ['not measured'] * 3
         )
 
 
@@ -296,7 +303,18 @@ def bags():
 
 class Whole(unittest.TestCase):
     def test_the_runs_are_those_of_the_plan(self):
-        self.assertEqual(sorted(bags()), sorted(part.runs(None)))
+        self.assertEqual(sorted(bags()), sorted(reproduced.part_of(part).runs))
+
+    def test_none_below_the_longest_lp_mode(self):
+        """T(1,0), which walls do not have, would be smaller."""
+        alone = run([(0.6, 2), (0.9, 1)], (LP, 1, 0, 198, 199, {}), boundaries=(WALLS, WALLS))
+        for found, count, verdict in (
+            (alone, 0, 'agrees'),
+            (usual(boundaries=(WALLS, WALLS)), 2, 'differs'),
+            (recorded.Recorded(made.run_info()), None, 'not measured'),
+        ):
+            (row,) = part.none({part.WALLED: recorded.Bag(found)})
+            self.assertEqual((row.measured, row.judge({}).verdict), (count, verdict))
 
     def test_every_box_has_rows(self):
         rows = recorded.by_quantity(part, bags())
@@ -324,7 +342,10 @@ class Whole(unittest.TestCase):
         self.assertEqual(recorded.pictures(self, part, bags()), ['stairs'])
 
     def test_boxes_without_anything(self):
-        bare = {name: recorded.Bag(recorded.Recorded(made.run_info())) for name in part.runs(None)}
+        bare = {
+            name: recorded.Bag(recorded.Recorded(made.run_info()))
+            for name in reproduced.part_of(part).runs
+        }
         self.assertEqual({row.verdict for row in recorded.rows(part, bare)}, {'not measured'})
         self.assertEqual(recorded.pictures(self, part, bare), [])
         self.assertEqual([lines for _, _, lines in part.tables(bare)], [[], []])

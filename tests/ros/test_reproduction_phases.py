@@ -89,7 +89,7 @@ class Phases(Turned):
             (0.2, 0.009, 'differs'),
         ):
             line = phases.Line([_Velocity(v, v * error) for v in (1.5, 1.5 * (1 + off))])
-            self.assertEqual(Scatter('v', *line.scatter, phases.PRECISE).verdict, verdict)
+            self.assertEqual(Scatter('v', *line.scatter, telling=2.0).verdict, verdict)
 
     def test_over_the_slope(self):
         slope = 4.624304  # c_L of the paper at density 0.8

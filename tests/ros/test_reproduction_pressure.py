@@ -41,7 +41,7 @@ class Pressure(unittest.TestCase):
         """By hand, and the wave vector's direction between them."""
         info = recorded.info(100, 0.5, 0.5, ('periodic', 'reflecting'))
         rho, lx, ly = pressure.inside(info), info.box_x, info.box_y
-        p, gamma = pressure.pressure(rho), pressure.tension(rho)
+        p, gamma = pressure.HENDERSON.pressure(rho), pressure.tension(rho)
         along = (p * ly - 2 * gamma) * lx / 100 / 2**0.5
         across = p * lx * (ly - 1) / 100 / 2**0.5
         self.assertAlmostEqual(pressure.velocity(info, 1, 0), along, 12)
@@ -101,6 +101,26 @@ class Pressure(unittest.TestCase):
             self.assertEqual(pressure.is_row(info), expected)
         narrow = recorded.info(150, 0.5, 0.0075, ('periodic', 'reflecting'))
         self.assertAlmostEqual(pressure.velocity(narrow, 1, 0), pressure.of_row(0.75, 0.5, True), 9)
+
+    def test_measured(self):
+        """Over Henderson's; straight between densities, with its error."""
+        state = pressure.Equation([(0.8, 0.97, 0.002), (0.4, 1.01, 0.001)])
+        for density, quotient, error in (
+            (0.1, 1.01, 0.001),
+            (0.6, 0.99, 0.0015),
+            (0.9, 0.97, 0.002),
+        ):
+            self.assertAlmostEqual(state.over_henderson(density)[0], quotient)
+            self.assertAlmostEqual(state.over_henderson(density)[1], error)
+            over = state.pressure(density) / pressure.HENDERSON.pressure(density)
+            self.assertAlmostEqual(over, quotient)
+        info = recorded.info(780, 0.8, 0.867)
+        over = pressure.velocity(info, 1, 0, state) / pressure.velocity(info, 1, 0)
+        self.assertAlmostEqual(over, 0.97)
+        self.assertAlmostEqual(pressure.error(info, state), 0.002 / 0.97)
+        row = recorded.info(150, 0.5, 0.0075)
+        self.assertEqual(pressure.error(row, state), 0.0)
+        self.assertEqual(pressure.velocity(row, 1, 0, state), pressure.velocity(row, 1, 0))
 
 
 if __name__ == '__main__':

@@ -53,6 +53,16 @@ class Turning(Turned):
         self.assertIn('+52.4 % off', other.remark)
         self.assertLess(one.error, 1e-6)
 
+    def test_an_l_mode_turns_to_p(self):
+        """If the rate is above 0; of each LP step."""
+        name = 'an L mode turns to P, and a P mode to -L'
+        for way, verdict in ((1, 'agrees'), (-1, 'differs')):
+            bag = self.measured(*self.waves(3.2, way * 2.1))
+            claim = self.claims({turning.RUN: bag})[name]
+            self.assertEqual((claim.verdict, claim.values), (verdict, 2))
+            row = self.rows(bag)['omega of LP(1,1), reflecting']
+            self.assertAlmostEqual(row.measured, way * np.pi / 2 / 2.1, 6)
+
     def test_strength_that_goes_with_the_rate(self):
         """Five turns of two vectors a quarter turn apart: on average each turns as on a circle.
         Weighed with |z|^2 the rate would be lower by (1 - 0.6)^2 / (1 + 0.6^2)."""

@@ -9,7 +9,7 @@ import numpy as np
 import made  # noqa: F401, finds the scripts
 import reproduced  # noqa: F401, finds the study
 from study import row
-from study.row import ABOVE, BELOW, INFERRED, Claim, Row, Scatter
+from study.row import ABOVE, BELOW, Claim, Row, Scatter
 
 TRIALS = 20000
 # of a share of so many trials, five standard errors
@@ -45,13 +45,15 @@ class Rows(unittest.TestCase):
             ((None, 0), (None, 0), 'not measured'),
         ):
             with self.subTest(published=published, measured=measured):
-                one = Row('q', published[0], measured[0], measured[1], published[1])
+                one = Row('q', published[0], *measured, left_open=published[1])
                 self.assertEqual(one.verdict, verdict)
                 self.assertEqual((one.cells()[4], one.values()[6]), (verdict, verdict))
 
     def test_telling(self):
         for error, verdict in ((0.09, 'agrees'), (0.11, 'not decided')):
-            self.assertEqual(Row('q', 0.0, 0.1, error, 0.05, telling=0.5).verdict, verdict)
+            self.assertEqual(
+                Row('q', 0.0, 0.1, error, left_open=0.05, telling=0.5).verdict, verdict
+            )
 
     def test_beside_a_limit(self):
         for sense, way in ((ABOVE, 1), (BELOW, -1)):
@@ -73,13 +75,14 @@ class Rows(unittest.TestCase):
         """A truth that is off by the power is seen in 97.7 % of all trials; one half as far beyond
         what is open, in few."""
         rng = np.random.default_rng(1)
-        one = Row('q', 10.0, 10.0, 0.1, 0.3)
+        one = Row('q', 10.0, 10.0, 0.1, left_open=0.3)
         self.assertAlmostEqual(one.power, 0.8)
         self.assertEqual(one.caught, '8 %')
 
         def seen(off):
             trials = (
-                Row('q', 10.0, value, 0.1, 0.3) for value in rng.normal(10 + off, 0.1, TRIALS)
+                Row('q', 10.0, value, 0.1, left_open=0.3)
+                for value in rng.normal(10 + off, 0.1, TRIALS)
             )
             return np.mean([trial.verdict == 'differs' for trial in trials])
 
@@ -88,7 +91,7 @@ class Rows(unittest.TestCase):
 
     def test_caught(self):
         for one, said in (
-            (Row('q', 0.0, 0.1, 0.2, 0.5, 'mm'), '1.5 mm'),
+            (Row('q', 0.0, 0.1, 0.2, 'mm', left_open=0.5), '1.5 mm'),
             (Row('q', 4, 4), 'any other'),
             (Row('q', 'a', 'a', caught='5 %'), '5 %'),
             (Row('q', 1.0, 1.1, 0.02, unit='mm', sense=ABOVE), '0.1 mm'),
@@ -100,7 +103,7 @@ class Rows(unittest.TestCase):
 
     def test_cells(self):
         self.assertEqual(
-            Row('c', 3.285, 3.2316, 0.0043, 0.09855, 'sigma', 'why').cells(),
+            Row('c', 3.285, 3.2316, 0.0043, 'sigma', 'why', left_open=0.09855).cells(),
             ('c', '3.285 +-0.099', '3.2316(43)', 'sigma', 'agrees', '3.7 %', 'why'),
         )
         self.assertEqual(Row('n', 1558, 1557).cells()[1:3], ('1558', '1557'))
@@ -108,9 +111,9 @@ class Rows(unittest.TestCase):
         self.assertEqual(Row('k', None, float('inf'), 1.0).cells()[1:3], ('-', '-'))
 
     def test_values(self):
-        one = Row('c', 3.285, 3.23164567, 0.0043, 0.0985, 'sigma', 'why')
+        one = Row('c', 3.285, 3.23164567, 0.0043, 'sigma', 'why', left_open=0.0985)
         self.assertEqual(
-            dict(zip(row.HEADER[5:], one.values())),
+            dict(zip(row.HEADER[8:], one.values())),
             dict(
                 quantity='c',
                 published='3.285',
@@ -144,16 +147,16 @@ class Scatters(unittest.TestCase):
             (17.0, [0.5] * 4, 'differs'),
             (None, [], 'not measured'),
         ):
-            one = Scatter('q', chi2, 3 if errors else 0, errors, 3.0)
+            one = Scatter('q', chi2, 3 if errors else 0, errors, telling=3.0)
             self.assertEqual((one.verdict, one.count), (verdict, len(errors)))
         self.assertEqual(
-            Scatter('q', 43.21, 3, [0.1] * 4, 3.0).cells()[:6],
+            Scatter('q', 43.21, 3, [0.1] * 4, telling=3.0).cells()[:6],
             ('q', 'below 15.9', '43.2 for 3', 'chi^2', 'differs', '0.67 % of one'),
         )
 
     def test_power(self):
         """One of four values that is off by it is seen in 97.7 % of all trials."""
-        one = Scatter('q', 1.0, 3, [0.2] * 4, 3.0)
+        one = Scatter('q', 1.0, 3, [0.2] * 4, telling=3.0)
         values = np.random.default_rng(3).normal(0, 0.2, (TRIALS, 4))
         values[:, 0] += one.power
         chi2 = np.sum((values - values.mean(axis=1, keepdims=True)) ** 2, axis=1) / 0.2**2
@@ -181,27 +184,52 @@ class Claims(unittest.TestCase):
             ('', '', ''),
         ):
             rows = [self.GIVEN[verdict] for verdict in verdicts.split(',')]
-            self.assertEqual(Claim('c', rows).verdict, together)
-            self.assertEqual(Claim('c', rows, any_of=True).verdict, any_of)
+            self.assertEqual(claim(rows).verdict, together)
+            self.assertEqual(claim(rows, any=True).verdict, any_of)
 
     def test_values(self):
         """Of what was measured and is judged; of a chi^2 all that are in it."""
-        rows = [*self.GIVEN.values(), Scatter('q', 1.0, 3, [0.1] * 4, 3.0)]
-        self.assertEqual(Claim('c', rows).values, 3 + 4)
-        self.assertEqual(Claim('c', rows, values=12).values, 12)
+        rows = [*self.GIVEN.values(), Scatter('q', 1.0, 3, [0.1] * 4, telling=3.0)]
+        self.assertEqual(claim(rows).values, 3 + 4)
+        self.assertEqual(claim([Row('q', 1, 1, count=0), Row('q', 1, 1, count=5)]).values, 5)
 
     def test_text(self):
-        claim = Claim('so', [Row('q', 4, 4, remark='why')], 'the same', INFERRED)
-        claim.part = 3
+        one = claim([Row('q', 4, 4, remark='why')], part=3)
+        said = 'agrees: so (1 value; criterion, inferred from the paper: the same)'
+        self.assertEqual(one.heading, said)
+        (line,) = one.lines()
+        about = dict(zip(row.HEADER, line))
         self.assertEqual(
-            claim.heading, 'agrees: so (1 value; criterion, inferred from the paper: the same)'
+            [about[name] for name in ('part', 'kind', 'where', 'words', 'claim', 'criterion')],
+            [3, 'the paper', 'a table', 'is so', 'so', 'the same'],
         )
-        self.assertEqual(len(row.HEADER), len(claim.lines()[0]))
         self.assertEqual(
-            claim.lines()[0][:9],
-            (3, 'so', 'the same', 'inferred from the paper', 'agrees', 'q', '4', '', 4),
+            line[6:], ('inferred from the paper', 'agrees', 'q', '4', '', 4, *line[12:])
         )
-        self.assertEqual(Claim('more', [Row('q', None, 1)]).heading, 'beside: more')
+        self.assertEqual(len(row.HEADER), len(line))
+        self.assertEqual(claim([Row('q', None, 1)], claim='more').heading, 'beside: more')
+
+    def test_judged_by_the_table(self):
+        """What a row says itself goes first."""
+        for entry, more, (left_open, telling) in (
+            ({}, {}, (0.0, 0.2)),
+            ({'open': 0.5, 'telling': 3.0}, {}, (0.5, 3.0)),
+            ({'open': '3 %', 'telling': '100 %'}, {}, (0.06, 2.0)),
+            ({'open': '3 %', 'telling': 3.0}, {'left_open': 0.1, 'telling': 4.0}, (0.1, 4.0)),
+        ):
+            one = Row('q', -2.0, -2.0, **more).judge(entry)
+            self.assertAlmostEqual(one.left_open, left_open)
+            self.assertAlmostEqual(one.telling, telling)
+        for entry, sense in (({'above': 0.0}, ABOVE), ({'below': 0.0}, BELOW)):
+            one = Row('q', None, 1.0, 0.1).judge(entry)
+            self.assertEqual((one.published, one.sense), (0.0, sense))
+            self.assertEqual(one.verdict, 'agrees' if sense == ABOVE else 'differs')
+
+
+def claim(rows, part=None, **entry):
+    usual = {'kind': 'the paper', 'where': 'a table', 'words': 'is so', 'claim': 'so'}
+    criterion = {'criterion': 'the same', 'of': 'inferred from the paper'}
+    return Claim(part, {**usual, **criterion, **entry}, rows)
 
 
 if __name__ == '__main__':

@@ -1,7 +1,7 @@
 """A folder of bags, NAME.bag each -> the runs in it, each read as often as needed and no more."""
 
 import os
-from functools import cached_property
+from functools import cached_property, wraps
 
 import hdlyap
 from hdlyap import topics
@@ -52,3 +52,16 @@ def found(folder, names):
     """{name: Bag} of those that are there and went to their end."""
     bags = {name: Bag(os.path.join(folder, name + '.bag')) for name in names}
     return {name: bag for name, bag in bags.items() if os.path.isfile(bag.path) and bag.is_complete}
+
+
+def once(read):
+    """What is read of a bag is kept with it."""
+
+    @wraps(read)
+    def kept(bag):
+        found = bag.__dict__.setdefault('_once', {})
+        if read not in found:
+            found[read] = read(bag)
+        return found[read]
+
+    return kept

@@ -25,8 +25,6 @@ from hdlyap.plots.numbers import with_error
 from . import averages
 from .row import Row
 
-# ours: what lies outside of the fields adds up to 3 % to the diagonal, and 0.01 rad
-EQUAL, ANGLE = 0.05, 0.02
 Matrix = namedtuple('Matrix', 'values errors q')  # ((LL, LP), (PL, PP))
 
 
@@ -41,16 +39,20 @@ def matrix(found, k):
     return Matrix((values - of_dq) / scale, errors / scale, q)
 
 
-def rows(found, numbers):
-    """found: {wave: responses}; numbers: {wave: k}. Means over the waves by their errors."""
-    matrices = {wave: matrix(ones, numbers[wave]) for wave, ones in found.items()}
-    yield _row('C on L over C on P, of dp = C dq', 1.0, EQUAL, '', matrices, _ratio)
-    yield _row('angle of dp ahead of dq, mean of a turn', 0.0, ANGLE, 'rad', matrices, _ahead)
-    row = _row('the same at L less that mean', 0.0, ANGLE, 'rad', matrices, _swing)
-    row.remark = '; '.join(
-        filter(None, [row.remark, *(_against(*one, numbers) for one in matrices.items())])
-    )
-    yield row
+def ratio(matrices):
+    return _row('C on L over C on P, of dp = C dq', 1.0, '', matrices, _ratio)
+
+
+def ahead(matrices):
+    return _row('angle of dp ahead of dq, mean of a turn', 0.0, 'rad', matrices, _ahead)
+
+
+def swing(matrices, numbers):
+    """numbers: {wave: k}"""
+    row = _row('the same at L less that mean', 0.0, 'rad', matrices, _swing)
+    against = (_against(*one, numbers) for one in matrices.items())
+    row.remark = '; '.join(filter(None, [row.remark, *against]))
+    return row
 
 
 def _ratio(c, e):
@@ -66,24 +68,19 @@ def _swing(c, e):
     return (c[1, 0] + c[0, 1]) / np.trace(c), np.hypot(e[1, 0], e[0, 1]) / np.trace(c)
 
 
-def _row(quantity, published, error, unit, matrices, of):
+def _row(quantity, published, unit, matrices, of):
+    """Mean over the waves by their errors."""
+    row = Row(quantity, published, unit=unit)
     ones = {wave: of(one.values, one.errors) for wave, one in matrices.items()}
-    if not ones:
-        return Row(quantity, published, None, 0.0, error, unit)
-    values, errors = zip(*ones.values())
-    if min(errors) > 0:
-        mean, of_mean, _ = averages.weighted(values, errors)
-    else:
-        mean, of_mean = float(np.mean(values)), -1.0
-    return Row(
-        quantity,
-        published,
-        mean,
-        of_mean,
-        error,
-        unit,
-        ', '.join(f'{with_error(*one)} at ({wave[0]},{wave[1]})' for wave, one in ones.items()),
-    )
+    if ones:
+        values, errors = zip(*ones.values())
+        if min(errors) > 0:
+            row.measured, row.error, _ = averages.weighted(values, errors)
+        else:
+            row.measured, row.error = float(np.mean(values)), -1.0
+        said = [f'{with_error(*one)} at ({wave[0]},{wave[1]})' for wave, one in ones.items()]
+        row.remark = ', '.join(said)
+    return row
 
 
 def _against(wave, one, numbers):

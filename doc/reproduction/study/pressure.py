@@ -8,7 +8,8 @@ A wall has a line tension gamma (scaled particle theory), and beside it there ar
     N = rho Lx Ly + Gamma C,        C the length of all walls
     v_x = (P Ly - 2 gamma) (Lx - 1) / (sqrt(2) N)    between walls at both pairs of ends
 
-rho is the density inside, P Henderson's pressure there. kT = 1, sigma = 1."""
+rho is the density inside, P the pressure there: Henderson's, times what was measured over it where
+it was. kT = 1, sigma = 1."""
 
 from math import pi, sqrt
 
@@ -24,13 +25,45 @@ FULL = 0.99 * 4 / pi  # density of which eta is nearly 1
 LARGEST = 1e3  # force of a row
 
 
-def velocity(info, nx, ny):
+class Equation:
+    """Henderson's equation of state, or with points (density, measured over Henderson's pressure,
+    its error) what was measured: between them the quotient is a straight line, beyond them
+    constant."""
+
+    def __init__(self, points=()):
+        self._points = np.array(sorted(points), dtype=float).reshape(-1, 3).T
+
+    def over_henderson(self, density):
+        """(measured over Henderson's pressure, its error)"""
+        densities, quotients, errors = self._points
+        if not len(densities):
+            return 1.0, 0.0
+        both = (np.interp(density, densities, one) for one in (quotients, errors))
+        return tuple(map(float, both))
+
+    def pressure(self, density):
+        henderson = density * equation.compressibility(density)
+        return float(henderson * self.over_henderson(density)[0])
+
+
+HENDERSON = Equation()
+
+
+def velocity(info, nx, ny, state=HENDERSON):
     """Along the wave vector of these nodes [sigma/time unit]."""
     if is_row(info):
         return of_row(info.disks / info.box_x, _height(info), _walls(info)[1])
     lengths = [side - wall for side, wall in zip((info.box_x, info.box_y), _walls(info))]
     along = np.array([nx / lengths[0], ny / lengths[1]]) ** 2
-    return float(along @ _velocities(info, lengths) / along.sum())
+    return float(along @ _velocities(info, lengths, state) / along.sum())
+
+
+def error(info, state=HENDERSON):
+    """Of it, relative: that of the pressure; a row is known exactly."""
+    if is_row(info):
+        return 0.0
+    quotient, error = state.over_henderson(inside(info, state))
+    return error / quotient
 
 
 def is_row(info):
@@ -39,7 +72,7 @@ def is_row(info):
     return info.boundary_x == 'periodic' and beside < ROW
 
 
-def inside(info):
+def inside(info, state=HENDERSON):
     """Density away from the walls, of N disks in all; without walls the density."""
     area = info.box_x * info.box_y
     mean = info.disks / area
@@ -47,13 +80,9 @@ def inside(info):
         return mean
 
     def excess(density):
-        return density * area + adsorbed(density) * _length(info) - info.disks
+        return density * area + adsorbed(density, state) * _length(info) - info.disks
 
     return brentq(excess, mean, FULL)
-
-
-def pressure(density):
-    return float(density * equation.compressibility(density))
 
 
 def tension(density):
@@ -61,12 +90,11 @@ def tension(density):
     return density / (2 * (1 - pi * density / 4))
 
 
-def adsorbed(density):
+def adsorbed(density, state=HENDERSON):
     """Disks more than density x area, a length of wall."""
-    ends = density * (1 + STEP), density * (1 - STEP)
-    return (
-        -density * (tension(ends[0]) - tension(ends[1])) / (pressure(ends[0]) - pressure(ends[1]))
-    )
+    more, less = density * (1 + STEP), density * (1 - STEP)
+    of_pressure = state.pressure(more) - state.pressure(less)
+    return -density * (tension(more) - tension(less)) / of_pressure
 
 
 def of_row(number, height, is_reflecting):
@@ -90,9 +118,9 @@ def _length_of_row(force, contact):
     return 1 / force + float((shares * contact).sum() / shares.sum())
 
 
-def _velocities(info, lengths):
-    density, (wall_x, wall_y) = inside(info), _walls(info)
-    p, gamma = pressure(density), tension(density)
+def _velocities(info, lengths, state):
+    density, (wall_x, wall_y) = inside(info, state), _walls(info)
+    p, gamma = state.pressure(density), tension(density)
     forces = p * info.box_y - 2 * gamma * wall_y, p * info.box_x - 2 * gamma * wall_x
     return np.array(forces) * lengths / (sqrt(2) * info.disks)
 

@@ -4,7 +4,7 @@ straight it is, its curvature, and where it is c_L."""
 import numpy as np
 
 from . import crossing
-from .row import Claim, Row
+from .row import Row
 
 ROUNDS = 10  # errors of both, of what is fitted, depend on its slope
 UNIT = 'sigma/time unit'
@@ -46,23 +46,16 @@ class Polynomial:
         return float(self.x[one]), float(off[one]), float(100 * self.errors[one] / self.y[one])
 
 
-def claims(triples, within):
-    """triples: {symbol: points}; within: part of a value that almost linear is taken to leave."""
-    yield Claim(
-        'c_T and v are almost linear in c_L',
-        [_straight_row(symbol, points, within) for symbol, points in triples.items()],
-        f'no density farther than {100 * within:g} % from a straight line',
-    )
-    yield Claim(
-        'relations to c_L',
-        [
-            *(_curvature_row(symbol, points) for symbol, points in triples.items()),
-            *(_equal_row(symbol, points) for symbol, points in triples.items()),
-        ],
-    )
+def straight(triples):
+    """Rows of {symbol: points}: how far from a straight line."""
+    return [_straight_row(*one) for one in triples.items()]
 
 
-def _straight_row(symbol, points, within):
+def beside(triples):
+    return [of(*one) for of in (_curvature_row, _equal_row) for one in triples.items()]
+
+
+def _straight_row(symbol, points):
     quantity = f'{symbol} over c_L, farthest from its straight line'
     if len(points) < 3:
         return Row(quantity, 0.0, unit='%')
@@ -70,30 +63,26 @@ def _straight_row(symbol, points, within):
     place, off, error = line.farthest()
     slope, start = line.coefficients[0], float(line.at(0))
     remark = f'at c_L = {place:.3f}; {symbol} = {start:.3f} + {slope:.3f} c_L'
-    row = Row(quantity, 0.0, off, error, 100 * within, '%', remark)
-    row.count = len(points)
-    return row
+    return Row(quantity, 0.0, off, error, '%', remark, count=len(points))
 
 
 def _curvature_row(symbol, points):
-    quantity = f'curvature of {symbol} over c_L, coefficient of c_L^2'
-    if len(points) < 4:
-        return Row(quantity)
-    parabola = Polynomial(points, 2)
-    off = Polynomial(points, 1).chi2
-    remark = (
-        f'chi^2 {parabola.chi2:.0f} for {parabola.freedom}, {off:.0f} without it; '
-        f'farthest {parabola.farthest()[1]:+.1f} %'
-    )
-    return Row(quantity, None, *parabola.curvature, unit='time unit/sigma', remark=remark)
+    row = Row(f'curvature of {symbol} over c_L, coefficient of c_L^2', unit='time unit/sigma')
+    if len(points) >= 4:
+        parabola, off = Polynomial(points, 2), Polynomial(points, 1).chi2
+        row.measured, row.error = parabola.curvature
+        row.remark = (
+            f'chi^2 {parabola.chi2:.0f} for {parabola.freedom}, {off:.0f} without it; '
+            f'farthest {parabola.farthest()[1]:+.1f} %'
+        )
+    return row
 
 
 def _equal_row(symbol, points):
     """Where the difference c_L - c_T, or v - c_L, goes through zero from below."""
-    quantity = f'c_L at which {symbol} = c_L'
-    if len(points) < 2:
-        return Row(quantity, unit=UNIT)
-    x, x_errors, y, y_errors = np.array(sorted(points)).T
-    apart = x - y if symbol == 'c_T' else y - x
-    place, error = crossing.measured(x, apart, np.hypot(x_errors, y_errors))
-    return Row(quantity, None, place, error, unit=UNIT)
+    row = Row(f'c_L at which {symbol} = c_L', unit=UNIT)
+    if len(points) >= 2:
+        x, x_errors, y, y_errors = np.array(sorted(points)).T
+        apart = x - y if symbol == 'c_T' else y - x
+        row.measured, row.error = crossing.measured(x, apart, np.hypot(x_errors, y_errors))
+    return row

@@ -10,6 +10,7 @@ from hdlyap.data.reader import PHASES
 from hdlyap.plots.steps import wave_name
 
 from . import blocks
+from .bags import once
 
 QUARTER = np.pi / 2
 
@@ -76,6 +77,7 @@ class Rotation:
         return blocks.mean(np.nanmean(per_vector[known], axis=1)) if known.any() else (None, 0.0)
 
 
+@once
 def read(bag):
     """{(nx, ny): Rotation} of the LP steps of a run's bag; of those alone that have been
     tracked."""

@@ -1,5 +1,5 @@
-"""Claims of the paper, and the measured values behind each: published, measured, error, what wrong
-value would have been caught, verdict."""
+"""Numbers beside ours -> verdicts: a statement of claims.yaml, and the measured values behind it,
+each with its error and the smallest wrong value that would have been caught."""
 
 from math import isfinite, sqrt
 from numbers import Integral, Real
@@ -14,51 +14,41 @@ SMALL = 1e-3  # without an error: below, the usual decimals would show little of
 AGREES, DIFFERS, MISSING, SHOWN = 'agrees', 'differs', 'not measured', ''
 UNDECIDED = 'not decided'  # not apart, but a wrong value would not have been, either
 EQUAL, ABOVE, BELOW = '', 'above ', 'below '
-# where a criterion comes from
-SOURCES = PAPER, INFERRED, OURS = 'the paper', 'inferred from the paper', 'ours'
-HEADER = (
-    'part',
-    'claim',
-    'criterion',
-    'criterion_of',
-    'claim_verdict',
-    'quantity',
-    'published',
-    'left_open',
-    'measured',
-    'error',
-    'unit',
-    'verdict',
-    'caught',
-    'remark',
+ABOUT = 'part', 'kind', 'where', 'words', 'claim', 'criterion', 'criterion_of', 'claim_verdict'
+HEADER = ABOUT + (
+    *('quantity', 'published', 'left_open', 'measured', 'error', 'unit', 'verdict'),
+    *('caught', 'remark'),
 )
 
 
 class Row:
     """One number (or word) beside ours with its standard error: 0 if exact, below 0 or no number if
-    not known. left_open: what the criterion allows to either side. measured None: not in the bags.
-    published None: ours is only shown. sense: ABOVE or BELOW if published is a limit. telling: the
-    largest power with which agreeing says something; None: TELLING of the published number, or, of
-    zero, twice what is left open. caught: the power of words, as text."""
+    not known. measured None: not in the bags. published None: ours is only shown. sense: ABOVE or
+    BELOW if published is a limit. left_open: what the criterion allows to either side; telling: the
+    largest power with which agreeing says something. None of these: as the claim says it; telling
+    is then TELLING of the published number, or, of zero, twice what is left open. caught: the power
+    of words, as text. count: of measured values behind it."""
 
     def __init__(
-        self,
-        quantity,
-        published=None,
-        measured=None,
-        error=0.0,
-        left_open=0.0,
-        unit='',
-        remark='',
-        telling=None,
-        sense=EQUAL,
-        caught='any other',
+        self, quantity, published=None, measured=None, error=0.0, unit='', remark='', **more
     ):
         self.quantity, self.unit, self.remark = quantity, unit, remark
-        self.published, self.left_open = published, left_open
-        self.measured, self.error, self.sense = measured, error, sense
-        self.count = 1  # measured values behind it
-        self._telling, self._caught = telling, caught
+        self.published, self.measured, self.error = published, measured, error
+        self.left_open, self.sense = more.pop('left_open', None), more.pop('sense', EQUAL)
+        self.count, self._telling = more.pop('count', 1), more.pop('telling', None)
+        self._caught = more.pop('caught', 'any other')
+        assert not more, more
+
+    def judge(self, entry):
+        """By what the claim leaves open, a number or `3 %` of what is published, or its limit."""
+        for sense in (ABOVE, BELOW):
+            if sense.strip() in entry:
+                self.sense, self.published = sense, entry[sense.strip()]
+        if self.left_open is None:
+            self.left_open = share(entry.get('open', 0.0), self.published)
+        if self._telling is None and 'telling' in entry:
+            self._telling = share(entry['telling'], self.published)
+        return self
 
     @property
     def is_measured(self):
@@ -80,13 +70,13 @@ class Row:
         """The smallest deviation of the truth from what is published that would have made the row
         differ, but for one repetition in 44; infinite while the error is not known."""
         is_known = isfinite(self.error) and self.error >= 0
-        return self.left_open + (SIGMAS + SEEN) * self.error if is_known else float('inf')
+        return (self.left_open or 0.0) + (SIGMAS + SEEN) * self.error if is_known else float('inf')
 
     @property
     def telling(self):
         if self._telling is not None:
             return self._telling
-        return TELLING * abs(self.published) if self.published else 2 * self.left_open
+        return TELLING * abs(self.published) if self.published else 2 * (self.left_open or 0.0)
 
     @property
     def verdict(self):
@@ -106,7 +96,8 @@ class Row:
         return AGREES if off > sure and isfinite(self.power) else UNDECIDED
 
     def _beside_a_number(self):
-        if abs(self.measured - self.published) > self.left_open + SIGMAS * self._known_error:
+        allowed = (self.left_open or 0.0) + SIGMAS * self._known_error
+        if abs(self.measured - self.published) > allowed:
             return DIFFERS
         return AGREES if self.power <= self.telling else UNDECIDED
 
@@ -129,41 +120,31 @@ class Row:
             self.quantity,
             self.sense + _bounded(self.published, self.left_open),
             _number(self.measured, self.error),
-            self.unit,
-            self.verdict,
-            self.caught,
-            self.remark,
+            *(self.unit, self.verdict, self.caught, self.remark),
         )
 
     def values(self):
         """As in HEADER from `quantity` on, for the CSV file."""
-        published, left_open = _plain(self.published, self.left_open)
-        return (
-            self.quantity,
-            f'{self.sense}{published}',
-            left_open,
-            *_plain(self.measured, self.error),
-            self.unit,
-            self.verdict,
-            self.caught,
-            self.remark,
-        )
+        published, left_open = _plain(self.published, self.left_open or 0.0)
+        measured = _plain(self.measured, self.error)
+        number = self.quantity, f'{self.sense}{published}', left_open, *measured
+        return (*number, self.unit, self.verdict, self.caught, self.remark)
 
 
 class Scatter(Row):
     """Values of one number, or round one curve: chi^2 decides, one-sided at SIGMAS. errors: theirs,
     in percent; telling: percent by which a single value may be off without being seen."""
 
-    def __init__(self, quantity, chi2, freedom, errors, telling, remark=''):
-        super().__init__(quantity, freedom, chi2, 0.0, unit='chi^2', remark=remark, telling=telling)
+    def __init__(self, quantity, chi2=None, freedom=0, errors=(), remark='', **more):
+        super().__init__(quantity, freedom, chi2, 0.0, 'chi^2', remark, count=len(errors), **more)
         self.left_open = critical(freedom) - freedom if freedom else 0.0
-        self.count, self.errors = len(errors), errors
+        self.errors = errors
 
     @property
     def power(self):
         """Percent by which the least known value alone must be off. It adds x to the mean of
         chi^2, whose root then scatters by 1."""
-        if not self.errors or not self.published:
+        if not len(self.errors) or not self.published:
             return float('inf')
         x = (sqrt(critical(self.published)) + SEEN) ** 2 - (self.published - 1)
         return max(self.errors) * sqrt(x * len(self.errors) / self.published)
@@ -187,16 +168,16 @@ def critical(freedom):
 
 
 class Claim:
-    """One statement, and the rows that it is judged by: it agrees if all that were measured do, or
-    one of them if any_of. criterion_of: PAPER, INFERRED or OURS. values: how many measured ones are
-    behind it, if not one a row. Rows without a published number are only shown, and so is a claim
-    that has no others."""
+    """A statement of the table, and the rows that it is judged by: it agrees if all that were
+    measured do, or one of them if `any`. Rows without a published number are only shown, and so is
+    an entry that has no others."""
 
-    def __init__(self, name, rows, criterion='', criterion_of=OURS, any_of=False, values=None):
-        self.part = None  # set by who collects the claims
-        self.name, self.rows = name, list(rows)
-        self.criterion, self.criterion_of = criterion, criterion_of
-        self._any_of, self._values = any_of, values
+    def __init__(self, part, entry, rows):
+        self.part, self.entry = part, entry
+        self.rows = [row.judge(entry) for row in rows]
+
+    name = property(lambda self: self.entry['claim'])
+    kind = property(lambda self: self.entry['kind'])
 
     @property
     def judged(self):
@@ -204,15 +185,15 @@ class Claim:
 
     @property
     def values(self):
-        measured = [row for row in self.judged if row.is_measured]
-        return self._values or sum(row.count for row in measured)
+        return sum(row.count for row in self.judged if row.is_measured)
 
     @property
     def verdict(self):
         given = [row.verdict for row in self.judged]
         if not given:
             return SHOWN
-        order = (DIFFERS, UNDECIDED, AGREES) if not self._any_of else (AGREES, UNDECIDED, DIFFERS)
+        any_of = self.entry.get('any')
+        order = (DIFFERS, UNDECIDED, AGREES) if not any_of else (AGREES, UNDECIDED, DIFFERS)
         return next((one for one in order if one in given), MISSING)
 
     @property
@@ -220,20 +201,22 @@ class Claim:
         """A line of the page."""
         if not self.judged:
             return f'beside: {self.name}'
-        return (
-            f'{self.verdict}: {self.name} ({_many(self.values)}; '
-            f'criterion, {self.criterion_of}: {self.criterion})'
-        )
+        many = f'{self.values} value' + ('s' if self.values != 1 else '')
+        criterion = f'criterion, {self.entry["of"]}: {self.entry["criterion"]}'
+        return f'{self.verdict}: {self.name} ({many}; {criterion})'
 
     def lines(self):
         """As in HEADER."""
-        about = (self.part, self.name, self.criterion)
-        about += (self.criterion_of if self.judged else '', self.verdict)
+        names = 'kind', 'where', 'words', 'claim', 'criterion', 'of'
+        about = self.part, *(self.entry.get(name, '') for name in names), self.verdict
         return [(*about, *row.values()) for row in self.rows]
 
 
-def _many(count):
-    return f'{count} value' + ('s' if count != 1 else '')
+def share(number, of):
+    """A number, or a text like `3 %`: of a number."""
+    if not isinstance(number, str):
+        return number
+    return float(number.rstrip(' %')) / 100 * abs(of) if isinstance(of, Real) else 0.0
 
 
 def _number(value, error):
@@ -251,11 +234,8 @@ def _number(value, error):
 def _bounded(value, bound):
     if bound and not isinstance(value, (str, type(None))):
         return f'{value:.4g} +-{bound:.2g}'
-    return (
-        f'{value:.6g}'
-        if isinstance(value, Real) and not isinstance(value, Integral)
-        else _number(value, 0.0)
-    )
+    is_number = isinstance(value, Real) and not isinstance(value, Integral)
+    return f'{value:.6g}' if is_number else _number(value, 0.0)
 
 
 def _plain(value, error):

@@ -9,6 +9,7 @@ from hdlyap.plots.numbers import known
 from .stairs import stairs
 
 SAME = 1e-9  # relative: wave numbers of a square box
+COLUMNS = 'wave_number', 'exponent', 'std_error', 'slope', 'slope_error'  # of Point.numbers
 
 
 class Point:
@@ -46,6 +47,10 @@ class Point:
     def slope_error(self):
         """-1 while not yet known."""
         return self.error / self.wave_number if self.error > 0 else -1.0
+
+    @property
+    def numbers(self):
+        return self.wave_number, self.exponent, self.error, self.slope, self.slope_error
 
 
 def find(recording, kind, nx, ny):

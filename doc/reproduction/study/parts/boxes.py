@@ -5,23 +5,22 @@ from collections import namedtuple
 
 import numpy as np
 
-from hdlyap.plots import dispersion, paper, steps
-from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, plt
+from hdlyap.plots import dispersion, equation, paper, steps
+from hdlyap.plots.figures.style import BLUE, GREY, VERMILION
 
-from .. import averages, blocks, pressure, rotation, slopes, velocity
-from ..row import Claim, Row, Scatter
-from . import aspect, densities, smallest
+from .. import averages, blocks, draw, pressure, rotation, slopes, velocity
+from ..files import cells
+from ..row import Row, Scatter
+from . import aspect, densities, gas, smallest
 
-TITLE = 'Velocity of LP modes in all boxes, beside the pressure; T modes between walls'
 PERIODIC, WALLS = 'periodic', 'between walls'
 # at density 0.8 the other runs are the beginning of the same trajectory
 DENSE = {PERIODIC: 'periodic', WALLS: 'reflecting'}
 DILUTE = 'walls_02'
 OTHERS = ('mixed', 'square', 'narrow_periodic', 'narrow_reflecting')
 GROUPS = ((0.4, PERIODIC), (0.4, WALLS), (0.8, PERIODIC), (0.8, WALLS))
-TELLING = 100 * paper.FIT_ACCURACY  # %: one box may be off by so much without being seen
-HENDERSON = 0.01  # of the equation of state, and of what walls do to it
-FALLS = 0.02  # by which v was seen to fall with k (doc/findings.md)
+# v at k = 0 over that of the pressure, of the C of doc/findings.md: (x^2 - h^2 - g^2)^(1/2) / x
+AT_ZERO = {0.4: 0.988, 0.8: 0.991}
 SAME = 1e-9  # relative: wave numbers of a square box
 # an error from so few blocks is known to a fifth; by this the mean of its chi^2 becomes 1
 WIDER = ((blocks.BLOCKS - 1) / (blocks.BLOCKS - 3)) ** 0.5
@@ -29,18 +28,27 @@ Box = namedtuple('Box', 'run k ratio bare wide')
 COLOURS = {PERIODIC: BLUE, WALLS: VERMILION}
 
 
-def runs(plan):
-    wanted = [*densities.RUNS, *smallest.runs(plan), *aspect.runs(plan), *DENSE.values()]
-    return [*dict.fromkeys([*wanted, *OTHERS, DILUTE])]
+def state(bags):
+    """The pressures of part 17, as far as they are in the bags."""
+    known = [gas.State(bags[name]) for name in densities.RUNS if name in bags]
+    found = [(one.density, *one.z) for one in known if one.gas is not None]
+    return pressure.Equation(
+        (density, z / henderson, error / henderson)
+        for density, z, error in found
+        for henderson in [float(equation.compressibility(density))]
+        if error >= 0
+    )
 
 
 class Wave:
-    """An LP step that was tracked: v, and over that of the pressure."""
+    """An LP step that was tracked: v, and over that of the pressure. common: relative error of that
+    pressure, which other waves share."""
 
-    def __init__(self, run, info, one):
+    def __init__(self, run, info, one, state):
         self.run, self.info, self.k, self.name = run, info, one.wave_number, one.name
         self.v, self.v_error = one.velocity()
-        self.expected = pressure.velocity(info, one.nx, one.ny)
+        self.expected = pressure.velocity(info, one.nx, one.ny, state)
+        self.common = pressure.error(info, state)
 
     @property
     def is_known(self):
@@ -67,8 +75,9 @@ class Wave:
 
 def waves(bags, names):
     """That are known with an error."""
+    measured = state(bags)
     found = [
-        Wave(name, bags[name].info, one)
+        Wave(name, bags[name].info, one, measured)
         for name in names
         if name in bags
         for one in rotation.read(bags[name]).values()
@@ -76,19 +85,13 @@ def waves(bags, names):
     return [one for one in found if one.is_known]
 
 
-def groups(bags):
-    """{(density, boundary): waves}: each run of them has its own trajectory."""
-    many = [
-        name for name in dict.fromkeys([*smallest.runs(None), *aspect.runs(None)]) if name in bags
-    ]
-    of = {
-        boundary: [name for name in many if _boundary(bags[name].info) == boundary]
-        for boundary in DENSE
-    }
-    return {
-        (density, boundary): waves(bags, of[boundary] if density == 0.4 else [DENSE[boundary]])
-        for density, boundary in GROUPS
-    }
+def group(bags, density, boundary):
+    """Waves: each run of them has its own trajectory."""
+    if density == 0.8:
+        return waves(bags, [DENSE[boundary]])
+    many = dict.fromkeys([*smallest.runs(), *aspect.runs()])
+    of = [name for name in many if name in bags and _boundary(bags[name].info) == boundary]
+    return waves(bags, of)
 
 
 def _boundary(info):
@@ -120,77 +123,26 @@ def mean(found):
     """(weighted mean of v over that of the pressure, its error)"""
     if not found:
         return None, 0.0
-    return averages.weighted(*zip(*[(one.ratio, one.error) for one in found]))[:2]
+    value, error, _ = averages.weighted(*zip(*[(one.ratio, one.error) for one in found]))
+    return value, float(np.hypot(error, value * max(one.common for one in found)))
 
 
 # ---- rows ----------------------------------------------------------------------------------------
 
 
-def claims(bags):
-    found = groups(bags)
-    yield Claim(
-        'v is P / (sqrt(2) rho) at all densities',
-        [_mean_row(f'density {_tenths(name)}', waves(bags, [name])) for name in densities.RUNS],
-        f'within {100 * (FALLS + HENDERSON):g} %: what v falls with k, and Henderson\'s equation',
-    )
-    for boundary in DENSE:
-        yield Claim(
-            f'v of all boxes is one curve in k, {boundary}',
-            [_scatter_row(0.4, boundary, found[0.4, boundary])],
-            'chi^2 from our errors, and from how well these are known',
-        )
-        yield Claim(
-            f'it goes to P / (sqrt(2) rho) at k to 0, {boundary}',
-            [_limit_row(density, boundary, found[density, boundary]) for density in (0.4, 0.8)],
-            f'within {100 * HENDERSON:g} %: Henderson\'s equation',
-        )
-    yield Claim(
-        'v is alike for both boundaries, over that of the pressure',
-        [_alike_row(density, found) for density in (0.4, 0.8)],
-        f'within {100 * HENDERSON:g} %: what walls do to the pressure',
-    )
-    yield Claim(
-        'LP modes turn alike in mixed, square and narrow boxes',
-        [_mean_row(name.replace('_', ' '), _longest(waves(bags, [name]))) for name in OTHERS],
-        'as at all densities, of the longest waves',
-    )
-    yield Claim(
-        'LP modes turn alike between walls at lower and higher density',
-        [
-            _mean_row('walls at 0.2', waves(bags, [DILUTE])),
-            _mean_row('walls at 0.4', found[0.4, WALLS]),
-            _mean_row('walls at 0.8', found[0.8, WALLS]),
-        ],
-        'as at all densities',
-    )
-    yield Claim(
-        'T between walls is higher, as it is denser inside',
-        [_denser_row(bags, density) for density in (0.4, 0.8)],
-        'the slope at that density, +-half of what it is higher',
-    )
+def all_densities(bags):
+    for name in densities.RUNS:
+        yield _mean_row(f'density {int(name[-2:]) / 10:.1f}', waves(bags, [name]))
 
 
-def _longest(found):
-    least = min((one.k for one in found), default=0.0)
-    return [one for one in found if one.k <= least * (1 + SAME)]
-
-
-def _tenths(name):
-    return f'{int(name[-2:]) / 10:.1f}'
-
-
-def _mean_row(name, found):
-    value, error = mean(found)
-    remark = f'waves: {len(found)}, boxes: {len({one.run for one in found})}' if found else ''
-    return Row(f'v over P / (sqrt 2 rho), {name}', 1.0, value, error, FALLS + HENDERSON, '', remark)
-
-
-def _scatter_row(density, boundary, found):
-    quantity = f'v of boxes at density {density:g}, {boundary}, about their line'
+def one_curve(bags, boundary):
+    quantity = f'v of boxes at density 0.4, {boundary}, about their line'
+    found = group(bags, 0.4, boundary)
     boxes = of_boxes(found)
     fitted = curve(boxes)
     if fitted is None or not fitted.freedom:
-        return Scatter(quantity, None, 0, [], TELLING)
+        yield Scatter(quantity)
+        return
     errors = [100 * box.wide / box.ratio for box in boxes]
     off = [(box.ratio - fitted.at(box.k)[0] / box.k) / box.wide for box in boxes]
     far = int(np.argmax(np.abs(off)))
@@ -198,36 +150,78 @@ def _scatter_row(density, boundary, found):
         f'{len(found)} waves of {len(boxes)} boxes; farthest {boxes[far].run}, {off[far]:+.1f} '
         f'errors; of v alone {curve(boxes, "bare").chi2:.1f}'
     )
-    return Scatter(quantity, fitted.chi2, fitted.freedom, errors, TELLING, remark)
+    yield Scatter(quantity, fitted.chi2, fitted.freedom, errors, remark)
 
 
-def _limit_row(density, boundary, found):
-    quantity = f'v over P / (sqrt 2 rho) at k = 0, {boundary}, density {density:g}'
-    fitted = curve(found)
-    if fitted is None:
-        return Row(quantity, 1.0)
-    low, high = min(one.k for one in found), max(one.k for one in found)
-    remark = (
-        f'a line from k = {low:.3f} to {high:.3f}; {fitted.at(low)[0] / low:.4f} and '
-        f'{fitted.at(high)[0] / high:.4f} at its ends'
-    )
-    return Row(quantity, 1.0, fitted.c, fitted.c_error, HENDERSON, remark=remark)
+def limit(bags, boundary):
+    for density, published in AT_ZERO.items():
+        found = group(bags, density, boundary)
+        quantity = f'v over P / (sqrt 2 rho) at k = 0, {boundary}, density {density:g}'
+        row, fitted = Row(quantity, published), curve(found)
+        if fitted is not None:
+            common = max(one.common for one in found)
+            row.measured, row.error = fitted.c, float(np.hypot(fitted.c_error, fitted.c * common))
+            low, high = min(one.k for one in found), max(one.k for one in found)
+            there = ' and '.join(f'{fitted.at(k)[0] / k:.4f}' for k in (low, high))
+            row.remark = f'a line from k = {low:.3f} to {high:.3f}; {there} at its ends'
+        yield row
 
 
-def _alike_row(density, found):
-    quantity = f'v: walls over periodic at equal k, less 1, density {density:g}'
-    both = [found[density, boundary] for boundary in DENSE]
-    curves = [curve(ones) for ones in both]
-    if None in curves:
-        return Row(quantity, 0.0, unit='%')
-    low, high = smallest.common(
-        [(min(one.k for one in ones), max(one.k for one in ones)) for ones in both]
-    )
-    if not low < high:
-        return Row(quantity, 0.0, unit='%')
-    difference, error = dispersion.mean_difference(*curves, low, high)
-    remark = f'mean of the lines from k = {low:.3f} to {high:.3f}'
-    return Row(quantity, 0.0, 100 * difference, 100 * error, 100 * HENDERSON, '%', remark, TELLING)
+def alike(bags):
+    for density in AT_ZERO:
+        row = Row(f'v: walls over periodic at equal k, less 1, density {density:g}', 0.0, unit='%')
+        both = [group(bags, density, boundary) for boundary in DENSE]
+        curves = [curve(ones) for ones in both]
+        ks = [[one.k for one in ones] for ones in both]
+        low, high = smallest.common([(min(k), max(k)) if k else None for k in ks])
+        if None not in curves and low < high:
+            difference = dispersion.mean_difference(*curves, low, high)
+            row.measured, row.error = (100 * one for one in difference)
+            row.remark = f'mean of the lines from k = {low:.3f} to {high:.3f}'
+        yield row
+
+
+def other_shapes(bags):
+    """Of the longest waves."""
+    for name in OTHERS:
+        yield _mean_row(name.replace('_', ' '), _longest(waves(bags, [name])))
+
+
+def walls(bags):
+    yield _mean_row('walls at 0.2', waves(bags, [DILUTE]))
+    for density in AT_ZERO:
+        yield _mean_row(f'walls at {density:g}', group(bags, density, WALLS))
+
+
+def denser(bags):
+    """Of T steps, beside what the density inside would make of them."""
+    for density in AT_ZERO:
+        names = _t_runs(bags, density)
+        both = [_t_points(bags, names[boundary]) for boundary in DENSE]
+        curves = [slopes.curve(points) for points in both]
+        low, high = smallest.common([slopes.span(points) for points in both])
+        quantity = f'lambda_T: walls over periodic at equal k, less 1, density {density:g}'
+        row = Row(quantity, 0.0, unit='%')
+        if None not in curves and low < high:
+            infos = [bags[name].info for name in names[WALLS] if _t_points(bags, [name])]
+            row.published = float(np.mean([higher(info) for info in infos]))
+            row.left_open, row.count = 0.5 * row.published, 1
+            difference = dispersion.mean_difference(*curves, low, high)
+            row.measured, row.error = (100 * one for one in difference)
+            inside = ', '.join(sorted({f'{pressure.inside(info):.3f}' for info in infos}))
+            fits = f'mean of the fits from k = {low:.3f} to {high:.3f}'
+            row.remark = f'{fits}; density inside {inside}'
+        yield row
+
+
+def _longest(found):
+    least = min((one.k for one in found), default=0.0)
+    return [one for one in found if one.k <= least * (1 + SAME)]
+
+
+def _mean_row(name, found):
+    remark = f'waves: {len(found)}, boxes: {len({one.run for one in found})}' if found else ''
+    return Row(f'v over P / (sqrt 2 rho), {name}', 1.0, *mean(found), remark=remark)
 
 
 def _t_points(bags, names):
@@ -241,42 +235,18 @@ def _t_points(bags, names):
     return slopes.own(found)
 
 
-def _denser_row(bags, density):
-    quantity = f'lambda_T: walls over periodic at equal k, less 1, density {density:g}'
-    names = _t_runs(bags, density)
-    both = [_t_points(bags, names[boundary]) for boundary in DENSE]
-    curves = [slopes.curve(points) for points in both]
-    low, high = smallest.common([slopes.span(points) for points in both])
-    walls = [bags[name].info for name in names[WALLS] if _t_points(bags, [name])]
-    if None in curves or not low < high:
-        return Row(quantity, 0.0, unit='%')
-    expected = float(np.mean([_higher(info) for info in walls]))
-    difference, error = dispersion.mean_difference(*curves, low, high)
-    inside = ', '.join(sorted({f'{pressure.inside(info):.3f}' for info in walls}))
-    return Row(
-        quantity,
-        expected,
-        100 * difference,
-        100 * error,
-        0.5 * expected,
-        '%',
-        f'mean of the fits from k = {low:.3f} to {high:.3f}; density inside {inside}',
-        telling=expected,
-    )
-
-
 def _t_runs(bags, density):
     """{boundary: runs}; at 0.4 those of part 9, which have T steps at many k in each box."""
     if density == 0.8:
         return {boundary: [name] for boundary, name in DENSE.items()}
-    names = smallest.runs(None)
+    names = smallest.runs()
     return {
         boundary: [name for name in names if _boundary(bags[name].info) == boundary]
         for boundary in DENSE
     }
 
 
-def _higher(info):
+def higher(info):
     """Percent by which the paper's c_T is, at the density inside."""
     return 100 * (paper.slope_t(pressure.inside(info)) / paper.slope_t(info.density) - 1)
 
@@ -285,70 +255,43 @@ def _higher(info):
 
 
 def figures(bags):
-    found = groups(bags)
+    found = {of: group(bags, *of) for of in GROUPS}
     if any(found.values()):
         yield 'velocity', _figure(found)
 
 
 def _figure(found):
-    figure, panels = plt.subplots(1, 2, figsize=(7.6, 3.6), sharey=True, constrained_layout=True)
-    for axes, density, letter in zip(panels, (0.4, 0.8), 'ab'):
+    figure, panels = draw.panels(1, 2, (7.6, 3.6), sharey=True)
+    draw.letters(panels, [f' density {density:g}' for density in AT_ZERO])
+    for axes, density in zip(panels, AT_ZERO):
         axes.axhline(1, color=GREY, linewidth=0.6)
         for boundary, colour in COLOURS.items():
             _points(axes, found[density, boundary], colour, boundary)
         axes.set_xlim(left=0)
         axes.set_xlabel(r'wave number $k$  [1/$\sigma$]')
-        axes.set_title(f'({letter})  density {density:g}', loc='left')
     panels[0].set_ylabel(r'$v\,/\,(P/\sqrt{2}\rho)$')
-    if panels[0].get_legend_handles_labels()[0]:
-        panels[0].legend(loc='lower right')
+    draw.legend(panels[0], loc='lower right')
     return figure
 
 
 def _points(axes, found, colour, label):
-    if not found:
-        return
-    k, ratios, errors = np.array([(one.k, one.ratio, one.error) for one in found]).T
-    axes.errorbar(
-        k, ratios, errors, fmt='o', color=colour, markersize=3, elinewidth=0.8, label=label
-    )
+    points = [(one.k, one.ratio, one.error) for one in found]
+    draw.bars(axes, points, 'o', colour, label, markersize=3, elinewidth=0.8, capsize=0)
     fitted = curve(found)
     if fitted is not None:
-        along = np.array([0.0, k.max()])
+        along = np.array([0.0, max(one.k for one in found)])
         axes.plot(along, fitted.c + fitted.c2 * along, color=colour, linewidth=0.8)
 
 
 def tables(bags):
-    header = (
-        'run',
-        'disks',
-        'density',
-        'aspect',
-        'boundary_x',
-        'boundary_y',
-        'step',
-        'wave_number',
-        'v',
-        'v_error',
-        'v_of_pressure',
-        'ratio',
-        'ratio_error',
-    )
-    yield 'velocity', header, [_line(one) for one in waves(bags, runs(bags))]
+    about = 'run', 'disks', 'density', 'aspect', 'boundary_x', 'boundary_y', 'step', 'wave_number'
+    header = (*about, 'v', 'v_error', 'v_of_pressure', 'ratio', 'ratio_error')
+    every = dict.fromkeys([*densities.RUNS, *smallest.runs(), *aspect.runs(), *DENSE.values()])
+    yield 'velocity', header, [_line(one) for one in waves(bags, [*every, *OTHERS, DILUTE])]
 
 
 def _line(one):
     info = one.info
-    about = one.run, info.disks, f'{info.density:g}', f'{info.aspect:g}'
-    return (
-        *about,
-        info.boundary_x,
-        info.boundary_y,
-        one.name,
-        f'{one.k:.6g}',
-        f'{one.v:.6g}',
-        f'{one.v_error:.2g}',
-        f'{one.expected:.6g}',
-        f'{one.ratio:.6g}',
-        f'{one.error:.2g}',
-    )
+    system = one.run, info.disks, info.density, info.aspect, info.boundary_x, info.boundary_y
+    measured = one.name, one.k, one.v, one.v_error, one.expected, one.ratio, one.error
+    return cells('s s g g s s s .6g .6g .2g .6g .6g .2g', *system, *measured)

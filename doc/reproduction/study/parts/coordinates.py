@@ -8,11 +8,12 @@ from hdlyap.data import reader
 from hdlyap.plots import paper, steps
 from hdlyap.plots.figures.style import BLUE, GREY, VERMILION, ZERO, plt, scene
 
-from .. import averages, zeros
-from ..row import BELOW, INFERRED, PAPER, Claim, Row
+from .. import averages, draw, zeros
+from ..bags import once
+from ..files import cells
+from ..row import Row, Scatter
 
-TITLE = 'Angle and ratio of the dq and dp halves, all 4N vectors'
-READ_OFF = 0.02  # of cos Theta, which the paper says as seen in a plot
+RUN = 'halves'
 FIRST_ZERO, LAST_ZERO = 1558, 1563  # of the paper's 780 disks
 BESIDE = 20  # vectors shown on either side of the zero modes
 UNIT = '1/time unit'
@@ -27,13 +28,12 @@ class Halves:
     """
 
     def __init__(self, bag):
-        messages = [
-            message for message in bag.messages(reader.SPECTRUM) if message.averaged_time > 0
-        ]
-        run = bag.recording
+        messages = [one for one in bag.messages(reader.SPECTRUM) if one.averaged_time > 0]
+        self.recording = run = bag.recording
         self.info, self.positive_end = run.info, run.positive_end
         self.zeros = zeros.indices(run.info, run.spectrum) if run.spectrum is not None else []
         self.count = 4 * run.info.disks
+        self.is_of_paper = run.info.disks == paper.DISKS
         self.is_known = bool(messages) and len(messages[-1].cos_theta) == self.count
         if self.is_known:
             self._measure(messages)
@@ -41,8 +41,10 @@ class Halves:
     def _measure(self, messages):
         """Rows of what follows: reports; columns: vectors of the positive half."""
         self.reports, self.pairing_error = len(messages), messages[-1].pairing_error
-        exponents = np.array(messages[-1].exponents)
-        self.all_pairs = abs(float(np.sum((exponents + exponents[::-1])[: self.positive_end])))
+        self.exponents, self.errors = (
+            np.array(one) for one in (messages[-1].exponents, messages[-1].std_errors)
+        )
+        self.pairs = (self.exponents + self.exponents[::-1])[: self.positive_end]
         cos = np.array([message.cos_theta for message in messages])
         ratio = np.array([message.dp_dq_ratio for message in messages])
         self.cos, self.cos_error = averages.of_series(cos)
@@ -63,157 +65,147 @@ class Halves:
         """Index of the first negative exponent."""
         return self.count + 1 - self.positive_end
 
-
-def runs(plan):
-    return ['halves']
-
-
-def claims(bags):
-    halves = Halves(bags['halves'])
-    of_paper = halves.info.disks == paper.DISKS
-    yield Claim(
-        'cos Theta is 1 just below the zero modes and -1 just above them',
-        [
-            _cos(halves, 'below', halves.positive_end, 1.0 if of_paper else None),
-            _cos(halves, 'above', halves.behind_zeros, -1.0 if of_paper else None),
-        ],
-        f'within {READ_OFF:g}, as read off a plot',
-    )
-    yield Claim('the zero exponents are 1558-1563', _ends(halves, of_paper), 'the same', PAPER)
-    yield Claim(
-        'cos Theta of the zero modes lies between these limits',
-        _zero_rows(halves),
-        'farther from 1 and -1 than the modes beside them',
-        INFERRED,
-    )
-    yield Claim('cos Theta of steps', list(_step_rows(bags['halves'].recording, halves)))
-    yield Claim(
-        'C\' of the negative half is C of the positive half',
-        [
-            _mean(halves, 'ln(C / C\')', 0.0, lambda: np.log(halves.ratio / halves.conjugate)),
-            _mean(halves, ANGLES, 0.0, lambda: halves.sums),
-            Row(
-                'sum of |dq|^2 less |dp|^2 of the conjugates, positive half',
-                0.0,
-                float(np.abs(halves.excess[:, -1]).max()) if halves.is_known else None,
-                left_open=halves.info.accuracy,
-                remark='largest of all reports: what is apart by a gap is exact',
-            ),
-        ],
-        f'within {READ_OFF:g}; what a gap sets apart within the accuracy asked for',
-    )
-    yield Claim('vectors of close exponents, which have not settled', _unsettled(halves))
+    def number(self, values, index):
+        """That of a Lyapunov index."""
+        return float(values[index - 1])
 
 
-def _unsettled(halves):
-    yield _largest(halves, '|C / C\' - 1|', lambda: halves.ratio / halves.conjugate - 1)
-    yield _largest(halves, f'|{ANGLES}|', lambda: halves.sums)
-    yield Row(
-        'pairing error, max |lambda_l + lambda_(4N+1-l)|',
-        None,
-        halves.pairing_error if halves.is_known else None,
-        unit=UNIT,
-        remark=f'all of the half: {halves.all_pairs:.1e}' if halves.is_known else '',
-    )
+@once
+def _read(bag):
+    return Halves(bag)
 
 
-def _ends(halves, of_paper):
+def _halves(bags):
+    return _read(bags[RUN])
+
+
+# ---- rows ----------------------------------------------------------------------------------------
+
+
+def cosines(bags):
+    halves = _halves(bags)
+    places = ('below', halves.positive_end, 1.0), ('above', halves.behind_zeros, -1.0)
+    for where, index, limit in places:
+        row = Row(f'cos Theta just {where} the zero modes, index {index}', limit)
+        if not halves.is_of_paper:
+            row.published = None
+        if halves.is_known:
+            row.measured = halves.number(halves.cos, index)
+            row.error = halves.number(halves.cos_error, index)
+            row.remark = f'mean over {halves.reports} reports'
+        yield row
+
+
+def zero_indices(bags):
     """By the size of the exponents of all 4N vectors."""
+    halves = _halves(bags)
     found = halves.zeros if halves.is_known else []
     ends = (int(found[0]), int(found[-1])) if len(found) else (None, None)
+    remark = f'{zeros.span(found)}, by their size' if len(found) else ''
     for name, published, index in zip(('first', 'last'), (FIRST_ZERO, LAST_ZERO), ends):
-        yield Row(
-            f'{name} zero exponent',
-            published if of_paper else None,
-            index,
-            remark=f'{zeros.span(found)}, by their size' if len(found) else '',
-        )
+        published = published if halves.is_of_paper else None
+        yield Row(f'{name} zero exponent', published, index, remark=remark)
 
 
-def _zero_rows(halves):
-    """|cos Theta| of each beside the smaller one of the neighbours."""
-    indices = range(halves.positive_end + 1, halves.behind_zeros)
+def zero_cosines(bags):
+    """|cos Theta| of each beside the limit, 1."""
+    halves = _halves(bags)
     if not halves.is_known:
-        yield Row('|cos Theta| of the zero modes', 1.0, sense=BELOW)
+        yield Row('|cos Theta| of the zero modes')
         return
-    limit = float(np.abs(halves.cos[[halves.positive_end - 1, halves.behind_zeros - 1]]).min())
-    for index in indices:
-        cos = float(halves.cos[index - 1])
-        angle = halves.angle_by_age[:, index - 1]
+    for index in range(halves.positive_end + 1, halves.behind_zeros):
+        cos, angle = halves.number(halves.cos, index), halves.angle_by_age[:, index - 1]
         remark = (
             f'cos Theta {cos:+.5f}; angle to the limit times the age of the frame: '
             f'{angle.min():.2f} to {angle.max():.2f}'
         )
-        yield _of_index(halves, f'|cos Theta| of zero mode {index}', index, limit, remark)
+        error = halves.number(halves.cos_error, index)
+        yield Row(f'|cos Theta| of zero mode {index}', None, abs(cos), error, remark=remark)
 
 
-def _of_index(halves, quantity, index, limit, remark):
-    at = index - 1
-    error = float(halves.cos_error[at])
-    return Row(quantity, limit, float(abs(halves.cos[at])), error, remark=remark, sense=BELOW)
-
-
-def _step_rows(recording, halves):
+def step_cosines(bags):
     """Means over the vectors of each step of the positive half; they fluctuate together."""
+    halves = _halves(bags)
     if not halves.is_known:
         yield Row('cos Theta of steps')
         return
-    named = [('largest exponent', 1, 1)] + [
+    found = [
         (block.name, block.first, block.last)
-        for block in steps.blocks(recording.steps)
+        for block in steps.blocks(halves.recording.steps)
         if block.last <= halves.positive_end
     ]
-    for name, first, last in named:
+    for name, first, last in [('largest exponent', 1, 1), *found]:
         inside = slice(first - 1, last)
         cos, error = float(halves.cos[inside].mean()), float(halves.cos_error[inside].max())
         yield Row(f'cos Theta of {name}', None, cos, error, remark=f'indices {first}-{last}')
+    mean = float(halves.cos[: halves.positive_end].mean())
+    yield Row('cos Theta of the positive half, mean', None, mean)
+
+
+def conjugates(bags):
+    halves = _halves(bags)
+    yield _mean(halves, 'ln(C / C\')', lambda: np.log(halves.ratio / halves.conjugate))
+    yield _mean(halves, ANGLES, lambda: halves.sums)
     yield Row(
-        'cos Theta of the positive half, mean',
-        None,
-        float(halves.cos[: halves.positive_end].mean()),
+        'sum of |dq|^2 less |dp|^2 of the conjugates, positive half',
+        0.0,
+        float(np.abs(halves.excess[:, -1]).max()) if halves.is_known else None,
+        remark='largest of all reports: what is apart by a gap is exact',
+        left_open=halves.info.accuracy,
     )
 
 
-def _mean(halves, what, published, values):
-    quantity = f'{what}, mean over the positive half'
-    if not halves.is_known:
-        return Row(quantity, published, left_open=READ_OFF)
-    mean, error = averages.of_series(values().mean(axis=1))
-    return Row(quantity, published, float(mean), float(error), READ_OFF)
+def _mean(halves, what, values):
+    row = Row(f'{what}, mean over the positive half', 0.0)
+    if halves.is_known:
+        row.measured, row.error = map(float, averages.of_series(values().mean(axis=1)))
+    return row
+
+
+def pairing(bags):
+    """Of vectors that are carried each by itself; those of a step alone stand apart from others."""
+    halves = _halves(bags)
+    total = Row('sum of the exponents of both halves', 0.0, unit=UNIT)
+    total.left_open = 2 * halves.info.accuracy
+    found = steps.blocks(halves.recording.steps)
+    inside = [index - 1 for one in found for index in range(one.first, one.last + 1)]
+    inside = [index for index in inside if index < halves.positive_end]
+    scatter = Scatter('lambda_l + lambda_(4N+1-l) of the vectors of steps')
+    if halves.is_known:
+        total.measured = abs(float(halves.pairs.sum()))
+        errors = np.hypot(halves.errors, halves.errors[::-1])[inside]
+        if len(inside) and (errors > 0).all():
+            off, largest = halves.pairs[inside] / errors, np.abs(halves.pairs[inside]).max()
+            percent = 100 * errors / halves.exponents[inside]
+            remark = f'largest {largest:.2g} {UNIT}'
+            scatter = Scatter(scatter.quantity, float(off @ off), len(off), percent, remark)
+    return [total, scatter]
+
+
+def unsettled(bags):
+    halves = _halves(bags)
+    yield _largest(halves, '|C / C\' - 1|', lambda: halves.ratio / halves.conjugate - 1)
+    yield _largest(halves, f'|{ANGLES}|', lambda: halves.sums)
+    error = halves.pairing_error if halves.is_known else None
+    yield Row('pairing error, max |lambda_l + lambda_(4N+1-l)|', None, error, unit=UNIT)
 
 
 def _largest(halves, what, values):
     """Of the means of all vectors of the positive half."""
-    quantity = f'largest mean {what}'
-    if not halves.is_known:
-        return Row(quantity)
-    mean, error = averages.of_series(values())
-    index = int(np.abs(mean).argmax())
-    return Row(
-        quantity,
-        None,
-        float(abs(mean[index])),
-        float(error[index]),
-        remark=f'index {1 + index}; median of one report {np.median(np.abs(values())):.1e}',
-    )
+    row = Row(f'largest mean {what}')
+    if halves.is_known:
+        mean, error = averages.of_series(values())
+        index = int(np.abs(mean).argmax())
+        row.measured, row.error = float(abs(mean[index])), float(error[index])
+        row.remark = f'index {1 + index}; median of one report {np.median(np.abs(values())):.1e}'
+    return row
 
 
-def _cos(halves, where, index, published):
-    quantity = f'cos Theta just {where} the zero modes, index {index}'
-    if not halves.is_known:
-        return Row(quantity, published, left_open=READ_OFF)
-    return Row(
-        quantity,
-        published,
-        float(halves.cos[index - 1]),
-        float(halves.cos_error[index - 1]),
-        READ_OFF,
-        remark=f'mean over {halves.reports} reports',
-    )
+# ---- figure and tables ---------------------------------------------------------------------------
 
 
 def figures(bags):
-    halves = Halves(bags['halves'])
+    halves = _halves(bags)
     if not halves.is_known:
         return
     figure = plt.figure(figsize=(7.2, 6.0), constrained_layout=True)
@@ -221,82 +213,51 @@ def figures(bags):
     whole, near, ratio = (
         figure.add_subplot(place) for place in (grid[0, 0], grid[0, 1], grid[1, :])
     )
-    _whole(whole, halves)
+    indices = np.arange(1, halves.count + 1)
+    whole.plot(indices, halves.cos, '.', color=BLUE, markersize=2, rasterized=True)
     _near(near, halves)
+    for axes in (whole, near):
+        ends = halves.positive_end + 0.5, halves.behind_zeros - 0.5
+        axes.axvspan(*ends, color=ZERO, alpha=0.25, linewidth=0)
+        axes.axhline(0, color=GREY, linewidth=0.5)
+        axes.set(ylim=(-1.08, 1.08), xlabel=r'index $\ell$', ylabel=r'$\cos\Theta_\ell$')
     _ratio(ratio, halves)
-    shaded = f'(b) shaded: zero modes {halves.positive_end + 1}-{halves.behind_zeros - 1}'
-    for axes, title in ((whole, '(a)'), (near, shaded), (ratio, '(c)')):
-        axes.set_title(title, loc='left')
+    shaded = f'shaded: zero modes {halves.positive_end + 1}-{halves.behind_zeros - 1}'
+    draw.letters((whole, near, ratio), ('', shaded))
     figure.suptitle(f'{scene(halves.info)}, mean over {halves.reports} reports', fontsize=9)
     yield 'coordinates', figure
 
 
-def _whole(axes, halves):
-    indices = np.arange(1, halves.count + 1)
-    axes.plot(indices, halves.cos, '.', color=BLUE, markersize=2, rasterized=True)
-    axes.axvspan(
-        halves.positive_end + 0.5, halves.behind_zeros - 0.5, color=ZERO, alpha=0.3, linewidth=0
-    )
-    _cos_axes(axes)
-
-
 def _near(axes, halves):
     first, last = halves.positive_end + 1 - BESIDE, halves.behind_zeros - 1 + BESIDE
-    first, last = max(first, 1), min(last, halves.count)
-    indices = np.arange(first, last + 1)
-    inside = slice(first - 1, last)
-    axes.errorbar(
-        indices,
-        halves.cos[inside],
-        halves.cos_error[inside],
-        fmt='o',
-        color=BLUE,
-        markersize=2.6,
-        elinewidth=0.8,
-        capsize=1.5,
-    )
-    axes.axvspan(
-        halves.positive_end + 0.5, halves.behind_zeros - 0.5, color=ZERO, alpha=0.2, linewidth=0
-    )
+    inside = slice(max(first, 1) - 1, min(last, halves.count))
+    indices = 1 + np.arange(halves.count)[inside]
+    points = list(zip(indices, halves.cos[inside], halves.cos_error[inside]))
+    draw.bars(axes, points, colour=BLUE, markersize=2.6, elinewidth=0.8, capsize=1.5)
     axes.xaxis.set_major_locator(ticker.MaxNLocator(nbins=6, integer=True))
-    _cos_axes(axes)
-
-
-def _cos_axes(axes):
-    axes.axhline(0, color=GREY, linewidth=0.5)
-    axes.set_ylim(-1.08, 1.08)
-    axes.set_xlabel(r'index $\ell$')
-    axes.set_ylabel(r'$\cos\Theta_\ell$')
 
 
 def _ratio(axes, halves):
     indices = np.arange(1, halves.positive_end + 1)
-    axes.semilogy(
-        indices,
-        halves.c_conjugate,
-        color=VERMILION,
-        linewidth=3,
-        alpha=0.5,
-        label=r"$C'_{4N+1-\ell}=|\delta q|/|\delta p|$ of the conjugate",
-    )
-    axes.semilogy(
-        indices, halves.c, color=BLUE, linewidth=0.9, label=r'$C_\ell=|\delta p|/|\delta q|$'
-    )
-    axes.set_xlabel(r'index $\ell$')
-    axes.set_ylabel(r"$C$, $C'$  [1/time unit]")
+    of_conjugate = r"$C'_{4N+1-\ell}=|\delta q|/|\delta p|$ of the conjugate"
+    wide = {'color': VERMILION, 'linewidth': 3, 'alpha': 0.5}
+    axes.semilogy(indices, halves.c_conjugate, label=of_conjugate, **wide)
+    own = r'$C_\ell=|\delta p|/|\delta q|$'
+    axes.semilogy(indices, halves.c, color=BLUE, linewidth=0.9, label=own)
+    axes.set(xlabel=r'index $\ell$', ylabel=r"$C$, $C'$  [1/time unit]")
     axes.legend()
 
 
 def tables(bags):
-    halves = Halves(bags['halves'])
+    halves = _halves(bags)
     if not halves.is_known:
         return
     yield 'cos_theta', ('index', 'cos_theta', 'std_error'), [
-        (index, f'{cos:.5f}', f'{error:.1e}')
-        for index, (cos, error) in enumerate(zip(halves.cos, halves.cos_error), start=1)
+        cells('s .5f .1e', index, *one)
+        for index, one in enumerate(zip(halves.cos, halves.cos_error), 1)
     ]
     columns = zip(halves.c, halves.c_error, halves.c_conjugate, np.abs(halves.excess).max(axis=0))
-    yield 'ratios', ('index', 'C', 'std_error', 'C_of_conjugate', 'largest_excess_up_to_here'), [
-        (index, f'{c:.5g}', f'{error:.1e}', f'{other:.5g}', f'{off:.1e}')
-        for index, (c, error, other, off) in enumerate(columns, start=1)
+    header = 'index', 'C', 'std_error', 'C_of_conjugate', 'largest_excess_up_to_here'
+    yield 'ratios', header, [
+        cells('s .5g .1e .5g .1e', index, *one) for index, one in enumerate(columns, 1)
     ]

@@ -8,23 +8,19 @@ from hdlyap.plots import paper, steps
 from hdlyap.plots.figures.style import GREEN, GREY, KIND_COLOURS, plt
 from hdlyap.plots.numbers import with_error
 
-from .. import averages, crossing, relations, scales, slopes, velocity
-from ..row import ABOVE, EQUAL, INFERRED, Claim, Row
+from .. import averages, crossing, draw, relations, scales, slopes, velocity
+from ..files import cells
+from ..row import ABOVE, BELOW, Row
 
-TITLE = 'Slopes c_T, c_L and velocity v against the density, 780 disks, periodic'
 RUNS = tuple(f'density_{tenths:02d}' for tenths in range(1, 9))
 CLOSE_BELOW = 0.6  # density: v is close to c_L well below it
-WITHIN = f'within {100 * paper.FIT_ACCURACY:g} %'
 UNIT = 'sigma/time unit'
 FITS = {'T': paper.slope_t, 'LP': paper.slope_l}
 SYMBOLS = {'T': 'c_T', 'LP': 'c_L'}
+MARKERS = {'T': 'o', 'LP': 's'}
 BESIDE = 0.005  # density: so that error bars can be seen beside each other
 FEWEST = 4  # densities for a mean
 EDGE = 1e-6  # relative: densities that are one
-
-
-def runs(plan):
-    return RUNS
 
 
 class Measured:
@@ -35,17 +31,28 @@ class Measured:
         self.branch = {'T': _step(recording, steps.T), 'LP': _step(recording, steps.LP)}
         self.v, self.v_error, self.phases = slopes.velocity(recording, 1, 0)
         message = recording.steps
-        self.v_all = (
-            (message.v, message.v_error, message.v_phases) if message else (np.nan, np.nan, 0)
-        )
+        unknown = np.nan, np.nan, 0
+        self.v_all = (message.v, message.v_error, message.v_phases) if message else unknown
+
+    @property
+    def has_both(self):
+        """c_L and v, each with its error."""
+        lp = self.branch['LP']
+        return lp is not None and lp.error >= 0 and isfinite(self.v_error)
 
     @property
     def ratio(self):
-        """(v / c_L, its error); NaN if one of them is unknown."""
+        """(v / c_L, its error)"""
         lp = self.branch['LP']
-        if lp is None or lp.error < 0 or not isfinite(self.v_error):
-            return np.nan, np.nan
         return averages.quotient((self.v, self.v_error), (lp.slope, lp.slope_error))
+
+    @property
+    def apart(self):
+        """(c_L - c_T, its error); None if one of them is not known."""
+        t, lp = self.branch['T'], self.branch['LP']
+        if not all(point and point.error > 0 for point in (t, lp)):
+            return None
+        return lp.slope - t.slope, hypot(lp.slope_error, t.slope_error)
 
 
 def _step(recording, kind):
@@ -59,57 +66,19 @@ def _all(bags):
 # ---- rows ----------------------------------------------------------------------------------------
 
 
-def claims(bags):
+def slopes_of(bags, kind):
     found = _all(bags)
-    for kind, symbol in SYMBOLS.items():
-        yield Claim(
-            f'{symbol} follows the paper\'s fit',
-            [*(_slope_row(kind, one) for one in found), _mean_row(kind, found)],
-            f'{WITHIN}; on average as well as the scatter of the densities tells',
-            values=sum(one.branch[kind] is not None for one in found),
-        )
-    yield Claim(
-        'v is close to c_L well below density 0.6',
-        [_ratio_row(one, EQUAL) for one in found if one.density < CLOSE_BELOW * (1 - EDGE)],
-        WITHIN,
-    )
-    yield Claim(
-        'v is above c_L beyond density 0.6',
-        [_ratio_row(one, ABOVE) for one in found if one.density > CLOSE_BELOW * (1 + EDGE)],
-        'above 1 by 3 standard errors',
-        INFERRED,
-    )
-    yield Claim(
-        'c_T = c_L at the density at which the fits cross',
-        [_crossing_row(found)],
-        f'where fits that are off by {100 * paper.FIT_ACCURACY:g} % cross',
-    )
-    yield from relations.claims(_triples(found), paper.FIT_ACCURACY)
-    yield Claim('velocity', list(_beside(found)))
+    return [*(_slope_row(kind, one) for one in found), _mean_row(kind, found)]
 
 
-def _triples(found):
-    """{what: (c_L, its error, what, its error) of the densities at which both are known}"""
-    return {
-        'c_T': [
-            (lp.slope, lp.slope_error, t.slope, t.slope_error)
-            for lp, t in ((one.branch['LP'], one.branch['T']) for one in found)
-            if slopes.own([lp]) and slopes.own([t])
-        ],
-        'v': [
-            (one.branch['LP'].slope, one.branch['LP'].slope_error, one.v, one.v_error)
-            for one in found
-            if slopes.own([one.branch['LP']]) and one.phases and isfinite(one.v_error)
-        ],
-    }
-
-
-def _beside(found):
-    for one in found:
-        yield _velocity_row(one)
-    for one in found:
-        if abs(one.density / CLOSE_BELOW - 1) <= EDGE:
-            yield _ratio_row(one, None)
+def _slope_row(kind, one):
+    point, fitted = one.branch[kind], FITS[kind](one.density)
+    row = Row(f'{SYMBOLS[kind]} at density {one.density:.1f}', fitted, unit=UNIT)
+    if point is not None:
+        row.measured, row.error = point.slope, point.slope_error
+        off = f'{100 * (point.slope / fitted - 1):+.1f} % of the fit'
+        row.remark = '; '.join(filter(None, (off, point.remark)))
+    return row
 
 
 def _mean_row(kind, found):
@@ -119,86 +88,109 @@ def _mean_row(kind, found):
         for one in found
         if one.branch[kind]
     ]
-    quantity, telling = f'{SYMBOLS[kind]} over its fit, less 1, mean', 100 * paper.FIT_ACCURACY
-    if len(off) < FEWEST:
-        return Row(quantity, 0.0, unit='%', telling=telling)
-    mean, error = averages.of_snapshots(off)
-    return Row(quantity, 0.0, float(mean), float(error), unit='%', telling=telling)
+    exactly = {'left_open': 0.0, 'telling': 100 * paper.FIT_ACCURACY, 'count': 0}
+    row = Row(f'{SYMBOLS[kind]} over its fit, less 1, mean', 0.0, unit='%', **exactly)
+    if len(off) >= FEWEST:
+        row.measured, row.error = map(float, averages.of_snapshots(off))
+    return row
 
 
-def _slope_row(kind, one):
-    point, fitted = one.branch[kind], FITS[kind](one.density)
-    quantity = f'{SYMBOLS[kind]} at density {one.density:.1f}'
-    if point is None:
-        return Row(quantity, fitted, None, 0.0, paper.FIT_ACCURACY * fitted, UNIT)
-    return Row(
-        quantity,
-        fitted,
-        point.slope,
-        point.slope_error,
-        paper.FIT_ACCURACY * fitted,
-        UNIT,
-        '; '.join(
-            filter(None, (f'{100 * (point.slope / fitted - 1):+.1f} % of the fit', point.remark))
-        ),
-    )
+def close(bags):
+    """v - c_L below CLOSE_BELOW."""
+    for one in _all(bags):
+        if one.density < CLOSE_BELOW * (1 - EDGE):
+            row = Row(f'v - c_L at density {one.density:.1f}', 0.0, unit=UNIT)
+            if one.has_both:
+                lp = one.branch['LP']
+                row.measured, row.error = one.v - lp.slope, hypot(one.v_error, lp.slope_error)
+                row.remark = f'v / c_L {with_error(*one.ratio)}'
+            yield row
+
+
+def above(bags):
+    found = [one for one in _all(bags) if one.density > CLOSE_BELOW * (1 + EDGE)]
+    return [_ratio_row(one) for one in found]
+
+
+def _ratio_row(one):
+    ratio = one.ratio if one.has_both else (None, 0.0)
+    return Row(f'v / c_L at density {one.density:.1f}', None, *ratio)
+
+
+def cross(bags):
+    """c_T less c_L: above zero where the fits' is, below where that is."""
+    for one in _all(bags):
+        published = ABOVE if FITS['T'](one.density) > FITS['LP'](one.density) else BELOW
+        row = Row(f'c_T - c_L at density {one.density:.1f}', 0.0, unit=UNIT, sense=published)
+        if one.apart:
+            row.measured, row.error = -one.apart[0], one.apart[1]
+            row.remark = f'{row.measured / row.error:+.0f} standard errors'
+        yield row
+
+
+def straight(bags):
+    return relations.straight(_triples(_all(bags)))
+
+
+def beside(bags):
+    found = _all(bags)
+    yield _crossing_row(found)
+    yield from relations.beside(_triples(found))
+    for one in found:
+        yield _velocity_row(one)
+    for one in found:
+        if abs(one.density / CLOSE_BELOW - 1) <= EDGE:
+            yield _ratio_row(one)
+
+
+def _triples(found):
+    """{what: (c_L, its error, what, its error) of the densities at which both are known}"""
+    known = [one for one in found if slopes.own([one.branch['LP']])]
+    return {
+        'c_T': [
+            (*_of(one.branch['LP']), *_of(one.branch['T']))
+            for one in known
+            if slopes.own([one.branch['T']])
+        ],
+        'v': [
+            (*_of(one.branch['LP']), one.v, one.v_error)
+            for one in known
+            if one.phases and isfinite(one.v_error)
+        ],
+    }
+
+
+def _of(point):
+    return point.slope, point.slope_error
 
 
 def _velocity_row(one):
-    v, error, count = one.v_all
+    row = Row(f'v at density {one.density:.1f}', None, one.v if one.phases else None, one.v_error)
+    row.unit, (v, error, count) = UNIT, one.v_all
     remark = [f'{one.phases} phases of LP(1,0)']
     if count:
         over = v / velocity.of_fields(one.density)
         remark.append(f'all {count} phases: {with_error(v, error)}, {over:.3f} Z / sqrt(2)')
-    return Row(
-        f'v at density {one.density:.1f}',
-        None,
-        one.v if one.phases else None,
-        one.v_error,
-        unit=UNIT,
-        remark='; '.join(remark) if one.phases else '',
-    )
-
-
-def _ratio_row(one, sense):
-    """Beside 1, or as its limit; without a sense only shown."""
-    ratio, error = one.ratio
-    return Row(
-        f'v / c_L at density {one.density:.1f}',
-        None if sense is None else 1.0,
-        ratio if isfinite(ratio) else None,
-        error,
-        paper.FIT_ACCURACY if sense == EQUAL else 0.0,
-        sense=sense or EQUAL,
-    )
+    row.remark = '; '.join(remark) if one.phases else ''
+    return row
 
 
 def _crossing_row(found):
-    place, (low, high) = crossing.of_fits(), crossing.of_fits_between()
-    both = [one for one in found if all(point and point.error > 0 for point in one.branch.values())]
-    measured, error = (
-        crossing.measured(*zip(*[_apart(one) for one in both])) if len(both) > 1 else (None, 0.0)
-    )
-    remark = (
-        f'the paper\'s fits +-{100 * paper.FIT_ACCURACY:g} % cross anywhere '
+    both = [one for one in found if one.apart]
+    row = Row('density at which c_T = c_L', unit='1/sigma^2')
+    if len(both) > 1:
+        points = [(one.density, *one.apart) for one in both]
+        row.measured, row.error = crossing.measured(*zip(*points))
+    low, high = crossing.of_fits_between()
+    accuracy = f'{100 * paper.FIT_ACCURACY:g} %'
+    row.remark = (
+        f'the fits cross at {crossing.of_fits():.3f}, +-{accuracy} anywhere '
         f'from {low:.2f} to {high:.2f}'
     )
     shared = slopes.noted([point for one in both for point in one.branch.values()])
-    return Row(
-        'c_T = c_L at density',
-        place,
-        measured,
-        error,
-        max(place - low, high - place),
-        '1/sigma^2',
-        '; '.join(filter(None, (remark, shared and f'{2 * len(both)} slopes, {shared}'))),
-    )
-
-
-def _apart(one):
-    """(density, c_L - c_T, its error)"""
-    t, lp = one.branch['T'], one.branch['LP']
-    return one.density, lp.slope - t.slope, hypot(lp.slope_error, t.slope_error)
+    if shared:
+        row.remark += f'; {2 * len(both)} slopes, {shared}'
+    return row
 
 
 # ---- figure and table ----------------------------------------------------------------------------
@@ -214,71 +206,41 @@ def _figure(found):
     figure = plt.figure(figsize=(7.6, 4.4), constrained_layout=True)
     grid = figure.add_gridspec(2, 2, height_ratios=[3, 1.1], width_ratios=[1.1, 1])
     slope = figure.add_subplot(grid[0, 0])
-    deviation = figure.add_subplot(grid[1, 0], sharex=slope)
+    off, right = figure.add_subplot(grid[1, 0], sharex=slope), figure.add_subplot(grid[:, 1])
     _against_density(slope, found)
-    _deviations(deviation, found)
-    _against_c_l(figure.add_subplot(grid[:, 1]), found)
+    _deviations(off, found)
+    _against_c_l(right, found)
+    draw.letters((slope, right))
     figure.suptitle(f'$N={paper.DISKS}$, $L_y/L_x={paper.ASPECT}$, periodic', fontsize=9)
     return figure
+
+
+def _points(found, of):
+    return [(one.density, *of(one)) for one in found if of(one)]
+
+
+def _known(point):
+    return point and _of(point)
+
+
+def _velocity(one):
+    return (one.v, one.v_error) if one.phases else None
 
 
 def _against_density(axes, found):
     density = np.linspace(0, 0.85, 200)
     for kind, fit in FITS.items():
-        colour = KIND_COLOURS[kind]
-        published = fit(density)
-        axes.fill_between(
-            density,
-            (1 - paper.FIT_ACCURACY) * published,
-            (1 + paper.FIT_ACCURACY) * published,
-            color=colour,
-            alpha=0.2,
-            linewidth=0,
-            label=f'${SYMBOLS[kind]}$, fit of Eckmann et al. $\\pm3$ %',
-        )
-        values = [
-            (one.density, one.branch[kind].slope, one.branch[kind].slope_error)
-            for one in found
-            if one.branch[kind]
-        ]
-        _points(axes, values, 'o' if kind == 'T' else 's', colour, f'${SYMBOLS[kind]}$')
-    _points(
-        axes,
-        [(one.density, one.v, one.v_error) for one in found if one.phases],
-        '^',
-        GREEN,
-        '$v$',
-        face='none',
-        markersize=6,
-    )
-    axes.set_xlim(0, 0.85)
+        colour, symbol = KIND_COLOURS[kind], f'${SYMBOLS[kind]}$'
+        label = f'{symbol}, fit of Eckmann et al. $\\pm3$ %'
+        draw.band(axes, density, fit(density), paper.FIT_ACCURACY, colour, alpha=0.2, label=label)
+        points = _points(found, lambda one, k=kind: _known(one.branch[k]))
+        draw.bars(axes, points, MARKERS[kind], colour, symbol)
+    velocities = _points(found, _velocity)
+    draw.bars(axes, velocities, '^', GREEN, '$v$', markerfacecolor='none', markersize=6)
+    axes.set(xlim=(0, 0.85), ylabel=r'$c_T$, $c_L$, $v$  [$\sigma$/time unit]')
     axes.set_ylim(bottom=0)
     axes.tick_params(labelbottom=False)
-    axes.set_ylabel(r'$c_T$, $c_L$, $v$  [$\sigma$/time unit]')
     axes.legend(loc='upper left')
-    axes.set_title('(a)', loc='left')
-
-
-def _points(axes, values, marker, colour, label, face=None, markersize=4):
-    if values:
-        x, y, error = zip(*values)
-        axes.errorbar(
-            x,
-            y,
-            _shown(error),
-            fmt=marker,
-            color=colour,
-            markerfacecolor=face or colour,
-            elinewidth=0.9,
-            markersize=markersize,
-            capsize=2,
-            label=label,
-        )
-
-
-def _shown(errors):
-    """Lengths of bars: none where the error is not known."""
-    return np.maximum(0, np.nan_to_num(errors))
 
 
 def _deviations(axes, found):
@@ -286,69 +248,32 @@ def _deviations(axes, found):
     axes.axhspan(-bound, bound, color=GREY, alpha=0.2, linewidth=0)
     axes.axhline(0, color=GREY, linewidth=0.6)
     for (kind, fit), side in zip(FITS.items(), (-BESIDE, BESIDE)):
-        values = [
-            (
-                one.density + side,
-                100 * (one.branch[kind].slope / fit(one.density) - 1),
-                100 * one.branch[kind].slope_error / fit(one.density),
-            )
-            for one in found
-            if one.branch[kind]
+        points = [
+            (at + side, 100 * (slope / fit(at) - 1), 100 * error / fit(at))
+            for at, slope, error in _points(found, lambda one, k=kind: _known(one.branch[k]))
         ]
-        _points(axes, values, 'o' if kind == 'T' else 's', KIND_COLOURS[kind], '_')
-    axes.set_xlabel(r'density $\rho$  [1/$\sigma^2$]')
-    axes.set_ylabel('deviation from\nthe fit  [%]')
+        draw.bars(axes, points, MARKERS[kind], KIND_COLOURS[kind])
+    axes.set(xlabel=r'density $\rho$  [1/$\sigma^2$]', ylabel='deviation from\nthe fit  [%]')
 
 
 def _against_c_l(axes, found):
     found = [one for one in found if one.branch['LP']]
-    largest = 1.08 * max(
-        [one.branch['LP'].slope for one in found] + [one.v for one in found if one.phases],
-        default=1.0,
-    )
+    values = [one.branch['LP'].slope for one in found] + [one.v for one in found if one.phases]
+    largest = 1.08 * max(values, default=1.0)
     axes.plot([0, largest], [0, largest], color=GREY, linewidth=0.8, label='diagonal')
-    _points(
-        axes,
-        [
-            (one.branch['LP'].slope, one.branch['T'].slope, one.branch['T'].slope_error)
-            for one in found
-            if one.branch['T']
-        ],
-        'o',
-        KIND_COLOURS['T'],
-        '$c_T$',
-    )
-    _points(
-        axes,
-        [(one.branch['LP'].slope, one.v, one.v_error) for one in found if one.phases],
-        '^',
-        GREEN,
-        '$v$',
-    )
-    axes.set_xlim(0, largest)
-    axes.set_ylim(0, largest)
-    axes.set_xlabel(r'$c_L$  [$\sigma$/time unit]')
-    axes.set_ylabel(r'$c_T$, $v$  [$\sigma$/time unit]')
+    t = [(one.branch['LP'].slope, *_of(one.branch['T'])) for one in found if one.branch['T']]
+    draw.bars(axes, t, 'o', KIND_COLOURS['T'], '$c_T$')
+    v = [(one.branch['LP'].slope, one.v, one.v_error) for one in found if one.phases]
+    draw.bars(axes, v, '^', GREEN, '$v$')
+    axes.set(xlim=(0, largest), ylim=(0, largest))
+    axes.set(xlabel=r'$c_L$  [$\sigma$/time unit]', ylabel=r'$c_T$, $v$  [$\sigma$/time unit]')
     axes.legend(loc='upper left')
-    axes.set_title('(b)', loc='left')
 
 
 def tables(bags):
-    header = (
-        'density',
-        'c_t',
-        'c_t_error',
-        'c_t_fit',
-        'c_l',
-        'c_l_error',
-        'c_l_fit',
-        'v',
-        'v_error',
-        'v_all',
-        'v_all_error',
-    )
     found = _all(bags)
-    yield 'densities', header, [_line(one) for one in found]
+    names = 'c_t', 'c_t_error', 'c_t_fit', 'c_l', 'c_l_error', 'c_l_fit', 'v', 'v_error', 'v_all'
+    yield 'densities', ('density', *names, 'v_all_error'), [_line(one) for one in found]
     yield 'scales', scales.HEADER, [
         scales.line(one.density, one.v if one.phases else None, _wave_numbers(bags[name].recording))
         for name, one in zip(RUNS, found)
@@ -362,11 +287,10 @@ def _wave_numbers(recording):
 
 
 def _line(one):
-    line = [f'{one.density:g}']
+    numbers = []
     for kind, fit in FITS.items():
-        point = one.branch[kind]
-        line += [f'{point.slope:.6g}', f'{point.slope_error:.2g}'] if point else ['', '']
-        line.append(f'{fit(one.density):.6g}')
-    line += [f'{one.v:.6g}', f'{one.v_error:.2g}'] if one.phases else ['', '']
+        numbers += [*(_of(one.branch[kind]) if one.branch[kind] else (None, None))]
+        numbers.append(fit(one.density))
     v, error, count = one.v_all
-    return line + ([f'{v:.6g}', f'{error:.2g}'] if count else ['', ''])
+    numbers += [*(_velocity(one) or (None, None)), *((v, error) if count else (None, None))]
+    return cells('g' + 2 * ' .6g .2g .6g' + 2 * ' .6g .2g', one.density, *numbers)

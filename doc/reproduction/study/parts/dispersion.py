@@ -3,78 +3,45 @@
 from hdlyap.plots import fits, steps
 from hdlyap.plots.figures import dispersion as figure_of_dispersion
 
-from ..row import Claim, Row
+from ..files import cells
+from ..row import Row
 
-TITLE = 'Dispersion relation of 780 disks, density 0.8'
+RUN = 'periodic'
 UNITS = {False: 'sigma/time unit', True: 'sigma^2/time unit'}
+COLUMNS = 'kind', 'nx', 'ny', 'k', 'exponent', 'std_error', 'multiplicity', 'expected'
 
 
-def runs(plan):
-    return ['periodic']
-
-
-def claims(bags):
-    """None: the paper's slopes are beside the steps' exponents in part 1."""
-    message = fits.chosen(bags['periodic'].recording.steps, fits.RELATIONS[2])
-    of_kinds = fits.of(message) or (None, None)
-    yield Claim(
-        'fits with curvature',
-        [
-            _fit(fit, name)
-            for symbol, fit in zip(('c_T', 'c_L'), of_kinds)
-            for name in (symbol, symbol + '2')
-        ],
-    )
+def coefficients(bags):
+    message = fits.chosen(bags[RUN].recording.steps, fits.RELATIONS[2])
+    for symbol, fit in zip(('c_T', 'c_L'), fits.of(message) or (None, None)):
+        for name in (symbol, symbol + '2'):
+            yield _fit(fit, name)
 
 
 def _fit(fit, name):
     """A coefficient of ours."""
     values = {name: (value, error) for name, value, error in fit.values} if fit else {}
     measured, error = values.get(name, (None, 0.0))
-    curved = name.endswith('2')
     # asked for is the curve; c alone is what one wave number gives
     relation = fits.RELATIONS[fit.terms if fit and name in values else 2]
     count = fit.count if fit else 0
-    return Row(
-        f'{name} of lambda = {relation}',
-        None,
-        measured,
-        max(error, 0.0),
-        unit=UNITS[curved],
-        remark=f'over {count} wave number' + ('s' if count != 1 else ''),
-    )
+    remark, unit = f'over {count} wave number' + ('s' if count != 1 else ''), UNITS[name[-1] == '2']
+    return Row(f'{name} of lambda = {relation}', None, measured, max(error, 0.0), unit, remark)
 
 
 def figures(bags):
-    figure = figure_of_dispersion.draw(bags['periodic'].recording)
+    figure = figure_of_dispersion.draw(bags[RUN].recording)
     if figure is not None:
         yield 'dispersion', figure
 
 
 def tables(bags):
-    found = steps.resolved(bags['periodic'].recording.steps)
-    header = (
-        'kind',
-        'nx',
-        'ny',
-        'k',
-        'exponent',
-        'std_error',
-        'multiplicity',
-        'expected',
-        'steps_of_its_vectors',
-    )
-    yield 'steps', header, [
-        (
-            steps.NAMES[step.kind],
-            step.nx,
-            step.ny,
-            f'{step.wave_number:.6f}',
-            f'{step.exponent:.7g}',
-            f'{step.std_error:.2g}',
-            f'{step.multiplicity:.4f}',
-            step.expected,
-            step.members,
+    found = steps.resolved(bags[RUN].recording.steps).values()
+    yield 'steps', (*COLUMNS, 'steps_of_its_vectors'), [
+        cells(
+            's s s .6f .7g .2g .4f s s',
+            *(steps.NAMES[one.kind], one.nx, one.ny, one.wave_number, one.exponent, one.std_error),
+            *(one.multiplicity, one.expected, one.members),
         )
-        for step in sorted(found.values(), key=lambda step: (step.kind, step.wave_number))
+        for one in sorted(found, key=lambda one: (one.kind, one.wave_number))
     ]

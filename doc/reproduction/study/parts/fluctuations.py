@@ -4,14 +4,14 @@ density 0.4. The paper says nothing of it: shown, not judged."""
 from matplotlib import ticker
 import numpy as np
 
-from hdlyap.plots.figures.style import BLUE, GREEN, GREY, VERMILION, plt
+from hdlyap.plots.figures.style import BLUE, GREEN, GREY, VERMILION
 from hdlyap.plots.numbers import with_error
 
-from .. import growth, relations
-from ..row import Claim, Row
+from .. import draw, growth, relations
+from ..bags import once
+from ..row import Row
 from . import aspect, smallest
 
-TITLE = 'Fluctuations of local exponents against index, size and averaging time, density 0.4'
 JOINED = (1, 2, 4)  # samples to one
 COLOURS = {
     growth.LARGEST: VERMILION,
@@ -22,9 +22,14 @@ COLOURS = {
 SHOWN = 3  # boxes in the figure of all indices
 
 
-def runs(plan):
-    wide = [name for name in aspect.runs(plan) if name.endswith('periodic')]
+def runs():
+    wide = [name for name in aspect.runs() if name.endswith('periodic')]
     return [*wide, *(smallest.run_of('periodic', box) for box in smallest.BOXES)]
+
+
+@once
+def _growth(bag):
+    return growth.read(bag) if bag.recording.spectrum else None
 
 
 class Box:
@@ -33,7 +38,7 @@ class Box:
     def __init__(self, name, bag):
         recording = bag.recording
         self.name, self.disks, self.aspect = name, recording.info.disks, recording.info.aspect
-        self.growth = growth.read(bag) if recording.spectrum else None
+        self.growth = _growth(bag)
         self.indices = growth.indices(recording) if self.growth else {}
         self.half = recording.positive_end if self.growth else 0
 
@@ -47,14 +52,14 @@ class Box:
 
 
 def _boxes(bags):
-    return sorted((Box(name, bags[name]) for name in runs(None)), key=lambda box: box.disks)
+    return sorted((Box(name, bags[name]) for name in runs()), key=lambda box: box.disks)
 
 
 def power_of_disks(boxes, group):
     """(p, its error, number of boxes) of variance times t ~ N^-p: relative errors, larger where the
     boxes scatter more. Of steps those of part 10 alone, which have one wave number."""
     if group in (growth.LAST_T, growth.LAST_LP):
-        boxes = [box for box in boxes if box.name in aspect.runs(None)]
+        boxes = [box for box in boxes if box.name in aspect.runs()]
     found = [(box.disks, *box.spread(group)[:2]) for box in boxes]
     known = np.array([one for one in found if one[1] and one[2] > 0]).reshape(-1, 3)
     if len(set(known[:, 0])) < 3:
@@ -67,16 +72,14 @@ def power_of_disks(boxes, group):
 # ---- rows ----------------------------------------------------------------------------------------
 
 
-def claims(bags):
+def powers(bags):
     boxes = _boxes(bags)
-    yield Claim(
-        'variance of the growth over a time t, times t, goes as N^-p',
-        [_power_row(boxes, group) for group in growth.GROUPS],
-    )
-    yield Claim(
-        'variance times t over longer times, over that of single samples',
-        [_time_row(boxes, group) for group in growth.GROUPS],
-    )
+    return [_power_row(boxes, group) for group in growth.GROUPS]
+
+
+def times(bags):
+    boxes = _boxes(bags)
+    return [_time_row(boxes, group) for group in growth.GROUPS]
 
 
 def _power_row(boxes, group):
@@ -115,14 +118,19 @@ def figures(bags):
 
 
 def _figure(boxes):
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(9.6, 3.4), constrained_layout=True)
+    figure, (left, middle, right) = draw.panels(1, 3, (9.6, 3.4))
     _of_indices(left, boxes)
+    most = max(boxes, key=lambda one: one.growth.samples)
     for group, colour in COLOURS.items():
-        _of_disks(middle, boxes, group, colour)
-        _of_time(right, boxes, group, colour)
-    for axes, letter in zip((left, middle, right), 'abc'):
+        of_disks = [(box.disks, *box.spread(group)[:2]) for box in boxes]
+        of_time = [most.spread(group, joined) for joined in JOINED]
+        of_time = [(length, value, error) for value, error, length, _ in of_time]
+        for axes, found in ((middle, of_disks), (right, of_time)):
+            known = [one for one in found if one[1]]
+            draw.bars(axes, known, 'o', colour, group, markersize=3.5)
+    right.set_title(f'$N={most.disks}$', fontsize=9)
+    for axes in (left, middle, right):
         axes.set_yscale('log')
-        axes.set_title(f'({letter})', loc='left')
     for axes in (middle, right):
         axes.set_xscale('log')
         axes.xaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
@@ -130,12 +138,10 @@ def _figure(boxes):
         axes.xaxis.set_minor_formatter(ticker.NullFormatter())
     left.set_xlabel(r'index over number of positive exponents')
     left.set_ylabel(r'$N\,t\;\mathrm{var}\,\lambda$  [1/time unit]')
-    middle.set_xlabel(r'disks $N$')
-    middle.set_ylabel(r'$t\;\mathrm{var}\,\lambda$  [1/time unit]')
+    middle.set(xlabel=r'disks $N$', ylabel=r'$t\;\mathrm{var}\,\lambda$  [1/time unit]')
     right.set_xlabel(r'averaging time $t$  [time units]')
-    left.legend(loc='lower left')
-    if middle.get_legend_handles_labels()[0]:
-        middle.legend(loc='lower left')
+    for axes in (left, middle):
+        draw.legend(axes, loc='lower left')
     return figure
 
 
@@ -145,25 +151,6 @@ def _of_indices(axes, boxes):
         value = box.disks * box.growth.spread()[0][: box.half + 1 - box.growth.first_index]
         at = (box.growth.first_index + np.arange(len(value))) / box.half
         axes.plot(at, value, linewidth=0.7, label=f'$N={box.disks}$')
-
-
-def _of_disks(axes, boxes, group, colour):
-    _bars(axes, [(box.disks, *box.spread(group)[:2]) for box in boxes], colour, group)
-
-
-def _of_time(axes, boxes, group, colour):
-    """Of the box with most samples."""
-    box = max(boxes, key=lambda one: one.growth.samples)
-    found = [box.spread(group, joined) for joined in JOINED]
-    _bars(axes, [(length, value, error) for value, error, length, _ in found], colour, group)
-    axes.set_title(f'$N={box.disks}$', fontsize=9)
-
-
-def _bars(axes, found, colour, label):
-    known = [one for one in found if one[1]]
-    if known:
-        x, y, errors = zip(*known)
-        axes.errorbar(x, y, errors, fmt='o', color=colour, markersize=3.5, capsize=2, label=label)
 
 
 def tables(bags):

@@ -5,16 +5,14 @@ from math import isfinite, sqrt
 import numpy as np
 
 from hdlyap.plots import equation
-from hdlyap.plots.figures.style import BLUE, GREY, INK, VERMILION, plt
+from hdlyap.plots.figures.style import BLUE, GREY, INK, VERMILION
 
-from .. import averages
-from ..row import Claim, Row
+from .. import averages, draw
+from ..files import cells
+from ..row import Row
 from . import densities
 
-TITLE = 'Pressure, collisions, sound and mean free path beside v, 780 disks, periodic'
 RUNS = densities.RUNS
-ACCURACY = 0.01  # of Henderson's equation, up to equation.MOST
-FINITE = 0.01  # what few disks may differ by from many: some 1 / N
 FEWEST = 3  # densities, for a velocity of sound
 EDGE = 1e-6  # relative: densities that are one
 
@@ -27,6 +25,11 @@ class State:
         self.modes = densities.Measured(bag.recording)
         self.density = self.modes.density
         self.wave_number = self.modes.branch['LP'] and self.modes.branch['LP'].wave_number
+
+    @property
+    def moves(self):
+        """Whether v is known."""
+        return self.modes.phases and isfinite(self.modes.v_error)
 
     @property
     def z(self):
@@ -54,72 +57,43 @@ def _relative(gas, name, value):
     return float(value * error / getattr(gas, name)) if error >= 0 else -1.0
 
 
-def runs(plan):
-    return RUNS
+def _all(bags):
+    return [State(bags[name]) for name in RUNS]
 
 
-def claims(bags):
-    found = [State(bags[name]) for name in RUNS]
-    yield Claim(
-        "pressures are those of Henderson's equation of state",
-        [_z_row(one) for one in found if one.density < equation.MOST * (1 + EDGE)],
-        f'{100 * ACCURACY:g} %, its accuracy up to density {equation.MOST:g}',
-    )
-    yield Claim(
-        'disks collide as often as the pressure says',
-        [_rate_row(one) for one in found],
-        f'{100 * FINITE:g} %',
-    )
-    yield Claim('sound, v and mean free path', list(_beside(found)))
+def _known(bags):
+    return [one for one in _all(bags) if one.gas is not None]
 
 
-def _z_row(one):
-    published = float(equation.compressibility(one.density))
-    measured = (None, 0.0) if one.gas is None else one.z
-    return Row(
-        f'Z at density {one.density:.1f}', published, *measured, left_open=ACCURACY * published
-    )
+def equation_of_state(bags):
+    for one in _all(bags):
+        if one.density < equation.MOST * (1 + EDGE):
+            published = float(equation.compressibility(one.density))
+            measured = (None, 0.0) if one.gas is None else one.z
+            yield Row(f'Z at density {one.density:.1f}', published, *measured)
 
 
-def _rate_row(one):
-    quantity = f'collision rate over that of Z, density {one.density:.1f}'
-    if one.gas is None:
-        return Row(quantity, 1.0, left_open=FINITE)
-    remark = f'{one.gas.collision_rate:.3f} collisions of a disk in a time unit'
-    return Row(quantity, 1.0, *one.rate_over_z, left_open=FINITE, remark=remark)
+def collisions(bags):
+    for one in _all(bags):
+        row = Row(f'collision rate over that of Z, density {one.density:.1f}', 1.0)
+        if one.gas is not None:
+            row.measured, row.error = one.rate_over_z
+            row.remark = f'{one.gas.collision_rate:.3f} collisions of a disk in a time unit'
+        yield row
 
 
-def _beside(found):
-    known = [one for one in found if one.gas is not None]
-    for one, (sound, error) in zip(known, _sounds(known)):
-        v, v_error = one.modes.v, one.modes.v_error
-        moves = one.modes.phases and isfinite(v_error)
-        remark = f'v {v:.3f}, {v / sound:.3f} of it' if moves else ''
-        yield Row(
-            f'velocity of sound at density {one.density:.1f}',
-            None,
-            sound,
-            error,
-            unit=densities.UNIT,
-            remark=f'{remark}; by Henderson {equation.sound_velocity(one.density):.3f}'.lstrip(
-                '; '
-            ),
-        )
+def beside(bags):
+    known = _known(bags)
+    for one, sound in zip(known, _sounds(known)):
+        v = f'v {one.modes.v:.3f}, {one.modes.v / sound[0]:.3f} of it; ' if one.moves else ''
+        remark = f'{v}by Henderson {equation.sound_velocity(one.density):.3f}'
+        quantity = f'velocity of sound at density {one.density:.1f}'
+        yield Row(quantity, None, *sound, densities.UNIT, remark)
+    yield from (_v_row(one) for one in known if one.moves)
     for one in known:
-        if one.modes.phases and isfinite(one.modes.v_error):
-            yield _v_row(one)
-    for one in known:
-        path, error = one.free_path
-        k = one.wave_number
-        remark = f'times k of LP(1,0), {k:.4f}: {k * path:.3f}' if k else ''
-        yield Row(
-            f'mean free path at density {one.density:.1f}',
-            None,
-            path,
-            error,
-            unit='sigma',
-            remark=remark,
-        )
+        path, k = one.free_path, one.wave_number
+        remark = f'times k of LP(1,0), {k:.4f}: {k * path[0]:.3f}' if k else ''
+        yield Row(f'mean free path at density {one.density:.1f}', None, *path, 'sigma', remark)
     if not known:
         yield Row('velocity of sound')
 
@@ -145,36 +119,27 @@ def _sounds(known):
 
 
 def figures(bags):
-    known = [one for one in (State(bags[name]) for name in RUNS) if one.gas is not None]
+    known = _known(bags)
     if known:
         yield 'gas', _figure(known)
 
 
 def _figure(known):
-    figure, (left, right) = plt.subplots(1, 2, figsize=(7.6, 3.2), constrained_layout=True)
+    figure, (left, right) = draw.panels(1, 2, (7.6, 3.2))
     density = np.linspace(0.02, 0.85, 200)
     solid = density <= equation.MOST
     for axes, curve in ((left, equation.compressibility), (right, equation.sound_velocity)):
         axes.plot(density[solid], curve(density[solid]), color=GREY, label='Henderson')
         axes.plot(density[~solid], curve(density[~solid]), ':', color=GREY)
-    places = [one.density for one in known]
-    left.plot(places, [one.z[0] for one in known], 'o', color=BLUE, markersize=4, label='measured')
+    draw.bars(left, [(one.density, *one.z) for one in known], 'o', BLUE, 'measured')
     left.set_ylabel('$Z = p / \\rho kT$')
-    sounds = [sound for sound, _ in _sounds(known)]
-    right.plot(places[: len(sounds)], sounds, 'o', color=BLUE, markersize=4, label='sound')
-    moving = [one for one in known if one.modes.phases]
-    right.plot(
-        [one.density for one in moving],
-        [one.modes.v for one in moving],
-        's',
-        color=VERMILION,
-        markersize=4,
-        label='$v$ of LP modes',
-    )
-    right.plot(
-        density, equation.compressibility(density) / sqrt(2), '--', color=INK, label=r'$Z/\sqrt{2}$'
-    )
-    right.set_ylabel(r'velocity  [$\sigma$/time unit]')
+    sounds = [(one.density, *sound) for one, sound in zip(known, _sounds(known))]
+    draw.bars(right, sounds, 'o', BLUE, 'sound')
+    moving = [(one.density, one.modes.v, one.modes.v_error) for one in known if one.modes.phases]
+    draw.bars(right, moving, 's', VERMILION, '$v$ of LP modes')
+    z = equation.compressibility(density)
+    right.plot(density, z / sqrt(2), '--', color=INK, label=r'$Z/\sqrt{2}$')
+    right.set_ylabel('velocity  ' + draw.SIGMA_UNIT)
     for axes in (left, right):
         axes.set_xlabel(r'density  [$1/\sigma^2$]')
         axes.legend()
@@ -182,26 +147,14 @@ def _figure(known):
 
 
 def tables(bags):
-    known = [one for one in (State(bags[name]) for name in RUNS) if one.gas is not None]
-    sounds = _sounds(known) or [('', '')] * len(known)
-    yield 'gas', (
-        'density',
-        'z',
-        'z_error',
-        'collision_rate',
-        'collision_rate_error',
-        'mean_free_path',
-        'sound',
-        'sound_error',
-    ), [
-        (
-            f'{one.density:g}',
-            f'{one.z[0]:.6g}',
-            f'{one.z[1]:.2g}',
-            f'{one.gas.collision_rate:.6g}',
-            f'{one.gas.collision_rate_error:.2g}',
-            f'{one.free_path[0]:.5g}',
-            *(f'{number:.5g}' if number != '' else '' for number in sound),
+    known = _known(bags)
+    sounds = _sounds(known) or [(None, None)] * len(known)
+    names = 'density', 'z', 'z_error', 'collision_rate', 'collision_rate_error'
+    yield 'gas', (*names, 'mean_free_path', 'sound', 'sound_error'), [
+        cells(
+            'g .6g .2g .6g .2g .5g .5g .5g',
+            *(one.density, *one.z, one.gas.collision_rate, one.gas.collision_rate_error),
+            *(one.free_path[0], *sound),
         )
         for one, sound in zip(known, sounds)
     ]

@@ -12,9 +12,10 @@ from hdlyap.plots.numbers import with_error
 from hdlyap.data.reader import PHASES
 
 from .. import blocks, halves
-from ..row import SIGMAS, Claim, Row
+from ..bags import once
+from ..files import cells
+from ..row import SIGMAS, Row
 
-TITLE = 'Hydrodynamic table: response of density, momentum and energy to T, L and P modes'
 RUN = 'hydro'
 HYDRO = 'hdlyap/Hydro'
 WAVES = ((1, 0), (0, 1))
@@ -40,35 +41,41 @@ Response = namedtuple('Response', 'value error')
 FLOOR = 'LP', 'across'  # what noise alone is like along curl A
 
 
-def runs(plan):
-    return [RUN]
-
-
-def claims(bags):
+def table(bags):
     found = responses(bags[RUN])
-    yield Claim(
-        'T excites momentum along curl A; L density, momentum along grad A and energy; P these but '
-        'density',
-        [_entry(found, mode, kind) for mode in TABLE for kind in KINDS],
-        f'zero is less than {100 * SMALL:g} % of the largest of a kind',
-    )
-    info = bags[RUN].info
+    return [_entry(found, mode, kind) for mode in TABLE for kind in KINDS]
+
+
+def number(bags):
+    """Whether C is one."""
+    matrices, numbers = _matrices(bags)
+    return [halves.ratio(matrices), halves.swing(matrices, numbers)]
+
+
+def symmetric(bags):
+    row = halves.swing(*_matrices(bags))
+    row.quantity = 'angle of dp at L less that of a turn, over all'
+    return [row]
+
+
+def delay(bags):
+    return [halves.ahead(_matrices(bags)[0])]
+
+
+def _matrices(bags):
+    """({wave: Matrix}, {wave: k})"""
+    found, info = responses(bags[RUN]), bags[RUN].info
     numbers = {wave: float(np.hypot(*waves.wave_vector(info, *wave))) for wave in found}
-    ratio, ahead, swing = halves.rows(found, numbers)
-    yield Claim('dp = C dq of LP modes, with C a number', [ratio, swing], 'within what rows say')
-    yield Claim('dp of LP modes is neither ahead nor behind', [ahead], f'within {halves.ANGLE} rad')
+    return {wave: halves.matrix(ones, numbers[wave]) for wave, ones in found.items()}, numbers
 
 
 def _entry(found, mode, kind):
     words = {_word(found[wave], mode, kind) for wave in WAVES if wave in found}
     word = next(iter(words), None) if len(words) < 2 else None if None in words else BOTH
-    return Row(
-        f'{NAMES[kind]}: {mode}',
-        NOT_ZERO if kind in TABLE[mode] else ZERO,
-        word,
-        remark=_remark(found, mode, kind),
-        caught=f'{100 * SMALL:g} % of the largest',
-    )
+    published = NOT_ZERO if kind in TABLE[mode] else ZERO
+    row = Row(f'{NAMES[kind]}: {mode}', published, word, caught=f'{100 * SMALL:g} % of the largest')
+    row.remark = _remark(found, mode, kind)
+    return row
 
 
 def _word(found, mode, kind):
@@ -109,6 +116,7 @@ def _numbers(found, mode, kind):
     )
 
 
+@once
 def responses(bag):
     """{wave: {(mode, kind): Response}}: to a vector that is a T, an L or a P field alone,
     normalised [T15]. Responses of the vectors of LP(n) are regressed on their coefficients (a, b)
@@ -227,13 +235,10 @@ def figures(bags):
 
 
 def tables(bags):
-    yield 'responses', ('wave', 'mode', 'response', 'value', 'error', 'published', 'found'), [
+    header = 'wave', 'mode', 'response', 'value', 'error', 'published', 'found'
+    yield 'responses', header, [
         (
-            '({},{})'.format(*wave),
-            mode,
-            kind,
-            f'{one.value:.5g}',
-            f'{one.error:.2g}',
+            *('({},{})'.format(*wave), mode, kind, *cells('.5g .2g', *one)),
             NOT_ZERO if kind in TABLE[mode] else ZERO,
             _word(found, mode, kind) or 'not known',
         )
@@ -250,15 +255,9 @@ def _draw(info, found):
         for number, (wave, colour) in enumerate(zip(found, (BLUE, VERMILION))):
             ones = [found[wave][mode, kind] for mode in TABLE]
             places = np.arange(len(TABLE)) + width * (number - 0.5 * (len(found) - 1))
-            axes.bar(
-                places,
-                [one.value for one in ones],
-                width,
-                yerr=[SIGMAS * one.error for one in ones],
-                color=colour,
-                ecolor=GREY,
-                label='({},{})'.format(*wave),
-            )
+            values, errors = [one.value for one in ones], [SIGMAS * one.error for one in ones]
+            style = {'color': colour, 'ecolor': GREY, 'label': '({},{})'.format(*wave)}
+            axes.bar(places, values, width, yerr=errors, **style)
         largest = max(abs(found[wave][mode, kind].value) for wave in found for mode in TABLE)
         axes.axhspan(-SMALL * largest, SMALL * largest, color=GREY, alpha=0.3, linewidth=0)
         axes.axhline(0, color=GREY, linewidth=0.5)
@@ -266,13 +265,9 @@ def _draw(info, found):
         axes.set_xticklabels(TABLE)
         unit = UNITS[kind].replace('^2', '$^2$').replace('sigma', r'$\sigma$')
         axes.set_title(NAMES[kind] + (f'\n[{unit}]' if unit else '\n'), fontsize=8)
-    row[KINDS.index('across')].legend(
-        fontsize=7, title='wave', title_fontsize=7
-    )  # where there is room
+    # where there is room
+    row[KINDS.index('across')].legend(fontsize=7, title='wave', title_fontsize=7)
     row[0].set_ylabel('response to a pure mode')
-    figure.suptitle(
-        f'{scene(info)}; grey: less than {100 * SMALL:g} % of the largest, '
-        f'bars: {SIGMAS:g} standard errors',
-        fontsize=9,
-    )
+    grey = f'grey: less than {100 * SMALL:g} % of the largest, bars: {SIGMAS:g} standard errors'
+    figure.suptitle(f'{scene(info)}; {grey}', fontsize=9)
     return figure

@@ -11,15 +11,15 @@ from hdlyap.plots import steps
 from hdlyap.plots.figures.style import GREY, MEMBER_COLOURS, plt, scene
 
 from .. import averages
-from ..row import Claim, Row
+from ..bags import once
+from ..files import cells
+from ..row import Row
 
-TITLE = 'Insensitive to the time between orthonormalisations'
 ROUNDING = 1e-17  # drawn for what agrees in every bit
 SAME = 1e-9  # relative: averaged times that are one
 STEPS = ('T(1,0)', 'LP(1,0)')
 NUMBERS = ('lambda_1', 'h_KS', 'T(1,0)', 'T(0,1)')  # compared between independent runs
 REPLAYED, INDEPENDENT = 'interval_', 'independent_'  # names of runs
-TELLING = 3.0  # %: a larger difference of independent runs must have been seen
 TAKEN_BACK = 0.9  # of what was asked: the conditioning did not allow more
 AT_LONG = (
     'with intervals of 8 Householder factorisations read 2.36 instead of 0.61 '
@@ -92,7 +92,7 @@ class Trials:
     """All runs of one trajectory, the shortest interval first: the others are held against it."""
 
     def __init__(self, bags):
-        trials = [Trial(bags[name]) for name in bags if name.startswith(REPLAYED)]
+        trials = [_trial(bags[name]) for name in bags if name.startswith(REPLAYED)]
         self.first, *self.others = sorted(trials, key=lambda trial: trial.asked)
         self.time = self._common_time()
 
@@ -113,67 +113,44 @@ class Trials:
         return np.abs(trial.exponents_at(self.time) - self.first.exponents_at(self.time))
 
 
-def runs(plan):
-    return [REPLAYED + one for one in ('0_25', '0_5', '1', '2', '8')] + [
-        f'{INDEPENDENT}{interval}_{seed}' for interval in ('0_5', '8') for seed in range(1, 7)
-    ]
+@once
+def _trial(bag):
+    return Trial(bag)
 
 
-def claims(bags):
+def replayed(bags):
     trials = Trials(bags)
-    yield Claim(
-        'exponents do not depend on the interval: independent runs',
-        _compared(Trial(bags[name]) for name in bags if name.startswith(INDEPENDENT)),
-        'the same within our errors, or the scatter of the runs',
-    )
-    replayed = [_deviation(trials, trial) for trial in trials.others]
-    replayed += [_indices(trials.first, trial) for trial in trials.others]
-    yield Claim(
-        'one trajectory has the same exponents with every interval, but for rounding',
-        replayed,
-        'twice the accuracy asked for; the same indices',
-    )
-    yield Claim(
-        'longest interval of the averaging',
-        [
-            Row(
-                f'asked {trial.name}',
-                None,
-                trial.longest,
-                unit='time unit',
-                remark=f'mean {trial.mean:.3g}' if trial.mean else '',
-            )
-            for trial in (trials.first, *trials.others)
-        ],
-    )
+    yield from (_deviation(trials, trial) for trial in trials.others)
+    yield from (_indices(trials.first, trial) for trial in trials.others)
+
+
+def longest(bags):
+    trials = Trials(bags)
+    for one in (trials.first, *trials.others):
+        remark = f'mean {one.mean:.3g}' if one.mean else ''
+        yield Row(f'asked {one.name}', None, one.longest, 0.0, 'time unit', remark)
 
 
 # ---- independent runs ----------------------------------------------------------------------------
 
 
-def _compared(trials):
+def independent(bags):
     """A row of each number: its mean over the runs with the longest interval over that with the
     shortest, less 1."""
     groups = {}
-    for trial in trials:
-        groups.setdefault(trial.asked, []).append(trial)
+    for name in bags:
+        if name.startswith(INDEPENDENT):
+            trial = _trial(bags[name])
+            groups.setdefault(trial.asked, []).append(trial)
     short, long = (groups[end(groups)] if groups else [] for end in (min, max))
     for name in NUMBERS:
-        quantity = f'{name}: mean of longer over shorter intervals, less 1'
+        row = Row(f'{name}: mean of longer over shorter intervals, less 1', 0.0, unit='%')
         means = [_mean_of(name, group) for group in (short, long)]
-        if None in means:
-            yield Row(quantity, 0.0, unit='%', telling=TELLING)
-            continue
-        ratio, error = averages.quotient(*means[::-1])
-        yield Row(
-            quantity,
-            0.0,
-            100 * (ratio - 1),
-            100 * error,
-            unit='%',
-            remark=f'{_named(long)} over {_named(short)}',
-            telling=TELLING,
-        )
+        if None not in means:
+            ratio, error = averages.quotient(*means[::-1])
+            row.measured, row.error = 100 * (ratio - 1), 100 * error
+            row.remark = f'{_named(long)} over {_named(short)}'
+        yield row
 
 
 def _mean_of(name, trials):
@@ -198,16 +175,14 @@ def _named(trials):
 def _deviation(trials, trial):
     deviations = trials.deviations(trial)
     quantity = f'largest deviation, interval {trial.in_use} from {trials.first.name}'
-    # each of the two runs may be off by what was asked for
-    bound = 2 * trial.info.accuracy
-    if deviations is None:
-        return Row(quantity, 0.0, left_open=bound, unit=UNIT)
-    remark = (
-        f'index {1 + int(deviations.argmax())} of {len(deviations)}, averaged over {trials.time:g}'
-    )
-    if trial.longest and trial.longest < TAKEN_BACK * trial.asked:
-        remark += '; ' + AT_LONG
-    return Row(quantity, 0.0, float(deviations.max()), left_open=bound, unit=UNIT, remark=remark)
+    row = Row(quantity, 0.0, unit=UNIT)
+    row.left_open = 2 * trial.info.accuracy  # each of the two may be off by what was asked for
+    if deviations is not None:
+        row.measured, at = float(deviations.max()), 1 + int(deviations.argmax())
+        row.remark = f'index {at} of {len(deviations)}, averaged over {trials.time:g}'
+        if trial.longest and trial.longest < TAKEN_BACK * trial.asked:
+            row.remark += '; ' + AT_LONG
+    return row
 
 
 def _indices(first, trial):
@@ -232,38 +207,18 @@ def figures(bags):
         return
     figure, axes = plt.subplots(figsize=(5.6, 4.0), constrained_layout=True)
     for trial, colour in zip(trials.others, MEMBER_COLOURS):
-        deviations = trials.deviations(trial)
-        axes.semilogy(
-            np.arange(1, len(deviations) + 1),
-            np.maximum(deviations, ROUNDING),
-            '.',
-            color=colour,
-            markersize=2.5,
-            rasterized=True,
-            label=_label(trial),
-        )
-    axes.axhline(
-        trials.first.info.accuracy,
-        color=GREY,
-        linewidth=0.8,
-        linestyle=':',
-        label='accuracy asked for',
-    )
-    axes.set_ylim(top=30 * trials.first.info.accuracy)
-    axes.set_xlabel(r'index $\ell$')
-    axes.set_ylabel(
-        rf'$|\lambda_\ell - \lambda_\ell$(interval {trials.first.name})$|$  [1/time unit]'
-    )
-    axes.legend(
-        title='interval asked, longest in use',
-        ncol=2,
-        loc='upper center',
-        bbox_to_anchor=(0.5, -0.16),
-        markerscale=3,
-    )
-    figure.suptitle(
-        f'{scene(trials.first.info)}, averaged over {trials.time:g} time units', fontsize=9
-    )
+        deviations = np.maximum(trials.deviations(trial), ROUNDING)
+        style = {'color': colour, 'markersize': 2.5, 'rasterized': True, 'label': _label(trial)}
+        axes.semilogy(np.arange(1, len(deviations) + 1), deviations, '.', **style)
+    asked = trials.first.info.accuracy
+    axes.axhline(asked, color=GREY, linewidth=0.8, linestyle=':', label='accuracy asked for')
+    axes.set_ylim(top=30 * asked)
+    label = rf'$|\lambda_\ell - \lambda_\ell$(interval {trials.first.name})$|$  [1/time unit]'
+    axes.set(xlabel=r'index $\ell$', ylabel=label)
+    below = {'loc': 'upper center', 'bbox_to_anchor': (0.5, -0.16), 'ncol': 2, 'markerscale': 3}
+    axes.legend(title='interval asked, longest in use', **below)
+    long = f'averaged over {trials.time:g} time units'
+    figure.suptitle(f'{scene(trials.first.info)}, {long}', fontsize=9)
     yield 'intervals', figure
 
 
@@ -273,26 +228,13 @@ def _label(trial):
 
 def tables(bags):
     trials = Trials(bags)
-    yield (
-        'runs',
-        (
-            'interval',
-            'longest_in_use',
-            'mean_in_use',
-            'error_bound',
-            'lambda_max',
-            'largest_deviation',
-            *(f'{name}_{what}' for name in STEPS for what in ('exponent', 'multiplicity')),
-            'c_T',
-            'c_L',
-            'v',
-        ),
-        [_line(trials, trial) for trial in (trials.first, *trials.others)],
-    )
+    every = trials.first, *trials.others
+    in_use = 'interval', 'longest_in_use', 'mean_in_use', 'error_bound', 'lambda_max'
+    of_steps = [f'{name}_{what}' for name in STEPS for what in ('exponent', 'multiplicity')]
+    header = (*in_use, 'largest_deviation', *of_steps, 'c_T', 'c_L', 'v')
+    yield 'runs', header, [_line(trials, trial) for trial in every]
     yield 'indices', ('interval', 'steps', 'indices'), [
-        (trial.name, name, indices)
-        for trial in (trials.first, *trials.others)
-        for name, indices in trial.indices.items()
+        (trial.name, *one) for trial in every for one in trial.indices.items()
     ]
     if trials.time is not None:
         deviations = [trials.deviations(trial) for trial in trials.others]
@@ -303,17 +245,11 @@ def tables(bags):
 
 
 def _line(trials, trial):
-    deviations = trials.deviations(trial)
-    spectrum = trial.recording.spectrum
-    numbers = [
-        trial.longest,
-        trial.mean,
-        trial.bound,
-        spectrum and spectrum.lambda_max,
-        None if deviations is None else deviations.max(),
-    ]
+    deviations, spectrum = trials.deviations(trial), trial.recording.spectrum
+    largest = None if deviations is None else deviations.max()
+    numbers = [trial.longest, trial.mean, trial.bound, spectrum and spectrum.lambda_max, largest]
     for name in STEPS:
         step = trial.found.get(name)
         numbers += [step and step.exponent, step and step.multiplicity]
     numbers += [getattr(trial.steps, name) if trial.steps else None for name in ('c_t', 'c_l', 'v')]
-    return (trial.name, *('' if number is None else f'{number:.10g}' for number in numbers))
+    return cells('s' + 12 * ' .10g', trial.name, *numbers)

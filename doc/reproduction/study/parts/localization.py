@@ -8,19 +8,14 @@ from hdlyap.plots import steps
 from hdlyap.plots.figures import localization as figure_of_localization
 
 from .. import averages
-from ..row import ABOVE, BELOW, Claim, Row
+from ..files import cells
+from ..row import ABOVE, BELOW, Row
 
-TITLE = 'Localisation of the vectors of the largest exponents'
 RUN = 'hydro'
 LARGEST = (1, 3, 10, 30)  # indices whose widths are compared
 HALF = 0.5  # of a random vector's width
 COSINE = 2 / e  # width of what goes with the square of a cosine
-OPEN = 0.05  # of that: a mode is not its field alone
 UNIT = 'exp(S) / N'
-
-
-def runs(plan):
-    return [RUN]
 
 
 def random_width(disks):
@@ -28,31 +23,26 @@ def random_width(disks):
     return exp(sum(1 / n for n in range(3, 2 * disks + 1))) / disks
 
 
-def claims(bags):
+def localised(bags):
+    """Beside half of a random vector's width."""
     run = bags[RUN].recording
-    message, limit = run.localization, HALF * random_width(run.info.disks)
-    yield Claim(
-        'the vector of the largest exponent is localised, those of the modes are not',
-        [
-            _row('vector 1', message, [1], limit, BELOW),
-            *(
-                _row(name, message, _indices(run, name), limit, ABOVE)
-                for name in ('T(1,0)', 'LP(1,0)')
-            ),
-        ],
-        f'less, and more, than {HALF:g} of the width of a random vector',
-    )
-    yield Claim(
-        'the larger the exponent, the more localised the vector, among the largest',
-        [_ratio(message, first, second) for first, second in zip(LARGEST, LARGEST[1:])],
-        'one is narrower than the other',
-    )
-    yield Claim(
-        'a T mode is spread as its wave is',
-        [_wave(message, _indices(run, 'T(1,0)'))],
-        f'2 / e, of the square of a cosine, within {100 * OPEN:g} %',
-    )
-    yield Claim('widths', list(_beside(run)))
+    found = [('vector 1', [1], BELOW)]
+    found += [(name, _indices(run, name), ABOVE) for name in ('T(1,0)', 'LP(1,0)')]
+    for name, indices, sense in found:
+        row = _row(name, run.localization, indices)
+        row.published, row.sense = HALF * random_width(run.info.disks), sense
+        yield row
+
+
+def ordered(bags):
+    return [_ratio(bags[RUN].recording.localization, *pair) for pair in zip(LARGEST, LARGEST[1:])]
+
+
+def wave(bags):
+    run = bags[RUN].recording
+    row = _row('T(1,0), as a wave', run.localization, _indices(run, 'T(1,0)'))
+    row.published = COSINE
+    yield row
 
 
 def _indices(run, name):
@@ -61,33 +51,29 @@ def _indices(run, name):
     return range(found[name].first, found[name].last + 1) if name in found else ()
 
 
-def _row(name, message, indices, published=None, sense='', left_open=0.0):
+def _row(name, message, indices):
     """Mean width of these vectors; as they fluctuate together, its error is theirs."""
-    quantity, told = f'width of {name}', {'unit': UNIT, 'sense': sense, 'left_open': left_open}
-    if message is None or not len(indices):
-        return Row(quantity, published, **told)
-    which = np.array(indices) - message.first_index
-    widths, errors = np.array(message.widths)[which], np.array(message.std_errors)[which]
-    error = float(errors[errors > 0].mean()) if (errors > 0).any() else -1.0
-    remark = f'{len(which)} vectors, ' if len(which) > 1 else ''
-    remark += f'{message.samples} times'
-    return Row(quantity, published, float(widths.mean()), error, remark=remark, **told)
-
-
-def _wave(message, indices):
-    return _row('T(1,0), as a wave', message, indices, COSINE, left_open=OPEN * COSINE)
+    row = Row(f'width of {name}', unit=UNIT)
+    if message is not None and len(indices):
+        which = np.array(indices) - message.first_index
+        widths, errors = np.array(message.widths)[which], np.array(message.std_errors)[which]
+        row.measured = float(widths.mean())
+        row.error = float(errors[errors > 0].mean()) if (errors > 0).any() else -1.0
+        many = f'{len(which)} vectors, ' if len(which) > 1 else ''
+        row.remark = f'{many}{message.samples} times'
+    return row
 
 
 def _ratio(message, first, second):
-    quantity = f'width of vector {first} over that of vector {second}'
-    if message is None or len(message.widths) < second:
-        return Row(quantity, 1.0, sense=BELOW)
-    rows = [_row('', message, [index]) for index in (first, second)]
-    ratio = averages.quotient(*((row.measured, row.error) for row in rows))
-    return Row(quantity, 1.0, *ratio, sense=BELOW)
+    row = Row(f'width of vector {first} over that of vector {second}', 1.0, sense=BELOW)
+    if message is not None and len(message.widths) >= second:
+        both = [_row('', message, [index]) for index in (first, second)]
+        row.measured, row.error = averages.quotient(*((one.measured, one.error) for one in both))
+    return row
 
 
-def _beside(run):
+def beside(bags):
+    run = bags[RUN].recording
     """Of vectors here and there, and what a random one has."""
     message = run.localization
     if message is not None:
@@ -107,5 +93,5 @@ def tables(bags):
     message = bags[RUN].recording.localization
     lines = [] if message is None else zip(message.widths, message.std_errors)
     yield 'widths', ('index', 'width', 'std_error'), [
-        (index, f'{width:.5g}', f'{error:.2g}') for index, (width, error) in enumerate(lines, 1)
+        cells('s .5g .2g', index, *one) for index, one in enumerate(lines, 1)
     ]

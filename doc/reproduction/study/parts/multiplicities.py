@@ -4,13 +4,13 @@ those are."""
 import numpy as np
 
 from hdlyap.plots import steps
-from hdlyap.plots.figures.style import GREY, INK, bars, kind_colour, plt
+from hdlyap.plots.figures.style import GREY, INK, bars, kind_colour
 
-from .. import zeros
-from ..row import PAPER, Claim, Row
+from .. import draw, zeros
+from ..files import cells
+from ..row import Row
 from ..stairs import stairs
 
-TITLE = 'Multiplicities of the steps and number of zero exponents, by the boundaries'
 BOXES = {
     'periodic': 'periodic',
     'reflecting': 'reflecting',
@@ -27,10 +27,7 @@ ZEROS = {
 NARROW = 2.0  # diameters: disks cannot pass each other
 SHOWN = 36  # exponents in a panel of the figure
 SPECTRUM = 'hdlyap/Spectrum'
-
-
-def runs(plan):
-    return [*BOXES, *ZEROS]
+WALLED = 'reflecting'
 
 
 # ---- the paper's rule ----------------------------------------------------------------------------
@@ -123,50 +120,32 @@ def levels(recording):
     return found
 
 
-def claims(bags):
-    found = {name: levels(bags[name].recording) for name in BOXES}
-    yield Claim(
-        'every step has as many exponents as the boundaries allow modulations',
-        [
-            row
-            for name in BOXES
-            for row in _step_rows(bags[name].recording, BOXES[name], found[name])
-        ],
-        'the same, of the steps that were resolved',
-        PAPER,
-    )
-    zero = [_zero_rows(bags[name], *about) for name, about in ZEROS.items()]
-    yield Claim(
-        '6, 4 or 2 exponents vanish, by the boundaries',
-        [rows[0] for rows in zero],
-        'the same',
-        PAPER,
-    )
-    yield Claim('zero modes', [row for rows in zero for row in rows[1:]])
-    yield Claim(
-        'steps found',
-        [_found_row(bags[name].recording, BOXES[name], found[name]) for name in BOXES],
-    )
+def steps_found(bags):
+    for name, box in BOXES.items():
+        recording, found = bags[name].recording, levels(bags[name].recording)
+        missed = [steps.name(step) for step in steps.unresolved(recording.steps)] if found else []
+        count = sum(len(level.steps) for level in found) if found else None
+        remark = 'not resolved: ' + ' '.join(missed) if missed else ''
+        yield Row(f'{box}: steps found', None, count, remark=remark)
 
 
-def _step_rows(recording, box, found):
-    if not found:
-        return [Row(f'{box}: multiplicities', 'by the rule')]
-    return [_level_row(recording, box, level) for level in found]
+def counted(bags):
+    for name, box in BOXES.items():
+        recording = bags[name].recording
+        found = levels(recording)
+        yield from (_level_row(recording, box, level) for level in found)
+        if not found:
+            yield Row(f'{box}: multiplicities', 'by the rule')
 
 
-def _found_row(recording, box, found):
-    missed = [steps.name(step) for step in steps.unresolved(recording.steps)] if found else []
-    return Row(
-        f'{box}: steps found',
-        None,
-        len(steps_of(found)) if found else None,
-        remark='not resolved: ' + ' '.join(missed) if missed else '',
-    )
-
-
-def steps_of(found):
-    return [step for level in found for step in level.steps]
+def none(bags):
+    """T(1,0) and T(0,1) would have the smallest exponents of all: there are none below LP(1,0)."""
+    row = Row(f'{WALLED}: exponents smaller than those of LP(1,0)', 0)
+    recording = bags[WALLED].recording
+    first = next((one for one in levels(recording) if one.name == 'LP(1,0)'), None)
+    if first is not None and first.pieces:
+        row.measured = recording.positive_end - first.pieces[0].last
+    yield row
 
 
 def _level_row(recording, box, level):
@@ -189,38 +168,48 @@ def _level_row(recording, box, level):
 # ---- zero modes ----------------------------------------------------------------------------------
 
 
-def _zero_rows(bag, count, boundaries):
-    """How many vanish; then what is shown of them."""
+def vanishing(bags):
+    """How many do."""
+    for name, (count, boundaries) in ZEROS.items():
+        recording = bags[name].recording
+        spectrum, row = recording.spectrum, Row(f'zero exponents, {boundaries}', count)
+        if spectrum is not None:
+            found, others = _vanishing(recording)
+            largest = zeros.threshold(recording.info, spectrum)
+            row.measured = len(found)
+            row.remark = f'indices {zeros.span(found)}, smaller than {largest:.2g}'
+            row.remark += f'; the next is {others.min():.2g}' if len(others) else ''
+        yield row
+
+
+def zero_modes(bags):
+    for name, (_, boundaries) in ZEROS.items():
+        yield from _zero_rows(bags[name], boundaries)
+
+
+def _vanishing(recording):
+    """(Lyapunov indices of the exponents that vanish, sizes of the others)"""
+    spectrum, found = recording.spectrum, zeros.indices(recording.info, recording.spectrum)
+    vanish = np.isin(spectrum.first_index + np.arange(len(spectrum.exponents)), found)
+    return found, np.abs(spectrum.exponents)[~vanish]
+
+
+def _zero_rows(bag, boundaries):
+    """The trace is of vectors that the scene's number chooses, so not beside the paper's."""
     recording = bag.recording
     spectrum, zero = recording.spectrum, recording.steps and steps.zero_modes(recording.steps)
-    if spectrum is None:
-        return [Row(f'zero exponents, {boundaries}', count)]
-    size, found = np.abs(spectrum.exponents), zeros.indices(recording.info, spectrum)
-    vanish = np.isin(spectrum.first_index + np.arange(len(size)), found)
-    remark = (
-        f'indices {zeros.span(found)}, smaller than {zeros.threshold(recording.info, spectrum):.2g}'
-    )
-    if not vanish.all():
-        remark += f'; the next is {size[~vanish].min():.2g}'
-    scale = zeros.linear_growth(recording.info, spectrum.averaged_time)
-    largest = Row(
-        f'largest zero exponent over ln(1 + t/w)/t, {boundaries}',
-        None,
-        float(size[vanish].max()) / scale if vanish.any() else None,
-        remark=_course_remark(bag, len(found)),
-    )
-    number = Row(f'zero exponents, {boundaries}', count, len(found), remark=remark)
-    return [number, _trace_row(zero, boundaries), largest]
-
-
-def _trace_row(zero, boundaries):
-    """Of vectors that the scene's number chooses, so not beside the paper's."""
-    quantity = f'trace of the zero modes in the exact null space, {boundaries}'
-    if zero is None or not zero.resolved:
-        return Row(quantity)
-    return Row(
-        quantity, None, zero.multiplicity, remark=f'vectors {zero.first_index}-{zero.last_index}'
-    )
+    trace = Row(f'trace of the zero modes in the exact null space, {boundaries}')
+    if zero is not None and zero.resolved:
+        trace.measured = zero.multiplicity
+        trace.remark = f'vectors {zero.first_index}-{zero.last_index}'
+    largest = Row(f'largest zero exponent over ln(1 + t/w)/t, {boundaries}')
+    found = zeros.indices(recording.info, spectrum) if spectrum is not None else []
+    if len(found):
+        size = np.abs(np.array(spectrum.exponents)[found - spectrum.first_index]).max()
+        scale = zeros.linear_growth(recording.info, spectrum.averaged_time)
+        largest.measured = float(size) / scale
+        largest.remark = _course_remark(bag, len(found))
+    return [trace, largest]
 
 
 def zero_course(bag, count):
@@ -252,13 +241,11 @@ def figures(bags):
 
 
 def _stairs_figure(recordings):
-    rows_count = -(-len(recordings) // 2)
-    figure, grid = plt.subplots(
-        rows_count, 2, figsize=(7.6, 2.6 * rows_count), squeeze=False, constrained_layout=True
-    )
-    for axes, letter, (box, recording) in zip(grid.flat, 'abcdef', recordings):
+    rows = -(-len(recordings) // 2)
+    figure, grid = draw.panels(rows, 2, (7.6, 2.6 * rows), squeeze=False)
+    draw.letters(grid.flat, [box for box, _ in recordings])
+    for axes, (_, recording) in zip(grid.flat, recordings):
         _panel(axes, recording)
-        axes.set_title(f'({letter}) {box}', loc='left')
     for axes in grid.flat[len(recordings) :]:
         axes.set_visible(False)
     return figure
@@ -271,23 +258,14 @@ def _panel(axes, recording):
     first = max(spectrum.first_index, last - SHOWN + 1)
     inside = slice(first - spectrum.first_index, last + 1 - spectrum.first_index)
     exponents = np.array(spectrum.exponents[inside])
-    axes.errorbar(
-        np.arange(first, last + 1),
-        exponents,
-        bars(spectrum.std_errors[inside]),
-        fmt='.',
-        color=GREY,
-        ecolor=GREY,
-        markersize=3,
-        elinewidth=0.7,
-    )
+    grey = {'color': GREY, 'ecolor': GREY, 'markersize': 3, 'elinewidth': 0.7}
+    errors = bars(spectrum.std_errors[inside])
+    axes.errorbar(np.arange(first, last + 1), exponents, errors, fmt='.', **grey)
     for block in steps.blocks(recording.steps):
         if first <= block.first:
             _step(axes, block, exponents[block.first - first : block.last + 1 - first])
-    axes.set_xlim(first - 1, last + 1)
-    axes.set_ylim(0, 1.4 * exponents.max())
-    axes.set_xlabel(r'index $\ell$')
-    axes.set_ylabel(r'$\lambda_\ell$  [1/time unit]')
+    axes.set(xlim=(first - 1, last + 1), ylim=(0, 1.4 * exponents.max()))
+    axes.set(xlabel=r'index $\ell$', ylabel=r'$\lambda_\ell$  [1/time unit]')
     axes.ticklabel_format(axis='x', useOffset=False)
 
 
@@ -295,78 +273,36 @@ def _step(axes, block, exponents):
     colour = kind_colour(block.kind)
     indices = np.arange(block.first, block.last + 1)
     axes.plot(indices, exponents, '.', color=colour, markersize=4, zorder=3)
-    axes.annotate(
-        f'{block.name} {block.last - block.first + 1}'.replace('+', '\n+'),
-        (indices.mean(), exponents.max()),
-        xytext=(0, 4),
-        textcoords='offset points',
-        rotation=90,
-        ha='center',
-        va='bottom',
-        fontsize=6,
-        color=colour if block.kind else INK,
-    )
+    name = f'{block.name} {block.last - block.first + 1}'.replace('+', '\n+')
+    place, ink = (indices.mean(), exponents.max()), colour if block.kind else INK
+    how = {'rotation': 90, 'ha': 'center', 'va': 'bottom', 'fontsize': 6, 'color': ink}
+    axes.annotate(name, place, xytext=(0, 4), textcoords='offset points', **how)
 
 
 def tables(bags):
-    header = (
-        'box',
-        'step',
-        'wave_number',
-        'prescribed',
-        'resolved',
-        'first_index',
-        'last_index',
-        'members',
-        'trace',
-        'exponent',
-        'std_error',
-    )
-    yield 'multiplicities', header, [
+    about = 'box', 'step', 'wave_number', 'prescribed', 'resolved'
+    found = 'first_index', 'last_index', 'members', 'trace', 'exponent', 'std_error'
+    yield 'multiplicities', (*about, *found), [
         line for name, box in BOXES.items() for line in _lines(bags[name].recording, box)
     ]
-    yield 'zero_exponents', (
-        'boundaries',
-        'averaged_time',
-        'largest_zero_exponent',
-        'linear_growth',
-    ), [
-        (
-            boundaries,
-            f'{time:g}',
-            f'{size:.4g}',
-            f'{zeros.linear_growth(bags[name].recording.info, time):.4g}',
-        )
+    header = 'boundaries', 'averaged_time', 'largest_zero_exponent', 'linear_growth'
+    yield 'zero_exponents', header, [
+        cells('s g .4g .4g', boundaries, time, size, zeros.linear_growth(info, time))
         for name, (count, boundaries) in ZEROS.items()
+        for info in [bags[name].recording.info]
         for time, size in _thinned(bags[name], count)
     ]
 
 
 def _lines(recording, box):
-    info = recording.info
-    for step in recording.steps.steps if recording.steps else ():
-        if step.kind == steps.ZERO or step.conjugate:
+    for one in recording.steps.steps if recording.steps else ():
+        if one.kind == steps.ZERO or one.conjugate:
             continue
-        found = (
-            (
-                step.first_index,
-                step.last_index,
-                step.members,
-                f'{step.multiplicity:.3f}',
-                f'{step.exponent:.6g}',
-                f'{step.std_error:.2g}',
-            )
-            if step.resolved
-            else ('',) * 6
-        )
-        yield (
-            box,
-            steps.name(step),
-            f'{step.wave_number:.6g}',
-            prescribed(info, step.kind, step.nx, step.ny),
-            'yes' if step.resolved else 'no',
-            *found,
-        )
+        count = prescribed(recording.info, one.kind, one.nx, one.ny)
+        found = one.first_index, one.last_index, one.members, one.multiplicity
+        found = (*found, one.exponent, one.std_error) if one.resolved else 6 * (None,)
+        about = box, steps.name(one), one.wave_number, count, 'yes' if one.resolved else 'no'
+        yield cells('s s .6g s s s s s .3f .6g .2g', *about, *found)
 
 
 def _thinned(bag, count, most=60):

@@ -7,11 +7,12 @@ from hdlyap.plots import steps
 from hdlyap.plots.figures import p_mode
 
 from .. import averages
-from ..row import BELOW, EQUAL, PAPER, Claim, Row
+from ..bags import once
+from ..files import cells
+from ..row import Row
 
-TITLE = 'P mode of LP(1,0), divided by the momenta'
+RUN = 'periodic'
 STEP = 'LP(1,0)'
-SMOOTHER = 0.8
 SNAPSHOTS = 'mean over {} snapshots, {} pairs each; error from their scatter'
 
 
@@ -33,59 +34,15 @@ class Snapshot:
         return averages.quotient(*((fit.amplitude, fit.error) for fit in self.after))
 
 
-def runs(plan):
-    return ['periodic']
-
-
-def claims(bags):
-    shown, times = _shown(bags['periodic']), _times(bags['periodic'])
-    yield Claim(
-        'phi_P,x / p_x and phi_P,y / p_y are one function A',
-        [_mean(times, 'ratio of the amplitudes on A', lambda one: one.ratio[0], 1.0)],
-        'a ratio of 1',
-        PAPER,
-    )
-    yield Claim(
-        'phi_P is not smooth, divided by the momenta it is',
-        [
-            _mean(
-                times,
-                f'scatter about A, phi_P,{name} / p_{name} over phi_P,{name}',
-                lambda one, axis=axis: one.after[axis].scatter / one.before[axis].scatter,
-                SMOOTHER,
-                BELOW,
-            )
-            for axis, name in enumerate('xy')
-        ],
-        f'the division takes the scatter about A (over its rms) to less than {SMOOTHER:g} of it',
-    )
-    # single amplitudes are no test of the paper's 1: by least squares both axes are 1 together
-    yield Claim('amplitudes, scatter', list(_beside(shown, times)))
-
-
-def _beside(shown, times):
-    for axis, name in enumerate('xy'):
-        yield _amplitude(shown, axis, name)
-    ratio = shown.ratio if shown else (None, 0.0)
-    yield Row('ratio of these amplitudes', None, *ratio, remark='of the figure alone')
-    for axis, name in enumerate('xy'):
-        yield _mean(
-            times,
-            f'amplitude along {name} / (1 - residual^2), mean',
-            lambda one, axis=axis: one.after[axis].amplitude / one.spanned,
-        )
-    yield _mean(times, 'distance of the P field from the vectors', lambda one: one.residual)
-    for axis, name in enumerate('xy'):
-        yield _mean(
-            times,
-            f'scatter of phi_P,{name} about A / its rms',
-            lambda one, axis=axis: one.before[axis].scatter,
-        )
-        yield _mean(
-            times,
-            f'the same of phi_P,{name} / p_{name}',
-            lambda one, axis=axis: one.after[axis].scatter,
-        )
+@once
+def _times(bag):
+    """(time, the Snapshots of its pairs) of each."""
+    info = bag.recording.info
+    return [
+        (field.sim_time, [Snapshot(field, pair, info) for pair in range(field.pairs)])
+        for field in bag.messages(reader.FIELD)
+        if field.pairs and (steps.NAMES[field.kind], field.nx, field.ny) == ('LP', 1, 0)
+    ]
 
 
 def _shown(bag):
@@ -96,77 +53,69 @@ def _shown(bag):
     return Snapshot(field, p_mode.clearest(field), bag.recording.info)
 
 
-def _amplitude(shown, axis, name):
-    quantity = f'amplitude of phi_P,{name} / p_{name} on A / (1 - residual^2)'
-    if shown is None:
-        return Row(quantity)
-    fit = shown.after[axis]
-    return Row(
-        quantity,
-        None,
-        fit.amplitude / shown.spanned,
-        fit.error / shown.spanned,
-        remark=f'of the figure: amplitude {fit.amplitude:.3f}, residual {shown.residual:.3f}',
-    )
+def ratio(bags):
+    yield _mean(bags, 'ratio of the amplitudes on A', lambda one: one.ratio[0], 1.0)
 
 
-def _times(bag):
-    """Of each time, the Snapshots of its pairs."""
-    info = bag.recording.info
-    return [[Snapshot(field, pair, info) for pair in range(field.pairs)] for field in _fields(bag)]
+def smooth(bags):
+    for axis, name in enumerate('xy'):
+        quantity = f'scatter about A, phi_P,{name} / p_{name} over phi_P,{name}'
+        yield _mean(bags, quantity, _scatter_over, axis=axis)
 
 
-def _fields(bag):
-    return [
-        field
-        for field in bag.messages(reader.FIELD)
-        if field.pairs and (steps.NAMES[field.kind], field.nx, field.ny) == ('LP', 1, 0)
-    ]
+def _scatter_over(one, axis):
+    return one.after[axis].scatter / one.before[axis].scatter
 
 
-def _mean(times, quantity, number, published=None, sense=EQUAL):
+def amplitudes(bags):
+    """Single amplitudes are no test of the paper's 1: by least squares both axes are 1 together."""
+    shown = _shown(bags[RUN])
+    for axis, name in enumerate('xy'):
+        row = Row(f'amplitude of phi_P,{name} / p_{name} on A / (1 - residual^2)')
+        if shown is not None:
+            fit = shown.after[axis]
+            row.measured, row.error = fit.amplitude / shown.spanned, fit.error / shown.spanned
+            at = f'amplitude {fit.amplitude:.3f}, residual {shown.residual:.3f}'
+            row.remark = f'of the figure: {at}'
+        yield row
+    both = shown.ratio if shown else (None, 0.0)
+    yield Row('ratio of these amplitudes', None, *both, remark='of the figure alone')
+    for axis, name in enumerate('xy'):
+        quantity = f'amplitude along {name} / (1 - residual^2), mean'
+        yield _mean(bags, quantity, lambda one, at=axis: one.after[at].amplitude / one.spanned)
+    yield _mean(bags, 'distance of the P field from the vectors', lambda one: one.residual)
+    for axis, name in enumerate('xy'):
+        quantity = f'scatter of phi_P,{name} about A / its rms'
+        yield _mean(bags, quantity, lambda one, at=axis: one.before[at].scatter)
+        quantity = f'the same of phi_P,{name} / p_{name}'
+        yield _mean(bags, quantity, lambda one, at=axis: one.after[at].scatter)
+
+
+def _mean(bags, quantity, number, published=None, **which):
+    times = _times(bags[RUN])
     if not times:
-        return Row(quantity, published, sense=sense)
-    mean, error = averages.of_snapshots(
-        [np.mean([number(one) for one in pairs]) for pairs in times]
-    )
-    return Row(
-        quantity,
-        published,
-        float(mean),
-        float(error),
-        remark=SNAPSHOTS.format(len(times), len(times[0])),
-        sense=sense,
-    )
+        return Row(quantity, published)
+    means = [np.mean([number(one, **which) for one in pairs]) for _, pairs in times]
+    mean, error = averages.of_snapshots(means)
+    remark = SNAPSHOTS.format(len(times), len(times[0][1]))
+    return Row(quantity, published, float(mean), float(error), remark=remark)
 
 
 def figures(bags):
-    if _shown(bags['periodic']) is not None:
-        yield 'p_mode', p_mode.draw(bags['periodic'].recording)
+    if _shown(bags[RUN]) is not None:
+        yield 'p_mode', p_mode.draw(bags[RUN].recording)
 
 
 def tables(bags):
-    lines = []
-    for field, pairs in zip(_fields(bags['periodic']), _times(bags['periodic'])):
-        for pair, one in enumerate(pairs):
-            numbers = [one.residual] + [
-                number
-                for axis in (0, 1)
-                for number in (
-                    one.after[axis].amplitude,
-                    one.after[axis].error,
-                    one.before[axis].scatter,
-                    one.after[axis].scatter,
-                )
-            ]
-            lines.append((f'{field.sim_time:g}', pair, *(f'{number:.5g}' for number in numbers)))
-    yield 'amplitudes', (
-        'time',
-        'pair',
-        'residual',
-        *(
-            f'{name}_{axis}'
-            for axis in 'xy'
-            for name in ('amplitude', 'error', 'scatter_before', 'scatter_after')
-        ),
-    ), lines
+    names = 'amplitude', 'error', 'scatter_before', 'scatter_after'
+    header = 'time', 'pair', 'residual', *(f'{name}_{axis}' for axis in 'xy' for name in names)
+    yield 'amplitudes', header, [
+        cells('g s .5g' + 8 * ' .5g', time, pair, one.residual, *_numbers(one))
+        for time, pairs in _times(bags[RUN])
+        for pair, one in enumerate(pairs)
+    ]
+
+
+def _numbers(one):
+    for before, after in zip(one.before, one.after):
+        yield from (after.amplitude, after.error, before.scatter, after.scatter)

@@ -10,86 +10,54 @@ from hdlyap.plots.numbers import with_error
 from hdlyap.plots.phases import regression
 
 from .. import averages, rotation, standing
-from ..row import TELLING, Claim, Row, Scatter
+from ..files import cells
+from ..row import TELLING, Row, Scatter
 from ..velocity import over_slope
 
-TITLE = 'Phases of LP pairs of the periodic system, their rate in proportion to k; T modes stay'
 RUN = 'periodic'
 WINDOW = 50.0  # over which a phase that diffuses is compared with even turning [time units]
 KEPT = 200  # of a curve in the table
 SHORTEST = 10  # reports in it
-PRECISE = 2.0  # %: one of the steps may be off by so much without being seen
 SHOWN_TURNS = 2  # of an LP mode beside the T modes
 UNIT = 'sigma/time unit'
 MODULATIONS = ('cos cos', 'sin cos', 'cos sin', 'sin sin')
 
 
-def runs(plan):
-    return [RUN]
+def _turning(bags):
+    return rotation.read(bags[RUN]).values()
 
 
-def claims(bags):
-    bag = bags[RUN]
-    turning = rotation.read(bag).values()
-    line = Line(turning)
-    yield Claim(
-        'omega is in proportion to k',
-        [Scatter('omega / k of the LP steps about their mean', *line.scatter, PRECISE)],
-        'chi^2 from our errors',
-    )
-    yield Claim(
-        'T modes are stationary',
-        list(_standing_rows(standing.read(bag).values(), _slowest(turning))),
-        'omega / k is 0 within our error; a tenth of v of the LP modes would be seen',
-    )
-    yield Claim(
-        'velocity', [*_velocity_rows(turning, line), over_slope('v', *line.v, bag.recording)]
-    )
-    yield Claim(
-        f'phases, rms about even turning over {WINDOW:g} time units',
-        [
-            Row(name, None, rms, error, unit='% of 2 pi', remark=whole)
-            for name, rms, error, whole in _fluctuations(bag.recording)
-        ],
-    )
+def line(bags):
+    yield Scatter('omega / k of the LP steps about their mean', *Line(_turning(bags)).scatter)
 
 
-def _velocity_rows(turning, line):
-    for one in turning:
+def velocities(bags):
+    found, line = _turning(bags), Line(_turning(bags))
+    for one in found:
         v, error = one.velocity()
-        yield Row(
-            f'omega / k of {one.name}',
-            None,
-            v,
-            error,
-            unit=UNIT,
-            remark=f'k = {one.wave_number:.5f}{line.remark(v, error)}',
-        )
-    yield Row('v, common', None, *line.v, unit=UNIT)
+        remark = f'k = {one.wave_number:.5f}{line.remark(v, error)}'
+        yield Row(f'omega / k of {one.name}', None, v, error, UNIT, remark)
+    yield Row('v, common', None, *line.v, UNIT)
+    yield over_slope('v', *line.v, bags[RUN].recording)
+
+
+def still(bags):
+    """telling: a tenth of v of the LP modes."""
+    found, beside = standing.read(bags[RUN]).values(), _slowest(_turning(bags))
+    telling = None if beside is None else TELLING * beside.velocity()[0]
+    for one in found:
+        diffusion = one.diffusion()
+        about = f'D of its phase {with_error(*diffusion)} rad^2/time unit' if diffusion[0] else ''
+        quantity = f'omega / k of {one.name}'
+        yield Row(quantity, 0.0, *one.velocity(), UNIT, about, telling=telling)
+    if not found:
+        yield Row('omega / k of the T steps', 0.0, unit=UNIT)
 
 
 def _slowest(turning):
     """The Rotation of the smallest k whose velocity is known; None without one."""
     known = [one for one in turning if one.velocity()[0]]
     return min(known, key=lambda one: one.wave_number, default=None)
-
-
-def _standing_rows(found, beside):
-    """beside: Rotation of an LP step, or None."""
-    telling = None if beside is None else TELLING * beside.velocity()[0]
-    for one in found:
-        diffusion = one.diffusion()
-        about = f'D of its phase {with_error(*diffusion)} rad^2/time unit' if diffusion[0] else ''
-        yield Row(
-            f'omega / k of {one.name}',
-            0.0,
-            *one.velocity(),
-            unit=UNIT,
-            telling=telling,
-            remark=about,
-        )
-    if not found:
-        yield Row('omega / k of the T steps', 0.0, unit=UNIT)
 
 
 class Line:
@@ -111,9 +79,9 @@ class Line:
         return f', {(v - self.v[0]) / error:+.1f} standard errors from the common v'
 
 
-def _fluctuations(recording):
-    """(step and pair, rms deviation from even turning in percent of a turn, its standard error,
-    that of the longest curve as text)."""
+def fluctuations(bags):
+    """Rms deviation from even turning in percent of a turn, of each step and pair."""
+    recording = bags[RUN].recording
     curves, last = {}, recording.phases.last
     for number, phase in enumerate(last.phases if last else ()):
         of_pair = curves.setdefault((phase.step, phase.nx, phase.ny, phase.modulation), [])
@@ -127,7 +95,8 @@ def _fluctuations(recording):
                 'of the longest curve'
             )
             rms, error = _root(squares, _length(recording) / WINDOW)
-            yield f'LP({nx},{ny}), {waves.plain_formula(nx, ny, bits)}', rms, error, whole
+            quantity = f'LP({nx},{ny}), {waves.plain_formula(nx, ny, bits)}'
+            yield Row(quantity, None, rms, error, '% of 2 pi', whole)
 
 
 def _thinned(times, course):
@@ -160,10 +129,9 @@ def _root(squares, independent):
 
 
 def figures(bags):
-    speeds = {one.name: one.velocity() for one in rotation.read(bags[RUN]).values()}
-    figure = figure_of_phases.draw(
-        bags[RUN].recording, {name: v for name, v in speeds.items() if v[0]}
-    )
+    speeds = {one.name: one.velocity() for one in _turning(bags)}
+    known = {name: v for name, v in speeds.items() if v[0]}
+    figure = figure_of_phases.draw(bags[RUN].recording, known)
     if figure is not None:
         yield 'phases', figure
     found = standing.read(bags[RUN])
@@ -196,18 +164,15 @@ def _figure_of_standing(bag, found):
 def tables(bags):
     """The phases that the figure shows, thinned."""
     recording = bags[RUN].recording
-    lines = [
-        (
-            steps.name(recording.steps.steps[step]),
-            last[number].index,
-            MODULATIONS[last[number].modulation],
-            f'{time:.6g}',
-            f'{phase:.4f}',
+    last = recording.phases.last and recording.phases.last.phases
+    yield 'phases', ('step', 'index', 'modulation', 'time', 'phase'), [
+        cells(
+            's s s .6g .4f',
+            *(steps.name(recording.steps.steps[step]), last[number].index),
+            *(MODULATIONS[last[number].modulation], time, phase),
         )
-        for last in [recording.phases.last and recording.phases.last.phases]
         for step, numbers in figure_of_phases.chosen(recording)
         for number in numbers
         for times, course in recording.phases.curves(number)
         for time, phase in _thinned(times, course)
     ]
-    yield 'phases', ('step', 'index', 'modulation', 'time', 'phase'), lines

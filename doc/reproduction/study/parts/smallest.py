@@ -1,37 +1,35 @@
-"""Part 9: the smallest steps at density 0.4 against the wave number, periodic and between walls."""
+"""Part 9: the smallest steps at density 0.4 against the wave number, periodic and between walls;
+all steps at densities 0.2 and 0.8, periodic beside walls."""
+
+from math import hypot
 
 from matplotlib import ticker
 import numpy as np
 
 from hdlyap.plots import dispersion, paper, steps
-from hdlyap.plots.figures.style import KIND_COLOURS, plt
+from hdlyap.plots.figures.style import KIND_COLOURS
 
-from .. import slopes
-from ..row import Claim, Row, Scatter
+from .. import draw, slopes
+from ..files import cells
+from ..row import Row, Scatter
 
-TITLE = 'Smallest steps at density 0.4 against the wave number, N = 400 to 780, A = 0.5 to 1'
 BOXES = ('400_05', '400_1', '600_075', '780_05', '780_0867', '780_1')
-BOUNDARIES = ('periodic', 'reflecting')
+PERIODIC, WALLS = BOUNDARIES = 'periodic', 'reflecting'
 ENDS = ('smallest', 'largest')
 KINDS = {'T': steps.T, 'LP': steps.LP}
 SYMBOLS = {'T': 'lambda_T', 'LP': 'lambda_L'}
-UNIT = '1/time unit'
-TELLING = 100 * paper.FIT_ACCURACY  # %: a larger difference must have been seen
-# the paper gives no error: a fit through many boxes is taken to be known twice as well as a slope
-WITHIN = 0.5 * paper.FIT_ACCURACY
-OPENS = f'{100 * WITHIN:g} %'
+MARKERS = {'T': 'o', 'LP': 's'}
+UNIT, UNIT_C2 = '1/time unit', 'sigma^2/time unit'
+ELSEWHERE = {'0.2': ('density_02', 'walls_02'), '0.8': ('periodic', 'reflecting')}
 
 
 def run_of(boundary, box):
     """The first density run is one of them."""
-    return (
-        'density_04'
-        if (boundary, box) == ('periodic', '780_0867')
-        else f'smallest_{boundary}_{box}'
-    )
+    first = (boundary, box) == (PERIODIC, '780_0867')
+    return 'density_04' if first else f'smallest_{boundary}_{box}'
 
 
-def runs(plan):
+def runs():
     return [run_of(boundary, box) for boundary in BOUNDARIES for box in BOXES]
 
 
@@ -42,7 +40,7 @@ def points(bags, kind, boundary):
 
 def seconds(bags):
     """LP(1,1) between walls: LP(1,0) hardly has wave numbers in common with periodic boxes."""
-    recordings = [bags[run_of('reflecting', box)].recording for box in BOXES]
+    recordings = [bags[run_of(WALLS, box)].recording for box in BOXES]
     return [slopes.find(recording, steps.LP, 1, 1) for recording in recordings]
 
 
@@ -50,11 +48,11 @@ class Branch:
     """The smallest steps of one kind, and the fits through those of each boundary and of both."""
 
     def __init__(self, bags, kind):
-        self.kind = kind
+        self.kind, self.symbol = kind, SYMBOLS[kind]
         self.points = {boundary: points(bags, kind, boundary) for boundary in BOUNDARIES}
         self.points['both'] = [point for boundary in BOUNDARIES for point in self.points[boundary]]
         self.curves = {which: slopes.curve(found) for which, found in self.points.items()}
-        self.walls = self.points['reflecting'] + (seconds(bags) if kind == 'LP' else [])
+        self.walls = self.points[WALLS] + (seconds(bags) if kind == 'LP' else [])
 
     def found(self, which):
         return [point for point in self.points[which] if point is not None]
@@ -69,97 +67,90 @@ class Branch:
 # ---- rows ----------------------------------------------------------------------------------------
 
 
-def claims(bags):
-    branches = [Branch(bags, kind) for kind in KINDS]
-    for branch in branches:
-        published = paper.CURVES[branch.kind]
-        yield Claim(
-            f'{SYMBOLS[branch.kind]} = {published.c} k + {published.c2} k^2',
-            [_end_row(branch, end) for end in ENDS],
-            f'within {OPENS} at both ends of the range',
-            values=len(slopes.own(branch.points['both'])),
-        )
-    yield Claim(
-        'c2 of lambda_T is 0.086, of lambda_L 0.55',
-        [_curvature_row(branch) for branch in branches],
-        f'what {OPENS} of lambda more at one end and less at the other leave open',
-    )
-    yield Claim(
-        'one curve, whatever the size and aspect ratio of the box',
-        [_scatter_row(branch, boundary) for branch in branches for boundary in BOUNDARIES],
-        'chi^2 from our errors',
-    )
-    for branch in branches:
-        yield Claim(
-            f'{SYMBOLS[branch.kind]} is alike for both boundaries',
-            [_alike_row(branch)],
-            'the same within our errors',
-        )
-    yield Claim('slopes at k = 0', [_c_row(branch) for branch in branches])
-
-
-def _end_row(branch, end):
+def ends(bags, kind):
     """Where the fit is held by points."""
-    curve, published = branch.curves['both'], paper.CURVES[branch.kind]
-    quantity = f'{SYMBOLS[branch.kind]} at {end} k'
-    if curve is None:
-        return Row(quantity, paper.CURVES[branch.kind].c, unit=UNIT)
-    k = slopes.span(branch.points['both'])[ENDS.index(end)]
-    there = published.c * k + published.c2 * k * k
-    value, error = curve.at(k)
-    remark = f'k = {k:.4f}, {branch.noted("both")}'
-    return Row(quantity, there, value, error, WITHIN * there, UNIT, remark)
+    branch, published = Branch(bags, kind), paper.CURVES[kind]
+    curve, span = branch.curves['both'], slopes.span(branch.points['both'])
+    for number, end in enumerate(ENDS):
+        row = Row(f'{branch.symbol} at {end} k', published.c, unit=UNIT)
+        if curve is not None:
+            k = span[number]
+            row.published = published.c * k + published.c2 * k * k
+            row.measured, row.error = curve.at(k)
+            row.remark = f'k = {k:.4f}, {branch.noted("both")}'
+            row.count = (1 - number) * len(slopes.own(branch.points['both']))
+        yield row
 
 
-def _curvature_row(branch):
-    curve, published = branch.curves['both'], paper.CURVES[branch.kind]
-    quantity, unit = f'c2 of {SYMBOLS[branch.kind]}', 'sigma^2/time unit'
-    if curve is None:
-        return Row(quantity, published.c2, unit=unit)
-    low, high = slopes.span(branch.points['both'])
-    opens = 2 * WITHIN * published.c / (high - low)
-    return Row(quantity, published.c2, curve.c2, curve.c2_error, opens, unit)
+def curvature(bags):
+    """c2 of L less that of T."""
+    curves = {kind: Branch(bags, kind).curves['both'] for kind in ('LP', 'T')}
+    row = Row('c2 of lambda_L less c2 of lambda_T', unit=UNIT_C2)
+    if None not in curves.values():
+        of_l, of_t = curves.values()
+        row.measured, row.error = of_l.c2 - of_t.c2, hypot(of_l.c2_error, of_t.c2_error)
+    yield row
 
 
-def _c_row(branch):
-    """With c2 and lambda at both ends it says one thing."""
-    curve, quantity = branch.curves['both'], f'c of {SYMBOLS[branch.kind]}'
-    if curve is None:
-        return Row(quantity)
-    remark = (
-        f'the paper: {paper.CURVES[branch.kind].c}; correlated with c2: {curve.correlation:.2f}'
-    )
-    return Row(quantity, None, curve.c, curve.c_error, unit='sigma/time unit', remark=remark)
+def coefficients(bags):
+    """With lambda at both ends they say one thing."""
+    for kind in KINDS:
+        branch, published = Branch(bags, kind), paper.CURVES[kind]
+        curve = branch.curves['both']
+        known = (curve.c, curve.c_error) if curve else (None, 0.0)
+        remark = f'the paper: {published.c}'
+        if curve:
+            remark += f'; correlated with c2: {curve.correlation:.2f}'
+        yield Row(f'c of {branch.symbol}', None, *known, 'sigma/time unit', remark)
+        known = (curve.c2, curve.c2_error) if curve else (None, 0.0)
+        yield Row(f'c2 of {branch.symbol}', None, *known, UNIT_C2, f'the paper: {published.c2}')
 
 
-def _scatter_row(branch, boundary):
-    curve = branch.curves[boundary]
-    quantity = f'{SYMBOLS[branch.kind]}, {boundary}, about its curve'
-    if curve is None or not curve.freedom:
-        return Scatter(quantity, None, 0, [], TELLING)
-    errors = [100 * point.error / point.exponent for point in slopes.own(branch.points[boundary])]
-    return Scatter(quantity, curve.chi2, curve.freedom, errors, TELLING, branch.noted(boundary))
+def one_curve(bags):
+    for kind in KINDS:
+        branch = Branch(bags, kind)
+        for boundary in BOUNDARIES:
+            quantity = f'{branch.symbol}, {boundary}, about its curve'
+            curve, found = branch.curves[boundary], slopes.own(branch.points[boundary])
+            if curve is None or not curve.freedom:
+                yield Scatter(quantity)
+                continue
+            errors = [100 * point.error / point.exponent for point in found]
+            yield Scatter(quantity, curve.chi2, curve.freedom, errors, branch.noted(boundary))
 
 
-def _alike_row(branch):
-    """Strictly, as our errors are smaller than the scatter of the paper."""
-    quantity = f'{SYMBOLS[branch.kind]}: reflecting over periodic at equal k, less 1'
-    both = branch.points['periodic'], branch.walls
-    curves = [slopes.curve(found) for found in both]
-    low, high = common([slopes.span(found) for found in both])
-    if None in curves or not low < high:
-        return Row(quantity, 0.0, None, unit='%', telling=TELLING)
-    difference, error = dispersion.mean_difference(*curves, low, high)
-    return Row(
-        quantity,
-        0.0,
-        100 * difference,
-        100 * error,
-        unit='%',
-        remark=f'mean of the fits from k = {low:.4f} to {high:.4f}'
-        + ('; between walls with LP(1,1)' if branch.kind == 'LP' else ''),
-        telling=TELLING,
-    )
+def alike(bags, kind):
+    branch = Branch(bags, kind)
+    row = _alike(branch.symbol, branch.points[PERIODIC], branch.walls)
+    if row.remark and kind == 'LP':
+        row.remark += '; between walls with LP(1,1)'
+    yield row
+
+
+def alike_elsewhere(bags, density):
+    """Of all steps that have vectors of their own."""
+    for kind, symbol in SYMBOLS.items():
+        both = [_all(bags, name, KINDS[kind]) for name in ELSEWHERE[density]]
+        yield _alike(symbol, *both, f', density {density}')
+
+
+def _all(bags, name, kind):
+    if name not in bags:
+        return []
+    recording = bags[name].recording
+    found = [one for one in steps.resolved(recording.steps).values() if one.kind == kind]
+    return slopes.own([slopes.find(recording, kind, one.nx, one.ny) for one in found])
+
+
+def _alike(symbol, periodic, walls, where=''):
+    row = Row(f'{symbol}: reflecting over periodic at equal k, less 1{where}', 0.0, unit='%')
+    curves = [slopes.curve(found) for found in (periodic, walls)]
+    low, high = common([slopes.span(found) for found in (periodic, walls)])
+    if None not in curves and low < high:
+        difference = dispersion.mean_difference(*curves, low, high)
+        row.measured, row.error = (100 * one for one in difference)
+        row.remark = f'mean of the fits from k = {low:.4f} to {high:.4f}'
+    return row
 
 
 def common(spans):
@@ -179,125 +170,59 @@ def figures(bags):
 
 
 def _figure(branches):
-    figure, (left, right) = plt.subplots(1, 2, figsize=(7.6, 3.8), constrained_layout=True)
+    figure, (left, right) = draw.panels(1, 2, (7.6, 3.8))
     end = 1.06 * max(point.wave_number for branch in branches for point in branch.found('both'))
     for branch in branches:
         _lines(left, branch, np.linspace(0, end, 100), power=0)
         _lines(right, branch, np.linspace(0, end, 100)[1:], power=1)
-    for axes, letter in ((left, 'a'), (right, 'b')):
-        axes.set_xlim(0, end)
+    for axes in (left, right):
         axes.xaxis.set_major_locator(ticker.MaxNLocator(5))
-        axes.set_xlabel(r'wave number $k$  [1/$\sigma$]')
-        axes.set_title(f'({letter})', loc='left')
+        axes.set(xlim=(0, end), xlabel=r'wave number $k$  [1/$\sigma$]')
     left.set_ylim(bottom=0)
     left.set_ylabel(r'$\lambda$  [1/time unit]')
-    right.set_ylabel(r'$\lambda/k$  [$\sigma$/time unit]')
+    right.set_ylabel(r'$\lambda/k$  ' + draw.SIGMA_UNIT)
     left.legend(loc='upper left')
-    figure.suptitle(
-        f'smallest steps, $\\rho={paper.CURVES_DENSITY}$, $N=400$ to $780$, $L_y/L_x=0.5$ to $1$',
-        fontsize=9,
-    )
+    scene = f'$\\rho={paper.CURVES_DENSITY}$, $N=400$ to $780$, $L_y/L_x=0.5$ to $1$'
+    figure.suptitle(f'smallest steps, {scene}', fontsize=9)
     return figure
 
 
 def _lines(axes, branch, k, power):
     """Points, our fit through all, and the paper's with what it leaves open; over k^power."""
-    colour, published = KIND_COLOURS[branch.kind], paper.CURVES[branch.kind]
+    kind, colour, published = branch.kind, KIND_COLOURS[branch.kind], paper.CURVES[branch.kind]
     there = (published.c * k + published.c2 * k**2) / k**power
-    axes.plot(
-        k,
-        there,
-        color=colour,
-        linewidth=0.8,
-        dashes=(2, 2),
-        label=f'{branch.kind}, fit of Eckmann et al.',
-    )
+    label = f'{kind}, fit of Eckmann et al.'
+    axes.plot(k, there, color=colour, linewidth=0.8, dashes=(2, 2), label=label)
     if power:
-        axes.fill_between(
-            k,
-            (1 - paper.FIT_ACCURACY) * there,
-            (1 + paper.FIT_ACCURACY) * there,
-            color=colour,
-            alpha=0.12,
-            linewidth=0,
-        )
+        draw.band(axes, k, there, paper.FIT_ACCURACY, colour, alpha=0.12)
     curve = branch.curves['both']
     if curve is not None:
-        axes.plot(
-            k,
-            (curve.c * k + curve.c2 * k**2) / k**power,
-            color=colour,
-            label=f'{branch.kind}, our fit',
-        )
+        ours = (curve.c * k + curve.c2 * k**2) / k**power
+        axes.plot(k, ours, color=colour, label=f'{kind}, our fit')
     for boundary, face in zip(BOUNDARIES, (colour, 'white')):
-        found = branch.found(boundary)
-        if found:
-            _points(
-                axes,
-                found,
-                power,
-                'o' if branch.kind == 'T' else 's',
-                colour,
-                face,
-                f'{branch.kind}, {boundary}',
-            )
-
-
-def _points(axes, found, power, marker, colour, face, label):
-    k = np.array([point.wave_number for point in found])
-    errors = np.maximum(0, [point.error for point in found])
-    axes.errorbar(
-        k,
-        np.array([point.exponent for point in found]) / k**power,
-        errors / k**power,
-        fmt=marker,
-        color=colour,
-        markerfacecolor=face,
-        markersize=4,
-        elinewidth=0.9,
-        capsize=2,
-        label=label,
-        zorder=3,
-    )
+        found = [
+            (k, one.exponent / k**power, one.error / k**power)
+            for one in branch.found(boundary)
+            for k in [one.wave_number]
+        ]
+        label = f'{kind}, {boundary}'
+        draw.bars(axes, found, MARKERS[kind], colour, label, markerfacecolor=face)
 
 
 def tables(bags):
-    header = (
-        'boundaries',
-        'disks',
-        'aspect',
-        'kind',
-        'step',
-        'wave_number',
-        'exponent',
-        'std_error',
-        'slope',
-        'slope_error',
-        'remark',
-    )
+    header = 'boundaries', 'disks', 'aspect', 'kind', 'step', *slopes.COLUMNS, 'remark'
     series = [
         (kind, boundary, points(bags, kind, boundary)) for kind in KINDS for boundary in BOUNDARIES
     ]
     yield 'smallest', header, [
-        line
-        for kind, boundary, found in [*series, ('LP', 'reflecting', seconds(bags))]
+        (boundary, info.disks, f'{info.aspect:g}', kind, *_cells(point))
+        for kind, boundary, found in [*series, ('LP', WALLS, seconds(bags))]
         for box, point in zip(BOXES, found)
-        for line in _line(bags[run_of(boundary, box)].recording.info, boundary, kind, point)
+        for info in [bags[run_of(boundary, box)].recording.info]
     ]
 
 
-def _line(info, boundary, kind, point):
-    about = (boundary, info.disks, f'{info.aspect:g}', kind)
+def _cells(point):
     if point is None:
-        yield (*about, 'none resolved') + ('',) * 6
-        return
-    yield (
-        *about,
-        point.name,
-        f'{point.wave_number:.6g}',
-        f'{point.exponent:.6g}',
-        f'{point.error:.2g}',
-        f'{point.slope:.6g}',
-        f'{point.slope_error:.2g}',
-        point.remark,
-    )
+        return ('none resolved', *6 * ('',))
+    return (point.name, *cells('.6g .6g .2g .6g .2g', *point.numbers), point.remark)

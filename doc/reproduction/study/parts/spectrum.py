@@ -1,71 +1,75 @@
 """Part 1: the spectrum of 780 disks, and the indices of its smallest steps."""
 
+import numpy as np
+
 from hdlyap.plots import paper, steps
 from hdlyap.plots.figures import spectrum as figure_of_spectrum
 
-from ..row import INFERRED, OURS, PAPER, Claim, Row
+from .. import averages
+from ..files import cells
+from ..row import Row, Scatter
 
-TITLE = 'Spectrum and index table of 780 disks, density 0.8'
-
+RUN = 'periodic'
 SHOWN_LP = 1535  # the vector of LP(1,1) that the paper shows
 
 
-def runs(plan):
-    return ['periodic']
+def _blocks(bags):
+    return {block.name: block for block in steps.blocks(bags[RUN].recording.steps)}
 
 
-def claims(bags):
-    recording = bags['periodic'].recording
-    found = {block.name: block for block in steps.blocks(recording.steps)}
-    stated = [_indices_row(step, found) for step in paper.INDICES]
+def indices(bags):
+    found = _blocks(bags)
     shown = next((one.name for one in found.values() if one.first <= SHOWN_LP <= one.last), None)
     named = Row(f'step of vector {SHOWN_LP}', 'LP(1,1)', shown if found else None)
-    yield Claim(
-        f'indices of the five smallest steps, and the step of vector {SHOWN_LP}',
-        [*stated[:5], named],
-        'the same',
-        PAPER,
-    )
-    yield Claim(
-        'indices of T(2,0) and LP(1,1), by their multiplicities beside what is stated',
-        stated[5:],
-        'the same',
-        INFERRED,
-    )
-    yield Claim(
-        'exponents of the five smallest steps are c k, with c of the fits at density 0.8',
-        [_exponent_row(step, found) for step in paper.steps(recording.info)],
-        'within 3 %',
-        OURS,
-    )
+    return [*(_indices(step, found) for step in paper.INDICES[:5]), named]
 
 
-def _indices_row(step, found):
+def inferred(bags):
+    return [_indices(step, _blocks(bags)) for step in paper.INDICES[5:]]
+
+
+def _indices(step, found):
     kind, nx, ny, first, last = step
     name = f'{kind}({nx},{ny})'
     measured = found[name].indices if name in found else None
     return Row(f'indices of {name}', f'{first}-{last}', measured)
 
 
-def _exponent_row(step, found):
-    block = found.get(step.name)
-    return Row(
-        f'exponent of {step.name}',
-        step.fitted,
-        block and block.steps[0].exponent,
-        block.steps[0].std_error if block else 0.0,
-        paper.FIT_ACCURACY * step.fitted,
-        '1/time unit',
-    )
+def exponents(bags):
+    found = _blocks(bags)
+    for step in paper.steps(bags[RUN].recording.info):
+        one = found[step.name].steps[0] if step.name in found else None
+        measured = (one.exponent, one.std_error) if one else ()
+        yield Row(f'exponent of {step.name}', step.fitted, *measured, unit='1/time unit')
+
+
+def equal(bags):
+    """Exponents of each step about their mean."""
+    spectrum = bags[RUN].recording.spectrum
+    found = _blocks(bags).values() if spectrum is not None else []
+    found = [block for block in found if len(block.steps) == 1]
+    for block in found:
+        inside = slice(block.first - spectrum.first_index, block.last + 1 - spectrum.first_index)
+        values = np.array(spectrum.exponents[inside])
+        errors = np.array(spectrum.std_errors[inside])
+        quantity = f'exponents of {block.name}'
+        if len(values) < 2 or not (errors > 0).all():
+            yield Scatter(quantity)
+            continue
+        mean, _, chi2 = averages.weighted(values, errors)
+        remark = f'first over last, less 1: {100 * (values[0] / values[-1] - 1):+.2f} %'
+        yield Scatter(quantity, chi2, len(values) - 1, 100 * errors / mean, remark)
+    if not found:
+        yield Scatter('exponents of steps')
 
 
 def figures(bags):
-    yield 'spectrum', figure_of_spectrum.draw(bags['periodic'].recording)
+    yield 'spectrum', figure_of_spectrum.draw(bags[RUN].recording)
 
 
 def tables(bags):
-    spectrum = bags['periodic'].recording.spectrum
+    spectrum = bags[RUN].recording.spectrum
+    numbered = enumerate(zip(spectrum.exponents, spectrum.std_errors), spectrum.first_index)
     yield 'exponents', ('index', 'exponent', 'std_error'), [
-        (spectrum.first_index + i, f'{exponent:.7g}', f'{error:.2g}')
-        for i, (exponent, error) in enumerate(zip(spectrum.exponents, spectrum.std_errors))
+        cells('s .7g .2g', index, *one) for index, one in numbered
     ]

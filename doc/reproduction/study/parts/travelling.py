@@ -2,26 +2,21 @@
 
 import numpy as np
 
-from hdlyap.plots.figures.style import BLUE, INK, VERMILION, plt, scene
+from hdlyap.plots.figures.style import BLUE, INK, VERMILION, scene
 from hdlyap.plots.waves import SIN_X
 
-from .. import blocks, rotation
-from ..row import ABOVE, INFERRED, Claim, Row
+from .. import blocks, draw, rotation
+from ..files import cells
+from ..row import Row
 from ..velocity import over_slope
 
-TITLE = 'Travelling wave of the periodic LP dynamics'
 RUN = 'travelling'
 WAVE = (1, 0)
 SHOWN = 25.0  # of the space-time diagram [time units]
 FEWEST = 4  # blocks of time for an error
 LISTED = 20  # stretches in the table, the longest first
 LOCKED = 'no test: locked within a quarter turn by the choice of the stretch'
-STANDING = 0.1  # handedness: less is no wave that travels
 PLACES = 200  # of it, along x
-
-
-def runs(plan):
-    return [RUN]
 
 
 class Front:
@@ -34,11 +29,8 @@ class Front:
 
     def __init__(self, turning, columns, piece):
         cos, sin = turning.z[piece][:, columns].T
-        self.columns, self.time, self.wave_number = (
-            columns,
-            turning.time[piece],
-            turning.wave_number,
-        )
+        self.columns, self.wave_number = columns, turning.wave_number
+        self.time = turning.time[piece]
         self.l_part = np.array([cos.real, sin.real])
         self.turns = turning.turns()[piece.start : piece.stop - 1]
         self.way = 1.0 if np.nansum(self.turns) >= 0 else -1.0
@@ -115,39 +107,27 @@ def one_way(turning):
     return blocks.mean(np.nanmean(ways[:, known], axis=0))
 
 
-def claims(bags):
+def handed(bags):
+    turning = rotation.read(bags[RUN]).get(WAVE)
+    size, error = one_way(turning) if turning else (None, 0.0)
+    remark = '1: every vector runs one way; 1/2: random parts of both directions; 0: all stand'
+    yield Row('handedness of LP(1,0), mean size', None, size, error, remark=remark)
+
+
+def front_and_velocity(bags):
     turning = rotation.read(bags[RUN]).get(WAVE)
     front = chosen(turning)
-    size, error = one_way(turning) if turning else (None, 0.0)
-    handed = Row(
-        'handedness of LP(1,0), mean size',
-        STANDING,
-        size,
-        error,
-        remark='1: every vector runs one way; 1/2: random parts of both directions; 0: all stand',
-        sense=ABOVE,
-    )
-    yield Claim('the L part travels', [handed], f'handedness above {STANDING:g}', INFERRED)
-    yield Claim('front and velocity', list(_front_rows(turning, front, bags[RUN].recording)))
-
-
-def _front_rows(turning, front, recording):
-    v, v_error = turning.velocity() if turning else (None, 0.0)
-    slope, error = front.velocity() if front else (None, 0.0)
+    v = turning.velocity() if turning else (None, 0.0)
+    slope = front.velocity() if front else (None, 0.0)
     remark = f'{front.length:.1f} time units, {_direction(front)}' if front else ''
     unit = 'sigma/time unit'
-    yield Row('front velocity, mean slope', None, slope, error, unit=unit, remark=remark)
+    yield Row('front velocity, mean slope', None, *slope, unit, remark)
     ratio = front.against_turns() if front else (None, 0.0)
     yield Row('front velocity / (omega / k), same times', None, *ratio, remark=LOCKED)
-    yield Row('omega / k of LP(1,0), same run', None, v, v_error, unit=unit)
-    yield over_slope('v', v, v_error, recording)
-    yield Row(
-        'unevenness of the front, rms',
-        None,
-        _unevenness(front) if front else None,
-        unit='sigma',
-        remark='about the straight line, while shown',
-    )
+    yield Row('omega / k of LP(1,0), same run', None, *v, unit)
+    yield over_slope('v', *v, bags[RUN].recording)
+    uneven, remark = _unevenness(front) if front else None, 'about the straight line, while shown'
+    yield Row('unevenness of the front, rms', None, uneven, 0.0, 'sigma', remark)
 
 
 def _direction(front):
@@ -177,63 +157,40 @@ def figures(bags):
 def tables(bags):
     turning = rotation.read(bags[RUN]).get(WAVE)
     found = sorted(fronts(turning) if turning else [], key=lambda one: -one.length)[:LISTED]
-    lines = []
-    for one in found:
-        v, error = one.velocity()
-        ratio, ratio_error = one.against_turns()
-        lines.append(
-            (
-                one.index[-1],
-                f'{one.time[0]:.6g}',
-                f'{one.length:.4g}',
-                f'{one.handedness:.3f}',
-                f'{v:.5g}',
-                f'{error:.2g}',
-                *((f'{ratio:.5g}', f'{ratio_error:.2g}') if ratio else ('', '')),
-            )
+    about = 'index', 'from', 'for', 'handedness'
+    yield 'stretches', (*about, 'velocity', 'error', 'over_omega_by_k', 'error'), [
+        cells(
+            's .6g .4g .3f .5g .2g .5g .2g',
+            *(one.index[-1], one.time[0], one.length, one.handedness, *one.velocity()),
+            *(ratio if ratio[0] else (None, None)),
         )
-    yield 'stretches', (
-        'index',
-        'from',
-        'for',
-        'handedness',
-        'velocity',
-        'error',
-        'over_omega_by_k',
-        'error',
-    ), lines
+        for one in found
+        for ratio in [one.against_turns()]
+    ]
     front = chosen(turning)
     yield 'front', ('time', 'a_cos', 'a_sin', 'place'), [
-        (f'{time:.6g}', f'{cos:.4f}', f'{sin:.4f}', f'{place:.4f}')
-        for time, cos, sin, place in (zip(front.time, *front.l_part, front.place) if front else ())
+        cells('.6g .4f .4f .4f', *one)
+        for one in (zip(front.time, *front.l_part, front.place) if front else ())
     ]
 
 
 def _draw(info, turning, front):
-    figure, (top, bottom) = plt.subplots(
-        2, 1, figsize=(6.4, 6.4), sharex=True, constrained_layout=True
-    )
+    figure, (top, bottom) = draw.panels(2, 1, (6.4, 6.4), sharex=True)
     part = _shown(front)
     time, k = front.time[part], front.wave_number
     x = np.linspace(0, info.box_x, PLACES + 1)
     cos, sin = front.l_part[:, part]
     field = -np.outer(np.sin(k * x), cos) + np.outer(np.cos(k * x), sin)
     largest = np.abs(field).max()
-    picture = top.pcolormesh(
-        time, x, field, cmap='RdBu_r', vmin=-largest, vmax=largest, shading='auto', rasterized=True
-    )
+    how = {'cmap': 'RdBu_r', 'vmin': -largest, 'vmax': largest, 'rasterized': True}
+    picture = top.pcolormesh(time, x, field, shading='auto', **how)
     figure.colorbar(picture, ax=top, label='L part along $x$  [arb. units]')
-    front_x = np.mod(front.theta[part] / k, info.box_x)
-    top.plot(
-        time,
-        np.where(np.abs(np.diff(front_x, append=front_x[-1])) > info.box_x / 2, np.nan, front_x),
-        color=INK,
-        linewidth=1.2,
-    )
+    place = np.mod(front.theta[part] / k, info.box_x)
+    jumps = np.abs(np.diff(place, append=place[-1])) > info.box_x / 2
+    top.plot(time, np.where(jumps, np.nan, place), color=INK, linewidth=1.2)
     top.set_ylabel(r'$x$  [$\sigma$]')
-    top.set_title(
-        f'(a) {turning.name}, L part of one vector; line: its front $\\theta/k$', loc='left'
-    )
+    way = '' if front.sign > 0 else 'with $x$ reversed: the wave runs towards $-x$'
+    draw.letters((top, bottom), (f'{turning.name}, L part of one vector; line: its front', way))
     _line(bottom, turning, front, part)
     bottom.set_xlabel('simulated time  [time units]')
     figure.suptitle(scene(info), fontsize=9)
@@ -245,17 +202,8 @@ def _line(axes, turning, front, part):
     v, _ = turning.velocity()
     axes.plot(time, place, color=BLUE, label=r'front $\theta/k$')
     if v:
-        middle = np.mean(place - v * time)
-        axes.plot(
-            time,
-            middle + v * time,
-            color=VERMILION,
-            linewidth=0.9,
-            label=rf'slope $|\omega|/k = {v:.3f}$',
-        )
+        even = np.mean(place - v * time) + v * time
+        label = rf'slope $|\omega|/k = {v:.3f}$'
+        axes.plot(time, even, color=VERMILION, linewidth=0.9, label=label)
     axes.set_ylabel(r'place of the front  [$\sigma$]')
-    axes.set_title(
-        '(b)' + ('' if front.sign > 0 else ' with $x$ reversed: the wave runs towards $-x$'),
-        loc='left',
-    )
     axes.legend(loc='upper left')

@@ -1,5 +1,7 @@
 """Part 6: between reflecting walls an LP mode turns between L and P."""
 
+from math import isfinite
+
 import numpy as np
 
 from hdlyap.plots.figures import modes
@@ -8,81 +10,69 @@ from hdlyap.plots.numbers import with_error
 from hdlyap.data.reader import FIELD
 from hdlyap.plots.steps import LP, name as step_name
 
-from .. import blocks, rotation
-from ..row import PAPER, Claim, Row
+from .. import blocks, rotation, slopes
+from ..files import cells
+from ..row import Row
 
-TITLE = 'LP dynamics between reflecting walls: the modes turn from L to P'
 RUN = 'reflecting'
-QUARTER, LAST_DIGIT = 3.20, 0.005  # of a period, as its two snapshots are apart [time units]
-NEAR_ONE = 0.1  # what near 1 is taken to leave open
+PERIODIC = 'periodic'
+QUARTER = 3.20  # of a period, as its two snapshots are apart [time units]
 WAVES = {(1, 0): 'the text\'s wave', (1, 1): 'the caption\'s wave'}
 SNAPSHOTS = 2  # of a wave in the figure
 SHOWN = 13.0  # of the course of (a, b): about a period [time units]
 SAME = 0.01  # part of the time between fields that two times called the same differ by at most
+UNIT = 'time units'
 
 
-def runs(plan):
-    return [RUN]
-
-
-def claims(bags):
+def _quarters(bags):
+    """{wave: Quarters}"""
     turning = rotation.read(bags[RUN])
-    info = bags[RUN].info
-    found = {wave: Quarters(turning.get(wave), info) for wave in WAVES}
-    yield Claim(
-        '3.20 is a quarter of a period',
-        [_quarter_row(wave, one) for wave, one in found.items()],
-        'half of the last digit, for the text\'s wave or the caption\'s',
-        PAPER,
-        any_of=True,
-    )
-    yield Claim(
-        'single quarters', [row for wave, one in found.items() for row in _single(wave, one)]
-    )
-    yield Claim(
-        'a^2 + b^2 is near 1',
-        [_strength_row(wave, turning.get(wave)) for wave in WAVES],
-        f'within {NEAR_ONE:g}, for the text\'s wave or the caption\'s',
-        any_of=True,
-    )
+    return {wave: Quarters(turning.get(wave), bags[RUN].info) for wave in WAVES}
 
 
-def _quarter_row(wave, one):
-    return Row(
-        f'quarter period of {_name(wave)}',
-        QUARTER,
-        one.mean,
-        one.error,
-        LAST_DIGIT,
-        'time units',
-        f'{WAVES[wave]}; {one.remark}' if one.mean else '',
-    )
+def quarter(bags):
+    for wave, one in _quarters(bags).items():
+        remark = f'{WAVES[wave]}; {one.remark}' if one.mean else ''
+        yield Row(f'quarter period of {_name(wave)}', QUARTER, one.mean, one.error, UNIT, remark)
 
 
-def _single(wave, one):
-    yield Row(
-        f'standard deviation of {_name(wave)}',
-        None,
-        one.spread,
-        one.spread_error,
-        unit='time units',
-        remark=f'3.20 is {one.off:.1f} of them from the mean' if one.spread else '',
-    )
-    for name, mean, error in _uneven(one):
-        yield Row(f'{_name(wave)} from {name}', None, mean, error, unit='time units')
+def single(bags):
+    yield _of_the_whole_side(bags)
+    for wave, one in _quarters(bags).items():
+        remark = f'3.20 is {one.off:.1f} of them from the mean' if one.spread else ''
+        quantity = f'standard deviation of {_name(wave)}'
+        yield Row(quantity, None, one.spread, one.spread_error, UNIT, remark)
+        for name, mean, error in _uneven(one):
+            yield Row(f'{_name(wave)} from {name}', None, mean, error, UNIT)
 
 
-def _strength_row(wave, one):
-    strength, error = one.strength() if one else (None, 0.0)
-    return Row(
-        f'a^2 + b^2 of {_name(wave)}, mean',
-        1.0,
-        strength,
-        error,
-        NEAR_ONE,
-        remark=WAVES[wave],
-        telling=1.5 * NEAR_ONE,
-    )
+def _of_the_whole_side(bags):
+    """What 3.20 would be of the periodic v, and the whole side for half of a wave length."""
+    row = Row('L_x / 2 v, v of the periodic run', unit=UNIT)
+    if PERIODIC not in bags:
+        return row
+    recording = bags[PERIODIC].recording
+    v, error, count = slopes.velocity(recording, 1, 0)
+    if count and isfinite(error):
+        row.measured = float(recording.info.box_x / (2 * v))
+        row.error = float(row.measured * error / v)
+        row.remark = 'the paper\'s 3.20 may come from here'
+    return row
+
+
+def strength(bags):
+    turning = rotation.read(bags[RUN])
+    for wave, remark in WAVES.items():
+        size = turning[wave].strength() if wave in turning else (None, 0.0)
+        yield Row(f'a^2 + b^2 of {_name(wave)}, mean', 1.0, *size, remark=remark)
+
+
+def signs(bags):
+    """An L mode turns to P if omega > 0."""
+    for name in (one for one in (RUN, PERIODIC) if one in bags):
+        for one in rotation.read(bags[name]).values():
+            omega, error = one.omega()
+            yield Row(f'omega of {one.name}, {name}', None, omega, error, 'rad/time unit')
 
 
 def _name(wave):
@@ -164,24 +154,20 @@ def figures(bags):
         yield 'circle', _circles(bag.info, turning)
     snapshots = [one for wave in WAVES for one in _chosen(bag, turning.get(wave))]
     if snapshots:
-        yield 'quarters', _snapshots(bag.info, snapshots)
+        figure = modes.draw_panels(snapshots, bag.info)
+        apart = f'fields {QUARTER:.2f} apart, nearest to L and P'
+        figure.suptitle(f'{scene(bag.info)}, {apart}', fontsize=9)
+        yield 'quarters', figure
 
 
 def tables(bags):
     turning = rotation.read(bags[RUN])
     yield 'phases', ('wave', 'time', 'vector', 'a', 'b', 'phase'), [
-        (
-            _name(wave),
-            f'{turning[wave].time[at]:.6g}',
-            column,
-            f'{turning[wave].z[at, column].real:.4f}',
-            f'{turning[wave].z[at, column].imag:.4f}',
-            f'{turning[wave].phase[at, column]:.4f}',
-        )
-        for wave in WAVES
-        if wave in turning
-        for piece, column in [_course(turning[wave])]
+        cells('s .6g s .4f .4f .4f', _name(wave), one.time[at], column, z.real, z.imag, phase)
+        for wave, one in [(wave, turning[wave]) for wave in WAVES if wave in turning]
+        for piece, column in [_course(one)]
         for at in range(piece.start, piece.stop)
+        for z, phase in [(one.z[at, column], one.phase[at, column])]
     ]
 
 
@@ -190,42 +176,21 @@ def tables(bags):
 
 def _circles(info, turning):
     waves = [wave for wave in WAVES if wave in turning]
-    figure, row = plt.subplots(
-        1, len(waves), figsize=(3.6 * len(waves), 4.0), squeeze=False, constrained_layout=True
-    )
+    size = 3.6 * len(waves), 4.0
+    figure, row = plt.subplots(1, len(waves), figsize=size, squeeze=False, constrained_layout=True)
+    circle = np.exp(1j * np.linspace(0, 2 * np.pi, 200))
     for axes, wave in zip(row.flat, waves):
         one = turning[wave]
-        circle = np.exp(1j * np.linspace(0, 2 * np.pi, 200))
         axes.plot(circle.real, circle.imag, color=GREY, linewidth=0.8)
-        axes.plot(
-            one.z.real.ravel(),
-            one.z.imag.ravel(),
-            '.',
-            color=BLUE,
-            markersize=1,
-            alpha=0.35,
-            label='both vectors, all times',
-            rasterized=True,
-        )
+        every = {'color': BLUE, 'markersize': 1, 'alpha': 0.35, 'rasterized': True}
+        a, b = one.z.real.ravel(), one.z.imag.ravel()
+        axes.plot(a, b, '.', label='both vectors, all times', **every)
         piece, column = _course(one)
-        z = one.z[piece, column]
-        axes.plot(
-            z.real,
-            z.imag,
-            '.-',
-            color=VERMILION,
-            markersize=3,
-            linewidth=0.7,
-            label=f'{one.time[piece][-1] - one.time[piece][0]:.1f} time units of one',
-        )
-        axes.set(
-            aspect='equal',
-            xlim=(-1.25, 1.25),
-            ylim=(-1.25, 1.25),
-            xlabel='$a$  (on the L field)',
-            ylabel='$b$  (on the P field)',
-            title=one.name,
-        )
+        z, time = one.z[piece, column], one.time[piece]
+        label = f'{time[-1] - time[0]:.1f} time units of one'
+        axes.plot(z.real, z.imag, '.-', color=VERMILION, markersize=3, linewidth=0.7, label=label)
+        axes.set(aspect='equal', xlim=(-1.25, 1.25), ylim=(-1.25, 1.25), title=one.name)
+        axes.set(xlabel='$a$  (on the L field)', ylabel='$b$  (on the P field)')
     row.flat[0].legend(loc='center', fontsize=7, markerscale=1.5)
     figure.suptitle(scene(info), fontsize=9)
     return figure
@@ -239,14 +204,14 @@ def _course(one):
         for column in range(one.z.shape[1])
         for piece in rotation.stretches(np.isfinite(one.z[:, [column]]))
     ]
-    piece, column = max(
-        known,
-        default=(slice(0, 0), 0),
-        key=lambda found: min(SHOWN, one.time[found[0]][-1] - one.time[found[0]][0]),
-    )
-    end = (
-        np.searchsorted(one.time, one.time[piece.start] + SHOWN, side='right') if piece.stop else 0
-    )
+
+    def length(found):
+        return min(SHOWN, one.time[found[0]][-1] - one.time[found[0]][0])
+
+    piece, column = max(known, default=(slice(0, 0), 0), key=length)
+    if not piece.stop:
+        return piece, column
+    end = np.searchsorted(one.time, one.time[piece.start] + SHOWN, side='right')
     return slice(piece.start, min(piece.stop, end)), column
 
 
@@ -307,9 +272,3 @@ def _fields(bag, one):
                 field, complex(one.a[at, columns[0]], one.b[at, columns[0]])
             )
     return found
-
-
-def _snapshots(info, snapshots):
-    figure = modes.draw_panels(snapshots, info)
-    figure.suptitle(f'{scene(info)}, fields {QUARTER:.2f} apart, nearest to L and P', fontsize=9)
-    return figure
