@@ -185,8 +185,6 @@ class Nodes(harness.Case):
 
         self.sees(lambda: reports() and os.path.exists(kept))
         before, known = os.stat(kept).st_mtime_ns, len(heard)
-        rospy.set_param(run.name + '/density', 0.1)
-        self.sees(lambda: run.node.lines('density'))
         self.sees(lambda: os.stat(kept).st_mtime_ns > before)
         self.sees(lambda: len(heard) > known + 1)
         self.assertTrue(has_jumped(heard[known + 1].header))

@@ -96,7 +96,7 @@ TEST(errors_that_do_not_fall_are_told)
     hd_scene_def def = scene(.disks = 20, .density = 0.7, .aspect = 1.0,
                              .exponents = HD_EXPONENTS_POSITIVE, .equilibration = 1.0,
                              .warmup = 10.0, .duration = 2000.0, .report_interval = 1.0);
-    hd_run *run = until(created(&def), HD_AVERAGING);
+    hd_run *run = until(created(def), HD_AVERAGING);
     until_time(run, 11.0 + 400.0);
     CHECK_CLOSE(hd_run_cost(run).stalled_since, -1.0, 0.0);
     errors_stall = true;

@@ -51,7 +51,7 @@ static void check_ratio(const char *what, double said, double true_value, double
 static void compare(const hd_scene_def *def)
 {
     const hd_estimate e = estimated(def);
-    hd_run *run = created(def);
+    hd_run *run = created(*def);
     const double seconds = taken(run);
     check_ratio("seconds per time unit", e.seconds, seconds, SECONDS_FACTOR);
     if (hd_run_vectors(run) > 0)
@@ -103,7 +103,7 @@ TEST(extent_is_the_runs)
     def.covariant_transient = 20.0;
     def.covariant_sampling = 0.5;
     const hd_extent e = estimated(&def).extent;
-    hd_run *run = finished(&def);
+    hd_run *run = finished(def);
     const hd_covariant *covariant = hd_run_covariant(run);
     int examples = 0, pairs = 0;
     for (int s = 0; s < hd_steps_count(hd_run_steps(run)); s++) {
@@ -142,7 +142,7 @@ TEST(seconds_of_many_disks)
     def.observe = 0;
     const hd_estimate e = estimated(&def);
     assert_in_range(e.disks, 700, 900);
-    hd_run *run = created(&def);
+    hd_run *run = created(def);
     check_ratio("averaged time of errors", e.errors_after, hd_run_errors_after(run), 1.1);
     check_ratio("seconds per time unit", e.seconds, taken(run), 2.0);
     hd_run_free(run);
