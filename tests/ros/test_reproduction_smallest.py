@@ -183,6 +183,23 @@ class Smallest(unittest.TestCase):
                 missing = rows[quantity.format(symbol, '0.2')]
                 self.assertEqual(missing.verdict, 'not measured')
 
+    def test_one_wave_number_beside_a_curve(self):
+        """Of two steps, in the range of the periodic ones."""
+        found = bags()
+        found['density_02'] = run('780_0867', 'periodic', 1.0, every=True)
+        found['walls_02'] = run('780_0867', 'reflecting', 1.01, every=True)
+        for step in found['walls_02'].recording.steps.steps:
+            step.resolved = (step.nx, step.ny) == (2, 1)
+        row = recorded.by_quantity(smallest, found)[ALIKE + ', density 0.2']
+        self.assertAlmostEqual(row.measured, 1.0, places=6)
+        steps = found['walls_02'].recording.steps.steps
+        (step,) = [one for one in steps if one.kind == T and one.resolved]
+        periodic = smallest._all(found, 'density_02', T)
+        value, error = slopes.curve(periodic).at(step.wave_number)
+        both = np.hypot(ERROR / step.exponent, error / value)
+        self.assertAlmostEqual(row.error, 101 * both, places=6)
+        self.assertEqual(row.remark, f'of the fit at k = {step.wave_number:.4f}')
+
     def test_not_measured(self):
         bare = {
             name: recorded.Bag(recorded.Recorded(bag.recording.info))

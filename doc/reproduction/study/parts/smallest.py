@@ -9,7 +9,7 @@ import numpy as np
 from hdlyap.plots import dispersion, paper, steps
 from hdlyap.plots.figures.style import KIND_COLOURS
 
-from .. import draw, slopes
+from .. import averages, draw, slopes
 from ..files import cells
 from ..row import Row, Scatter
 
@@ -150,7 +150,17 @@ def _alike(symbol, periodic, walls, where=''):
         difference = dispersion.mean_difference(*curves, low, high)
         row.measured, row.error = (100 * one for one in difference)
         row.remark = f'mean of the fits from k = {low:.4f} to {high:.4f}'
+    elif curves[0] is not None and curves[1] is None and low == high:
+        row.measured, row.error = _beside(curves[0], slopes.own(walls))
+        row.remark = f'of the fit at k = {low:.4f}'
     return row
+
+
+def _beside(curve, points):
+    """(percent by which steps of one wave number are above a curve, its error)"""
+    exponent, error, _ = averages.weighted(*zip(*[(one.exponent, one.error) for one in points]))
+    quotient = averages.quotient((exponent, error), curve.at(points[0].wave_number))
+    return 100 * (quotient[0] - 1), 100 * quotient[1]
 
 
 def common(spans):
