@@ -12,6 +12,8 @@ PACKAGES = [
     '.follow',
     '.plots',
     '.plots.figures',
+    '.reproduce',
+    '.reproduce.parts',
     '.runs',
     '.sweep',
 ]

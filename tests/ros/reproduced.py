@@ -1,43 +1,13 @@
 """Parts of the reproduction over bags that are made."""
 
 import os
-import sys
 import tempfile
 import unittest
 
-import yaml
-
-import made
+import made  # also finds the scripts
 from hdlyap.plots.figures.style import STYLE, plt
-
-STUDY = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../doc/reproduction')
-sys.path.append(STUDY)
-
-from study.bags import Bag  # noqa: E402
-from study import table  # noqa: E402
-from study.row import HEADER  # noqa: E402
-
-PARTS, FRONT = table.read()
-
-
-def plan():
-    """{run: what is asked of it}, of the runs that the study needs."""
-    with open(os.path.join(STUDY, 'runs.yaml')) as file:
-        return yaml.safe_load(file)
-
-
-def part_of(module):
-    """The row of the table whose module it is."""
-    return next(part for part in PARTS if part.module is module)
-
-
-def claims(module, bags):
-    """{name: Claim}, each with lines as long as their header."""
-    found = {claim.name: claim for claim in part_of(module).claims(bags)}
-    for claim in found.values():
-        for line in claim.lines():
-            assert len(line) == len(HEADER), line
-    return found
+from hdlyap.runs.bag import Bag
+from hdlyap.reproduce.row import HEADER
 
 
 class Part(unittest.TestCase):
@@ -56,7 +26,13 @@ class Part(unittest.TestCase):
 
     def claims(self, bags):
         """{name: Claim}"""
-        return claims(self.of, bags)
+        claims = list(self.of.claims(bags))
+        found = {claim.name: claim for claim in claims}
+        self.assertEqual(len(found), len(claims))
+        for claim in claims:
+            for line in claim.lines():
+                self.assertEqual(len(line), len(HEADER))
+        return found
 
     def rows(self, bags):
         """{quantity: Row}"""

@@ -2,7 +2,7 @@
 #include "drawn.hpp"
 
 extern "C" {
-#include "common/numbers.h"
+#include "viewer/numbers.h"
 }
 
 using namespace drawn;

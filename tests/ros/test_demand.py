@@ -6,7 +6,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 import rospy
 
 import harness
-from harness import MODES, OBSERVABLES
+from harness import MODES, OBSERVABLES, is_last
 
 REPORTS = 20  # of MODES, while averaging
 MESSAGE = {'fields': 'mode_field'}  # of topics that are named otherwise
@@ -62,10 +62,13 @@ class Demand(harness.Case):
 
     def test_who_comes_late(self):
         """Is told of what is measured from then on."""
-        cost = self.listen('cost')
-        self.start(dict(MODES, warmup=0.0, duration=0.0, pace=50.0))
+        cost = harness.Listener('cost')
+        self.addCleanup(cost.close)
+        node = harness.start(dict(MODES, warmup=0.0, duration=0.0, pace=50.0))
+        self.addCleanup(node.stop)
         self.assertTrue(cost.wait_for(lambda message: message.sim_time >= 15))
-        modes = self.listen('modes')
+        modes = harness.Listener('modes')
+        self.addCleanup(modes.close)
         self.assertTrue(modes.wait_for(lambda message: True))
         first = modes.messages[0]
         self.assertEqual(first.samples, 1)
@@ -79,8 +82,13 @@ class Demand(harness.Case):
 
 class Fields(harness.Case):
     def fields(self, **params):
-        topics = ['fields', 'modes', 'run_info']
-        return harness.whole_run(dict(MODES, wait_for_subscribers=topics, **params), topics)
+        listeners = {
+            topic: self.listen(topic) for topic in ('fields', 'modes', 'status', 'run_info')
+        }
+        node = self.start(dict(MODES, wait_for_subscribers=list(listeners), **params))
+        self.assertEqual(node.wait(), 0, node.text())
+        self.assertTrue(listeners['status'].wait_for(is_last))
+        return {topic: listener.messages for topic, listener in listeners.items()}
 
     def test_now_and_then(self):
         """The first report, the first at or after each multiple of the interval, and the last."""
@@ -108,9 +116,11 @@ class Fields(harness.Case):
             ('lp_phases', 'PROBE_NAN_PHASE'),
             ('steps', 'PROBE_NAN_RATE'),
         ):
-            heard = self.listen(name)
-            node = self.start(dict(MODES, wait_for_subscribers=[name]), probe={probe: '1'})
-            self.ends(node, 3)
+            heard = harness.Listener(name)
+            self.addCleanup(heard.close)
+            node = harness.start(dict(MODES, wait_for_subscribers=[name]), probe={probe: '1'})
+            self.addCleanup(node.stop)
+            self.assertEqual(node.wait(), 3, node.text())
             self.assertEqual(len(node.lines('not finite')), 1, node.text())
             self.assertTrue(name != 'fields' or heard.messages == [])
 

@@ -7,6 +7,7 @@ import os
 import random
 import resource
 import signal
+import subprocess
 import tempfile
 import time
 
@@ -44,28 +45,49 @@ class Faults(harness.Case):
         cost = links.Link(links.node_port(node), 'cost')
         self.addCleanup(cost.close)
         self.addCleanup(links.Reader([cost]).join, harness.PATIENCE)
-        self.sees(lambda: len(cost.seqs) > 0)
+        self.assertTrue(harness.wait_until(lambda: len(cost.seqs) > 0))
         return node, cost
 
     def test_no_address_of_a_master(self):
-        """Is for roscpp to refuse, which does so with a line of its own."""
-        node = self.process([harness.executable(), '__master:=localhost:1'])
-        self.assertNotEqual(node.wait(), 0)
-        self.assertIn('localhost:1', node.text())
+        hosts = 'http://localhost', 'http://:1', 'http://a b:1', 'http://a@b:1', 'http://[::1]:1'
+        ports = [
+            'http://localhost:' + port for port in ('', '0', '70000', '1x', '1/x', '1/?', '-1')
+        ]
+        schemes = (
+            '',
+            'localhost:1',
+            'ftp://localhost:1',
+            'https://localhost:1',
+            ' http://localhost:1',
+        )
+        for address in (*schemes, *hosts, *ports):
+            for argument in ([], ['__master:=' + address]):
+                own = 'http://localhost:1' if argument else address
+                ended = subprocess.run(
+                    [harness.executable(), *argument],
+                    env=dict(os.environ, ROS_MASTER_URI=own),
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.STDOUT,
+                    timeout=harness.PATIENCE,
+                    text=True,
+                )
+                self.assertEqual(ended.returncode, 2, ended.stdout)
+                self.assertIn("= '%s': must be http://HOST:PORT" % address, ended.stdout)
+                self.assertEqual(len(ended.stdout.strip().splitlines()), 1, ended.stdout)
 
     def goes_on(self, node, cost):
         now = len(cost.seqs)
-        self.sees(lambda: len(cost.seqs) > now + 5, node)
+        self.assertTrue(harness.wait_until(lambda: len(cost.seqs) > now + 5), node.text())
         self.assertEqual(cost.gaps(), 0)
 
     def stops(self, node, numbers=(signal.SIGINT,)):
         with harness.within(self, BOUND):
             for number in numbers:
                 node.send(number)
-            self.ends(node)
+            self.assertEqual(node.wait(), 0, node.text())
 
     def check_out_of_memory(self, node):
-        self.ends(node, FAULT)
+        self.assertEqual(node.wait(), FAULT, node.text())
         self.assertEqual(len(node.lines('FATAL')), 1, node.text())
         self.assertEqual(len(node.lines('out of memory')), 1, node.text())
 
@@ -89,7 +111,8 @@ class Faults(harness.Case):
                     if node.wait() != 0:
                         self.check_out_of_memory(node)
             self.assertEqual(ends[0], FAULT)
-        self.runs(THREADED, command=[*limited(ENOUGH), harness.executable()])
+        node = self.start(THREADED, command=[*limited(ENOUGH), harness.executable()])
+        self.assertEqual(node.wait(), 0, node.text())
 
     def test_no_thread_to_begin_with(self):
         """A node that could not be created returns from main: no destructor may run then, of
@@ -101,7 +124,7 @@ class Faults(harness.Case):
                     probe={'PROBE_THREADS': threads, 'PROBE_COUNTS': path}
                 )
                 self.addCleanup(viewer.stop)
-                self.ends(viewer, FAULT)
+                self.assertEqual(viewer.wait(), FAULT, viewer.text())
                 self.assertEqual(len(viewer.lines('FATAL')), 1, viewer.text())
                 self.assertFalse(os.path.exists(path), threads)
 
@@ -150,7 +173,8 @@ class Faults(harness.Case):
             (dict(OMP_DYNAMIC='true'), 2),
         ):
             with self.subTest(limit=limit):
-                node = self.runs(THREADED, **limit)
+                node = self.start(THREADED, **limit)
+                self.assertEqual(node.wait(), 0, node.text())
                 self.assertIn(f'{granted} threads', node.text())
                 said = node.lines('OpenMP grants 1 of 2 threads')
                 self.assertEqual(len(said), 2 - granted, node.text())
@@ -162,14 +186,17 @@ class Faults(harness.Case):
         self.stops(node, [signal.SIGHUP])
         self.assertEqual(len(node.lines('stopped at simulated time')), 1, node.text())
 
-    def test_ignored(self):
-        """Hangups below nohup, and somebody else's alarm."""
-        for number, before in ((signal.SIGHUP, ['nohup']), (signal.SIGALRM, [])):
-            command = [*before, harness.executable()]
-            node, cost = self.running(dict(ENDLESS, pace=20.0), command=command)
-            node.send(number)
-            self.goes_on(node, cost)
-            self.stops(node)
+    def test_ignored_hangup(self):
+        node, cost = self.running(dict(ENDLESS, pace=20.0), command=['nohup', harness.executable()])
+        node.send(signal.SIGHUP)
+        self.goes_on(node, cost)
+        self.stops(node)
+
+    def test_somebody_elses_alarm(self):
+        node, cost = self.running(dict(ENDLESS, pace=20.0))
+        node.send(signal.SIGALRM)
+        self.goes_on(node, cost)
+        self.stops(node)
 
     def test_closed_output(self):
         """Nobody reads what it says: SIGPIPE."""
@@ -212,6 +239,11 @@ class Faults(harness.Case):
                     self.assertTrue(harness.service('pause', SetBool)(True).success)
                 self.stops(node, self.burst(randomly))
 
+    def test_burst_while_waiting(self):
+        node = self.start(dict(SHORT, wait_for_subscribers=['state']))
+        self.assertTrue(harness.wait_until(lambda: node.lines('waiting for subscribers')))
+        self.stops(node, self.burst(random.Random(4)))
+
     def test_at_any_moment_of_the_start(self):
         """Before main nobody but the kernel answers a signal; not a line has been printed then."""
         for delay in (0.0, 0.01, 0.02, 0.04, 0.08, 0.16):
@@ -230,11 +262,12 @@ class Faults(harness.Case):
         """What a node says is lost with the disk; what it computes is not."""
         for args in (['__log:=/dev/full'], ['__log:=/nowhere/at/all.log'], ['__log:=/']):
             with self.subTest(args=args):
-                self.runs(
+                node = self.start(
                     SHORT,
                     args=args,
                     command=['sh', '-c', 'exec "$@" >/dev/full', 'sh', harness.executable()],
                 )
+                self.assertEqual(node.wait(), 0, node.text())
 
 
 if __name__ == '__main__':

@@ -27,8 +27,15 @@ ENVIRONMENT = {
 
 
 def mpirun(ranks=RANKS):
-    options = ['--oversubscribe', '--bind-to', 'none', '-n', str(ranks)]
-    return ['mpirun', *options, harness.executable()]
+    return [
+        'mpirun',
+        '--oversubscribe',
+        '--bind-to',
+        'none',
+        '-n',
+        str(ranks),
+        harness.executable(),
+    ]
 
 
 def is_patient():
@@ -68,7 +75,7 @@ class Ranks(harness.Case):
 
     def last(self, topic, node):
         """The last message of a run that ends by itself, of MODES."""
-        self.ends(node)
+        self.assertEqual(node.wait(), 0, node.text())
         self.assertTrue(topic.wait_for(lambda message: message.sim_time == 90.0))
         return topic.messages[-1]
 
@@ -98,7 +105,7 @@ class Ranks(harness.Case):
         node = self.on_ranks(
             dict(REPEATABLE, observables=harness.OBSERVABLES, slow_vectors_rate=50.0)
         )
-        self.ends(node)
+        self.assertEqual(node.wait(), 0, node.text())
         for name, topic in topics.items():
             self.assertTrue(topic.messages, name)
 
@@ -136,21 +143,29 @@ class Ranks(harness.Case):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, 'kept')
             node = self.on_ranks(dict(ENDLESS, checkpoint=path, checkpoint_interval=0.2))
-            self.sees(lambda: os.path.exists(path), seconds=harness.SOON)
+            self.assertTrue(harness.wait_until(lambda: os.path.exists(path), harness.SOON))
             pids = processes(node)
             os.kill(chosen(node, pids), signal.SIGKILL)
             self.assertNotEqual(node.wait(harness.SOON), 0)
             self.assertTrue(all_gone(pids))
             node = self.on_ranks(dict(ENDLESS, resume=path))
-            self.sees(lambda: node.lines('goes on from simulated time'), node, seconds=harness.SOON)
+            self.assertTrue(
+                harness.wait_until(lambda: node.lines('goes on from simulated time'), harness.SOON),
+                node.text(),
+            )
             node.send(signal.SIGINT)
             node.wait(harness.SOON)
 
     @harness.more
-    def test_killed(self):
-        """The node, another rank, mpirun."""
+    def test_the_node_is_killed(self):
         self.kill(lambda node, pids: pids[0])
+
+    @harness.more
+    def test_another_is_killed(self):
         self.kill(lambda node, pids: pids[1])
+
+    @harness.more
+    def test_mpirun_is_killed(self):
         self.kill(lambda node, pids: node.process.pid)
 
     @harness.more
@@ -209,8 +224,9 @@ class Ranks(harness.Case):
             path = os.path.join(folder, 'kept')
             params = dict(SHORT, disks=40, threads=1)
             node = self.on_ranks(dict(params, checkpoint=path))
-            self.ends(node)
-            node = self.runs(dict(params, resume=path, duration=4.0))
+            self.assertEqual(node.wait(), 0, node.text())
+            node = self.start(dict(params, resume=path, duration=4.0))
+            self.assertEqual(node.wait(), 0, node.text())
             self.assertEqual(len(node.lines('goes on from simulated time 4 of')), 1, node.text())
 
     def test_refused(self):
@@ -223,7 +239,7 @@ class Ranks(harness.Case):
             covariant_sampling=0.1,
         )
         node = self.on_ranks(params)
-        self.ends(node, 2)
+        self.assertEqual(node.wait(), 2, node.text())
         self.assertEqual(len(node.lines('ranks = 2: must be 1 for covariant vectors')), 1)
 
 

@@ -1,14 +1,23 @@
-/** How many there are in a scene of what messages list -> the sizes of messages. */
+/** How many there are in a scene of what messages list: what their sizes follow from. */
 #ifndef HDLYAP_EXTENT_H
 #define HDLYAP_EXTENT_H
 
-#include "hdlyap/estimate.h"
+#include "hdlyap/run.h"
 #include "node/settings.h"
 #include "topics/topic.h"
 
-/** What the core says of a scene, with the fields that are chosen: `examples` and `pairs` are those
- * of one time, at most. */
-hd_extent extent_of(const settings *set, hd_extent of_run);
+typedef struct extent {
+    double disks, vectors;
+    double waves;             /**< of structure */
+    double subspaces, angles; /**< of covariant: fields of each wave vector, pairs of spaces */
+    double steps;             /**< in both halves of the spectrum */
+    double fields, pairs;     /**< published at one time at most, and their LP pairs in all */
+    double phases, t_phases;  /**< followed */
+    double responses;         /**< of hydro */
+} extent;
+
+/** Of a scene, whose run it is; or of which it is a smaller one, with the same waves. */
+extent extent_of(const settings *set, const hd_run *run);
 
 /** Bytes of a topic's messages, without texts. */
 typedef struct topic_size {
@@ -19,6 +28,6 @@ typedef struct topic_size {
 } topic_size;
 
 /** By its row. */
-topic_size topic_size_of(topic t, const hd_extent *e);
+topic_size topic_size_of(topic t, const extent *e);
 
 #endif

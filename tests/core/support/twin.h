@@ -3,8 +3,9 @@
 #ifndef HD_TWIN_H
 #define HD_TWIN_H
 
-#include "interval.h"
-#include "testing.h"
+#include <stdbool.h>
+
+#include "hdlyap/trajectory.h"
 
 typedef struct twin twin;
 

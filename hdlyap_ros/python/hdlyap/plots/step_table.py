@@ -2,7 +2,6 @@
 
 from math import isfinite
 
-from hdlyap.data.fields import words
 from hdlyap.msg import Step
 
 from . import fits, paper, steps
@@ -18,7 +17,11 @@ COLUMNS = (
     ('exponent', '>13'),
 )
 PAPER_COLUMNS = (('c k', '>8'), ('deviation', '>11'))
-SHARING = words(Step, 'sharing')
+SHARING = {
+    Step.SHARING_MIXING: 'mixing',
+    Step.SHARING_BLENDED: 'blended',
+    Step.SHARING_COINCIDENT: 'coincide',
+}
 
 
 def blocks(recording):
@@ -76,8 +79,7 @@ def zero_cells(run):
 
 
 def _shared_cells(block):
-    known = {stated(step, 'sharing') for step in block.steps} - {Step.SHARING_UNKNOWN}
-    said = sorted({SHARING.get(value, '') for value in known} - {''})
+    said = sorted({SHARING.get(stated(step, 'sharing'), '') for step in block.steps} - {''})
     return [
         block.name,
         block.indices,

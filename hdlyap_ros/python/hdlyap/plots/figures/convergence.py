@@ -3,7 +3,7 @@
 from matplotlib import ticker
 import numpy as np
 
-from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, plt, thinned, titled
+from .style import BLUE, GREY, INK, ORANGE, SKY, VERMILION, plt, scene, thinned
 
 
 def draw(recording):
@@ -34,7 +34,10 @@ def draw(recording):
     bottom.set_ylabel('standard error  [1/time unit]')
     bottom.set_xlabel('averaged time  [time units]')
     bottom.set_xscale('log')
-    return titled(figure, recording.info, top, middle, bottom)
+    for axes, name in zip((top, middle, bottom), 'abc'):
+        axes.set_title(f'({name})', loc='left')
+    figure.suptitle(scene(recording.info), fontsize=9)
+    return figure
 
 
 def _with_error(axes, time, mean, error, colour, label=None):

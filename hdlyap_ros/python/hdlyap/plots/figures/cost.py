@@ -4,8 +4,8 @@ import numpy as np
 
 from hdlyap.msg import RunStatus
 
-from ..stages import LABELS, PARTS, STAGES
-from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, plt, thinned, titled
+from ..stages import LABELS, PARTS
+from .style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, plt, scene, thinned
 
 PART_COLOURS = {
     'events': BLUE,
@@ -16,6 +16,11 @@ PART_COLOURS = {
     'covariant': INK,
     'publish': PURPLE,
     'other': '#BFBFBF',
+}
+STAGES = {
+    RunStatus.EQUILIBRATING: 'equilibration',
+    RunStatus.WARMING_UP: 'warm-up',
+    RunStatus.AVERAGING: 'averaging',
 }
 
 
@@ -29,7 +34,8 @@ def draw(recording):
     cost['other'] = np.maximum(0, cost['wall'] - sum(cost[part] for part in PARTS))
     _course(course, cost, recording.began)
     _shares(share, cost)
-    return titled(figure, recording.info)
+    figure.suptitle(scene(recording.info), fontsize=9)
+    return figure
 
 
 def _course(axes, cost, began):
@@ -41,7 +47,7 @@ def _course(axes, cost, began):
         linewidth=0,
     )
     for stage, name in STAGES.items():
-        if stage in began and stage != RunStatus.FINISHED:
+        if stage in began:
             axes.axvline(began[stage], color=INK, linewidth=0.6, linestyle=':')
             axes.annotate(
                 name,

@@ -2,8 +2,9 @@
 exponents, which are localised; beside covariant ones, where there are."""
 
 import numpy as np
+from matplotlib import ticker
 
-from .style import BLUE, GREY, INK, bars, index_axis, plt, titled
+from .style import BLUE, GREY, INK, bars, plt, scene
 
 LARGEST = 48  # vectors in the magnified panel
 
@@ -24,7 +25,8 @@ def draw(recording):
         grid[0, 1].set_title('(b) largest exponents', loc='left')
     if recording.covariant is not None:
         grid[0, -1].legend(loc='lower right', handletextpad=0.2)
-    return titled(figure, recording.info, more=f', {message.samples} samples')
+    figure.suptitle(f'{scene(recording.info)}, {message.samples} samples', fontsize=9)
+    return figure
 
 
 def _panel(axes, recording, count):
@@ -45,7 +47,8 @@ def _panel(axes, recording, count):
         fontsize=7,
     )
     axes.set_ylim(bottom=0)
-    index_axis(axes)
+    axes.xaxis.set_major_locator(ticker.MaxNLocator(nbins=6, integer=True, steps=[1, 2, 5, 10]))
+    axes.set_xlabel(r'index $\ell$')
 
 
 def _dots(axes, message, count, **style):

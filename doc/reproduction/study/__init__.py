@@ -1,1 +1,0 @@
-"""The paper measured again: bags of its runs -> rows of claims.yaml, figures, tables."""
