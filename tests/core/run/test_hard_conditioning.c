@@ -112,10 +112,12 @@ TEST(any_forced_interval_gives_the_exact_spectrum)
     }
 }
 
-/** What is not carried changes places with the last vector, too [T6]. */
+/** What is not carried changes places with the last vector, too [T6]. Which runs do depends on the
+ * last bits, so on the processor: with four of OpenBLAS's kernels 2 to 4 of 100 were seen; of 20,
+ * 1 to 2. */
 TEST(few_vectors_rarely_exceed_the_bound)
 {
-    const uint64_t runs = second_tier() ? 40 : 20;
+    const uint64_t runs = 100;
     int above = 0;
     double worst = 0.0, exact[VECTORS_MAX];
     for (uint64_t seed = 1; seed <= runs; seed++) {
