@@ -8,6 +8,7 @@ import signal
 import sys
 import tempfile
 import time
+from pathlib import Path
 
 import rospy
 import rostest
@@ -91,12 +92,12 @@ class Reproduce(harness.Traced):
         """How many nodes have said what they run; that a node is there says little: the plan asks
         one for its parameters before any master is."""
         logs = glob.glob(self.path('log', '*.log'))
-        return sum(': scene ' in open(log, errors='replace').read() for log in logs)
+        return sum(': scene ' in Path(log).read_text(errors='replace') for log in logs)
 
     def await_averaging(self, process, count=1):
         """So many nodes have said something of their runs."""
         wait_until(lambda: self.begun() >= count or not process.running(), every=LOOK)
-        self.assertTrue(process.running(), process.text())
+        self.assertTrue(process.running() and self.begun() >= count, process.text())
         time.sleep(1.5)
 
     # ---- runs ------------------------------------------------------------------------------------
