@@ -50,6 +50,22 @@ def drawn_as_reported(pictures, listeners):
     ]
 
 
+def published(pictures, states, fields):
+    """(picture, namespace, field) of each mode drawn at a time of which its field was published:
+    pictures are made by the clock, so most are of other times."""
+    times = {(s.x[0], s.y[0]): s.sim_time for s in list(states.messages)}
+    known = {(f.sim_time, f.kind, f.nx, f.ny): f for f in list(fields.messages)}
+    pairs = []
+    for picture in list(pictures.all):
+        at = times.get(tuple(places(picture)[0]))
+        for ns in modes(picture) if at is not None else ():
+            nodes = map(int, re.search(r'(\d+),(\d+)', mode_name(picture, ns)).groups())
+            field = known.get((at, 2 if 'T' in ns else 3, *nodes))
+            if field:
+                pairs.append((picture, ns, field))
+    return pairs
+
+
 class Markers(harness.Case):
     def look(self, modes='lowest', node='/hdlyap', **how):
         """Pictures of a viewer that has just been started."""
@@ -64,35 +80,18 @@ class Markers(harness.Case):
         pictures = self.look()
         node = self.start(dict(ENDLESS, slow_vectors_rate=100.0, field_interval=0.0, pace=10.0))
         self.assertTrue(
-            harness.wait_until(lambda: sum(len(modes(p)) == 2 for p in pictures.all) > 60),
+            harness.wait_until(lambda: len(published(pictures, states, fields)) > 5, every=0.1),
             node.text(),
         )
         node.stop()
-        compared = 0
-        by_place = {(s.x[0], s.y[0]): s.sim_time for s in states.messages}
-        for picture in pictures.all:
-            at = by_place.get(tuple(places(picture)[0]))
-            for ns in modes(picture) if at is not None else ():
-                nx, ny = map(int, re.search(r'(\d+),(\d+)', mode_name(picture, ns)).groups())
-                kind = 2 if 'T' in ns else 3
-                field = [
-                    f
-                    for f in fields.messages
-                    if (f.sim_time, f.kind, f.nx, f.ny) == (at, kind, nx, ny)
-                ]
-                if not field:
-                    continue
-                drawn, wanted = (
-                    arrows(of(picture, ns, Marker.TRIANGLE_LIST)[0]),
-                    np.c_[field[0].dqx, field[0].dqy],
-                )
-                longest = abs(drawn).max(axis=1) < 2.0  # the longest are clipped
-                factor = (drawn[longest] * wanted[longest]).sum() / (wanted[longest] ** 2).sum()
-                self.assertGreater(factor, 0)
-                np.testing.assert_allclose(drawn[longest], factor * wanted[longest], atol=1e-9)
-                np.testing.assert_array_equal(places(picture), np.c_[field[0].x, field[0].y])
-                compared += 1
-        self.assertGreater(compared, 5)
+        for picture, ns, field in published(pictures, states, fields):
+            drawn = arrows(of(picture, ns, Marker.TRIANGLE_LIST)[0])
+            wanted = np.c_[field.dqx, field.dqy]
+            longest = abs(drawn).max(axis=1) < 2.0  # the longest are clipped
+            factor = (drawn[longest] * wanted[longest]).sum() / (wanted[longest] ** 2).sum()
+            self.assertGreater(factor, 0)
+            np.testing.assert_allclose(drawn[longest], factor * wanted[longest], atol=1e-9)
+            np.testing.assert_array_equal(places(picture), np.c_[field.x, field.y])
 
     def test_slow_vectors_are_those_of_the_fields(self):
         """And their coefficients those of the phases, wherever all three are of the same time."""
